@@ -1,0 +1,40 @@
+// Rigid transforms and their tangent space.
+//
+// A transform named `b_from_a` maps a point in frame a to frame b: x_in_b = b_from_a * x_in_a.
+// The tangent is ordered [translation m, rotation rad] and both parts act on the left, decoupled:
+//   retract(T, d):  translation' = translation + d.head<3>(),  rotation' = exp(d.tail<3>()) * rotation.
+// So the rotation turns the object about its own origin, along axes of the destination frame. This is
+// the only perturbation convention in the project; covariances are expressed in it.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace edgescout {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+struct Se3 {
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  // unit norm
+  Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
+};
+
+Se3 operator*(const Se3& c_from_b, const Se3& b_from_a);
+Eigen::Vector3d operator*(const Se3& b_from_a, const Eigen::Vector3d& x_in_a);
+Se3 inverse(const Se3& b_from_a);
+
+// `rotation` must be orthonormal with determinant +1 to 1e-3, else InputError; it is re-orthonormalised.
+Se3 se3_from_matrix(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation_m);
+
+Eigen::Quaterniond so3_exp(const Eigen::Vector3d& rotation_rad);
+Eigen::Vector3d so3_log(const Eigen::Quaterniond& rotation);  // angle in [0, pi]
+
+Se3 retract(const Se3& b_from_a, const Vector6d& delta);
+// The d with retract(from, d) == to.
+Vector6d local_coordinates(const Se3& from, const Se3& to);
+
+double angle_between_rad(const Se3& a, const Se3& b);
+double distance_between_m(const Se3& a, const Se3& b);
+
+}  // namespace edgescout

@@ -1,0 +1,96 @@
+// The one run-time choice: where the kernels run. Host code talks to a Backend and never asks which one it is.
+//
+// Three kinds: the plain CPU reference (single-threaded, the judge of the others), the fast CPU path (SIMD and threads) and a
+// Vulkan device. All answer alike, within the agreement each kernel's header promises.
+// A backend may be used by one thread at a time. Tensors and views outlive the call that made them and must be
+// handed back to the same backend.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kernels/dcd_tensor.h"
+#include "kernels/depth_raster.h"
+#include "kernels/edge_detect.h"
+#include "kernels/pose_normal_equations.h"
+#include "kernels/pose_score.h"
+#include "kernels/template_score.h"
+
+namespace edgescout {
+
+// A tensor and, where an image was given, the image's gradient, in the backend's own memory.
+class BackendView {
+ public:
+  virtual ~BackendView() = default;
+  TensorShape shape;
+  TensorOptions options;
+  Intrinsics intrinsics{};
+  // Copies the tensor to the host (for pictures and tests).
+  virtual std::vector<std::uint16_t> tensor() const = 0;
+};
+using ViewHandle = std::shared_ptr<const BackendView>;
+
+// Wall time of one kernel or batch since the last call of take_timings(), by name.
+struct StageTime {
+  std::string name;
+  double seconds = 0;
+  int calls = 0;
+};
+
+class Backend {
+ public:
+  virtual ~Backend() = default;
+  virtual std::string name() const = 0;   // "cpu", "cpu-reference", "vulkan:0 llvmpipe (LLVM 15.0.6, 256 bits)"
+  virtual bool is_gpu() const = 0;
+
+  virtual std::vector<EdgePoint> detect_edges(const ImageView& image, const EdgeOptions& options) = 0;
+  // `image` may be empty (width 0): then the view cannot be asked for Psi.
+  virtual ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height, const ImageView& image,
+                               const Intrinsics& intrinsics, const TensorOptions& options) = 0;
+  virtual void template_score(const BackendView& view, std::span<const TemplatePoint> points,
+                              std::span<const TemplateJob> jobs, std::span<TemplateHit> hits) = 0;
+  virtual void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
+                                     std::span<const PoseProblem> problems, const PoseLoss& loss,
+                                     std::span<NormalEquations> out) = 0;
+  virtual void pose_score(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
+                          std::span<const PoseProblem> problems, const PoseScoreOptions& options,
+                          std::span<PoseScore> out) = 0;
+  virtual void depth_raster(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
+                            std::span<float> depth) = 0;
+  // The threads host code may use beside the kernels.
+  virtual ThreadPool& threads() = 0;
+
+  std::vector<StageTime> take_timings();
+
+ protected:
+  void add_time(const std::string& name, double seconds);
+
+ private:
+  std::vector<StageTime> timings_;
+};
+
+struct DeviceInfo {
+  int index = 0;            // as in "vulkan:INDEX"
+  std::string name;
+  std::string driver;       // name and version
+  std::string api_version;
+  bool hardware = false;    // false: a software rasteriser such as lavapipe
+  std::uint64_t memory_bytes = 0;
+  std::uint64_t max_storage_buffer_bytes = 0;
+};
+
+// Empty where there is no Vulkan loader, no device, or the project was built without Vulkan.
+std::vector<DeviceInfo> vulkan_devices();
+
+std::unique_ptr<Backend> make_cpu_backend(int threads = 0);
+std::unique_ptr<Backend> make_reference_backend();
+// Throws GpuError where the device is missing or lacks a feature the kernels need.
+std::unique_ptr<Backend> make_vulkan_backend(int device_index, bool validation = false);
+
+// "auto", "cpu", "cpu-reference", "vulkan" or "vulkan:INDEX"; auto takes the first hardware Vulkan device, else the fast CPU path. Throws
+// InputError on another word and where the device asked for does not exist.
+std::unique_ptr<Backend> make_backend(const std::string& choice);
+
+}  // namespace edgescout

@@ -1,0 +1,40 @@
+// Depth maps of triangle meshes under many poses: the z-buffer of the paper's Sec. 3.1.
+//
+// Pixel (x, y) of a job's map holds the smallest camera-frame z, metres, of the triangles whose projection covers the pixel
+// centre (edge functions >= 0 in float, both windings), or DEPTH_EMPTY. Depth is interpolated as 1/z. Triangles with a vertex nearer than DEPTH_NEAR_M are
+// dropped: callers keep the object in front of the camera.
+//
+// Agreement: a pixel centre within 1/64 px of a triangle's edge may fall on either side; elsewhere depths agree to 1e-5 relative.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "kernels/types.h"
+
+namespace edgescout {
+
+class ThreadPool;
+
+inline constexpr float DEPTH_EMPTY = std::numeric_limits<float>::infinity();
+inline constexpr float DEPTH_NEAR_M = 1e-3f;
+
+struct TriangleMesh {
+  std::span<const float> vertices_m;          // xyz triples
+  std::span<const std::uint32_t> triangles;   // index triples
+};
+
+// All maps of one call have one size; each job has its own camera (a window of the image, say).
+struct DepthJob {
+  Pose camera_from_object;
+  Intrinsics intrinsics;
+};
+
+// `depth` holds jobs.size() maps of width * height, one after the other.
+void depth_raster_reference(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
+                            std::span<float> depth);
+void depth_raster_fast(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
+                       std::span<float> depth, ThreadPool& pool);
+
+}  // namespace edgescout

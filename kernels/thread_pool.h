@@ -1,0 +1,41 @@
+// A fixed set of threads for data-parallel loops. One loop at a time; loops do not nest.
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace edgescout {
+
+class ThreadPool {
+ public:
+  // `threads` counts the calling thread; 0: as many as the machine has.
+  explicit ThreadPool(int threads = 0);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
+
+  int threads() const { return static_cast<int>(workers_.size()) + 1; }
+  // Calls body(i) for every i in [0, count), in any order, on all threads; returns when all are done. The first
+  // exception is rethrown here. A call from inside a body runs its loop on that thread alone.
+  void for_each(std::size_t count, const std::function<void(std::size_t)>& body);
+
+ private:
+  void work();
+  void drain();
+
+  std::vector<std::thread> workers_;
+  std::mutex loop_mutex_;  // held for the length of one loop
+  std::mutex mutex_;       // guards everything below
+  std::condition_variable wake_, done_;
+  const std::function<void(std::size_t)>* body_ = nullptr;
+  std::size_t count_ = 0, next_ = 0, unfinished_ = 0;
+  std::exception_ptr failure_;
+  bool stop_ = false;
+};
+
+}  // namespace edgescout
