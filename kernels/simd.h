@@ -4,7 +4,7 @@
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
-#define EDGESCOUT_SIMD_CLONES __attribute__((target_clones("arch=skylake-avx512", "avx2,fma", "default")))
+#define EDGESCOUT_SIMD_CLONES __attribute__((target_clones("arch=skylake-avx512", "arch=haswell", "default")))
 #else
 #define EDGESCOUT_SIMD_CLONES
 #endif
