@@ -1,0 +1,168 @@
+// The two CPU backends: the fast path people without a GPU use, and the plain reference.
+#include <algorithm>
+#include <cstdlib>
+#include <mutex>
+#include <new>
+
+#include "kernels/backend.h"
+#include "kernels/error.h"
+#include "kernels/thread_pool.h"
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+namespace edgescout {
+
+namespace {
+
+// Tensor memory, aligned to a line and handed back to a small store: a fresh 94 MB costs as much in page faults as half a tensor.
+class TensorMemory {
+ public:
+  using Block = std::span<std::uint16_t>;
+  ~TensorMemory() {
+    for (Block block : free_) std::free(block.data());
+  }
+  Block take(std::size_t size) {
+    std::lock_guard lock(mutex_);
+    for (auto it = free_.begin(); it != free_.end(); ++it)
+      if (it->size() == size) {
+        const Block block = *it;
+        free_.erase(it);
+        return block;
+      }
+    constexpr std::size_t page = std::size_t{2} << 20;
+    const std::size_t bytes = (size * sizeof(std::uint16_t) + page - 1) / page * page;
+    void* memory = std::aligned_alloc(page, bytes);
+    if (!memory) throw std::bad_alloc();
+#ifdef __linux__
+    madvise(memory, bytes, MADV_HUGEPAGE);
+#endif
+    return {static_cast<std::uint16_t*>(memory), size};
+  }
+  void give_back(Block block) {
+    std::lock_guard lock(mutex_);
+    constexpr std::size_t kept = 2;
+    if (free_.size() >= kept) {
+      std::free(free_.front().data());
+      free_.erase(free_.begin());
+    }
+    free_.push_back(block);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<Block> free_;
+};
+
+class CpuView : public BackendView {
+ public:
+  CpuView(std::shared_ptr<TensorMemory> memory, std::size_t size) : memory_(std::move(memory)), values(memory_->take(size)) {}
+  ~CpuView() override { memory_->give_back(values); }
+  std::vector<std::uint16_t> tensor() const override { return {values.begin(), values.end()}; }
+  TensorView tensor_view() const { return {values, shape, intrinsics}; }
+
+ private:
+  std::shared_ptr<TensorMemory> memory_;
+
+ public:
+  std::span<std::uint16_t> values;
+  std::vector<std::int16_t> gradient_x2;
+};
+
+class CpuBackend : public Backend {
+ public:
+  CpuBackend(bool fast, int threads) : fast_(fast), pool_(fast ? threads : 1) {}
+  std::string name() const override { return fast_ ? "cpu" : "cpu-reference"; }
+  bool is_gpu() const override { return false; }
+  ThreadPool& threads() override { return pool_; }
+
+  std::vector<EdgePoint> detect_edges(const ImageView& image, const EdgeOptions& options) override {
+    const Timer timer(*this, "edge_detect");
+    return fast_ ? detect_edges_fast(image, options, pool_) : detect_edges_reference(image, options);
+  }
+
+  ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height, const ImageView& image,
+                       const Intrinsics& intrinsics, const TensorOptions& options) override {
+    const Timer timer(*this, "dcd_tensor");
+    const TensorShape shape{width, height, options.bins};
+    auto view = std::make_shared<CpuView>(memory_, shape.size());
+    view->shape = shape;
+    view->options = options;
+    view->intrinsics = intrinsics;
+    if (fast_)
+      dcd_tensor_fast(edges, width, height, options, pool_, view->values);
+    else
+      std::ranges::copy(dcd_tensor_reference(edges, width, height, options), view->values.begin());
+    if (image.width > 0) view->gradient_x2 = image_gradient_x2(image);
+    return view;
+  }
+
+  void template_score(const BackendView& view, std::span<const TemplatePoint> points, std::span<const TemplateJob> jobs,
+                      std::span<TemplateHit> hits) override {
+    const Timer timer(*this, "template_score");
+    const CpuView& mine = own(view);
+    if (fast_)
+      template_score_fast(mine.values, mine.shape, points, jobs, hits, pool_);
+    else
+      template_score_reference(mine.values, mine.shape, points, jobs, hits);
+  }
+
+  void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
+                             std::span<const PoseProblem> problems, const PoseLoss& loss, std::span<NormalEquations> out) override {
+    const Timer timer(*this, "pose_normal_equations");
+    std::vector<TensorView> tensors;
+    for (const ViewHandle& view : views) tensors.push_back(own(*view).tensor_view());
+    if (fast_)
+      pose_normal_equations_fast(tensors, points, problems, loss, out, pool_);
+    else
+      pose_normal_equations_reference(tensors, points, problems, loss, out);
+  }
+
+  void pose_score(std::span<const ViewHandle> views, std::span<const ModelPoint> points, std::span<const PoseProblem> problems,
+                  const PoseScoreOptions& options, std::span<PoseScore> out) override {
+    const Timer timer(*this, "pose_score");
+    std::vector<ScoreView> scored;
+    for (const ViewHandle& view : views) scored.push_back({own(*view).tensor_view(), own(*view).gradient_x2});
+    if (fast_)
+      pose_score_fast(scored, points, problems, options, out, pool_);
+    else
+      pose_score_reference(scored, points, problems, options, out);
+  }
+
+  void depth_raster(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height, std::span<float> depth) override {
+    const Timer timer(*this, "depth_raster");
+    if (fast_)
+      depth_raster_fast(mesh, jobs, width, height, depth, pool_);
+    else
+      depth_raster_reference(mesh, jobs, width, height, depth);
+  }
+
+ private:
+  struct Timer {
+    Timer(CpuBackend& owner, const char* stage) : backend(owner), name(stage) {}
+    ~Timer() {
+      backend.add_time(name, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    CpuBackend& backend;
+    const char* name;
+    std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  };
+
+  static const CpuView& own(const BackendView& view) {
+    const auto* mine = dynamic_cast<const CpuView*>(&view);
+    check(mine != nullptr, "a view made by another backend");
+    return *mine;
+  }
+
+  bool fast_;
+  ThreadPool pool_;
+  std::shared_ptr<TensorMemory> memory_ = std::make_shared<TensorMemory>();
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> make_cpu_backend(int threads) { return std::make_unique<CpuBackend>(true, threads); }
+std::unique_ptr<Backend> make_reference_backend() { return std::make_unique<CpuBackend>(false, 1); }
+
+}  // namespace edgescout

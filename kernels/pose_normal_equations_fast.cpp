@@ -1,0 +1,175 @@
+// The same systems on the CPU, fast: points in groups of 16 lanes, arithmetic in loops the compiler turns into vectors, only the
+// tensor's reads one by one; problems spread over the threads.
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "kernels/error.h"
+#include "kernels/pose_normal_equations.h"
+#include "kernels/simd.h"
+#include "kernels/thread_pool.h"
+
+namespace edgescout {
+
+namespace {
+
+constexpr int lanes = 16;
+constexpr int sum_count = 21 + 6 + 5;
+struct Lanes {
+  float v[lanes];
+  float& operator[](int i) { return v[i]; }
+  const float& operator[](int i) const { return v[i]; }
+};
+
+// atan2 folded to [0, pi), 2e-6 rad at worst: an odd minimax polynomial on [0, 1] and the octant put back.
+inline float undirected_angle(float dx, float dy) {
+  constexpr float pi = 3.14159265f;
+  const float ax = std::fabs(dx), ay = std::fabs(dy);
+  const float big = std::max(std::max(ax, ay), 1e-30f), small = std::min(ax, ay);
+  const float t = small / big, t2 = t * t;
+  float a = t * (0.99997726f + t2 * (-0.33262347f + t2 * (0.19354346f + t2 * (-0.11643287f + t2 * (0.05265332f - t2 * 0.01172120f)))));
+  a = ay > ax ? 0.5f * pi - a : a;
+  a = (dx < 0) != (dy < 0) ? pi - a : a;
+  return a >= pi ? a - pi : a;
+}
+
+struct Group {
+  Lanes active, arm[3], point[3], tangent[3];
+  Lanes u, v, dx, dy, turn;        // turn: orientation in bins
+  Lanes value, slope[3];           // of the tensor, slope by u, v, bins
+};
+
+inline __attribute__((always_inline)) void load_points(const ModelPoint* models, int count, const Pose& pose, const Intrinsics& k,
+                                                       float bins_per_rad, Group& g) {
+  Lanes m[6];
+  for (int i = 0; i < lanes; ++i) {
+    const ModelPoint& p = models[std::min(i, count - 1)];
+    m[0][i] = p.x_m, m[1][i] = p.y_m, m[2][i] = p.z_m, m[3][i] = p.tx, m[4][i] = p.ty, m[5][i] = p.tz;
+  }
+  for (int r = 0; r < 3; ++r) {
+    const float *row = pose.m + 4 * r;
+    for (int i = 0; i < lanes; ++i) {
+      g.arm[r][i] = row[0] * m[0][i] + row[1] * m[1][i] + row[2] * m[2][i];
+      g.tangent[r][i] = row[0] * m[3][i] + row[1] * m[4][i] + row[2] * m[5][i];
+      g.point[r][i] = g.arm[r][i] + row[3];
+    }
+  }
+  for (int i = 0; i < lanes; ++i) {
+    const bool in_front = g.point[2][i] > POSE_MIN_DEPTH_M;
+    g.active[i] = in_front && i < count ? 1.0f : 0.0f;
+    g.point[2][i] = in_front ? g.point[2][i] : 1.0f;
+    const float inverse = 1.0f / g.point[2][i];
+    g.u[i] = k.fx * g.point[0][i] * inverse + k.cx;
+    g.v[i] = k.fy * g.point[1][i] * inverse + k.cy;
+    g.dx[i] = k.fx * (g.point[2][i] * g.tangent[0][i] - g.point[0][i] * g.tangent[2][i]);
+    g.dy[i] = k.fy * (g.point[2][i] * g.tangent[1][i] - g.point[1][i] * g.tangent[2][i]);
+    g.turn[i] = undirected_angle(g.dx[i], g.dy[i]) * bins_per_rad;
+  }
+}
+
+inline __attribute__((always_inline)) void read_tensor(const TensorView& view, Group& g) {
+  const TensorShape& s = view.shape;
+  const std::uint16_t* tensor = view.tensor.data();
+  const int tiles = s.tiles_per_row(), last_x = s.width - 1, last_y = s.height - 1;
+  constexpr float unit = 1.0f / DCD_UNITS_PER_PX;
+  for (int i = 0; i < lanes; ++i) {
+    const float x = std::clamp(g.u[i], 0.0f, float(last_x)), y = std::clamp(g.v[i], 0.0f, float(last_y));
+    const int x0 = std::min(int(x), std::max(0, last_x - 1)), y0 = std::min(int(y), std::max(0, last_y - 1));
+    const int x1 = std::min(x0 + 1, last_x), y1 = std::min(y0 + 1, last_y);
+    const int k0 = std::min(int(g.turn[i]), s.bins - 1), k1 = k0 + 1 == s.bins ? 0 : k0 + 1;
+    const float ax = x - float(x0), ay = y - float(y0), ak = g.turn[i] - float(k0);
+    const std::size_t row = std::size_t(tiles) * s.bins * DCD_TILE;
+    const auto line = [&](int px) { return std::size_t(px / int(DCD_TILE)) * s.bins * DCD_TILE + px % int(DCD_TILE); };
+    const std::uint16_t *left = tensor + y0 * row + line(x0), *right = tensor + y0 * row + line(x1);
+    const std::size_t down = std::size_t(y1 - y0) * row, a = std::size_t(k0) * DCD_TILE, b = std::size_t(k1) * DCD_TILE;
+    const float s00 = float(left[b]) - float(left[a]), s10 = float(right[b]) - float(right[a]);
+    const float s01 = float(left[down + b]) - float(left[down + a]), s11 = float(right[down + b]) - float(right[down + a]);
+    const float v00 = float(left[a]) + ak * s00, v10 = float(right[a]) + ak * s10;
+    const float v01 = float(left[down + a]) + ak * s01, v11 = float(right[down + a]) + ak * s11;
+    const float top = v00 + ax * (v10 - v00), bottom = v01 + ax * (v11 - v01);
+    const float out_x = g.u[i] - x, out_y = g.v[i] - y, out = std::sqrt(out_x * out_x + out_y * out_y);
+    g.value[i] = (top + ay * (bottom - top)) * unit + out;
+    g.slope[0][i] = out_x != 0 ? out_x / out : ((v10 - v00) + ay * ((v11 - v01) - (v10 - v00))) * unit;
+    g.slope[1][i] = out_y != 0 ? out_y / out : (bottom - top) * unit;
+    const float slope_top = s00 + ax * (s10 - s00), slope_bottom = s01 + ax * (s11 - s01);
+    g.slope[2][i] = (slope_top + ay * (slope_bottom - slope_top)) * unit;
+  }
+}
+
+inline __attribute__((always_inline)) void accumulate(const Group& g, const Intrinsics& k, float bins_per_rad,
+                                                      const PoseLoss& loss, Lanes* sums) {
+  Lanes j[6], weight;
+  const float s = loss.scale_px;
+  const bool huber = loss.kind == LOSS_HUBER;
+  for (int i = 0; i < lanes; ++i) {
+    const float inverse = 1.0f / g.point[2][i], norm2 = g.dx[i] * g.dx[i] + g.dy[i] * g.dy[i];
+    const float by_angle = norm2 > 1e-12f ? g.slope[2][i] * bins_per_rad / norm2 : 0.0f;
+    const float along_x = -by_angle * g.dy[i] * k.fx, along_y = by_angle * g.dx[i] * k.fy;
+    const float su = g.slope[0][i] * k.fx * inverse, sv = g.slope[1][i] * k.fy * inverse;
+    const float bp0 = su - along_x * g.tangent[2][i], bp1 = sv - along_y * g.tangent[2][i];
+    const float bp2 = -(su * g.point[0][i] + sv * g.point[1][i]) * inverse + along_x * g.tangent[0][i] + along_y * g.tangent[1][i];
+    const float bt0 = along_x * g.point[2][i], bt1 = along_y * g.point[2][i];
+    const float bt2 = -along_x * g.point[0][i] - along_y * g.point[1][i];
+    j[0][i] = bp0, j[1][i] = bp1, j[2][i] = bp2;
+    j[3][i] = g.arm[1][i] * bp2 - g.arm[2][i] * bp1 + g.tangent[1][i] * bt2 - g.tangent[2][i] * bt1;
+    j[4][i] = g.arm[2][i] * bp0 - g.arm[0][i] * bp2 + g.tangent[2][i] * bt0 - g.tangent[0][i] * bt2;
+    j[5][i] = g.arm[0][i] * bp1 - g.arm[1][i] * bp0 + g.tangent[0][i] * bt1 - g.tangent[1][i] * bt0;
+    const float r = g.value[i], q = s * s / (s * s + r * r);
+    const float huber_weight = r <= s ? 1.0f : s / r, huber_cost = r <= s ? 0.5f * r * r : s * (r - 0.5f * s);
+    weight[i] = g.active[i] * (huber ? huber_weight : q * q);
+    sums[27][i] += g.active[i] * (huber ? huber_cost : 0.5f * q * r * r);
+    sums[28][i] += g.active[i] * r;
+    sums[29][i] += weight[i];
+    sums[30][i] += g.active[i];
+  }
+  int entry = 0;
+  for (int a = 0; a < 6; ++a) {
+    Lanes weighted;
+    for (int i = 0; i < lanes; ++i) weighted[i] = weight[i] * j[a][i];
+    for (int b = a; b < 6; ++b, ++entry)
+      for (int i = 0; i < lanes; ++i) sums[entry][i] += weighted[i] * j[b][i];
+    for (int i = 0; i < lanes; ++i) sums[21 + a][i] += weighted[i] * g.value[i];
+  }
+}
+
+EDGESCOUT_SIMD_CLONES
+void sum_problem(const TensorView& view, const ModelPoint* models, std::uint32_t count, const Pose& pose, const PoseLoss& loss,
+                 float* totals) {
+  const float bins_per_rad = float(view.shape.bins) / 3.14159265f;
+  Lanes sums[sum_count] = {};
+  for (std::uint32_t first = 0; first < count; first += lanes) {
+    Group group;
+    load_points(models + first, static_cast<int>(std::min<std::uint32_t>(lanes, count - first)), pose, view.intrinsics, bins_per_rad, group);
+    read_tensor(view, group);
+    accumulate(group, view.intrinsics, bins_per_rad, loss, sums);
+  }
+  for (int e = 0; e < sum_count; ++e) {
+    totals[e] = 0;
+    for (int i = 0; i < lanes; ++i) totals[e] += sums[e][i];
+  }
+}
+
+}  // namespace
+
+void pose_normal_equations_fast(std::span<const TensorView> views, std::span<const ModelPoint> points,
+                                std::span<const PoseProblem> problems, const PoseLoss& loss,
+                                std::span<NormalEquations> out, ThreadPool& pool) {
+  check(out.size() == problems.size(), "pose_normal_equations: as many systems as problems");
+  pool.for_each(problems.size(), [&](std::size_t i) {
+    const PoseProblem& problem = problems[i];
+    check(std::size_t(problem.first_point) + problem.point_count <= points.size(), "pose_normal_equations: points beyond the list");
+    check(problem.view < views.size(), "pose_normal_equations: no such view");
+    float totals[sum_count] = {};
+    sum_problem(views[problem.view], points.data() + problem.first_point, problem.point_count, problem.camera_from_object, loss, totals);
+    NormalEquations& system = out[i];
+    std::copy(totals, totals + 21, system.hessian);
+    std::copy(totals + 21, totals + 27, system.gradient);
+    system.cost = totals[27];
+    system.residual_sum = totals[28];
+    system.weight_sum = totals[29];
+    system.points = totals[30];
+    system.behind = float(problem.point_count) - totals[30];
+  });
+}
+
+}  // namespace edgescout
