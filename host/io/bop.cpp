@@ -1,0 +1,126 @@
+#include "host/io/bop.h"
+
+#include <charconv>
+
+#include "host/io/camera_json.h"
+#include "host/io/files.h"
+#include "host/io/json_fields.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+namespace {
+
+constexpr double metres_per_mm = 1e-3;
+
+int scene_number(const fs::path& folder) {
+  const std::string name = (folder.has_filename() ? folder : folder.parent_path()).filename().string();
+  int number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  return error == std::errc{} && end == name.data() + name.size() ? number : 0;
+}
+
+// The image under gray/ or rgb/; where none is there, the name that one would have, so that reading it says
+// what is missing.
+fs::path image_file(const fs::path& folder, int image_id) {
+  const std::string digits = std::to_string(image_id);
+  const std::string stem = std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits;
+  for (const char* kind : {"gray", "rgb"})
+    for (const char* extension : {".png", ".jpg", ".jpeg", ".tif"})
+      if (const fs::path file = folder / kind / (stem + extension); fs::exists(file)) return file;
+  return folder / (fs::exists(folder / "gray") ? "gray" : "rgb") / (stem + ".png");
+}
+
+std::map<int, BopImage> read_images(const fs::path& folder) {
+  const json content = read_json(folder / "scene_camera.json");
+  const JsonField root{content, (folder / "scene_camera.json").string(), ""};
+  std::map<int, BopImage> images;
+  for (const auto& [key, value] : content.items()) {
+    const JsonField entry = root.at(key);
+    BopImage image;
+    image.image_id = integer_key(key, root);
+    image.file = image_file(folder, image.image_id);
+    image.camera = camera_from_bop(entry);
+    Camera judged = image.camera;
+    judged.width = judged.height = 1 << 20;  // the real size is the image's
+    validate(judged, entry.source + ": " + entry.path);
+    if (entry.has("cam_R_w2c"))
+      image.camera_from_world = pose_from(entry.at("cam_R_w2c"), entry.at("cam_t_w2c"), metres_per_mm);
+    images[image.image_id] = image;
+  }
+  return images;
+}
+
+void read_truth(const fs::path& folder, std::map<int, std::vector<BopTruth>>& truth) {
+  if (!fs::exists(folder / "scene_gt.json")) return;
+  const json content = read_json(folder / "scene_gt.json");
+  const JsonField root{content, (folder / "scene_gt.json").string(), ""};
+  for (const auto& [key, value] : content.items())
+    for (const JsonField& entry : root.at(key).elements())
+      truth[integer_key(key, root)].push_back(
+          {entry.at("obj_id").integer(),
+           pose_from(entry.at("cam_R_m2c"), entry.at("cam_t_m2c"), metres_per_mm), 1.0});
+}
+
+void read_visible_fractions(const fs::path& folder, std::map<int, std::vector<BopTruth>>& truth) {
+  if (!fs::exists(folder / "scene_gt_info.json")) return;
+  const json content = read_json(folder / "scene_gt_info.json");
+  const JsonField root{content, (folder / "scene_gt_info.json").string(), ""};
+  for (auto& [image_id, objects] : truth) {
+    const JsonField entries = root.at(std::to_string(image_id));
+    const std::vector<JsonField> infos = entries.elements();
+    if (infos.size() != objects.size())
+      entries.fail(std::to_string(infos.size()) + " objects",
+                   std::to_string(objects.size()) + " as in scene_gt.json");
+    for (std::size_t i = 0; i < infos.size(); ++i)
+      if (infos[i].has("visib_fract")) objects[i].visible_fraction = infos[i].at("visib_fract").number();
+  }
+}
+
+json camera_entry(const BopImage& image) {
+  const Camera& c = image.camera;
+  json entry{{"cam_K", {c.fx, 0.0, c.cx, 0.0, c.fy, c.cy, 0.0, 0.0, 1.0}}, {"depth_scale", 1.0}};
+  if (c.has_distortion()) entry["dist"] = c.distortion;
+  if (image.camera_from_world) {
+    entry["cam_R_w2c"] = rotation_numbers(*image.camera_from_world);
+    entry["cam_t_w2c"] = translation_numbers(*image.camera_from_world, metres_per_mm);
+  }
+  return entry;
+}
+
+}  // namespace
+
+bool is_bop_scene(const fs::path& folder) { return fs::exists(folder / "scene_camera.json"); }
+
+BopScene load_bop_scene(const fs::path& folder) {
+  BopScene scene;
+  scene.scene_id = scene_number(folder);
+  scene.folder = folder;
+  for (const auto& [id, image] : read_images(folder)) scene.images.push_back(image);
+  read_truth(folder, scene.truth);
+  read_visible_fractions(folder, scene.truth);
+  return scene;
+}
+
+void save_bop_scene(const BopScene& scene, const fs::path& folder) {
+  json cameras = json::object(), poses = json::object(), infos = json::object();
+  for (const BopImage& image : scene.images) cameras[std::to_string(image.image_id)] = camera_entry(image);
+  for (const auto& [image_id, objects] : scene.truth) {
+    json& image_poses = poses[std::to_string(image_id)] = json::array();
+    json& image_infos = infos[std::to_string(image_id)] = json::array();
+    for (const BopTruth& object : objects) {
+      image_poses.push_back({{"obj_id", object.object_id},
+                             {"cam_R_m2c", rotation_numbers(object.camera_from_object)},
+                             {"cam_t_m2c", translation_numbers(object.camera_from_object, metres_per_mm)}});
+      image_infos.push_back({{"visib_fract", object.visible_fraction}});
+    }
+  }
+  write_file_atomically(folder / "scene_camera.json", cameras.dump(1) + "\n");
+  write_file_atomically(folder / "scene_gt.json", poses.dump(1) + "\n");
+  write_file_atomically(folder / "scene_gt_info.json", infos.dump(1) + "\n");
+}
+
+}  // namespace edgescout

@@ -1,0 +1,85 @@
+// models_info.json: from BOP's few given symmetries to the whole, sampled group.
+#include <algorithm>
+#include <numbers>
+
+#include "host/io/bop.h"
+#include "host/io/json_fields.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+constexpr std::size_t max_discrete = 240;  // twice the largest finite rotation group of a solid, with room
+
+bool same(const Se3& a, const Se3& b) {
+  return angle_between_rad(a, b) < 1e-4 && distance_between_m(a, b) < 1e-6;
+}
+
+void add_unless_known(std::vector<Se3>& members, const Se3& member) {
+  if (std::none_of(members.begin(), members.end(), [&](const Se3& known) { return same(known, member); }))
+    members.push_back(member);
+}
+
+// Every product of the generators, the identity first.
+std::vector<Se3> closure(const std::vector<Se3>& generators, const JsonField& field) {
+  std::vector<Se3> group{Se3{}};
+  for (std::size_t i = 0; i < group.size(); ++i)
+    for (const Se3& generator : generators) {
+      add_unless_known(group, generator * group[i]);
+      if (group.size() > max_discrete)
+        field.fail("symmetries that generate no finite group", "at most 240 members");
+    }
+  return group;
+}
+
+std::vector<Se3> read_discrete(const JsonField& object) {
+  std::vector<Se3> given;
+  if (!object.has("symmetries_discrete")) return {Se3{}};
+  const JsonField list = object.at("symmetries_discrete");
+  for (const JsonField& entry : list.elements()) {
+    const std::vector<double> m = entry.numbers(16);
+    const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(m.data());
+    try {
+      given.push_back(se3_from_matrix(matrix.topLeftCorner<3, 3>(), 1e-3 * matrix.topRightCorner<3, 1>()));
+    } catch (const InputError&) {
+      entry.fail("a matrix that is no rotation", "a rigid 4x4 transform by row, in mm");
+    }
+  }
+  return closure(given, list);
+}
+
+// Rotations about every given axis in equal steps; several axes (a ball) are sampled one by one, as BOP does.
+std::vector<Se3> read_continuous(const JsonField& object, int steps) {
+  std::vector<Se3> samples{Se3{}};
+  if (!object.has("symmetries_continuous")) return samples;
+  for (const JsonField& entry : object.at("symmetries_continuous").elements()) {
+    const std::vector<double> a = entry.at("axis").numbers(3), o = entry.at("offset").numbers(3);
+    const Eigen::Vector3d axis(a[0], a[1], a[2]), offset_m = 1e-3 * Eigen::Vector3d(o[0], o[1], o[2]);
+    if (!(axis.norm() > 1e-9)) entry.at("axis").fail("a vector of no length", "the direction of an axis");
+    for (int i = 1; i < steps; ++i) {
+      const Eigen::Quaterniond turn = so3_exp(2 * std::numbers::pi * i / steps * axis.normalized());
+      add_unless_known(samples, {turn, offset_m - turn * offset_m});
+    }
+  }
+  return samples;
+}
+
+}  // namespace
+
+std::map<int, Symmetries> load_symmetries(const std::filesystem::path& models_info, int continuous_steps) {
+  check(continuous_steps >= 1, "load_symmetries: continuous_steps");
+  const nlohmann::json content = read_json(models_info);
+  const JsonField root{content, models_info.string(), ""};
+  std::map<int, Symmetries> result;
+  for (const auto& [key, value] : content.items()) {
+    const JsonField object = root.at(key);
+    const std::vector<Se3> continuous = read_continuous(object, continuous_steps);
+    std::vector<Se3>& group = result[integer_key(key, root)].discrete;
+    for (const Se3& discrete : read_discrete(object))
+      for (const Se3& turn : continuous) add_unless_known(group, turn * discrete);
+  }
+  return result;
+}
+
+}  // namespace edgescout

@@ -1,0 +1,103 @@
+#include "host/io/files.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string reason(int error) { return std::strerror(error); }
+
+// A name beside `file` that no other writer of this or another process uses.
+fs::path temporary_beside(const fs::path& file) {
+  static std::atomic<unsigned> counter{0};
+  std::string name = "." + file.filename().string() + ".";
+  name += std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".part";
+  return file.parent_path() / name;
+}
+
+// An open temporary file that disappears unless it is renamed into place.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(fs::path path) : path_(std::move(path)) {
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    created_ = descriptor_ >= 0;
+    error_ = created_ ? 0 : errno;
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (created_ && !renamed_) ::unlink(path_.c_str());
+  }
+
+  // Each returns 0 or the errno of the first failure; after a failure the rest does nothing.
+  int write(std::string_view content) {
+    while (!error_ && !content.empty()) {
+      const ssize_t written = ::write(descriptor_, content.data(), content.size());
+      if (written >= 0)
+        content.remove_prefix(static_cast<std::size_t>(written));
+      else if (errno != EINTR)
+        error_ = errno;
+    }
+    if (!error_ && ::fsync(descriptor_) != 0) error_ = errno;
+    return error_;
+  }
+  int rename_to(const fs::path& target) {
+    if (!error_ && ::close(std::exchange(descriptor_, -1)) != 0) error_ = errno;
+    if (!error_ && ::rename(path_.c_str(), target.c_str()) != 0) error_ = errno;
+    renamed_ = !error_;
+    return error_;
+  }
+
+ private:
+  fs::path path_;
+  int descriptor_ = -1;
+  int error_ = 0;
+  bool created_ = false;
+  bool renamed_ = false;
+};
+
+}  // namespace
+
+std::string read_file(const fs::path& file) {
+  if (fs::is_directory(file)) throw InputError(file.string(), "file", "a folder", "a readable file");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(file.string(), "file", reason(errno), "a readable file");
+  std::ostringstream content;
+  content << stream.rdbuf();
+  if (stream.bad() || content.bad())
+    throw InputError(file.string(), "file", "a read error", "a readable file");
+  return std::move(content).str();
+}
+
+void write_file_atomically(const fs::path& file, std::string_view content) {
+  TemporaryFile temporary(temporary_beside(file));
+  int error = temporary.write(content);
+  if (!error) error = temporary.rename_to(file);
+  if (error) throw InputError(file.string(), "output file", reason(error), "a file that can be written");
+}
+
+void require_writable_folder(const fs::path& folder) {
+  std::error_code failure;
+  fs::create_directories(folder, failure);
+  if (failure)
+    throw InputError(folder.string(), "output folder", failure.message(), "a folder that can be created");
+  TemporaryFile proof(temporary_beside(folder / "probe"));
+  if (const int error = proof.write("x"))
+    throw InputError(folder.string(), "output folder", reason(error), "a folder that can be written");
+}
+
+}  // namespace edgescout

@@ -1,0 +1,109 @@
+#include "host/io/image.h"
+
+#include <atomic>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "host/core/log.h"
+#include "host/io/files.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+constexpr int min_side_px = 16;
+
+// Decoders fill the missing rest of a cut image with grey and only warn; the end marks of the two common
+// formats tell.
+bool is_cut_short(const std::string& bytes) {
+  if (bytes.starts_with("\x89PNG")) return bytes.find("IEND") == std::string::npos;
+  if (!bytes.starts_with("\xff\xd8")) return false;
+  // Coded data never holds these two-byte marks, and an embedded thumbnail ends before the scan starts.
+  const std::size_t end = bytes.rfind("\xff\xd9"), scan = bytes.rfind("\xff\xda");
+  return end == std::string::npos || (scan != std::string::npos && end < scan);
+}
+
+cv::Mat decode(const std::string& bytes, const std::string& source) {
+  const InputError not_an_image(source, "image", "data that no image decoder accepts",
+                                "a PNG, JPEG or other image");
+  if (bytes.empty()) throw InputError(source, "image", "an empty file", "a PNG, JPEG or other image");
+  if (is_cut_short(bytes)) throw InputError(source, "image", "a file cut short", "a whole image");
+  cv::Mat image;
+  try {
+    const cv::Mat view(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
+    image = cv::imdecode(view, cv::IMREAD_UNCHANGED);
+  } catch (const std::exception&) {  // cv::Exception for absurd sizes, bad_alloc
+    throw not_an_image;
+  }
+  if (image.empty()) throw not_an_image;
+  return image;
+}
+
+cv::Mat to_grey(const cv::Mat& image, const std::string& source) {
+  if (image.depth() != CV_8U)
+    throw InputError(source, "bit depth", std::to_string(8 * image.elemSize1()) + " bit a channel", "8 bit");
+  if (image.channels() == 1) return image;
+  if (image.channels() != 3 && image.channels() != 4)
+    throw InputError(source, "channels", std::to_string(image.channels()), "1 (grey), 3 or 4 (colour)");
+  static std::atomic_flag said;
+  if (!said.test_and_set())
+    log(LogLevel::Info, source + ": colour image converted to grey (not repeated for further images)");
+  cv::Mat grey;
+  cv::cvtColor(image, grey, image.channels() == 3 ? cv::COLOR_BGR2GRAY : cv::COLOR_BGRA2GRAY);
+  return grey;
+}
+
+Image from_mat(const cv::Mat& grey) {
+  Image image{grey.cols, grey.rows, {}};
+  image.pixels.reserve(grey.total());
+  for (int y = 0; y < grey.rows; ++y)
+    image.pixels.insert(image.pixels.end(), grey.ptr<std::uint8_t>(y), grey.ptr<std::uint8_t>(y) + grey.cols);
+  return image;
+}
+
+void write_png(const cv::Mat& image, const std::filesystem::path& file) {
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".png", image, bytes);
+  write_file_atomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+}  // namespace
+
+Image load_image(const std::filesystem::path& file) {
+  const std::string source = file.string();
+  const cv::Mat image = to_grey(decode(read_file(file), source), source);
+  if (image.cols < min_side_px || image.rows < min_side_px)
+    throw InputError(source, "image size", std::to_string(image.cols) + "x" + std::to_string(image.rows),
+                     "at least 16x16 px");
+  return from_mat(image);
+}
+
+Image undistort(const Image& image, const Camera& camera) {
+  check(image.width == camera.width && image.height == camera.height,
+        "undistort: image and camera differ in size");
+  if (!camera.has_distortion()) return image;
+  const cv::Matx33d k(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
+  const cv::Mat distortion(1, 8, CV_64F, const_cast<double*>(camera.distortion.data()));
+  const cv::Mat source(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data()));
+  cv::Mat map_x, map_y, result;
+  cv::initUndistortRectifyMap(k, distortion, cv::noArray(), k, source.size(), CV_32FC1, map_x, map_y);
+  cv::remap(source, result, map_x, map_y, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+  return from_mat(result);
+}
+
+void save_png(const RgbImage& image, const std::filesystem::path& file) {
+  check(image.pixels.size() == std::size_t{3} * image.width * image.height, "save_png: pixel count");
+  const cv::Mat rgb(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.pixels.data()));
+  cv::Mat bgr;
+  cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
+  write_png(bgr, file);
+}
+
+void save_png(const Image& image, const std::filesystem::path& file) {
+  check(image.pixels.size() == std::size_t{1} * image.width * image.height, "save_png: pixel count");
+  write_png(cv::Mat(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data())), file);
+}
+
+}  // namespace edgescout

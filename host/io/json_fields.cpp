@@ -1,0 +1,101 @@
+#include "host/io/json_fields.h"
+
+#include <charconv>
+#include <cmath>
+
+#include "host/io/files.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+using nlohmann::json;
+
+json read_json(const std::filesystem::path& file) {
+  json content;
+  try {
+    content = json::parse(read_file(file));
+  } catch (const json::exception& error) {
+    throw InputError(file.string(), "JSON", error.what(), "a JSON file");
+  }
+  if (!content.is_structured())
+    throw InputError(file.string(), "JSON", content.type_name(), "an object or an array");
+  return content;
+}
+
+void JsonField::fail(const std::string& found, const std::string& expected) const {
+  throw InputError(source, path.empty() ? "/" : path, found, expected);
+}
+
+JsonField JsonField::at(const std::string& name) const {
+  if (!value.is_object()) fail(value.type_name(), "an object");
+  if (!value.contains(name)) JsonField{value, source, path + "/" + name}.fail("nothing", "a value");
+  return {value.at(name), source, path + "/" + name};
+}
+
+double JsonField::number() const {
+  if (!value.is_number()) fail(value.dump().substr(0, 40), "a number");
+  const double x = value.get<double>();
+  if (!std::isfinite(x)) fail("a number that is not finite", "a finite number");
+  return x;
+}
+
+int JsonField::integer() const {
+  const double x = number();
+  if (x != std::floor(x) || std::abs(x) > 2e9) fail(value.dump(), "a whole number");
+  return static_cast<int>(x);
+}
+
+std::string JsonField::text() const {
+  if (!value.is_string()) fail(value.dump().substr(0, 40), "a text");
+  return value.get<std::string>();
+}
+
+std::vector<JsonField> JsonField::elements() const {
+  if (!value.is_array()) fail(value.type_name(), "an array");
+  std::vector<JsonField> members;
+  for (const json& element : value)
+    members.push_back({element, source, path + "/" + std::to_string(members.size())});
+  return members;
+}
+
+std::vector<double> JsonField::numbers() const {
+  std::vector<double> result;
+  for (const JsonField& element : elements()) result.push_back(element.number());
+  return result;
+}
+
+std::vector<double> JsonField::numbers(std::size_t count) const {
+  std::vector<double> result = numbers();
+  if (result.size() != count) fail(std::to_string(result.size()) + " numbers", std::to_string(count));
+  return result;
+}
+
+int integer_key(const std::string& key, const JsonField& parent) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), number);
+  if (error != std::errc{} || end != key.data() + key.size())
+    parent.fail("the key \"" + key + "\"", "a whole number");
+  return number;
+}
+
+Se3 pose_from(const JsonField& rotation, const JsonField& translation, double metres_per_unit) {
+  const std::vector<double> r = rotation.numbers(9), t = translation.numbers(3);
+  const Eigen::Matrix3d matrix = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(r.data());
+  try {
+    return se3_from_matrix(matrix, metres_per_unit * Eigen::Vector3d(t[0], t[1], t[2]));
+  } catch (const InputError&) {
+    rotation.fail("a matrix that is no rotation", "R'R = I and det R = +1 to 1e-3");
+  }
+}
+
+std::vector<double> rotation_numbers(const Se3& pose) {
+  const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> matrix = pose.rotation.toRotationMatrix();
+  return {matrix.data(), matrix.data() + 9};
+}
+
+std::vector<double> translation_numbers(const Se3& pose, double metres_per_unit) {
+  const Eigen::Vector3d t = pose.translation_m / metres_per_unit;
+  return {t.x(), t.y(), t.z()};
+}
+
+}  // namespace edgescout

@@ -1,0 +1,65 @@
+#include <Eigen/Geometry>
+
+#include "host/io/raw_mesh.h"
+
+namespace edgescout {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace {
+
+// Newell's normal: right for concave polygons too.
+Vector3d polygon_normal(const std::vector<int>& corners, const std::vector<Vector3d>& x) {
+  Vector3d normal = Vector3d::Zero();
+  const Vector3d& origin = x[corners.front()];
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+    normal += (x[corners[i]] - origin).cross(x[corners[i + 1]] - origin);
+  return normal;
+}
+
+double turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
+  const Vector2d ab = b - a, ac = c - a;
+  return ab.x() * ac.y() - ab.y() * ac.x();
+}
+
+// Whether corner i of the remaining polygon can be cut off: convex, and no other corner in its triangle.
+bool is_ear(const std::vector<int>& rest, std::size_t i, const std::vector<Vector2d>& flat) {
+  const std::size_t n = rest.size(), before = (i + n - 1) % n, after = (i + 1) % n;
+  const Vector2d &a = flat[rest[before]], &b = flat[rest[i]], &c = flat[rest[after]];
+  if (turn(a, b, c) <= 0) return false;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vector2d& p = flat[rest[k]];
+    if (k == before || k == i || k == after || p == a || p == b || p == c) continue;
+    if (turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void triangulate(const std::vector<int>& corners, const std::vector<Vector3d>& vertices,
+                 std::vector<std::array<int, 3>>& triangles) {
+  if (corners.size() < 3) return;
+  if (corners.size() == 3) return triangles.push_back({corners[0], corners[1], corners[2]});
+  const Vector3d normal = polygon_normal(corners, vertices).normalized();
+  const Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
+  std::vector<Vector2d> flat;
+  std::vector<int> rest;
+  for (int corner : corners) {
+    rest.push_back(static_cast<int>(flat.size()));
+    flat.emplace_back(vertices[corner].dot(u), vertices[corner].dot(v));
+  }
+  while (rest.size() > 3) {
+    std::size_t ear = 0;
+    while (ear < rest.size() && !is_ear(rest, ear, flat)) ++ear;
+    if (ear == rest.size()) break;
+    const std::size_t n = rest.size();
+    triangles.push_back({corners[rest[(ear + n - 1) % n]], corners[rest[ear]], corners[rest[(ear + 1) % n]]});
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(ear));
+  }
+  for (std::size_t i = 1; i + 1 < rest.size(); ++i)
+    triangles.push_back({corners[rest[0]], corners[rest[i]], corners[rest[i + 1]]});
+}
+
+}  // namespace edgescout
