@@ -50,7 +50,7 @@ class Backend {
   virtual ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height, const ImageView& image,
                                const Intrinsics& intrinsics, const TensorOptions& options) = 0;
   virtual void template_score(const BackendView& view, std::span<const TemplatePoint> points,
-                              std::span<const TemplateJob> jobs, std::span<TemplateHit> hits) = 0;
+                              std::span<const TemplateJob> jobs, int anchor_step, std::span<TemplateHit> hits) = 0;
   virtual void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
                                      std::span<const PoseProblem> problems, const PoseLoss& loss,
                                      std::span<NormalEquations> out) = 0;

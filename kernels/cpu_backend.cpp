@@ -16,7 +16,8 @@ namespace edgescout {
 
 namespace {
 
-// Tensor memory, aligned to a line and handed back to a small store: a fresh 94 MB costs as much in page faults as half a tensor.
+// Tensor memory, aligned to a line and handed back to a small store: a fresh 94 MB costs as much in page
+// faults as half a tensor.
 class TensorMemory {
  public:
   using Block = std::span<std::uint16_t>;
@@ -57,7 +58,8 @@ class TensorMemory {
 
 class CpuView : public BackendView {
  public:
-  CpuView(std::shared_ptr<TensorMemory> memory, std::size_t size) : memory_(std::move(memory)), values(memory_->take(size)) {}
+  CpuView(std::shared_ptr<TensorMemory> memory, std::size_t size)
+      : memory_(std::move(memory)), values(memory_->take(size)) {}
   ~CpuView() override { memory_->give_back(values); }
   std::vector<std::uint16_t> tensor() const override { return {values.begin(), values.end()}; }
   TensorView tensor_view() const { return {values, shape, intrinsics}; }
@@ -98,18 +100,20 @@ class CpuBackend : public Backend {
     return view;
   }
 
-  void template_score(const BackendView& view, std::span<const TemplatePoint> points, std::span<const TemplateJob> jobs,
+  void template_score(const BackendView& view, std::span<const TemplatePoint> points,
+                      std::span<const TemplateJob> jobs, int anchor_step,
                       std::span<TemplateHit> hits) override {
     const Timer timer(*this, "template_score");
     const CpuView& mine = own(view);
     if (fast_)
-      template_score_fast(mine.values, mine.shape, points, jobs, hits, pool_);
+      template_score_fast(mine.values, mine.shape, points, jobs, anchor_step, hits, pool_);
     else
-      template_score_reference(mine.values, mine.shape, points, jobs, hits);
+      template_score_reference(mine.values, mine.shape, points, jobs, anchor_step, hits);
   }
 
   void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
-                             std::span<const PoseProblem> problems, const PoseLoss& loss, std::span<NormalEquations> out) override {
+                             std::span<const PoseProblem> problems, const PoseLoss& loss,
+                             std::span<NormalEquations> out) override {
     const Timer timer(*this, "pose_normal_equations");
     std::vector<TensorView> tensors;
     for (const ViewHandle& view : views) tensors.push_back(own(*view).tensor_view());
@@ -119,8 +123,9 @@ class CpuBackend : public Backend {
       pose_normal_equations_reference(tensors, points, problems, loss, out);
   }
 
-  void pose_score(std::span<const ViewHandle> views, std::span<const ModelPoint> points, std::span<const PoseProblem> problems,
-                  const PoseScoreOptions& options, std::span<PoseScore> out) override {
+  void pose_score(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
+                  std::span<const PoseProblem> problems, const PoseScoreOptions& options,
+                  std::span<PoseScore> out) override {
     const Timer timer(*this, "pose_score");
     std::vector<ScoreView> scored;
     for (const ViewHandle& view : views) scored.push_back({own(*view).tensor_view(), own(*view).gradient_x2});
@@ -130,7 +135,8 @@ class CpuBackend : public Backend {
       pose_score_reference(scored, points, problems, options, out);
   }
 
-  void depth_raster(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height, std::span<float> depth) override {
+  void depth_raster(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
+                    std::span<float> depth) override {
     const Timer timer(*this, "depth_raster");
     if (fast_)
       depth_raster_fast(mesh, jobs, width, height, depth, pool_);

@@ -1,7 +1,9 @@
-// The DCD tensor on the CPU, fast: bands of rows that fit the second-level cache, each begun and finished by one thread.
+// The DCD tensor on the CPU, fast: bands of rows that fit the second-level cache, each begun and finished by
+// one thread.
 //
-// A capped distance transform of thin edges is cheapest backwards: instead of asking every pixel for its nearest edge, every edge
-// point lowers the values in the disc around it, one 64-byte line of a tile at a time.
+// A capped distance transform of thin edges is cheapest backwards: instead of asking every pixel for its
+// nearest edge, every edge point lowers the values in the disc around it, one 64-byte line of a tile at a
+// time.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -19,14 +21,16 @@ namespace {
 constexpr int tile = DCD_TILE;
 constexpr int band_rows = 16;
 
-// Distances of a disc, one row for every |dy|, in units of 1/256 px. Each row is padded by a tile on both sides, so that
-// a whole line may be read wherever the seed lies in its tile.
+// Distances of a disc, one row for every |dy|, in units of 1/256 px. Each row is padded by a tile on both
+// sides, so that a whole line may be read wherever the seed lies in its tile.
 struct Stamp {
   int radius;
   int row_stride;
   std::vector<int> half_width;          // last dx below the cap, by |dy|
   std::vector<std::uint16_t> distance;  // [|dy|][dx + radius + tile]
-  const std::uint16_t* row(int abs_dy) const { return distance.data() + std::size_t(abs_dy) * row_stride + radius + tile; }
+  const std::uint16_t* row(int abs_dy) const {
+    return distance.data() + std::size_t(abs_dy) * row_stride + radius + tile;
+  }
 };
 
 Stamp make_stamp(std::uint16_t cap) {
@@ -70,9 +74,10 @@ Plan make_plan(std::span<const EdgePoint> edges, int width, int height, const Te
   std::sort(plan.seeds.begin(), plan.seeds.end(), [](const Seed& a, const Seed& b) {
     return std::tie(a.y, a.bin, a.x) < std::tie(b.y, b.bin, b.x);
   });
-  plan.seeds.erase(std::unique(plan.seeds.begin(), plan.seeds.end(),
-                               [](const Seed& a, const Seed& b) { return a.x == b.x && a.y == b.y && a.bin == b.bin; }),
-                   plan.seeds.end());
+  plan.seeds.erase(
+      std::unique(plan.seeds.begin(), plan.seeds.end(),
+                  [](const Seed& a, const Seed& b) { return a.x == b.x && a.y == b.y && a.bin == b.bin; }),
+      plan.seeds.end());
   plan.row_end.assign(height + 1, 0);
   for (const Seed& seed : plan.seeds) ++plan.row_end[seed.y + 1];
   for (int y = 0; y < height; ++y) plan.row_end[y + 1] += plan.row_end[y];
@@ -81,7 +86,8 @@ Plan make_plan(std::span<const EdgePoint> edges, int width, int height, const Te
 
 // Lowers one row of one bin around a seed. `line` is the bin's line in the row's first tile.
 EDGESCOUT_SIMD_CLONES
-void stamp_row(std::uint16_t* line, std::size_t tile_stride, const std::uint16_t* distance, int x, int first_tile, int last_tile) {
+void stamp_row(std::uint16_t* line, std::size_t tile_stride, const std::uint16_t* distance, int x,
+               int first_tile, int last_tile) {
   for (int t = first_tile; t <= last_tile; ++t) {
     std::uint16_t* to = line + t * tile_stride;
     const std::uint16_t* from = distance + (t * tile - x);
@@ -100,7 +106,8 @@ void stamp_seeds(const Plan& plan, int y0, int y1, std::uint16_t* out) {
       if (reach < 0) continue;
       const int first = std::max(0, seed.x - reach) / tile;
       const int last = std::min(plan.shape.width - 1, seed.x + reach) / tile;
-      stamp_row(out + y * row_stride + std::size_t(seed.bin) * tile, tile_stride, plan.stamp.row(dy), seed.x, first, last);
+      stamp_row(out + y * row_stride + std::size_t(seed.bin) * tile, tile_stride, plan.stamp.row(dy), seed.x,
+                first, last);
     }
   }
 }
@@ -114,8 +121,8 @@ inline void relax(std::uint16_t* to, const std::uint16_t* from, std::uint16_t st
   }
 }
 
-// Eqs. 5 and 6 in a tile that sits in the first-level cache. One turn settles everything that does not cross bin 0;
-// the second round carries on as far as a value can still count.
+// Eqs. 5 and 6 in a tile that sits in the first-level cache. One turn settles everything that does not cross
+// bin 0; the second round carries on as far as a value can still count.
 EDGESCOUT_SIMD_CLONES
 void recurse_tile(std::uint16_t* values, int bins, std::uint16_t step, int second_round) {
   const auto line = [&](int k) { return values + std::size_t(k) * tile; };
@@ -124,7 +131,8 @@ void recurse_tile(std::uint16_t* values, int bins, std::uint16_t step, int secon
 }
 
 EDGESCOUT_SIMD_CLONES
-void smooth_tile(std::uint16_t* values, int bins, const std::uint16_t* weights, int radius, std::uint16_t* scratch) {
+void smooth_tile(std::uint16_t* values, int bins, const std::uint16_t* weights, int radius,
+                 std::uint16_t* scratch) {
   const std::size_t line_bytes = tile * sizeof(std::uint16_t);
   std::memcpy(scratch, values + std::size_t(bins - radius) * tile, radius * line_bytes);
   std::memcpy(scratch + std::size_t(radius) * tile, values, bins * line_bytes);

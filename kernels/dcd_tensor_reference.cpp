@@ -18,7 +18,8 @@ std::vector<std::int64_t> squared_distances(const std::vector<char>& seeds, int 
   for (int y = 0; y < height; ++y) {
     const std::size_t row = std::size_t(y) * width;
     std::int64_t since = far_away;
-    for (int x = 0; x < width; ++x) row_distance[row + x] = since = seeds[row + x] ? 0 : std::min(far_away, since + 1);
+    for (int x = 0; x < width; ++x)
+      row_distance[row + x] = since = seeds[row + x] ? 0 : std::min(far_away, since + 1);
     since = far_away;
     for (int x = width - 1; x >= 0; --x) {
       since = seeds[row + x] ? 0 : std::min(far_away, since + 1);
@@ -50,7 +51,8 @@ void recurse(std::vector<std::uint32_t>& column, std::uint32_t step) {
   }
 }
 
-std::vector<std::uint32_t> smooth(const std::vector<std::uint32_t>& column, const std::vector<std::uint16_t>& weights) {
+std::vector<std::uint32_t> smooth(const std::vector<std::uint32_t>& column,
+                                  const std::vector<std::uint16_t>& weights) {
   const int bins = static_cast<int>(column.size()), radius = static_cast<int>(weights.size()) - 1;
   std::vector<std::uint32_t> smoothed(column.size());
   for (int k = 0; k < bins; ++k) {
@@ -72,11 +74,13 @@ std::vector<std::uint16_t> dcd_tensor_reference(std::span<const EdgePoint> edges
   for (int bin = 0; bin < shape.bins; ++bin) {
     std::vector<char> seeds(std::size_t(width) * height, 0);
     for (const EdgePoint& edge : edges)
-      if (const Seed seed = seed_of(edge, shape); seed.bin == bin) seeds[std::size_t(seed.y) * width + seed.x] = 1;
+      if (const Seed seed = seed_of(edge, shape); seed.bin == bin)
+        seeds[std::size_t(seed.y) * width + seed.x] = 1;
     const std::vector<std::int64_t> squared = squared_distances(seeds, width, height);
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
-        const double units = std::round(DCD_UNITS_PER_PX * std::sqrt(double(squared[std::size_t(y) * width + x])));
+        const double units =
+            std::round(DCD_UNITS_PER_PX * std::sqrt(double(squared[std::size_t(y) * width + x])));
         tensor[shape.index(x, y, bin)] = static_cast<std::uint16_t>(std::min(double(cap), units));
       }
   }
@@ -87,7 +91,8 @@ std::vector<std::uint16_t> dcd_tensor_reference(std::span<const EdgePoint> edges
       for (int k = 0; k < shape.bins; ++k) column[k] = tensor[shape.index(x, y, k)];
       recurse(column, orientation_step(options));
       const std::vector<std::uint32_t> smoothed = smooth(column, weights);
-      for (int k = 0; k < shape.bins; ++k) tensor[shape.index(x, y, k)] = static_cast<std::uint16_t>(smoothed[k]);
+      for (int k = 0; k < shape.bins; ++k)
+        tensor[shape.index(x, y, k)] = static_cast<std::uint16_t>(smoothed[k]);
     }
   return tensor;
 }

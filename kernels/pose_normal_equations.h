@@ -13,7 +13,8 @@
 // Outside the image the value is that of the nearest border pixel plus the distance to it in px: smooth,
 // growing, pulling back. A point at or behind z = POSE_MIN_DEPTH_M counts in `behind` and nowhere else.
 //
-// Orientation: xi = atan2(dy, dx) mod pi of the projected tangent, d = d(projection) * (R tangent).
+// Orientation: xi = atan2(dy, dx) mod pi of the projected tangent, d = d(projection) * (R tangent). An edge seen end on has none
+// that could be trusted: where |d| < POSE_MIN_FORESHORTENING * fx * z the derivative by orientation counts as zero.
 //
 // Agreement: reference accumulates in double; the fast path and Vulkan in float by groups of points; sums agree to
 // 1e-3 relative to the largest entry of the same system (order of summation and the device's atan2).
@@ -40,6 +41,7 @@ namespace edgescout {
 class ThreadPool;
 
 inline constexpr float POSE_MIN_DEPTH_M = 1e-3f;
+inline constexpr float POSE_MIN_FORESHORTENING = 0.05f;
 
 // A tensor with the camera that saw it.
 struct TensorView {

@@ -1,5 +1,5 @@
-// The same systems on the CPU, fast: points in groups of 16 lanes, arithmetic in loops the compiler turns into vectors, only the
-// tensor's reads one by one; problems spread over the threads.
+// The same systems on the CPU, fast: points in groups of 16 lanes, arithmetic in loops the compiler turns
+// into vectors, only the tensor's reads one by one; problems spread over the threads.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -27,7 +27,9 @@ inline float undirected_angle(float dx, float dy) {
   const float ax = std::fabs(dx), ay = std::fabs(dy);
   const float big = std::max(std::max(ax, ay), 1e-30f), small = std::min(ax, ay);
   const float t = small / big, t2 = t * t;
-  float a = t * (0.99997726f + t2 * (-0.33262347f + t2 * (0.19354346f + t2 * (-0.11643287f + t2 * (0.05265332f - t2 * 0.01172120f)))));
+  float a = t * (0.99997726f +
+                 t2 * (-0.33262347f +
+                       t2 * (0.19354346f + t2 * (-0.11643287f + t2 * (0.05265332f - t2 * 0.01172120f)))));
   a = ay > ax ? 0.5f * pi - a : a;
   a = (dx < 0) != (dy < 0) ? pi - a : a;
   return a >= pi ? a - pi : a;
@@ -35,19 +37,19 @@ inline float undirected_angle(float dx, float dy) {
 
 struct Group {
   Lanes active, arm[3], point[3], tangent[3];
-  Lanes u, v, dx, dy, turn;        // turn: orientation in bins
-  Lanes value, slope[3];           // of the tensor, slope by u, v, bins
+  Lanes u, v, dx, dy, turn;  // turn: orientation in bins
+  Lanes value, slope[3];     // of the tensor, slope by u, v, bins
 };
 
-inline __attribute__((always_inline)) void load_points(const ModelPoint* models, int count, const Pose& pose, const Intrinsics& k,
-                                                       float bins_per_rad, Group& g) {
+inline __attribute__((always_inline)) void load_points(const ModelPoint* models, int count, const Pose& pose,
+                                                       const Intrinsics& k, float bins_per_rad, Group& g) {
   Lanes m[6];
   for (int i = 0; i < lanes; ++i) {
     const ModelPoint& p = models[std::min(i, count - 1)];
     m[0][i] = p.x_m, m[1][i] = p.y_m, m[2][i] = p.z_m, m[3][i] = p.tx, m[4][i] = p.ty, m[5][i] = p.tz;
   }
   for (int r = 0; r < 3; ++r) {
-    const float *row = pose.m + 4 * r;
+    const float* row = pose.m + 4 * r;
     for (int i = 0; i < lanes; ++i) {
       g.arm[r][i] = row[0] * m[0][i] + row[1] * m[1][i] + row[2] * m[2][i];
       g.tangent[r][i] = row[0] * m[3][i] + row[1] * m[4][i] + row[2] * m[5][i];
@@ -79,11 +81,15 @@ inline __attribute__((always_inline)) void read_tensor(const TensorView& view, G
     const int k0 = std::min(int(g.turn[i]), s.bins - 1), k1 = k0 + 1 == s.bins ? 0 : k0 + 1;
     const float ax = x - float(x0), ay = y - float(y0), ak = g.turn[i] - float(k0);
     const std::size_t row = std::size_t(tiles) * s.bins * DCD_TILE;
-    const auto line = [&](int px) { return std::size_t(px / int(DCD_TILE)) * s.bins * DCD_TILE + px % int(DCD_TILE); };
+    const auto line = [&](int px) {
+      return std::size_t(px / int(DCD_TILE)) * s.bins * DCD_TILE + px % int(DCD_TILE);
+    };
     const std::uint16_t *left = tensor + y0 * row + line(x0), *right = tensor + y0 * row + line(x1);
-    const std::size_t down = std::size_t(y1 - y0) * row, a = std::size_t(k0) * DCD_TILE, b = std::size_t(k1) * DCD_TILE;
+    const std::size_t down = std::size_t(y1 - y0) * row, a = std::size_t(k0) * DCD_TILE,
+                      b = std::size_t(k1) * DCD_TILE;
     const float s00 = float(left[b]) - float(left[a]), s10 = float(right[b]) - float(right[a]);
-    const float s01 = float(left[down + b]) - float(left[down + a]), s11 = float(right[down + b]) - float(right[down + a]);
+    const float s01 = float(left[down + b]) - float(left[down + a]),
+                s11 = float(right[down + b]) - float(right[down + a]);
     const float v00 = float(left[a]) + ak * s00, v10 = float(right[a]) + ak * s10;
     const float v01 = float(left[down + a]) + ak * s01, v11 = float(right[down + a]) + ak * s11;
     const float top = v00 + ax * (v10 - v00), bottom = v01 + ax * (v11 - v01);
@@ -103,11 +109,13 @@ inline __attribute__((always_inline)) void accumulate(const Group& g, const Intr
   const bool huber = loss.kind == LOSS_HUBER;
   for (int i = 0; i < lanes; ++i) {
     const float inverse = 1.0f / g.point[2][i], norm2 = g.dx[i] * g.dx[i] + g.dy[i] * g.dy[i];
-    const float by_angle = norm2 > 1e-12f ? g.slope[2][i] * bins_per_rad / norm2 : 0.0f;
+    const float least = POSE_MIN_FORESHORTENING * k.fx * g.point[2][i];
+    const float by_angle = norm2 > least * least ? g.slope[2][i] * bins_per_rad / norm2 : 0.0f;
     const float along_x = -by_angle * g.dy[i] * k.fx, along_y = by_angle * g.dx[i] * k.fy;
     const float su = g.slope[0][i] * k.fx * inverse, sv = g.slope[1][i] * k.fy * inverse;
     const float bp0 = su - along_x * g.tangent[2][i], bp1 = sv - along_y * g.tangent[2][i];
-    const float bp2 = -(su * g.point[0][i] + sv * g.point[1][i]) * inverse + along_x * g.tangent[0][i] + along_y * g.tangent[1][i];
+    const float bp2 = -(su * g.point[0][i] + sv * g.point[1][i]) * inverse + along_x * g.tangent[0][i] +
+                      along_y * g.tangent[1][i];
     const float bt0 = along_x * g.point[2][i], bt1 = along_y * g.point[2][i];
     const float bt2 = -along_x * g.point[0][i] - along_y * g.point[1][i];
     j[0][i] = bp0, j[1][i] = bp1, j[2][i] = bp2;
@@ -133,13 +141,14 @@ inline __attribute__((always_inline)) void accumulate(const Group& g, const Intr
 }
 
 EDGESCOUT_SIMD_CLONES
-void sum_problem(const TensorView& view, const ModelPoint* models, std::uint32_t count, const Pose& pose, const PoseLoss& loss,
-                 float* totals) {
+void sum_problem(const TensorView& view, const ModelPoint* models, std::uint32_t count, const Pose& pose,
+                 const PoseLoss& loss, float* totals) {
   const float bins_per_rad = float(view.shape.bins) / 3.14159265f;
   Lanes sums[sum_count] = {};
   for (std::uint32_t first = 0; first < count; first += lanes) {
     Group group;
-    load_points(models + first, static_cast<int>(std::min<std::uint32_t>(lanes, count - first)), pose, view.intrinsics, bins_per_rad, group);
+    load_points(models + first, static_cast<int>(std::min<std::uint32_t>(lanes, count - first)), pose,
+                view.intrinsics, bins_per_rad, group);
     read_tensor(view, group);
     accumulate(group, view.intrinsics, bins_per_rad, loss, sums);
   }
@@ -157,10 +166,12 @@ void pose_normal_equations_fast(std::span<const TensorView> views, std::span<con
   check(out.size() == problems.size(), "pose_normal_equations: as many systems as problems");
   pool.for_each(problems.size(), [&](std::size_t i) {
     const PoseProblem& problem = problems[i];
-    check(std::size_t(problem.first_point) + problem.point_count <= points.size(), "pose_normal_equations: points beyond the list");
+    check(std::size_t(problem.first_point) + problem.point_count <= points.size(),
+          "pose_normal_equations: points beyond the list");
     check(problem.view < views.size(), "pose_normal_equations: no such view");
     float totals[sum_count] = {};
-    sum_problem(views[problem.view], points.data() + problem.first_point, problem.point_count, problem.camera_from_object, loss, totals);
+    sum_problem(views[problem.view], points.data() + problem.first_point, problem.point_count,
+                problem.camera_from_object, loss, totals);
     NormalEquations& system = out[i];
     std::copy(totals, totals + 21, system.hessian);
     std::copy(totals + 21, totals + 27, system.gradient);

@@ -22,15 +22,22 @@ Residual residual_of(const TensorView& view, const PosedPoint<double>& p) {
   const double z = p.point.z;
   // By the point: through the projection and through the orientation, xi = atan2(dy, dx).
   const double norm2 = edge.dx * edge.dx + edge.dy * edge.dy;
-  const double along_x = norm2 > 1e-12 ? -slope[2] * edge.dy / norm2 * k.fx : 0;  // by the x part of d, without fx
-  const double along_y = norm2 > 1e-12 ? slope[2] * edge.dx / norm2 * k.fy : 0;
-  const Vec3<double> by_point{slope[0] * k.fx / z - along_x * p.tangent.z, slope[1] * k.fy / z - along_y * p.tangent.z,
+  const double least = POSE_MIN_FORESHORTENING * k.fx * z;
+  const bool oriented = norm2 > least * least;
+  const double along_x = oriented ? -slope[2] * edge.dy / norm2 * k.fx : 0;  // by the x part of d, without fx
+  const double along_y = oriented ? slope[2] * edge.dx / norm2 * k.fy : 0;
+  const Vec3<double> by_point{slope[0] * k.fx / z - along_x * p.tangent.z,
+                              slope[1] * k.fy / z - along_y * p.tangent.z,
                               -(slope[0] * k.fx * p.point.x + slope[1] * k.fy * p.point.y) / (z * z) +
                                   along_x * p.tangent.x + along_y * p.tangent.y};
   const Vec3<double> by_tangent{along_x * z, along_y * z, -along_x * p.point.x - along_y * p.point.y};
   const Vec3<double> turn_point = cross(p.arm, by_point), turn_tangent = cross(p.tangent, by_tangent);
-  const double jacobian[6] = {by_point.x, by_point.y, by_point.z, turn_point.x + turn_tangent.x,
-                              turn_point.y + turn_tangent.y, turn_point.z + turn_tangent.z};
+  const double jacobian[6] = {by_point.x,
+                              by_point.y,
+                              by_point.z,
+                              turn_point.x + turn_tangent.x,
+                              turn_point.y + turn_tangent.y,
+                              turn_point.z + turn_tangent.z};
   for (int i = 0; i < 6; ++i) r.jacobian[i] = jacobian[i];
   return r;
 }
@@ -40,7 +47,8 @@ struct Weighted {
 };
 Weighted apply_loss(const PoseLoss& loss, double r) {
   const double s = loss.scale_px;
-  if (loss.kind == LOSS_HUBER) return r <= s ? Weighted{0.5 * r * r, 1.0} : Weighted{s * (r - 0.5 * s), s / r};
+  if (loss.kind == LOSS_HUBER)
+    return r <= s ? Weighted{0.5 * r * r, 1.0} : Weighted{s * (r - 0.5 * s), s / r};
   const double q = s * s / (s * s + r * r);
   return {0.5 * q * r * r, q * q};
 }

@@ -22,20 +22,23 @@ std::vector<std::int16_t> image_gradient_x2(const ImageView& image) {
 
 namespace {
 
-// |n . g| / |g| with n the unit normal of the projected edge (Eq. 10); 0 where the gradient is too weak to have a direction.
+// |n . g| / |g| with n the unit normal of the projected edge (Eq. 10); 0 where the gradient is too weak to
+// have a direction.
 template <typename T>
 T direction_agreement(const ScoreView& view, const ProjectedEdge<T>& edge, float min_gradient) {
   const TensorShape& s = view.tensor.shape;
   const int x = int(std::floor(edge.u + T(0.5))), y = int(std::floor(edge.v + T(0.5)));
   const std::int16_t* g = view.gradient_x2.data() + 2 * (std::size_t(y) * s.width + x);
-  const T gx = g[0], gy = g[1], strength2 = gx * gx + gy * gy, length2 = edge.dx * edge.dx + edge.dy * edge.dy;
+  const T gx = g[0], gy = g[1], strength2 = gx * gx + gy * gy,
+          length2 = edge.dx * edge.dx + edge.dy * edge.dy;
   const T floor2 = T(4) * min_gradient * min_gradient;
   if (strength2 < floor2 || strength2 == 0 || length2 == 0) return 0;
   return std::abs(edge.dx * gy - edge.dy * gx) / std::sqrt(strength2 * length2);
 }
 
 template <typename T>
-PoseScore score_problem(const ScoreView& view, std::span<const ModelPoint> points, const Pose& pose, const PoseScoreOptions& options) {
+PoseScore score_problem(const ScoreView& view, std::span<const ModelPoint> points, const Pose& pose,
+                        const PoseScoreOptions& options) {
   T value_sum = 0, psi_sum = 0;
   int inside = 0, matched = 0;
   const TensorShape& s = view.tensor.shape;
@@ -43,8 +46,10 @@ PoseScore score_problem(const ScoreView& view, std::span<const ModelPoint> point
     const PosedPoint<T> posed = pose_point<T>(pose, model);
     if (posed.point.z <= POSE_MIN_DEPTH_M) continue;
     const ProjectedEdge<T> edge = project_edge(posed, view.tensor.intrinsics);
-    if (!(edge.u >= T(-0.5) && edge.u < s.width - T(0.5) && edge.v >= T(-0.5) && edge.v < s.height - T(0.5))) continue;
-    const float value = tensor_lookup(view.tensor, float(edge.u), float(edge.v), float(orientation(edge.dx, edge.dy)), nullptr);
+    if (!(edge.u >= T(-0.5) && edge.u < s.width - T(0.5) && edge.v >= T(-0.5) && edge.v < s.height - T(0.5)))
+      continue;
+    const float value = tensor_lookup(view.tensor, float(edge.u), float(edge.v),
+                                      float(orientation(edge.dx, edge.dy)), nullptr);
     ++inside;
     value_sum += value;
     matched += value < options.match_px;
@@ -57,20 +62,24 @@ PoseScore score_problem(const ScoreView& view, std::span<const ModelPoint> point
 }  // namespace
 
 void pose_score_reference(std::span<const ScoreView> views, std::span<const ModelPoint> points,
-                          std::span<const PoseProblem> problems, const PoseScoreOptions& options, std::span<PoseScore> out) {
+                          std::span<const PoseProblem> problems, const PoseScoreOptions& options,
+                          std::span<PoseScore> out) {
   check(out.size() == problems.size(), "pose_score: as many scores as problems");
   for (std::size_t i = 0; i < problems.size(); ++i)
-    out[i] = score_problem<double>(views[problems[i].view], points.subspan(problems[i].first_point, problems[i].point_count),
+    out[i] = score_problem<double>(views[problems[i].view],
+                                   points.subspan(problems[i].first_point, problems[i].point_count),
                                    problems[i].camera_from_object, options);
 }
 
 void pose_score_fast(std::span<const ScoreView> views, std::span<const ModelPoint> points,
-                     std::span<const PoseProblem> problems, const PoseScoreOptions& options, std::span<PoseScore> out, ThreadPool& pool) {
+                     std::span<const PoseProblem> problems, const PoseScoreOptions& options,
+                     std::span<PoseScore> out, ThreadPool& pool) {
   check(out.size() == problems.size(), "pose_score: as many scores as problems");
   constexpr std::size_t chunk = 16;
   pool.for_each((problems.size() + chunk - 1) / chunk, [&](std::size_t c) {
     for (std::size_t i = c * chunk; i < std::min(problems.size(), (c + 1) * chunk); ++i)
-      out[i] = score_problem<float>(views[problems[i].view], points.subspan(problems[i].first_point, problems[i].point_count),
+      out[i] = score_problem<float>(views[problems[i].view],
+                                    points.subspan(problems[i].first_point, problems[i].point_count),
                                     problems[i].camera_from_object, options);
   });
 }

@@ -1,14 +1,14 @@
 // Mean tensor value of many templates, each at many places of the image (paper, Eq. 7).
 //
 // A template is a list of image points with orientation bins, relative to an anchor. A job is one template
-// on a rectangle of anchors, step 1 px; its answer is the anchor with the lowest mean (ties: lowest y, then
-// lowest x) and that mean. A job of one anchor is the plain Eq. 7.
+// on a rectangle of anchors, `anchor_step` px apart: (x0 + step * column, y0 + step * row). Its answer is the anchor with the
+// lowest sum (ties: lowest y, then lowest x). A job of one anchor is the plain Eq. 7.
 //
-// Values are read as v8 = min(255, (v16 + 2^(s-1)) >> s) with s = TEMPLATE_SCORE_SHIFT, so 1/16 px units and a cap of
-// 15.94 px: this kernel runs on a coarse tensor (the image reduced by 2 to 6), where that is 30 to
-// 100 px of the image. Points that fall outside the image count as 255. The sum of at most 256 points fits 16 bits.
+// Values are read with 6 bits, v6 = min(63, (v16 + 2^(s-1)) >> s) with s = TEMPLATE_SCORE_SHIFT, so in units of 1/4 px and with a cap
+// of 15.75 px: this kernel runs on a coarse tensor (the image reduced by 2 to 6), where that is 30 to 100 px of the image, and four
+// such values add up in one byte. Points that fall outside the image count as 63.
 //
-// Agreement: the sums are integers and equal on every path, bit for bit; mean_px = sum / (16 * points).
+// Agreement: the sums are integers and equal on every path, bit for bit; mean_px = sum / (4 * points).
 #ifndef EDGESCOUT_TEMPLATE_SCORE_H
 #define EDGESCOUT_TEMPLATE_SCORE_H
 
@@ -17,7 +17,8 @@
 #ifdef __cplusplus
 namespace edgescout {
 #endif
-EDGESCOUT_CONST(TEMPLATE_SCORE_SHIFT, 4);
+EDGESCOUT_CONST(TEMPLATE_SCORE_SHIFT, 6);
+EDGESCOUT_CONST(TEMPLATE_SCORE_OUTSIDE, 63);
 EDGESCOUT_CONST(TEMPLATE_SCORE_MAX_POINTS, 256);
 #ifdef __cplusplus
 }  // namespace edgescout
@@ -45,16 +46,16 @@ struct TemplateJob {
 };
 
 struct TemplateHit {
-  std::uint32_t sum;  // of v8 over the template's points, at the best anchor
+  std::uint32_t sum;  // of v6 over the template's points, at the best anchor
   std::int32_t x, y;
 };
 
 void template_score_reference(std::span<const std::uint16_t> tensor, const TensorShape& shape,
                               std::span<const TemplatePoint> points, std::span<const TemplateJob> jobs,
-                              std::span<TemplateHit> hits);
+                              int anchor_step, std::span<TemplateHit> hits);
 void template_score_fast(std::span<const std::uint16_t> tensor, const TensorShape& shape,
                          std::span<const TemplatePoint> points, std::span<const TemplateJob> jobs,
-                         std::span<TemplateHit> hits, ThreadPool& pool);
+                         int anchor_step, std::span<TemplateHit> hits, ThreadPool& pool);
 
 }  // namespace edgescout
 #endif
