@@ -1,0 +1,208 @@
+#include "host/register/d2co.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Cholesky>
+
+#include "host/register/world_system.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+// What Levenberg-Marquardt remembers of one pose between two kernel calls.
+struct Track {
+  Se3 pose, trial;
+  WorldSystem system;
+  Vector6d step = Vector6d::Zero();
+  double damping = 1e-3;
+  bool active = true;
+  int iterations = 0;
+  Convergence reason = Convergence::IterationLimit;
+};
+
+std::vector<ModelPoint> thinned(const std::vector<ModelPoint>& points, int most) {
+  if (most <= 0 || int(points.size()) <= most) return points;
+  std::vector<ModelPoint> kept(most);
+  for (int i = 0; i < most; ++i) kept[i] = points[std::size_t(i) * points.size() / most];
+  return kept;
+}
+
+// Visible points of every (hypothesis, view), in one list.
+struct PointSets {
+  std::vector<ModelPoint> points;
+  std::vector<std::uint32_t> first, count;  // [hypothesis * views + view]
+};
+
+PointSets collect_points(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses, std::span<const Track> tracks,
+                         std::span<const RegisterView> views, Backend& backend, const D2coOptions& options, int most) {
+  std::vector<std::vector<ModelPoint>> lists(hypotheses.size() * views.size());
+  for (int object = 0; object < int(models.size()); ++object) {
+    std::vector<Se3> poses;
+    std::vector<std::size_t> slots;
+    for (std::size_t h = 0; h < hypotheses.size(); ++h)
+      for (std::size_t v = 0; hypotheses[h].object == object && v < views.size(); ++v) {
+        poses.push_back(views[v].camera_from_world * tracks[h].pose);
+        slots.push_back(h * views.size() + v);
+      }
+    std::vector<std::vector<ModelPoint>> visible = visible_edges(models[object], poses, backend, options.visibility);
+    for (std::size_t i = 0; i < slots.size(); ++i) lists[slots[i]] = std::move(visible[i]);
+  }
+  PointSets sets;
+  for (const std::vector<ModelPoint>& list : lists) {
+    const std::vector<ModelPoint> kept = thinned(list, most);
+    sets.first.push_back(static_cast<std::uint32_t>(sets.points.size()));
+    sets.count.push_back(static_cast<std::uint32_t>(kept.size()));
+    sets.points.insert(sets.points.end(), kept.begin(), kept.end());
+  }
+  return sets;
+}
+
+class Evaluator {
+ public:
+  Evaluator(const PointSets& sets, std::span<const RegisterView> views, Backend& backend, const PoseLoss& loss)
+      : sets_(sets), views_(views), backend_(backend), loss_(loss) {
+    for (const RegisterView& view : views) handles_.push_back(view.view);
+  }
+
+  // Systems at the trial poses of the active tracks, in the tracks' order; inactive ones stay empty.
+  std::vector<WorldSystem> at_trials(std::span<const Track> tracks) {
+    problems_.clear();
+    for (std::size_t h = 0; h < tracks.size(); ++h)
+      for (std::size_t v = 0; tracks[h].active && v < views_.size(); ++v) {
+        const std::size_t slot = h * views_.size() + v;
+        problems_.push_back({to_pose(views_[v].camera_from_world * tracks[h].trial), sets_.first[slot], sets_.count[slot],
+                             static_cast<std::uint32_t>(v)});
+      }
+    results_.resize(problems_.size());
+    backend_.pose_normal_equations(handles_, sets_.points, problems_, loss_, results_);
+    std::vector<WorldSystem> systems(tracks.size());
+    std::size_t next = 0;
+    for (std::size_t h = 0; h < tracks.size(); ++h)
+      for (std::size_t v = 0; tracks[h].active && v < views_.size(); ++v) add_view(systems[h], results_[next++], views_[v].camera_from_world);
+    return systems;
+  }
+
+ private:
+  const PointSets& sets_;
+  std::span<const RegisterView> views_;
+  Backend& backend_;
+  PoseLoss loss_;
+  std::vector<ViewHandle> handles_;
+  std::vector<PoseProblem> problems_;
+  std::vector<NormalEquations> results_;
+};
+
+// Marquardt's damping scales with the diagonal, so metres and radians are damped alike: by the image motion they cause.
+void propose(Track& track) {
+  Matrix6d damped = track.system.hessian;
+  const double floor = 1e-9 * damped.diagonal().maxCoeff();
+  for (int i = 0; i < 6; ++i) damped(i, i) += track.damping * damped(i, i) + floor;
+  track.step = -damped.ldlt().solve(track.system.gradient);
+  if (!track.step.allFinite()) track.step.setZero();
+  track.trial = retract(track.pose, track.step);
+}
+
+void judge(Track& track, const WorldSystem& at_trial, const D2coOptions& options) {
+  ++track.iterations;
+  // Points that left through the camera plane must not look like progress: compare means.
+  const bool better = at_trial.points > 0 && at_trial.cost / at_trial.points < track.system.cost / track.system.points;
+  if (better) {
+    track.pose = track.trial;
+    track.system = at_trial;
+    track.damping = std::max(1e-7, track.damping * 0.2);
+  } else {
+    track.damping *= 6;
+  }
+  const bool small = track.step.head<3>().norm() < options.min_step_m && track.step.tail<3>().norm() < options.min_step_rad;
+  if (small) track.active = false, track.reason = Convergence::SmallStep;
+  if (!better && track.damping > 1e6) track.active = false, track.reason = Convergence::NoDecrease;
+}
+
+void run_round(std::span<Track> tracks, Evaluator& evaluator, const D2coRound& round, const D2coOptions& options) {
+  for (Track& track : tracks) {
+    track.active = true;
+    track.damping = 1e-3;
+    track.trial = track.pose;
+    track.reason = Convergence::IterationLimit;
+  }
+  std::vector<WorldSystem> systems = evaluator.at_trials(tracks);
+  for (std::size_t h = 0; h < tracks.size(); ++h) {
+    tracks[h].system = systems[h];
+    if (systems[h].points == 0) tracks[h].active = false, tracks[h].reason = Convergence::NoPoints;
+  }
+  for (int i = 0; i < round.iterations; ++i) {
+    if (std::ranges::none_of(tracks, [](const Track& t) { return t.active; })) return;
+    for (Track& track : tracks)
+      if (track.active) propose(track);
+    systems = evaluator.at_trials(tracks);
+    for (std::size_t h = 0; h < tracks.size(); ++h)
+      if (tracks[h].active) judge(tracks[h], systems[h], options);
+  }
+}
+
+Registration finish(const Track& track) {
+  Registration result;
+  result.world_from_object = track.pose;
+  const WorldSystem& system = track.system;
+  result.cost_px2 = system.cost;
+  result.points = static_cast<int>(system.points);
+  result.mean_px = system.points > 0 ? system.residual_sum / system.points : 0;
+  result.iterations = track.iterations;
+  result.reason = track.reason;
+  const double variance = 2 * system.cost / std::max(1.0, system.weight_sum - 6);
+  const Eigen::LDLT<Matrix6d> factor(system.hessian);
+  if (system.points > 6 && factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0)
+    result.covariance = variance * factor.solve(Matrix6d::Identity());
+  else
+    result.covariance.diagonal().setConstant(std::numeric_limits<double>::infinity());
+  return result;
+}
+
+}  // namespace
+
+std::vector<D2coRound> D2coOptions::default_rounds() {
+  return {{LOSS_GEMAN_MCCLURE, 30, 12, 400}, {LOSS_GEMAN_MCCLURE, 15, 12, 500}, {LOSS_GEMAN_MCCLURE, 8, 12, 700},
+          {LOSS_GEMAN_MCCLURE, 4, 12, 0},    {LOSS_GEMAN_MCCLURE, 2, 12, 0}};
+}
+
+void D2coOptions::validate() const {
+  if (rounds.empty()) throw InputError("options", "register.rounds", "none", "at least one round");
+  for (const D2coRound& round : rounds) {
+    if (!(round.scale_px > 0 && round.scale_px <= 1000))
+      throw InputError("options", "register.scale", std::to_string(round.scale_px), "a loss scale in (0, 1000] px");
+    if (round.iterations < 1 || round.iterations > 1000)
+      throw InputError("options", "register.iterations", std::to_string(round.iterations), "a number in [1, 1000]");
+  }
+}
+
+std::string to_string(Convergence reason) {
+  switch (reason) {
+    case Convergence::SmallStep: return "small step";
+    case Convergence::NoDecrease: return "no decrease";
+    case Convergence::IterationLimit: return "iteration limit";
+    case Convergence::NoPoints: return "no visible points";
+  }
+  throw LogicError("unknown convergence reason");
+}
+
+std::vector<Registration> register_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
+                                         std::span<const RegisterView> views, Backend& backend, const D2coOptions& options) {
+  options.validate();
+  check(!views.empty(), "register_poses: at least one view");
+  std::vector<Track> tracks(hypotheses.size());
+  for (std::size_t h = 0; h < hypotheses.size(); ++h) tracks[h].pose = hypotheses[h].world_from_object;
+  for (const D2coRound& round : options.rounds) {
+    const PointSets sets = collect_points(models, hypotheses, tracks, views, backend, options, round.max_points);
+    Evaluator evaluator(sets, views, backend, {round.loss, round.scale_px});
+    run_round(tracks, evaluator, round, options);
+  }
+  std::vector<Registration> results;
+  for (const Track& track : tracks) results.push_back(finish(track));
+  return results;
+}
+
+}  // namespace edgescout
