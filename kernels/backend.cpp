@@ -1,0 +1,68 @@
+// The choice of a backend by name, and the timings every backend keeps.
+#include "kernels/backend.h"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include "kernels/error.h"
+
+namespace edgescout {
+
+std::vector<StageTime> Backend::take_timings() { return std::exchange(timings_, {}); }
+
+void Backend::add_time(const std::string& name, double seconds) {
+  auto row = std::ranges::find(timings_, name, &StageTime::name);
+  if (row == timings_.end()) row = timings_.insert(row, StageTime{name, 0, 0});
+  row->seconds += seconds;
+  ++row->calls;
+}
+
+#ifndef EDGESCOUT_VULKAN
+std::vector<DeviceInfo> vulkan_devices() { return {}; }
+
+std::unique_ptr<Backend> make_vulkan_backend(int, bool) {
+  throw InputError("options", "device", "vulkan", "cpu or cpu-reference: edgescout was built without Vulkan");
+}
+#endif
+
+namespace {
+
+constexpr const char* vulkan_prefix = "vulkan:";
+
+std::unique_ptr<Backend> make_checked_vulkan(int index, const std::string& choice) {
+#ifdef EDGESCOUT_VULKAN
+  const std::size_t count = vulkan_devices().size();
+  if (index < 0 || static_cast<std::size_t>(index) >= count)
+    throw InputError("options", "device", choice,
+                     count == 0 ? "a Vulkan device, of which this machine has none: try cpu"
+                                : "vulkan:0 to vulkan:" + std::to_string(count - 1));
+#endif
+  (void)choice;
+  return make_vulkan_backend(index);
+}
+
+std::unique_ptr<Backend> make_automatic() {
+  for (const DeviceInfo& device : vulkan_devices())
+    if (device.hardware) return make_vulkan_backend(device.index);
+  return make_cpu_backend();
+}
+
+}  // namespace
+
+std::unique_ptr<Backend> make_backend(const std::string& choice) {
+  if (choice == "auto") return make_automatic();
+  if (choice == "cpu") return make_cpu_backend();
+  if (choice == "cpu-reference") return make_reference_backend();
+  if (choice == "vulkan") return make_checked_vulkan(0, choice);
+  if (choice.starts_with(vulkan_prefix)) {
+    const char *first = choice.data() + std::char_traits<char>::length(vulkan_prefix),
+               *last = choice.data() + choice.size();
+    int index = -1;
+    const auto [end, error] = std::from_chars(first, last, index);
+    if (error == std::errc() && end == last && index >= 0) return make_checked_vulkan(index, choice);
+  }
+  throw InputError("options", "device", choice, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX");
+}
+
+}  // namespace edgescout

@@ -1,0 +1,37 @@
+// Lists of seeds -> exact Euclidean distances to the nearest seed of the same bin, capped, 1/256 px, in the
+// tensor's layout.
+//
+// One workgroup does one tile of DCD_TILE columns and DISTANCE_ROWS rows of one bin: it reads only the cells
+// within the cap, keeps the squared distances of its pixels in registers while the seeds go by, and takes the
+// root at the end:
+//   D(x) = min(cap, round(256 * sqrt(min_s |x - s|^2))), the rounding made exact in integers.
+// Cost: seeds times the area within the cap of each, whatever their arrangement.
+//
+// Buffers: 0 cells, 1 seeds (dcd_seed.h), 2 tensor, the band of rows [first_row, first_row + row_count).
+#ifndef EDGESCOUT_DISTANCE_PASS_H
+#define EDGESCOUT_DISTANCE_PASS_H
+
+#include "dcd_seed.h"
+
+#ifdef __cplusplus
+namespace edgescout {
+#endif
+EDGESCOUT_CONST(DISTANCE_ROWS, 32);  // of a workgroup
+EDGESCOUT_CONST(DISTANCE_ROWS_PER_INVOCATION, 8);
+EDGESCOUT_CONST(DISTANCE_WORDS, 16);  // of a tile's row: two pixels each
+
+struct DistancePassPush {
+  uint width;
+  uint bins;
+  uint tiles_per_row;
+  uint first_row;
+  uint row_count;
+  uint cell_columns;
+  uint cell_rows;
+  uint reach_cells;  // neighbouring cells that may hold a seed within the cap
+  uint cap;          // 1/256 px
+};
+#ifdef __cplusplus
+}  // namespace edgescout
+#endif
+#endif

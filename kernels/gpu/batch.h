@@ -1,0 +1,110 @@
+// Commands recorded in order, submitted once, waited for. A batch has a name; its kernels are timed by
+// theirs.
+//
+//   Batch batch(device, "dcd_tensor");
+//   batch.upload(points, edges);
+//   batch.barrier();
+//   batch.dispatch(kernel, {groups_x, groups_y}, {points, tensor}, push);
+//   batch.download(tensor, values);
+//   std::vector<StageTime> times = batch.run();
+//
+// Nothing is ordered but by barrier(): it stands between an upload, fill or dispatch and whatever uses its
+// result. run() orders the last commands before the host's reads itself.
+#pragma once
+
+#include <deque>
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <vulkan/vulkan.h>
+
+#include "kernels/backend.h"
+#include "kernels/gpu/buffer.h"
+#include "kernels/gpu/kernel.h"
+
+namespace edgescout::gpu {
+
+// A buffer, or a range of it, at the next binding of a dispatch.
+struct Bound {
+  Bound(const RawBuffer& whole)
+      : buffer(&whole), bytes(whole.bytes()) {}  // implicit: a dispatch reads as a call
+  Bound(const RawBuffer& part, VkDeviceSize from, VkDeviceSize size)
+      : buffer(&part), offset(from), bytes(size) {}
+  const RawBuffer* buffer;
+  VkDeviceSize offset = 0;
+  VkDeviceSize bytes;
+};
+
+struct Groups {
+  std::uint32_t x = 1, y = 1, z = 1;
+};
+
+// Workgroups of `size` that cover `count`.
+inline std::uint32_t groups_for(std::size_t count, std::uint32_t size) {
+  return static_cast<std::uint32_t>((count + size - 1) / size);
+}
+
+class Batch {
+ public:
+  Batch(const Device& device, std::string name);
+
+  // Copies now; the caller's memory is free afterwards. The buffer must not be in use by an earlier command
+  // of this batch.
+  template <class T>
+  void upload(const RawBuffer& to, std::span<const T> values) {
+    upload_bytes(to, std::as_bytes(values));
+  }
+  void fill(const RawBuffer& buffer, std::uint32_t word);
+  // Everything written so far is visible to everything that follows.
+  void barrier();
+  // Throws GpuError where the device's limits do not take this many groups or a range this long.
+  template <class Push>
+  void dispatch(const Kernel& kernel, Groups groups, std::initializer_list<Bound> bound, const Push& push) {
+    dispatch_bytes(kernel, groups, {bound.begin(), bound.size()}, std::as_bytes(std::span(&push, 1)));
+  }
+  // The first values of the buffer, into `to` when run() returns; implies a barrier() where copies are
+  // staged.
+  template <class T>
+  void download(const RawBuffer& from, std::span<T> to) {
+    download_bytes(from, std::as_writable_bytes(to));
+  }
+
+  // Once. Throws GpuError naming the batch, its kernels and their sizes. Returns the time each kernel took on
+  // the device, summed by name; empty where the device cannot tell.
+  std::vector<StageTime> run();
+
+ private:
+  struct Download {
+    const std::byte* from;
+    std::span<std::byte> to;
+  };
+  struct Timed {
+    std::string name;
+    std::uint32_t first_query;
+  };
+
+  void upload_bytes(const RawBuffer& to, std::span<const std::byte> bytes);
+  void download_bytes(const RawBuffer& from, std::span<std::byte> to);
+  void dispatch_bytes(const Kernel& kernel, Groups groups, std::span<const Bound> bound,
+                      std::span<const std::byte> push);
+  VkDescriptorSet bind(const Kernel& kernel, std::span<const Bound> bound);
+  void check_dispatch(const Kernel& kernel, Groups groups, std::span<const Bound> bound) const;
+  void copy(VkBuffer from, VkBuffer to, VkDeviceSize bytes);
+  std::vector<StageTime> read_times() const;
+
+  const Device& device_;
+  std::string name_;
+  Handle<VkCommandPool> pool_;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  Handle<VkQueryPool> queries_;
+  std::vector<Timed> timed_;
+  std::vector<Handle<VkDescriptorPool>> descriptor_pools_;
+  std::uint32_t sets_left_ = 0;
+  std::deque<RawBuffer> staging_;
+  std::vector<Download> downloads_;
+  std::string story_;  // "dcd_seed 12x1x1, dcd_sweep 24x768x1": what an error is about
+};
+
+}  // namespace edgescout::gpu

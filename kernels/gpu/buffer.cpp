@@ -1,0 +1,70 @@
+#include "kernels/gpu/buffer.h"
+
+#include <algorithm>
+
+#include "kernels/error.h"
+#include "kernels/gpu/result.h"
+
+namespace edgescout::gpu {
+
+namespace {
+
+constexpr VkMemoryPropertyFlags host_coherent =
+    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+
+VkMemoryPropertyFlags property_flags(const Device& device, Memory memory) {
+  switch (memory) {
+    case Memory::device:
+      return device.unified_memory()
+                 ? VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT | host_coherent
+                 : VkMemoryPropertyFlags(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+    case Memory::upload:
+      return host_coherent;
+    case Memory::download:
+      return host_coherent | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+  }
+  throw LogicError("unknown kind of memory");
+}
+
+VkBuffer create_buffer(VkDevice device, VkDeviceSize bytes, const std::string& what) {
+  VkBufferCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
+  info.size = bytes;
+  info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+               VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  VkBuffer buffer = VK_NULL_HANDLE;
+  require(vkCreateBuffer(device, &info, nullptr, &buffer), "vkCreateBuffer for " + what);
+  return buffer;
+}
+
+VkDeviceMemory allocate(const Device& device, const VkMemoryRequirements& needs, Memory memory,
+                        const std::string& what) {
+  VkMemoryAllocateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+  info.allocationSize = needs.size;
+  info.memoryTypeIndex = device.memory_type(needs.memoryTypeBits, property_flags(device, memory));
+  VkDeviceMemory result = VK_NULL_HANDLE;
+  require(vkAllocateMemory(device.get(), &info, nullptr, &result), "vkAllocateMemory for " + what);
+  return result;
+}
+
+}  // namespace
+
+RawBuffer::RawBuffer(const Device& device, VkDeviceSize bytes, Memory memory, std::string name)
+    : name_(std::move(name)), bytes_(std::max<VkDeviceSize>(bytes, 4)) {
+  const std::string what = "buffer '" + name_ + "' of " + std::to_string(bytes_) + " bytes";
+  if (bytes_ > device.max_allocation_bytes())
+    throw GpuError(what + ": " + device.info().name + " allocates at most " +
+                   std::to_string(device.max_allocation_bytes()) + " bytes at once");
+  buffer_ = {device.get(), create_buffer(device.get(), bytes_, what), vkDestroyBuffer};
+  VkMemoryRequirements needs;
+  vkGetBufferMemoryRequirements(device.get(), get(), &needs);
+  memory_ = {device.get(), allocate(device, needs, memory, what), vkFreeMemory};
+  require(vkBindBufferMemory(device.get(), get(), memory_.get(), 0), "vkBindBufferMemory for " + what);
+  if (memory == Memory::device && !device.unified_memory()) return;
+  void* address = nullptr;
+  require(vkMapMemory(device.get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &address), "vkMapMemory for " + what);
+  mapped_ = static_cast<std::byte*>(address);
+}
+
+}  // namespace edgescout::gpu

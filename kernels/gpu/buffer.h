@@ -1,0 +1,61 @@
+// Device memory with a name. On a device with unified memory the host sees it; elsewhere Batch copies through
+// staging.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include <vulkan/vulkan.h>
+
+#include "kernels/gpu/device.h"
+#include "kernels/gpu/handle.h"
+
+namespace edgescout::gpu {
+
+enum class Memory {
+  device,    // read and written by kernels
+  upload,    // host writes, device copies from it
+  download,  // device copies to it, host reads
+};
+
+class RawBuffer {
+ public:
+  RawBuffer() = default;
+  // Throws GpuError naming buffer and size where the memory is not to be had. At least 4 bytes are allocated.
+  RawBuffer(const Device& device, VkDeviceSize bytes, Memory memory, std::string name);
+
+  VkBuffer get() const { return buffer_.get(); }
+  VkDeviceSize bytes() const { return bytes_; }
+  const std::string& name() const { return name_; }
+  // Null where the host cannot see the memory.
+  std::byte* mapped() const { return mapped_; }
+
+ private:
+  std::string name_;
+  VkDeviceSize bytes_ = 0;
+  Handle<VkDeviceMemory> memory_;  // freed after the buffer bound to it
+  Handle<VkBuffer> buffer_;
+  std::byte* mapped_ = nullptr;
+};
+
+// Room for `size` values of T.
+template <class T>
+class Buffer : public RawBuffer {
+ public:
+  Buffer() = default;
+  Buffer(const Device& device, std::size_t size, std::string name, Memory memory = Memory::device)
+      : RawBuffer(device, size * sizeof(T), memory, std::move(name)), size_(size) {}
+  std::size_t size() const { return size_; }
+  // Grows to at least `size` values; the contents are lost when it does.
+  void reserve(const Device& device, std::size_t size, const char* name) {
+    if (size > size_ || get() == VK_NULL_HANDLE) {
+      *this = Buffer();
+      *this = Buffer(device, size, name);
+    }
+  }
+
+ private:
+  std::size_t size_ = 0;
+};
+
+}  // namespace edgescout::gpu

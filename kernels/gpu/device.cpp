@@ -1,0 +1,103 @@
+#include "kernels/gpu/device.h"
+
+#include "kernels/error.h"
+#include "kernels/gpu/device_info.h"
+#include "kernels/gpu/result.h"
+
+namespace edgescout::gpu {
+
+namespace {
+
+VkPhysicalDevice pick(const Instance& instance, int index) {
+  const std::vector<VkPhysicalDevice> devices = instance.physical_devices();
+  if (index < 0 || index >= static_cast<int>(devices.size()))
+    throw GpuError("no Vulkan device " + std::to_string(index) + ": " + std::to_string(devices.size()) +
+                   " found");
+  return devices[index];
+}
+
+// A family that can compute; one that cannot draw leaves the desktop alone.
+std::uint32_t compute_family(VkPhysicalDevice device, const std::string& name,
+                             std::uint32_t& timestamp_bits) {
+  std::uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+  std::uint32_t best = count;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    if (!(families[i].queueFlags & VK_QUEUE_COMPUTE_BIT)) continue;
+    if (best == count || !(families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT)) best = i;
+  }
+  if (best == count) throw GpuError(name + ": no compute queue");
+  timestamp_bits = families[best].timestampValidBits;
+  return best;
+}
+
+VkDevice create_device(VkPhysicalDevice physical, std::uint32_t family) {
+  const float priority = 1.0f;
+  VkDeviceQueueCreateInfo queue{};
+  queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+  queue.queueFamilyIndex = family;
+  queue.queueCount = 1;
+  queue.pQueuePriorities = &priority;
+  VkDeviceCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+  info.queueCreateInfoCount = 1;
+  info.pQueueCreateInfos = &queue;
+  VkDevice device = VK_NULL_HANDLE;
+  require(vkCreateDevice(physical, &info, nullptr, &device), "vkCreateDevice");
+  return device;
+}
+
+VkPipelineCache create_cache(VkDevice device) {
+  VkPipelineCacheCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
+  VkPipelineCache cache = VK_NULL_HANDLE;
+  require(vkCreatePipelineCache(device, &info, nullptr, &cache), "vkCreatePipelineCache");
+  return cache;
+}
+
+// Cached memory only: reading a discrete card's window over the bus is slower than a staged copy.
+bool is_unified(const VkPhysicalDeviceMemoryProperties& memory) {
+  constexpr VkMemoryPropertyFlags all =
+      VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+      VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+  for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i)
+    if ((memory.memoryTypes[i].propertyFlags & all) == all) return true;
+  return false;
+}
+
+}  // namespace
+
+Device::Device(const DeviceOptions& options)
+    : instance_(options.validation),
+      physical_(pick(instance_, options.index)),
+      info_(describe(physical_, options.index)) {
+  VkPhysicalDeviceMaintenance3Properties maintenance{};
+  maintenance.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+  VkPhysicalDeviceProperties2 properties{};
+  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  properties.pNext = &maintenance;
+  vkGetPhysicalDeviceProperties2(physical_, &properties);
+  if (properties.properties.apiVersion < VK_API_VERSION_1_2)
+    throw GpuError(info_.name + ": Vulkan " + info_.api_version + ", at least 1.2 is needed");
+  limits_ = properties.properties.limits;
+  max_allocation_bytes_ = maintenance.maxMemoryAllocationSize;
+  vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
+  unified_memory_ = is_unified(memory_) && !options.staging;
+
+  std::uint32_t timestamp_bits = 0;
+  queue_family_ = compute_family(physical_, info_.name, timestamp_bits);
+  seconds_per_tick_ = timestamp_bits > 0 ? 1e-9 * double(limits_.timestampPeriod) : 0.0;
+  device_.reset(create_device(physical_, queue_family_));
+  vkGetDeviceQueue(get(), queue_family_, 0, &queue_);
+  cache_ = {get(), create_cache(get()), vkDestroyPipelineCache};
+}
+
+std::uint32_t Device::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags flags) const {
+  for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
+    if ((allowed >> i & 1u) != 0 && (memory_.memoryTypes[i].propertyFlags & flags) == flags) return i;
+  throw GpuError(info_.name + ": no memory type with property flags " + std::to_string(flags));
+}
+
+}  // namespace edgescout::gpu

@@ -1,0 +1,62 @@
+// One Vulkan device with one compute queue: its limits, its memory types, what every other object here is
+// made from. Used by one thread at a time, like the Backend that owns it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <vulkan/vulkan.h>
+
+#include "kernels/backend.h"
+#include "kernels/gpu/handle.h"
+#include "kernels/gpu/instance.h"
+
+namespace edgescout::gpu {
+
+struct DeviceOptions {
+  int index = 0;            // as vulkan_devices() counts
+  bool validation = false;  // validation layer with synchronization validation
+  bool staging = false;  // copy through staging buffers even where device memory is host-visible (for tests)
+};
+
+class Device {
+ public:
+  // Throws GpuError: no such device, older than Vulkan 1.2, or no compute queue.
+  explicit Device(const DeviceOptions& options);
+
+  VkDevice get() const { return device_.get(); }
+  VkQueue queue() const { return queue_; }
+  std::uint32_t queue_family() const { return queue_family_; }
+  VkPipelineCache pipeline_cache() const { return cache_.get(); }
+  const DeviceInfo& info() const { return info_; }
+  const VkPhysicalDeviceLimits& limits() const { return limits_; }
+  VkDeviceSize max_allocation_bytes() const { return max_allocation_bytes_; }
+  // 0: this queue cannot write timestamps.
+  double seconds_per_tick() const { return seconds_per_tick_; }
+  // Device-local memory can be read and written by the host at full speed: no staging.
+  bool unified_memory() const { return unified_memory_; }
+
+  // First memory type of `allowed` (a bit set) with all of `flags`; throws GpuError where there is none.
+  std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags flags) const;
+
+ private:
+  struct Destroy {
+    void operator()(VkDevice device) const { vkDestroyDevice(device, nullptr); }
+  };
+
+  Instance instance_;
+  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+  std::unique_ptr<std::remove_pointer_t<VkDevice>, Destroy> device_;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  std::uint32_t queue_family_ = 0;
+  Handle<VkPipelineCache> cache_;
+  DeviceInfo info_;
+  VkPhysicalDeviceLimits limits_{};
+  VkPhysicalDeviceMemoryProperties memory_{};
+  VkDeviceSize max_allocation_bytes_ = 0;
+  double seconds_per_tick_ = 0;
+  bool unified_memory_ = false;
+};
+
+}  // namespace edgescout::gpu

@@ -1,0 +1,48 @@
+#include "kernels/gpu/tensor.h"
+
+#include <algorithm>
+
+#include "kernels/error.h"
+
+namespace edgescout::gpu {
+
+namespace {
+
+[[noreturn]] void too_large(const Device& device, const TensorShape& shape, VkDeviceSize most) {
+  throw InputError("image", "size",
+                   std::to_string(shape.width) + "x" + std::to_string(shape.height) + " with " +
+                       std::to_string(shape.bins) + " bins: a tensor of " + std::to_string(2 * shape.size()) +
+                       " bytes",
+                   "at most " + std::to_string(most) + " bytes on " + device.info().name +
+                       " (a smaller image, fewer bins, or --device cpu)");
+}
+
+}  // namespace
+
+DeviceTensor::DeviceTensor(const Device& device, const TensorShape& shape, VkDeviceSize max_band_bytes)
+    : shape_(shape) {
+  VkDeviceSize range = device.limits().maxStorageBufferRange;
+  if (max_band_bytes > 0) range = std::min(range, max_band_bytes);
+  row_bytes_ = VkDeviceSize(shape.tiles_per_row()) * shape.bins * DCD_TILE * sizeof(std::uint16_t);
+  const VkDeviceSize bytes = row_bytes_ * shape.height;
+  const auto height = static_cast<VkDeviceSize>(shape.height);
+  const VkDeviceSize rows = std::min(range / row_bytes_, height);
+  band_rows_ = static_cast<std::uint32_t>(
+      rows == height ? height : rows / TENSOR_BAND_ROW_STEP * TENSOR_BAND_ROW_STEP);
+  const VkDeviceSize most = std::min<VkDeviceSize>(device.max_allocation_bytes(), TENSOR_MAX_BANDS * range);
+  if (band_rows_ == 0) too_large(device, shape, most);
+  bands_ = static_cast<std::uint32_t>((height + band_rows_ - 1) / band_rows_);
+  if (bands_ > TENSOR_MAX_BANDS || bytes > device.max_allocation_bytes()) too_large(device, shape, most);
+  buffer_ = RawBuffer(device, bytes, Memory::device, "tensor");
+}
+
+std::uint32_t DeviceTensor::row_count(std::uint32_t band) const {
+  return std::min(band_rows_, static_cast<std::uint32_t>(shape_.height) - first_row(band));
+}
+
+Bound DeviceTensor::band(std::uint32_t band) const {
+  const std::uint32_t real = std::min(band, bands_ - 1);
+  return {buffer_, first_row(real) * row_bytes_, row_count(real) * row_bytes_};
+}
+
+}  // namespace edgescout::gpu
