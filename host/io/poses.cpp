@@ -1,0 +1,61 @@
+#include "host/io/poses.h"
+
+#include "host/io/bop.h"
+#include "host/io/json_fields.h"
+#include "host/io/results.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+std::vector<StartPose> from_bop_results(const std::filesystem::path& file) {
+  std::vector<StartPose> poses;
+  for (const BopResult& row : load_bop_results(file))
+    poses.push_back({row.scene_id, row.image_id, "", row.object_id, row.camera_from_object, row.score});
+  return poses;
+}
+
+std::vector<StartPose> from_image_result(const std::filesystem::path& file) {
+  const ImageResult result = load_image_result(file);
+  const Se3 camera_from_world = result.camera_from_world.value_or(Se3{});
+  std::vector<StartPose> poses;
+  for (const Detection& found : result.detections)
+    poses.push_back({result.scene_id, result.image_id, result.image.filename().string(),
+                     result.objects.at(static_cast<std::size_t>(found.object)).id,
+                     camera_from_world * found.world_from_object, found.probability});
+  return poses;
+}
+
+StartPose from_entry(const JsonField& entry) {
+  StartPose pose;
+  const JsonField image = entry.at("image");
+  if (image.value.is_string())
+    pose.image = std::filesystem::path(image.text()).filename().string();
+  else
+    pose.image_id = image.integer();
+  if (entry.has("scene")) pose.scene_id = entry.at("scene").integer();
+  if (entry.has("score")) pose.score = entry.at("score").number();
+  pose.object_id = entry.at("object").integer();
+  pose.camera_from_object = pose_from(entry.at("R"), entry.at("t"), 1.0);
+  return pose;
+}
+
+}  // namespace
+
+std::vector<StartPose> load_start_poses(const std::filesystem::path& file) {
+  if (file.extension() == ".csv") return from_bop_results(file);
+  if (is_image_result(file)) return from_image_result(file);
+  const nlohmann::json content = read_json(file);
+  std::vector<StartPose> poses;
+  for (const JsonField& entry : JsonField{content, file.string(), ""}.elements())
+    poses.push_back(from_entry(entry));
+  return poses;
+}
+
+bool belongs_to(const StartPose& pose, const std::filesystem::path& image, int scene_id, int image_id) {
+  if (pose.scene_id != 0 && scene_id != 0 && pose.scene_id != scene_id) return false;
+  return pose.image.empty() ? pose.image_id == image_id : pose.image == image.filename().string();
+}
+
+}  // namespace edgescout

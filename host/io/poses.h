@@ -1,0 +1,31 @@
+// Poses to start a registration from, of any origin.
+//
+// Three forms: a BOP results CSV (.csv); a result of this tool (results.h); or a JSON list
+//   [{"image": 12 or "000012.png", "object": 1, "R": 9 numbers by row, "t": 3 in metres, "scene": 48 (optional), "score": 0.7 (optional)}, ...]
+// where R and t map the object frame to the camera frame.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "host/core/se3.h"
+
+namespace edgescout {
+
+struct StartPose {
+  int scene_id = 0;
+  int image_id = 0;
+  std::string image;  // file name; where not empty, it names the image instead of scene_id and image_id
+  int object_id = 1;
+  Se3 camera_from_object;
+  double score = 0;
+};
+
+// InputError naming file, line or field.
+std::vector<StartPose> load_start_poses(const std::filesystem::path& file);
+
+// Whether the pose is meant for this image. A scene_id of 0 on either side fits every scene.
+bool belongs_to(const StartPose& pose, const std::filesystem::path& image, int scene_id, int image_id);
+
+}  // namespace edgescout

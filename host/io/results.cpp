@@ -1,0 +1,139 @@
+#include "host/io/results.h"
+
+#include <limits>
+
+#include "host/io/files.h"
+#include "host/io/json_fields.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+using json = nlohmann::ordered_json;  // keeps the order of the fields for who reads the file
+
+namespace {
+
+constexpr int format_version = 1;
+constexpr const char* version_field = "edgescout_result";
+
+json pose_json(const Se3& pose) {
+  const Eigen::Quaterniond& q = pose.rotation;
+  return {{"R", rotation_numbers(pose)},
+          {"t", translation_numbers(pose, 1.0)},
+          {"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}}};
+}
+
+json camera_json(const Camera& c) {
+  return {{"width", c.width}, {"height", c.height},        {"fx", c.fx}, {"fy", c.fy}, {"cx", c.cx},
+          {"cy", c.cy},       {"distortion", c.distortion}};
+}
+
+json detection_json(const Detection& detection, const ImageResult& result) {
+  const ObjectName& object = result.objects.at(static_cast<std::size_t>(detection.object));
+  const Se3 camera_from_world = result.camera_from_world.value_or(Se3{});
+  const Matrix6d transposed = detection.covariance.transpose();  // Eigen stores by column
+  return {{"object_id", object.id},
+          {"object", object.name},
+          {"probability", detection.probability},
+          {"psi", detection.psi},
+          {"cost_px", detection.cost_px},
+          {"visible_fraction", detection.visible_fraction},
+          {"convergence", detection.convergence},
+          {"world_from_object", pose_json(detection.world_from_object)},
+          {"camera_from_object", pose_json(camera_from_world * detection.world_from_object)},
+          {"covariance", std::vector<double>(transposed.data(), transposed.data() + transposed.size())}};
+}
+
+double number_or_nan(const JsonField& field) {
+  return field.value.is_null() ? std::numeric_limits<double>::quiet_NaN() : field.number();
+}
+
+Se3 read_pose(const JsonField& field) { return pose_from(field.at("R"), field.at("t"), 1.0); }
+
+Camera read_camera(const JsonField& field) {
+  Camera c;
+  c.width = field.at("width").integer();
+  c.height = field.at("height").integer();
+  c.fx = field.at("fx").number();
+  c.fy = field.at("fy").number();
+  c.cx = field.at("cx").number();
+  c.cy = field.at("cy").number();
+  const std::vector<double> distortion = field.at("distortion").numbers(c.distortion.size());
+  std::copy(distortion.begin(), distortion.end(), c.distortion.begin());
+  validate(c, field.source + ": " + field.path);
+  return c;
+}
+
+int index_of(const JsonField& object_id, const std::vector<ObjectName>& objects) {
+  for (std::size_t i = 0; i < objects.size(); ++i)
+    if (objects[i].id == object_id.integer()) return static_cast<int>(i);
+  object_id.fail(object_id.value.dump(), "the id of one of the file's objects");
+}
+
+Detection read_detection(const JsonField& field, const std::vector<ObjectName>& objects) {
+  Detection detection;
+  detection.object = index_of(field.at("object_id"), objects);
+  detection.world_from_object = read_pose(field.at("world_from_object"));
+  const std::vector<JsonField> covariance = field.at("covariance").elements();
+  if (covariance.size() != 36)
+    field.at("covariance").fail(std::to_string(covariance.size()) + " numbers", "36");
+  for (int i = 0; i < 36; ++i)
+    detection.covariance(i / 6, i % 6) = number_or_nan(covariance[static_cast<std::size_t>(i)]);
+  detection.probability = number_or_nan(field.at("probability"));
+  detection.psi = number_or_nan(field.at("psi"));
+  detection.cost_px = number_or_nan(field.at("cost_px"));
+  detection.visible_fraction = number_or_nan(field.at("visible_fraction"));
+  detection.convergence = field.at("convergence").text();
+  return detection;
+}
+
+}  // namespace
+
+void save_image_result(const ImageResult& result, const std::filesystem::path& file) {
+  json root;
+  root[version_field] = format_version;
+  root["image"] = result.image.string();
+  root["scene_id"] = result.scene_id;
+  root["image_id"] = result.image_id;
+  root["device"] = result.device;
+  root["camera"] = camera_json(result.camera);
+  if (result.camera_from_world) root["camera_from_world"] = pose_json(*result.camera_from_world);
+  root["timings_ms"] = json::array();
+  for (const StageSeconds& stage : result.stages)
+    root["timings_ms"].push_back({{"stage", stage.name}, {"ms", 1000 * stage.seconds}});
+  root["objects"] = json::array();
+  for (const ObjectName& object : result.objects)
+    root["objects"].push_back({{"id", object.id}, {"name", object.name}});
+  root["detections"] = json::array();
+  for (const Detection& detection : result.detections)
+    root["detections"].push_back(detection_json(detection, result));
+  // A path or a name may hold bytes that are no UTF-8; they must not lose the result.
+  write_file_atomically(file, root.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+}
+
+ImageResult load_image_result(const std::filesystem::path& file) {
+  const nlohmann::json content = read_json(file);
+  const JsonField root{content, file.string(), ""};
+  if (const JsonField version = root.at(version_field); version.integer() != format_version)
+    version.fail(version.value.dump(), std::to_string(format_version));
+  ImageResult result;
+  result.image = root.at("image").text();
+  result.scene_id = root.at("scene_id").integer();
+  result.image_id = root.at("image_id").integer();
+  result.device = root.at("device").text();
+  result.camera = read_camera(root.at("camera"));
+  if (root.has("camera_from_world")) result.camera_from_world = read_pose(root.at("camera_from_world"));
+  for (const JsonField& stage : root.at("timings_ms").elements())
+    result.stages.push_back({stage.at("stage").text(), stage.at("ms").number() / 1000});
+  for (const JsonField& object : root.at("objects").elements())
+    result.objects.push_back({object.at("id").integer(), object.at("name").text()});
+  for (const JsonField& detection : root.at("detections").elements())
+    result.detections.push_back(read_detection(detection, result.objects));
+  return result;
+}
+
+bool is_image_result(const std::filesystem::path& file) {
+  const nlohmann::json content = read_json(file);
+  return content.is_object() && content.contains(version_field);
+}
+
+}  // namespace edgescout
