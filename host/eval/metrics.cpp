@@ -1,0 +1,68 @@
+#include "host/eval/metrics.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace edgescout {
+namespace {
+
+// Largest squared error over the vertices, given up as soon as it reaches `limit`: with many symmetries
+// nearly all of them are refuted by the first few vertices.
+template <typename Squared>
+double largest_squared(const Mesh& mesh, double limit, const Squared& squared) {
+  double largest = 0;
+  for (const Eigen::Vector3d& x : mesh.vertices_m) {
+    largest = std::max(largest, squared(x));
+    if (largest >= limit) break;
+  }
+  return largest;
+}
+
+}  // namespace
+
+double mssd_m(const Se3& estimate, const Se3& truth, const Object& object) {
+  double best = std::numeric_limits<double>::infinity();
+  const Eigen::Matrix3d estimate_rotation = estimate.rotation.toRotationMatrix();
+  for (const Se3& symmetry : object.symmetries.discrete) {
+    const Se3 moved = truth * symmetry;
+    const Eigen::Matrix3d rotation = estimate_rotation - moved.rotation.toRotationMatrix();
+    const Eigen::Vector3d offset = estimate.translation_m - moved.translation_m;
+    best = std::min(best, largest_squared(object.mesh, best, [&](const Eigen::Vector3d& x) {
+                      return (rotation * x + offset).squaredNorm();
+                    }));
+  }
+  return std::sqrt(best);
+}
+
+double mspd_px(const Se3& estimate, const Se3& truth, const Object& object, const Camera& camera) {
+  double best = std::numeric_limits<double>::infinity();
+  const Eigen::Matrix3d estimate_rotation = estimate.rotation.toRotationMatrix();
+  for (const Se3& symmetry : object.symmetries.discrete) {
+    const Se3 moved = truth * symmetry;
+    const Eigen::Matrix3d moved_rotation = moved.rotation.toRotationMatrix();
+    best = std::min(best, largest_squared(object.mesh, best, [&](const Eigen::Vector3d& x) {
+                      const Eigen::Vector3d a = estimate_rotation * x + estimate.translation_m;
+                      const Eigen::Vector3d b = moved_rotation * x + moved.translation_m;
+                      if (a.z() <= 0 || b.z() <= 0) return std::numeric_limits<double>::infinity();
+                      return (project(camera, a) - project(camera, b)).squaredNorm();
+                    }));
+  }
+  return std::sqrt(best);
+}
+
+PoseError pose_error(const Se3& estimate, const Se3& truth, const Symmetries& symmetries) {
+  PoseError best;
+  double best_excess = std::numeric_limits<double>::infinity();
+  for (const Se3& symmetry : symmetries.discrete) {
+    const Se3 moved = truth * symmetry;
+    const PoseError error{angle_between_rad(estimate, moved), distance_between_m(estimate, moved)};
+    const double excess = std::max(error.angle_rad / 0.1, error.distance_m / 0.005);
+    if (excess < best_excess) {
+      best_excess = excess;
+      best = error;
+    }
+  }
+  return best;
+}
+
+}  // namespace edgescout

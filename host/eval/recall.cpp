@@ -1,0 +1,164 @@
+#include "host/eval/recall.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "host/eval/metrics.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+namespace {
+
+// The instances of one object in one image, with the error of every estimate (rows, best score first) against
+// every truth.
+struct Instances {
+  int truths = 0;
+  std::vector<char> counts;            // per truth: not ignored
+  std::vector<double> mssd;            // of the diameter
+  std::vector<double> mspd;            // px
+  std::vector<double> raw, symmetric;  // largest of angle and distance, each over its bound
+  int estimates() const { return truths == 0 ? 0 : static_cast<int>(mssd.size()) / truths; }
+};
+
+struct Matches {
+  int found = 0;    // truths that count
+  int matched = 0;  // estimates, those of ignored truths included
+};
+
+Matches match(const Instances& pair, const std::vector<double>& errors, double threshold, int max_estimates) {
+  std::vector<char> taken(pair.truths, 0);
+  Matches matches;
+  for (int e = 0; e < std::min(pair.estimates(), max_estimates); ++e) {
+    int best = -1;
+    double best_error = threshold;
+    for (int t = 0; t < pair.truths; ++t) {
+      const double error = errors[static_cast<std::size_t>(e) * pair.truths + t];
+      if (taken[t] || !(error < best_error)) continue;
+      best = t;
+      best_error = error;
+    }
+    if (best < 0) continue;
+    taken[best] = 1;
+    ++matches.matched;
+    matches.found += pair.counts[best];
+  }
+  return matches;
+}
+
+const Object& object_of(const std::map<int, Object>& objects, int id) {
+  const auto found = objects.find(id);
+  if (found == objects.end())
+    throw InputError("evaluation", "obj_id", std::to_string(id), "the id of a given model");
+  return found->second;
+}
+
+double paper_error(const PoseError& error, const RecallOptions& options) {
+  return std::max(error.angle_rad / options.max_angle_rad, error.distance_m / options.max_distance_m);
+}
+
+Instances compare(const Object& object, const Camera& camera, const std::vector<BopTruth>& truth,
+                  std::vector<BopResult> estimates, const RecallOptions& options) {
+  std::stable_sort(estimates.begin(), estimates.end(),
+                   [](const BopResult& a, const BopResult& b) { return a.score > b.score; });
+  Instances pair;
+  pair.truths = static_cast<int>(truth.size());
+  for (const BopTruth& t : truth) pair.counts.push_back(t.visible_fraction >= options.min_visible_fraction);
+  for (const BopResult& e : estimates)
+    for (const BopTruth& t : truth) {
+      pair.mssd.push_back(mssd_m(e.camera_from_object, t.camera_from_object, object) /
+                          object.mesh.diameter_m);
+      pair.mspd.push_back(mspd_px(e.camera_from_object, t.camera_from_object, object, camera));
+      pair.raw.push_back(
+          paper_error(pose_error(e.camera_from_object, t.camera_from_object, Symmetries{}), options));
+      pair.symmetric.push_back(
+          paper_error(pose_error(e.camera_from_object, t.camera_from_object, object.symmetries), options));
+    }
+  return pair;
+}
+
+void count(const Instances& pair, int estimates, double px_per_step, const RecallOptions& options,
+           Recalls& sums) {
+  constexpr int ALL = std::numeric_limits<int>::max();
+  for (int step = 0; step < RECALL_STEPS; ++step) {
+    sums.mssd[step] += match(pair, pair.mssd, 0.05 * (step + 1), pair.truths).found;
+    sums.mspd[step] += match(pair, pair.mspd, px_per_step * (step + 1), pair.truths).found;
+  }
+  sums.recall_raw += match(pair, pair.raw, 1.0, ALL).found;
+  sums.recall_symmetric += match(pair, pair.symmetric, 1.0, ALL).found;
+  const Matches seen = match(pair, pair.mspd, options.max_mspd_px, ALL);
+  sums.recall_mspd += seen.found;
+  sums.false_positives += estimates - seen.matched;
+  sums.estimates += estimates;
+  sums.truths += static_cast<int>(std::count(pair.counts.begin(), pair.counts.end(), 1));
+}
+
+void count_image(const EvaluationImage& image, const std::map<int, Object>& objects,
+                 const RecallOptions& options, Recalls& sums) {
+  std::map<int, std::pair<std::vector<BopTruth>, std::vector<BopResult>>> by_object;
+  for (const BopTruth& t : image.truth) by_object[t.object_id].first.push_back(t);
+  for (const BopResult& e : image.estimates)
+    if (e.score >= options.min_score) by_object[e.object_id].second.push_back(e);
+  for (const auto& [id, instances] : by_object) {
+    const auto& [truth, estimates] = instances;
+    const Instances pair = compare(object_of(objects, id), image.camera, truth, estimates, options);
+    count(pair, static_cast<int>(estimates.size()), 5.0 * image.camera.width / 640.0, options, sums);
+  }
+}
+
+void finish(Recalls& sums) {
+  const double truths = std::max(1, sums.truths);
+  for (int step = 0; step < RECALL_STEPS; ++step) {
+    sums.mssd[step] /= truths;
+    sums.mspd[step] /= truths;
+    sums.ar_mssd += sums.mssd[step] / RECALL_STEPS;
+    sums.ar_mspd += sums.mspd[step] / RECALL_STEPS;
+  }
+  sums.recall_raw /= truths;
+  sums.recall_symmetric /= truths;
+  sums.recall_mspd /= truths;
+  sums.false_positives_per_image = static_cast<double>(sums.false_positives) / std::max(1, sums.images);
+}
+
+void require(bool holds, const char* field, double found, const char* expected) {
+  if (!holds) throw InputError("evaluation options", field, std::to_string(found), expected);
+}
+
+}  // namespace
+
+void RecallOptions::validate() const {
+  require(min_visible_fraction >= 0 && min_visible_fraction <= 1, "min_visible_fraction",
+          min_visible_fraction, "[0, 1]");
+  require(std::isfinite(min_score), "min_score", min_score, "a finite number");
+  require(max_angle_rad > 0, "max_angle_rad", max_angle_rad, "above 0");
+  require(max_distance_m > 0, "max_distance_m", max_distance_m, "above 0");
+  require(max_mspd_px > 0, "max_mspd_px", max_mspd_px, "above 0");
+}
+
+Recalls evaluate(std::span<const EvaluationImage> images, const std::map<int, Object>& objects,
+                 const RecallOptions& options) {
+  options.validate();
+  Recalls sums;
+  sums.images = static_cast<int>(images.size());
+  for (const EvaluationImage& image : images) count_image(image, objects, options, sums);
+  finish(sums);
+  return sums;
+}
+
+std::map<int, Recalls> evaluate_by_object(std::span<const EvaluationImage> images,
+                                          const std::map<int, Object>& objects,
+                                          const RecallOptions& options) {
+  std::map<int, Recalls> recalls;
+  for (const auto& [id, object] : objects) {
+    std::vector<EvaluationImage> filtered(images.begin(), images.end());
+    for (EvaluationImage& image : filtered) {
+      std::erase_if(image.truth, [id = id](const BopTruth& t) { return t.object_id != id; });
+      std::erase_if(image.estimates, [id = id](const BopResult& e) { return e.object_id != id; });
+    }
+    recalls[id] = evaluate(filtered, objects, options);
+  }
+  return recalls;
+}
+
+}  // namespace edgescout

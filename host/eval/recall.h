@@ -1,0 +1,63 @@
+// How many of the true instances were found, and how many finds are false: BOP's recalls and the paper's.
+//
+// Matching, per image, object and threshold: estimates in order of falling score each take the free truth
+// with the smallest error below the threshold. Recall is matched truths / truths. A truth seen by less than
+// `min_visible_fraction` is ignored: not finding it is no miss, finding it is no false positive.
+#pragma once
+
+#include <array>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "host/core/types.h"
+#include "host/io/bop.h"
+
+namespace edgescout {
+
+struct EvaluationImage {
+  Camera camera;
+  std::vector<BopTruth> truth;
+  std::vector<BopResult> estimates;  // of this image
+};
+
+struct RecallOptions {
+  double min_visible_fraction = 0.1;  // BOP's
+  double min_score = 0;               // estimates below it are dropped before everything, in [0, 1]
+  double max_angle_rad = 0.1;         // the paper's
+  double max_distance_m = 0.005;
+  double max_mspd_px = 10;  // of `recall_mspd` and of a true find; not scaled by the image's width
+  // Throws InputError naming the field and the violated bound.
+  void validate() const;
+};
+
+inline constexpr int RECALL_STEPS = 10;
+
+struct Recalls {
+  int images = 0;
+  int truths = 0;     // that count
+  int estimates = 0;  // above min_score
+  // BOP: thresholds 5, 10 .. 50 % of the diameter (MSSD), 5, 10 .. 50 px times width / 640 (MSPD). As BOP
+  // does, only as many estimates of an object as it has truths in the image are looked at, best scores first.
+  std::array<double, RECALL_STEPS> mssd{};
+  std::array<double, RECALL_STEPS> mspd{};
+  double ar_mssd = 0;  // mean over the thresholds
+  double ar_mspd = 0;
+  // Over all estimates:
+  double recall_raw = 0;        // angle and distance as they stand
+  double recall_symmetric = 0;  // modulo the object's symmetries
+  double recall_mspd = 0;       // below max_mspd_px
+  int false_positives = 0;      // estimates that match no truth below max_mspd_px, ignored truths included
+  double false_positives_per_image = 0;
+};
+
+// Objects by BOP id. All recalls are 0 where there is no truth. InputError: a truth or an estimate of an
+// object that is not in `objects`.
+Recalls evaluate(std::span<const EvaluationImage> images, const std::map<int, Object>& objects,
+                 const RecallOptions& options);
+
+// The same over the truths and estimates of one object alone, for each object.
+std::map<int, Recalls> evaluate_by_object(std::span<const EvaluationImage> images,
+                                          const std::map<int, Object>& objects, const RecallOptions& options);
+
+}  // namespace edgescout

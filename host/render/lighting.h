@@ -1,0 +1,48 @@
+// The scene's triangles in the world, and the light that reaches a point of them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/render/raster.h"
+#include "host/render/scene.h"
+
+namespace edgescout {
+
+struct WorldTriangles {
+  std::vector<TriangleCorners> corners_m;
+  std::vector<TriangleCorners> normals;  // unit; smoothed over the surface up to creases of 35 degrees
+  std::vector<int> placed;               // whose, index into Scene::placed
+};
+
+WorldTriangles world_triangles(const Scene& scene);
+
+struct ReceivedLight {
+  double diffuse = 0;   // irradiance: times albedo it is what the camera sees, 1 is white
+  double specular = 0;  // to be added
+};
+
+class Lighting {
+ public:
+  // Draws one shadow map a light where the options ask for shadows. `scene` must outlive this.
+  Lighting(const Scene& scene, const WorldTriangles& triangles, ThreadPool& pool);
+
+  // `normal` and `to_viewer`: unit, on the same side of the surface.
+  ReceivedLight at(const Eigen::Vector3d& point_m, const Eigen::Vector3d& normal,
+                   const Eigen::Vector3d& to_viewer, const Material& material) const;
+
+ private:
+  struct ShadowMap {
+    Camera camera;
+    Se3 light_from_world;
+    std::vector<float> depth_m;
+    double texel_m = 0;  // at the scene
+  };
+  double lit_fraction(const ShadowMap& map, const Eigen::Vector3d& point_m,
+                      const Eigen::Vector3d& normal) const;
+
+  const Scene& scene_;
+  std::vector<ShadowMap> maps_;  // one a light, or none
+};
+
+}  // namespace edgescout
