@@ -23,9 +23,9 @@ std::string reason(int error) { return std::strerror(error); }
 // A name beside `file` that no other writer of this or another process uses.
 fs::path temporary_beside(const fs::path& file) {
   static std::atomic<unsigned> counter{0};
-  std::string name = "." + file.filename().string() + ".";
-  name += std::to_string(::getpid()) + "-" + std::to_string(counter++) + ".part";
-  return file.parent_path() / name;
+  std::ostringstream name;
+  name << '.' << file.filename().string() << '.' << ::getpid() << '-' << counter++ << ".part";
+  return file.parent_path() / name.str();
 }
 
 // An open temporary file that disappears unless it is renamed into place.

@@ -1,0 +1,56 @@
+// edgescout devices: which Vulkan devices are there, and which would be taken.
+#include <fmt/format.h>
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "host/cli/exit_codes.h"
+#include "host/cli/verbs.h"
+#include "kernels/backend.h"
+
+namespace edgescout {
+
+namespace {
+
+nlohmann::json device_json(const DeviceInfo& device) {
+  return {{"choice", "vulkan:" + std::to_string(device.index)},
+          {"name", device.name},
+          {"driver", device.driver},
+          {"api_version", device.api_version},
+          {"hardware", device.hardware},
+          {"memory_bytes", device.memory_bytes},
+          {"max_storage_buffer_bytes", device.max_storage_buffer_bytes}};
+}
+
+void list_devices(bool as_json) {
+  const std::vector<DeviceInfo> devices = vulkan_devices();
+  const std::string taken = make_backend("auto")->name();
+  if (as_json) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const DeviceInfo& device : devices) list.push_back(device_json(device));
+    std::cout << nlohmann::json{{"devices", list}, {"auto", taken}}.dump(1) << "\n";
+    return;
+  }
+  for (const DeviceInfo& device : devices)
+    std::cout << fmt::format(
+        "vulkan:{}  {}, {}, driver {}, Vulkan {}, {:.1f} GiB, buffers up to {} MiB\n", device.index,
+        device.name, device.hardware ? "hardware" : "software", device.driver, device.api_version,
+        static_cast<double>(device.memory_bytes) / (1u << 30), device.max_storage_buffer_bytes >> 20);
+  if (devices.empty()) std::cout << "no Vulkan device\n";
+  std::cout << "cpu\nauto takes: " << taken << "\n";
+}
+
+}  // namespace
+
+void add_devices(CLI::App& app, int& exit_code) {
+  CLI::App* verb =
+      app.add_subcommand("devices", "List the Vulkan devices and the one that --device auto takes");
+  auto as_json = std::make_shared<bool>(false);
+  verb->add_flag("--json", *as_json, "Print JSON");
+  verb->callback([as_json, &exit_code] {
+    list_devices(*as_json);
+    exit_code = exit_done;
+  });
+}
+
+}  // namespace edgescout

@@ -1,0 +1,92 @@
+// edgescout VERB: dispatches, and turns every exception into one line and an exit code.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <csignal>
+#include <iostream>
+#include <new>
+
+#include "host/cli/config.h"
+#include "host/cli/exit_codes.h"
+#include "host/cli/verbs.h"
+#include "host/core/log.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+void send_log_to_stderr() {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("edgescout"));
+  spdlog::set_pattern("%n: %^%l%$: %v");
+  set_log_sink([](LogLevel level, const std::string& message) {
+    constexpr spdlog::level::level_enum levels[] = {spdlog::level::debug, spdlog::level::info,
+                                                    spdlog::level::warn, spdlog::level::err};
+    spdlog::log(levels[static_cast<int>(level)], message);
+  });
+}
+
+void add_log_level(CLI::App& app) {
+  const std::map<std::string, spdlog::level::level_enum> levels{{"debug", spdlog::level::debug},
+                                                                {"info", spdlog::level::info},
+                                                                {"warning", spdlog::level::warn},
+                                                                {"error", spdlog::level::err}};
+  app.add_option_function<std::string>(
+         "--log-level", [levels](const std::string& word) { spdlog::set_level(levels.at(word)); },
+         "What is said on standard error: debug, info, warning or error")
+      ->check(CLI::IsMember(levels))
+      ->default_str("info");
+}
+
+int fail(const std::string& message, ExitCode code) {
+  std::string line = message;
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  std::cerr << "edgescout: error: " << line << std::endl;
+  return code;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Finds textureless rigid objects in grey images from their CAD models", "edgescout"};
+  app.set_version_flag("--version", "edgescout " EDGESCOUT_VERSION);
+  app.require_subcommand(1);
+  app.fallthrough();  // the program's own options may stand behind the verb too
+  add_yaml_config(app);
+  add_log_level(app);
+  int exit_code = exit_internal_error;
+  add_devices(app, exit_code);
+  add_model(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    return fail(error.what(), exit_bad_request);
+  }
+  if (!std::cout.flush())
+    return fail("standard output: found a write error, expected room for the result", exit_bad_request);
+  return exit_code;
+}
+
+int run_and_catch(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const InputError& error) {
+    return fail(error.what(), exit_bad_request);
+  } catch (const GpuError& error) {
+    return fail(error.what(), exit_device_failed);
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory", exit_internal_error);
+  } catch (const std::exception& error) {
+    return fail(std::string("internal: ") + error.what(), exit_internal_error);
+  }
+}
+
+}  // namespace
+
+}  // namespace edgescout
+
+int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is then an error of write(), told like a full disk
+  edgescout::send_log_to_stderr();
+  return edgescout::run_and_catch(argc, argv);
+}

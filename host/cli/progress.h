@@ -1,0 +1,39 @@
+// How far a long job is: a bar on a terminal, a plain line at every tenth otherwise.
+#pragma once
+
+#include <chrono>
+#include <mutex>
+#include <ostream>
+#include <string>
+
+namespace edgescout {
+
+// True where standard error is a terminal.
+bool stderr_is_terminal();
+
+// May be stepped from several threads.
+class Progress {
+ public:
+  Progress(std::string title, std::size_t total, std::ostream& out, bool on_terminal);
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  ~Progress();  // ends the bar's line
+
+  void step(std::size_t count = 1);
+  void move_to(std::size_t done);  // never backwards
+
+ private:
+  void draw();
+  std::string line() const;
+
+  const std::string title_;
+  const std::size_t total_;
+  std::ostream& out_;
+  const bool on_terminal_;
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::mutex mutex_;
+  std::size_t done_ = 0;
+  std::size_t drawn_ = 0;  // hundredths on a terminal, tenths otherwise
+};
+
+}  // namespace edgescout

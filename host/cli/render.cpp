@@ -1,0 +1,124 @@
+// edgescout render: scenes with known poses from CAD, in BOP's layout.
+#include <filesystem>
+#include <iostream>
+
+#include "host/cli/config.h"
+#include "host/cli/exit_codes.h"
+#include "host/cli/progress.h"
+#include "host/cli/verbs.h"
+#include "host/io/bop.h"
+#include "host/io/mesh.h"
+#include "host/render/parts.h"
+#include "host/render/write_bop.h"
+#include "kernels/error.h"
+#include "kernels/thread_pool.h"
+
+namespace edgescout {
+
+namespace {
+
+struct RenderRequest {
+  std::vector<std::string> models;
+  std::string unit;
+  std::string models_info;
+  std::vector<std::string> parts;
+  std::string out;
+  int scenes = 1;
+  RenderOptions options;
+};
+
+// Models of files get the ids 1, 2 .. in the order given; the project's own parts keep theirs.
+std::vector<Object> load_objects(const RenderRequest& request) {
+  std::vector<Object> objects;
+  if (request.models.empty() == request.parts.empty())
+    throw InputError("command line", "--model, --part", request.models.empty() ? "neither" : "both",
+                     "one of the two");
+  for (const std::string& name : request.parts) objects.push_back(make_part(name));
+  if (request.models.empty()) return objects;
+  if (request.unit.empty())
+    throw InputError("command line", "--unit", "none", "mm, cm, m or in with --model");
+  const LengthUnit unit = length_unit(request.unit);
+  std::map<int, Symmetries> symmetries;
+  if (!request.models_info.empty()) symmetries = load_symmetries(request.models_info);
+  for (const std::string& file : request.models) {
+    Object object;
+    object.id = static_cast<int>(objects.size()) + 1;
+    object.mesh = load_mesh(file, unit);
+    if (symmetries.contains(object.id)) object.symmetries = symmetries.at(object.id);
+    objects.push_back(std::move(object));
+  }
+  return objects;
+}
+
+std::string scene_folder(int scene) {
+  const std::string digits = std::to_string(scene);
+  return std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits;
+}
+
+void render_scenes(const RenderRequest& request) {
+  request.options.validate();
+  const std::vector<Object> objects = load_objects(request);
+  const std::filesystem::path out = request.out;
+  write_bop_models(objects, turning_axes(objects), out / "models");
+  ThreadPool pool;
+  Progress progress("render", static_cast<std::size_t>(request.scenes), std::cerr, stderr_is_terminal());
+  for (int i = 0; i < request.scenes; ++i) {
+    RenderOptions options = request.options;
+    options.seed += static_cast<unsigned>(i);
+    const Scene scene = make_scene(objects, options);
+    write_bop_scene(scene, render(scene, pool), out / scene_folder(i));
+    progress.step();
+  }
+  std::cout << "wrote " << request.scenes << " scenes of " << request.options.views << " views to "
+            << out.string() << "\n";
+}
+
+void add_scene_options(CLI::App& verb, RenderOptions& o) {
+  OptionTable(verb, "Scene")
+      .bounded("seed", o.seed, 0u, 4000000000u, "Scene i is that of seed + i")
+      .bounded("objects", o.objects, 1, 20, "Instances a scene, dealt evenly over the models")
+      .bounded("clutter", o.clutter, 0, 2,
+               "0: bare board; 1: printed shapes and 3 foreign parts; 2: many and 8")
+      .bounded("pile", o.pile, 0.0, 1.0, "0: parts lie apart; 1: all on one heap, hiding each other");
+  OptionTable(verb, "Cameras")
+      .bounded("views", o.views, 1, 50, "Images a scene, from around it")
+      .bounded("width", o.width, 16, 8192, "px")
+      .bounded("height", o.height, 16, 8192, "px")
+      .bounded("focal", o.focal_px, 1.0, 1e5, "Focal length, px")
+      .bounded("min-elevation", o.min_elevation_deg, 10.0, 90.0, "Of the cameras over the board, degrees")
+      .bounded("max-elevation", o.max_elevation_deg, 10.0, 90.0, "degrees")
+      .bounded("min-distance", o.min_distance_m, 0.0, 100.0,
+               "Camera to parts, m; 0: so that they fill the image")
+      .bounded("max-distance", o.max_distance_m, 0.0, 100.0, "m");
+  OptionTable(verb, "Image")
+      .bounded("blur", o.blur_px, 0.0, 10.0, "Standard deviation of the lens's Gaussian, px")
+      .bounded("noise", o.noise_grey, 0.0, 50.0, "Standard deviation of the sensor's noise, grey levels")
+      .bounded("supersampling", o.supersampling, 1, 7, "Samples a pixel and axis; odd")
+      .flag("shadows,!--no-shadows", o.shadows, "Cast shadows (default)");
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, int& exit_code) {
+  CLI::App* verb =
+      app.add_subcommand("render", "Render scenes with known poses from CAD models, in BOP's layout");
+  auto request = std::make_shared<RenderRequest>();
+  verb->add_option("--model", request->models, "STL, PLY, OBJ or CAO files")->type_name("FILE");
+  verb->add_option("--unit", request->unit, "Length unit of the files: mm, cm, m or in");
+  verb->add_option("--models-info", request->models_info,
+                   "BOP models_info.json with symmetries; id 1 is the first --model")
+      ->type_name("FILE");
+  verb->add_option(
+      "--part", request->parts,
+      "The project's own parts, in place of --model: l_bracket, bearing_block, stepped_shaft, hex_nut, "
+      "u_channel, gear_plate");
+  verb->add_option("--out", request->out, "Folder of the dataset")->required()->type_name("DIR");
+  OptionTable(*verb, "Scene").bounded("scenes", request->scenes, 1, 100000, "How many");
+  add_scene_options(*verb, request->options);
+  verb->callback([request, &exit_code] {
+    render_scenes(*request);
+    exit_code = exit_done;
+  });
+}
+
+}  // namespace edgescout
