@@ -79,9 +79,8 @@ Lighting::Lighting(const Scene& scene, const WorldTriangles& triangles, ThreadPo
   if (!scene.options.shadows) return;
   const double reach = 1.02 * scene_reach_m(triangles);
   for (const Light& light : scene.lights) {
-    constexpr int SIZE_PX = 640;
     const SceneView view =
-        light_view(light.position_m, std::min(reach, 0.9 * light.position_m.norm()), SIZE_PX);
+        light_view(light.position_m, std::min(reach, 0.9 * light.position_m.norm()), light.shadow_px);
     Raster raster = rasterize(triangles.corners_m, view.camera, view.camera_from_world, pool);
     maps_.push_back({view.camera, view.camera_from_world, std::move(raster.depth_m),
                      light.position_m.norm() / view.camera.fx});

@@ -117,6 +117,13 @@ Object make_part(const std::string& name) {
   throw InputError("command line", "part", name, "one of " + known);
 }
 
+std::map<int, Eigen::Vector3d> turning_axes(std::span<const Object> parts) {
+  std::map<int, Eigen::Vector3d> axes;
+  for (const Object& part : parts)
+    if (part.mesh.name == "stepped_shaft") axes[part.id] = Eigen::Vector3d::UnitZ();
+  return axes;
+}
+
 Mesh make_box(const Eigen::Vector3d& size_m) {
   const Eigen::Vector3d s = 1e3 * size_m;
   return extrude("box", {{{0, 0}, {s.x(), 0}, {s.x(), s.y()}, {0, s.y()}}, {}, {}, s.z()});

@@ -1,6 +1,8 @@
 // The project's own parts: small textureless CAD models, made by code, free to ship.
 #pragma once
 
+#include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +17,8 @@ std::vector<std::string> part_names();
 // Closed, triangles outwards, 30 to 80 mm, origin in the middle of the bounding box; symmetries filled (that
 // of the turned part in 64 steps). InputError naming the known parts on another name.
 Object make_part(const std::string& name);
+// Of the given parts, those that look the same at every turn: BOP id and the axis, through the origin.
+std::map<int, Eigen::Vector3d> turning_axes(std::span<const Object> parts);
 
 // Nameless things to lie about: a box of the given sides, a round bar, a ring.
 Mesh make_box(const Eigen::Vector3d& size_m);

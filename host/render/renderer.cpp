@@ -65,11 +65,12 @@ Hit trace(const ViewContext& view, int x, int y) {
   return hit;
 }
 
+// The print's rows run downwards, the board's y upwards: words must not come out mirrored.
 double board_albedo(const Scene& scene, const Se3& board_from_world, const Eigen::Vector3d& point_m) {
   const Eigen::Vector3d p = board_from_world * point_m;
   const double scale = scene.board.width / scene.board_side_m;
   const double u = p.x() * scale + 0.5 * (scene.board.width - 1),
-               v = p.y() * scale + 0.5 * (scene.board.height - 1);
+               v = 0.5 * (scene.board.height - 1) - p.y() * scale;
   if (!(u >= 0 && v >= 0 && u < scene.board.width - 1 && v < scene.board.height - 1))
     return scene.desk_albedo;
   const int x = static_cast<int>(u), y = static_cast<int>(v);

@@ -87,7 +87,7 @@ std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
 
 void lay_out(Scene& scene, double diameter_m, Random random) {
   const double crowd = std::sqrt(static_cast<double>(scene.placed.size()));
-  const double radius = diameter_m * crowd * (0.85 - 0.6 * scene.options.pile);
+  const double radius = diameter_m * crowd * (0.65 - 0.35 * scene.options.pile);
   Table table(8 * diameter_m * crowd, diameter_m / 80);
   for (const std::size_t i : shuffled(scene.placed.size(), random)) {
     PlacedObject& part = scene.placed[i];
@@ -124,8 +124,8 @@ void add_views(Scene& scene, Random random) {
   const double reach = reach_m(scene);
   const double filling_m = o.focal_px * reach / (0.5 * std::min(o.width, o.height));
   const bool given = o.max_distance_m > 0;
-  const double low = given ? o.min_distance_m : 0.9 * filling_m,
-               high = given ? o.max_distance_m : 1.4 * filling_m;
+  const double low = given ? o.min_distance_m : 0.8 * filling_m,
+               high = given ? o.max_distance_m : 1.2 * filling_m;
   const double first_azimuth = random.uniform(0, 2 * PI);
   for (int i = 0; i < o.views; ++i) {
     // The golden angle keeps any number of views apart.
@@ -152,7 +152,7 @@ void add_lamp(Scene& scene, double irradiance, double reach, Random& random) {
   const Eigen::Vector3d centre = distance * on_sphere(random.uniform(0, 2 * PI), random.uniform(0.6, 1.35));
   const double width = distance * random.uniform(0.03, 0.15);
   for (int i = 0; i < POINTS; ++i)
-    scene.lights.push_back({centre + width * random.direction(), irradiance / POINTS});
+    scene.lights.push_back({centre + width * random.direction(), irradiance / POINTS, 640});
 }
 
 void add_lights(Scene& scene, Random random) {
@@ -161,12 +161,12 @@ void add_lights(Scene& scene, Random random) {
   const double lamps = exposure * random.uniform(0.4, 0.75), share = random.uniform(0.55, 0.85);
   add_lamp(scene, lamps * share, reach, random);
   add_lamp(scene, lamps * (1 - share), reach, random);
-  constexpr int SKY = 20;
+  constexpr int SKY = 40;
   for (int i = 0; i < SKY; ++i) {
     // Equal areas of the upper hemisphere; the mean cosine on the board is a half.
     const double elevation = std::asin((i + 0.5) / SKY);
     const Eigen::Vector3d direction = on_sphere(i * PI * (3 - std::sqrt(5.0)), elevation);
-    scene.lights.push_back({20 * reach * direction, 2 * (exposure - lamps) / SKY});
+    scene.lights.push_back({20 * reach * direction, 2 * (exposure - lamps) / SKY, 224});
   }
   scene.ambient = 0.06 * exposure;
 }

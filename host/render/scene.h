@@ -4,7 +4,6 @@
 // options.
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -13,7 +12,7 @@
 namespace edgescout {
 
 struct RenderOptions {
-  std::uint64_t seed = 1;
+  unsigned seed = 1;
   int width = 1024;
   int height = 768;
   double focal_px = 1200;
@@ -50,6 +49,7 @@ struct Light {
   Eigen::Vector3d position_m;
   double irradiance =
       0;  // at the world's origin on a surface facing the light; falls with the squared distance
+  int shadow_px = 512;  // side of its shadow map: fewer, softer
 };
 
 struct SceneView {
