@@ -55,6 +55,7 @@ int run(int argc, char** argv) {
   int exit_code = exit_internal_error;
   add_devices(app, exit_code);
   add_model(app, exit_code);
+  add_render(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {
