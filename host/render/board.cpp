@@ -148,13 +148,13 @@ class Printer {
 
 // Low, cloudy variation of the paper: an even grey would leave nothing for an edge detector to stumble over.
 void add_grain(cv::Mat& board, Random& random) {
-  for (const auto& [cells, amplitude] : {std::pair{6, 6.0}, {40, 3.0}, {400, 2.5}}) {
+  for (const auto& [cells, amplitude] : {std::pair{6, 0.04}, {40, 0.02}, {400, 0.02}}) {
     cv::Mat coarse(cells, cells, CV_32F), fine;
     for (int y = 0; y < cells; ++y)
       for (int x = 0; x < cells; ++x)
-        coarse.at<float>(y, x) = static_cast<float>(amplitude * random.normal());
+        coarse.at<float>(y, x) = static_cast<float>(1 + amplitude * random.normal());
     cv::resize(coarse, fine, board.size(), 0, 0, cv::INTER_CUBIC);
-    cv::add(board, fine, board, cv::noArray(), CV_8U);
+    cv::multiply(board, fine, board, 1, CV_8U);
   }
 }
 
