@@ -1,0 +1,116 @@
+// Stage two, fast: all eight neighbours are read and the right ones chosen by masks, so that a row runs in
+// vectors.
+#include <algorithm>
+#include <bit>
+#include <cstring>
+
+#include "kernels/edge_stages.h"
+#include "kernels/simd.h"
+#include "kernels/thread_pool.h"
+
+namespace edgescout {
+
+namespace {
+
+constexpr int band_rows = 48;
+
+EDGESCOUT_SIMD_CLONES
+void square_row(const std::int16_t* gx, const std::int16_t* gy, int width, std::uint32_t* m2) {
+  for (int x = 0; x < width; ++x) m2[x] = static_cast<std::uint32_t>(int(gx[x]) * gx[x] + int(gy[x]) * gy[x]);
+}
+
+// Squared magnitudes of the rows above, at and below; marks the pixels 1 .. width - 2.
+struct ThinRow {
+  const std::int16_t *gx, *gy;
+  const std::uint32_t *above, *here, *below;
+};
+
+EDGESCOUT_SIMD_CLONES
+void thin_row(const ThinRow& row, int width, std::uint32_t low2, std::uint8_t* marks) {
+  const std::int16_t *gx = row.gx, *gy = row.gy;
+  const std::uint32_t *above = row.above, *here = row.here, *below = row.below;
+  for (int x = 1; x < width - 1; ++x) {
+    const std::int32_t dx = gx[x], dy = gy[x], ax = dx < 0 ? -dx : dx, ay = dy < 0 ? -dy : dy;
+    const std::int32_t larger = std::max(std::max(ax, ay), 1), smaller = std::min(ax, ay);
+    // The quotient of two such integers is never so close below a whole number that its rounding in float
+    // reaches it.
+    const auto f = static_cast<std::uint32_t>(static_cast<std::int32_t>(
+        static_cast<float>(256 * smaller + larger / 2) / static_cast<float>(larger)));
+    const std::uint32_t west = here[x - 1], east = here[x + 1], north = above[x], south = below[x];
+    const std::uint32_t nw = above[x - 1], ne = above[x + 1], sw = below[x - 1], se = below[x + 1],
+                        centre = here[x];
+    const bool right = dx >= 0, down = dy >= 0, level = ax >= ay;
+    const std::uint32_t ahead_x = right ? east : west, behind_x = right ? west : east;
+    const std::uint32_t ahead_y = down ? south : north, behind_y = down ? north : south;
+    const std::uint32_t ahead_se = right ? se : sw, behind_se = right ? nw : ne;
+    const std::uint32_t ahead_ne = right ? ne : nw, behind_ne = right ? sw : se;
+    const std::uint32_t near_ahead = level ? ahead_x : ahead_y, near_behind = level ? behind_x : behind_y;
+    const std::uint32_t far_ahead = down ? ahead_se : ahead_ne, far_behind = down ? behind_se : behind_ne;
+    const std::uint32_t before = (256 - f) * (near_behind >> 6) + f * (far_behind >> 6);
+    const std::uint32_t after = (256 - f) * (near_ahead >> 6) + f * (far_ahead >> 6);
+    const std::uint32_t scaled = 256 * (centre >> 6);
+    marks[x] = static_cast<std::uint8_t>((centre >= low2) & (scaled > before) & (scaled >= after));
+  }
+}
+
+void list_row(const std::uint8_t* marks, const std::uint32_t* m2, int width, int y,
+              std::vector<EdgePixel>& pixels) {
+  for (int x = 0; x < width; x += 8) {
+    std::uint64_t eight;
+    std::memcpy(&eight, marks + x, sizeof eight);  // runs into the margin, which holds zeros
+    if (eight == 0) continue;
+    for (int k = 0; k < 8; ++k)
+      if (marks[x + k] && x + k < width) pixels.push_back({x + k, y, m2[x + k]});
+  }
+}
+
+void thin_band(int y0, int y1, std::uint32_t low2, EdgePlanes& planes, std::vector<EdgePixel>& pixels) {
+  thread_local std::vector<std::uint32_t> squares;
+  const int width = planes.width;
+  squares.resize(std::size_t(3) * width);
+  const auto row_of = [&](int y) { return squares.data() + std::size_t(y % 3) * width; };
+  const auto square = [&](int y) {
+    square_row(planes.gx.data() + std::size_t(y) * width, planes.gy.data() + std::size_t(y) * width, width,
+               row_of(y));
+  };
+  y0 = std::max(y0, 1);
+  y1 = std::min(y1, planes.height - 1);
+  if (y0 >= y1) return;
+  square(y0 - 1);
+  square(y0);
+  for (int y = y0; y < y1; ++y) {
+    square(y + 1);
+    const std::size_t at = std::size_t(y) * width;
+    std::uint8_t* marks = planes.candidates.data() + planes.candidate_index(0, y);
+    thin_row({planes.gx.data() + at, planes.gy.data() + at, row_of(y - 1), row_of(y), row_of(y + 1)}, width,
+             low2, marks);
+    list_row(marks, row_of(y), width, y, pixels);
+  }
+}
+
+}  // namespace
+
+EdgePlanes::EdgePlanes(int image_width, int image_height)
+    : width(image_width),
+      height(image_height),
+      gx(std::size_t(image_width) * image_height),
+      gy(std::size_t(image_width) * image_height),
+      candidates(stride() * (std::size_t(image_height) + 2 * EDGE_WINDOW) + 8) {}
+
+std::vector<EdgePixel> edge_thin_fast(std::int32_t low, ThreadPool& pool, EdgePlanes& planes) {
+  const int bands = (planes.height + band_rows - 1) / band_rows;
+  std::vector<std::vector<EdgePixel>> lists(bands);
+  pool.for_each(bands, [&](std::size_t band) {
+    const int y0 = static_cast<int>(band) * band_rows;
+    thin_band(y0, std::min(planes.height, y0 + band_rows), static_cast<std::uint32_t>(low * low), planes,
+              lists[band]);
+  });
+  std::vector<EdgePixel> pixels;
+  std::size_t total = 0;
+  for (const auto& list : lists) total += list.size();
+  pixels.reserve(total);
+  for (const auto& list : lists) pixels.insert(pixels.end(), list.begin(), list.end());
+  return pixels;
+}
+
+}  // namespace edgescout
