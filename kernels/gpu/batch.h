@@ -46,6 +46,13 @@ inline std::uint32_t groups_for(std::size_t count, std::uint32_t size) {
   return static_cast<std::uint32_t>((count + size - 1) / size);
 }
 
+// `count` workgroups in two dimensions, for kernels that number them x + y * gl_NumWorkGroups.x: a device may
+// take no more than 65535 along one.
+inline Groups spread(std::uint32_t count) {
+  constexpr std::uint32_t line = 1u << 15;
+  return {count < line ? count : line, groups_for(count, line)};
+}
+
 class Batch {
  public:
   Batch(const Device& device, std::string name);

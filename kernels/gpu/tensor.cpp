@@ -45,4 +45,18 @@ Bound DeviceTensor::band(std::uint32_t band) const {
   return {buffer_, first_row(real) * row_bytes_, row_count(real) * row_bytes_};
 }
 
+TensorGrid DeviceTensor::grid() const {
+  return {static_cast<std::uint32_t>(shape_.width), static_cast<std::uint32_t>(shape_.height),
+          static_cast<std::uint32_t>(shape_.bins), static_cast<std::uint32_t>(shape_.tiles_per_row()),
+          band_rows_};
+}
+
+const Kernel& BandedKernel::of(const DeviceTensor& tensor) {
+  const auto found = kernels_.find(tensor.bands());
+  if (found != kernels_.end()) return found->second;
+  KernelSource source = source_;
+  source.constants = {tensor.bands()};
+  return kernels_.emplace(tensor.bands(), Kernel(device_, source)).first->second;
+}
+
 }  // namespace edgescout::gpu

@@ -5,6 +5,9 @@
 // All bands but the last have the same number of rows.
 #pragma once
 
+#include <map>
+#include <vector>
+
 #include "kernels/gpu/batch.h"
 #include "kernels/gpu/buffer.h"
 #include "kernels/tensor_bands.h"
@@ -28,12 +31,26 @@ class DeviceTensor {
   // Band `band` as a binding; a band that does not exist repeats the last one, so that every binding of a
   // reader is valid.
   Bound band(std::uint32_t band) const;
+  // What a reader has to know.
+  TensorGrid grid() const;
 
  private:
   TensorShape shape_;
   VkDeviceSize row_bytes_ = 0;
   std::uint32_t band_rows_ = 0, bands_ = 0;
   RawBuffer buffer_;
+};
+
+// A kernel that reads tensors: specialized to the number of bands, made when first needed.
+class BandedKernel {
+ public:
+  BandedKernel(const Device& device, KernelSource source) : device_(device), source_(std::move(source)) {}
+  const Kernel& of(const DeviceTensor& tensor);
+
+ private:
+  const Device& device_;
+  KernelSource source_;
+  std::map<std::uint32_t, Kernel> kernels_;
 };
 
 }  // namespace edgescout::gpu

@@ -1,0 +1,49 @@
+#include "kernels/gpu/depth_raster.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "depth_raster.spv.h"
+#include "kernels/depth_raster_push.h"
+
+namespace edgescout::gpu {
+
+namespace {
+
+static_assert(sizeof(DepthJob) == 4 * DEPTH_JOB_WORDS);
+
+constexpr std::size_t max_depth_bytes = std::size_t{64} << 20;
+constexpr std::size_t max_groups_y = 1u << 15;
+
+}  // namespace
+
+DepthRaster::DepthRaster(const Device& device)
+    : device_(device), kernel_(device, {"depth_raster", depth_raster_spv, 4, sizeof(DepthRasterPush), {}}) {}
+
+std::size_t DepthRaster::max_jobs(int width, int height) const {
+  const std::size_t map_bytes = std::size_t(width) * height * sizeof(float);
+  const std::size_t bytes = std::min<std::size_t>(max_depth_bytes, device_.limits().maxStorageBufferRange);
+  return std::clamp<std::size_t>(bytes / map_bytes, 1, max_groups_y);
+}
+
+void DepthRaster::record(Batch& batch, const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width,
+                         int height, std::span<float> depth) {
+  check_depth_raster(mesh, jobs.size(), width, height, depth.size());
+  const auto count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
+  vertices_.reserve(device_, mesh.vertices_m.size(), "mesh vertices");
+  triangles_.reserve(device_, mesh.triangles.size(), "mesh triangles");
+  jobs_.reserve(device_, jobs.size(), "depth jobs");
+  depth_.reserve(device_, depth.size(), "depth maps");
+  batch.upload(vertices_, mesh.vertices_m);
+  batch.upload(triangles_, mesh.triangles);
+  batch.upload(jobs_, jobs);
+  batch.fill(depth_, std::bit_cast<std::uint32_t>(DEPTH_EMPTY));
+  batch.barrier();
+  const DepthRasterPush push{count, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
+                             DEPTH_NEAR_M};
+  batch.dispatch(kernel_, {groups_for(count, DEPTH_GROUP), static_cast<std::uint32_t>(jobs.size())},
+                 {vertices_, triangles_, jobs_, depth_}, push);
+  batch.download(depth_, depth);
+}
+
+}  // namespace edgescout::gpu

@@ -1,0 +1,30 @@
+// Records depth_raster (kernels/depth_raster.h, depth_raster_push.h).
+#pragma once
+
+#include <span>
+
+#include "kernels/depth_raster.h"
+#include "kernels/gpu/batch.h"
+
+namespace edgescout::gpu {
+
+class DepthRaster {
+ public:
+  explicit DepthRaster(const Device& device);
+  // Maps one batch may draw: what the device binds at once, and not so many that they fill its memory.
+  std::size_t max_jobs(int width, int height) const;
+  // At most max_jobs() jobs; `depth` is there when the batch has run. Throws LogicError where
+  // check_depth_raster() does.
+  void record(Batch& batch, const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
+              std::span<float> depth);
+
+ private:
+  const Device& device_;
+  Kernel kernel_;
+  Buffer<float> vertices_;
+  Buffer<std::uint32_t> triangles_;
+  Buffer<DepthJob> jobs_;
+  Buffer<float> depth_;
+};
+
+}  // namespace edgescout::gpu

@@ -1,0 +1,42 @@
+// Records the edge detector: edge_gradient, edge_thin, edge_link (kernels/edge_stages.h and the headers of
+// that name).
+//
+// Two batches: the first finds the edge pixels, the host sorts their indices row-major, the second computes
+// their points.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "kernels/edge_detect.h"
+#include "kernels/gpu/batch.h"
+
+namespace edgescout::gpu {
+
+class EdgeDetect {
+ public:
+  explicit EdgeDetect(const Device& device);
+  // Validates the options. The first batch; then call pixels() to get how many there are.
+  void record_pixels(Batch& batch, const ImageView& image, const EdgeOptions& options);
+  // After the first batch has run: the edge pixels' indices, sorted.
+  std::vector<std::uint32_t> pixels() const;
+  // The second batch: one point for every pixel of the list. `points` are there when it has run.
+  void record_points(Batch& batch, std::span<const std::uint32_t> pixels, std::span<EdgePoint> points);
+
+ private:
+  void record_gradient(Batch& batch, const ImageView& image, float sigma_px);
+  void record_link(Batch& batch, std::uint32_t pass, std::uint32_t count) const;
+
+  const Device& device_;
+  std::array<Kernel, 2> gradient_passes_;
+  Kernel thin_;
+  std::array<Kernel, 4> link_passes_;
+  std::uint32_t width_ = 0, height_ = 0, high2_ = 0, min_length_px_ = 0;
+  Buffer<std::uint32_t> image_, rows_, gradient_, labels_, components_, kept_;
+  Buffer<std::int32_t> weights_;
+  Buffer<EdgePoint> points_;
+  std::vector<std::uint32_t> host_kept_;
+};
+
+}  // namespace edgescout::gpu

@@ -1,0 +1,70 @@
+#include "kernels/gpu/pose_plan.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "kernels/error.h"
+
+namespace edgescout::gpu {
+
+namespace {
+
+static_assert(sizeof(ModelPoint) == 4 * POSE_POINT_WORDS);
+static_assert(sizeof(PoseProblem) == 4 * POSE_PROBLEM_WORDS);
+
+constexpr std::uint32_t max_run = 1u << 15;  // any device takes so many workgroups in y
+
+}  // namespace
+
+std::uint32_t groups_to_fill(const Device& device) { return device.info().hardware ? 1024 : 1; }
+
+PosePlan plan_poses(std::span<const PoseProblem> problems, std::size_t points, std::size_t views,
+                    std::uint32_t min_groups) {
+  std::uint32_t longest = 1;
+  for (const PoseProblem& problem : problems) {
+    check(std::size_t(problem.first_point) + problem.point_count <= points, "poses: points beyond the list");
+    check(problem.view < views, "poses: no such view");
+    longest = std::max(longest, problem.point_count);
+  }
+  PosePlan plan;
+  plan.order.resize(problems.size());
+  std::iota(plan.order.begin(), plan.order.end(), 0u);
+  std::ranges::stable_sort(plan.order, {}, [&](std::uint32_t i) { return problems[i].view; });
+  for (std::uint32_t n = 0; n < plan.order.size(); ++n) {
+    const std::uint32_t view = problems[plan.order[n]].view;
+    if (plan.runs.empty() || plan.runs.back().view != view || plan.runs.back().count == max_run)
+      plan.runs.push_back({view, n, 0});
+    ++plan.runs.back().count;
+  }
+  const std::uint32_t wanted =
+      groups_for(min_groups, std::max<std::uint32_t>(1, static_cast<std::uint32_t>(problems.size())));
+  plan.parts = std::clamp(wanted, 1u, groups_for(longest, POSE_GROUP));
+  return plan;
+}
+
+PoseCamera pose_camera(const Intrinsics& k) {
+  return {k.fx, k.fy, k.cx, k.cy, POSE_MIN_DEPTH_M, POSE_MIN_FORESHORTENING};
+}
+
+void PoseBuffers::upload(Batch& batch, const PosePlan& plan, std::span<const ModelPoint> points,
+                         std::span<const PoseProblem> problems, std::uint32_t sums) {
+  std::vector<PoseProblem> sorted;
+  sorted.reserve(problems.size());
+  for (std::uint32_t i : plan.order) sorted.push_back(problems[i]);
+  host_results_.assign(problems.size() * plan.parts * sums, 0.0f);
+  points_.reserve(device_, points.size(), "model points");
+  problems_.reserve(device_, sorted.size(), "pose problems");
+  results_.reserve(device_, host_results_.size(), "pose sums");
+  batch.upload(points_, points);
+  batch.upload<PoseProblem>(problems_, sorted);
+  batch.barrier();
+}
+
+void PoseBuffers::total(const PosePlan& plan, std::size_t n, std::span<double> totals) const {
+  std::ranges::fill(totals, 0.0);
+  for (std::uint32_t part = 0; part < plan.parts; ++part)
+    for (std::size_t s = 0; s < totals.size(); ++s)
+      totals[s] += double(host_results_[(n * plan.parts + part) * totals.size() + s]);
+}
+
+}  // namespace edgescout::gpu

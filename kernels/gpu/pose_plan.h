@@ -1,0 +1,61 @@
+// Many poses in many views as a few dispatches: what pose_normal_equations and pose_score have in common.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "kernels/gpu/batch.h"
+#include "kernels/gpu/tensor.h"
+#include "kernels/pose_normal_equations.h"
+#include "kernels/pose_push.h"
+
+namespace edgescout::gpu {
+
+// One view as a kernel reads it. The gradient may be null.
+struct PoseView {
+  const DeviceTensor* tensor;
+  Intrinsics intrinsics;
+  const RawBuffer* gradient_x2;
+};
+
+// Problems in the order of their views; a run of them is one dispatch.
+struct PosePlan {
+  struct Run {
+    std::uint32_t view, first, count;
+  };
+  std::vector<std::uint32_t> order;
+  std::vector<Run> runs;
+  std::uint32_t parts = 1;  // workgroups a problem
+};
+
+// `min_groups`: workgroups that keep the device busy. Throws LogicError on problems that break the contract.
+PosePlan plan_poses(std::span<const PoseProblem> problems, std::size_t points, std::size_t views,
+                    std::uint32_t min_groups);
+// Workgroups that keep the device busy: many on a graphics card, one on a processor's few cores.
+std::uint32_t groups_to_fill(const Device& device);
+
+PoseCamera pose_camera(const Intrinsics& intrinsics);
+
+// The device's copy of points and problems, and the sums that come back, `sums` floats a problem and part.
+class PoseBuffers {
+ public:
+  explicit PoseBuffers(const Device& device) : device_(device) {}
+  void upload(Batch& batch, const PosePlan& plan, std::span<const ModelPoint> points,
+              std::span<const PoseProblem> problems, std::uint32_t sums);
+  void download(Batch& batch) { batch.download<float>(results_, host_results_); }
+  // Sums of the n-th problem of the plan's order over its parts, after the batch has run.
+  void total(const PosePlan& plan, std::size_t n, std::span<double> totals) const;
+
+  const RawBuffer& points() const { return points_; }
+  const RawBuffer& problems() const { return problems_; }
+  const RawBuffer& results() const { return results_; }
+
+ private:
+  const Device& device_;
+  Buffer<ModelPoint> points_;
+  Buffer<PoseProblem> problems_;
+  Buffer<float> results_;
+  std::vector<float> host_results_;
+};
+
+}  // namespace edgescout::gpu

@@ -1,0 +1,177 @@
+// The Vulkan backend: every step a batch, timed by its kernels.
+#include <algorithm>
+#include <chrono>
+
+#include "kernels/error.h"
+#include "kernels/gpu/dcd_tensor.h"
+#include "kernels/gpu/depth_raster.h"
+#include "kernels/gpu/edge_detect.h"
+#include "kernels/gpu/pose_normal_equations.h"
+#include "kernels/gpu/pose_score.h"
+#include "kernels/gpu/template_score.h"
+#include "kernels/thread_pool.h"
+
+namespace edgescout {
+
+namespace {
+
+using namespace gpu;
+
+// Keeps the device alive for as long as its memory is in use.
+class VulkanView : public BackendView {
+ public:
+  VulkanView(std::shared_ptr<const Device> device, const TensorShape& tensor_shape)
+      : device_(std::move(device)), values(*device_, tensor_shape) {
+    shape = tensor_shape;
+  }
+  const Device& device() const { return *device_; }
+  std::vector<std::uint16_t> tensor() const override {
+    std::vector<std::uint16_t> copy(shape.size());
+    Batch batch(*device_, "tensor download");
+    batch.download<std::uint16_t>(values.buffer(), copy);
+    batch.run();
+    return copy;
+  }
+  PoseView pose_view() const {
+    return {&values, intrinsics, gradient_x2.size() > 0 ? &gradient_x2 : nullptr};
+  }
+
+ private:
+  std::shared_ptr<const Device> device_;
+
+ public:
+  DeviceTensor values;
+  Buffer<std::int16_t> gradient_x2;
+};
+
+class VulkanBackend : public Backend {
+ public:
+  explicit VulkanBackend(const DeviceOptions& options)
+      : device_(std::make_shared<Device>(options)),
+        builder_(*device_),
+        edges_(*device_),
+        templates_(*device_),
+        systems_(*device_),
+        scorer_(*device_),
+        raster_(*device_) {}
+
+  std::string name() const override {
+    return "vulkan:" + std::to_string(device_->info().index) + " " + device_->info().name;
+  }
+  bool is_gpu() const override { return true; }
+  ThreadPool& threads() override { return pool_; }
+
+  std::vector<EdgePoint> detect_edges(const ImageView& image, const EdgeOptions& options) override {
+    Batch first(*device_, "edge pixels");
+    edges_.record_pixels(first, image, options);
+    run(first);
+    const std::vector<std::uint32_t> pixels = edges_.pixels();
+    std::vector<EdgePoint> points(pixels.size());
+    Batch second(*device_, "edge points");
+    edges_.record_points(second, pixels, points);
+    run(second);
+    return points;
+  }
+
+  ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height, const ImageView& image,
+                       const Intrinsics& intrinsics, const TensorOptions& options) override {
+    options.validate();
+    check(width > 0 && height > 0, "make_view: an image without pixels");
+    check(image.width == 0 || (image.width == width && image.height == height),
+          "make_view: image of another size");
+    auto view = std::make_shared<VulkanView>(device_, TensorShape{width, height, options.bins});
+    view->options = options;
+    view->intrinsics = intrinsics;
+    Batch batch(*device_, "dcd_tensor");
+    builder_.record(batch, edges, options, view->values);
+    if (image.width > 0) {
+      const std::vector<std::int16_t> gradient = image_gradient_x2(image);
+      view->gradient_x2.reserve(*device_, gradient.size(), "image gradient");
+      batch.upload<std::int16_t>(view->gradient_x2, gradient);
+    }
+    run(batch);
+    return view;
+  }
+
+  void template_score(const BackendView& view, std::span<const TemplatePoint> points,
+                      std::span<const TemplateJob> jobs, int anchor_step,
+                      std::span<TemplateHit> hits) override {
+    Batch batch(*device_, "template_score");
+    templates_.record(batch, own(view).values, points, jobs, anchor_step, hits);
+    run(batch);
+  }
+
+  void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
+                             std::span<const PoseProblem> problems, const PoseLoss& loss,
+                             std::span<NormalEquations> out) override {
+    Batch batch(*device_, "pose_normal_equations");
+    systems_.record(batch, pose_views(views), points, problems, loss);
+    run(batch);
+    systems_.collect(out);
+  }
+
+  void pose_score(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
+                  std::span<const PoseProblem> problems, const PoseScoreOptions& options,
+                  std::span<PoseScore> out) override {
+    Batch batch(*device_, "pose_score");
+    scorer_.record(batch, pose_views(views), points, problems, options);
+    run(batch);
+    scorer_.collect(out);
+  }
+
+  void depth_raster(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
+                    std::span<float> depth) override {
+    check_depth_raster(mesh, jobs.size(), width, height, depth.size());
+    const std::size_t map = std::size_t(width) * height, most = raster_.max_jobs(width, height);
+    for (std::size_t first = 0; first < jobs.size(); first += most) {
+      const std::size_t count = std::min(most, jobs.size() - first);
+      Batch batch(*device_, "depth_raster");
+      raster_.record(batch, mesh, jobs.subspan(first, count), width, height,
+                     depth.subspan(first * map, count * map));
+      run(batch);
+    }
+  }
+
+ private:
+  const VulkanView& own(const BackendView& view) const {
+    const auto* mine = dynamic_cast<const VulkanView*>(&view);
+    check(mine != nullptr && &mine->device() == device_.get(), "a view made by another backend");
+    return *mine;
+  }
+
+  std::vector<PoseView> pose_views(std::span<const ViewHandle> views) const {
+    std::vector<PoseView> list;
+    for (const ViewHandle& view : views) list.push_back(own(*view).pose_view());
+    return list;
+  }
+
+  // Kernels by their names on the device's clock; what the call took beyond them (copies, waiting, the
+  // driver's compiler) as "vulkan_host".
+  void run(Batch& batch) {
+    const auto start = std::chrono::steady_clock::now();
+    double rest = 0;
+    for (const StageTime& time : batch.run()) {
+      add_time(time.name, time.seconds);
+      rest -= time.seconds;
+    }
+    rest += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    add_time("vulkan_host", std::max(0.0, rest));
+  }
+
+  std::shared_ptr<const Device> device_;
+  ThreadPool pool_;
+  DcdTensorBuilder builder_;
+  EdgeDetect edges_;
+  TemplateScore templates_;
+  PoseNormalEquations systems_;
+  PoseScorer scorer_;
+  DepthRaster raster_;
+};
+
+}  // namespace
+
+std::unique_ptr<Backend> make_vulkan_backend(int device_index, bool validation) {
+  return std::make_unique<VulkanBackend>(DeviceOptions{device_index, validation, false});
+}
+
+}  // namespace edgescout

@@ -1,0 +1,85 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "depth_raster_push.h"
+
+layout(local_size_x = DEPTH_GROUP) in;
+layout(push_constant) uniform Push { DepthRasterPush push; };
+layout(binding = 0) readonly buffer Vertices { float vertices[]; };
+layout(binding = 1) readonly buffer Triangles { uint triangles[]; };
+layout(binding = 2) readonly buffer Jobs { float jobs[]; };
+layout(binding = 3) buffer Depth { uint depth[]; };
+
+struct Triangle {
+  vec3 plane[3];  // of the edges, against corner 0, 1, 2; >= 0 inside
+  vec3 z;         // of the corners
+  ivec2 low;      // box of pixels, inclusive
+  ivec2 size;     // empty where not positive
+};
+
+shared uint large_count;
+shared Triangle large[DEPTH_GROUP];
+
+vec3 corner(uint job, uint triangle, uint k) {
+  const uint v = 3u * triangles[3u * triangle + k], j = job * DEPTH_JOB_WORDS;
+  const vec3 p = vec3(vertices[v], vertices[v + 1], vertices[v + 2]);
+  return vec3(dot(vec3(jobs[j], jobs[j + 1], jobs[j + 2]), p) + jobs[j + 3],
+              dot(vec3(jobs[j + 4], jobs[j + 5], jobs[j + 6]), p) + jobs[j + 7],
+              dot(vec3(jobs[j + 8], jobs[j + 9], jobs[j + 10]), p) + jobs[j + 11]);
+}
+
+vec2 focal_of(uint job) { return vec2(jobs[job * DEPTH_JOB_WORDS + 12], jobs[job * DEPTH_JOB_WORDS + 13]); }
+vec2 centre_of(uint job) { return vec2(jobs[job * DEPTH_JOB_WORDS + 14], jobs[job * DEPTH_JOB_WORDS + 15]); }
+
+Triangle set_up(uint job, uint triangle) {
+  Triangle t;
+  t.size = ivec2(0);
+  const vec3 a = corner(job, triangle, 0), b = corner(job, triangle, 1), c = corner(job, triangle, 2);
+  t.z = vec3(a.z, b.z, c.z);
+  if (!(min(a.z, min(b.z, c.z)) >= push.near_m)) return t;
+  const float volume = dot(a, cross(b - a, c - a));
+  if (volume == 0.0) return t;
+  const float winding = volume < 0.0 ? -1.0 : 1.0;
+  t.plane[0] = winding * cross(b, c - b);
+  t.plane[1] = winding * cross(c, a - c);
+  t.plane[2] = winding * cross(a, b - a);
+  const vec2 focal = focal_of(job), centre = centre_of(job), last = vec2(push.width, push.height) - 1.0;
+  const vec2 pa = focal * a.xy / a.z + centre, pb = focal * b.xy / b.z + centre, pc = focal * c.xy / c.z + centre;
+  t.low = ivec2(ceil(clamp(min(pa, min(pb, pc)), vec2(0.0), last + 1.0)));
+  const ivec2 high = ivec2(floor(clamp(max(pa, max(pb, pc)), vec2(-1.0), last)));
+  t.size = max(high - t.low + 1, ivec2(0));
+  return t;
+}
+
+// Every `step`-th pixel of the box from `first` on.
+void fill(Triangle t, uint job, uint first, uint step) {
+  const vec2 focal = focal_of(job), centre = centre_of(job);
+  const uint count = uint(t.size.x * t.size.y), map = job * push.width * push.height;
+  [[dont_unroll]] for (uint i = first; i < count; i += step) {
+    const ivec2 pixel = t.low + ivec2(int(i) % t.size.x, int(i) / t.size.x);
+    const vec3 ray = vec3((vec2(pixel) - centre) / focal, 1.0);
+    const vec3 w = vec3(dot(t.plane[0], ray), dot(t.plane[1], ray), dot(t.plane[2], ray));
+    const float sum = w.x + w.y + w.z;
+    if (min(w.x, min(w.y, w.z)) < 0.0 || sum <= 0.0) continue;
+    const float z = dot(w, t.z) / sum;
+    atomicMin(depth[map + uint(pixel.y) * push.width + uint(pixel.x)], floatBitsToUint(z));
+  }
+}
+
+void main() {
+  const uint lane = gl_LocalInvocationID.x, job = gl_WorkGroupID.y;
+  const uint triangle = gl_WorkGroupID.x * DEPTH_GROUP + lane;
+  if (lane == 0u) large_count = 0u;
+  barrier();
+  if (triangle < push.triangle_count) {
+    const Triangle t = set_up(job, triangle);
+    const int box = t.size.x * t.size.y;
+    if (box > int(DEPTH_SMALL_BOX))
+      large[atomicAdd(large_count, 1u)] = t;
+    else if (box > 0)
+      fill(t, job, 0u, 1u);
+  }
+  barrier();
+  const uint count = large_count;
+  [[dont_unroll]] for (uint i = 0; i < count; ++i) fill(large[i], job, lane, DEPTH_GROUP);
+}

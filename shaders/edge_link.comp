@@ -1,0 +1,144 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "edge_link.h"
+#include "edge_stages.h"
+#include "angle.glsl"
+
+layout(constant_id = 0) const uint PASS = EDGE_LINK_MERGE;
+layout(local_size_x = EDGE_GROUP) in;
+layout(push_constant) uniform Push { EdgeLinkPush push; };
+layout(binding = 0) readonly buffer Gradient { uint gradient[]; };
+layout(binding = 1) coherent buffer Labels { uint labels[]; };
+layout(binding = 2) buffer Components { uint components[]; };
+layout(binding = 3) buffer Kept { uint kept[]; };
+layout(binding = 4) writeonly buffer Points { vec4 points[]; };
+#include "edge_read.glsl"
+
+// Labels only ever shrink towards the root, so that a stale read costs a step and no correctness.
+uint root_of(uint i) {
+  uint label = labels[i];
+  [[dont_unroll]] while (label != i) {
+    i = label;
+    label = labels[i];
+  }
+  return i;
+}
+
+void join(uint a, uint b) {
+  a = root_of(a);
+  b = root_of(b);
+  [[dont_unroll]] while (a != b) {
+    if (a < b) {
+      const uint swap = a;
+      a = b;
+      b = swap;
+    }
+    const uint before = atomicMin(labels[a], b);
+    if (before == a) return;
+    // `a` had been joined elsewhere meanwhile: that side has to meet b too.
+    a = root_of(before);
+    b = root_of(b);
+  }
+}
+
+void merge(ivec2 p, uint i) {
+  const ivec2 earlier[4] = ivec2[4](ivec2(-1, 0), ivec2(-1, -1), ivec2(0, -1), ivec2(1, -1));
+  [[unroll]] for (uint n = 0; n < 4; ++n) {
+    // No candidate lies on the outermost ring: the neighbours exist.
+    const uint q = uint(p.y + earlier[n].y) * push.width + uint(p.x + earlier[n].x);
+    if (labels[q] != EDGE_NO_LABEL) join(i, q);
+  }
+}
+
+void count(ivec2 p, uint i) {
+  const uint root = root_of(i);
+  atomicAdd(components[root], 1u);
+  if (squared_at(p) >= push.high2) atomicOr(components[root], EDGE_STRONG);
+}
+
+void keep(uint i) {
+  const uint component = components[root_of(i)];
+  if ((component & EDGE_STRONG) == 0u || (component & ~EDGE_STRONG) < push.min_length_px) return;
+  kept[1u + atomicAdd(kept[0], 1u)] = i;
+}
+
+// log(a / b) with a small relative error where a is close to b, too.
+float log_ratio(float a, float b) {
+  const float s = (a - b) / (a + b), s2 = s * s;
+  if (abs(s) > 0.2) return log(a / b);
+  return 2.0 * s * (1.0 + s2 * (1.0 / 3.0 + s2 * (1.0 / 5.0 + s2 * (1.0 / 7.0 + s2 * (1.0 / 9.0)))));
+}
+
+// How far along the step across the edge the profile has its top.
+float offset_across(ivec2 p, Across a) {
+  const float r = float(a.smaller) / float(a.larger), here = sqrt(float(squared_at(p)));
+  float side[2];
+  [[unroll]] for (int k = 0; k < 2; ++k) {
+    const float near = sqrt(float(squared_at(p + (2 * k - 1) * a.axis)));
+    const float diagonal = sqrt(float(squared_at(p + (2 * k - 1) * a.turn)));
+    side[k] = log_ratio(max(1.0, (1.0 - r) * near + r * diagonal), here);
+  }
+  const float curvature = side[0] + side[1];
+  return curvature < 0.0 ? clamp(0.5 * (side[0] - side[1]) / curvature, -0.5, 0.5) : 0.0;
+}
+
+float falloff(float span, float reach) {
+  const float rest = max(0.0, 1.0 - span * span / (reach * reach));
+  return rest * rest;
+}
+
+// The line fitted to the gradient's turn along the edge, read off at the pixel itself.
+float turn_along(ivec2 p, vec2 n) {
+  const int reach = int(EDGE_WINDOW);
+  const ivec2 low = max(p - reach, ivec2(0)), high = min(p + reach, ivec2(push.width, push.height) - 1);
+  float w = 0.0, wu = 0.0, wuu = 0.0, wa = 0.0, wua = 0.0;
+  [[dont_unroll]] for (int y = low.y; y <= high.y; ++y)
+    [[dont_unroll]] for (int x = low.x; x <= high.x; ++x) {
+      if (labels[uint(y) * push.width + uint(x)] == EDGE_NO_LABEL) continue;
+      const vec2 g = vec2(gradient_at(ivec2(x, y))), d = vec2(ivec2(x, y) - p);
+      const float size = length(g), agreement = dot(n, g) / size;
+      if (agreement <= 0.0) continue;
+      const float u = d.y * n.x - d.x * n.y, sine = (n.x * g.y - n.y * g.x) / size;
+      const float turn = sine * (1.0 + sine * sine / 6.0);
+      const float a2 = agreement * agreement, a4 = a2 * a2;
+      const float weight = falloff(u, EDGE_REACH_ALONG) * falloff(dot(d, n), EDGE_REACH_ACROSS) * a4 * a4 * dot(g, g);
+      w += weight;
+      wu += weight * u;
+      wuu += weight * u * u;
+      wa += weight * turn;
+      wua += weight * u * turn;
+    }
+  // Means instead of sums: products of sums of squared gradients would leave float's range.
+  const float mu = wu / w, ma = wa / w;
+  const float slope = (wua / w - mu * ma) / (wuu / w - mu * mu + 0.5);
+  return ma - slope * mu;
+}
+
+vec4 edge_point(uint i) {
+  const ivec2 p = ivec2(int(i % push.width), int(i / push.width)), g = gradient_at(p);
+  const Across a = across_edge(g);
+  const float size = sqrt(float(squared_at(p))), t = offset_across(p, a);
+  const float minor = t * float(a.smaller) / float(a.larger);
+  const vec2 step = a.axis.x != 0 ? vec2(t, minor) : vec2(minor, t);
+  float theta = undirected_angle(vec2(g)) + 0.5 * PI + turn_along(p, vec2(g) / size);
+  theta -= PI * floor(theta / PI);
+  return vec4(vec2(p) + vec2(a.turn) * step, theta >= PI ? 0.0 : theta, size / float(EDGE_GRADIENT_SCALE));
+}
+
+void main() {
+  const uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * EDGE_GROUP;
+  if (i >= push.count) return;
+  if (PASS == EDGE_LINK_POINT) {
+    points[i] = edge_point(kept[1u + i]);
+    return;
+  }
+  if (labels[i] == EDGE_NO_LABEL) return;
+  const ivec2 p = ivec2(int(i % push.width), int(i / push.width));
+  if (PASS == EDGE_LINK_MERGE)
+    merge(p, i);
+  else if (PASS == EDGE_LINK_COUNT)
+    count(p, i);
+  else
+    keep(i);
+}
