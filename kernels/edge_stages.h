@@ -1,43 +1,50 @@
 // The four stages of the edge detector, for those who implement them: reference, fast CPU path, shaders.
 //
 // Planes are row-major, width * height. I(x, y) outside the image is the nearest pixel of its border.
+// Points come in the order of their pixels, row-major.
 //
-// edge_gradient: uint8 plane -> int16 plane of pairs (gx, gy), units of 1/128 grey level a pixel, exact
-// integers:
-//   S(x, y)  = (sum_i s_|i| I(x + i, y) + 64) >> 7                     smoothed along the row, |i| <= radius
+// clang-format off
+//
+// edge_gradient: uint8 plane -> int16 pairs (gx, gy), units of 1/128 grey level a pixel, exact integers.
+// With the weights s_i, d_i of edge_weights(), |i| <= radius; >> rounds down:
+//   S(x, y)  = (sum_i s_|i| I(x + i, y) + 64) >> 7                     smoothed along the row
 //   D(x, y)  = (sum_{i>0} d_i (I(x + i, y) - I(x - i, y)) + 64) >> 7   differentiated along the row
 //   gx(x, y) = (sum_i s_|i| D(x, y + i) + 8192) >> 14
 //   gy(x, y) = (sum_{i>0} d_i (S(x, y + i) - S(x, y - i)) + 8192) >> 14
-//   with the weights of edge_weights(); >> rounds down; S and D fit int16, every sum int32. S and D of a row
-//   outside the image are those of the border's row.
+// S and D of a row outside the image are those of the border's row. S, D, gx, gy fit int16, sums int32.
 //
-// edge_thin: gradient -> uint8 plane, 1 where the pixel is an edge candidate. With M2 = gx^2 + gy^2:
-//   inside the outermost ring;  M2 >= low^2 with low = edge_threshold(low_threshold);  and, across the edge,
-//   with m = max(|gx|, |gy|), n = min(|gx|, |gy|), f = (256 n + m / 2) / m (integer division), sx, sy the
-//   signs (-1 or +1; +1 for zero) of gx, gy and (ax, ay) = (sx, 0) if |gx| >= |gy| else (0, sy):
-//     ring(k) = (256 - f) * (M2(x + k ax, y + k ay) >> 6) + f * (M2(x + k sx, y + k sy) >> 6)       in uint32
-//     256 * (M2 >> 6) > ring(-1)   and   256 * (M2 >> 6) >= ring(+1).
+// edge_thin: gradient -> uint8 plane, 1 where the pixel is an edge candidate. With
+//   M2 = gx^2 + gy^2,   m = max(|gx|, |gy|),   n = min(|gx|, |gy|),
+//   sx, sy = signs of gx, gy (-1 or +1; +1 for zero),
+//   (ax, ay) = (sx, 0) if |gx| >= |gy|, else (0, sy),
+//   f = (256 n + m / 2) / m                                            integer division
+//   ring(k) = (256 - f) (M2(x + k ax, y + k ay) >> 6) + f (M2(x + k sx, y + k sy) >> 6)      in uint32
+// a candidate lies inside the outermost ring of the image and has
+//   M2 >= edge_threshold(low_threshold)^2,
+//   256 (M2 >> 6) > ring(-1)   and   256 (M2 >> 6) >= ring(+1).
 //
-// edge_link: candidates -> those kept. 8-connected components with at least min_length_px pixels, one of them
-// with
-//   M2 >= edge_threshold(high_threshold)^2.
+// edge_link: candidates -> those kept: the 8-connected components with at least min_length_px pixels, one
+// of which has M2 >= edge_threshold(high_threshold)^2.
 //
-// edge_point: one kept pixel -> EdgePoint, in float. Position: with r = n / m, M = sqrt(M2) and
-//   A(k) = max(1, (1 - r) M(x + k ax, y + k ay) + r M(x + k sx, y + k sy)), the top of the parabola through
-//   the logarithms (exact for the Gaussian profile of a blurred step; the bound keeps plateaus from dividing
-//   by nothing):
-//     p = log(A(-1) / M), q = log(A(+1) / M),   t = (p - q) / (2 min(p + q, -1 / 256)), clamped to [-1/2,
-//     1/2] position = (x, y) + t (sx, r sy) if |gx| >= |gy|, else (x, y) + t (r sx, sy).
-//   Orientation: the gradient's turn against the distance along the edge, fitted by a weighted line (a mean
-//   alone would lean on curved edges, where pixels lie unevenly). Over the *candidates* q at offsets (dx, dy)
-//   within EDGE_WINDOW, the pixel itself included, with n = g / |g|, u = dy nx - dx ny (along), v = dx nx +
-//   dy ny (across), c = n . g_q / |g_q|, s = (nx gy_q - ny gx_q) / |g_q|; those with c <= 0 stay out:
-//     a = s (1 + s^2 / 6)                                                                 the turn, about
-//     asin(s) w = (1 - u^2 / EDGE_REACH_ALONG^2)_+^2 (1 - v^2 / EDGE_REACH_ACROSS^2)_+^2 c^8 |g_q|^2 W, U,
-//     UU, A, UA = sum w (1, u, u^2, a, u a);   k = (W UA - U A) / (W UU - U^2 + W^2 / 2)   the half pixel^2
-//     tames short chains theta = atan2(gy, gx) + pi / 2 + (A - k U) / W, modulo pi into [0, pi).
-//   strength = M / 128.
-// Points come in the order of their pixels, row-major.
+// edge_point: one kept pixel -> EdgePoint, in float; M = sqrt(M2), strength = M / 128.
+//   Position: the top of the parabola through the logarithms across the edge (exact for the Gaussian
+//   profile of a blurred step; the bound keeps plateaus from dividing by nothing). With r = n / m,
+//     A(k) = max(1, (1 - r) M(x + k ax, y + k ay) + r M(x + k sx, y + k sy)),
+//     p = log(A(-1) / M),   q = log(A(+1) / M),
+//     t = (p - q) / (2 min(p + q, -1/256)), clamped to [-1/2, 1/2],
+//     position = (x, y) + t (sx, r sy) if |gx| >= |gy|, else (x, y) + t (r sx, sy).
+//   Orientation: the turn of the gradient against the distance along the edge, a weighted line read off at
+//   the pixel itself (a mean alone would lean on curved edges, where pixels lie unevenly). Over the
+//   *candidates* q at offsets |dx|, |dy| <= EDGE_WINDOW, the pixel itself included, with N = g / |g|,
+//     u = dy Nx - dx Ny (along),   v = dx Nx + dy Ny (across),
+//     c = N . g_q / |g_q|          (those with c <= 0 stay out),
+//     s = (Nx gy_q - Ny gx_q) / |g_q|,   a = s (1 + s^2 / 6)            the turn, about asin(s)
+//     w = (1 - u^2 / EDGE_REACH_ALONG^2)_+^2 (1 - v^2 / EDGE_REACH_ACROSS^2)_+^2 c^8 |g_q|^2,
+//     W, U, UU, A, UA = sum w (1, u, u^2, a, u a),
+//     k = (W UA - U A) / (W UU - U^2 + W^2 / 2)                        half a pixel^2 tames short chains
+//     theta = atan2(gy, gx) + pi / 2 + (A - k U) / W, modulo pi into [0, pi).
+//
+// clang-format on
 #ifndef EDGESCOUT_EDGE_STAGES_H
 #define EDGESCOUT_EDGE_STAGES_H
 
@@ -57,6 +64,9 @@ EDGESCOUT_CONST(EDGE_REACH_ACROSS, 2);  // px
 
 #ifdef __cplusplus
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "kernels/edge_detect.h"
