@@ -2,6 +2,7 @@
 // vectors.
 #include <algorithm>
 #include <bit>
+#include <cstdlib>
 #include <cstring>
 
 #include "kernels/edge_stages.h"
@@ -25,29 +26,36 @@ struct ThinRow {
   const std::uint32_t *above, *here, *below;
 };
 
+// yes where the mask is all ones, no where it is zero. A ?: here would become a branch, and branches keep
+// loops from vectors.
+inline std::uint32_t choose(std::uint32_t mask, std::uint32_t yes, std::uint32_t no) {
+  return (yes & mask) | (no & ~mask);
+}
+
 EDGESCOUT_SIMD_CLONES
 void thin_row(const ThinRow& row, int width, std::uint32_t low2, std::uint8_t* marks) {
   const std::int16_t *gx = row.gx, *gy = row.gy;
   const std::uint32_t *above = row.above, *here = row.here, *below = row.below;
   for (int x = 1; x < width - 1; ++x) {
-    const std::int32_t dx = gx[x], dy = gy[x], ax = dx < 0 ? -dx : dx, ay = dy < 0 ? -dy : dy;
+    const std::int32_t dx = gx[x], dy = gy[x], ax = std::abs(dx), ay = std::abs(dy);
     const std::int32_t larger = std::max(std::max(ax, ay), 1), smaller = std::min(ax, ay);
     // The quotient of two such integers is never so close below a whole number that its rounding in float
     // reaches it.
     const auto f = static_cast<std::uint32_t>(static_cast<std::int32_t>(
         static_cast<float>(256 * smaller + larger / 2) / static_cast<float>(larger)));
+    const auto right = ~static_cast<std::uint32_t>(dx >> 31), down = ~static_cast<std::uint32_t>(dy >> 31);
+    const auto level = ~static_cast<std::uint32_t>((ax - ay) >> 31);
     const std::uint32_t west = here[x - 1], east = here[x + 1], north = above[x], south = below[x];
     const std::uint32_t nw = above[x - 1], ne = above[x + 1], sw = below[x - 1], se = below[x + 1],
                         centre = here[x];
-    const bool right = dx >= 0, down = dy >= 0, level = ax >= ay;
-    const std::uint32_t ahead_x = right ? east : west, behind_x = right ? west : east;
-    const std::uint32_t ahead_y = down ? south : north, behind_y = down ? north : south;
-    const std::uint32_t ahead_se = right ? se : sw, behind_se = right ? nw : ne;
-    const std::uint32_t ahead_ne = right ? ne : nw, behind_ne = right ? sw : se;
-    const std::uint32_t near_ahead = level ? ahead_x : ahead_y, near_behind = level ? behind_x : behind_y;
-    const std::uint32_t far_ahead = down ? ahead_se : ahead_ne, far_behind = down ? behind_se : behind_ne;
-    const std::uint32_t before = (256 - f) * (near_behind >> 6) + f * (far_behind >> 6);
-    const std::uint32_t after = (256 - f) * (near_ahead >> 6) + f * (far_ahead >> 6);
+    const std::uint32_t near_ahead =
+        choose(level, choose(right, east, west), choose(down, south, north)) >> 6;
+    const std::uint32_t near_behind =
+        choose(level, choose(right, west, east), choose(down, north, south)) >> 6;
+    const std::uint32_t far_ahead = choose(down, choose(right, se, sw), choose(right, ne, nw)) >> 6;
+    const std::uint32_t far_behind = choose(down, choose(right, nw, ne), choose(right, sw, se)) >> 6;
+    const std::uint32_t before = (256 - f) * near_behind + f * far_behind,
+                        after = (256 - f) * near_ahead + f * far_ahead;
     const std::uint32_t scaled = 256 * (centre >> 6);
     marks[x] = static_cast<std::uint8_t>((centre >= low2) & (scaled > before) & (scaled >= after));
   }
@@ -58,9 +66,8 @@ void list_row(const std::uint8_t* marks, const std::uint32_t* m2, int width, int
   for (int x = 0; x < width; x += 8) {
     std::uint64_t eight;
     std::memcpy(&eight, marks + x, sizeof eight);  // runs into the margin, which holds zeros
-    if (eight == 0) continue;
-    for (int k = 0; k < 8; ++k)
-      if (marks[x + k] && x + k < width) pixels.push_back({x + k, y, m2[x + k]});
+    for (; eight; eight &= eight - 1)
+      if (const int at = x + std::countr_zero(eight) / 8; at < width) pixels.push_back({at, y, m2[at]});
   }
 }
 
