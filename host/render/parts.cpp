@@ -87,7 +87,7 @@ Object gear_plate() {
       const double angle = 2 * PI * (i + share) / TEETH;
       e.outline_mm.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
     }
-  e.holes_mm = {circle({0, 0}, 6, true)};
+  e.holes_mm = {circle({0, 0}, 6, true, 30)};
   for (int i = 0; i < 3; ++i)
     e.holes_mm.push_back(
         circle(15 * Eigen::Vector2d(std::cos(2 * PI * i / 3), std::sin(2 * PI * i / 3)), 5, true, 24));
