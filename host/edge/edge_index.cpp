@@ -1,0 +1,54 @@
+#include "host/edge/edge_index.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+int cell_of(float position_px, int cells) {
+  return std::clamp(static_cast<int>(std::floor(position_px / EdgeIndex::CELL_PX)), 0, cells - 1);
+}
+}  // namespace
+
+EdgeIndex::EdgeIndex(std::span<const EdgePoint> edges, int width, int height)
+    : columns_(std::max(1, (width + CELL_PX - 1) / CELL_PX)),
+      rows_(std::max(1, (height + CELL_PX - 1) / CELL_PX)) {
+  const auto cell = [&](const EdgePoint& e) {
+    return cell_of(e.y_px, rows_) * columns_ + cell_of(e.x_px, columns_);
+  };
+  cell_end_.assign(std::size_t(columns_) * rows_ + 1, 0);
+  for (const EdgePoint& edge : edges) ++cell_end_[cell(edge) + 1];
+  for (std::size_t c = 1; c < cell_end_.size(); ++c) cell_end_[c] += cell_end_[c - 1];
+  std::vector<std::uint32_t> next(cell_end_.begin(), cell_end_.end() - 1);
+  points_.resize(edges.size());
+  for (const EdgePoint& edge : edges) points_[next[cell(edge)]++] = edge;
+}
+
+const EdgePoint* EdgeIndex::nearest(float x_px, float y_px, float theta_rad, float radius_px,
+                                    float max_turn_rad) const {
+  check(radius_px <= CELL_PX, "EdgeIndex: radius larger than a cell");
+  constexpr float pi = 3.14159265f;
+  if (!(x_px > -CELL_PX && y_px > -CELL_PX && x_px < CELL_PX * (columns_ + 1) &&
+        y_px < CELL_PX * (rows_ + 1)))
+    return nullptr;
+  const int x0 = cell_of(x_px - radius_px, columns_), x1 = cell_of(x_px + radius_px, columns_);
+  const int y0 = cell_of(y_px - radius_px, rows_), y1 = cell_of(y_px + radius_px, rows_);
+  const EdgePoint* best = nullptr;
+  float best2 = radius_px * radius_px;
+  for (int y = y0; y <= y1; ++y)
+    for (std::uint32_t i = cell_end_[y * columns_ + x0]; i < cell_end_[y * columns_ + x1 + 1]; ++i) {
+      const EdgePoint& edge = points_[i];
+      const float dx = edge.x_px - x_px, dy = edge.y_px - y_px, distance2 = dx * dx + dy * dy;
+      if (distance2 >= best2) continue;
+      const float turn = std::fabs(edge.theta_rad - theta_rad);
+      if (std::min(turn, pi - turn) >= max_turn_rad) continue;
+      best = &edge;
+      best2 = distance2;
+    }
+  return best;
+}
+
+}  // namespace edgescout
