@@ -153,16 +153,18 @@ Registration finish(const Track& track) {
   result.mean_px = system.points > 0 ? system.residual_sum / system.points : 0;
   result.iterations = track.iterations;
   result.reason = track.reason;
-  const double variance = 2 * system.cost / std::max(1.0, system.weight_sum - 6);
-  const Eigen::LDLT<Matrix6d> factor(system.hessian);
-  if (system.points > 6 && factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0)
-    result.covariance = variance * factor.solve(Matrix6d::Identity());
-  else
-    result.covariance.diagonal().setConstant(std::numeric_limits<double>::infinity());
+  result.covariance = pose_covariance(system.hessian, 2 * system.cost / std::max(1.0, system.weight_sum - 6));
   return result;
 }
 
 }  // namespace
+
+Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance) {
+  const Eigen::LDLT<Matrix6d> factor(hessian);
+  if (factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0)
+    return residual_variance * factor.solve(Matrix6d::Identity());
+  return Matrix6d::Identity() * std::numeric_limits<double>::infinity();
+}
 
 std::vector<D2coRound> D2coOptions::default_rounds() {
   return {{LOSS_GEMAN_MCCLURE, 30, 12, 400}, {LOSS_GEMAN_MCCLURE, 15, 12, 500}, {LOSS_GEMAN_MCCLURE, 8, 12, 700},

@@ -5,10 +5,12 @@
 // every round. All poses of a call are refined side by side: one kernel call gives the systems of all of them in all views.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "host/edge/edge_index.h"
 #include "host/model/visible_edges.h"
 
 namespace edgescout {
@@ -36,6 +38,7 @@ struct RegisterView {
   ViewHandle view;
   Camera camera;
   Se3 camera_from_world;  // identity where the world is the camera frame
+  std::shared_ptr<const EdgeIndex> edges;  // the edge points themselves; needed by polish_poses only
 };
 
 struct Hypothesis {
@@ -55,6 +58,9 @@ struct Registration {
   int iterations = 0;
   Convergence reason = Convergence::NoPoints;
 };
+
+// Covariance of a pose from its final system: variance * hessian^-1 in the tangent of core/se3.h, infinite where singular.
+Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance);
 
 // Results in the order of the hypotheses.
 std::vector<Registration> register_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,

@@ -1,0 +1,107 @@
+#include "host/register/polish.h"
+
+#include <Eigen/Cholesky>
+
+#include "host/register/world_system.h"
+#include "kernels/pose_geometry.h"
+#include "kernels/thread_pool.h"
+
+namespace edgescout {
+
+namespace {
+
+// One model point against its edge point: signed distance to the edge's tangent line, px, and its derivative by the camera's tangent.
+struct LineResidual {
+  double value;
+  Vector6d jacobian;
+};
+
+LineResidual residual_to(const EdgePoint& edge, const PosedPoint<double>& p, const ProjectedEdge<double>& projected, const Intrinsics& k) {
+  const double nx = -std::sin(edge.theta_rad), ny = std::cos(edge.theta_rad), z = p.point.z;
+  LineResidual r;
+  r.value = nx * (projected.u - edge.x_px) + ny * (projected.v - edge.y_px);
+  const Vec3<double> by_point{nx * k.fx / z, ny * k.fy / z, -(nx * k.fx * p.point.x + ny * k.fy * p.point.y) / (z * z)};
+  const Vec3<double> by_turn = cross(p.arm, by_point);
+  r.jacobian << by_point.x, by_point.y, by_point.z, by_turn.x, by_turn.y, by_turn.z;
+  return r;
+}
+
+struct LineSystem {
+  Matrix6d hessian = Matrix6d::Zero();
+  Vector6d gradient = Vector6d::Zero();
+  double weighted_square = 0, weight = 0;
+  int points = 0, matched = 0;
+};
+
+void add_points(LineSystem& sum, const RegisterView& view, const Se3& world_from_object, std::span<const ModelPoint> points,
+                const PolishRound& round, float max_turn_rad) {
+  const Pose pose = to_pose(view.camera_from_world * world_from_object);
+  const Intrinsics& k = view.view->intrinsics;
+  Matrix6d to_world = Matrix6d::Zero();
+  to_world.topLeftCorner<3, 3>() = to_world.bottomRightCorner<3, 3>() = view.camera_from_world.rotation.toRotationMatrix();
+  for (const ModelPoint& model : points) {
+    const PosedPoint<double> posed = pose_point<double>(pose, model);
+    if (posed.point.z <= POSE_MIN_DEPTH_M) continue;
+    ++sum.points;
+    const ProjectedEdge<double> projected = project_edge(posed, k);
+    const EdgePoint* edge = view.edges->nearest(float(projected.u), float(projected.v), float(orientation(projected.dx, projected.dy)),
+                                                round.radius_px, max_turn_rad);
+    if (!edge) continue;
+    ++sum.matched;
+    const LineResidual r = residual_to(*edge, posed, projected, k);
+    const double s2 = round.scale_px * round.scale_px, q = s2 / (s2 + r.value * r.value), weight = q * q;
+    const Vector6d jacobian = to_world.transpose() * r.jacobian;
+    sum.hessian += weight * jacobian * jacobian.transpose();
+    sum.gradient += weight * r.value * jacobian;
+    sum.weighted_square += weight * r.value * r.value;
+    sum.weight += weight;
+  }
+}
+
+LineSystem system_at(const Se3& pose, std::span<const RegisterView> views, std::span<const std::vector<ModelPoint>> points,
+                     const PolishRound& round, float max_turn_rad) {
+  LineSystem sum;
+  for (std::size_t v = 0; v < views.size(); ++v)
+    if (views[v].edges) add_points(sum, views[v], pose, points[v], round, max_turn_rad);
+  return sum;
+}
+
+void polish_one(Registration& registration, std::span<const RegisterView> views, std::span<const std::vector<ModelPoint>> points,
+                const PolishOptions& options) {
+  Se3 pose = registration.world_from_object;
+  for (const PolishRound& round : options.rounds)
+    for (int i = 0; i < round.iterations; ++i) {
+      LineSystem system = system_at(pose, views, points, round, options.max_turn_rad);
+      if (system.matched < options.min_matched * system.points || system.matched < 12) return;
+      system.hessian.diagonal() *= 1 + 1e-4;  // keeps directions no edge sees where they are
+      const Vector6d step = -system.hessian.ldlt().solve(system.gradient);
+      if (!step.allFinite()) return;
+      pose = retract(pose, step);
+    }
+  const LineSystem final_system = system_at(pose, views, points, options.rounds.back(), options.max_turn_rad);
+  if (final_system.matched < options.min_matched * final_system.points) return;
+  registration.world_from_object = pose;
+  registration.covariance =
+      pose_covariance(final_system.hessian, final_system.weighted_square / std::max(1.0, final_system.weight - 6));
+}
+
+}  // namespace
+
+void polish_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses, std::span<const RegisterView> views,
+                  Backend& backend, const PolishOptions& options, std::span<Registration> registrations) {
+  for (int object = 0; object < int(models.size()); ++object) {
+    std::vector<std::size_t> members;
+    std::vector<Se3> poses;
+    for (std::size_t h = 0; h < hypotheses.size(); ++h)
+      if (hypotheses[h].object == object) {
+        members.push_back(h);
+        for (const RegisterView& view : views) poses.push_back(view.camera_from_world * registrations[h].world_from_object);
+      }
+    const std::vector<std::vector<ModelPoint>> points = visible_edges(models[object], poses, backend, options.visibility);
+    backend.threads().for_each(members.size(), [&](std::size_t m) {
+      polish_one(registrations[members[m]], views, std::span(points).subspan(m * views.size(), views.size()), options);
+    });
+  }
+}
+
+}  // namespace edgescout
