@@ -63,24 +63,17 @@ void keep(uint i) {
   kept[1u + atomicAdd(kept[0], 1u)] = i;
 }
 
-// log(a / b) with a small relative error where a is close to b, too.
-float log_ratio(float a, float b) {
-  const float s = (a - b) / (a + b), s2 = s * s;
-  if (abs(s) > 0.2) return log(a / b);
-  return 2.0 * s * (1.0 + s2 * (1.0 / 3.0 + s2 * (1.0 / 5.0 + s2 * (1.0 / 7.0 + s2 * (1.0 / 9.0)))));
+// Logarithm of the magnitude across the edge on one side, against the one here.
+float log_ratio(ivec2 p, Across a, int side, float here) {
+  const float near = sqrt(float(squared_at(p + side * a.axis))), diagonal = sqrt(float(squared_at(p + side * a.turn)));
+  const float r = float(a.smaller) / float(a.larger);
+  return log(max(1.0, (1.0 - r) * near + r * diagonal) / here);
 }
 
 // How far along the step across the edge the profile has its top.
-float offset_across(ivec2 p, Across a) {
-  const float r = float(a.smaller) / float(a.larger), here = sqrt(float(squared_at(p)));
-  float side[2];
-  [[unroll]] for (int k = 0; k < 2; ++k) {
-    const float near = sqrt(float(squared_at(p + (2 * k - 1) * a.axis)));
-    const float diagonal = sqrt(float(squared_at(p + (2 * k - 1) * a.turn)));
-    side[k] = log_ratio(max(1.0, (1.0 - r) * near + r * diagonal), here);
-  }
-  const float curvature = side[0] + side[1];
-  return curvature < 0.0 ? clamp(0.5 * (side[0] - side[1]) / curvature, -0.5, 0.5) : 0.0;
+float offset_across(ivec2 p, Across a, float here) {
+  const float before = log_ratio(p, a, -1, here), after = log_ratio(p, a, 1, here);
+  return clamp(0.5 * (before - after) / min(before + after, -1.0 / 256.0), -0.5, 0.5);
 }
 
 float falloff(float span, float reach) {
@@ -118,7 +111,7 @@ float turn_along(ivec2 p, vec2 n) {
 vec4 edge_point(uint i) {
   const ivec2 p = ivec2(int(i % push.width), int(i / push.width)), g = gradient_at(p);
   const Across a = across_edge(g);
-  const float size = sqrt(float(squared_at(p))), t = offset_across(p, a);
+  const float size = sqrt(float(squared_at(p))), t = offset_across(p, a, size);
   const float minor = t * float(a.smaller) / float(a.larger);
   const vec2 step = a.axis.x != 0 ? vec2(t, minor) : vec2(minor, t);
   float theta = undirected_angle(vec2(g)) + 0.5 * PI + turn_along(p, vec2(g) / size);

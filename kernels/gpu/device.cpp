@@ -83,6 +83,7 @@ Device::Device(const DeviceOptions& options)
     throw GpuError(info_.name + ": Vulkan " + info_.api_version + ", at least 1.2 is needed");
   limits_ = properties.properties.limits;
   max_allocation_bytes_ = maintenance.maxMemoryAllocationSize;
+  max_band_bytes_ = options.max_band_bytes > 0 ? options.max_band_bytes : limits_.maxStorageBufferRange;
   vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
   unified_memory_ = is_unified(memory_) && !options.staging;
 

@@ -9,16 +9,11 @@
 #include <vulkan/vulkan.h>
 
 #include "kernels/backend.h"
+#include "kernels/gpu/device_options.h"
 #include "kernels/gpu/handle.h"
 #include "kernels/gpu/instance.h"
 
 namespace edgescout::gpu {
-
-struct DeviceOptions {
-  int index = 0;            // as vulkan_devices() counts
-  bool validation = false;  // validation layer with synchronization validation
-  bool staging = false;  // copy through staging buffers even where device memory is host-visible (for tests)
-};
 
 class Device {
  public:
@@ -32,6 +27,8 @@ class Device {
   const DeviceInfo& info() const { return info_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
   VkDeviceSize max_allocation_bytes() const { return max_allocation_bytes_; }
+  // Most bytes of a tensor in one binding.
+  VkDeviceSize max_band_bytes() const { return max_band_bytes_; }
   // 0: this queue cannot write timestamps.
   double seconds_per_tick() const { return seconds_per_tick_; }
   // Device-local memory can be read and written by the host at full speed: no staging.
@@ -54,7 +51,7 @@ class Device {
   DeviceInfo info_;
   VkPhysicalDeviceLimits limits_{};
   VkPhysicalDeviceMemoryProperties memory_{};
-  VkDeviceSize max_allocation_bytes_ = 0;
+  VkDeviceSize max_allocation_bytes_ = 0, max_band_bytes_ = 0;
   double seconds_per_tick_ = 0;
   bool unified_memory_ = false;
 };

@@ -24,6 +24,10 @@ class EdgeDetect {
   // The second batch: one point for every pixel of the list. `points` are there when it has run.
   void record_points(Batch& batch, std::span<const std::uint32_t> pixels, std::span<EdgePoint> points);
 
+  // The planes of the last image, a word a pixel (edge_gradient.h, edge_thin.h).
+  const RawBuffer& gradient() const { return gradient_; }
+  const RawBuffer& labels() const { return labels_; }
+
  private:
   void record_gradient(Batch& batch, const ImageView& image, float sigma_px);
   void record_link(Batch& batch, std::uint32_t pass, std::uint32_t count) const;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "kernels/gpu/result.h"
+#include "kernels/gpu/vulkan_backend.h"
 
 namespace edgescout::gpu {
 

@@ -1,7 +1,6 @@
 // The Vulkan loader's instance and, where asked for, the validation layer (with synchronization validation).
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include <vulkan/vulkan.h>
@@ -23,9 +22,5 @@ class Instance {
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
-
-// Every warning and error of the validation layer since the last call, from all instances of the process:
-// devices report what they leak while they are being destroyed, so the list outlives them.
-std::vector<std::string> take_validation_messages();
 
 }  // namespace edgescout::gpu

@@ -16,7 +16,9 @@ constexpr std::uint32_t max_run = 1u << 15;  // any device takes so many workgro
 
 }  // namespace
 
-std::uint32_t groups_to_fill(const Device& device) { return device.info().hardware ? 1024 : 1; }
+std::uint32_t groups_to_fill(const Device& device) {
+  return device.info().hardware || !device.unified_memory() ? 1024 : 1;
+}
 
 PosePlan plan_poses(std::span<const PoseProblem> problems, std::size_t points, std::size_t views,
                     std::uint32_t min_groups) {

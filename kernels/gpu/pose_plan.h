@@ -31,7 +31,8 @@ struct PosePlan {
 // `min_groups`: workgroups that keep the device busy. Throws LogicError on problems that break the contract.
 PosePlan plan_poses(std::span<const PoseProblem> problems, std::size_t points, std::size_t views,
                     std::uint32_t min_groups);
-// Workgroups that keep the device busy: many on a graphics card, one on a processor's few cores.
+// Workgroups that keep the device busy: many on a graphics card (or where tests ask for one's ways: staging),
+// one on a processor's few cores.
 std::uint32_t groups_to_fill(const Device& device);
 
 PoseCamera pose_camera(const Intrinsics& intrinsics);

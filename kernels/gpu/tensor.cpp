@@ -19,10 +19,8 @@ namespace {
 
 }  // namespace
 
-DeviceTensor::DeviceTensor(const Device& device, const TensorShape& shape, VkDeviceSize max_band_bytes)
-    : shape_(shape) {
-  VkDeviceSize range = device.limits().maxStorageBufferRange;
-  if (max_band_bytes > 0) range = std::min(range, max_band_bytes);
+DeviceTensor::DeviceTensor(const Device& device, const TensorShape& shape) : shape_(shape) {
+  const VkDeviceSize range = device.max_band_bytes();
   row_bytes_ = VkDeviceSize(shape.tiles_per_row()) * shape.bins * DCD_TILE * sizeof(std::uint16_t);
   const VkDeviceSize bytes = row_bytes_ * shape.height;
   const auto height = static_cast<VkDeviceSize>(shape.height);

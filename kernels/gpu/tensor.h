@@ -17,9 +17,8 @@ namespace edgescout::gpu {
 
 class DeviceTensor {
  public:
-  // Throws InputError where the device cannot hold or bind a tensor of this shape. `max_band_bytes` lowers
-  // the device's limit (for tests); 0: as it is.
-  DeviceTensor(const Device& device, const TensorShape& shape, VkDeviceSize max_band_bytes = 0);
+  // Throws InputError where the device cannot hold or bind a tensor of this shape.
+  DeviceTensor(const Device& device, const TensorShape& shape);
 
   const TensorShape& shape() const { return shape_; }
   const RawBuffer& buffer() const { return buffer_; }

@@ -1,4 +1,6 @@
 // The Vulkan backend: every step a batch, timed by its kernels.
+#include "kernels/gpu/vulkan_backend.h"
+
 #include <algorithm>
 #include <chrono>
 
@@ -170,8 +172,15 @@ class VulkanBackend : public Backend {
 
 }  // namespace
 
+std::unique_ptr<Backend> gpu::make_backend(const DeviceOptions& options) {
+  return std::make_unique<VulkanBackend>(options);
+}
+
 std::unique_ptr<Backend> make_vulkan_backend(int device_index, bool validation) {
-  return std::make_unique<VulkanBackend>(DeviceOptions{device_index, validation, false});
+  DeviceOptions options;
+  options.index = device_index;
+  options.validation = validation;
+  return gpu::make_backend(options);
 }
 
 }  // namespace edgescout

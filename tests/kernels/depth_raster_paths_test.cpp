@@ -1,0 +1,142 @@
+// depth_raster on every path against the reference (depth_raster.h).
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/error.h"
+#include "tests/kernels/paths.h"
+
+namespace edgescout {
+namespace {
+
+struct Soup {
+  std::vector<float> vertices;
+  std::vector<std::uint32_t> triangles;
+  TriangleMesh mesh() const { return {vertices, triangles}; }
+};
+
+// Triangles of random place and size; now and then one reaches behind the camera, or has no area.
+Soup random_soup(std::mt19937& rng, int count, float size_m) {
+  std::uniform_real_distribution<float> at(-0.05f, 0.05f), offset(-size_m, size_m);
+  Soup soup;
+  for (int i = 0; i < count; ++i) {
+    const float x = at(rng), y = at(rng), z = at(rng);
+    for (int k = 0; k < 3; ++k) {
+      soup.triangles.push_back(static_cast<std::uint32_t>(soup.vertices.size() / 3));
+      const float back = i % 11 == 10 && k == 0 ? -1.0f : 0.0f, spread = i % 13 == 12 ? 0.0f : 1.0f;
+      for (float c : {x, y, z + back}) soup.vertices.push_back(c + spread * offset(rng));
+    }
+  }
+  return soup;
+}
+
+DepthJob job_at(float angle, float z_m, float focal, float cx, float cy) {
+  const float c = std::cos(angle), s = std::sin(angle);
+  return {{{c, 0, s, 0.002f, 0, 1, 0, -0.003f, -s, 0, c, z_m}}, {focal, focal * 1.02f, cx, cy}};
+}
+
+struct Point {
+  double u, v, z;
+};
+Point project(const DepthJob& job, const float* p) {
+  double q[3];
+  for (int r = 0; r < 3; ++r) {
+    const float* row = job.camera_from_object.m + 4 * r;
+    q[r] = double(row[0]) * p[0] + double(row[1]) * p[1] + double(row[2]) * p[2] + row[3];
+  }
+  return {job.intrinsics.fx * q[0] / q[2] + job.intrinsics.cx,
+          job.intrinsics.fy * q[1] / q[2] + job.intrinsics.cy, q[2]};
+}
+
+double segment_distance_px(const Point& a, const Point& b, double x, double y) {
+  const double dx = b.u - a.u, dy = b.v - a.v, length2 = dx * dx + dy * dy;
+  const double t = length2 > 0 ? std::clamp(((x - a.u) * dx + (y - a.v) * dy) / length2, 0.0, 1.0) : 0.0;
+  return std::hypot(x - a.u - t * dx, y - a.v - t * dy);
+}
+
+// Pixels whose centre lies next to an edge of a triangle that is drawn: those may go either way.
+std::vector<bool> near_edges(const Soup& soup, const DepthJob& job, int width, int height) {
+  std::vector<bool> near(std::size_t(width) * height, false);
+  for (std::size_t i = 0; i < soup.triangles.size(); i += 3) {
+    Point p[3];
+    for (int k = 0; k < 3; ++k) p[k] = project(job, soup.vertices.data() + 3 * soup.triangles[i + k]);
+    if (std::min({p[0].z, p[1].z, p[2].z}) < DEPTH_NEAR_M) continue;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        for (int k = 0; k < 3; ++k)
+          if (segment_distance_px(p[k], p[(k + 1) % 3], x, y) < 1.0 / 64)
+            near[std::size_t(y) * width + x] = true;
+  }
+  return near;
+}
+
+struct Case {
+  int width, height, triangles;
+  float size_m;
+};
+
+class DepthRasterPaths : public test::PathTest {};
+
+TEST_P(DepthRasterPaths, AgreesWithTheReference) {
+  std::mt19937 rng = test::test_rng();
+  for (const Case& c : std::vector<Case>{{1, 1, 5, 0.05f},
+                                         {7, 5, 20, 0.03f},
+                                         {33, 17, 64, 0.02f},
+                                         {61, 47, 300, 0.01f},
+                                         {50, 3, 9, 0.1f}}) {
+    SCOPED_TRACE(std::to_string(c.width) + "x" + std::to_string(c.height));
+    const Soup soup = random_soup(rng, c.triangles, c.size_m);
+    std::vector<DepthJob> jobs;
+    for (int j = 0; j < 3; ++j)
+      jobs.push_back(
+          job_at(0.7f * float(j), 0.3f, float(c.width) * 2, float(c.width) * 0.5f, float(c.height) * 0.45f));
+    const std::size_t pixels = std::size_t(c.width) * c.height;
+    std::vector<float> found(3 * pixels, -1), expected(3 * pixels, -1);
+    tested->depth_raster(soup.mesh(), jobs, c.width, c.height, found);
+    reference->depth_raster(soup.mesh(), jobs, c.width, c.height, expected);
+    std::size_t compared = 0;
+    for (int j = 0; j < 3; ++j) {
+      const std::vector<bool> skip = near_edges(soup, jobs[j], c.width, c.height);
+      for (std::size_t i = 0; i < pixels; ++i) {
+        if (skip[i]) continue;
+        ++compared;
+        const float a = found[j * pixels + i], b = expected[j * pixels + i];
+        if (std::isinf(b))
+          EXPECT_EQ(a, b) << "map " << j << ", pixel " << i;
+        else
+          EXPECT_NEAR(a, b, 1e-5f * b) << "map " << j << ", pixel " << i;
+      }
+    }
+    EXPECT_GE(2 * compared, 3 * pixels);
+  }
+}
+
+// More maps than one batch holds.
+TEST_P(DepthRasterPaths, ManyMaps) {
+  std::mt19937 rng = test::test_rng();
+  const Soup soup = random_soup(rng, 3, 0.03f);
+  std::vector<DepthJob> jobs;
+  for (int j = 0; j < 33000; ++j) jobs.push_back(job_at(0.001f * float(j), 0.3f, 8, 2, 2));
+  std::vector<float> found(jobs.size() * 20), expected(jobs.size() * 20);
+  tested->depth_raster(soup.mesh(), jobs, 5, 4, found);
+  reference->depth_raster(soup.mesh(), jobs, 5, 4, expected);
+  std::size_t differ = 0, covered = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    covered += std::isfinite(expected[i]);
+    differ += !(found[i] == expected[i] || std::abs(found[i] - expected[i]) <= 1e-5f * expected[i]);
+  }
+  EXPECT_GT(covered, found.size() / 50);
+  EXPECT_LT(differ, found.size() / 100);  // centres next to an edge
+}
+
+TEST_P(DepthRasterPaths, EmptyMeshLeavesEmptyMaps) {
+  const DepthJob job = job_at(0, 0.3f, 8, 2, 2);
+  std::vector<float> depth(20, -1);
+  tested->depth_raster({}, {&job, 1}, 5, 4, depth);
+  for (const float d : depth) EXPECT_EQ(d, DEPTH_EMPTY);
+  EXPECT_THROW(tested->depth_raster({}, {&job, 1}, 5, 5, depth), LogicError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Paths, DepthRasterPaths, test::all_paths, test::param_name);
+
+}  // namespace
+}  // namespace edgescout
