@@ -136,6 +136,29 @@ void RecallOptions::validate() const {
   require(max_mspd_px > 0, "max_mspd_px", max_mspd_px, "above 0");
 }
 
+std::vector<EvaluationImage> evaluation_images(const BopScene& scene, std::span<const BopResult> results) {
+  std::map<int, EvaluationImage> by_id;
+  for (const BopImage& image : scene.images) {
+    const std::string name = image.file.string();
+    if (!scene.truth.contains(image.image_id))
+      throw InputError(scene.folder.string(), "scene_gt.json", "no entry " + std::to_string(image.image_id),
+                       "the truth of " + name);
+    if (image.camera.width < 1) throw InputError(name, "width", "none", "the image's size in its camera");
+    by_id[image.image_id] = {image.camera, scene.truth.at(image.image_id), {}};
+  }
+  for (const BopResult& result : results) {
+    if (result.scene_id != scene.scene_id) continue;
+    const auto image = by_id.find(result.image_id);
+    if (image == by_id.end())
+      throw InputError("results", "im_id", std::to_string(result.image_id),
+                       "an image of scene " + std::to_string(scene.scene_id));
+    image->second.estimates.push_back(result);
+  }
+  std::vector<EvaluationImage> images;
+  for (auto& [id, image] : by_id) images.push_back(std::move(image));
+  return images;
+}
+
 Recalls evaluate(std::span<const EvaluationImage> images, const std::map<int, Object>& objects,
                  const RecallOptions& options) {
   options.validate();

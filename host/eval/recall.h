@@ -21,6 +21,11 @@ struct EvaluationImage {
   std::vector<BopResult> estimates;  // of this image
 };
 
+// A scene's images with the results that belong to them, by image_id. Results of other scenes are passed
+// over. InputError: a result of this scene for an image it does not have; an image without truth or whose
+// camera has no size yet.
+std::vector<EvaluationImage> evaluation_images(const BopScene& scene, std::span<const BopResult> results);
+
 struct RecallOptions {
   double min_visible_fraction = 0.1;  // BOP's
   double min_score = 0;               // estimates below it are dropped before everything, in [0, 1]

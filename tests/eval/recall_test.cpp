@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <functional>
-#include <numeric>
+#include <algorithm>
+#include <cmath>
 
 #include "kernels/error.h"
 
@@ -203,6 +203,45 @@ TEST(Recall, AgreesWithThePlainDefinition) {
     const Recalls recalls = evaluate(std::vector{one}, OBJECTS, options);
     ASSERT_NEAR(recalls.recall_raw, found / 4.0, 1e-12) << "round " << round;
   }
+}
+
+BopScene scene_of_two_images() {
+  BopScene scene;
+  scene.scene_id = 4;
+  for (const int id : {3, 8}) {
+    BopImage bop;
+    bop.image_id = id;
+    bop.camera = image().camera;
+    scene.images.push_back(bop);
+    scene.truth[id] = {truth(1, id)};
+  }
+  return scene;
+}
+
+TEST(EvaluationImages, PutResultsToTheirImages) {
+  std::vector<BopResult> results{estimate(1, 8, 1), estimate(1, 3, 1), estimate(1, 3, 1)};
+  for (BopResult& result : results) result.scene_id = 4;
+  results[0].image_id = 8;
+  results[1].image_id = 3;
+  results[2].scene_id = 5;
+  const std::vector<EvaluationImage> images = evaluation_images(scene_of_two_images(), results);
+  ASSERT_EQ(images.size(), 2u);
+  EXPECT_EQ(images[0].estimates.size(), 1u);
+  EXPECT_EQ(images[1].estimates.size(), 1u);
+  EXPECT_DOUBLE_EQ(evaluate(images, OBJECTS, {}).ar_mssd, 1);
+}
+
+TEST(EvaluationImages, RefuseWhatDoesNotFitTheScene) {
+  std::vector<BopResult> results{estimate(1, 8, 1)};
+  results[0].scene_id = 4;
+  results[0].image_id = 9;
+  EXPECT_THROW(evaluation_images(scene_of_two_images(), results), InputError);
+  BopScene scene = scene_of_two_images();
+  scene.images[1].camera.width = 0;
+  EXPECT_THROW(evaluation_images(scene, {}), InputError);
+  scene = scene_of_two_images();
+  scene.truth.erase(8);
+  EXPECT_THROW(evaluation_images(scene, {}), InputError);
 }
 
 TEST(Recall, RefusesWhatItCannotJudge) {
