@@ -1,4 +1,4 @@
-// Triangle meshes from files: STL (binary, ASCII), PLY, OBJ (assimp) and ViSP's `.cao`.
+// Triangle meshes from files: STL and PLY (binary, ASCII), OBJ (through assimp) and ViSP's `.cao`.
 #pragma once
 
 #include <filesystem>

@@ -1,12 +1,10 @@
-// Mesh files: which reader, which unit; PLY and OBJ through assimp; PLY out.
+// Mesh files: which reader, which unit; OBJ through assimp; PLY out.
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cctype>
-#include <charconv>
 #include <cstdint>
-#include <cstring>
 
 #include "host/core/log.h"
 #include "host/io/files.h"
@@ -23,30 +21,6 @@ std::string lower_extension(const std::filesystem::path& file) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
   return extension;
-}
-
-struct PlyCounts {
-  std::uint64_t vertices = 0;
-  std::uint64_t faces = 0;
-};
-
-// The counts of a PLY header, so that what assimp loaded can be compared with what the file promised.
-PlyCounts ply_counts(const std::string& bytes, const std::string& source) {
-  const std::size_t end = bytes.find("end_header");
-  if (!bytes.starts_with("ply") || end == std::string::npos)
-    throw InputError(source, "PLY header", "no whole header", "\"ply\" ... \"end_header\"");
-  const auto count_of = [&](const std::string& element) {
-    const std::size_t at = bytes.find("\nelement " + element + " ");
-    std::uint64_t count = 0;
-    if (at < end) std::from_chars(bytes.data() + at + element.size() + 10, bytes.data() + end, count);
-    // An element takes at least a byte: a larger count is a lie that would only exhaust the memory.
-    if (count > bytes.size())
-      throw InputError(source, "PLY element " + element,
-                       std::to_string(count) + " in a file of " + std::to_string(bytes.size()) + " bytes",
-                       "a count that the file can hold");
-    return count;
-  };
-  return {count_of("vertex"), count_of("face")};
 }
 
 void append(const aiMesh& part, RawMesh& mesh, const std::string& source) {
@@ -70,7 +44,8 @@ RawMesh read_raw(const std::filesystem::path& file) {
   const std::string extension = lower_extension(file);
   if (extension == ".stl") return read_stl(file);
   if (extension == ".cao") return read_cao(file);
-  if (extension == ".ply" || extension == ".obj") return read_with_assimp(file);
+  if (extension == ".ply") return read_ply(file);
+  if (extension == ".obj") return read_obj(file);
   throw InputError(file.string(), "file type", extension.empty() ? "no extension" : extension,
                    ".stl, .ply, .obj or .cao");
 }
@@ -82,32 +57,20 @@ void put(std::string& bytes, const T& value) {
 
 }  // namespace
 
-RawMesh read_with_assimp(const std::filesystem::path& file) {
+RawMesh read_obj(const std::filesystem::path& file) {
   const std::string bytes = read_file(file), source = file.string();
-  const bool is_ply = lower_extension(file) == ".ply";
-  const PlyCounts promised = is_ply ? ply_counts(bytes, source) : PlyCounts{};
   Assimp::Importer importer;
   const aiScene* scene = nullptr;
   std::string failure;
   try {
-    scene = importer.ReadFile(source, 0);
+    scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "obj");
     failure = importer.GetErrorString();
-  } catch (const std::exception& error) {  // bad_alloc on an absurd count
+  } catch (const std::exception& error) {
     failure = error.what();
   }
-  if (!scene)
-    throw InputError(source, "mesh", failure, "a whole " + std::string(is_ply ? "PLY" : "OBJ") + " file");
+  if (!scene) throw InputError(source, "mesh", failure, "an OBJ file with faces");
   RawMesh mesh;
-  std::uint64_t faces = 0;
-  for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
-    append(*scene->mMeshes[i], mesh, source);
-    faces += scene->mMeshes[i]->mNumFaces;
-  }
-  if (is_ply && (mesh.vertices.size() != promised.vertices || faces != promised.faces))
-    throw InputError(
-        source, "PLY counts",
-        std::to_string(mesh.vertices.size()) + " vertices and " + std::to_string(faces) + " faces",
-        std::to_string(promised.vertices) + " and " + std::to_string(promised.faces) + " as its header says");
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], mesh, source);
   return mesh;
 }
 

@@ -17,8 +17,9 @@ struct RawMesh {
 
 // Each throws InputError naming the file and what is wrong with it.
 RawMesh read_stl(const std::filesystem::path& file);
+RawMesh read_ply(const std::filesystem::path& file);
 RawMesh read_cao(const std::filesystem::path& file);
-RawMesh read_with_assimp(const std::filesystem::path& file);  // PLY, OBJ
+RawMesh read_obj(const std::filesystem::path& file);
 
 // Cuts the ears off a simple, (nearly) planar polygon; corners are indices into `vertices`. The triangles
 // keep the polygon's sense. What a self-crossing polygon leaves over becomes a fan.

@@ -1,0 +1,124 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "host/io/bop.h"
+#include "tests/io/expect_input_error.h"
+#include "tests/io/temporary_folder.h"
+
+namespace edgescout::test {
+namespace {
+
+using Eigen::Vector3d;
+
+std::vector<Se3> load(const std::string& fields, int steps = 64) {
+  const TemporaryFolder folder;
+  return load_symmetries(folder.write("models_info.json", "{\"5\": {\"diameter\": 10" + fields + "}}"), steps)
+      .at(5)
+      .discrete;
+}
+
+bool contains(const std::vector<Se3>& group, const Se3& member) {
+  for (const Se3& s : group)
+    if (angle_between_rad(s, member) < 1e-6 && distance_between_m(s, member) < 1e-9) return true;
+  return false;
+}
+
+// Every product of two members is a member again.
+void expect_closed(const std::vector<Se3>& group) {
+  for (const Se3& a : group)
+    for (const Se3& b : group) EXPECT_TRUE(contains(group, a * b));
+}
+
+Se3 turn(double angle, const Vector3d& axis, const Vector3d& through_m = Vector3d::Zero()) {
+  const Eigen::Quaterniond q = so3_exp(angle * axis);
+  return {q, through_m - q * through_m};
+}
+
+const std::string half_turn_x = "[1,0,0,0, 0,-1,0,0, 0,0,-1,0, 0,0,0,1]";
+const std::string quarter_turn_z = "[0,-1,0,0, 1,0,0,0, 0,0,1,0, 0,0,0,1]";
+const std::string spin_z = R"(, "symmetries_continuous": [{"axis": [0, 0, 2], "offset": [0, 0, 0]}])";
+
+std::string discrete(const std::string& list) { return ", \"symmetries_discrete\": [" + list + "]"; }
+
+TEST(LoadSymmetries, WithoutAnyHoldsTheIdentityOnly) {
+  const std::vector<Se3> group = load("");
+  ASSERT_EQ(group.size(), 1u);
+  EXPECT_LT(angle_between_rad(group[0], Se3{}), 1e-12);
+}
+
+TEST(LoadSymmetries, KeepsAHalfTurnWithItsOffsetInMetres) {
+  // Half a turn about the line x = 10 mm, y = 0 along z: x -> 20 - x, y -> -y.
+  const std::vector<Se3> group = load(discrete("[-1,0,0,20, 0,-1,0,0, 0,0,1,0, 0,0,0,1]"));
+  ASSERT_EQ(group.size(), 2u);
+  EXPECT_LT((group[1] * Vector3d(0.01, 0, 0.3) - Vector3d(0.01, 0, 0.3)).norm(), 1e-12);
+  EXPECT_LT((group[1] * Vector3d(0, 0.002, 0) - Vector3d(0.02, -0.002, 0)).norm(), 1e-12);
+}
+
+TEST(LoadSymmetries, ClosesTheGroupOfItsGenerators) {
+  const std::vector<Se3> four = load(discrete(quarter_turn_z));
+  EXPECT_EQ(four.size(), 4u);
+  expect_closed(four);
+  // A square plate: quarter turns about z and a half turn about x make the dihedral group of 8.
+  const std::vector<Se3> plate = load(discrete(quarter_turn_z + "," + half_turn_x));
+  EXPECT_EQ(plate.size(), 8u);
+  expect_closed(plate);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_TRUE(contains(plate, turn(i * std::numbers::pi / 2, Vector3d::UnitZ())));
+    const double axis = i * std::numbers::pi / 4;
+    EXPECT_TRUE(contains(plate, turn(std::numbers::pi, Vector3d(std::cos(axis), std::sin(axis), 0))));
+  }
+  // Quarter turns about two axes generate the 24 rotations of a cube.
+  const std::vector<Se3> cube = load(discrete(quarter_turn_z + ",[1,0,0,0, 0,0,-1,0, 0,1,0,0, 0,0,0,1]"));
+  EXPECT_EQ(cube.size(), 24u);
+  expect_closed(cube);
+}
+
+TEST(LoadSymmetries, SamplesARotationAboutAnAxis) {
+  const std::vector<Se3> group =
+      load(R"(, "symmetries_continuous": [{"axis": [0, 0, 2], "offset": [10, 20, 0]}])", 8);
+  ASSERT_EQ(group.size(), 8u);
+  EXPECT_LT(angle_between_rad(group[0], Se3{}), 1e-12);
+  for (int i = 0; i < 8; ++i)
+    EXPECT_TRUE(contains(group, turn(i * std::numbers::pi / 4, Vector3d::UnitZ(), Vector3d(0.01, 0.02, 0))));
+  expect_closed(group);
+}
+
+// A tin: spins about z and turns over about x.
+TEST(LoadSymmetries, CombinesContinuousAndDiscrete) {
+  const std::vector<Se3> tin = load(discrete(half_turn_x) + spin_z, 6);
+  EXPECT_EQ(tin.size(), 12u);
+  expect_closed(tin);
+  EXPECT_TRUE(contains(
+      tin, turn(std::numbers::pi / 3, Vector3d::UnitZ()) * turn(std::numbers::pi, Vector3d::UnitX())));
+  // A half turn about the axis itself is among its samples already.
+  EXPECT_EQ(load(discrete("[-1,0,0,0, 0,-1,0,0, 0,0,1,0, 0,0,0,1]") + spin_z, 6).size(), 6u);
+}
+
+TEST(LoadSymmetries, NamesFileAndFieldOfWhatIsWrong) {
+  expect_input_error([] { load(discrete("[1,2,3]")); },
+                     {"models_info.json", "/5/symmetries_discrete/0", "3 numbers"});
+  expect_input_error([] { load(discrete("[2,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]")); },
+                     {"/5/symmetries_discrete/0", "no rotation"});
+  // A mirror is no motion of a rigid body.
+  expect_input_error([] { load(discrete("[-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]")); },
+                     {"/5/symmetries_discrete/0", "no rotation"});
+  // A turn by 1 rad, and a shift, never come back.
+  expect_input_error(
+      [] {
+        load(
+            discrete("[0.5403023058681398,-0.8414709848078965,0,0, "
+                     "0.8414709848078965,0.5403023058681398,0,0, 0,0,1,0, 0,0,0,1]"));
+      },
+      {"/5/symmetries_discrete", "no finite group"});
+  expect_input_error([] { load(discrete("[1,0,0,5, 0,1,0,0, 0,0,1,0, 0,0,0,1]")); }, {"no finite group"});
+  expect_input_error([] { load(R"(, "symmetries_continuous": [{"axis": [0, 0, 0], "offset": [0, 0, 0]}])"); },
+                     {"/5/symmetries_continuous/0/axis"});
+  expect_input_error([] { load(R"(, "symmetries_continuous": [{"axis": [0, 0, 1]}])"); },
+                     {"/5/symmetries_continuous/0/offset"});
+  expect_input_error([] { load_symmetries("no-such-models_info.json"); },
+                     {"no-such-models_info.json", "No such file"});
+}
+
+}  // namespace
+}  // namespace edgescout::test

@@ -1,0 +1,149 @@
+#include "host/io/bop.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/io/expect_input_error.h"
+#include "tests/io/temporary_folder.h"
+
+namespace edgescout::test {
+namespace {
+
+using Eigen::Vector3d;
+
+Se3 sample_pose(double seed) {
+  return {so3_exp(Vector3d(0.3 * seed, -0.7, 1.1)), Vector3d(0.1 * seed, -0.02, 0.6 + seed)};
+}
+
+void expect_same(const Se3& a, const Se3& b) {
+  EXPECT_LT(angle_between_rad(a, b), 1e-7);
+  EXPECT_LT(distance_between_m(a, b), 1e-12);
+}
+
+BopScene sample_scene() {
+  BopScene scene;
+  BopImage first, second;
+  first.image_id = 3;
+  first.camera = {640, 480, 600, 610, 320, 240, {0.1, -0.2, 0.001, 0.002, 0.3, 0, 0, 0}};
+  first.camera_from_world = sample_pose(2);
+  second.image_id = 12;
+  second.camera = {640, 480, 500, 510, 321, 241, {}};
+  scene.images = {first, second};
+  scene.truth[3] = {{1, sample_pose(0.1), 0.75}, {4, sample_pose(0.2), 1.0}};
+  scene.truth[12] = {};
+  return scene;
+}
+
+TEST(BopScene, ReadsBackWhatWasWritten) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "000048");
+  EXPECT_FALSE(is_bop_scene(folder.path() / "000048"));
+  const BopScene scene = sample_scene();
+  save_bop_scene(scene, folder.path() / "000048");
+  folder.write("000048/gray/000003.png", "");
+  folder.write("000048/rgb/000012.jpg", "");
+  EXPECT_TRUE(is_bop_scene(folder.path() / "000048"));
+  const BopScene back = load_bop_scene(folder.path() / "000048" / "");
+  EXPECT_EQ(back.scene_id, 48);
+  ASSERT_EQ(back.images.size(), 2u);
+  EXPECT_EQ(back.images[0].image_id, 3);
+  EXPECT_EQ(back.images[0].file.filename(), "000003.png");
+  EXPECT_EQ(back.images[1].file, back.folder / "rgb" / "000012.jpg");
+  EXPECT_EQ(back.images[0].camera.distortion, scene.images[0].camera.distortion);
+  EXPECT_EQ(back.images[0].camera.fy, 610);
+  EXPECT_EQ(back.images[0].camera.width, 0);
+  ASSERT_TRUE(back.images[0].camera_from_world);
+  expect_same(*back.images[0].camera_from_world, *scene.images[0].camera_from_world);
+  EXPECT_FALSE(back.images[1].camera_from_world);
+  ASSERT_EQ(back.truth.at(3).size(), 2u);
+  EXPECT_EQ(back.truth.at(3)[1].object_id, 4);
+  EXPECT_EQ(back.truth.at(3)[0].visible_fraction, 0.75);
+  expect_same(back.truth.at(3)[1].camera_from_object, scene.truth.at(3)[1].camera_from_object);
+}
+
+TEST(BopScene, ReadsMillimetresAndLivesWithoutTruthInfoOrImages) {
+  const TemporaryFolder folder;
+  folder.write("s/scene_camera.json",
+               R"({"10": {"cam_K": [5,0,3,0,6,4,0,0,1]}, "9": {"cam_K": [5,0,3,0,6,4,0,0,1]}})");
+  const BopScene bare = load_bop_scene(folder.path() / "s");
+  EXPECT_EQ(bare.scene_id, 0);
+  EXPECT_TRUE(bare.truth.empty());
+  ASSERT_EQ(bare.images.size(), 2u);
+  EXPECT_EQ(bare.images[0].image_id, 9);  // by number, not by text
+  EXPECT_EQ(bare.images[0].file.filename(), "000009.png");
+  folder.write("s/scene_gt.json",
+               R"({"9": [{"obj_id": 2, "cam_R_m2c": [1,0,0,0,1,0,0,0,1], "cam_t_m2c": [10, -20, 500]}]})");
+  const BopTruth truth = load_bop_scene(folder.path() / "s").truth.at(9).at(0);
+  EXPECT_LT((truth.camera_from_object.translation_m - Vector3d(0.01, -0.02, 0.5)).norm(), 1e-15);
+  EXPECT_EQ(truth.visible_fraction, 1);
+}
+
+TEST(BopScene, NamesFileAndFieldOfWhatIsWrong) {
+  const TemporaryFolder folder;
+  const auto load = [&](const std::string& camera, const std::string& truth = "{}") {
+    folder.write("scene_camera.json", camera);
+    folder.write("scene_gt.json", truth);
+    load_bop_scene(folder.path());
+  };
+  const std::string good = R"({"1": {"cam_K": [5,0,3,0,6,4,0,0,1]}})";
+  expect_input_error([&] { load_bop_scene(folder.path() / "none"); }, {"scene_camera.json", "No such file"});
+  expect_input_error([&] { load("[1"); }, {"scene_camera.json", "JSON"});
+  expect_input_error([&] { load(R"({"x": {"cam_K": [5,0,3,0,6,4,0,0,1]}})"); },
+                     {"scene_camera.json", "\"x\""});
+  expect_input_error([&] { load(R"({"1": {"cam_K": [5,0,3,0,6,4,0,0]}})"); }, {"/1/cam_K", "8 numbers"});
+  expect_input_error([&] { load(R"({"1": {"cam_K": [-5,0,3,0,6,4,0,0,1]}})"); }, {"/1", "fx", "positive"});
+  expect_input_error(
+      [&] { load(R"({"1": {"cam_K": [5,0,3,0,6,4,0,0,1], "cam_R_w2c": [1,0,0,0,1,0,0,0,1]}})"); },
+      {"/1/cam_t_w2c"});
+  expect_input_error(
+      [&] {
+        load(good, R"({"1": [{"obj_id": 1, "cam_R_m2c": [2,0,0,0,1,0,0,0,1], "cam_t_m2c": [0,0,1]}]})");
+      },
+      {"scene_gt.json", "/1/0/cam_R_m2c", "no rotation"});
+  expect_input_error(
+      [&] { load(good, R"({"1": [{"cam_R_m2c": [1,0,0,0,1,0,0,0,1], "cam_t_m2c": [0,0,1]}]})"); },
+      {"/1/0/obj_id"});
+}
+
+TEST(BopResults, ReadBackExactly) {
+  const TemporaryFolder folder;
+  const std::vector<BopResult> results{{48, 3, 1, 0.123456789012345678, sample_pose(0.1), 0.25},
+                                       {48, 4, 2, 1, sample_pose(0.2), -1}};
+  save_bop_results(results, folder.path() / "r.csv");
+  const std::string text = content_of(folder.path() / "r.csv");
+  EXPECT_TRUE(text.starts_with("scene_id,im_id,obj_id,score,R,t,time\n48,3,1,0.12345678901234568,")) << text;
+  const std::vector<BopResult> back = load_bop_results(folder.path() / "r.csv");
+  ASSERT_EQ(back.size(), 2u);
+  EXPECT_EQ(back[0].scene_id, 48);
+  EXPECT_EQ(back[1].image_id, 4);
+  EXPECT_EQ(back[1].object_id, 2);
+  EXPECT_EQ(back[0].score, results[0].score);
+  EXPECT_EQ(back[0].time_s, 0.25);
+  for (int i = 0; i < 2; ++i) expect_same(back[i].camera_from_object, results[i].camera_from_object);
+}
+
+TEST(BopResults, ReadsWhatOtherToolsWrite) {
+  const TemporaryFolder folder;
+  const auto file = folder.write(
+      "r.csv", "1,2,3,-0.5,1 0 0 0 1 0 0 0 1, 10.0 20 3e2 ,-1\r\n\r\n1,2,3,5e-1,1 0 0 0 1 0 0 0 1,1 2 3,0.1");
+  const std::vector<BopResult> results = load_bop_results(file);
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_LT((results[0].camera_from_object.translation_m - Vector3d(0.01, 0.02, 0.3)).norm(), 1e-15);
+  EXPECT_EQ(results[1].score, 0.5);
+}
+
+TEST(BopResults, NamesTheLineOfWhatIsWrong) {
+  const TemporaryFolder folder;
+  const auto load = [&](const std::string& line) {
+    load_bop_results(folder.write("r.csv", "scene_id,im_id,obj_id,score,R,t,time\n" + line + "\n"));
+  };
+  expect_input_error([&] { load("1,2,3"); }, {"r.csv", "line 2", "fields", "3"});
+  expect_input_error([&] { load("1,2,3,x,1 0 0 0 1 0 0 0 1,1 2 3,0.1"); }, {"line 2", "score"});
+  expect_input_error([&] { load("1,2,3,nan,1 0 0 0 1 0 0 0 1,1 2 3,0.1"); },
+                     {"line 2", "score", "not finite"});
+  expect_input_error([&] { load("1,2,3,1,1 0 0 0 1 0 0 0,1 2 3,0.1"); }, {"line 2", "R", "8 numbers"});
+  expect_input_error([&] { load("1,2,3,1,1 0 0 0 1 0 0 0 2,1 2 3,0.1"); }, {"line 2", "R", "no rotation"});
+  expect_input_error([&] { load("1,2.5,3,1,1 0 0 0 1 0 0 0 1,1 2 3,0.1"); }, {"line 2", "im_id", "2.5"});
+}
+
+}  // namespace
+}  // namespace edgescout::test

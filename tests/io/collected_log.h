@@ -1,0 +1,21 @@
+// What the library logs while this lives.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/core/log.h"
+
+namespace edgescout::test {
+
+struct CollectedLog {
+  std::vector<std::pair<LogLevel, std::string>> messages;
+  CollectedLog() {
+    set_log_sink([this](LogLevel level, const std::string& text) { messages.emplace_back(level, text); });
+  }
+  CollectedLog(const CollectedLog&) = delete;
+  CollectedLog& operator=(const CollectedLog&) = delete;
+  ~CollectedLog() { set_log_sink({}); }
+};
+
+}  // namespace edgescout::test

@@ -1,0 +1,154 @@
+#include "host/io/image.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/io/collected_log.h"
+#include "tests/io/expect_input_error.h"
+#include "tests/io/temporary_folder.h"
+
+namespace edgescout::test {
+namespace {
+
+Image gradient_image(int width, int height) {
+  Image image{width, height, {}};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) image.pixels.push_back(static_cast<std::uint8_t>((7 * x + 13 * y) % 256));
+  return image;
+}
+
+TEST(LoadImage, ReadsWhatSavePngWrote) {
+  const TemporaryFolder folder;
+  for (auto [width, height] : {std::pair{16, 16}, {17, 33}, {640, 480}}) {
+    const Image image = gradient_image(width, height);
+    save_png(image, folder.path() / "x.png");
+    const Image back = load_image(folder.path() / "x.png");
+    EXPECT_EQ(back.width, width);
+    EXPECT_EQ(back.height, height);
+    EXPECT_EQ(back.pixels, image.pixels);
+  }
+  EXPECT_EQ(folder.entries(), 1u);
+}
+
+// The only test of this program that reads colour: the conversion is said once a process.
+TEST(LoadImage, ConvertsColourAndSaysSo) {
+  const TemporaryFolder folder;
+  RgbImage colour{20, 20, {}};
+  for (int i = 0; i < 400; ++i)
+    for (int value : {200, 100, 50}) colour.pixels.push_back(static_cast<std::uint8_t>(value));
+  save_png(colour, folder.path() / "c.png");
+  cv::imwrite((folder.path() / "alpha.png").string(), cv::Mat(20, 20, CV_8UC4, cv::Scalar(50, 100, 200, 7)));
+  CollectedLog log;
+  for (const char* name : {"c.png", "alpha.png"}) {
+    const Image grey = load_image(folder.path() / name);
+    // Rec. 601: 0.299 R + 0.587 G + 0.114 B
+    EXPECT_NEAR(grey.at(3, 4), 0.299 * 200 + 0.587 * 100 + 0.114 * 50, 1) << name;
+  }
+  ASSERT_EQ(log.messages.size(), 1u);
+  EXPECT_EQ(log.messages[0].first, LogLevel::Info);
+  EXPECT_NE(log.messages[0].second.find("c.png: colour"), std::string::npos);
+}
+
+TEST(LoadImage, RejectsOtherDepthsThan8Bit) {
+  const TemporaryFolder folder;
+  for (const char* name : {"deep.png", "deep.tif", "deep.pgm"}) {
+    cv::imwrite((folder.path() / name).string(), cv::Mat(20, 20, CV_16U, cv::Scalar(1000)));
+    expect_input_error([&] { load_image(folder.path() / name); }, {name, "bit depth", "16 bit", "8 bit"});
+  }
+}
+
+TEST(LoadImage, RejectsTinyImages) {
+  const TemporaryFolder folder;
+  for (auto [width, height] : {std::pair{1, 1}, {15, 100}, {100, 15}}) {
+    save_png(gradient_image(width, height), folder.path() / "tiny.png");
+    expect_input_error(
+        [&] { load_image(folder.path() / "tiny.png"); },
+        {"tiny.png", "image size", std::to_string(width) + "x" + std::to_string(height), "16x16"});
+  }
+}
+
+TEST(LoadImage, RejectsWhatIsNoImage) {
+  const TemporaryFolder folder;
+  expect_input_error([&] { load_image(folder.path() / "none.png"); }, {"none.png", "No such file"});
+  expect_input_error([&] { load_image(folder.path()); }, {"a folder"});
+  expect_input_error([&] { load_image(folder.write("empty.png", "")); }, {"empty.png", "empty"});
+  expect_input_error([&] { load_image(folder.write("text.png", "this is no image\n")); },
+                     {"text.png", "no image decoder"});
+}
+
+TEST(LoadImage, RejectsImagesCutShort) {
+  const TemporaryFolder folder;
+  cv::Mat noise(64, 64, CV_8U);
+  cv::randu(noise, 0, 255);
+  for (const char* name : {"x.png", "x.jpg"}) {
+    cv::imwrite((folder.path() / name).string(), noise);
+    EXPECT_EQ(load_image(folder.path() / name).width, 64);
+    const std::string whole = content_of(folder.path() / name);
+    for (std::size_t i = 0; i < 20; ++i) {
+      const auto cut =
+          folder.write(std::string("cut-") + name, std::string_view(whole).substr(0, whole.size() * i / 20));
+      expect_input_error([&] { load_image(cut); }, {name});
+    }
+  }
+}
+
+// A smooth scene seen through the lens: the grey value at a distorted pixel is f(undistorted pixel).
+double scene(double x, double y) { return 128 + 60 * std::sin(0.05 * x) + 60 * std::cos(0.04 * y); }
+
+// Brown-Conrady forward model, written out.
+Eigen::Vector2d distort(const Camera& c, double u, double v) {
+  const double x = (u - c.cx) / c.fx, y = (v - c.cy) / c.fy, r2 = x * x + y * y;
+  const auto& [k1, k2, p1, p2, k3, k4, k5, k6] = c.distortion;
+  const double radial = (1 + r2 * (k1 + r2 * (k2 + r2 * k3))) / (1 + r2 * (k4 + r2 * (k5 + r2 * k6)));
+  return {c.fx * (x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x)) + c.cx,
+          c.fy * (y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y) + c.cy};
+}
+
+Eigen::Vector2d undistort_point(const Camera& camera, const Eigen::Vector2d& seen) {
+  Eigen::Vector2d ideal = seen;
+  for (int i = 0; i < 100; ++i) ideal += seen - distort(camera, ideal.x(), ideal.y());
+  return ideal;
+}
+
+TEST(Undistort, TakesTheLensOutOfASmoothScene) {
+  Camera camera{200, 160, 220, 210, 98.5, 82, {-0.2, 0.05, 0.002, -0.001, 0.01, 0.01, 0.005, 0.002}};
+  Image seen{camera.width, camera.height, {}};
+  for (int y = 0; y < seen.height; ++y)
+    for (int x = 0; x < seen.width; ++x) {
+      const Eigen::Vector2d ideal = undistort_point(camera, {x, y});
+      seen.pixels.push_back(static_cast<std::uint8_t>(std::lround(scene(ideal.x(), ideal.y()))));
+    }
+  const Image flat = undistort(seen, camera);
+  ASSERT_EQ(flat.width, camera.width);
+  int judged = 0;
+  for (int y = 0; y < flat.height; ++y)
+    for (int x = 0; x < flat.width; ++x) {
+      const Eigen::Vector2d from = distort(camera, x, y);
+      if (from.x() < 3 || from.y() < 3 || from.x() > 196 || from.y() > 156) continue;
+      // Rounding to grey levels twice, and remap's fixed-point coordinates of 1/32 px.
+      EXPECT_NEAR(flat.at(x, y), scene(x, y), 1.5) << x << " " << y;
+      ++judged;
+    }
+  EXPECT_GT(judged, 25000);
+}
+
+TEST(Undistort, ReturnsTheImageWithoutDistortionAndRefusesAnotherSize) {
+  const Image image = gradient_image(40, 30);
+  Camera camera{40, 30, 50, 50, 20, 15, {}};
+  EXPECT_EQ(undistort(image, camera).pixels, image.pixels);
+  camera.width = 41;
+  EXPECT_THROW(undistort(image, camera), LogicError);
+}
+
+TEST(SavePng, WritesRedGreenBlueInThisOrder) {
+  const TemporaryFolder folder;
+  save_png(RgbImage{1, 1, {200, 100, 50}}, folder.path() / "c.png");
+  EXPECT_EQ(cv::imread((folder.path() / "c.png").string()).at<cv::Vec3b>(0, 0), cv::Vec3b(50, 100, 200));
+  EXPECT_THROW(save_png(RgbImage{2, 1, {1, 2, 3}}, folder.path() / "d.png"), LogicError);
+  expect_input_error([&] { save_png(RgbImage{1, 1, {1, 2, 3}}, folder.path() / "no" / "d.png"); }, {"d.png"});
+}
+
+}  // namespace
+}  // namespace edgescout::test
