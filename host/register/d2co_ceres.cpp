@@ -1,0 +1,154 @@
+#include "host/register/d2co_ceres.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <ceres/ceres.h>
+
+#include "host/register/point_cost.h"
+#include "host/register/se3_manifold.h"
+#include "host/register/world_system.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+// A view's tensor on the host.
+struct HostView {
+  std::vector<std::uint16_t> tensor;
+  TensorShape shape;
+  Intrinsics intrinsics;
+  Se3 camera_from_world;
+  TensorView tensor_view() const { return {tensor, shape, intrinsics}; }
+};
+
+std::vector<HostView> download(std::span<const RegisterView> views) {
+  std::vector<HostView> host;
+  for (const RegisterView& view : views)
+    host.push_back({view.view->tensor(), view.view->shape, view.view->intrinsics, view.camera_from_world});
+  return host;
+}
+
+// One round of one pose. The loss must outlive the problem, and is declared before it.
+struct RoundProblem {
+  std::unique_ptr<ceres::LossFunction> loss;
+  ceres::Problem problem{lent_loss()};
+  PoseParameters pose;
+
+  RoundProblem(const Se3& start, const PoseLoss& chosen)
+      : loss(make_loss(chosen)), pose(to_parameters(start)) {
+    problem.AddParameterBlock(pose.data(), 7, new Se3Manifold);
+  }
+  static ceres::Problem::Options lent_loss() {
+    ceres::Problem::Options options;
+    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+    return options;
+  }
+};
+
+void add_visible_points(RoundProblem& round, const EdgeModel& model, const HostView& view, Backend& backend,
+                        const VisibilityOptions& visibility, int most) {
+  const Se3 pose = view.camera_from_world * from_parameters(round.pose.data());
+  const std::vector<ModelPoint> visible = visible_edges(model, std::span(&pose, 1), backend, visibility)[0];
+  const std::size_t kept = most > 0 ? std::min(visible.size(), std::size_t(most)) : visible.size();
+  for (std::size_t i = 0; i < kept; ++i)
+    round.problem.AddResidualBlock(
+        new PointCost(view.tensor_view(), view.camera_from_world, visible[i * visible.size() / kept]),
+        round.loss.get(), round.pose.data());
+}
+
+ceres::Solver::Options solver_options(const D2coRound& round, const D2coOptions& options) {
+  ceres::Solver::Options solver;
+  solver.linear_solver_type = ceres::DENSE_QR;
+  solver.logging_type = ceres::SILENT;
+  solver.max_num_iterations = round.iterations;
+  // Ceres judges the step by its length among the 7 parameters, relative to theirs, which is at least that of
+  // the quaternion, one: a rotation counts half.
+  solver.parameter_tolerance = std::min(options.min_step_m, 0.5 * options.min_step_rad);
+  solver.function_tolerance = 0;
+  solver.gradient_tolerance = 0;
+  return solver;
+}
+
+Convergence reason_of(const ceres::Solver::Summary& summary) {
+  switch (summary.termination_type) {
+    case ceres::CONVERGENCE:
+      return Convergence::SmallStep;
+    case ceres::NO_CONVERGENCE:
+      return Convergence::IterationLimit;
+    default:
+      return Convergence::NoDecrease;
+  }
+}
+
+// The weighted system at the solution, in the world's tangent. Ceres counts no point that it could not
+// evaluate: then the system is empty.
+WorldSystem system_at_solution(RoundProblem& round) {
+  ceres::Problem::EvaluateOptions bare;
+  bare.apply_loss_function = false;
+  std::vector<double> residuals;
+  ceres::CRSMatrix jacobian;
+  WorldSystem system;
+  if (!round.problem.Evaluate(bare, nullptr, &residuals, nullptr, &jacobian)) return system;
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    const Eigen::Map<const Vector6d> j(&jacobian.values[6 * i]);
+    double rho[3];
+    round.loss->Evaluate(residuals[i] * residuals[i], rho);
+    system.hessian += rho[1] * j * j.transpose();
+    system.gradient += rho[1] * residuals[i] * j;
+    system.cost += 0.5 * rho[0];
+    system.residual_sum += residuals[i];
+    system.weight_sum += rho[1];
+    system.points += 1;
+  }
+  return system;
+}
+
+void fill(Registration& result, const WorldSystem& system) {
+  result.cost_px2 = system.cost;
+  result.points = static_cast<int>(system.points);
+  result.mean_px = system.points > 0 ? system.residual_sum / system.points : 0;
+  result.covariance = pose_covariance(system.hessian, 2 * system.cost / std::max(1.0, system.weight_sum - 6));
+}
+
+void solve_round(Registration& result, const EdgeModel& model, std::span<const HostView> views,
+                 Backend& backend, const D2coRound& round, const D2coOptions& options) {
+  RoundProblem at_pose(result.world_from_object, {round.loss, round.scale_px});
+  for (const HostView& view : views)
+    add_visible_points(at_pose, model, view, backend, options.visibility, round.max_points);
+  if (at_pose.problem.NumResiduals() == 0) {
+    result.reason = Convergence::NoPoints;
+    fill(result, {});
+    return;
+  }
+  ceres::Solver::Summary summary;
+  ceres::Solve(solver_options(round, options), &at_pose.problem, &summary);
+  result.world_from_object = from_parameters(at_pose.pose.data());
+  // The first entry is the start itself; there is none where even that could not be evaluated.
+  result.iterations += std::max(0, static_cast<int>(summary.iterations.size()) - 1);
+  result.reason = reason_of(summary);
+  fill(result, system_at_solution(at_pose));
+}
+
+}  // namespace
+
+std::vector<Registration> register_poses_ceres(std::span<const EdgeModel> models,
+                                               std::span<const Hypothesis> hypotheses,
+                                               std::span<const RegisterView> views, Backend& backend,
+                                               const D2coOptions& options) {
+  options.validate();
+  check(!views.empty(), "register_poses_ceres: at least one view");
+  const std::vector<HostView> host = download(views);
+  std::vector<Registration> results(hypotheses.size());
+  for (std::size_t h = 0; h < hypotheses.size(); ++h) {
+    check(hypotheses[h].object >= 0 && hypotheses[h].object < int(models.size()),
+          "register_poses_ceres: no such model");
+    results[h].world_from_object = hypotheses[h].world_from_object;
+    for (const D2coRound& round : options.rounds)
+      solve_round(results[h], models[hypotheses[h].object], host, backend, round, options);
+  }
+  return results;
+}
+
+}  // namespace edgescout
