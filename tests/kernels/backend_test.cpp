@@ -1,0 +1,71 @@
+// The choice of a backend by its word, and the timings every backend keeps.
+#include "kernels/backend.h"
+
+#include <gtest/gtest.h>
+
+#include "kernels/error.h"
+#include "tests/kernels/paths.h"
+
+namespace edgescout {
+namespace {
+
+TEST(BackendChoice, WordsNameBackends) {
+  EXPECT_EQ(make_backend("cpu")->name(), "cpu");
+  EXPECT_EQ(make_backend("cpu-reference")->name(), "cpu-reference");
+  EXPECT_FALSE(make_backend("cpu")->is_gpu());
+}
+
+TEST(BackendChoice, AutoTakesHardwareElseTheFastCpuPath) {
+  bool hardware = false;
+  for (const DeviceInfo& device : vulkan_devices()) hardware = hardware || device.hardware;
+  EXPECT_EQ(make_backend("auto")->is_gpu(), hardware);
+}
+
+TEST(BackendChoice, VulkanByNameTakesAnyDevice) {
+  if (vulkan_devices().empty()) GTEST_SKIP() << "no Vulkan device";
+  const auto backend = make_backend("vulkan:0");
+  EXPECT_TRUE(backend->is_gpu());
+  EXPECT_EQ(backend->name(), "vulkan:0 " + vulkan_devices()[0].name);
+}
+
+TEST(BackendChoice, OtherWordsAreBadInput) {
+  for (const char* word :
+       {"", "gpu", "CPU", "vulkan:", "vulkan:x", "vulkan:-1", "vulkan:0x", "vulkan:99999999999", "vulkan:77"})
+    EXPECT_THROW(make_backend(word), InputError) << word;
+}
+
+TEST(BackendChoice, WithoutADeviceAskingForOneIsBadInput) {
+  if (!vulkan_devices().empty()) GTEST_SKIP() << "there is a device";
+  EXPECT_THROW(make_backend("vulkan"), InputError);
+}
+
+class BackendTimings : public test::PathTest {};
+
+TEST_P(BackendTimings, AreTakenOnce) {
+  std::mt19937 rng = test::test_rng();
+  const auto edges = test::random_edges(rng, 33, 17, 20);
+  tested->make_view(edges, 33, 17, {}, {}, {});
+  tested->make_view(edges, 33, 17, {}, {}, {});
+  const std::vector<StageTime> times = tested->take_timings();
+  ASSERT_FALSE(times.empty());
+  for (const StageTime& time : times) {
+    EXPECT_FALSE(time.name.empty());
+    EXPECT_GE(time.calls, 2) << time.name;
+    EXPECT_GE(time.seconds, 0) << time.name;
+  }
+  EXPECT_TRUE(tested->take_timings().empty());
+}
+
+TEST_P(BackendTimings, ViewsOfAnotherBackendAreOurBugs) {
+  const ViewHandle foreign = reference->make_view({}, 8, 8, {}, {}, {});
+  const std::vector<TemplatePoint> points{{0, 0, 0}};
+  const std::vector<TemplateJob> jobs{{0, 1, 0, 0, 1, 1}};
+  std::vector<TemplateHit> hits(1);
+  if (GetParam() == test::Path::cpu) GTEST_SKIP() << "CPU backends share their views";
+  EXPECT_THROW(tested->template_score(*foreign, points, jobs, 1, hits), LogicError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Paths, BackendTimings, test::all_paths, test::param_name);
+
+}  // namespace
+}  // namespace edgescout

@@ -1,0 +1,155 @@
+// The runtime under kernels/gpu: what it says when something is missing, too large or wrong.
+#ifdef EDGESCOUT_VULKAN
+#include "kernels/error.h"
+#include "kernels/gpu/result.h"
+#include "kernels/gpu/tensor.h"
+#include "tests/kernels/gpu_fixture.h"
+
+#include "dcd_seed.spv.h"
+#include "kernels/dcd_seed.h"
+
+namespace edgescout {
+namespace {
+
+using gpu::Batch;
+using gpu::Buffer;
+using gpu::Kernel;
+using gpu::Memory;
+
+template <class Error, class Function>
+std::string message_of(Function function) {
+  try {
+    function();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing was thrown";
+  return {};
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+class VulkanRuntime : public test::GpuTest {
+ protected:
+  Kernel seed_kernel(std::uint32_t push_bytes = sizeof(DcdSeedPush)) const {
+    return Kernel(*device, {"dcd_seed", dcd_seed_spv, 6, push_bytes, {DCD_SEED_MARK}});
+  }
+};
+
+TEST_F(VulkanRuntime, AMissingDeviceIsNamed) {
+  const std::string message = message_of<GpuError>([] { make_vulkan_backend(99); });
+  EXPECT_TRUE(contains(message, "99")) << message;
+  EXPECT_THROW(make_vulkan_backend(-1), GpuError);
+  const std::string asked = message_of<InputError>([] { make_backend("vulkan:99"); });
+  EXPECT_TRUE(contains(asked, "device") && contains(asked, "vulkan:99") && contains(asked, "vulkan:0"))
+      << asked;
+}
+
+TEST_F(VulkanRuntime, DescribesItsDevices) {
+  for (const DeviceInfo& info : vulkan_devices()) {
+    EXPECT_FALSE(info.name.empty());
+    EXPECT_FALSE(info.driver.empty());
+    EXPECT_GT(info.memory_bytes, 1u << 20);
+    EXPECT_GE(info.max_storage_buffer_bytes, 1u << 27);  // what Vulkan promises everywhere
+  }
+}
+
+TEST_F(VulkanRuntime, TooMuchMemoryNamesBufferAndSize) {
+  const std::string message =
+      message_of<GpuError>([&] { gpu::RawBuffer(*device, ~VkDeviceSize{0} / 2, Memory::device, "a whale"); });
+  EXPECT_TRUE(contains(message, "'a whale'") && contains(message, "9223372036854775807")) << message;
+}
+
+TEST_F(VulkanRuntime, ATensorTooLargeForTheDeviceIsBadInput) {
+  const std::string message = message_of<InputError>([&] {
+    gpu::DeviceTensor(*device, {30000, 30000, 128});
+  });
+  EXPECT_TRUE(contains(message, "30000x30000") && contains(message, device->info().name)) << message;
+}
+
+TEST_F(VulkanRuntime, TooManyWorkgroupsNameTheKernelAndItsSize) {
+  const Kernel kernel = seed_kernel();
+  const Buffer<std::uint32_t> buffer(*device, 1, "word");
+  Batch batch(*device, "too many");
+  const std::string message = message_of<GpuError>([&] {
+    batch.dispatch(kernel, {1, 0xffffffffu, 1}, {buffer, buffer, buffer, buffer, buffer, buffer},
+                   DcdSeedPush{});
+  });
+  EXPECT_TRUE(contains(message, "dcd_seed 1x4294967295x1")) << message;
+}
+
+TEST_F(VulkanRuntime, WrongBindingsAndPushConstantsAreOurBugs) {
+  const Kernel kernel = seed_kernel();
+  const Buffer<std::uint32_t> buffer(*device, 1, "word");
+  Batch batch(*device, "wrong");
+  EXPECT_THROW(batch.dispatch(kernel, {1}, {buffer}, DcdSeedPush{}), LogicError);
+  EXPECT_THROW(batch.dispatch(kernel, {1}, {buffer, buffer, buffer, buffer, buffer, buffer}, 1.0f),
+               LogicError);
+}
+
+TEST_F(VulkanRuntime, TooManyPushConstantsNameTheKernel) {
+  const std::string message = message_of<GpuError>([&] { seed_kernel(1u << 20); });
+  EXPECT_TRUE(contains(message, "dcd_seed") && contains(message, "1048576")) << message;
+}
+
+TEST_F(VulkanRuntime, CopiesWholeAndInPartWithAndWithoutStaging) {
+  for (const test::Path path : {test::Path::vulkan, test::Path::vulkan_staging}) {
+    const gpu::Device other(test::device_options(path));
+    EXPECT_TRUE(path == test::Path::vulkan || !other.unified_memory());
+    const Buffer<std::uint32_t> buffer(other, 5, "five words");
+    const std::vector<std::uint32_t> two{7, 8};
+    std::vector<std::uint32_t> found(5);
+    Batch batch(other, "copies");
+    batch.fill(buffer, 3);
+    batch.run();
+    Batch second(other, "copies");
+    second.upload<std::uint32_t>(buffer, two);
+    second.download<std::uint32_t>(buffer, found);
+    second.run();
+    EXPECT_EQ(found, (std::vector<std::uint32_t>{7, 8, 3, 3, 3}));
+  }
+}
+
+TEST_F(VulkanRuntime, KernelsAreTimedByName) {
+  const Kernel kernel = seed_kernel();
+  const Buffer<std::uint32_t> buffer(*device, 8, "words");
+  Batch batch(*device, "timed");
+  for (int i = 0; i < 70; ++i) {  // more than a descriptor pool holds, more than are timed one by one
+    batch.dispatch(kernel, {1}, {buffer, buffer, buffer, buffer, buffer, buffer}, DcdSeedPush{});
+    batch.barrier();
+  }
+  const std::vector<StageTime> times = batch.run();
+  ASSERT_EQ(times.size(), 1u);
+  EXPECT_EQ(times[0].name, "dcd_seed");
+  EXPECT_EQ(times[0].calls, 64);
+  EXPECT_GT(times[0].seconds, 0);
+}
+
+// Without this the other tests' silence would prove nothing.
+TEST_F(VulkanRuntime, ValidationSeesAMissingBarrier) {
+  const Kernel kernel = seed_kernel();
+  const Buffer<std::uint32_t> a(*device, 64, "a"), b(*device, 64, "b"), c(*device, 64, "c"),
+      d(*device, 64, "d"), e(*device, 64, "e"), f(*device, 64, "f");
+  Batch batch(*device, "hazard");
+  batch.fill(b, 0);
+  batch.dispatch(kernel, {1}, {a, b, c, d, e, f}, DcdSeedPush{});
+  batch.run();
+  bool seen = false;
+  for (const std::string& message : gpu::take_validation_messages())
+    seen = seen || contains(message, "SYNC-HAZARD");
+  EXPECT_TRUE(seen);
+}
+
+TEST(VulkanResult, NamesWhatItKnows) {
+  EXPECT_EQ(gpu::result_name(VK_ERROR_DEVICE_LOST), "VK_ERROR_DEVICE_LOST");
+  EXPECT_EQ(gpu::result_name(static_cast<VkResult>(-123456)), "VkResult -123456");
+  EXPECT_EQ(message_of<GpuError>(
+                [] { gpu::require(VK_ERROR_DEVICE_LOST, "edges (edge_link 3x1x1): vkWaitForFences"); }),
+            "edges (edge_link 3x1x1): vkWaitForFences: VK_ERROR_DEVICE_LOST");
+}
+
+}  // namespace
+}  // namespace edgescout
+#endif
