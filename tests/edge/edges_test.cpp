@@ -64,7 +64,7 @@ TEST_P(BothMethods, FindALineWithoutBias) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Edges, BothMethods, testing::Values(EdgeMethod::Gradient, EdgeMethod::Lsd),
-                         [](const auto& info) { return name_of(info.param); });
+                         [](const auto& test) { return name_of(test.param); });
 
 TEST(LsdEdges, CoarseLevelsAddOnlyWhatTheFineOnesMiss) {
   // One sharp line the finest level sees, and a soft ramp only the coarse levels can see.
