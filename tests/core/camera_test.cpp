@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "host/core/random.h"
 #include "kernels/error.h"
+#include "tests/test_random.h"
 
 namespace edgescout {
 namespace {
@@ -19,7 +19,7 @@ TEST(Camera, ProjectsByHand) {
 }
 
 TEST(Camera, RaysGoThroughTheirPixels) {
-  Random random = Random(20261121).split("RaysGoThroughTheirPixels");
+  Random random = test::test_random();
   for (int i = 0; i < 100; ++i) {
     const Eigen::Vector2d pixel(random.uniform(-50, 700), random.uniform(-50, 530));
     const Eigen::Vector3d ray = ray_through(camera(), pixel);

@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "host/core/random.h"
 #include "kernels/error.h"
+#include "tests/test_random.h"
 
 namespace edgescout {
 namespace {
@@ -24,7 +24,7 @@ Eigen::Matrix4d homogeneous(const Se3& pose) {
 }
 
 TEST(Se3, MultipliesAndInvertsLikeMatrices) {
-  Random random = Random(20261121).split("MultipliesAndInvertsLikeMatrices");
+  Random random = test::test_random();
   for (int i = 0; i < 100; ++i) {
     const Se3 a = random_pose(random), b = random_pose(random);
     const Eigen::Vector3d x = random.direction();
@@ -35,14 +35,14 @@ TEST(Se3, MultipliesAndInvertsLikeMatrices) {
 }
 
 TEST(Se3, RotationsOfManyProductsStayUnit) {
-  Random random = Random(20261121).split("RotationsOfManyProductsStayUnit");
+  Random random = test::test_random();
   Se3 product;
   for (int i = 0; i < 10000; ++i) product = product * Se3{random.rotation(), Eigen::Vector3d::Zero()};
   EXPECT_NEAR(product.rotation.norm(), 1, 1e-14);
 }
 
 TEST(Se3, ExponentialIsTheRotationByThatAngle) {
-  Random random = Random(20261121).split("ExponentialIsTheRotationByThatAngle");
+  Random random = test::test_random();
   for (const double angle : {0.0, 1e-15, 1e-9, 0.999e-6, 1.001e-6, 1e-3, 1.0, pi - 1e-9, pi, 4.0, 2 * pi}) {
     const Eigen::Vector3d axis = random.direction();
     const Eigen::Matrix3d expected = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
@@ -51,7 +51,7 @@ TEST(Se3, ExponentialIsTheRotationByThatAngle) {
 }
 
 TEST(Se3, LogarithmUndoesTheExponential) {
-  Random random = Random(20261121).split("LogarithmUndoesTheExponential");
+  Random random = test::test_random();
   for (const double angle :
        {0.0, 1e-15, 1e-12, 1e-9, 2.1e-9, 1e-6, 1e-3, 1.0, 3.0, pi - 1e-3, pi - 1e-7, pi - 1e-12})
     for (int i = 0; i < 20; ++i) {
@@ -65,7 +65,7 @@ TEST(Se3, LogarithmUndoesTheExponential) {
 }
 
 TEST(Se3, LogarithmTakesTheShorterWay) {
-  Random random = Random(20261121).split("LogarithmTakesTheShorterWay");
+  Random random = test::test_random();
   for (int i = 0; i < 50; ++i) {
     const Eigen::Vector3d axis = random.direction();
     const double angle = random.uniform(pi, 2 * pi);
@@ -78,7 +78,7 @@ TEST(Se3, LogarithmTakesTheShorterWay) {
 }
 
 TEST(Se3, RetractAndLocalCoordinatesUndoEachOther) {
-  Random random = Random(20261121).split("RetractAndLocalCoordinatesUndoEachOther");
+  Random random = test::test_random();
   for (int i = 0; i < 200; ++i) {
     const Se3 from = random_pose(random), to = random_pose(random);
     Vector6d delta;
@@ -111,7 +111,7 @@ TEST(Se3, DistancesMeasureWhatWasMoved) {
 }
 
 TEST(Se3, MatricesAreCheckedAndMadeOrthonormal) {
-  Random random = Random(20261121).split("MatricesAreCheckedAndMadeOrthonormal");
+  Random random = test::test_random();
   for (int i = 0; i < 20; ++i) {
     const Eigen::Matrix3d exact = random.rotation().toRotationMatrix();
     const Se3 pose = se3_from_matrix(exact + 1e-4 * Eigen::Matrix3d::Random(), {1, 2, 3});

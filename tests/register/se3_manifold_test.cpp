@@ -4,7 +4,7 @@
 #include <ceres/manifold_test_utils.h>
 #include <gtest/gtest.h>
 
-#include "host/core/random.h"
+#include "tests/test_random.h"
 
 namespace edgescout {
 namespace {
@@ -32,7 +32,7 @@ Vector near(const Vector& x, Vector y) {
 
 TEST(Se3Manifold, KeepsTheInvariantsOfCeres) {
   const Se3Manifold manifold;
-  Random random = Random(20261121).split("KeepsTheInvariantsOfCeres");
+  Random random = test::test_random();
   constexpr double tolerance = 1e-9;
   for (int i = 0; i < 200; ++i) {
     const Vector x = random_pose(random), y = near(x, random_pose(random));
@@ -43,7 +43,7 @@ TEST(Se3Manifold, KeepsTheInvariantsOfCeres) {
 
 TEST(Se3Manifold, KeepsThemForTinyAndForAlmostHalfTurns) {
   const Se3Manifold manifold;
-  Random random = Random(20261121).split("KeepsThemForTinyAndForAlmostHalfTurns");
+  Random random = test::test_random();
   for (const double angle : {1e-12, 1e-9, 1e-7, 1e-5, 3.1415, 3.141592})
     for (int i = 0; i < 20; ++i) {
       const Vector x = random_pose(random), delta = random_step(random, angle);
@@ -55,7 +55,7 @@ TEST(Se3Manifold, KeepsThemForTinyAndForAlmostHalfTurns) {
 
 TEST(Se3Manifold, MovesAsTheProjectDoes) {
   const Se3Manifold manifold;
-  Random random = Random(20261121).split("MovesAsTheProjectDoes");
+  Random random = test::test_random();
   for (int i = 0; i < 50; ++i) {
     const Vector x = random_pose(random), delta = random_step(random, random.uniform(0, 3));
     Vector moved(7);
