@@ -1,0 +1,123 @@
+#include "bench/cases.h"
+
+#include "bench/synthetic.h"
+
+namespace edgescout::bench {
+
+namespace {
+
+struct Scale {
+  int width, height, edge_points;   // of the image
+  int coarse_width, coarse_height;  // of the tensor that templates are scored on
+  int templates, problems, pose_points;
+  int maps, map_width, map_height, rings;
+};
+
+constexpr Scale scale_of(Size size) {
+  if (size == Size::full) return {1024, 768, 30000, 256, 192, 5000, 40, 1500, 40, 320, 240, 60};
+  return {256, 192, 1900, 64, 48, 300, 4, 500, 4, 80, 60, 20};
+}
+
+std::string by(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+Intrinsics camera_of(const Scale& s) {
+  return {1.2f * float(s.width), 1.2f * float(s.width), 0.5f * float(s.width), 0.5f * float(s.height)};
+}
+
+std::size_t tensor_bytes(int width, int height, int bins) {
+  return 2 * TensorShape{width, height, bins}.size();
+}
+
+Case tensor_case(Backend& backend, const Scale& s) {
+  std::mt19937 rng(1);
+  const auto edges = random_segments(rng, s.width, s.height, s.edge_points);
+  const TensorOptions options;
+  return {"dcd_tensor",
+          by(s.width, s.height) + "x" + std::to_string(options.bins) + ", " + std::to_string(s.edge_points) +
+              " points",
+          tensor_bytes(s.width, s.height, options.bins),
+          [&backend, edges, s, options] { backend.make_view(edges, s.width, s.height, {}, {}, options); }};
+}
+
+Case template_case(Backend& backend, const Scale& s, std::uint32_t columns, std::uint32_t rows) {
+  std::mt19937 rng(2);
+  const TensorOptions options;
+  const ViewHandle view =
+      backend.make_view(random_segments(rng, s.coarse_width, s.coarse_height, s.edge_points / 10),
+                        s.coarse_width, s.coarse_height, {}, {}, options);
+  const Templates work =
+      random_templates(rng, s.coarse_width, s.coarse_height, options.bins, s.templates, columns, rows);
+  const auto hits = std::make_shared<std::vector<TemplateHit>>(work.jobs.size());
+  constexpr int step = 2;
+  return {"template_score",
+          std::to_string(s.templates) + " templates at " + std::to_string(columns * rows) + " anchors",
+          work.points.size() * columns * rows * sizeof(std::uint16_t), [&backend, view, work, hits] {
+            backend.template_score(*view, work.points, work.jobs, step, *hits);
+          }};
+}
+
+struct PoseInput {
+  std::vector<ViewHandle> views;
+  Poses poses;
+  std::string size;
+  std::size_t bytes;
+};
+
+PoseInput pose_input(Backend& backend, const Scale& s) {
+  std::mt19937 rng(3);
+  const std::vector<std::uint8_t> pixels = disc_image(rng, s.width, s.height);
+  const ImageView image{s.width, s.height, pixels.data()};
+  constexpr std::size_t reads = sizeof(ModelPoint) + 8 * sizeof(std::uint16_t);
+  return {{backend.make_view(random_segments(rng, s.width, s.height, s.edge_points), s.width, s.height, image,
+                             camera_of(s), {})},
+          random_poses(rng, s.problems, s.pose_points),
+          std::to_string(s.problems) + " poses of " + std::to_string(s.pose_points) + " points",
+          reads * s.problems * s.pose_points};
+}
+
+std::vector<Case> pose_cases(Backend& backend, const Scale& s) {
+  const auto input = std::make_shared<PoseInput>(pose_input(backend, s));
+  const auto systems = std::make_shared<std::vector<NormalEquations>>(input->poses.problems.size());
+  const auto scores = std::make_shared<std::vector<PoseScore>>(input->poses.problems.size());
+  return {{"pose_normal_equations", input->size, input->bytes,
+           [&backend, input, systems] {
+             backend.pose_normal_equations(input->views, input->poses.points, input->poses.problems, {},
+                                           *systems);
+           }},
+          {"pose_score", input->size, input->bytes, [&backend, input, scores] {
+             backend.pose_score(input->views, input->poses.points, input->poses.problems, {}, *scores);
+           }}};
+}
+
+Case depth_case(Backend& backend, const Scale& s) {
+  const Mesh mesh = bumpy_ball(s.rings, 2 * s.rings);
+  const std::vector<DepthJob> jobs = views_around(s.maps, s.map_width, s.map_height);
+  const auto depth = std::make_shared<std::vector<float>>(std::size_t(s.maps) * s.map_width * s.map_height);
+  return {"depth_raster",
+          std::to_string(s.maps) + " maps of " + by(s.map_width, s.map_height) + ", " +
+              std::to_string(mesh.triangles.size() / 3) + " triangles",
+          depth->size() * sizeof(float), [&backend, mesh, jobs, depth, s] {
+            backend.depth_raster(mesh.view(), jobs, s.map_width, s.map_height, *depth);
+          }};
+}
+
+Case edge_case(Backend& backend, const Scale& s) {
+  std::mt19937 rng(5);
+  const std::vector<std::uint8_t> pixels = disc_image(rng, s.width, s.height);
+  return {"edge_detect", by(s.width, s.height), pixels.size(), [&backend, pixels, s] {
+            backend.detect_edges({s.width, s.height, pixels.data()}, {});
+          }};
+}
+
+}  // namespace
+
+std::vector<Case> make_cases(Backend& backend, Size size) {
+  const Scale s = scale_of(size);
+  std::vector<Case> cases{edge_case(backend, s), tensor_case(backend, s), template_case(backend, s, 1, 1),
+                          template_case(backend, s, 16, 12)};
+  for (Case& c : pose_cases(backend, s)) cases.push_back(std::move(c));
+  cases.push_back(depth_case(backend, s));
+  return cases;
+}
+
+}  // namespace edgescout::bench

@@ -1,0 +1,121 @@
+// edgescout_bench [--device WORD] [--out FOLDER] [--repetitions N] [--small]
+//
+// Times every kernel on the CPU, on the plain reference (small sizes) and on every Vulkan device found.
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+
+#include "bench/cases.h"
+#include "bench/report.h"
+#include "commit.h"
+#include "kernels/error.h"
+#include "kernels/thread_pool.h"
+
+namespace edgescout::bench {
+namespace {
+
+struct Options {
+  std::string device;  // empty: all
+  std::string out = "bench/results";
+  int repetitions = 9;
+  bool small = false;
+};
+
+Options parse(int argc, char** argv) {
+  Options options;
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const auto value = [&] {
+      if (i + 1 >= argc) throw InputError("options", word, "nothing", "a value");
+      return std::string(argv[++i]);
+    };
+    if (word == "--device") {
+      options.device = value();
+    } else if (word == "--out") {
+      options.out = value();
+    } else if (word == "--small") {
+      options.small = true;
+    } else if (word == "--repetitions") {
+      const std::string text = value();
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), options.repetitions);
+      if (error != std::errc() || *end != '\0' || options.repetitions < 1)
+        throw InputError("options", word, text, "a number from 1");
+    } else {
+      throw InputError("options", "argument", word,
+                       "--device WORD, --out FOLDER, --repetitions N or --small");
+    }
+  }
+  return options;
+}
+
+double now_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+Row measure(Backend& backend, const Case& c, int repetitions) {
+  constexpr double enough_ms = 20000;  // a slow device gets fewer repetitions, but three
+  c.run();                             // warm-up: caches, pages, the driver's compiler
+  backend.take_timings();
+  std::vector<double> times;
+  const double begin = now_ms();
+  for (int i = 0; i < repetitions && (i < 3 || now_ms() - begin < enough_ms); ++i) {
+    const double start = now_ms();
+    c.run();
+    times.push_back(now_ms() - start);
+  }
+  const std::vector<StageTime> stages = backend.take_timings();
+  std::ranges::sort(times);
+  const double median = 0.5 * (times[(times.size() - 1) / 2] + times[times.size() / 2]);
+  return {c.kernel, c.size, static_cast<int>(times.size()), median, times.front(), times.back(),
+          c.bytes,  stages};
+}
+
+void run_device(const std::string& word, const std::string& driver, const Options& options) {
+  const std::unique_ptr<Backend> backend = make_backend(word);
+  Report report{backend->name(), driver, EDGESCOUT_COMMIT, backend->threads().threads(), {}};
+  std::vector<Size> sizes{Size::small};
+  if (!options.small && word != "cpu-reference") sizes.push_back(Size::full);
+  for (const Size size : sizes)
+    for (const Case& c : make_cases(*backend, size))
+      report.rows.push_back(measure(*backend, c, options.repetitions));
+  print_table(report);
+  std::printf("-> %s\n", write_json(report, options.out).c_str());
+}
+
+void run(const Options& options) {
+  std::vector<std::pair<std::string, std::string>> devices{{"cpu", "C++"}, {"cpu-reference", "C++"}};
+  for (const DeviceInfo& device : vulkan_devices())
+    devices.emplace_back("vulkan:" + std::to_string(device.index), device.driver);
+  bool found = false;
+  for (const auto& [word, driver] : devices) {
+    if (!options.device.empty() && options.device != word) continue;
+    found = true;
+    run_device(word, driver, options);
+  }
+  if (!found)
+    throw InputError("options", "--device", options.device,
+                     "cpu, cpu-reference or a vulkan:INDEX that exists");
+}
+
+}  // namespace
+}  // namespace edgescout::bench
+
+int main(int argc, char** argv) {
+  try {
+    edgescout::bench::run(edgescout::bench::parse(argc, argv));
+    return 0;
+  } catch (const edgescout::InputError& error) {
+    std::fprintf(stderr, "edgescout_bench: %s\n", error.what());
+    return 2;
+  } catch (const edgescout::GpuError& error) {
+    std::fprintf(stderr, "edgescout_bench: %s\n", error.what());
+    return 3;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "edgescout_bench: %s\n", error.what());
+    return 1;
+  }
+}
