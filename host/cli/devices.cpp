@@ -22,13 +22,19 @@ nlohmann::json device_json(const DeviceInfo& device) {
           {"max_storage_buffer_bytes", device.max_storage_buffer_bytes}};
 }
 
-void list_devices(bool as_json) {
+struct DevicesOptions {
+  std::string device = "auto";
+  bool as_json = false;
+};
+
+void list_devices(const DevicesOptions& options) {
   const std::vector<DeviceInfo> devices = vulkan_devices();
-  const std::string taken = make_backend("auto")->name();
-  if (as_json) {
+  const std::string taken = make_backend(options.device)->name();
+  if (options.as_json) {
     nlohmann::json list = nlohmann::json::array();
     for (const DeviceInfo& device : devices) list.push_back(device_json(device));
-    std::cout << nlohmann::json{{"devices", list}, {"auto", taken}}.dump(1) << "\n";
+    std::cout << nlohmann::json{{"devices", list}, {"asked", options.device}, {"taken", taken}}.dump(1)
+              << "\n";
     return;
   }
   for (const DeviceInfo& device : devices)
@@ -37,18 +43,19 @@ void list_devices(bool as_json) {
         device.name, device.hardware ? "hardware" : "software", device.driver, device.api_version,
         static_cast<double>(device.memory_bytes) / (1u << 30), device.max_storage_buffer_bytes >> 20);
   if (devices.empty()) std::cout << "no Vulkan device\n";
-  std::cout << "cpu\nauto takes: " << taken << "\n";
+  std::cout << "cpu\n" << options.device << " takes: " << taken << "\n";
 }
 
 }  // namespace
 
 void add_devices(CLI::App& app, int& exit_code) {
-  CLI::App* verb =
-      app.add_subcommand("devices", "List the Vulkan devices and the one that --device auto takes");
-  auto as_json = std::make_shared<bool>(false);
-  verb->add_flag("--json", *as_json, "Print JSON");
-  verb->callback([as_json, &exit_code] {
-    list_devices(*as_json);
+  CLI::App* verb = app.add_subcommand("devices", "List the Vulkan devices and the one that --device takes");
+  auto options = std::make_shared<DevicesOptions>();
+  verb->add_option("--device", options->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
+      ->capture_default_str();
+  verb->add_flag("--json", options->as_json, "Print JSON");
+  verb->callback([options, &exit_code] {
+    list_devices(*options);
     exit_code = exit_done;
   });
 }

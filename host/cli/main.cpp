@@ -45,6 +45,16 @@ int fail(const std::string& message, ExitCode code) {
   return code;
 }
 
+// CLI11 only says that a verb is missing, even where one was given but misspelt.
+std::string explanation(const CLI::ParseError& error, const CLI::App& app) {
+  const std::vector<std::string> unknown = app.remaining();
+  if (!app.get_subcommands().empty() || unknown.empty()) return error.what();
+  std::string verbs;
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    verbs += " " + verb->get_name();
+  return "command line: found " + unknown.front() + ", expected one of:" + verbs;
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"Finds textureless rigid objects in grey images from their CAD models", "edgescout"};
   app.set_version_flag("--version", "edgescout " EDGESCOUT_VERSION);
@@ -61,7 +71,7 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    return fail(error.what(), exit_bad_request);
+    return fail(explanation(error, app), exit_bad_request);
   }
   if (!std::cout.flush())
     return fail("standard output: found a write error, expected room for the result", exit_bad_request);

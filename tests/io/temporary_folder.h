@@ -26,6 +26,7 @@ class TemporaryFolder {
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path write(const std::string& name, std::string_view content) const {
     std::filesystem::create_directories((path_ / name).parent_path());
+    std::filesystem::remove(path_ / name);  // some file systems flush a file that is overwritten
     std::ofstream(path_ / name, std::ios::binary) << content;
     return path_ / name;
   }

@@ -1,0 +1,150 @@
+#include "host/cli/config.h"
+
+#include <gtest/gtest.h>
+
+#include "kernels/error.h"
+#include "tests/io/temporary_folder.h"
+
+namespace edgescout::test {
+namespace {
+
+struct Options {
+  double lambda = 100;
+  int bins = 60;
+  float sigma = 1.5f;
+  unsigned top = 10;
+  bool fast = false;
+  std::string mode = "one";
+  std::vector<std::string> files;
+};
+
+// A program with two verbs of the same options.
+struct Program {
+  CLI::App app{"test"};
+  Options first, second;
+
+  Program() {
+    app.require_subcommand(1);
+    app.fallthrough();
+    add_yaml_config(app);
+    add_verb("first", first);
+    add_verb("second", second);
+  }
+  void add_verb(const std::string& name, Options& options) {
+    CLI::App* verb = app.add_subcommand(name);
+    OptionTable(*verb, "Test")
+        .bounded("lambda", options.lambda, 0.5, 1000.0, "weight")
+        .bounded("bins", options.bins, 4, 180, "bins")
+        .bounded("sigma", options.sigma, 0.0f, 10.0f, "blur")
+        .bounded("top", options.top, 1u, 99u, "how many")
+        .flag("fast", options.fast, "fast")
+        .choice("mode", options.mode, {"one", "two"}, "mode");
+    verb->add_option("files", options.files, "files");
+  }
+  void parse(std::vector<std::string> arguments) {
+    std::reverse(arguments.begin(), arguments.end());  // what CLI11 asks for
+    app.parse(arguments);
+  }
+  std::string parse_error(const std::vector<std::string>& arguments) {
+    try {
+      parse(arguments);
+    } catch (const CLI::ParseError& error) {
+      return error.what();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  }
+};
+
+TEST(OptionTable, FillsTheFieldsAndKeepsTheDefaults) {
+  Program program;
+  program.parse({"first", "--lambda", "6", "--top=3", "--fast", "--mode", "two", "a.png", "b.png"});
+  EXPECT_EQ(program.first.lambda, 6);
+  EXPECT_EQ(program.first.top, 3u);
+  EXPECT_TRUE(program.first.fast);
+  EXPECT_EQ(program.first.mode, "two");
+  EXPECT_EQ(program.first.files, (std::vector<std::string>{"a.png", "b.png"}));
+  EXPECT_EQ(program.first.bins, 60);
+  EXPECT_EQ(program.first.sigma, 1.5f);
+  EXPECT_EQ(program.second.lambda, 100);
+}
+
+TEST(OptionTable, BoundsAreInclusiveAndNamedWhenViolated) {
+  for (const char* good : {"0.5", "1000", "1e2"})
+    EXPECT_EQ(Program().parse_error({"first", "--lambda", good}), "") << good;
+  for (const char* bad : {"0.49", "1000.1", "nan", "inf", "-5", "many"})
+    EXPECT_EQ(Program()
+                  .parse_error({"first", std::string("--lambda=") + bad})
+                  .find("--lambda: found " + std::string(bad) + ", expected 0.5 to 1000"),
+              0u)
+        << bad << ": " << Program().parse_error({"first", std::string("--lambda=") + bad});
+  for (const char* bad : {"3", "181", "60.5", "99999999999"})
+    EXPECT_EQ(Program().parse_error({"first", "--bins", bad}),
+              "--bins: found " + std::string(bad) + ", expected 4 to 180");
+  EXPECT_EQ(Program().parse_error({"first", "--top=-1"}), "--top: found -1, expected 1 to 99");
+  EXPECT_EQ(Program().parse_error({"first", "--mode", "three"}),
+            "--mode: found three, expected one of one, two");
+}
+
+TEST(YamlConfig, UsesTheSameNamesAndBounds) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write(
+      "c.yaml", "lambda: 6\nfast: true\nfirst:\n  bins: 30\n  files: [a.png, b.png]\nsecond: {bins: 31}\n");
+  Program program;
+  program.parse({"first", "--config", file});
+  EXPECT_EQ(program.first.lambda, 6);
+  EXPECT_TRUE(program.first.fast);
+  EXPECT_EQ(program.first.bins, 30);
+  EXPECT_EQ(program.first.files, (std::vector<std::string>{"a.png", "b.png"}));
+  EXPECT_EQ(program.second.bins, 60);
+  Program other;
+  other.parse({"--config", file, "second"});
+  EXPECT_EQ(other.second.bins, 31);
+  EXPECT_EQ(other.second.lambda, 6);
+  const std::string bad = folder.write("bad.yaml", "bins: 3\n");
+  EXPECT_EQ(Program().parse_error({"first", "--config", bad}), "--bins: found 3, expected 4 to 180");
+}
+
+TEST(YamlConfig, TheCommandLineWins) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("c.yaml", "lambda: 6\nbins: 30\n");
+  Program program;
+  program.parse({"first", "--lambda", "7", "--config", file});
+  EXPECT_EQ(program.first.lambda, 7);
+  EXPECT_EQ(program.first.bins, 30);
+}
+
+TEST(YamlConfig, NamesFileAndKeyOfWhatItDoesNotKnow) {
+  const TemporaryFolder folder;
+  const auto error_of = [&](const std::string& yaml) {
+    return Program().parse_error({"first", "--config", folder.write("c.yaml", yaml)});
+  };
+  EXPECT_NE(error_of("lamda: 6\n").find("c.yaml: lamda: found an unknown option"), std::string::npos);
+  EXPECT_NE(error_of("third: {lambda: 6}\n").find("c.yaml: third: found a section"), std::string::npos);
+  EXPECT_NE(error_of("first: {second: {bins: 5}}\n").find("c.yaml: second"), std::string::npos);
+  EXPECT_NE(error_of("first: {lamda: 6}\n").find("c.yaml: lamda"), std::string::npos);
+  EXPECT_NE(error_of("lambda: 6: 7\n").find("c.yaml: line 1"), std::string::npos);
+  EXPECT_NE(error_of("lambda: [6, [7]]\n").find("c.yaml: line 1"), std::string::npos);
+  EXPECT_NE(error_of("6\n").find("c.yaml: configuration"), std::string::npos);
+  EXPECT_EQ(error_of(""), "");
+  EXPECT_EQ(error_of("# nothing\n"), "");
+}
+
+TEST(YamlConfig, WritesWhatItReads) {
+  const TemporaryFolder folder;
+  Program program;
+  program.parse({"first", "--lambda", "6.25", "--fast", "--mode", "two"});
+  const std::string yaml = program.app.config_to_str(true);
+  Program again;
+  again.parse({"first", "--config", folder.write("c.yaml", yaml)});
+  EXPECT_EQ(again.first.lambda, 6.25) << yaml;
+  EXPECT_TRUE(again.first.fast) << yaml;
+  EXPECT_EQ(again.first.mode, "two") << yaml;
+  EXPECT_EQ(again.first.bins, 60) << yaml;
+  EXPECT_EQ(again.app.config_to_str(true), yaml);
+  EXPECT_EQ(program.app.config_to_str(false).find("bins"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace edgescout::test

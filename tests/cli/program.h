@@ -1,0 +1,36 @@
+// Runs the built program and keeps what it said.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "tests/io/temporary_folder.h"
+
+namespace edgescout::test {
+
+struct Outcome {
+  int exit_code = -1;  // -1: killed by a signal
+  std::string out;
+  std::string err;
+};
+
+// `environment` stands before the program, as in a shell: "NAME=value".
+inline Outcome run_program(const std::vector<std::string>& arguments, const std::string& environment = "") {
+  const TemporaryFolder folder;
+  std::string command = environment + " '" EDGESCOUT_CLI "'";
+  for (const std::string& argument : arguments) command += " '" + argument + "'";
+  const auto out = folder.path() / "out", err = folder.path() / "err";
+  command += " >'" + out.string() + "' 2>'" + err.string() + "' </dev/null";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(out), content_of(err)};
+}
+
+// One line that starts with the program's name.
+inline bool is_one_line_error(const std::string& err) {
+  return err.starts_with("edgescout: error: ") && err.find('\n') == err.size() - 1;
+}
+
+}  // namespace edgescout::test

@@ -1,0 +1,156 @@
+// The program as a user calls it: exit codes, one-line errors, nothing written.
+#include "tests/cli/program.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/io/sample_meshes.h"
+
+namespace edgescout::test {
+namespace {
+
+void expect_bad_request(const std::vector<std::string>& arguments, std::initializer_list<std::string> words,
+                        const std::string& environment = "") {
+  const Outcome outcome = run_program(arguments, environment);
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_TRUE(is_one_line_error(outcome.err)) << outcome.err;
+  for (const std::string& word : words)
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " not in " << outcome.err;
+}
+
+TEST(Program, ExplainsItself) {
+  const Outcome help = run_program({"--help"}), version = run_program({"--version"});
+  EXPECT_EQ(help.exit_code, 0);
+  for (const char* word : {"devices", "model", "--config", "--log-level"})
+    EXPECT_NE(help.out.find(word), std::string::npos) << word;
+  EXPECT_EQ(version.exit_code, 0);
+  EXPECT_TRUE(version.out.starts_with("edgescout "));
+  EXPECT_EQ(run_program({"model", "inspect", "--help"}).exit_code, 0);
+}
+
+TEST(Program, RejectsACommandLineItDoesNotUnderstand) {
+  expect_bad_request({}, {"subcommand"});
+  expect_bad_request({"detekt"}, {"detekt", "devices", "model"});
+  expect_bad_request({"devices", "--jsn"}, {"--jsn"});
+  expect_bad_request({"devices", "--log-level", "loud"}, {"--log-level", "loud"});
+  expect_bad_request({"model"}, {"subcommand"});
+}
+
+TEST(Devices, ListsThemAsTextAndJson) {
+  const Outcome text = run_program({"devices"});
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_NE(text.out.find("auto takes: "), std::string::npos) << text.out;
+  const Outcome json = run_program({"devices", "--json"});
+  const auto list = nlohmann::json::parse(json.out);
+  for (const auto& device : list.at("devices")) {
+    EXPECT_TRUE(device.at("choice").get<std::string>().starts_with("vulkan:"));
+    EXPECT_GT(device.at("memory_bytes").get<std::uint64_t>(), 0u);
+    EXPECT_NE(text.out.find(device.at("name").get<std::string>()), std::string::npos);
+  }
+  EXPECT_EQ(nlohmann::json::parse(run_program({"devices", "--json", "--device", "cpu"}).out).at("taken"),
+            "cpu");
+}
+
+TEST(Devices, RejectsADeviceThatIsNotThere) {
+  // The Vulkan loader finds no driver then.
+  const std::string without_drivers = "VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent";
+  const Outcome list = run_program({"devices"}, without_drivers);
+  EXPECT_EQ(list.exit_code, 0) << list.err;
+  EXPECT_NE(list.out.find("no Vulkan device"), std::string::npos) << list.out;
+  EXPECT_NE(list.out.find("auto takes: cpu\n"), std::string::npos) << list.out;
+  expect_bad_request({"devices", "--device", "vulkan"}, {"device", "vulkan"}, without_drivers);
+  expect_bad_request({"devices", "--device", "vulkan:0"}, {"device", "vulkan:0"}, without_drivers);
+  expect_bad_request({"devices", "--device", "vulkan:99"}, {"device", "vulkan:99"});
+  expect_bad_request({"devices", "--device", "cuda"}, {"device", "cuda", "cpu"});
+}
+
+TEST(Devices, TellsAFullStandardOutput) {
+  const TemporaryFolder folder;
+  const auto err = folder.path() / "err";
+  const std::string command = "'" EDGESCOUT_CLI "' devices >/dev/full 2>'" + err.string() + "'";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
+  EXPECT_TRUE(is_one_line_error(content_of(err))) << content_of(err);
+}
+
+TEST(ModelInspect, MeasuresABox) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("box.stl", binary_stl(box(30, 40, 120)));
+  const Outcome text = run_program({"model", "inspect", file, "--unit", "mm"});
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  for (const char* word : {"30.000 x 40.000 x 120.000 mm", "130.000 mm", "12", "18", "0 on open borders"})
+    EXPECT_NE(text.out.find(word), std::string::npos) << word << " not in " << text.out;
+  const auto list =
+      nlohmann::json::parse(run_program({"model", "inspect", file, "--unit", "cm", "--json"}).out);
+  EXPECT_NEAR(list.at(0).at("diameter_mm").get<double>(), 1300, 1e-3);
+  EXPECT_EQ(list.at(0).at("vertices"), 8);
+  EXPECT_EQ(list.at(0).at("edges"), 18);
+  EXPECT_EQ(list.at(0).at("open_border_edges"), 0);
+}
+
+TEST(ModelInspect, CountsOpenBordersAndWarnsOfTheUnit) {
+  const TemporaryFolder folder;
+  Triangles open = box(30, 40, 120);
+  open.triangles.resize(10);  // one side is missing
+  const std::string file = folder.write("open.ply", ascii_ply(open));
+  const Outcome outcome = run_program({"model", "inspect", file, "--unit", "m", "--json"});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(nlohmann::json::parse(outcome.out).at(0).at("open_border_edges"), 4);
+  EXPECT_NE(outcome.err.find("edgescout: warning: "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("is the unit right?"), std::string::npos) << outcome.err;
+  EXPECT_EQ(run_program({"model", "inspect", file, "--unit", "m", "--log-level", "error"}).err, "");
+}
+
+TEST(ModelInspect, RejectsBadMeshesAndAMissingUnit) {
+  const TemporaryFolder folder;
+  const Triangles b = box(1, 2, 3);
+  Triangles bad = b;
+  bad.vertices[3].x() = std::numeric_limits<double>::quiet_NaN();
+  const std::string good = folder.write("good.stl", binary_stl(b));
+  const auto inspect = [](const std::string& file) {
+    return std::vector<std::string>{"model", "inspect", file, "--unit", "mm"};
+  };
+  expect_bad_request({"model", "inspect", good}, {"--unit"});
+  expect_bad_request({"model", "inspect", good, "--unit", "foot"}, {"unit", "foot", "mm, cm, m or in"});
+  expect_bad_request({"model", "inspect", "--unit", "mm"}, {"files"});
+  expect_bad_request(inspect(folder.path() / "none.stl"), {"none.stl", "No such file"});
+  expect_bad_request(inspect(folder.write("cut.stl", binary_stl(b).substr(0, 500))),
+                     {"cut.stl", "truncated"});
+  expect_bad_request(inspect(folder.write("lie.stl", binary_stl(b, 11))), {"lie.stl", "count"});
+  expect_bad_request(inspect(folder.write("zero.stl", binary_stl({}))), {"zero.stl", "triangles"});
+  expect_bad_request(inspect(folder.write("nan.stl", binary_stl(bad))), {"nan.stl", "vertex", "not finite"});
+  // A good file before a bad one is not half reported.
+  expect_bad_request({"model", "inspect", good, folder.path() / "none.stl", "--unit", "mm"}, {"none.stl"});
+}
+
+TEST(Config, GivesAVerbItsOptions) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("box.stl", binary_stl(box(30, 40, 120)));
+  const std::string file =
+      folder.write("c.yaml", "model:\n  inspect: {unit: mm, json: true}\ndetect: {anything: 1}\n");
+  // `detect` may be a verb of its own; here its section is only skipped.
+  const std::string own =
+      folder.write("own.yaml", "model:\n  inspect: {unit: mm, json: true}\ndevices: {json: true}\n");
+  const Outcome outcome = run_program({"model", "inspect", mesh, "--config", own});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NEAR(nlohmann::json::parse(outcome.out).at(0).at("diameter_mm").get<double>(), 130, 1e-3);
+  const Outcome wins = run_program({"--config", own, "model", "inspect", mesh, "--unit", "cm"});
+  EXPECT_NEAR(nlohmann::json::parse(wins.out).at(0).at("diameter_mm").get<double>(), 1300, 1e-3);
+}
+
+TEST(Config, NamesFileAndKeyOfWhatIsWrong) {
+  const TemporaryFolder folder;
+  expect_bad_request({"devices", "--config", folder.path() / "none.yaml"}, {"none.yaml"});
+  expect_bad_request({"devices", "--config", folder.write("a.yaml", "jsn: true\n")},
+                     {"a.yaml", "jsn", "unknown option"});
+  expect_bad_request({"devices", "--config", folder.write("b.yaml", "json: [true\n")}, {"b.yaml", "line"});
+  expect_bad_request({"devices", "--config", folder.write("c.yaml", "verb: {json: true}\n")},
+                     {"c.yaml", "verb"});
+  expect_bad_request({"devices", "--config", folder.write("d.yaml", "- json\n")}, {"d.yaml", "no keys"});
+  expect_bad_request({"devices", "--config", folder.write("e.yaml", "log-level: loud\n")},
+                     {"log-level", "loud"});
+}
+
+}  // namespace
+}  // namespace edgescout::test
