@@ -23,8 +23,8 @@ class ThreadPool;
 
 struct EdgeOptions {
   float sigma_px = 1.0f;        // of the Gaussian that is differentiated, [0.3, 8]
-  float low_threshold = 1.5f;   // gradient, grey levels a pixel, [0.1, 127]: a weaker pixel is no edge
-  float high_threshold = 4.0f;  // [low_threshold, 127]: a chain needs one pixel of this strength
+  float low_threshold = 2.0f;   // gradient, grey levels a pixel, [0.1, 127]: a weaker pixel is no edge
+  float high_threshold = 3.0f;  // [low_threshold, 127]: a chain needs one pixel of this strength
   int min_length_px = 8;        // [1, 10000]: chains (8-connected pixels) with fewer pixels are dropped
   void validate() const;        // throws InputError naming field and bound
 };
