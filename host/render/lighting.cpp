@@ -52,6 +52,14 @@ SceneView light_view(const Eigen::Vector3d& position_m, double reach_m, int size
   return view;
 }
 
+Eigen::Matrix<double, 3, 4> pixel_from_world(const SceneView& view) {
+  Eigen::Matrix3d calibration;
+  calibration << view.camera.fx, 0, view.camera.cx, 0, view.camera.fy, view.camera.cy, 0, 0, 1;
+  Eigen::Matrix<double, 3, 4> pose;
+  pose << view.camera_from_world.rotation.toRotationMatrix(), view.camera_from_world.translation_m;
+  return calibration * pose;
+}
+
 }  // namespace
 
 WorldTriangles world_triangles(const Scene& scene) {
@@ -82,7 +90,7 @@ Lighting::Lighting(const Scene& scene, const WorldTriangles& triangles, ThreadPo
     const SceneView view =
         light_view(light.position_m, std::min(reach, 0.9 * light.position_m.norm()), light.shadow_px);
     Raster raster = rasterize(triangles.corners_m, view.camera, view.camera_from_world, pool);
-    maps_.push_back({view.camera, view.camera_from_world, std::move(raster.depth_m),
+    maps_.push_back({light.shadow_px, pixel_from_world(view), std::move(raster.depth_m),
                      light.position_m.norm() / view.camera.fx});
   }
 }
@@ -90,10 +98,10 @@ Lighting::Lighting(const Scene& scene, const WorldTriangles& triangles, ThreadPo
 double Lighting::lit_fraction(const ShadowMap& map, const Eigen::Vector3d& point_m,
                               const Eigen::Vector3d& normal) const {
   // Off the surface by the size of a texel, or it would shade itself.
-  const Eigen::Vector3d x = map.light_from_world * (point_m + 1.5 * map.texel_m * normal);
-  const Eigen::Vector2d pixel = project(map.camera, x);
+  const Eigen::Vector3d x = map.pixel_from_world * (point_m + 1.5 * map.texel_m * normal).homogeneous();
+  const Eigen::Vector2d pixel = x.hnormalized();
   const double u = std::floor(pixel.x()), v = std::floor(pixel.y());
-  if (!(u >= 1 && v >= 1 && u < map.camera.width - 2 && v < map.camera.height - 2)) return 1;
+  if (!(u >= 1 && v >= 1 && u < map.size_px - 2 && v < map.size_px - 2)) return 1;
   const double fu = pixel.x() - u, fv = pixel.y() - v;
   const float depth = static_cast<float>(x.z() - map.texel_m);
   // Mean over a box two texels wide about the point: percentage-closer filtering with bilinear weights.
@@ -101,8 +109,8 @@ double Lighting::lit_fraction(const ShadowMap& map, const Eigen::Vector3d& point
                weight_y[4] = {0.5 * (1 - fv), 0.5, 0.5, 0.5 * fv};
   double lit = 0;
   for (int j = 0; j < 4; ++j) {
-    const float* row = &map.depth_m[(static_cast<std::size_t>(v) - 1 + j) * map.camera.width +
-                                    static_cast<std::size_t>(u) - 1];
+    const float* row =
+        &map.depth_m[(static_cast<std::size_t>(v) - 1 + j) * map.size_px + static_cast<std::size_t>(u) - 1];
     for (int i = 0; i < 4; ++i)
       if (row[i] >= depth) lit += weight_x[i] * weight_y[j];
   }

@@ -33,8 +33,8 @@ class Lighting {
 
  private:
   struct ShadowMap {
-    Camera camera;
-    Se3 light_from_world;
+    int size_px = 0;
+    Eigen::Matrix<double, 3, 4> pixel_from_world;  // homogeneous: [u z, v z, z]
     std::vector<float> depth_m;
     double texel_m = 0;  // at the scene
   };
