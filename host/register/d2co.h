@@ -39,6 +39,7 @@ struct RegisterView {
   Camera camera;
   Se3 camera_from_world;  // identity where the world is the camera frame
   std::shared_ptr<const EdgeIndex> edges;  // the edge points themselves; needed by polish_poses only
+  ViewHandle coarse;                       // the same edges on a reduced tensor: a wider basin for the search (refine.h)
 };
 
 struct Hypothesis {

@@ -1,0 +1,130 @@
+#include "host/register/refine.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+// The start itself first, then turned about the axes and the diagonals of the first view's camera frame.
+std::vector<Hypothesis> spread(const Hypothesis& start, const Se3& camera_from_world, double rotation_rad) {
+  std::vector<Hypothesis> starts{start};
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) {
+        const int axes = std::abs(x) + std::abs(y) + std::abs(z);
+        if (axes != 1 && axes != 3) continue;
+        Vector6d turn = Vector6d::Zero();
+        turn.tail<3>() = camera_from_world.rotation.conjugate() * Eigen::Vector3d(x, y, z).normalized() * rotation_rad;
+        starts.push_back({start.object, retract(start.world_from_object, turn)});
+      }
+  return starts;
+}
+
+bool same_pose(const Se3& a, const Se3& b, double diameter_m) {
+  return distance_between_m(a, b) < 0.03 * diameter_m && angle_between_rad(a, b) < 0.06;
+}
+
+std::vector<Hypothesis> as_hypotheses(std::span<const Hypothesis> starts, std::span<const Registration> registrations) {
+  std::vector<Hypothesis> poses;
+  for (std::size_t i = 0; i < starts.size(); ++i) poses.push_back({starts[i].object, registrations[i].world_from_object});
+  return poses;
+}
+
+std::vector<RegisterView> coarse_views(std::span<const RegisterView> views) {
+  std::vector<RegisterView> coarse(views.begin(), views.end());
+  for (RegisterView& view : coarse)
+    if (view.coarse) view.view = view.coarse;
+  return coarse;
+}
+
+// For each hypothesis the different poses its search ended in, best Psi first; `owner` says whose they are.
+struct Searched {
+  std::vector<Hypothesis> poses;
+  std::vector<std::size_t> owner;
+};
+
+Searched search(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses, std::span<const RegisterView> views,
+                Backend& backend, const RefineOptions& options) {
+  std::vector<Hypothesis> starts;
+  for (const Hypothesis& hypothesis : hypotheses)
+    for (const Hypothesis& start : spread(hypothesis, views[0].camera_from_world, options.search.rotation_rad)) starts.push_back(start);
+  const std::size_t per_hypothesis = hypotheses.empty() ? 0 : starts.size() / hypotheses.size();
+  const std::vector<Hypothesis> poses = as_hypotheses(starts, register_poses(models, starts, coarse_views(views), backend, options.search.coarse));
+  const std::vector<PoseFeatures> features = pose_features(models, poses, views, backend, options.score, options.search.coarse.visibility);
+  Searched found;
+  for (std::size_t h = 0; h < hypotheses.size(); ++h) {
+    std::vector<std::size_t> order(per_hypothesis);
+    for (std::size_t i = 0; i < per_hypothesis; ++i) order[i] = h * per_hypothesis + i;
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return features[a].psi > features[b].psi; });
+    const std::size_t first = found.poses.size();
+    for (std::size_t i : order) {
+      if (int(found.poses.size() - first) >= options.search.survivors) break;
+      const double diameter = models[poses[i].object].mesh.diameter_m;
+      const bool known = std::any_of(found.poses.begin() + first, found.poses.end(), [&](const Hypothesis& other) {
+        return same_pose(other.world_from_object, poses[i].world_from_object, diameter);
+      });
+      if (known) continue;
+      found.poses.push_back(poses[i]);
+      found.owner.push_back(h);
+    }
+  }
+  return found;
+}
+
+}  // namespace
+
+D2coOptions SearchOptions::coarse_defaults() {
+  D2coOptions options;
+  options.rounds = {{LOSS_GEMAN_MCCLURE, 20, 8, 200}, {LOSS_GEMAN_MCCLURE, 6, 8, 250}};
+  options.visibility.depth_map_size_px = 96;
+  return options;
+}
+
+D2coOptions RefineOptions::full_defaults() {
+  D2coOptions options;
+  options.rounds = {{LOSS_GEMAN_MCCLURE, 12, 8, 300}, {LOSS_GEMAN_MCCLURE, 5, 8, 500}, {LOSS_GEMAN_MCCLURE, 2, 8, 0}};
+  return options;
+}
+
+void RefineOptions::validate() const {
+  search.coarse.validate();
+  d2co.validate();
+  if (!(search.rotation_rad >= 0 && search.rotation_rad <= 1))
+    throw InputError("options", "register.search_rotation", std::to_string(search.rotation_rad), "an angle in [0, 1] rad");
+  if (search.survivors < 1 || search.survivors > 15)
+    throw InputError("options", "register.survivors", std::to_string(search.survivors), "a number in [1, 15]");
+}
+
+std::vector<Refined> refine_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
+                                  std::span<const RegisterView> views, Backend& backend, const RefineOptions& options) {
+  options.validate();
+  check(!views.empty(), "refine_poses: at least one view");
+  Searched found;
+  if (options.search.rotation_rad > 0) {
+    found = search(models, hypotheses, views, backend, options);
+  } else {
+    found.poses.assign(hypotheses.begin(), hypotheses.end());
+    for (std::size_t h = 0; h < hypotheses.size(); ++h) found.owner.push_back(h);
+  }
+  D2coOptions d2co = options.d2co;
+  if (options.search.rotation_rad == 0) d2co.rounds.insert(d2co.rounds.begin(), {LOSS_GEMAN_MCCLURE, 30, 10, 300});
+  std::vector<Registration> registrations = register_poses(models, found.poses, views, backend, d2co);
+  if (options.polish) polish_poses(models, found.poses, views, backend, options.polish_options, registrations);
+  const std::vector<PoseFeatures> features =
+      pose_features(models, as_hypotheses(found.poses, registrations), views, backend, options.score, options.d2co.visibility);
+  std::vector<Refined> results(hypotheses.size());
+  std::vector<bool> filled(hypotheses.size(), false);
+  for (std::size_t i = 0; i < found.poses.size(); ++i) {
+    const std::size_t h = found.owner[i];
+    if (filled[h] && results[h].features.psi >= features[i].psi) continue;
+    results[h] = {registrations[i], features[i]};
+    filled[h] = true;
+  }
+  return results;
+}
+
+}  // namespace edgescout
