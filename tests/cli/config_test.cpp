@@ -106,6 +106,22 @@ TEST(YamlConfig, UsesTheSameNamesAndBounds) {
   EXPECT_EQ(Program().parse_error({"first", "--config", bad}), "--bins: found 3, expected 4 to 180");
 }
 
+TEST(YamlConfig, TurnsFlagsOnAndOff) {
+  const TemporaryFolder folder;
+  bool shadows = true, blur = true, noise = false;
+  CLI::App app{"test"};
+  app.fallthrough();
+  add_yaml_config(app);
+  OptionTable(*app.add_subcommand("verb"), "Test")
+      .flag("shadows,!--no-shadows", shadows, "on at first")
+      .flag("blur,!--no-blur", blur, "on at first")
+      .flag("noise", noise, "off at first");
+  app.parse("verb --config " + folder.write("c.yaml", "shadows: false\nno-blur: true\nnoise: on\n").string());
+  EXPECT_FALSE(shadows);
+  EXPECT_FALSE(blur);
+  EXPECT_TRUE(noise);
+}
+
 TEST(YamlConfig, TheCommandLineWins) {
   const TemporaryFolder folder;
   const std::string file = folder.write("c.yaml", "lambda: 6\nbins: 30\n");
