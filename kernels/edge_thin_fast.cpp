@@ -32,11 +32,11 @@ inline std::uint32_t choose(std::uint32_t mask, std::uint32_t yes, std::uint32_t
   return (yes & mask) | (no & ~mask);
 }
 
-EDGESCOUT_SIMD_CLONES
-void thin_row(const ThinRow& row, int width, std::uint32_t low2, std::uint8_t* marks) {
+[[gnu::always_inline]] inline void thin_span(const ThinRow& row, int x0, int x1, std::uint32_t low2,
+                                             std::uint8_t* marks) {
   const std::int16_t *gx = row.gx, *gy = row.gy;
   const std::uint32_t *above = row.above, *here = row.here, *below = row.below;
-  for (int x = 1; x < width - 1; ++x) {
+  for (int x = x0; x < x1; ++x) {
     const std::int32_t dx = gx[x], dy = gy[x], ax = std::abs(dx), ay = std::abs(dy);
     const std::int32_t larger = std::max(std::max(ax, ay), 1), smaller = std::min(ax, ay);
     // The quotient of two such integers is never so close below a whole number that its rounding in float
@@ -58,6 +58,18 @@ void thin_row(const ThinRow& row, int width, std::uint32_t low2, std::uint8_t* m
                         after = (256 - f) * near_ahead + f * far_ahead;
     const std::uint32_t scaled = 256 * (centre >> 6);
     marks[x] = static_cast<std::uint8_t>((centre >= low2) & (scaled > before) & (scaled >= after));
+  }
+}
+
+// Most of an image is flat: spans without a strong pixel are left alone.
+EDGESCOUT_SIMD_CLONES
+void thin_row(const ThinRow& row, int width, std::uint32_t low2, std::uint8_t* marks) {
+  constexpr int span = 64;
+  for (int x0 = 1; x0 < width - 1; x0 += span) {
+    const int x1 = std::min(x0 + span, width - 1);
+    std::uint32_t strongest = 0;
+    for (int x = x0; x < x1; ++x) strongest = std::max(strongest, row.here[x]);
+    if (strongest >= low2) thin_span(row, x0, x1, low2, marks);
   }
 }
 
