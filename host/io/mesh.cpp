@@ -17,13 +17,18 @@ namespace {
 // Closer than this share of the diameter, two vertices are one; thinner than this, a triangle has no usable
 // normal.
 constexpr double weld_share = 1e-6;
+// Beyond any unit mistaken for another; keeps squares and grid indices far from overflow.
+constexpr double max_coordinate_m = 1e9;
 
 void require_usable(const std::string& name, const std::vector<Vector3d>& vertices,
                     const std::vector<std::array<int, 3>>& triangles) {
-  for (std::size_t i = 0; i < vertices.size(); ++i)
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const auto field = [i] { return "vertex " + std::to_string(i); };
     if (!vertices[i].allFinite())
-      throw InputError(name, "vertex " + std::to_string(i), "a coordinate that is not finite",
-                       "finite numbers");
+      throw InputError(name, field(), "a coordinate that is not finite", "finite numbers");
+    if (vertices[i].cwiseAbs().maxCoeff() > max_coordinate_m)
+      throw InputError(name, field(), "a coordinate beyond 1e9 m", "the size of a thing");
+  }
   const int count = static_cast<int>(vertices.size());
   for (std::size_t i = 0; i < triangles.size(); ++i)
     for (int v : triangles[i])

@@ -136,6 +136,14 @@ TEST(MakeMesh, RejectsVerticesThatAreNotFiniteAndIndicesOutOfRange) {
       {"m: triangle 1", "vertex index -1"});
 }
 
+TEST(MakeMesh, RejectsCoordinatesThatWouldOverflow) {
+  Triangles b = box(1, 1, 1);
+  b.vertices[2].x() = 1e308;
+  expect_input_error([&] { make_mesh("m", b.vertices, b.triangles); }, {"m: vertex 2", "1e9 m"});
+  const Triangles largest = box(1e9, 1e9, 1e9);
+  EXPECT_EQ(make_mesh("m", largest.vertices, largest.triangles).vertices_m.size(), 8u);
+}
+
 TEST(LengthUnit, KnowsFourWords) {
   EXPECT_DOUBLE_EQ(metres_per(length_unit("mm")), 0.001);
   EXPECT_DOUBLE_EQ(metres_per(length_unit("cm")), 0.01);
