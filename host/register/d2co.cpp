@@ -163,7 +163,10 @@ Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance) {
   const Eigen::LDLT<Matrix6d> factor(hessian);
   if (factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0)
     return residual_variance * factor.solve(Matrix6d::Identity());
-  return Matrix6d::Identity() * std::numeric_limits<double>::infinity();
+  // Not a product with the identity: zero times infinity is no number.
+  Matrix6d unknown = Matrix6d::Zero();
+  unknown.diagonal().setConstant(std::numeric_limits<double>::infinity());
+  return unknown;
 }
 
 std::vector<D2coRound> D2coOptions::default_rounds() {
