@@ -1,0 +1,156 @@
+// Both solvers of D2CO: what they recover, what they say about its certainty, and what they do where there is
+// nothing to see.
+#include "host/register/d2co.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include <Eigen/Eigenvalues>
+
+#include "host/register/d2co_ceres.h"
+#include "kernels/error.h"
+#include "tests/register/scene.h"
+#include "tests/test_random.h"
+
+namespace edgescout {
+namespace {
+
+using namespace test;
+
+using Solver = decltype(&register_poses);
+struct NamedSolver {
+  const char* name;
+  Solver solve;
+};
+
+class D2co : public ::testing::TestWithParam<NamedSolver> {
+ protected:
+  Registration solve(const PartScene& scene, const D2coOptions& options = {}) {
+    return GetParam().solve(std::span(&scene.model, 1), std::span(&scene.start, 1), scene.views, *backend,
+                            options)[0];
+  }
+  std::unique_ptr<Backend> backend = make_cpu_backend(2);
+};
+INSTANTIATE_TEST_SUITE_P(Solvers, D2co,
+                         ::testing::Values(NamedSolver{"batched", register_poses},
+                                           NamedSolver{"ceres", register_poses_ceres}),
+                         [](const auto& named) { return named.param.name; });
+
+// A camera pixel is half a millimetre here.
+TEST_P(D2co, RecoversAPartInThreeViews) {
+  Random random = test_random();
+  for (const char* part : {"l_bracket", "bearing_block", "u_channel"}) {
+    const PartScene scene(part, 3, random, *backend);
+    const Registration found = solve(scene);
+    EXPECT_LT(distance_between_m(found.world_from_object, scene.truth), 1.5e-4) << part;
+    EXPECT_LT(angle_between_rad(found.world_from_object, scene.truth), 0.015) << part;
+    EXPECT_GT(found.points, 300);
+  }
+}
+
+// Across the line of sight one view is enough. Depth and tilt it knows less well: the tensor's cost has
+// minima beside the truth that are as deep as the truth's, and there the solver may rest, but no higher than 2 %.
+TEST_P(D2co, RecoversAPartInOneView) {
+  Random random = test_random();
+  for (const char* part : {"l_bracket", "bearing_block", "u_channel"}) {
+    const PartScene scene(part, 1, random, *backend);
+    const Registration found = solve(scene);
+    const Eigen::Vector3d error = scene.views[0].camera_from_world.rotation *
+                                  (found.world_from_object.translation_m - scene.truth.translation_m);
+    EXPECT_LT(error.head<2>().norm(), 6e-4) << part;
+    EXPECT_LT(std::abs(error.z()), 1e-2) << part;
+    EXPECT_LT(angle_between_rad(found.world_from_object, scene.truth), 0.05) << part;
+    const D2coRound last = D2coOptions::default_rounds().back();
+    const WorldSystem true_system = system_at(scene, scene.truth, {last.loss, last.scale_px}, 0, *backend);
+    EXPECT_LT(found.cost_px2 / found.points, 1.02 * true_system.cost / true_system.points) << part;
+  }
+}
+
+Eigen::Vector3d position_sigmas(const Registration& found, const Se3& camera_from_world) {
+  const Eigen::Matrix3d r = camera_from_world.rotation.toRotationMatrix();
+  return (r * found.covariance.topLeftCorner<3, 3>() * r.transpose()).diagonal().cwiseSqrt();
+}
+
+TEST_P(D2co, CovarianceIsPositiveAndLargestInDepth) {
+  Random random = test_random();
+  for (const char* part : {"l_bracket", "bearing_block", "u_channel"}) {
+    const PartScene scene(part, 1, random, *backend);
+    const Registration found = solve(scene);
+    ASSERT_TRUE(found.covariance.allFinite());
+    EXPECT_LT((found.covariance - found.covariance.transpose()).norm(), 1e-6 * found.covariance.norm());
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6d>(found.covariance).eigenvalues().minCoeff(), 0);
+    const Eigen::Vector3d sigma = position_sigmas(found, scene.views[0].camera_from_world);
+    EXPECT_GT(sigma.z(), 3 * sigma.x()) << part;
+    EXPECT_GT(sigma.z(), 3 * sigma.y()) << part;
+  }
+}
+
+TEST_P(D2co, CovarianceShrinksWithViews) {
+  Random random = test_random();
+  PartScene scene("bearing_block", 3, random, *backend);
+  std::vector<double> depth_sigma, volume;
+  for (const std::size_t count : {3, 2, 1}) {
+    scene.views.resize(count);
+    const Registration found = solve(scene);
+    depth_sigma.push_back(position_sigmas(found, scene.views[0].camera_from_world).z());
+    volume.push_back(found.covariance.determinant());
+  }
+  EXPECT_LT(depth_sigma[0], depth_sigma[1]);
+  EXPECT_LT(depth_sigma[1], 0.5 * depth_sigma[2]);
+  EXPECT_LT(volume[0], volume[1]);
+  EXPECT_LT(volume[1], volume[2]);
+}
+
+TEST_P(D2co, ReportsNoPointsBehindTheCamera) {
+  Random random = test_random();
+  PartScene scene("l_bracket", 1, random, *backend);
+  const Se3 camera_from_world = scene.views[0].camera_from_world;
+  scene.start.world_from_object = inverse(camera_from_world) * Se3{random.rotation(), {0, 0, -0.4}};
+  const Registration found = solve(scene);
+  EXPECT_EQ(found.reason, Convergence::NoPoints);
+  EXPECT_EQ(found.points, 0);
+  EXPECT_EQ(found.mean_px, 0);
+  EXPECT_EQ(found.cost_px2, 0);
+  EXPECT_EQ(found.world_from_object.translation_m, scene.start.world_from_object.translation_m);
+  EXPECT_FALSE(found.covariance.hasNaN());
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(found.covariance(i, i), std::numeric_limits<double>::infinity());
+}
+
+TEST_P(D2co, RegistersEveryHypothesisOnItsOwn) {
+  Random random = test_random();
+  PartScene scene("bearing_block", 2, random, *backend);
+  const std::vector<EdgeModel> models{part_model("hex_nut"), scene.model};
+  Hypothesis behind{1, inverse(scene.views[0].camera_from_world) * Se3{{}, {0, 0, -3}}};
+  const std::vector<Hypothesis> all{
+      {0, scene.start.world_from_object}, {1, scene.start.world_from_object}, behind};
+  const std::vector<Registration> found = GetParam().solve(models, all, scene.views, *backend, {});
+  ASSERT_EQ(found.size(), 3u);
+  const Registration alone = solve(scene);
+  EXPECT_LT(distance_between_m(found[1].world_from_object, alone.world_from_object), 1e-9);
+  EXPECT_EQ(found[1].points, alone.points);
+  EXPECT_GT(distance_between_m(found[0].world_from_object, alone.world_from_object), 1e-4);
+  EXPECT_TRUE(GetParam().solve(models, {}, scene.views, *backend, {}).empty());
+}
+
+TEST_P(D2co, RefusesOptionsOutOfRange) {
+  Random random = test_random();
+  const PartScene scene("l_bracket", 1, random, *backend);
+  D2coOptions none;
+  none.rounds.clear();
+  EXPECT_THROW(solve(scene, none), InputError);
+  for (const float scale : {0.0f, -1.0f, 1001.0f, std::numeric_limits<float>::quiet_NaN()})
+    EXPECT_THROW(solve(scene, one_round(LOSS_HUBER, scale, 10)), InputError) << scale;
+  for (const int iterations : {0, -3, 1001})
+    EXPECT_THROW(solve(scene, one_round(LOSS_HUBER, 4, iterations)), InputError) << iterations;
+}
+
+TEST_P(D2co, WantsAView) {
+  Random random = test_random();
+  PartScene scene("l_bracket", 1, random, *backend);
+  scene.views.clear();
+  EXPECT_THROW(solve(scene), LogicError);
+}
+
+}  // namespace
+}  // namespace edgescout
