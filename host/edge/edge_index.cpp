@@ -27,27 +27,25 @@ EdgeIndex::EdgeIndex(std::span<const EdgePoint> edges, int width, int height)
   for (const EdgePoint& edge : edges) points_[next[cell(edge)]++] = edge;
 }
 
-const EdgePoint* EdgeIndex::nearest(float x_px, float y_px, float theta_rad, float radius_px,
-                                    float max_turn_rad) const {
+EdgeIndex::Cells EdgeIndex::cells_around(float x_px, float y_px, float radius_px) const {
   check(radius_px <= CELL_PX, "EdgeIndex: radius larger than a cell");
+  if (!(x_px > -CELL_PX && y_px > -CELL_PX && x_px < CELL_PX * (columns_ + 1) && y_px < CELL_PX * (rows_ + 1))) return {0, -1, 0, -1};
+  return {cell_of(x_px - radius_px, columns_), cell_of(x_px + radius_px, columns_), cell_of(y_px - radius_px, rows_),
+          cell_of(y_px + radius_px, rows_)};
+}
+
+const EdgePoint* EdgeIndex::nearest(float x_px, float y_px, float theta_rad, float radius_px, float max_turn_rad) const {
   constexpr float pi = 3.14159265f;
-  if (!(x_px > -CELL_PX && y_px > -CELL_PX && x_px < CELL_PX * (columns_ + 1) &&
-        y_px < CELL_PX * (rows_ + 1)))
-    return nullptr;
-  const int x0 = cell_of(x_px - radius_px, columns_), x1 = cell_of(x_px + radius_px, columns_);
-  const int y0 = cell_of(y_px - radius_px, rows_), y1 = cell_of(y_px + radius_px, rows_);
   const EdgePoint* best = nullptr;
   float best2 = radius_px * radius_px;
-  for (int y = y0; y <= y1; ++y)
-    for (std::uint32_t i = cell_end_[y * columns_ + x0]; i < cell_end_[y * columns_ + x1 + 1]; ++i) {
-      const EdgePoint& edge = points_[i];
-      const float dx = edge.x_px - x_px, dy = edge.y_px - y_px, distance2 = dx * dx + dy * dy;
-      if (distance2 >= best2) continue;
-      const float turn = std::fabs(edge.theta_rad - theta_rad);
-      if (std::min(turn, pi - turn) >= max_turn_rad) continue;
-      best = &edge;
-      best2 = distance2;
-    }
+  for_each_near(x_px, y_px, radius_px, [&](const EdgePoint& edge) {
+    const float dx = edge.x_px - x_px, dy = edge.y_px - y_px, distance2 = dx * dx + dy * dy;
+    if (distance2 >= best2) return;
+    const float turn = std::fabs(edge.theta_rad - theta_rad);
+    if (std::min(turn, pi - turn) >= max_turn_rad) return;
+    best = &edge;
+    best2 = distance2;
+  });
   return best;
 }
 

@@ -17,9 +17,25 @@ class EdgeIndex {
   const EdgePoint* nearest(float x_px, float y_px, float theta_rad, float radius_px,
                            float max_turn_rad) const;
 
+  // Calls visit(const EdgePoint&) for every edge point within `radius_px` (at most CELL_PX), whatever its direction.
+  template <typename Visit>
+  void for_each_near(float x_px, float y_px, float radius_px, const Visit& visit) const {
+    const Cells cells = cells_around(x_px, y_px, radius_px);
+    for (int y = cells.y0; y <= cells.y1; ++y)
+      for (std::uint32_t i = cell_end_[y * columns_ + cells.x0]; i < cell_end_[y * columns_ + cells.x1 + 1]; ++i) {
+        const float dx = points_[i].x_px - x_px, dy = points_[i].y_px - y_px;
+        if (dx * dx + dy * dy < radius_px * radius_px) visit(points_[i]);
+      }
+  }
+
   static constexpr int CELL_PX = 8;
 
  private:
+  struct Cells {
+    int x0, x1, y0, y1;
+  };
+  Cells cells_around(float x_px, float y_px, float radius_px) const;
+
   int columns_, rows_;
   std::vector<EdgePoint> points_;        // by cell
   std::vector<std::uint32_t> cell_end_;  // points of cell c: [cell_end_[c], cell_end_[c + 1])

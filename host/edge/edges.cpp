@@ -1,5 +1,6 @@
 #include "host/edge/edges.h"
 
+#include "host/edge/edge_index.h"
 #include "kernels/backend.h"
 #include "kernels/error.h"
 
@@ -7,6 +8,9 @@ namespace edgescout {
 
 void EdgesOptions::validate() const {
   gradient.validate();
+  faint.validate();
+  if (!(faint_clearance_px >= 0 && faint_clearance_px <= EdgeIndex::CELL_PX))
+    throw InputError("options", "edge.faint_clearance", std::to_string(faint_clearance_px), "0 to " + std::to_string(EdgeIndex::CELL_PX) + " px");
   lsd.validate();
 }
 
@@ -21,7 +25,14 @@ std::string name_of(EdgeMethod method) { return method == EdgeMethod::Lsd ? "lsd
 std::vector<EdgePoint> find_edges(const Image& image, const EdgesOptions& options, Backend& backend) {
   options.validate();
   if (options.method == EdgeMethod::Lsd) return lsd_edges(image, options.lsd);
-  return backend.detect_edges({image.width, image.height, image.pixels.data()}, options.gradient);
+  const ImageView view{image.width, image.height, image.pixels.data()};
+  std::vector<EdgePoint> edges = backend.detect_edges(view, options.gradient);
+  if (!options.faint_edges) return edges;
+  constexpr float any_direction = 4;
+  const EdgeIndex fine(edges, image.width, image.height);
+  for (const EdgePoint& edge : backend.detect_edges(view, options.faint))
+    if (!fine.nearest(edge.x_px, edge.y_px, edge.theta_rad, options.faint_clearance_px, any_direction)) edges.push_back(edge);
+  return edges;
 }
 
 }  // namespace edgescout

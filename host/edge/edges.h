@@ -17,9 +17,14 @@ enum class EdgeMethod {
   Lsd,       // straight segments, always on the CPU
 };
 
+// The gradient detector runs twice: once fine, once on a stronger blur with lower thresholds, where only long chains count. The second
+// pass finds faint edges of a grey level or two; its points are taken only where the first pass has none near, since blur displaces edges.
 struct EdgesOptions {
   EdgeMethod method = EdgeMethod::Gradient;
   EdgeOptions gradient;
+  bool faint_edges = true;
+  EdgeOptions faint{2.5f, 0.3f, 0.6f, 30};
+  float faint_clearance_px = 3;  // from every edge of the first pass
   LsdOptions lsd;
   void validate() const;  // throws InputError naming field and bound
 };

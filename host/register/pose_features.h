@@ -13,6 +13,7 @@ struct PoseFeatures {
   double mean_px = 0;
   double matched = 0;     // fraction of points with a tensor value below the match limit
   double points = 0;      // inside the images
+  double length_px = 0;   // of the visible edges in the images
   double in_image = 0;    // fraction of the visible points that project into the image
 };
 

@@ -1,0 +1,122 @@
+#include "host/detect/coarse_scan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "kernels/error.h"
+#include "kernels/pose_geometry.h"
+#include "kernels/thread_pool.h"
+
+namespace edgescout {
+
+namespace {
+
+// A template's parameters by its number: viewpoints, in-plane steps and distances, the last fastest.
+struct Numbering {
+  int steps;
+  std::vector<double> distances;
+  int view(std::size_t t) const { return int(t / (steps * distances.size())); }
+  double in_plane_rad(std::size_t t) const { return 2 * std::numbers::pi / steps * double(t / distances.size() % steps); }
+  double distance_m(std::size_t t) const { return distances[t % distances.size()]; }
+};
+
+struct Region {
+  int x0, y0, columns, rows;  // first anchor and numbers of anchors
+  Eigen::Vector2d middle;
+};
+
+std::vector<Region> cut_into_regions(const Camera& camera, const ScanOptions& options) {
+  std::vector<Region> regions;
+  const int step = options.anchor_step, across = (camera.width + step - 1) / step, down = (camera.height + step - 1) / step;
+  for (int r = 0; r < down; r += options.region_rows)
+    for (int c = 0; c < across; c += options.region_columns) {
+      Region region{c * step, r * step, std::min(options.region_columns, across - c), std::min(options.region_rows, down - r), {}};
+      region.middle = {std::round(region.x0 + 0.5 * step * (region.columns - 1)), std::round(region.y0 + 0.5 * step * (region.rows - 1))};
+      regions.push_back(region);
+    }
+  return regions;
+}
+
+// Image points of one template about the region's middle; none where a point lies behind the camera.
+int project_template(const TemplateSet& set, const TemplateView& view, const Se3& pose, const Region& region, const Observation& observation,
+                     int most, TemplatePoint* points) {
+  const Pose transform = to_pose(pose);
+  const Intrinsics& k = observation.view.coarse->intrinsics;
+  const int bins = observation.view.coarse->shape.bins, count = std::min<int>(most, int(view.points.size()));
+  for (int i = 0; i < count; ++i) {
+    const PosedPoint<float> posed = pose_point<float>(transform, view.points[std::size_t(i) * view.points.size() / count]);
+    if (posed.point.z < 0.1 * set.model.radius_m) return 0;
+    const ProjectedEdge<float> edge = project_edge(posed, k);
+    const int bin = int(std::lround(orientation(edge.dx, edge.dy) * float(bins) / std::numbers::pi_v<float>)) % bins;
+    points[i] = {static_cast<std::int16_t>(std::lround(edge.u - float(region.middle.x()))),
+                 static_cast<std::int16_t>(std::lround(edge.v - float(region.middle.y()))), static_cast<std::uint16_t>(bin)};
+  }
+  return count;
+}
+
+// Shared by all regions of a scan, so that nothing is allocated anew.
+struct Workspace {
+  std::vector<TemplatePoint> points;
+  std::vector<TemplateJob> jobs;
+  std::vector<TemplateHit> hits;
+};
+
+void scan_region(const TemplateSet& set, const Numbering& numbering, const Region& region, const Observation& observation, Backend& backend,
+                 const ScanOptions& options, Workspace& work, std::vector<ScanHit>& found) {
+  const std::size_t templates = set.views.size() * numbering.steps * numbering.distances.size();
+  work.points.resize(templates * options.points);
+  work.jobs.resize(templates);
+  work.hits.resize(templates);
+  constexpr std::size_t chunk = 256;
+  backend.threads().for_each((templates + chunk - 1) / chunk, [&](std::size_t c) {
+    for (std::size_t t = c * chunk; t < std::min(templates, (c + 1) * chunk); ++t) {
+      const TemplateView& view = set.views[numbering.view(t)];
+      const Se3 pose = place_template(set, view, numbering.in_plane_rad(t), numbering.distance_m(t), region.middle, observation.coarse_camera);
+      TemplatePoint* points = work.points.data() + t * options.points;
+      int count = project_template(set, view, pose, region, observation, options.points, points);
+      // A template that cannot be drawn scores as if all its points lay outside.
+      if (count == 0) points[count++] = {-32000, 0, 0};
+      work.jobs[t] = {static_cast<std::uint32_t>(t * options.points), static_cast<std::uint32_t>(count), region.x0, region.y0,
+                      static_cast<std::uint32_t>(region.columns), static_cast<std::uint32_t>(region.rows)};
+    }
+  });
+  backend.template_score(*observation.view.coarse, work.points, work.jobs, options.anchor_step, work.hits);
+  const auto mean = [&](std::size_t t) { return double(work.hits[t].sum) / (4.0 * work.jobs[t].point_count); };
+  std::vector<std::size_t> order(templates);
+  for (std::size_t t = 0; t < templates; ++t) order[t] = t;
+  const std::size_t kept = std::min<std::size_t>(options.kept_per_region, templates);
+  std::partial_sort(order.begin(), order.begin() + kept, order.end(), [&](std::size_t a, std::size_t b) {
+    const double ma = mean(a), mb = mean(b);
+    return ma != mb ? ma < mb : a < b;
+  });
+  for (std::size_t i = 0; i < kept; ++i) {
+    const std::size_t t = order[i];
+    const Eigen::Vector2d anchor(work.hits[t].x, work.hits[t].y);
+    found.push_back({numbering.view(t), place_template(set, set.views[numbering.view(t)], numbering.in_plane_rad(t), numbering.distance_m(t),
+                                                       anchor, observation.coarse_camera), mean(t)});
+  }
+}
+
+}  // namespace
+
+Se3 place_template(const TemplateSet& set, const TemplateView& view, double in_plane_rad, double distance_m, const Eigen::Vector2d& pixel,
+                   const Camera& camera) {
+  const Eigen::Vector3d ray = ray_through(camera, pixel).normalized();
+  const Eigen::Quaterniond towards_ray = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ray);
+  const Eigen::Quaterniond rotation =
+      towards_ray * Eigen::AngleAxisd(in_plane_rad, Eigen::Vector3d::UnitZ()) * view.camera_from_object;
+  return {rotation.normalized(), distance_m * ray - rotation * set.model.center_m};
+}
+
+std::vector<ScanHit> coarse_scan(const TemplateSet& set, const Observation& observation, Backend& backend, const ScanOptions& options) {
+  check(options.points >= 4 && options.points <= int(TEMPLATE_SCORE_MAX_POINTS), "coarse_scan: points of a template");
+  const Numbering numbering{set.options.in_plane_steps, template_distances_m(set.options)};
+  std::vector<ScanHit> found;
+  Workspace work;
+  for (const Region& region : cut_into_regions(observation.coarse_camera, options))
+    scan_region(set, numbering, region, observation, backend, options, work, found);
+  return found;
+}
+
+}  // namespace edgescout

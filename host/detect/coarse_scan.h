@@ -1,0 +1,35 @@
+// Every template at every place of the image, on the coarse tensor (paper, Sec. 3.4, Eq. 7).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/detect/observation.h"
+#include "host/model/template_set.h"
+
+namespace edgescout {
+
+struct ScanOptions {
+  int points = 60;          // of each template, evenly thinned
+  int anchor_step = 2;      // coarse pixels between places
+  int region_columns = 32;  // anchors for which one projection of a template holds
+  int region_rows = 16;
+  int kept_per_region = 300;
+};
+
+// One template at one place.
+struct ScanHit {
+  int view = 0;              // of the template set
+  Se3 camera_from_object;
+  double mean_px = 0;        // Eq. 7, in coarse pixels, values capped at 15.75
+};
+
+// Pose of a template turned by `in_plane_rad` about its line of sight whose centre is seen at `pixel`, `distance_m` away along the ray.
+Se3 place_template(const TemplateSet& set, const TemplateView& view, double in_plane_rad, double distance_m, const Eigen::Vector2d& pixel,
+                   const Camera& camera);
+
+// The best hits of every region of the image, best first within a region. In each region templates are projected exactly at its middle and
+// then shifted: perspective across the image is respected.
+std::vector<ScanHit> coarse_scan(const TemplateSet& set, const Observation& observation, Backend& backend, const ScanOptions& options);
+
+}  // namespace edgescout

@@ -1,0 +1,162 @@
+#include "host/detect/detect.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "host/detect/suppression.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+std::vector<std::size_t> sorted_by(std::size_t count, const auto& key) {
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  return order;
+}
+
+template <typename T>
+std::vector<T> picked(const std::vector<T>& from, std::span<const std::size_t> order) {
+  std::vector<T> out;
+  for (std::size_t i : order) out.push_back(from[i]);
+  return out;
+}
+
+// The best different poses, by a key that is lower for better ones.
+std::vector<std::size_t> best_different(std::span<const Se3> poses, const TemplateSet& set, double radius_m, std::size_t most, const auto& key) {
+  const std::vector<std::size_t> order = sorted_by(poses.size(), key);
+  std::vector<Se3> ordered;
+  for (std::size_t i : order) ordered.push_back(poses[i]);
+  return picked(order, suppress_duplicates(ordered, set.model.mesh, set.symmetries, radius_m, most));
+}
+
+// Eq. 7 and Eq. 10 at full resolution with the viewpoint's own points: no z-buffer yet.
+std::vector<PoseScore> rescore(const TemplateSet& set, std::span<const ScanHit> hits, const Observation& observation, Backend& backend,
+                               const PoseScoreOptions& options) {
+  std::vector<ModelPoint> points;
+  std::vector<std::uint32_t> first;
+  for (const TemplateView& view : set.views) {
+    first.push_back(static_cast<std::uint32_t>(points.size()));
+    points.insert(points.end(), view.points.begin(), view.points.end());
+  }
+  std::vector<PoseProblem> problems;
+  for (const ScanHit& hit : hits)
+    problems.push_back({to_pose(hit.camera_from_object), first[hit.view], static_cast<std::uint32_t>(set.views[hit.view].points.size()), 0});
+  std::vector<PoseScore> scores(problems.size());
+  backend.pose_score(std::vector<ViewHandle>{observation.view.view}, points, problems, options, scores);
+  return scores;
+}
+
+// Before the visible points are known: the length of the template's edges in the image by their number, as if none were foreshortened.
+double rough_evidence(const PoseScore& score, const TemplateSet& set, const Se3& camera_from_object, double focal_px, double chance) {
+  return (score.psi - chance) * score.points * set.model.raster_step_m * focal_px / (camera_from_object * set.model.center_m).z();
+}
+
+std::vector<Hypothesis> hypotheses_at(std::span<const Se3> poses, std::span<const std::size_t> chosen) {
+  std::vector<Hypothesis> out;
+  for (std::size_t i : chosen) out.push_back({0, poses[i]});
+  return out;
+}
+
+}  // namespace
+
+RefineOptions DetectOptions::refine_defaults() {
+  RefineOptions options;
+  options.search.rotation_rad = 0;  // the templates are the search
+  return options;
+}
+
+void DetectOptions::validate() const {
+  const auto in = [](const char* field, double found, double low, double high) {
+    if (!(found >= low && found <= high))
+      throw InputError("options", std::string("detect.") + field, std::to_string(found), std::to_string(low) + " to " + std::to_string(high));
+  };
+  in("template_points", scan.points, 4, TEMPLATE_SCORE_MAX_POINTS);
+  in("anchor_step", scan.anchor_step, 1, 16);
+  in("kept_per_region", scan.kept_per_region, 1, 1e6);
+  in("rescored", rescored, 1, 1e7);
+  in("aligned", aligned, 1, 1e6);
+  in("candidates", candidates, 1, 1e5);
+  in("min_probability", min_probability, 0, 1);
+  in("max_detections", max_detections, 1, 1e5);
+  refine.validate();
+}
+
+std::vector<Scored> find_candidates(const TemplateSet& set, const Observation& observation, Backend& backend, const DetectOptions& options) {
+  const double diameter = set.model.mesh.diameter_m;
+  const std::span<const EdgeModel> models(&set.model, 1);
+  // One view: the world is its camera frame.
+  std::vector<RegisterView> full{observation.view};
+  full[0].camera_from_world = Se3{};
+  std::vector<RegisterView> coarse = full;
+  coarse[0].view = observation.view.coarse;
+
+  std::vector<ScanHit> hits = coarse_scan(set, observation, backend, options.scan);
+  const std::size_t rescored = std::min<std::size_t>(options.rescored, hits.size());
+  std::ranges::nth_element(hits, hits.begin() + rescored, {}, &ScanHit::mean_px);
+  hits.resize(rescored);
+
+  const std::vector<PoseScore> scores = rescore(set, hits, observation, backend, options.refine.score);
+  std::vector<Se3> poses;
+  for (const ScanHit& hit : hits) poses.push_back(hit.camera_from_object);
+  const std::vector<std::size_t> starts =
+      best_different(poses, set, 0.1 * diameter, options.aligned, [&](std::size_t i) {
+        return -rough_evidence(scores[i], set, hits[i].camera_from_object, observation.view.camera.fx, options.evidence.chance);
+      });
+
+  const std::vector<Hypothesis> hypotheses = hypotheses_at(poses, starts);
+  poses.clear();
+  for (const Registration& r : register_poses(models, hypotheses, coarse, backend, options.refine.search.coarse)) poses.push_back(r.world_from_object);
+  std::vector<std::size_t> all(poses.size());
+  std::iota(all.begin(), all.end(), 0);
+  const std::vector<PoseFeatures> aligned =
+      pose_features(models, hypotheses_at(poses, all), full, backend, options.refine.score, options.refine.search.coarse.visibility);
+  const std::vector<std::size_t> chosen = best_different(poses, set, 0.1 * diameter, options.candidates, [&](std::size_t i) {
+    return -evidence_px(aligned[i], options.evidence);
+  });
+
+  const std::vector<Refined> refined = refine_poses(models, hypotheses_at(poses, chosen), full, backend, options.refine);
+  std::vector<Scored> scored;
+  for (const Refined& r : refined)
+    scored.push_back({r.registration.world_from_object, r.registration.covariance, r.features, pose_probability(r.features), r.registration.reason});
+  std::vector<Se3> final_poses;
+  for (const Scored& s : scored) final_poses.push_back(s.camera_from_object);
+  return picked(scored, best_different(final_poses, set, 0.15 * diameter, scored.size(), [&](std::size_t i) { return -scored[i].probability; }));
+}
+
+std::vector<Detection> choose_detections(std::span<const EdgeModel> models, std::span<const std::vector<Scored>> candidates,
+                                         const Observation& observation, Backend& backend, const DetectOptions& options) {
+  std::vector<Hypothesis> poses;
+  std::vector<PoseFeatures> features;
+  std::vector<const Scored*> entries;
+  for (std::size_t object = 0; object < candidates.size(); ++object)
+    for (const Scored& scored : candidates[object])
+      if (scored.probability >= options.min_probability) {
+        poses.push_back({int(object), scored.camera_from_object});
+        features.push_back(scored.features);
+        entries.push_back(&scored);
+      }
+  std::vector<RegisterView> views{observation.view};
+  views[0].camera_from_world = Se3{};
+  std::vector<Detection> detections;
+  for (const ChosenPose& chosen : explain_image(models, poses, features, views, backend, options.evidence)) {
+    const Scored& scored = *entries[chosen.index];
+    Detection d;
+    d.object = poses[chosen.index].object;
+    d.world_from_object = scored.camera_from_object;
+    d.covariance = scored.covariance;
+    d.probability = scored.probability;
+    d.psi = scored.features.psi;
+    d.cost_px = scored.features.mean_px;
+    d.visible_fraction = scored.features.matched;
+    d.convergence = to_string(scored.reason);
+    detections.push_back(d);
+  }
+  std::ranges::stable_sort(detections, [](const Detection& a, const Detection& b) { return a.probability > b.probability; });
+  if (int(detections.size()) > options.max_detections) detections.resize(options.max_detections);
+  return detections;
+}
+
+}  // namespace edgescout

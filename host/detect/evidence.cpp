@@ -1,0 +1,109 @@
+#include "host/detect/evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+#include "kernels/pose_geometry.h"
+
+namespace edgescout {
+
+namespace {
+
+// An image edge point, by view.
+struct EdgeKey {
+  std::size_t view;
+  const EdgePoint* edge;
+  bool operator==(const EdgeKey&) const = default;
+};
+struct EdgeKeyHash {
+  std::size_t operator()(const EdgeKey& key) const { return std::hash<const void*>()(key.edge) ^ key.view; }
+};
+
+struct Explained {
+  EdgeKey key;
+  double length_px;  // of the model edge it matches
+};
+
+// The image edges a pose explains, one entry a visible model point.
+std::vector<Explained> explained_edges(const EdgeModel& model, const Hypothesis& pose, std::span<const RegisterView> views,
+                                       std::span<const std::vector<ModelPoint>> points, const EvidenceOptions& options) {
+  std::vector<Explained> explained;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    if (!views[v].edges) continue;
+    const Pose transform = to_pose(views[v].camera_from_world * pose.world_from_object);
+    for (const ModelPoint& point : points[v]) {
+      const PosedPoint<float> posed = pose_point<float>(transform, point);
+      if (posed.point.z <= POSE_MIN_DEPTH_M) continue;
+      const ProjectedEdge<float> edge = project_edge(posed, views[v].view->intrinsics);
+      const EdgePoint* match = views[v].edges->nearest(edge.u, edge.v, orientation(edge.dx, edge.dy), options.match_px, options.max_turn_rad);
+      const double px_per_m = std::hypot(edge.dx, edge.dy) / (posed.point.z * posed.point.z);
+      if (match) explained.push_back({{v, match}, model.raster_step_m * px_per_m});
+    }
+  }
+  return explained;
+}
+
+class SpentEdges {
+ public:
+  explicit SpentEdges(std::span<const RegisterView> views) : views_(views) {}
+  bool contains(const EdgeKey& key) const { return spent_.contains(key); }
+  void spend(const std::vector<Explained>& explained, const EvidenceOptions& options) {
+    for (const Explained& e : explained)
+      views_[e.key.view].edges->for_each_near(e.key.edge->x_px, e.key.edge->y_px, options.match_px,
+                                              [&](const EdgePoint& edge) { spent_.insert({e.key.view, &edge}); });
+  }
+
+ private:
+  std::span<const RegisterView> views_;
+  std::unordered_set<EdgeKey, EdgeKeyHash> spent_;
+};
+
+double fresh_fraction(const std::vector<Explained>& explained, const SpentEdges& spent) {
+  double total = 0, fresh = 0;
+  for (const Explained& e : explained) {
+    total += e.length_px;
+    if (!spent.contains(e.key)) fresh += e.length_px;
+  }
+  return total > 0 ? fresh / total : 0;
+}
+
+}  // namespace
+
+double evidence_px(const PoseFeatures& features, const EvidenceOptions& options) {
+  return (features.psi - options.chance) * features.length_px;
+}
+
+std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::span<const Hypothesis> poses, std::span<const PoseFeatures> features,
+                                      std::span<const RegisterView> views, Backend& backend, const EvidenceOptions& options) {
+  std::vector<std::vector<Explained>> explained(poses.size());
+  for (std::size_t p = 0; p < poses.size(); ++p) {
+    std::vector<Se3> in_camera;
+    for (const RegisterView& view : views) in_camera.push_back(view.camera_from_world * poses[p].world_from_object);
+    const EdgeModel& model = models[poses[p].object];
+    explained[p] = explained_edges(model, poses[p], views, visible_edges(model, in_camera, backend), options);
+  }
+  SpentEdges spent(views);
+  std::vector<ChosenPose> chosen;
+  std::vector<bool> open(poses.size(), true);
+  for (;;) {
+    std::size_t best = poses.size();
+    double best_evidence = 0;
+    for (std::size_t p = 0; p < poses.size(); ++p) {
+      if (!open[p]) continue;
+      const double fresh = fresh_fraction(explained[p], spent);
+      if (fresh < 1 - options.max_spent) {
+        open[p] = false;
+        continue;
+      }
+      const double evidence = fresh * evidence_px(features[p], options);
+      if (evidence > best_evidence) best_evidence = evidence, best = p;
+    }
+    if (best == poses.size()) return chosen;
+    chosen.push_back({best, fresh_fraction(explained[best], spent)});
+    spent.spend(explained[best], options);
+    open[best] = false;
+  }
+}
+
+}  // namespace edgescout

@@ -1,0 +1,34 @@
+#include "host/detect/observation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace edgescout {
+
+namespace {
+Intrinsics intrinsics_of(const Camera& c) { return {float(c.fx), float(c.fy), float(c.cx), float(c.cy)}; }
+}  // namespace
+
+double reduction_for(double size_px) { return std::clamp(std::round(size_px / 48), 1.0, 8.0); }
+
+Observation observe(const Image& image, const Camera& camera, const Se3& camera_from_world, std::span<const EdgePoint> edges,
+                    double reduction, const TensorOptions& tensor, Backend& backend) {
+  Observation o;
+  o.reduction = reduction;
+  o.coarse_camera = scaled(camera, 1 / reduction);
+  o.view.camera = camera;
+  o.view.camera_from_world = camera_from_world;
+  o.view.edges = std::make_shared<EdgeIndex>(edges, camera.width, camera.height);
+  o.view.view = backend.make_view(edges, camera.width, camera.height, {image.width, image.height, image.pixels.data()}, intrinsics_of(camera), tensor);
+  std::vector<EdgePoint> reduced(edges.begin(), edges.end());
+  for (EdgePoint& edge : reduced) {
+    edge.x_px = float((edge.x_px + 0.5) / reduction - 0.5);
+    edge.y_px = float((edge.y_px + 0.5) / reduction - 0.5);
+  }
+  TensorOptions coarse = tensor;
+  coarse.lambda_px_per_rad = float(tensor.lambda_px_per_rad / reduction);
+  o.view.coarse = backend.make_view(reduced, o.coarse_camera.width, o.coarse_camera.height, {}, intrinsics_of(o.coarse_camera), coarse);
+  return o;
+}
+
+}  // namespace edgescout

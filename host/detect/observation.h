@@ -1,0 +1,24 @@
+// What detection and registration need of one image: its edge points, the DCD tensor at full resolution and one reduced.
+#pragma once
+
+#include "host/core/types.h"
+#include "host/edge/edges.h"
+#include "host/register/d2co.h"
+
+namespace edgescout {
+
+struct Observation {
+  RegisterView view;    // full and coarse tensors, camera, edge index
+  Camera coarse_camera;
+  double reduction = 1; // image pixels to a coarse pixel
+};
+
+// Reduction at which something of `size_px` in the image spans about 48 coarse pixels: in [1, 8], whole numbers.
+double reduction_for(double size_px);
+
+// `image` must be undistorted and `camera` its ideal camera. The coarse tensor's orientation weight is lambda / reduction, so that both weigh
+// direction against image distance alike.
+Observation observe(const Image& image, const Camera& camera, const Se3& camera_from_world, std::span<const EdgePoint> edges,
+                    double reduction, const TensorOptions& tensor, Backend& backend);
+
+}  // namespace edgescout

@@ -1,0 +1,19 @@
+// Which of many poses are one and the same object.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/core/types.h"
+
+namespace edgescout {
+
+// Largest distance, m, between corresponding points of the object's bounding box under two poses: min over symmetries of the max over the eight
+// corners. A cheap upper bound on MSSD that is zero only for equal poses (modulo symmetry).
+double pose_distance_m(const Se3& a, const Se3& b, const Mesh& mesh, const Symmetries& symmetries);
+
+// Greedy: goes through the poses in the given order and keeps those further than `radius_m` from all kept ones. Returns the kept indices, at most `most`.
+std::vector<std::size_t> suppress_duplicates(std::span<const Se3> poses_best_first, const Mesh& mesh, const Symmetries& symmetries,
+                                             double radius_m, std::size_t most);
+
+}  // namespace edgescout
