@@ -70,8 +70,7 @@ bool is_unified(const VkPhysicalDeviceMemoryProperties& memory) {
 }  // namespace
 
 Device::Device(const DeviceOptions& options)
-    : instance_(options.validation),
-      physical_(pick(instance_, options.index)),
+    : physical_(pick(shared_instance(options.validation), options.index)),
       info_(describe(physical_, options.index)) {
   VkPhysicalDeviceMaintenance3Properties maintenance{};
   maintenance.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;

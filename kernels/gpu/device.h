@@ -42,7 +42,6 @@ class Device {
     void operator()(VkDevice device) const { vkDestroyDevice(device, nullptr); }
   };
 
-  Instance instance_;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   std::unique_ptr<std::remove_pointer_t<VkDevice>, Destroy> device_;
   VkQueue queue_ = VK_NULL_HANDLE;

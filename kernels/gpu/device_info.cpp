@@ -38,8 +38,7 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
 std::vector<DeviceInfo> vulkan_devices() {
   std::vector<DeviceInfo> list;
   try {
-    const gpu::Instance instance(false);
-    for (VkPhysicalDevice device : instance.physical_devices())
+    for (VkPhysicalDevice device : gpu::shared_instance(false).physical_devices())
       list.push_back(gpu::describe(device, static_cast<int>(list.size())));
   } catch (const GpuError&) {
     // A loader without a usable driver: no devices is the answer, not a failure.

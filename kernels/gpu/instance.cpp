@@ -104,6 +104,15 @@ std::vector<VkPhysicalDevice> Instance::physical_devices() const {
   return devices;
 }
 
+const Instance& shared_instance(bool validation) {
+  static std::mutex mutex;
+  static const Instance* instances[2] = {};
+  std::lock_guard lock(mutex);
+  const Instance*& instance = instances[validation ? 1 : 0];
+  if (!instance) instance = new Instance(validation);
+  return *instance;
+}
+
 std::vector<std::string> take_validation_messages() {
   MessageLog& log = message_log();
   std::lock_guard lock(log.mutex);

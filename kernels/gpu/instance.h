@@ -23,4 +23,8 @@ class Instance {
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
 
+// The process's instance, made when first asked for and never destroyed: with the last instance the loader
+// unloads the drivers, and loading them again costs as much as a small image. Throws as the constructor does.
+const Instance& shared_instance(bool validation);
+
 }  // namespace edgescout::gpu
