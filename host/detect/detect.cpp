@@ -80,8 +80,22 @@ void DetectOptions::validate() const {
   in("aligned", aligned, 1, 1e6);
   in("candidates", candidates, 1, 1e5);
   in("min_probability", min_probability, 0, 1);
+  in("joint_search", joint_search_rad, 0, 1);
   in("max_detections", max_detections, 1, 1e5);
   refine.validate();
+}
+
+Detection to_detection(int object, const Registration& registration, const PoseFeatures& features) {
+  Detection d;
+  d.object = object;
+  d.world_from_object = registration.world_from_object;
+  d.covariance = registration.covariance;
+  d.probability = pose_probability(features);
+  d.psi = features.psi;
+  d.cost_px = features.mean_px;
+  d.visible_fraction = features.matched;
+  d.convergence = to_string(registration.reason);
+  return d;
 }
 
 std::vector<Scored> find_candidates(const TemplateSet& set, const Observation& observation, Backend& backend, const DetectOptions& options) {
@@ -120,7 +134,7 @@ std::vector<Scored> find_candidates(const TemplateSet& set, const Observation& o
   const std::vector<Refined> refined = refine_poses(models, hypotheses_at(poses, chosen), full, backend, options.refine);
   std::vector<Scored> scored;
   for (const Refined& r : refined)
-    scored.push_back({r.registration.world_from_object, r.registration.covariance, r.features, pose_probability(r.features), r.registration.reason});
+    scored.push_back({r.registration.world_from_object, r.registration, r.features, pose_probability(r.features)});
   std::vector<Se3> final_poses;
   for (const Scored& s : scored) final_poses.push_back(s.camera_from_object);
   return picked(scored, best_different(final_poses, set, 0.15 * diameter, scored.size(), [&](std::size_t i) { return -scored[i].probability; }));
@@ -143,16 +157,7 @@ std::vector<Detection> choose_detections(std::span<const EdgeModel> models, std:
   std::vector<Detection> detections;
   for (const ChosenPose& chosen : explain_image(models, poses, features, views, backend, options.evidence)) {
     const Scored& scored = *entries[chosen.index];
-    Detection d;
-    d.object = poses[chosen.index].object;
-    d.world_from_object = scored.camera_from_object;
-    d.covariance = scored.covariance;
-    d.probability = scored.probability;
-    d.psi = scored.features.psi;
-    d.cost_px = scored.features.mean_px;
-    d.visible_fraction = scored.features.matched;
-    d.convergence = to_string(scored.reason);
-    detections.push_back(d);
+    detections.push_back(to_detection(poses[chosen.index].object, scored.registration, scored.features));
   }
   std::ranges::stable_sort(detections, [](const Detection& a, const Detection& b) { return a.probability > b.probability; });
   if (int(detections.size()) > options.max_detections) detections.resize(options.max_detections);

@@ -17,6 +17,7 @@ struct DetectOptions {
   int candidates = 60;      // different ones among those that are registered in full (the paper's object candidates)
   RefineOptions refine = refine_defaults();
   EvidenceOptions evidence;
+  double joint_search_rad = 0;  // turned starts around every candidate when several views are joined; 0: none
   double min_probability = 0.5;
   int max_detections = 100;
   static RefineOptions refine_defaults();
@@ -26,11 +27,12 @@ struct DetectOptions {
 // A registered candidate of one view, before anything is decided.
 struct Scored {
   Se3 camera_from_object;
-  Matrix6d covariance;
+  Registration registration;
   PoseFeatures features;
   double probability = 0;
-  Convergence reason = Convergence::NoPoints;
 };
+
+Detection to_detection(int object, const Registration& registration, const PoseFeatures& features);
 
 // The registered candidates of one object in one view, best probability first, duplicates merged.
 std::vector<Scored> find_candidates(const TemplateSet& set, const Observation& observation, Backend& backend, const DetectOptions& options);

@@ -1,0 +1,102 @@
+#include "host/pipeline.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "host/detect/joint.h"
+#include "host/io/image.h"
+
+namespace edgescout {
+
+namespace {
+
+// Names the time between two calls.
+class Stopwatch {
+ public:
+  explicit Stopwatch(std::vector<StageSeconds>& stages) : stages_(stages) {}
+  void lap(const char* stage) {
+    const auto now = std::chrono::steady_clock::now();
+    stages_.push_back({stage, std::chrono::duration<double>(now - last_).count()});
+    last_ = now;
+  }
+
+ private:
+  std::vector<StageSeconds>& stages_;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+// Typical size of an object in the image: at the geometric middle of its distances.
+double size_px(const TemplateSet& set, const Camera& camera) {
+  return set.model.mesh.diameter_m / std::sqrt(set.options.distance_min_m * set.options.distance_max_m) * camera.fx;
+}
+
+double smallest_size_px(std::span<const TemplateSet> sets, const Camera& camera) {
+  double smallest = size_px(sets[0], camera);
+  for (const TemplateSet& set : sets) smallest = std::min(smallest, size_px(set, camera));
+  return smallest;
+}
+
+std::vector<EdgeModel> models_of(std::span<const TemplateSet> sets) {
+  std::vector<EdgeModel> models;
+  for (const TemplateSet& set : sets) models.push_back(set.model);
+  return models;
+}
+
+Observation observe_prepared(const PreparedImage& prepared, std::span<const TemplateSet> sets, Backend& backend, const PipelineOptions& options) {
+  return observe(prepared.image, prepared.camera, prepared.camera_from_world, prepared.edges,
+                 reduction_for(smallest_size_px(sets, prepared.camera)), options.tensor, backend);
+}
+
+}  // namespace
+
+void PipelineOptions::validate() const {
+  edges.validate();
+  tensor.validate();
+  detect.validate();
+}
+
+PreparedImage prepare_image(const Image& image, const Camera& camera, const Se3& camera_from_world, Backend& backend, const PipelineOptions& options) {
+  PreparedImage prepared;
+  Stopwatch watch(prepared.stages);
+  prepared.image = undistort(image, camera);
+  prepared.camera = undistorted(camera);
+  prepared.camera_from_world = camera_from_world;
+  watch.lap("undistort");
+  prepared.edges = find_edges(prepared.image, options.edges, backend);
+  watch.lap("edges");
+  return prepared;
+}
+
+Detections detect_objects(const PreparedImage& prepared, std::span<const TemplateSet> sets, Backend& backend, const PipelineOptions& options) {
+  options.validate();
+  Detections result;
+  result.stages = prepared.stages;
+  Stopwatch watch(result.stages);
+  const Observation observation = observe_prepared(prepared, sets, backend, options);
+  watch.lap("tensors");
+  std::vector<std::vector<Scored>> candidates;
+  for (const TemplateSet& set : sets) candidates.push_back(find_candidates(set, observation, backend, options.detect));
+  watch.lap("candidates");
+  result.detections = choose_detections(models_of(sets), candidates, observation, backend, options.detect);
+  watch.lap("choice");
+  return result;
+}
+
+Detections detect_jointly(std::span<const PreparedImage> views, std::span<const TemplateSet> sets, Backend& backend, const PipelineOptions& options) {
+  options.validate();
+  Detections result;
+  for (const PreparedImage& view : views) result.stages.insert(result.stages.end(), view.stages.begin(), view.stages.end());
+  Stopwatch watch(result.stages);
+  std::vector<Observation> observations;
+  for (const PreparedImage& view : views) observations.push_back(observe_prepared(view, sets, backend, options));
+  watch.lap("tensors");
+  std::vector<std::vector<std::vector<Scored>>> candidates(observations.size());  // [view][object]
+  for (std::size_t v = 0; v < observations.size(); ++v)
+    for (const TemplateSet& set : sets) candidates[v].push_back(find_candidates(set, observations[v], backend, options.detect));
+  watch.lap("candidates");
+  result.detections = join_views(sets, models_of(sets), candidates, observations, backend, options.detect);
+  watch.lap("joint refinement");
+  return result;
+}
+
+}  // namespace edgescout
