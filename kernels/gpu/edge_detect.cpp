@@ -17,6 +17,16 @@ Kernel gradient_pass(const Device& device, std::uint32_t pass) {
   return Kernel(device, {"edge_gradient", edge_gradient_spv, 4, sizeof(EdgeGradientPush), {pass}});
 }
 
+// A word a pixel is the most a plane takes.
+void check_size(const Device& device, const ImageView& image) {
+  check(image.width > 0 && image.height > 0 && image.pixels, "detect_edges: an image without pixels");
+  const std::uint64_t most = device.limits().maxStorageBufferRange / sizeof(std::uint32_t) - 1;
+  const std::uint64_t pixels = std::uint64_t(image.width) * std::uint64_t(image.height);
+  if (pixels > most)
+    throw InputError("image", "size", std::to_string(image.width) + "x" + std::to_string(image.height),
+                     "at most " + std::to_string(most) + " pixels on " + device.info().name);
+}
+
 Kernel link_pass(const Device& device, std::uint32_t pass) {
   return Kernel(device, {"edge_link", edge_link_spv, 5, sizeof(EdgeLinkPush), {pass}});
 }
@@ -55,7 +65,7 @@ void EdgeDetect::record_link(Batch& batch, std::uint32_t pass, std::uint32_t cou
 
 void EdgeDetect::record_pixels(Batch& batch, const ImageView& image, const EdgeOptions& options) {
   options.validate();
-  check(image.width > 0 && image.height > 0 && image.pixels, "detect_edges: an image without pixels");
+  check_size(device_, image);
   width_ = static_cast<std::uint32_t>(image.width);
   height_ = static_cast<std::uint32_t>(image.height);
   const std::int32_t low = edge_threshold(options.low_threshold),

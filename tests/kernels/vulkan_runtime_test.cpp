@@ -1,6 +1,7 @@
 // The runtime under kernels/gpu: what it says when something is missing, too large or wrong.
 #ifdef EDGESCOUT_VULKAN
 #include "kernels/error.h"
+#include "kernels/gpu/edge_detect.h"
 #include "kernels/gpu/result.h"
 #include "kernels/gpu/tensor.h"
 #include "tests/kernels/gpu_fixture.h"
@@ -80,6 +81,20 @@ TEST_F(VulkanRuntime, ATensorTooLargeForTheDeviceIsBadInput) {
     gpu::DeviceTensor(*device, {30000, 30000, 128});
   });
   EXPECT_TRUE(contains(message, "30000x30000") && contains(message, device->info().name)) << message;
+}
+
+TEST_F(VulkanRuntime, AnImageTooLargeForTheDeviceIsBadInput) {
+  const std::size_t side =
+      1 + static_cast<std::size_t>(std::sqrt(double(device->limits().maxStorageBufferRange) / 4));
+  if (side > 10000) GTEST_SKIP() << "this device takes more than a test should allocate";
+  const std::vector<std::uint8_t> pixels(side * side, 0);
+  const int size = static_cast<int>(side);
+  gpu::EdgeDetect detect(*device);
+  Batch batch(*device, "edges");
+  const std::string message = message_of<InputError>([&] {
+    detect.record_pixels(batch, {size, size, pixels.data()}, {});
+  });
+  EXPECT_TRUE(contains(message, std::to_string(size)) && contains(message, device->info().name)) << message;
 }
 
 TEST_F(VulkanRuntime, TooManyWorkgroupsNameTheKernelAndItsSize) {
