@@ -1,5 +1,7 @@
 #include "host/register/se3_manifold.h"
 
+#include <algorithm>
+
 namespace edgescout {
 
 namespace {
