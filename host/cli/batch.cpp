@@ -1,0 +1,206 @@
+#include "host/cli/batch.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <future>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "host/cli/progress.h"
+#include "host/core/log.h"
+#include "host/io/camera_file.h"
+#include "host/io/files.h"
+#include "host/io/image.h"
+#include "host/io/overlay.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+// The images that are detected together: one, or all views of a scene.
+struct Group {
+  std::vector<const InputImage*> images;
+};
+
+std::vector<Group> group_images(std::span<const InputImage> images, bool joint) {
+  std::vector<Group> groups;
+  for (const InputImage& image : images) {
+    if (joint && !image.camera_from_world)
+      throw InputError(image.file.string(), "world pose", "none", "cam_R_w2c and cam_t_w2c of every view with --joint");
+    const bool same_scene = joint && !groups.empty() && groups.back().images[0]->scene_id == image.scene_id &&
+                            groups.back().images[0]->file.parent_path() == image.file.parent_path();
+    if (!same_scene) groups.emplace_back();
+    groups.back().images.push_back(&image);
+  }
+  return groups;
+}
+
+// What an image is before its device work: decoding and edges run on a thread and a CPU backend of their own, beside the device's work on
+// the group before.
+struct Prepared {
+  std::vector<PreparedImage> images;
+  std::vector<std::string> failures;  // empty where the image is good
+};
+
+class Preparer {
+ public:
+  explicit Preparer(const BatchOptions& options) : options_(options), backend_(make_cpu_backend(1)) {
+    if (!options.camera_file.empty()) camera_ = load_camera(options.camera_file);
+  }
+  Prepared prepare(const Group& group) {
+    Prepared prepared;
+    for (const InputImage* input : group.images) {
+      try {
+        prepared.images.push_back(prepare_one(*input));
+        prepared.failures.emplace_back();
+      } catch (const InputError& error) {
+        prepared.images.emplace_back();
+        prepared.failures.emplace_back(error.what());
+      }
+    }
+    return prepared;
+  }
+
+ private:
+  PreparedImage prepare_one(const InputImage& input) {
+    const auto start = Clock::now();
+    const Image image = load_image(input.file);
+    const double decode_seconds = seconds_since(start);
+    const Camera calibration = camera_ ? *camera_ : input.camera ? *input.camera : throw InputError(input.file.string(), "camera", "none", "--camera FILE");
+    const std::string source = camera_ ? options_.camera_file : input.file.string();
+    const Camera camera = camera_for_image(calibration, image.width, image.height, options_.scale_camera, source);
+    const Se3 from_world = options_.joint ? *input.camera_from_world : Se3{};
+    PreparedImage prepared = prepare_image(image, camera, from_world, *backend_, options_.pipeline);
+    prepared.stages.insert(prepared.stages.begin(), {"decode", decode_seconds});
+    return prepared;
+  }
+
+  const BatchOptions& options_;
+  std::optional<Camera> camera_;
+  std::unique_ptr<Backend> backend_;
+};
+
+ImageResult result_of(const InputImage& input, const PreparedImage& prepared, const Detections& detections, std::span<const TemplateSet> sets,
+                      const Backend& backend, bool joint) {
+  ImageResult result;
+  result.image = input.file;
+  result.scene_id = input.scene_id;
+  result.image_id = input.image_id;
+  result.camera = prepared.camera;
+  result.device = backend.name();
+  result.stages = detections.stages;
+  if (joint) result.camera_from_world = prepared.camera_from_world;
+  for (const TemplateSet& set : sets) result.objects.push_back({set.object_id, set.model.mesh.name});
+  result.detections = detections.detections;
+  return result;
+}
+
+std::filesystem::path json_of(const BatchOptions& options, const InputImage& input) { return options.out / (input.name + ".json"); }
+
+void write_overlay(const InputImage& input, const PreparedImage& prepared, const Detections& found, std::span<const EdgeModel> models, Backend& backend,
+                   const BatchOptions& options) {
+  std::vector<OverlayPose> poses;
+  for (const Detection& d : found.detections)
+    poses.push_back({d.object, prepared.camera_from_world * d.world_from_object, d.probability, models[d.object].mesh.name});
+  const EdgeIndex edges(prepared.edges, prepared.camera.width, prepared.camera.height);
+  save_png(draw_overlay(prepared.image, prepared.camera, poses, models, &edges, backend), options.out / (input.name + "_overlay.png"));
+}
+
+bool is_done(const Group& group, const BatchOptions& options) {
+  for (const InputImage* input : group.images) {
+    const std::filesystem::path file = json_of(options, *input);
+    if (!std::filesystem::exists(file)) return false;
+    try {
+      load_image_result(file);
+    } catch (const InputError&) {
+      return false;  // an older format or another file: done again
+    }
+  }
+  return true;
+}
+
+// Of this run and, after a resume, of those before it: the JSON files are the memory.
+void write_csv(std::span<const InputImage> images, const BatchOptions& options) {
+  std::vector<BopResult> rows;
+  for (const InputImage& input : images) {
+    if (!std::filesystem::exists(json_of(options, input))) continue;
+    const ImageResult result = load_image_result(json_of(options, input));
+    double seconds = 0;
+    for (const StageSeconds& stage : result.stages) seconds += stage.seconds;
+    for (const Detection& d : result.detections)
+      rows.push_back({result.scene_id, result.image_id, result.objects[d.object].id, d.probability,
+                      result.camera_from_world.value_or(Se3{}) * d.world_from_object, seconds});
+  }
+  save_bop_results(rows, options.out / "results.csv");
+}
+
+void write_summary(const BatchSummary& summary, const std::map<std::string, double>& stage_seconds, const Backend& backend, const BatchOptions& options) {
+  nlohmann::ordered_json json{{"images", summary.images}, {"done", summary.done}, {"skipped", summary.skipped}, {"failed", summary.failures.size()},
+                              {"device", backend.name()}, {"seconds", summary.seconds},
+                              {"images_per_second", summary.seconds > 0 ? summary.done / summary.seconds : 0.0}};
+  for (const auto& [stage, seconds] : stage_seconds) json["mean_ms_per_image"][stage] = 1000 * seconds / std::max(1, summary.done);
+  json["failures"] = nlohmann::ordered_json::array();
+  for (const auto& [file, message] : summary.failures) json["failures"].push_back({{"file", file}, {"error", message}});
+  write_file_atomically(options.out / "summary.json", json.dump(2) + "\n");
+}
+
+}  // namespace
+
+BatchSummary run_batch(std::span<const InputImage> images, std::span<const TemplateSet> sets, Backend& backend, const BatchOptions& options) {
+  const auto start = Clock::now();
+  require_writable_folder(options.out);
+  BatchSummary summary;
+  summary.images = static_cast<int>(images.size());
+  std::vector<Group> open;
+  for (Group& group : group_images(images, options.joint)) {
+    if (options.resume && is_done(group, options))
+      summary.skipped += static_cast<int>(group.images.size());
+    else
+      open.push_back(std::move(group));
+  }
+  std::vector<EdgeModel> models;
+  for (const TemplateSet& set : sets) models.push_back(set.model);
+  Preparer preparer(options);
+  std::map<std::string, double> stage_seconds;
+  Progress progress("detect", open.size(), std::cerr, stderr_is_terminal());
+  std::future<Prepared> next;
+  if (!open.empty()) next = std::async(std::launch::async, [&] { return preparer.prepare(open[0]); });
+  for (std::size_t g = 0; g < open.size(); ++g) {
+    Prepared prepared = next.get();
+    if (g + 1 < open.size()) next = std::async(std::launch::async, [&, g] { return preparer.prepare(open[g + 1]); });
+    Group good;
+    std::vector<PreparedImage> usable;
+    for (std::size_t i = 0; i < prepared.images.size(); ++i) {
+      const InputImage& input = *open[g].images[i];
+      if (!prepared.failures[i].empty()) {
+        summary.failures[input.file.string()] = prepared.failures[i];
+        log(LogLevel::Warning, prepared.failures[i]);
+        continue;
+      }
+      good.images.push_back(&input);
+      usable.push_back(std::move(prepared.images[i]));
+    }
+    if (!usable.empty()) {
+      const Detections found = options.joint ? detect_jointly(usable, sets, backend, options.pipeline)
+                                             : detect_objects(usable[0], sets, backend, options.pipeline);
+      for (const StageSeconds& stage : found.stages) stage_seconds[stage.name] += stage.seconds;
+      for (std::size_t i = 0; i < usable.size(); ++i) {
+        if (options.overlays) write_overlay(*good.images[i], usable[i], found, models, backend, options);
+        save_image_result(result_of(*good.images[i], usable[i], found, sets, backend, options.joint), json_of(options, *good.images[i]));
+        ++summary.done;
+      }
+    }
+    progress.step();
+  }
+  summary.seconds = seconds_since(start);
+  write_csv(images, options);
+  write_summary(summary, stage_seconds, backend, options);
+  return summary;
+}
+
+}  // namespace edgescout

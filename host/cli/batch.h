@@ -1,0 +1,34 @@
+// A batch of images on its way through the detector: results on disk as soon as they exist, failures listed, nothing done twice.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/cli/inputs.h"
+#include "host/pipeline.h"
+
+namespace edgescout {
+
+struct BatchOptions {
+  std::filesystem::path out;
+  std::string camera_file;     // empty: BOP scenes bring their own
+  bool scale_camera = false;
+  bool resume = false;
+  bool joint = false;          // all views of a BOP scene at once
+  bool overlays = true;
+  PipelineOptions pipeline;
+};
+
+struct BatchSummary {
+  int images = 0, done = 0, skipped = 0;
+  std::map<std::string, std::string> failures;  // message by file
+  double seconds = 0;
+};
+
+// Writes into `out`: NAME.json and NAME_overlay.png an image, results.csv (BOP) and summary.json. A bad image is listed and the batch goes on; a GpuError ends it.
+BatchSummary run_batch(std::span<const InputImage> images, std::span<const TemplateSet> sets, Backend& backend, const BatchOptions& options);
+
+}  // namespace edgescout

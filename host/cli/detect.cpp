@@ -1,0 +1,103 @@
+// edgescout detect: objects of known CAD models in images, folders of images or BOP scenes.
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "host/cli/batch.h"
+#include "host/cli/exit_codes.h"
+#include "host/cli/pipeline_options.h"
+#include "host/cli/progress.h"
+#include "host/cli/verbs.h"
+#include "host/core/log.h"
+#include "host/io/camera_file.h"
+#include "host/io/files.h"
+#include "host/io/image.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+struct DetectRequest {
+  std::vector<std::string> inputs, template_files;
+  ModelArguments models;
+  TemplateOptions templates;
+  std::string device = "auto", edge_method = "gradient", out;
+  bool no_overlays = false;
+  BatchOptions batch;
+};
+
+// The camera that default distances are taken from: the one given, or the first image's.
+Camera first_camera(const DetectRequest& request, std::span<const InputImage> images) {
+  for (const InputImage& input : images) {
+    try {
+      const Image image = load_image(input.file);
+      if (!request.batch.camera_file.empty())
+        return camera_for_image(load_camera(request.batch.camera_file), image.width, image.height, request.batch.scale_camera, request.batch.camera_file);
+      if (!input.camera) throw InputError(input.file.string(), "camera", "none", "--camera FILE");
+      return camera_for_image(*input.camera, image.width, image.height, request.batch.scale_camera, input.file.string());
+    } catch (const InputError&) {
+      if (&input == &images.back()) throw;
+    }
+  }
+  throw InputError("command line", "inputs", "no image", "at least one");
+}
+
+std::vector<TemplateSet> template_sets(const DetectRequest& request, std::span<const InputImage> images, Backend& backend) {
+  if (request.models.models.empty() == request.template_files.empty())
+    throw InputError("command line", "--model, --templates", request.models.models.empty() ? "neither" : "both", "one of the two");
+  std::vector<TemplateSet> sets;
+  for (const std::string& file : request.template_files) sets.push_back(load_templates(file));
+  if (!sets.empty()) return sets;
+  const std::vector<Object> objects = load_objects(request.models);
+  const Camera camera = first_camera(request, images);
+  for (const Object& object : objects) {
+    const TemplateOptions options = with_default_distances(request.templates, object.mesh.diameter_m, camera);
+    Progress progress("templates of " + object.mesh.name, 100, std::cerr, stderr_is_terminal());
+    sets.push_back(build_templates(object, options, backend, [&](int done, int all) { progress.move_to(100 * done / all); }));
+  }
+  return sets;
+}
+
+int detect(DetectRequest& request) {
+  request.batch.out = request.out;
+  request.batch.overlays = !request.no_overlays;
+  request.batch.pipeline.edges.method = edge_method_from_name(request.edge_method);
+  request.batch.pipeline.validate();
+  request.templates.validate();
+  const std::unique_ptr<Backend> backend = make_backend(request.device);
+  const std::vector<InputImage> images = list_images(request.inputs);
+  const std::vector<TemplateSet> sets = template_sets(request, images, *backend);
+  log(LogLevel::Info, fmt::format("{} images, {} models, on {}", images.size(), sets.size(), backend->name()));
+  const BatchSummary summary = run_batch(images, sets, *backend, request.batch);
+  std::cout << fmt::format("{} images: {} done, {} skipped, {} failed in {:.1f} s ({:.2f} images/s); results in {}\n", summary.images, summary.done,
+                           summary.skipped, summary.failures.size(), summary.seconds, summary.done / std::max(1e-9, summary.seconds), request.out);
+  return summary.failures.empty() ? exit_done : exit_some_failed;
+}
+
+}  // namespace
+
+void add_detect(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand("detect", "Find objects of known CAD models and their 6-DoF poses in images");
+  auto request = std::make_shared<DetectRequest>();
+  verb->add_option("inputs", request->inputs, "Images, folders of images, BOP scenes or folders of them")->required();
+  verb->add_option("--model", request->models.models, "STL, PLY, OBJ or CAO files")->type_name("FILE");
+  verb->add_option("--unit", request->models.unit, "Length unit of the model files: mm, cm, m or in");
+  verb->add_option("--models-info", request->models.models_info, "BOP models_info.json with symmetries")->type_name("FILE");
+  verb->add_option("--object-id", request->models.object_ids, "BOP ids of the models; default: the number their names end in");
+  verb->add_option("--templates", request->template_files, "Template files of `edgescout model build`, in place of --model")->type_name("FILE");
+  verb->add_option("--camera", request->batch.camera_file, "ROS or OpenCV YAML, or BOP camera JSON; BOP scenes bring their own")->type_name("FILE");
+  verb->add_option("--out", request->out, "Folder of the results")->required()->type_name("DIR");
+  verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")->capture_default_str();
+  OptionTable(*verb, "Batch")
+      .flag("scale-camera", request->batch.scale_camera, "Accept images whose size is a pure scale of the calibration's")
+      .flag("resume", request->batch.resume, "Skip images whose result is there already")
+      .flag("joint", request->batch.joint, "Detect in all views of a BOP scene at once (needs world poses)")
+      .flag("no-overlays", request->no_overlays, "Write no overlay pictures");
+  add_template_options(*verb, request->templates);
+  add_edge_and_tensor_options(*verb, request->batch.pipeline, request->edge_method);
+  add_detection_options(*verb, request->batch.pipeline);
+  verb->callback([request, &exit_code] { exit_code = detect(*request); });
+}
+
+}  // namespace edgescout

@@ -1,0 +1,110 @@
+#include "host/cli/inputs.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "host/io/mesh.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool has_image_extension(const fs::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  static const std::set<std::string> known{".png", ".jpg", ".jpeg", ".pgm", ".ppm", ".bmp", ".tif", ".tiff"};
+  return known.contains(extension);
+}
+
+std::vector<fs::path> sorted_entries(const fs::path& folder) {
+  std::vector<fs::path> entries;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) entries.push_back(entry.path());
+  std::ranges::sort(entries);
+  return entries;
+}
+
+void add_scene(const fs::path& folder, std::vector<InputImage>& images) {
+  const BopScene scene = load_bop_scene(folder);
+  for (const BopImage& image : scene.images)
+    images.push_back({image.file, scene.scene_id, image.image_id, image.camera, image.camera_from_world,
+                      fmt::format("{:06}_{:06}", scene.scene_id, image.image_id)});
+}
+
+void add_file(const fs::path& file, std::vector<InputImage>& images) {
+  InputImage image;
+  image.file = file;
+  image.image_id = static_cast<int>(images.size());
+  image.name = file.stem().string();
+  images.push_back(image);
+}
+
+void add_folder(const fs::path& folder, std::vector<InputImage>& images) {
+  if (is_bop_scene(folder)) return add_scene(folder, images);
+  const std::size_t before = images.size();
+  for (const fs::path& entry : sorted_entries(folder))
+    if (fs::is_directory(entry) && is_bop_scene(entry)) add_scene(entry, images);
+  if (images.size() > before) return;
+  for (const fs::path& entry : sorted_entries(folder))
+    if (has_image_extension(entry)) add_file(entry, images);
+  if (images.size() == before) throw InputError(folder.string(), "folder", "no image and no BOP scene", "at least one");
+}
+
+void make_names_unique(std::vector<InputImage>& images) {
+  std::map<std::string, int> seen;
+  for (InputImage& image : images)
+    if (const int times = ++seen[image.name]; times > 1) image.name += fmt::format("_{}", times);
+}
+
+int id_in_name(const std::string& file, int otherwise) {
+  const std::string stem = fs::path(file).stem().string();
+  const std::size_t digits = stem.size() - (stem.find_last_not_of("0123456789") + 1);
+  if (digits == 0 || digits > 8 || stem.find_last_not_of("0123456789") == std::string::npos) return otherwise;
+  return std::stoi(stem.substr(stem.size() - digits));
+}
+
+}  // namespace
+
+std::vector<InputImage> list_images(const std::vector<std::string>& arguments) {
+  std::vector<InputImage> images;
+  for (const std::string& argument : arguments) {
+    const fs::path path = fs::path(argument).lexically_normal();
+    if (fs::is_directory(path))
+      add_folder(path.has_filename() ? path : path.parent_path(), images);
+    else if (fs::exists(path))
+      add_file(path, images);
+    else
+      throw InputError(argument, "input", "nothing of that name", "an image, a folder of images or a BOP scene");
+  }
+  make_names_unique(images);
+  return images;
+}
+
+std::vector<Object> load_objects(const ModelArguments& arguments) {
+  if (arguments.unit.empty()) throw InputError("command line", "--unit", "none", "mm, cm, m or in: mesh files carry no unit");
+  if (!arguments.object_ids.empty() && arguments.object_ids.size() != arguments.models.size())
+    throw InputError("command line", "--object-id", std::to_string(arguments.object_ids.size()) + " ids",
+                     "one for each of " + std::to_string(arguments.models.size()) + " models");
+  const LengthUnit unit = length_unit(arguments.unit);
+  std::map<int, Symmetries> symmetries;
+  if (!arguments.models_info.empty()) symmetries = load_symmetries(arguments.models_info);
+  std::vector<Object> objects;
+  std::set<int> ids;
+  for (std::size_t i = 0; i < arguments.models.size(); ++i) {
+    Object object;
+    object.id = arguments.object_ids.empty() ? id_in_name(arguments.models[i], int(i) + 1) : arguments.object_ids[i];
+    if (!ids.insert(object.id).second)
+      throw InputError(arguments.models[i], "object id", std::to_string(object.id) + " twice", "ids that differ: give --object-id");
+    object.mesh = load_mesh(arguments.models[i], unit);
+    if (symmetries.contains(object.id)) object.symmetries = symmetries.at(object.id);
+    objects.push_back(std::move(object));
+  }
+  return objects;
+}
+
+}  // namespace edgescout

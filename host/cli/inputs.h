@@ -1,0 +1,36 @@
+// What a user names on the command line as input, as a list of images; and the models to look for.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/core/types.h"
+#include "host/io/bop.h"
+
+namespace edgescout {
+
+struct InputImage {
+  std::filesystem::path file;
+  int scene_id = 0;
+  int image_id = 0;
+  std::optional<Camera> camera;           // of a BOP scene; size 0 x 0 until the image is read
+  std::optional<Se3> camera_from_world;
+  // A name no other image of the batch has, for its result files: "000001_000012" in a BOP scene, else the file's stem (made unique by a number).
+  std::string name;
+};
+
+// Each argument is an image, a BOP scene folder (has scene_camera.json), a folder of such scenes, or a folder of images (png, jpg, jpeg, pgm, ppm, bmp, tif, tiff; sorted by
+// name). InputError where one is none of these or holds no image.
+std::vector<InputImage> list_images(const std::vector<std::string>& arguments);
+
+struct ModelArguments {
+  std::vector<std::string> models;     // mesh files
+  std::string unit;
+  std::string models_info;             // BOP models_info.json; empty: no symmetries
+  std::vector<int> object_ids;         // of the models; empty: the number at the end of the file's name, else 1, 2 ..
+};
+std::vector<Object> load_objects(const ModelArguments& arguments);
+
+}  // namespace edgescout

@@ -1,0 +1,47 @@
+#include "host/cli/pipeline_options.h"
+
+namespace edgescout {
+
+void add_edge_and_tensor_options(CLI::App& verb, PipelineOptions& o, std::string& edge_method) {
+  OptionTable(verb, "Edges")
+      .choice("edges", edge_method, {"gradient", "lsd"}, "Edge detector")
+      .bounded("edge-sigma", o.edges.gradient.sigma_px, 0.3f, 8.0f, "Blur before differentiation, px")
+      .bounded("edge-low", o.edges.gradient.low_threshold, 0.1f, 127.0f, "Weaker pixels are no edge, grey levels a pixel")
+      .bounded("edge-high", o.edges.gradient.high_threshold, 0.1f, 127.0f, "A chain needs one pixel of this strength")
+      .bounded("edge-min-length", o.edges.gradient.min_length_px, 1, 10000, "Of a chain, px")
+      .flag("faint-edges,!--no-faint-edges", o.edges.faint_edges, "Also long faint edges at a coarser scale (default)");
+  OptionTable(verb, "Tensor")
+      .bounded("bins", o.tensor.bins, 4, 128, "Orientations over pi; even")
+      .bounded("lambda", o.tensor.lambda_px_per_rad, 0.0f, 10000.0f, "Weight of orientation against location, px/rad")
+      .bounded("smoothing-variance", o.tensor.smoothing_variance, 0.0f, 16.0f, "Over orientation, bins^2")
+      .bounded("cap", o.tensor.cap_px, 1.0f, 255.0f, "Largest distance, px");
+}
+
+void add_detection_options(CLI::App& verb, PipelineOptions& o) {
+  DetectOptions& d = o.detect;
+  OptionTable(verb, "Detection")
+      .bounded("template-points", d.scan.points, 4, 256, "Of each template in the scan")
+      .bounded("anchor-step", d.scan.anchor_step, 1, 16, "Between places of the scan, coarse px")
+      .bounded("rescored", d.rescored, 1, 10000000, "Scan hits looked at in full resolution")
+      .bounded("aligned", d.aligned, 1, 1000000, "Hits aligned on the coarse tensor")
+      .bounded("candidates", d.candidates, 1, 100000, "Candidates registered in full")
+      .bounded("min-probability", d.min_probability, 0.0, 1.0, "Less probable poses are not reported")
+      .bounded("max-detections", d.max_detections, 1, 100000, "Reported an image");
+}
+
+void add_template_options(CLI::App& verb, TemplateOptions& o) {
+  OptionTable(verb, "Templates")
+      .bounded("distance-min", o.distance_min_m, 0.0, 1000.0, "Camera to object, m; 0: from its size and the camera")
+      .bounded("distance-max", o.distance_max_m, 0.0, 1000.0, "m")
+      .bounded("distance-ratio", o.distance_ratio, 1.001, 2.0, "Between neighbouring distances")
+      .bounded("viewpoints", o.frequency, 1, 16, "Frequency f of the icosphere: 10 f^2 + 2 viewpoints")
+      .bounded("in-plane-steps", o.in_plane_steps, 1, 360, "Rotations about the line of sight")
+      .bounded("latitude-min", o.range.latitude_min_deg, -90.0, 90.0, "Of viewpoints over the object's x-y plane, degrees")
+      .bounded("latitude-max", o.range.latitude_max_deg, -90.0, 90.0, "degrees")
+      .bounded("longitude-min", o.range.longitude_min_deg, -360.0, 360.0, "degrees")
+      .bounded("longitude-max", o.range.longitude_max_deg, -360.0, 720.0, "degrees")
+      .bounded("crease-angle", o.edges.crease_angle_deg, 1.0, 179.0, "Sharper mesh edges are drawn, degrees")
+      .bounded("raster-step", o.edges.raster_step_m, 0.0, 1.0, "Between edge points, m; 0: diameter / 80");
+}
+
+}  // namespace edgescout
