@@ -1,6 +1,6 @@
 // The recursion over orientation and the smoothing over it, in place (Eqs. 5 and 6; dcd_tensor.h).
 //
-// One invocation does two neighbouring pixels (one word) at all bins. No value travels further than `reach`
+// One invocation does four neighbouring pixels (two words) at all bins. No value travels further than `reach`
 // bins, where reach * step >= cap, so that going once round the circle from `reach` bins before its start
 // gives the fixed point. The backward sweep feeds a window of 2 r + 1 values, from which the smoothed ones
 // are written. Specialization constant 0: r, the radius of the smoothing, at most bins / 2 - 1.
@@ -15,7 +15,7 @@
 namespace edgescout {
 #endif
 EDGESCOUT_CONST(DCD_SWEEP_GROUP, 64);
-EDGESCOUT_CONST(DCD_SWEEP_WORDS, 16);  // of one bin of a tile
+EDGESCOUT_CONST(DCD_SWEEP_LANES, 8);  // invocations a tile
 
 struct DcdSweepPush {
   uint tile_count;  // of the band

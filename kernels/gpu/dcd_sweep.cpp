@@ -30,7 +30,7 @@ void DcdSweep::record(Batch& batch, const TensorOptions& options, std::uint32_t 
     const std::uint32_t tiles =
         static_cast<std::uint32_t>(tensor.shape().tiles_per_row()) * tensor.row_count(band);
     const DcdSweepPush push{tiles, bins, step, cap, reach};
-    const std::uint32_t groups = groups_for(std::size_t(tiles) * DCD_SWEEP_WORDS, DCD_SWEEP_GROUP);
+    const std::uint32_t groups = groups_for(std::size_t(tiles) * DCD_SWEEP_LANES, DCD_SWEEP_GROUP);
     constexpr std::uint32_t line = 1u << 15;
     batch.dispatch(kernel, {std::min(groups, line), groups_for(groups, line)}, {tensor.band(band), weights_},
                    push);
