@@ -34,7 +34,8 @@ ivec2 anchor_of(Job job, uint a) {
 }
 
 uint value_at(ivec2 p, uint bin) {
-  if (p.x < 0 || p.y < 0 || p.x >= int(push.grid.width) || p.y >= int(push.grid.height)) return TEMPLATE_SCORE_OUTSIDE;
+  // Negative coordinates are large ones.
+  if (uint(p.x) >= push.grid.width || uint(p.y) >= push.grid.height) return TEMPLATE_SCORE_OUTSIDE;
   const uint v16 = tensor_at(push.grid, uint(p.x), uint(p.y), bin);
   return min(TEMPLATE_SCORE_OUTSIDE, (v16 + (1u << (TEMPLATE_SCORE_SHIFT - 1u))) >> TEMPLATE_SCORE_SHIFT);
 }

@@ -5,6 +5,7 @@
 
 #include "kernels/error.h"
 #include "kernels/gpu/result.h"
+#include "kernels/gpu/staging.h"
 
 namespace edgescout::gpu {
 
@@ -99,6 +100,15 @@ Batch::Batch(const Device& device, std::string name)
   if (queries_.get() != VK_NULL_HANDLE) vkCmdResetQueryPool(commands_, queries_.get(), 0, 2 * max_timed);
 }
 
+Batch::~Batch() {
+  for (RawBuffer& buffer : staging_) device_.staging().give_back(std::move(buffer));
+}
+
+const RawBuffer& Batch::stage(VkDeviceSize bytes, Memory memory, const RawBuffer& other_end) {
+  staging_.push_back(device_.staging().take(bytes, memory, "staging for " + other_end.name()));
+  return staging_.back();
+}
+
 void Batch::copy(VkBuffer from, VkBuffer to, VkDeviceSize bytes) {
   const VkBufferCopy region{0, 0, bytes};
   vkCmdCopyBuffer(commands_, from, to, 1, &region);
@@ -109,9 +119,9 @@ void Batch::upload_bytes(const RawBuffer& to, std::span<const std::byte> bytes) 
   if (bytes.empty()) return;
   std::byte* target = to.mapped();
   if (!target) {
-    staging_.emplace_back(device_, bytes.size(), Memory::upload, "upload of " + to.name());
-    target = staging_.back().mapped();
-    copy(staging_.back().get(), to.get(), bytes.size());
+    const RawBuffer& staged = stage(bytes.size(), Memory::upload, to);
+    target = staged.mapped();
+    copy(staged.get(), to.get(), bytes.size());
   }
   std::memcpy(target, bytes.data(), bytes.size());
 }
@@ -121,10 +131,10 @@ void Batch::download_bytes(const RawBuffer& from, std::span<std::byte> to) {
   if (to.empty()) return;
   const std::byte* source = from.mapped();
   if (!source) {
-    staging_.emplace_back(device_, to.size(), Memory::download, "download of " + from.name());
-    source = staging_.back().mapped();
+    const RawBuffer& staged = stage(to.size(), Memory::download, from);
+    source = staged.mapped();
     barrier();
-    copy(from.get(), staging_.back().get(), to.size());
+    copy(from.get(), staged.get(), to.size());
   }
   downloads_.push_back({source, to});
 }

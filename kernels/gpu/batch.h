@@ -56,6 +56,9 @@ inline Groups spread(std::uint32_t count) {
 class Batch {
  public:
   Batch(const Device& device, std::string name);
+  ~Batch();
+  Batch(const Batch&) = delete;
+  Batch& operator=(const Batch&) = delete;
 
   // Copies now; the caller's memory is free afterwards. The buffer must not be in use by an earlier command
   // of this batch.
@@ -98,6 +101,7 @@ class Batch {
                       std::span<const std::byte> push);
   VkDescriptorSet bind(const Kernel& kernel, std::span<const Bound> bound);
   void check_dispatch(const Kernel& kernel, Groups groups, std::span<const Bound> bound) const;
+  const RawBuffer& stage(VkDeviceSize bytes, Memory memory, const RawBuffer& other_end);
   void copy(VkBuffer from, VkBuffer to, VkDeviceSize bytes);
   std::vector<StageTime> read_times() const;
 

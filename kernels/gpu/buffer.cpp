@@ -51,7 +51,7 @@ VkDeviceMemory allocate(const Device& device, const VkMemoryRequirements& needs,
 }  // namespace
 
 RawBuffer::RawBuffer(const Device& device, VkDeviceSize bytes, Memory memory, std::string name)
-    : name_(std::move(name)), bytes_(std::max<VkDeviceSize>(bytes, 4)) {
+    : name_(std::move(name)), bytes_(std::max<VkDeviceSize>(bytes, 4)), kind_(memory) {
   const std::string what = "buffer '" + name_ + "' of " + std::to_string(bytes_) + " bytes";
   if (bytes_ > device.max_allocation_bytes())
     throw GpuError(what + ": " + device.info().name + " allocates at most " +

@@ -26,6 +26,7 @@ class RawBuffer {
 
   VkBuffer get() const { return buffer_.get(); }
   VkDeviceSize bytes() const { return bytes_; }
+  Memory memory() const { return kind_; }
   const std::string& name() const { return name_; }
   // Null where the host cannot see the memory.
   std::byte* mapped() const { return mapped_; }
@@ -33,6 +34,7 @@ class RawBuffer {
  private:
   std::string name_;
   VkDeviceSize bytes_ = 0;
+  Memory kind_ = Memory::device;
   Handle<VkDeviceMemory> memory_;  // freed after the buffer bound to it
   Handle<VkBuffer> buffer_;
   std::byte* mapped_ = nullptr;

@@ -3,6 +3,7 @@
 #include "kernels/error.h"
 #include "kernels/gpu/device_info.h"
 #include "kernels/gpu/result.h"
+#include "kernels/gpu/staging.h"
 
 namespace edgescout::gpu {
 
@@ -92,7 +93,10 @@ Device::Device(const DeviceOptions& options)
   device_.reset(create_device(physical_, queue_family_));
   vkGetDeviceQueue(get(), queue_family_, 0, &queue_);
   cache_ = {get(), create_cache(get()), vkDestroyPipelineCache};
+  staging_ = std::make_unique<StagingPool>(*this);
 }
+
+Device::~Device() = default;
 
 std::uint32_t Device::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags flags) const {
   for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)

@@ -15,10 +15,15 @@
 
 namespace edgescout::gpu {
 
+class StagingPool;
+
 class Device {
  public:
   // Throws GpuError: no such device, older than Vulkan 1.2, or no compute queue.
   explicit Device(const DeviceOptions& options);
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
 
   VkDevice get() const { return device_.get(); }
   VkQueue queue() const { return queue_; }
@@ -33,6 +38,7 @@ class Device {
   double seconds_per_tick() const { return seconds_per_tick_; }
   // Device-local memory can be read and written by the host at full speed: no staging.
   bool unified_memory() const { return unified_memory_; }
+  StagingPool& staging() const { return *staging_; }
 
   // First memory type of `allowed` (a bit set) with all of `flags`; throws GpuError where there is none.
   std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags flags) const;
@@ -53,6 +59,7 @@ class Device {
   VkDeviceSize max_allocation_bytes_ = 0, max_band_bytes_ = 0;
   double seconds_per_tick_ = 0;
   bool unified_memory_ = false;
+  std::unique_ptr<StagingPool> staging_;
 };
 
 }  // namespace edgescout::gpu
