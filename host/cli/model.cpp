@@ -1,4 +1,4 @@
-// edgescout model: what is in a CAD file.
+// edgescout model: what is in a CAD file; its other verbs have files of their own.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/cli/exit_codes.h"
+#include "host/cli/model_verbs.h"
 #include "host/cli/verbs.h"
 #include "host/io/mesh.h"
 
@@ -97,9 +98,11 @@ void add_inspect(CLI::App& model, int& exit_code) {
 }  // namespace
 
 void add_model(CLI::App& app, int& exit_code) {
-  CLI::App* model = app.add_subcommand("model", "Look into CAD models");
+  CLI::App* model = app.add_subcommand("model", "Look into CAD models, build their templates");
   model->require_subcommand(1);
   add_inspect(*model, exit_code);
+  add_model_build(*model, exit_code);
+  add_model_draw(*model, exit_code);
 }
 
 }  // namespace edgescout

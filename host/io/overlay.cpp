@@ -94,6 +94,13 @@ void draw_edges(Canvas& canvas, const Camera& camera, const OverlayPose& pose, c
   }
 }
 
+std::string caption_of(const OverlayPose& pose) {
+  if (!pose.score) return pose.label;
+  char score[32];
+  std::snprintf(score, sizeof score, "%.2f", *pose.score);
+  return pose.label.empty() ? score : pose.label + " " + score;
+}
+
 void draw_axes(Canvas& canvas, const Camera& camera, const OverlayPose& pose, const EdgeModel& model) {
   const Eigen::Vector3d center = pose.camera_from_object * model.center_m;
   for (int axis = 0; axis < 3; ++axis)
@@ -101,9 +108,7 @@ void draw_axes(Canvas& canvas, const Camera& camera, const OverlayPose& pose, co
                 pose.camera_from_object *
                     (model.center_m + 0.25 * model.mesh.diameter_m * Eigen::Vector3d::Unit(axis)),
                 axis_colours[axis], 2);
-  char score[32];
-  std::snprintf(score, sizeof score, "%.2f", pose.score);
-  canvas.text(pose.label.empty() ? score : pose.label + " " + score, project(camera, center));
+  canvas.text(caption_of(pose), project(camera, center));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Pictures of what was found: model edges and axes drawn over the image.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -16,8 +17,8 @@ class Backend;
 struct OverlayPose {
   int object = 0;  // index into the models
   Se3 camera_from_object;
-  double score = 0;
-  std::string label;  // written beside the object's origin, before the score
+  std::optional<double> score;  // written beside the object's centre, where there is one
+  std::string label;            // written before it
 };
 
 // The image in grey, half as bright, and over it for every pose: the visible edges of its model, green where

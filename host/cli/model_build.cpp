@@ -1,0 +1,104 @@
+// edgescout model build: a template file from a CAD file.
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "host/cli/exit_codes.h"
+#include "host/cli/inputs.h"
+#include "host/cli/model_verbs.h"
+#include "host/cli/pipeline_options.h"
+#include "host/cli/progress.h"
+#include "host/io/camera_file.h"
+#include "host/io/files.h"
+#include "host/model/axis_symmetry.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+struct BuildRequest {
+  std::string file, unit, models_info, camera, out, device = "auto";
+  std::vector<std::string> symmetry;
+  int object_id = 0;  // 0: the number in the file's name
+  TemplateOptions templates;
+};
+
+Object load_object(const BuildRequest& request) {
+  if (!request.models_info.empty() && !request.symmetry.empty())
+    throw InputError("command line", "--symmetry, --models-info", "both", "one of the two");
+  ModelArguments arguments{{request.file}, request.unit, request.models_info, {}};
+  if (request.object_id > 0) arguments.object_ids = {request.object_id};
+  Object object = load_objects(arguments)[0];
+  if (!request.symmetry.empty()) object.symmetries = axis_symmetries(object.mesh, request.symmetry);
+  return object;
+}
+
+TemplateOptions with_distances(const BuildRequest& request, double diameter_m) {
+  request.templates.validate();
+  if (request.templates.distance_min_m > 0) return request.templates;
+  if (request.camera.empty())
+    throw InputError("command line", "--distance-min", "none",
+                     "a range of distances, or --camera to choose one");
+  const Camera camera = load_camera(request.camera);
+  if (camera.width == 0)
+    throw InputError(request.camera, "image_width", "none",
+                     "an image size, or --distance-min and --distance-max");
+  return with_default_distances(request.templates, diameter_m, camera);
+}
+
+void build(const BuildRequest& request) {
+  const std::unique_ptr<Backend> backend = make_backend(request.device);
+  const Object object = load_object(request);
+  const TemplateOptions options = with_distances(request, object.mesh.diameter_m);
+  const std::filesystem::path out = request.out;
+  require_writable_folder(out.has_parent_path() ? out.parent_path() : ".");
+  TemplateSet set;
+  {
+    Progress progress("templates of " + object.mesh.name, 100, std::cerr, stderr_is_terminal());
+    set = build_templates(object, options, *backend, [&](int done, int all) {
+      progress.move_to(static_cast<std::size_t>(100 * done / all));
+    });
+  }
+  save_templates(set, out);
+  std::size_t points = 0;
+  for (const TemplateView& view : set.views) points += view.points.size();
+  std::cout << fmt::format(
+      "{}: object {}, {} viewpoints of {} edge points on average, {} in-plane rotations, {} distances from "
+      "{:.3f} to "
+      "{:.3f} m, {} symmetries\n",
+      request.out, set.object_id, set.views.size(), points / set.views.size(), options.in_plane_steps,
+      template_distances_m(options).size(), options.distance_min_m, options.distance_max_m,
+      set.symmetries.discrete.size() - 1);
+}
+
+}  // namespace
+
+void add_model_build(CLI::App& model, int& exit_code) {
+  CLI::App* verb =
+      model.add_subcommand("build", "Build the templates of a CAD file, once for many detections");
+  auto request = std::make_shared<BuildRequest>();
+  verb->add_option("file", request->file, "STL, PLY, OBJ or CAO file")->required()->type_name("FILE");
+  verb->add_option("--unit", request->unit, "Length unit of the file: mm, cm, m or in")->required();
+  verb->add_option("--models-info,--symmetries", request->models_info, "BOP models_info.json with symmetries")
+      ->type_name("FILE");
+  verb->add_option(
+      "--symmetry", request->symmetry,
+      "In place of --models-info: z2 for a half turn about z, x4 for quarter turns about x, z alone for a "
+      "surface of revolution; several for all their products");
+  verb->add_option("--camera", request->camera, "Calibration from which a range of distances is chosen")
+      ->type_name("FILE");
+  verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
+      ->capture_default_str();
+  verb->add_option("--out", request->out, "Template file")->required()->type_name("FILE");
+  OptionTable(*verb, "Model")
+      .bounded("object-id", request->object_id, 0, 1000000,
+               "BOP id; 0: the number the file's name ends in, else 1");
+  add_template_options(*verb, request->templates);
+  verb->callback([request, &exit_code] {
+    build(*request);
+    exit_code = exit_done;
+  });
+}
+
+}  // namespace edgescout
