@@ -17,7 +17,7 @@
 namespace edgescout {
 #endif
 EDGESCOUT_CONST(DISTANCE_ROWS, 32);  // of a workgroup
-EDGESCOUT_CONST(DISTANCE_ROWS_PER_INVOCATION, 8);
+EDGESCOUT_CONST(DISTANCE_ROWS_PER_INVOCATION, 16);
 EDGESCOUT_CONST(DISTANCE_WORDS, 16);  // of a tile's row: two pixels each
 
 struct DistancePassPush {

@@ -39,10 +39,12 @@ void main() {
   const uint x_end = min(tile + push.reach_cells + 1u, push.cell_columns) - 1u, x_begin = tile - min(tile, push.reach_cells);
   const uint strip_cell = strip_row / DCD_CELL, last_cell = min(strip_row + DISTANCE_ROWS - 1u, push.cell_rows * DCD_CELL - 1u) / DCD_CELL;
   const uint y_begin = strip_cell - min(strip_cell, push.reach_cells), y_end = min(last_cell + push.reach_cells, push.cell_rows - 1u);
+  bool any = false;
   [[dont_unroll]] for (uint cy = y_begin; cy <= y_end; ++cy) {
     const uint row = (bin * push.cell_rows + cy) * push.cell_columns;
     const uint begin = cells[row + x_begin].x;
     const uvec2 last = cells[row + x_end];
+    any = any || begin < last.x + last.y;
     [[dont_unroll]] for (uint i = begin; i < last.x + last.y; ++i) {
       const uint seed = seeds[i];
       const int dx = x - int(seed & 0xffffu), sy = int(seed >> 16) - y;
@@ -60,9 +62,12 @@ void main() {
   const uint band_row = uint(y) - push.first_row;
   [[unroll]] for (uint r = 0; r < ROWS; ++r) {
     if (band_row + r >= push.row_count) break;
-    const int add = int(r * r);
-    const uint low = uint(x) < push.width ? distance_of(left[r] + add) : push.cap;
-    const uint high = uint(x) + 1u < push.width ? distance_of(right[r] + add) : push.cap;
+    uint low = push.cap, high = push.cap;
+    if (any) {  // most windows of a bin are empty
+      const int add = int(r * r);
+      if (uint(x) < push.width) low = distance_of(left[r] + add);
+      if (uint(x) + 1u < push.width) high = distance_of(right[r] + add);
+    }
     const uint line = ((band_row + r) * push.tiles_per_row + tile) * push.bins + bin;
     tensor[line * DISTANCE_WORDS + gl_LocalInvocationID.x] = low | (high << 16);
   }
