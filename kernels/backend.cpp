@@ -42,9 +42,16 @@ std::unique_ptr<Backend> make_checked_vulkan(int index, const std::string& choic
   return make_vulkan_backend(index);
 }
 
+// A card whose driver is too old for the kernels is passed over; the backend's name says what was taken.
 std::unique_ptr<Backend> make_automatic() {
-  for (const DeviceInfo& device : vulkan_devices())
-    if (device.hardware) return make_vulkan_backend(device.index);
+  for (const DeviceInfo& device : vulkan_devices()) {
+    if (!device.hardware) continue;
+    try {
+      return make_vulkan_backend(device.index);
+    } catch (const GpuError&) {
+      continue;
+    }
+  }
   return make_cpu_backend();
 }
 
