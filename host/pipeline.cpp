@@ -74,11 +74,18 @@ Detections detect_objects(const PreparedImage& prepared, std::span<const Templat
   Stopwatch watch(result.stages);
   const Observation observation = observe_prepared(prepared, sets, backend, options);
   watch.lap("tensors");
-  std::vector<std::vector<Scored>> candidates;
-  for (const TemplateSet& set : sets) candidates.push_back(find_candidates(set, observation, backend, options.detect));
+  std::vector<Hypothesis> poses;
+  std::vector<Refined> candidates;
+  for (std::size_t object = 0; object < sets.size(); ++object)
+    for (const Refined& candidate : find_candidates(sets[object], observation, backend, options.detect)) {
+      poses.push_back({int(object), candidate.registration.world_from_object});
+      candidates.push_back(candidate);
+    }
   watch.lap("candidates");
-  result.detections = choose_detections(models_of(sets), candidates, observation, backend, options.detect);
-  watch.lap("choice");
+  RegisterView view = observation.view;
+  view.camera_from_world = Se3{};  // one view: its camera frame is the world
+  result.detections = settle(models_of(sets), poses, candidates, std::vector<RegisterView>{view}, backend, options.detect);
+  watch.lap("settle");
   return result;
 }
 
@@ -90,7 +97,7 @@ Detections detect_jointly(std::span<const PreparedImage> views, std::span<const 
   std::vector<Observation> observations;
   for (const PreparedImage& view : views) observations.push_back(observe_prepared(view, sets, backend, options));
   watch.lap("tensors");
-  std::vector<std::vector<std::vector<Scored>>> candidates(observations.size());  // [view][object]
+  std::vector<std::vector<std::vector<Refined>>> candidates(observations.size());  // [view][object]
   for (std::size_t v = 0; v < observations.size(); ++v)
     for (const TemplateSet& set : sets) candidates[v].push_back(find_candidates(set, observations[v], backend, options.detect));
   watch.lap("candidates");

@@ -25,6 +25,8 @@ void add_detection_options(CLI::App& verb, PipelineOptions& o) {
       .bounded("rescored", d.rescored, 1, 10000000, "Scan hits looked at in full resolution")
       .bounded("aligned", d.aligned, 1, 1000000, "Hits aligned on the coarse tensor")
       .bounded("candidates", d.candidates, 1, 100000, "Candidates registered in full")
+      .bounded("second-look", d.second_look_rad, 0.0, 1.0, "Turned starts around what was chosen, rad; 0: none")
+      .bounded("max-spent", d.evidence.max_spent, 0.0, 1.0, "Of a pose's edges: more explained by better poses, and it goes")
       .bounded("min-probability", d.min_probability, 0.0, 1.0, "Less probable poses are not reported")
       .bounded("max-detections", d.max_detections, 1, 100000, "Reported an image");
 }

@@ -50,8 +50,8 @@ std::vector<PoseScore> rescore(const TemplateSet& set, std::span<const ScanHit> 
 }
 
 // Before the visible points are known: the length of the template's edges in the image by their number, as if none were foreshortened.
-double rough_evidence(const PoseScore& score, const TemplateSet& set, const Se3& camera_from_object, double focal_px, double chance) {
-  return (score.psi - chance) * score.points * set.model.raster_step_m * focal_px / (camera_from_object * set.model.center_m).z();
+double rough_evidence(const PoseScore& score, const TemplateSet& set, const Se3& camera_from_object, double focal_px) {
+  return (score.psi - CHANCE_PSI) * score.points * set.model.raster_step_m * focal_px / (camera_from_object * set.model.center_m).z();
 }
 
 std::vector<Hypothesis> hypotheses_at(std::span<const Se3> poses, std::span<const std::size_t> chosen) {
@@ -80,7 +80,7 @@ void DetectOptions::validate() const {
   in("aligned", aligned, 1, 1e6);
   in("candidates", candidates, 1, 1e5);
   in("min_probability", min_probability, 0, 1);
-  in("joint_search", joint_search_rad, 0, 1);
+  in("second_look", second_look_rad, 0, 1);
   in("max_detections", max_detections, 1, 1e5);
   refine.validate();
 }
@@ -98,7 +98,7 @@ Detection to_detection(int object, const Registration& registration, const PoseF
   return d;
 }
 
-std::vector<Scored> find_candidates(const TemplateSet& set, const Observation& observation, Backend& backend, const DetectOptions& options) {
+std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation, Backend& backend, const DetectOptions& options) {
   const double diameter = set.model.mesh.diameter_m;
   const std::span<const EdgeModel> models(&set.model, 1);
   // One view: the world is its camera frame.
@@ -117,7 +117,7 @@ std::vector<Scored> find_candidates(const TemplateSet& set, const Observation& o
   for (const ScanHit& hit : hits) poses.push_back(hit.camera_from_object);
   const std::vector<std::size_t> starts =
       best_different(poses, set, 0.1 * diameter, options.aligned, [&](std::size_t i) {
-        return -rough_evidence(scores[i], set, hits[i].camera_from_object, observation.view.camera.fx, options.evidence.chance);
+        return -rough_evidence(scores[i], set, hits[i].camera_from_object, observation.view.camera.fx);
       });
 
   const std::vector<Hypothesis> hypotheses = hypotheses_at(poses, starts);
@@ -128,40 +128,14 @@ std::vector<Scored> find_candidates(const TemplateSet& set, const Observation& o
   const std::vector<PoseFeatures> aligned =
       pose_features(models, hypotheses_at(poses, all), full, backend, options.refine.score, options.refine.search.coarse.visibility);
   const std::vector<std::size_t> chosen = best_different(poses, set, 0.1 * diameter, options.candidates, [&](std::size_t i) {
-    return -evidence_px(aligned[i], options.evidence);
+    return -evidence_px(aligned[i]);
   });
 
   const std::vector<Refined> refined = refine_poses(models, hypotheses_at(poses, chosen), full, backend, options.refine);
-  std::vector<Scored> scored;
-  for (const Refined& r : refined)
-    scored.push_back({r.registration.world_from_object, r.registration, r.features, pose_probability(r.features)});
   std::vector<Se3> final_poses;
-  for (const Scored& s : scored) final_poses.push_back(s.camera_from_object);
-  return picked(scored, best_different(final_poses, set, 0.15 * diameter, scored.size(), [&](std::size_t i) { return -scored[i].probability; }));
-}
-
-std::vector<Detection> choose_detections(std::span<const EdgeModel> models, std::span<const std::vector<Scored>> candidates,
-                                         const Observation& observation, Backend& backend, const DetectOptions& options) {
-  std::vector<Hypothesis> poses;
-  std::vector<PoseFeatures> features;
-  std::vector<const Scored*> entries;
-  for (std::size_t object = 0; object < candidates.size(); ++object)
-    for (const Scored& scored : candidates[object])
-      if (scored.probability >= options.min_probability) {
-        poses.push_back({int(object), scored.camera_from_object});
-        features.push_back(scored.features);
-        entries.push_back(&scored);
-      }
-  std::vector<RegisterView> views{observation.view};
-  views[0].camera_from_world = Se3{};
-  std::vector<Detection> detections;
-  for (const ChosenPose& chosen : explain_image(models, poses, features, views, backend, options.evidence)) {
-    const Scored& scored = *entries[chosen.index];
-    detections.push_back(to_detection(poses[chosen.index].object, scored.registration, scored.features));
-  }
-  std::ranges::stable_sort(detections, [](const Detection& a, const Detection& b) { return a.probability > b.probability; });
-  if (int(detections.size()) > options.max_detections) detections.resize(options.max_detections);
-  return detections;
+  for (const Refined& r : refined) final_poses.push_back(r.registration.world_from_object);
+  return picked(refined, best_different(final_poses, set, 0.1 * diameter, refined.size(),
+                                        [&](std::size_t i) { return -pose_probability(refined[i].features); }));
 }
 
 }  // namespace edgescout

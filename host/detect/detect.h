@@ -17,28 +17,17 @@ struct DetectOptions {
   int candidates = 60;      // different ones among those that are registered in full (the paper's object candidates)
   RefineOptions refine = refine_defaults();
   EvidenceOptions evidence;
-  double joint_search_rad = 0;  // turned starts around every candidate when several views are joined; 0: none
+  double second_look_rad = 0.3;  // turned starts around what was chosen (settle.h); 0: none
   double min_probability = 0.5;
   int max_detections = 100;
   static RefineOptions refine_defaults();
   void validate() const;
 };
 
-// A registered candidate of one view, before anything is decided.
-struct Scored {
-  Se3 camera_from_object;
-  Registration registration;
-  PoseFeatures features;
-  double probability = 0;
-};
 
 Detection to_detection(int object, const Registration& registration, const PoseFeatures& features);
 
-// The registered candidates of one object in one view, best probability first, duplicates merged.
-std::vector<Scored> find_candidates(const TemplateSet& set, const Observation& observation, Backend& backend, const DetectOptions& options);
-
-// Keeps of all objects' candidates those that are probable enough and explain edges of the image that no better one explains (evidence.h).
-std::vector<Detection> choose_detections(std::span<const EdgeModel> models, std::span<const std::vector<Scored>> candidates,
-                                         const Observation& observation, Backend& backend, const DetectOptions& options);
+// The registered candidates of one object in one view (world: its camera frame), best probability first, duplicates merged.
+std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation, Backend& backend, const DetectOptions& options);
 
 }  // namespace edgescout

@@ -70,10 +70,6 @@ double fresh_fraction(const std::vector<Explained>& explained, const SpentEdges&
 
 }  // namespace
 
-double evidence_px(const PoseFeatures& features, const EvidenceOptions& options) {
-  return (features.psi - options.chance) * features.length_px;
-}
-
 std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::span<const Hypothesis> poses, std::span<const PoseFeatures> features,
                                       std::span<const RegisterView> views, Backend& backend, const EvidenceOptions& options) {
   std::vector<std::vector<Explained>> explained(poses.size());
@@ -96,7 +92,7 @@ std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::sp
         open[p] = false;
         continue;
       }
-      const double evidence = fresh * evidence_px(features[p], options);
+      const double evidence = fresh * evidence_px(features[p]);
       if (evidence > best_evidence) best_evidence = evidence, best = p;
     }
     if (best == poses.size()) return chosen;

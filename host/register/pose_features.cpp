@@ -35,6 +35,8 @@ void add(PoseFeatures& sum, const PoseScore& score) {
 
 }  // namespace
 
+double evidence_px(const PoseFeatures& features) { return (features.psi - CHANCE_PSI) * features.length_px; }
+
 std::vector<PoseFeatures> pose_features(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
                                         std::span<const RegisterView> views, Backend& backend, const PoseScoreOptions& options,
                                         const VisibilityOptions& visibility) {

@@ -41,7 +41,7 @@ std::vector<RegisterView> coarse_views(std::span<const RegisterView> views) {
   return coarse;
 }
 
-// For each hypothesis the different poses its search ended in, best Psi first; `owner` says whose they are.
+// For each hypothesis the different poses its search ended in, most evidence first; `owner` says whose they are.
 struct Searched {
   std::vector<Hypothesis> poses;
   std::vector<std::size_t> owner;
@@ -59,7 +59,7 @@ Searched search(std::span<const EdgeModel> models, std::span<const Hypothesis> h
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
     std::vector<std::size_t> order(per_hypothesis);
     for (std::size_t i = 0; i < per_hypothesis; ++i) order[i] = h * per_hypothesis + i;
-    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return features[a].psi > features[b].psi; });
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return evidence_px(features[a]) > evidence_px(features[b]); });
     const std::size_t first = found.poses.size();
     for (std::size_t i : order) {
       if (int(found.poses.size() - first) >= options.search.survivors) break;
@@ -120,7 +120,7 @@ std::vector<Refined> refine_poses(std::span<const EdgeModel> models, std::span<c
   std::vector<bool> filled(hypotheses.size(), false);
   for (std::size_t i = 0; i < found.poses.size(); ++i) {
     const std::size_t h = found.owner[i];
-    if (filled[h] && results[h].features.psi >= features[i].psi) continue;
+    if (filled[h] && evidence_px(results[h].features) >= evidence_px(features[i])) continue;
     results[h] = {registrations[i], features[i]};
     filled[h] = true;
   }
