@@ -220,8 +220,7 @@ std::vector<StageTime> Batch::read_times() const {
   for (const Timed& timed : timed_) {
     auto row = std::ranges::find(times, timed.name, &StageTime::name);
     if (row == times.end()) row = times.insert(row, StageTime{timed.name, 0, 0});
-    row->seconds +=
-        device_.seconds_per_tick() * double(ticks[timed.first_query + 1] - ticks[timed.first_query]);
+    row->seconds += device_.seconds_between(ticks[timed.first_query], ticks[timed.first_query + 1]);
     ++row->calls;
   }
   return times;

@@ -89,6 +89,7 @@ Device::Device(const DeviceOptions& options)
 
   std::uint32_t timestamp_bits = 0;
   queue_family_ = compute_family(physical_, info_.name, timestamp_bits);
+  if (timestamp_bits < 64) tick_mask_ = (std::uint64_t{1} << timestamp_bits) - 1;
   seconds_per_tick_ = timestamp_bits > 0 ? 1e-9 * double(limits_.timestampPeriod) : 0.0;
   device_.reset(create_device(physical_, queue_family_));
   vkGetDeviceQueue(get(), queue_family_, 0, &queue_);

@@ -36,6 +36,10 @@ class Device {
   VkDeviceSize max_band_bytes() const { return max_band_bytes_; }
   // 0: this queue cannot write timestamps.
   double seconds_per_tick() const { return seconds_per_tick_; }
+  // Between two timestamps, which may have fewer than 64 bits and wrap.
+  double seconds_between(std::uint64_t first_tick, std::uint64_t last_tick) const {
+    return seconds_per_tick_ * double((last_tick - first_tick) & tick_mask_);
+  }
   // Device-local memory can be read and written by the host at full speed: no staging.
   bool unified_memory() const { return unified_memory_; }
   StagingPool& staging() const { return *staging_; }
@@ -58,6 +62,7 @@ class Device {
   VkPhysicalDeviceMemoryProperties memory_{};
   VkDeviceSize max_allocation_bytes_ = 0, max_band_bytes_ = 0;
   double seconds_per_tick_ = 0;
+  std::uint64_t tick_mask_ = ~std::uint64_t{0};
   bool unified_memory_ = false;
   std::unique_ptr<StagingPool> staging_;
 };
