@@ -65,7 +65,9 @@ int run(int argc, char** argv) {
   int exit_code = exit_internal_error;
   add_detect(app, exit_code);
   add_devices(app, exit_code);
+  add_eval(app, exit_code);
   add_model(app, exit_code);
+  add_register(app, exit_code);
   add_render(app, exit_code);
   try {
     app.parse(argc, argv);

@@ -19,9 +19,11 @@ std::vector<StartPose> from_bop_results(const std::filesystem::path& file) {
 std::vector<StartPose> from_image_result(const std::filesystem::path& file) {
   const ImageResult result = load_image_result(file);
   const Se3 camera_from_world = result.camera_from_world.value_or(Se3{});
+  // A result of an image outside of every scene says 0 as well.
+  const std::optional<int> scene = result.scene_id == 0 ? std::nullopt : std::optional(result.scene_id);
   std::vector<StartPose> poses;
   for (const Detection& found : result.detections)
-    poses.push_back({result.scene_id, result.image_id, result.image.filename().string(),
+    poses.push_back({scene, result.image_id, result.image.filename().string(),
                      result.objects.at(static_cast<std::size_t>(found.object)).id,
                      camera_from_world * found.world_from_object, found.probability});
   return poses;
@@ -53,8 +55,8 @@ std::vector<StartPose> load_start_poses(const std::filesystem::path& file) {
   return poses;
 }
 
-bool belongs_to(const StartPose& pose, const std::filesystem::path& image, int scene_id, int image_id) {
-  if (pose.scene_id != 0 && scene_id != 0 && pose.scene_id != scene_id) return false;
+bool belongs_to(const StartPose& pose, const std::filesystem::path& image, std::optional<int> scene_id, int image_id) {
+  if (pose.scene_id && scene_id && *pose.scene_id != *scene_id) return false;
   return pose.image.empty() ? pose.image_id == image_id : pose.image == image.filename().string();
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,9 @@
 namespace edgescout {
 
 struct StartPose {
-  int scene_id = 0;
+  std::optional<int> scene_id;  // absent: of any scene
   int image_id = 0;
-  std::string image;  // file name; where not empty, it names the image instead of scene_id and image_id
+  std::string image;  // file name; where not empty, it names the image instead of image_id
   int object_id = 1;
   Se3 camera_from_object;
   double score = 0;
@@ -25,7 +26,7 @@ struct StartPose {
 // InputError naming file, line or field.
 std::vector<StartPose> load_start_poses(const std::filesystem::path& file);
 
-// Whether the pose is meant for this image. A scene_id of 0 on either side fits every scene.
-bool belongs_to(const StartPose& pose, const std::filesystem::path& image, int scene_id, int image_id);
+// Whether the pose is meant for this image. No scene on either side fits every scene.
+bool belongs_to(const StartPose& pose, const std::filesystem::path& image, std::optional<int> scene_id, int image_id);
 
 }  // namespace edgescout

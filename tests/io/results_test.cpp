@@ -159,6 +159,8 @@ TEST(StartPoses, ComeFromABopResultsFile) {
   EXPECT_LT((poses[0].camera_from_object.translation_m - Vector3d(0.01, 0.02, 0.3)).norm(), 1e-15);
   EXPECT_TRUE(belongs_to(poses[0], "any.png", 48, 12));
   EXPECT_FALSE(belongs_to(poses[0], "any.png", 48, 13));
+  EXPECT_FALSE(belongs_to(poses[0], "any.png", 0, 12));  // 0 is a scene like any other
+  EXPECT_TRUE(belongs_to(poses[0], "any.png", std::nullopt, 12));
 }
 
 TEST(StartPoses, ComeFromAPlainList) {

@@ -1,0 +1,191 @@
+// edgescout eval: how good the poses of a BOP results CSV are.
+#include <fmt/format.h>
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "host/cli/config.h"
+#include "host/cli/exit_codes.h"
+#include "host/cli/inputs.h"
+#include "host/cli/verbs.h"
+#include "host/core/log.h"
+#include "host/eval/recall.h"
+#include "host/io/files.h"
+#include "host/io/image.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct EvalRequest {
+  std::string results, json_file;
+  std::vector<std::string> scenes;
+  ModelArguments models;
+  RecallOptions recall;
+};
+
+// Each argument is a scene or a folder of scenes.
+std::vector<BopScene> load_scenes(const std::vector<std::string>& arguments) {
+  std::vector<BopScene> scenes;
+  for (const std::string& argument : arguments) {
+    const std::size_t before = scenes.size();
+    if (is_bop_scene(argument)) {
+      scenes.push_back(load_bop_scene(argument));
+    } else if (fs::is_directory(argument)) {
+      for (const fs::directory_entry& entry : fs::directory_iterator(argument))
+        if (is_bop_scene(entry.path())) scenes.push_back(load_bop_scene(entry.path()));
+    }
+    if (scenes.size() == before)
+      throw InputError(argument, "scene", "no scene_camera.json", "a BOP scene or a folder of BOP scenes");
+  }
+  std::ranges::sort(scenes, {}, &BopScene::scene_id);
+  for (std::size_t i = 1; i < scenes.size(); ++i)
+    if (scenes[i].scene_id == scenes[i - 1].scene_id)
+      throw InputError(scenes[i].folder.string(), "scene id", std::to_string(scenes[i].scene_id) + " twice",
+                       "scenes of different numbers");
+  return scenes;
+}
+
+// BOP keeps the images' size nowhere but in the images.
+void read_image_sizes(BopScene& scene) {
+  for (BopImage& image : scene.images) {
+    const Image pixels = load_image(image.file);
+    image.camera.width = pixels.width;
+    image.camera.height = pixels.height;
+  }
+}
+
+// Said here and not by the evaluation, which does not know the file's name.
+void require_images(const BopScene& scene, std::span<const BopResult> results, const std::string& file) {
+  std::set<int> ids;
+  for (const BopImage& image : scene.images) ids.insert(image.image_id);
+  for (const BopResult& result : results)
+    if (result.scene_id == scene.scene_id && !ids.contains(result.image_id))
+      throw InputError(file, "im_id", std::to_string(result.image_id),
+                       "an image of scene " + std::to_string(scene.scene_id));
+}
+
+std::vector<EvaluationImage> load_images(const EvalRequest& request, std::span<const BopResult> results) {
+  std::vector<BopScene> scenes = load_scenes(request.scenes);
+  std::vector<EvaluationImage> images;
+  for (BopScene& scene : scenes) {
+    if (scene.truth.empty())
+      throw InputError((scene.folder / "scene_gt.json").string(), "ground truth", "none",
+                       "the scene's true poses");
+    require_images(scene, results, request.results);
+    read_image_sizes(scene);
+    for (EvaluationImage& image : evaluation_images(scene, results)) images.push_back(std::move(image));
+  }
+  std::size_t used = 0;
+  for (const EvaluationImage& image : images) used += image.estimates.size();
+  if (used < results.size())
+    log(LogLevel::Warning, fmt::format("{}: {} of {} results are of scenes not given here", request.results,
+                                       results.size() - used, results.size()));
+  return images;
+}
+
+using Row = std::pair<std::string, Recalls>;
+
+std::vector<Row> evaluate_rows(const EvalRequest& request) {
+  request.recall.validate();
+  std::map<int, Object> objects;
+  for (Object& object : load_objects(request.models)) objects[object.id] = std::move(object);
+  const std::vector<BopResult> results = load_bop_results(request.results);
+  const std::vector<EvaluationImage> images = load_images(request, results);
+  std::vector<Row> rows;
+  for (const auto& [id, recalls] : evaluate_by_object(images, objects, request.recall))
+    rows.emplace_back(std::to_string(id), recalls);
+  rows.emplace_back("all", evaluate(images, objects, request.recall));
+  return rows;
+}
+
+nlohmann::ordered_json row_json(const Recalls& r) {
+  return {{"images", r.images},
+          {"truths", r.truths},
+          {"estimates", r.estimates},
+          {"ar", 0.5 * (r.ar_mssd + r.ar_mspd)},
+          {"ar_mssd", r.ar_mssd},
+          {"ar_mspd", r.ar_mspd},
+          {"recalls_mssd", r.mssd},
+          {"recalls_mspd", r.mspd},
+          {"recall_pose_raw", r.recall_raw},
+          {"recall_pose_symmetric", r.recall_symmetric},
+          {"recall_mspd_below_max", r.recall_mspd},
+          {"false_positives", r.false_positives},
+          {"false_positives_per_image", r.false_positives_per_image}};
+}
+
+void save_json(const std::vector<Row>& rows, const EvalRequest& request) {
+  const RecallOptions& o = request.recall;
+  nlohmann::ordered_json root{{"results", request.results},
+                              {"scenes", request.scenes},
+                              {"min_visible", o.min_visible_fraction},
+                              {"min_score", o.min_score},
+                              {"max_angle_rad", o.max_angle_rad},
+                              {"max_distance_m", o.max_distance_m},
+                              {"max_mspd_px", o.max_mspd_px}};
+  for (const auto& [object, recalls] : rows)
+    (object == "all" ? root["all"] : root["objects"][object]) = row_json(recalls);
+  using Handler = nlohmann::ordered_json::error_handler_t;
+  write_file_atomically(request.json_file, root.dump(1, ' ', false, Handler::replace) + "\n");
+}
+
+void print_table(const std::vector<Row>& rows, const RecallOptions& o) {
+  std::cout << fmt::format(
+      "{} images; truths seen by at least {:.0f} %; estimates of score {} or more\n"
+      "pose: below {} rad and {} mm; mspd: below {} px; fp: estimates that match no truth so, an image\n\n"
+      "{:>6} {:>7} {:>9} {:>7} {:>7} {:>7} {:>9} {:>9} {:>7} {:>7}\n",
+      rows.back().second.images, 100 * o.min_visible_fraction, o.min_score, o.max_angle_rad,
+      1000 * o.max_distance_m, o.max_mspd_px, "object", "truths", "estimates", "AR", "MSSD", "MSPD", "pose",
+      "pose/sym", "mspd", "fp");
+  for (const auto& [object, r] : rows)
+    std::cout << fmt::format(
+        "{:>6} {:>7} {:>9} {:>7.3f} {:>7.3f} {:>7.3f} {:>9.3f} {:>9.3f} {:>7.3f} {:>7.2f}\n", object,
+        r.truths, r.estimates, 0.5 * (r.ar_mssd + r.ar_mspd), r.ar_mssd, r.ar_mspd, r.recall_raw,
+        r.recall_symmetric, r.recall_mspd, r.false_positives_per_image);
+}
+
+void run_eval(const EvalRequest& request) {
+  const std::vector<Row> rows = evaluate_rows(request);
+  if (!request.json_file.empty()) save_json(rows, request);
+  print_table(rows, request.recall);
+}
+
+}  // namespace
+
+void add_eval(CLI::App& app, int& exit_code) {
+  CLI::App* verb =
+      app.add_subcommand("eval", "Judge a BOP results CSV against the ground truth of BOP scenes");
+  auto request = std::make_shared<EvalRequest>();
+  verb->add_option("results", request->results, "BOP results CSV")->required()->type_name("FILE");
+  verb->add_option("scenes", request->scenes, "BOP scenes with scene_gt.json, or folders of them")
+      ->required()
+      ->type_name("DIR");
+  verb->add_option("--model", request->models.models, "STL, PLY, OBJ or CAO files")
+      ->required()
+      ->type_name("FILE");
+  verb->add_option("--unit", request->models.unit, "Length unit of the model files: mm, cm, m or in")
+      ->required();
+  verb->add_option("--models-info", request->models.models_info, "BOP models_info.json with symmetries")
+      ->type_name("FILE");
+  verb->add_option("--object-id", request->models.object_ids,
+                   "BOP ids of the models; default: the number their names end in");
+  verb->add_option("--json", request->json_file, "Also write the figures here")->type_name("FILE");
+  RecallOptions& o = request->recall;
+  OptionTable(*verb, "Evaluation")
+      .bounded("min-visible", o.min_visible_fraction, 0.0, 1.0, "Truths seen by less are ignored")
+      .bounded("min-score", o.min_score, -1e6, 1e6, "Estimates below it are dropped")
+      .bounded("max-angle", o.max_angle_rad, 1e-6, 3.2, "Of a right pose, rad")
+      .bounded("max-distance", o.max_distance_m, 1e-9, 100.0, "Of a right pose, m")
+      .bounded("max-mspd", o.max_mspd_px, 0.01, 10000.0, "Of a true find, px");
+  verb->callback([request, &exit_code] {
+    run_eval(*request);
+    exit_code = exit_done;
+  });
+}
+
+}  // namespace edgescout

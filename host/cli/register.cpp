@@ -1,0 +1,108 @@
+// edgescout register: refines given poses, of any origin, in one view or over all views of a scene.
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "host/cli/exit_codes.h"
+#include "host/cli/pipeline_options.h"
+#include "host/cli/register_batch.h"
+#include "host/cli/verbs.h"
+#include "host/core/log.h"
+#include "host/io/camera_file.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+struct RegisterRequest {
+  std::vector<std::string> inputs, template_files;
+  std::string poses, out, device = "auto", edge_method = "gradient";
+  ModelArguments models;
+  bool multi_view = false, no_overlays = false, no_polish = false;
+  RegisterOptions options;
+};
+
+std::vector<RegisterModel> load_models(const RegisterRequest& request) {
+  if (request.models.models.empty() == request.template_files.empty())
+    throw InputError("command line", "--model, --templates",
+                     request.models.models.empty() ? "neither" : "both", "one of the two");
+  std::vector<RegisterModel> models;
+  for (const std::string& file : request.template_files) {
+    TemplateSet set = load_templates(file);
+    models.push_back({set.object_id, std::move(set.model)});
+  }
+  if (!models.empty()) return models;
+  for (const Object& object : load_objects(request.models))
+    models.push_back({object.id, make_edge_model(object.mesh)});
+  return models;
+}
+
+int register_all(RegisterRequest& request) {
+  RegisterOptions& options = request.options;
+  options.out = request.out;
+  options.overlays = !request.no_overlays;
+  options.refine.polish = !request.no_polish;
+  options.pipeline.edges.method = edge_method_from_name(request.edge_method);
+  options.pipeline.validate();
+  options.refine.validate();
+  const std::unique_ptr<Backend> backend = make_backend(request.device);
+  if (!options.camera_file.empty()) options.camera = load_camera(options.camera_file);
+  const std::vector<RegisterModel> models = load_models(request);
+  const std::vector<StartPose> poses = load_start_poses(request.poses);
+  const std::vector<InputImage> images = list_images(request.inputs);
+  const std::vector<RegisterJob> jobs = make_jobs(images, models, poses, request.multi_view, request.poses);
+  log(LogLevel::Info,
+      fmt::format("{} poses, {} models, on {}", poses.size(), models.size(), backend->name()));
+  const RegisterSummary summary = run_register(jobs, models, *backend, options);
+  std::cout << fmt::format("{} poses in {} images refined, {} images failed; results in {}\n", summary.poses,
+                           summary.done, summary.images - summary.done, request.out);
+  return summary.failures.empty() ? exit_done : exit_some_failed;
+}
+
+void add_files(CLI::App& verb, RegisterRequest& request) {
+  verb.add_option("inputs", request.inputs, "Images, folders of images, BOP scenes or folders of them")
+      ->required();
+  verb.add_option("--poses", request.poses,
+                  "Where to start: a BOP results CSV, a result of this program, or a JSON list of {image, "
+                  "object, R, t}")
+      ->required()
+      ->type_name("FILE");
+  verb.add_option("--model", request.models.models, "STL, PLY, OBJ or CAO files")->type_name("FILE");
+  verb.add_option("--unit", request.models.unit, "Length unit of the model files: mm, cm, m or in");
+  verb.add_option("--object-id", request.models.object_ids,
+                  "BOP ids of the models; default: the number their names end in");
+  verb.add_option("--templates", request.template_files,
+                  "Template files of `edgescout model build`, in place of --model")
+      ->type_name("FILE");
+  verb.add_option("--camera", request.options.camera_file,
+                  "ROS or OpenCV YAML, or BOP camera JSON; BOP scenes bring their own")
+      ->type_name("FILE");
+  verb.add_option("--out", request.out, "Folder of the results")->required()->type_name("DIR");
+  verb.add_option("--device", request.device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_register(CLI::App& app, int& exit_code) {
+  CLI::App* verb =
+      app.add_subcommand("register", "Refine given poses, of this program or of any other method");
+  auto request = std::make_shared<RegisterRequest>();
+  add_files(*verb, *request);
+  RefineOptions& refine = request->options.refine;
+  OptionTable(*verb, "Registration")
+      .flag("multi-view", request->multi_view,
+            "Refine each pose over all views of its BOP scene at once (needs world poses)")
+      .bounded("search-rotation", refine.search.rotation_rad, 0.0, 1.0,
+               "Also start turned by so much about 14 axes, rad; 0: from the given pose alone")
+      .bounded("survivors", refine.search.survivors, 1, 15, "Of those starts, registered in full")
+      .flag("no-polish", request->no_polish, "Leave out the last step, on sub-pixel edge points")
+      .flag("scale-camera", request->options.scale_camera,
+            "Accept images whose size is a pure scale of the calibration's")
+      .flag("no-overlays", request->no_overlays, "Write no overlay pictures");
+  add_edge_and_tensor_options(*verb, request->options.pipeline, request->edge_method);
+  verb->callback([request, &exit_code] { exit_code = register_all(*request); });
+}
+
+}  // namespace edgescout

@@ -1,0 +1,177 @@
+#include "host/cli/register_batch.h"
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+
+#include "host/cli/progress.h"
+#include "host/core/log.h"
+#include "host/detect/detect.h"
+#include "host/detect/observation.h"
+#include "host/io/camera_file.h"
+#include "host/io/files.h"
+#include "host/io/image.h"
+#include "host/io/overlay.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// A job whose images are read.
+struct ReadyJob {
+  const RegisterJob* job;
+  std::vector<PreparedImage> views;
+  std::vector<Hypothesis> starts;  // world from object
+};
+
+PreparedImage prepare_view(const InputImage& input, bool is_alone, Backend& backend,
+                           const RegisterOptions& options) {
+  const Image image = load_image(input.file);
+  if (!options.camera && !input.camera)
+    throw InputError(input.file.string(), "camera", "none", "--camera FILE");
+  const Camera camera =
+      camera_for_image(options.camera ? *options.camera : *input.camera, image.width, image.height,
+                       options.scale_camera, options.camera ? options.camera_file : input.file.string());
+  const Se3 camera_from_world = is_alone ? Se3{} : *input.camera_from_world;
+  return prepare_image(image, camera, camera_from_world, backend, options.pipeline);
+}
+
+ReadyJob prepare_job(const RegisterJob& job, Backend& backend, const RegisterOptions& options) {
+  ReadyJob ready{&job, {}, {}};
+  for (const InputImage& view : job.views)
+    ready.views.push_back(prepare_view(view, job.views.size() == 1, backend, options));
+  for (const RegisterJob::Start& start : job.starts)
+    ready.starts.push_back(
+        {start.model, inverse(ready.views[start.view].camera_from_world) * start.camera_from_object});
+  return ready;
+}
+
+// Of the smallest object as the starts have it in this view; the image's size where none is in front of it.
+double smallest_size_px(const ReadyJob& ready, const PreparedImage& view,
+                        std::span<const RegisterModel> models) {
+  double smallest = std::max(view.camera.width, view.camera.height);
+  for (const Hypothesis& start : ready.starts) {
+    const EdgeModel& model = models[static_cast<std::size_t>(start.object)].edges;
+    const double depth_m = (view.camera_from_world * (start.world_from_object * model.center_m)).z();
+    if (depth_m > 0) smallest = std::min(smallest, model.mesh.diameter_m / depth_m * view.camera.fx);
+  }
+  return smallest;
+}
+
+Detections refine_job(const ReadyJob& ready, std::span<const RegisterModel> models,
+                      std::span<const EdgeModel> edge_models, Backend& backend,
+                      const RegisterOptions& options) {
+  Detections result;
+  for (const PreparedImage& view : ready.views)
+    result.stages.insert(result.stages.end(), view.stages.begin(), view.stages.end());
+  const auto start = Clock::now();
+  std::vector<RegisterView> views;
+  for (const PreparedImage& view : ready.views)
+    views.push_back(observe(view.image, view.camera, view.camera_from_world, view.edges,
+                            reduction_for(smallest_size_px(ready, view, models)), options.pipeline.tensor,
+                            backend)
+                        .view);
+  result.stages.push_back({"tensors", seconds_since(start)});
+  const auto tensors_made = Clock::now();
+  const std::vector<Refined> refined =
+      refine_poses(edge_models, ready.starts, views, backend, options.refine);
+  result.stages.push_back({"registration", seconds_since(tensors_made)});
+  for (std::size_t i = 0; i < refined.size(); ++i)
+    result.detections.push_back(
+        to_detection(ready.starts[i].object, refined[i].registration, refined[i].features));
+  return result;
+}
+
+void save_json(const ReadyJob& ready, std::size_t view, const Detections& found,
+               std::span<const RegisterModel> models, const Backend& backend,
+               const RegisterOptions& options) {
+  const InputImage& input = ready.job->views[view];
+  ImageResult result;
+  result.image = input.file;
+  result.scene_id = input.scene_id;
+  result.image_id = input.image_id;
+  result.camera = ready.views[view].camera;
+  result.device = backend.name();
+  result.stages = found.stages;
+  if (ready.views.size() > 1) result.camera_from_world = ready.views[view].camera_from_world;
+  for (const RegisterModel& model : models)
+    result.objects.push_back({model.object_id, model.edges.mesh.name});
+  for (std::size_t i = 0; i < found.detections.size(); ++i)
+    if (ready.job->starts[i].view == view) result.detections.push_back(found.detections[i]);
+  if (!result.detections.empty()) save_image_result(result, options.out / (input.name + ".json"));
+}
+
+void save_overlay(const ReadyJob& ready, std::size_t view, const Detections& found,
+                  std::span<const EdgeModel> edge_models, Backend& backend, const RegisterOptions& options) {
+  const PreparedImage& prepared = ready.views[view];
+  std::vector<OverlayPose> poses;
+  for (const Detection& d : found.detections)
+    poses.push_back({d.object, prepared.camera_from_world * d.world_from_object, d.probability,
+                     edge_models[static_cast<std::size_t>(d.object)].mesh.name});
+  const EdgeIndex edges(prepared.edges, prepared.camera.width, prepared.camera.height);
+  save_png(draw_overlay(prepared.image, prepared.camera, poses, edge_models, &edges, backend),
+           options.out / (ready.job->views[view].name + "_overlay.png"));
+}
+
+void add_rows(const ReadyJob& ready, const Detections& found, std::span<const RegisterModel> models,
+              std::vector<BopResult>& rows) {
+  double seconds = 0;
+  for (const StageSeconds& stage : found.stages) seconds += stage.seconds;
+  for (std::size_t i = 0; i < found.detections.size(); ++i) {
+    const Detection& d = found.detections[i];
+    const std::size_t view = ready.job->starts[i].view;
+    const InputImage& input = ready.job->views[view];
+    rows.push_back({input.scene_id, input.image_id, models[static_cast<std::size_t>(d.object)].object_id,
+                    d.probability, ready.views[view].camera_from_world * d.world_from_object, seconds});
+  }
+}
+
+int images_with_starts(const RegisterJob& job) {
+  std::vector<char> has_start(job.views.size(), 0);
+  for (const RegisterJob::Start& start : job.starts) has_start[start.view] = 1;
+  return static_cast<int>(std::count(has_start.begin(), has_start.end(), 1));
+}
+
+}  // namespace
+
+RegisterSummary run_register(std::span<const RegisterJob> jobs, std::span<const RegisterModel> models,
+                             Backend& backend, const RegisterOptions& options) {
+  RegisterSummary summary;
+  std::vector<EdgeModel> edge_models;
+  for (const RegisterModel& model : models) edge_models.push_back(model.edges);
+  std::vector<BopResult> rows;
+  Progress progress("register", jobs.size(), std::cerr, stderr_is_terminal());
+  for (const RegisterJob& job : jobs) {
+    summary.images += images_with_starts(job);
+    ReadyJob ready;
+    try {
+      ready = prepare_job(job, backend, options);
+    } catch (const InputError& error) {
+      summary.failures[job.views[0].file.string()] = error.what();
+      if (summary.failures.size() == jobs.size()) throw;
+      log(LogLevel::Warning, error.what());
+      progress.step();
+      continue;
+    }
+    require_writable_folder(options.out);
+    const Detections found = refine_job(ready, models, edge_models, backend, options);
+    for (std::size_t view = 0; view < job.views.size(); ++view) {
+      if (options.overlays) save_overlay(ready, view, found, edge_models, backend, options);
+      save_json(ready, view, found, models, backend, options);
+    }
+    add_rows(ready, found, models, rows);
+    save_bop_results(rows, options.out / "results.csv");
+    summary.done += images_with_starts(job);
+    summary.poses += static_cast<int>(found.detections.size());
+    progress.step();
+  }
+  return summary;
+}
+
+}  // namespace edgescout

@@ -1,0 +1,94 @@
+// Which start belongs to which image.
+#include <fmt/format.h>
+
+#include <set>
+
+#include "host/cli/register_batch.h"
+#include "host/core/log.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+std::string described(const StartPose& pose) {
+  return pose.image.empty() ? fmt::format("image {}", pose.image_id) : pose.image;
+}
+
+// The image of a start; none where it is of a scene that is not among the images.
+std::optional<std::size_t> image_of(const StartPose& pose, std::span<const InputImage> images,
+                                    const std::string& poses_file) {
+  bool scene_is_here = !pose.scene_id;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    // Images of BOP scenes bring their camera; others are of no scene.
+    const std::optional<int> scene = images[i].camera ? std::optional(images[i].scene_id) : std::nullopt;
+    if (belongs_to(pose, images[i].file, scene, images[i].image_id)) return i;
+    scene_is_here |= !scene || scene == pose.scene_id;
+  }
+  if (scene_is_here) throw InputError(poses_file, "image", described(pose), "one of the images given");
+  return std::nullopt;
+}
+
+RegisterJob::Start start_of(const StartPose& pose, std::size_t view, std::span<const RegisterModel> models,
+                            const std::string& poses_file) {
+  for (std::size_t m = 0; m < models.size(); ++m) {
+    if (models[m].object_id != pose.object_id) continue;
+    if (!((pose.camera_from_object * models[m].edges.center_m).z() > 0))
+      throw InputError(poses_file, "t",
+                       fmt::format("object {} behind the camera of {}", pose.object_id, described(pose)),
+                       "an object in front of it");
+    return {view, static_cast<int>(m), pose.camera_from_object};
+  }
+  throw InputError(poses_file, "object", std::to_string(pose.object_id), "the id of one of the models given");
+}
+
+std::vector<RegisterJob> group_views(std::span<const InputImage> images, bool multi_view) {
+  std::vector<RegisterJob> jobs;
+  for (const InputImage& image : images) {
+    const bool same_scene = multi_view && !jobs.empty() &&
+                            jobs.back().views[0].file.parent_path() == image.file.parent_path() &&
+                            jobs.back().views[0].scene_id == image.scene_id;
+    if (!same_scene) jobs.emplace_back();
+    jobs.back().views.push_back(image);
+  }
+  return jobs;
+}
+
+void require_world_poses(const RegisterJob& job) {
+  for (const InputImage& view : job.views)
+    if (!view.camera_from_world)
+      throw InputError(view.file.string(), "world pose", "none",
+                       "cam_R_w2c and cam_t_w2c of every view with --multi-view");
+}
+
+}  // namespace
+
+std::vector<RegisterJob> make_jobs(std::span<const InputImage> images, std::span<const RegisterModel> models,
+                                   std::span<const StartPose> poses, bool multi_view,
+                                   const std::string& poses_file) {
+  std::vector<RegisterJob> jobs = group_views(images, multi_view);
+  std::vector<std::pair<std::size_t, std::size_t>> place;  // job and view of every image
+  for (std::size_t j = 0; j < jobs.size(); ++j)
+    for (std::size_t v = 0; v < jobs[j].views.size(); ++v) place.emplace_back(j, v);
+  std::size_t passed_over = 0;
+  for (const StartPose& pose : poses) {
+    const std::optional<std::size_t> image = image_of(pose, images, poses_file);
+    if (!image) {
+      ++passed_over;
+      continue;
+    }
+    const auto [job, view] = place[*image];
+    jobs[job].starts.push_back(start_of(pose, view, models, poses_file));
+  }
+  if (passed_over == poses.size())
+    throw InputError(poses_file, "poses", poses.empty() ? "none" : "only such of other scenes",
+                     "at least one for the images given");
+  if (passed_over > 0)
+    log(LogLevel::Info, fmt::format("{}: {} poses of other scenes passed over", poses_file, passed_over));
+  std::erase_if(jobs, [](const RegisterJob& job) { return job.starts.empty(); });
+  if (multi_view)
+    for (const RegisterJob& job : jobs) require_world_poses(job);
+  return jobs;
+}
+
+}  // namespace edgescout
