@@ -1,6 +1,6 @@
 #!/bin/bash
-# Installs what is missing, builds, and shows what the program does on photographs and on rendered scenes. Results go to
-# out/demo, made anew at every run.
+# Installs what is missing, builds, and detects objects: in photographs that Debian ships (package visp-images-data), and in
+# the rendered scenes of docs/examples, where the true poses are known. Results go to out/demo, made anew at every run.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 scripts/setup.sh
@@ -10,17 +10,20 @@ photographs=/usr/share/visp-images-data/ViSP-images/mbt
 examples=docs/examples
 out=out/demo
 rm -rf "$out"
-mkdir -p "$out"
 
-say "Vulkan devices"
+say "devices"
 "$edgescout" devices
 
-say "the models"
-"$edgescout" model inspect "$photographs/cube.cao" --unit m
-"$edgescout" model inspect "$examples"/parts/*.ply --unit mm
+say "a cube on a desk: photographs"
+"$edgescout" detect "$photographs"/cube/image0000.pgm "$photographs"/cube/image0120.pgm \
+  --model "$photographs/cube.cao" --unit m --models-info "$examples/visp/cube_models_info.json" \
+  --camera "$examples/visp/cube_camera.yaml" --distance-min 0.4 --distance-max 0.8 --max-detections 1 \
+  --out "$out/cube"
 
-say "a scene of known poses"
-"$edgescout" render --part l_bracket bearing_block u_channel --width 640 --height 480 --focal 750 --objects 5 --out "$out/scenes"
+say "parts on a printed board: rendered"
+"$edgescout" detect "$examples/scenes/000000" \
+  --model "$examples"/parts/*.ply --unit mm --models-info "$examples/parts/models_info.json" \
+  --out "$out/parts"
 
-say "pictures to look at"
+say "pictures to look at: what was found, drawn over the images"
 find "$out" -name '*.png' | sort
