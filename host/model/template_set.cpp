@@ -50,8 +50,7 @@ TemplateSet build_templates(const Object& object, const TemplateOptions& options
   std::vector<Eigen::Vector3d> directions;
   for (const Eigen::Vector3d& d : icosphere(options.frequency))
     if (options.range.contains(d)) directions.push_back(d);
-  const double half_spacing_rad = 0.55 / options.frequency;
-  directions = modulo_symmetry(directions, object.symmetries, half_spacing_rad);
+  directions = modulo_symmetry(directions, object.symmetries, ICOSPHERE_GAP_RAD / options.frequency);
   // The visible set hardly depends on the distance within 2 : 1; take the geometric middle.
   const double distance = std::max(std::sqrt(options.distance_min_m * options.distance_max_m), 1.2 * set.model.radius_m);
   constexpr std::size_t chunk = 32;

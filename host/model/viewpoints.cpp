@@ -46,9 +46,8 @@ std::vector<Eigen::Vector3d> modulo_symmetry(const std::vector<Eigen::Vector3d>&
   for (const Eigen::Vector3d& d : directions) {
     bool canonical = true;
     for (const Se3& symmetry : symmetries.discrete) {
-      const double turn = so3_log(symmetry.rotation).norm();
-      // A symmetry that moves w by a small angle bounds the domain by planes that close in on each other: the margin must not exceed what it moves.
-      const double margin = std::min(margin_rad, 0.5 * turn) * (symmetry.rotation * generic - generic).norm();
+      // d may stand this far beyond the plane that halves w and its image under the symmetry, times |S w - w|.
+      const double margin = std::sin(margin_rad) * (symmetry.rotation * generic - generic).norm();
       canonical &= d.dot(generic) >= (symmetry.rotation * d).dot(generic) - margin;
     }
     if (canonical) kept.push_back(d);

@@ -7,7 +7,9 @@
 
 namespace edgescout {
 
-// Vertices of an icosahedron whose edges are cut into `frequency` parts and pushed onto the unit sphere: 10 * frequency^2 + 2 directions.
+// Vertices of an icosahedron whose edges are cut into `frequency` parts and pushed onto the unit sphere: 10 * frequency^2 + 2 directions. No direction of the sphere is further than
+// ICOSPHERE_GAP_RAD / frequency from one of them.
+inline constexpr double ICOSPHERE_GAP_RAD = 0.77;
 std::vector<Eigen::Vector3d> icosphere(int frequency);
 
 // Keeps those with latitude (angle to the object's x-y plane, + towards +z) and longitude (about z, from +x) in the given ranges, degrees. A
@@ -19,7 +21,7 @@ struct SphereRange {
 };
 
 // Drops directions that a symmetry maps onto others: keeps the fundamental domain {d : d.w >= (S d).w for all S} for a generic w, widened by
-// `margin_rad` so that no direction of the sphere ends up further from a kept one (modulo symmetry) than it was.
+// `margin_rad`. Where every direction of the sphere had one of the given within the margin, it has a kept one within it, modulo symmetry.
 std::vector<Eigen::Vector3d> modulo_symmetry(const std::vector<Eigen::Vector3d>& directions, const Symmetries& symmetries, double margin_rad);
 
 // Rotation camera_from_object of a camera at `direction` from the object that looks back at it; the roll about the line of sight is arbitrary but fixed.
