@@ -7,7 +7,6 @@
 #include "host/cli/pipeline_options.h"
 #include "host/cli/register_batch.h"
 #include "host/cli/verbs.h"
-#include "host/core/log.h"
 #include "host/io/camera_file.h"
 #include "kernels/error.h"
 
@@ -52,11 +51,9 @@ int register_all(RegisterRequest& request) {
   const std::vector<StartPose> poses = load_start_poses(request.poses);
   const std::vector<InputImage> images = list_images(request.inputs);
   const std::vector<RegisterJob> jobs = make_jobs(images, models, poses, request.multi_view, request.poses);
-  log(LogLevel::Info,
-      fmt::format("{} poses, {} models, on {}", poses.size(), models.size(), backend->name()));
   const RegisterSummary summary = run_register(jobs, models, *backend, options);
-  std::cout << fmt::format("{} poses in {} images refined, {} images failed; results in {}\n", summary.poses,
-                           summary.done, summary.images - summary.done, request.out);
+  std::cout << fmt::format("{} poses in {} images refined on {}, {} images failed; results in {}\n", summary.poses,
+                           summary.done, backend->name(), summary.images - summary.done, request.out);
   return summary.failures.empty() ? exit_done : exit_some_failed;
 }
 

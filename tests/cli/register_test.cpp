@@ -1,0 +1,194 @@
+// edgescout register on the example scenes: poses come back to the truth, in every form that is written.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "host/eval/metrics.h"
+#include "host/io/image.h"
+#include "host/io/results.h"
+#include "tests/cli/example_scene.h"
+#include "tests/test_random.h"
+
+namespace edgescout::test {
+namespace {
+
+std::vector<std::string> register_in(const fs::path& input, const fs::path& poses, const fs::path& out,
+                                     const std::vector<std::string>& more = {}) {
+  return joined(
+      {{"register", input, "--poses", poses, "--out", out, "--device", "cpu"}, part_models(), more});
+}
+
+void expect_at_truth(const std::vector<BopResult>& found, const std::vector<BopResult>& truth,
+                     double max_angle_rad) {
+  const std::map<int, Symmetries> symmetries = load_symmetries(examples() / "parts/models_info.json", 2000);
+  ASSERT_EQ(found.size(), truth.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_EQ(found[i].scene_id, truth[i].scene_id);
+    EXPECT_EQ(found[i].image_id, truth[i].image_id);
+    ASSERT_EQ(found[i].object_id, truth[i].object_id);
+    const auto known = symmetries.find(found[i].object_id);
+    const PoseError error = pose_error(found[i].camera_from_object, truth[i].camera_from_object,
+                                       known == symmetries.end() ? Symmetries{} : known->second);
+    EXPECT_LT(error.angle_rad, max_angle_rad) << "object " << found[i].object_id;
+    EXPECT_LT(error.distance_m, 0.001) << "object " << found[i].object_id;
+  }
+}
+
+// The parts whose pose one view of 640 px settles to a millimetre: the depth of the smaller and the more
+// symmetric is less certain.
+std::vector<BopResult> certain_truths(const BopScene& scene) {
+  std::vector<BopResult> truths = true_results(scene, 0, 0.9);
+  std::erase_if(truths, [](const BopResult& t) { return t.object_id != 2 && t.object_id != 5; });
+  return truths;
+}
+
+TEST(Register, BringsPerturbedPosesBackToTheTruth) {
+  const TemporaryFolder folder;
+  const BopScene scene = load_bop_scene(one_view());
+  const std::vector<BopResult> truth = certain_truths(scene);
+  ASSERT_EQ(truth.size(), 2u);
+  save_bop_results(perturbed(truth, 0.1, 0.005, test_random()), folder.path() / "starts.csv");
+  const fs::path out = folder.path() / "out";
+  const Outcome outcome = run_program(register_in(one_view(), folder.path() / "starts.csv", out));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::vector<BopResult> rows = load_bop_results(out / "results.csv");
+  expect_at_truth(rows, truth, 0.01);
+  const ImageResult result = load_image_result(out / "000000_000000.json");
+  EXPECT_EQ(result.device, "cpu");
+  EXPECT_EQ(result.camera.width, 640);
+  ASSERT_EQ(result.detections.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_LT(distance_between_m(result.detections[i].world_from_object, rows[i].camera_from_object), 1e-9);
+    EXPECT_EQ(result.detections[i].probability, rows[i].score);
+    EXPECT_GT(rows[i].score, 0.5);
+    EXPECT_GT(rows[i].time_s, 0);
+    EXPECT_TRUE(result.detections[i].covariance.allFinite());
+  }
+  EXPECT_EQ(load_image(out / "000000_000000_overlay.png").width, 640);
+}
+
+TEST(Register, GoesOnFromItsOwnResultAndFromAJsonList) {
+  const TemporaryFolder folder;
+  const BopScene scene = load_bop_scene(one_view());
+  const std::vector<BopResult> truth{certain_truths(scene)[0]};
+  const Eigen::Matrix3d r = truth[0].camera_from_object.rotation.toRotationMatrix();
+  const Eigen::Vector3d t = truth[0].camera_from_object.translation_m;
+  std::vector<double> rotation;
+  for (int i = 0; i < 9; ++i) rotation.push_back(r(i / 3, i % 3));
+  const nlohmann::json list{{{"image", "000000.png"},
+                             {"object", truth[0].object_id},
+                             {"R", rotation},
+                             {"t", {t.x(), t.y(), t.z()}}}};
+  const std::string poses = folder.write("poses.json", list.dump());
+  const fs::path first = folder.path() / "first", second = folder.path() / "second";
+  const std::vector<std::string> plain{"--search-rotation", "0", "--no-overlays"};
+  ASSERT_EQ(run_program(register_in(one_view(), poses, first, plain)).exit_code, 0);
+  expect_at_truth(load_bop_results(first / "results.csv"), truth, 0.01);
+  EXPECT_FALSE(fs::exists(first / "000000_000000_overlay.png"));
+  ASSERT_EQ(run_program(register_in(one_view(), first / "000000_000000.json", second, plain)).exit_code, 0);
+  expect_at_truth(load_bop_results(second / "results.csv"), truth, 0.01);
+}
+
+TEST(Register, RefinesOneWorldPoseOverAllViews) {
+  const TemporaryFolder folder;
+  const BopScene scene = load_bop_scene(two_views());
+  const std::vector<BopResult> truth = true_results(scene, 1);
+  save_bop_results(perturbed(truth, 0.1, 0.005, test_random()), folder.path() / "starts.csv");
+  const fs::path out = folder.path() / "out";
+  const Outcome outcome =
+      run_program(register_in(two_views(), folder.path() / "starts.csv", out, {"--multi-view"}));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_at_truth(load_bop_results(out / "results.csv"), truth, 0.02);
+  const ImageResult result = load_image_result(out / "000001_000001.json");
+  ASSERT_TRUE(result.camera_from_world.has_value());
+  // The starts were given in image 1; the pose holds in image 0 as well, where it is drawn.
+  std::vector<BopResult> elsewhere;
+  const Se3 other_from_world = *scene.images[0].camera_from_world;
+  for (const Detection& d : result.detections)
+    elsewhere.push_back({1, 0, result.objects[static_cast<std::size_t>(d.object)].id, 1,
+                         other_from_world * d.world_from_object, -1});
+  expect_at_truth(elsewhere, true_results(scene, 0), 0.02);
+  EXPECT_TRUE(fs::exists(out / "000001_000000_overlay.png"));
+  EXPECT_FALSE(fs::exists(out / "000001_000000.json"));
+}
+
+TEST(Register, GoesOnPastABadImage) {
+  const TemporaryFolder folder;
+  fs::copy(two_views(), folder.path() / "000001", fs::copy_options::recursive);
+  folder.write("000001/gray/000000.png", "no image");
+  const BopScene scene = load_bop_scene(folder.path() / "000001");
+  std::vector<BopResult> starts{true_results(scene, 0)[0], true_results(scene, 1)[0]};
+  save_bop_results(starts, folder.path() / "starts.csv");
+  const fs::path out = folder.path() / "out";
+  const Outcome outcome = run_program(register_in(folder.path() / "000001", folder.path() / "starts.csv", out,
+                                                  {"--search-rotation", "0", "--no-overlays"}));
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_NE(outcome.err.find("000000.png"), std::string::npos) << outcome.err;
+  EXPECT_EQ(load_bop_results(out / "results.csv").size(), 1u);
+  EXPECT_TRUE(fs::exists(out / "000001_000001.json"));
+  EXPECT_FALSE(fs::exists(out / "000001_000000.json"));
+}
+
+struct Refused {
+  TemporaryFolder folder;
+  fs::path out = folder.path() / "out";
+  ~Refused() { EXPECT_FALSE(fs::exists(out)) << "something was written"; }
+
+  std::string starts(const BopResult& start) const {
+    save_bop_results({start}, folder.path() / "starts.csv");
+    return folder.path() / "starts.csv";
+  }
+};
+
+BopResult good_start() { return true_results(load_bop_scene(one_view()), 0)[0]; }
+
+TEST(Register, RefusesPosesThatDoNotFit) {
+  const Refused t;
+  expect_refused(register_in(one_view(), t.folder.path() / "none.csv", t.out), {"none.csv"});
+  expect_refused(register_in(one_view(), t.folder.write("cut.json", "[{\"image\": 0"), t.out), {"cut.json"});
+  expect_refused(register_in(one_view(), t.folder.write("empty.json", "[]"), t.out),
+                 {"empty.json", "poses", "none"});
+  expect_refused(register_in(one_view(), t.folder.write("field.json", "[{\"image\": 0}]"), t.out),
+                 {"field.json", "object"});
+  BopResult start = good_start();
+  start.image_id = 7;
+  expect_refused(register_in(one_view(), t.starts(start), t.out), {"starts.csv", "image 7"});
+  start = good_start();
+  start.object_id = 9;
+  expect_refused(register_in(one_view(), t.starts(start), t.out), {"starts.csv", "object", "9"});
+  start = good_start();
+  start.camera_from_object.translation_m.z() *= -1;
+  expect_refused(register_in(one_view(), t.starts(start), t.out), {"starts.csv", "behind the camera"});
+  start = good_start();
+  start.scene_id = 1;
+  expect_refused(register_in(one_view(), t.starts(start), t.out), {"starts.csv", "other scenes"});
+  expect_refused(register_in(two_views() / "gray/000000.png", t.starts(start), t.out, {"--multi-view"}),
+                 {"000000.png", "world pose"});
+}
+
+TEST(Register, RefusesOptionsDevicesAndFolders) {
+  const Refused t;
+  const std::string starts = t.starts(good_start());
+  expect_refused(register_in(one_view(), starts, t.out, {"--search-rotation", "1.5"}),
+                 {"--search-rotation", "1.5", "0 to 1"});
+  expect_refused(register_in(one_view(), starts, t.out, {"--bins", "61"}), {"bins", "61"});
+  expect_refused(register_in(one_view(), starts, "/proc/out"), {"/proc/out"});
+  expect_refused(register_in(one_view() / "gray/000000.png", starts, t.out), {"000000.png", "camera"});
+  const std::string no_drivers = "VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent";
+  expect_refused(joined({{"register", one_view(), "--poses", starts, "--out", t.out, "--device", "vulkan"},
+                         part_models()}),
+                 {"device", "vulkan"}, no_drivers);
+  expect_refused({"register", one_view(), "--poses", starts, "--out", t.out}, {"--model", "neither"});
+}
+
+TEST(Register, RefusesTheOnlyImageWhereItIsBad) {
+  const Refused t;
+  fs::copy(one_view(), t.folder.path() / "000000", fs::copy_options::recursive);
+  t.folder.write("000000/gray/000000.png", "no image");
+  expect_refused(
+      register_in(t.folder.path() / "000000", t.starts(good_start()), t.out, {"--log-level", "error"}),
+      {"000000.png"});
+}
+
+}  // namespace
+}  // namespace edgescout::test
