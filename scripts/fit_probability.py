@@ -1,0 +1,120 @@
+#!/usr/bin/python3
+"""Fits the logistic function behind Detection::probability (host/detect/probability.cpp) and prints its reliability.
+
+    edgescout render --part l_bracket bearing_block u_channel --scenes 8 --objects 6 --clutter 1 --pile 0.4 \\
+        --width 800 --height 600 --focal 950 --min-distance 0.35 --max-distance 0.6 --seed 500 --out FIT
+    edgescout detect FIT --model FIT/models/*.ply --unit mm --models-info FIT/models/models_info.json \\
+        --distance-min 0.33 --distance-max 0.66 --min-probability 0 --max-spent 1 --second-look 0 --no-overlays --out FIT_RESULTS
+    scripts/fit_probability.py FIT FIT_RESULTS
+
+A candidate is right when the corners of its bounding box project within 10 px of those of a true instance, modulo
+symmetry. Features: Psi, mean DCD (px) and matched fraction, as written into the result files.
+"""
+import json
+import sys
+from pathlib import Path
+
+import numpy as np
+
+RIGHT_PX = 10
+
+
+def rotation_about(axis, angle):
+    axis = axis / np.linalg.norm(axis)
+    cross = np.cross(np.eye(3), -axis)
+    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+
+def symmetries(info):
+    """4x4 transforms in metres."""
+    result = [np.eye(4)]
+    for flat in info.get("symmetries_discrete", []):
+        transform = np.array(flat, float).reshape(4, 4)
+        transform[:3, 3] /= 1000
+        result.append(transform)
+    turns = []
+    for s in info.get("symmetries_continuous", []):
+        for k in range(64):
+            transform = np.eye(4)
+            transform[:3, :3] = rotation_about(np.array(s["axis"], float), 2 * np.pi * k / 64)
+            offset = np.array(s["offset"], float) / 1000
+            transform[:3, 3] = offset - transform[:3, :3] @ offset
+            turns.append(transform)
+    return [t @ d for d in result for t in turns] if turns else result
+
+
+def box_corners(info):
+    low = np.array([info["min_x"], info["min_y"], info["min_z"]]) / 1000
+    size = np.array([info["size_x"], info["size_y"], info["size_z"]]) / 1000
+    return np.array([low + size * [i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)])
+
+
+def project(camera, rotation, translation, points):
+    x = points @ rotation.T + translation
+    return np.stack([camera[0] * x[:, 0] / x[:, 2] + camera[2], camera[1] * x[:, 1] / x[:, 2] + camera[3]], 1)
+
+
+def load_candidates(scenes, results):
+    """Rows of features and labels."""
+    models = json.loads((scenes / "models" / "models_info.json").read_text())
+    features, labels = [], []
+    for file in sorted(results.glob("*.json")):
+        result = json.loads(file.read_text())
+        if "detections" not in result:
+            continue
+        folder = Path(result["image"]).parent.parent
+        truth = json.loads((folder / "scene_gt.json").read_text())[str(result["image_id"])]
+        k = json.loads((folder / "scene_camera.json").read_text())[str(result["image_id"])]["cam_K"]
+        camera = (k[0], k[4], k[2], k[5])
+        for d in result["detections"]:
+            info = models[str(d["object_id"])]
+            corners = box_corners(info)
+            pose = d["camera_from_object"]
+            seen = project(camera, np.array(pose["R"]).reshape(3, 3), np.array(pose["t"]), corners)
+            error = np.inf
+            for t in truth:
+                if t["obj_id"] != d["object_id"]:
+                    continue
+                rotation, translation = np.array(t["cam_R_m2c"]).reshape(3, 3), np.array(t["cam_t_m2c"]) / 1000
+                for s in symmetries(info):
+                    there = project(camera, rotation, translation, corners @ s[:3, :3].T + s[:3, 3])
+                    error = min(error, np.abs(np.linalg.norm(there - seen, axis=1)).max())
+            features.append([1, d["psi"], d["cost_px"], d["visible_fraction"]])
+            labels.append(error < RIGHT_PX)
+    return np.array(features), np.array(labels, float)
+
+
+def fit_logistic(x, y, ridge=1e-2):
+    """Newton's method with a little ridge on standardised features (not on the bias)."""
+    mean, scale = x.mean(0), x.std(0)
+    mean[0], scale[0] = 0, 1
+    z = (x - mean) / scale
+    w = np.zeros(x.shape[1])
+    penalty = ridge * np.eye(len(w))
+    penalty[0, 0] = 0
+    for _ in range(50):
+        p = 1 / (1 + np.exp(-z @ w))
+        step = np.linalg.solve(z.T @ (z * (p * (1 - p))[:, None]) + penalty, z.T @ (y - p) - penalty @ w)
+        w += step
+        if np.abs(step).max() < 1e-9:
+            break
+    weights = w / scale
+    weights[0] = w[0] - (w[1:] * mean[1:] / scale[1:]).sum()
+    return weights
+
+
+def main():
+    x, y = load_candidates(Path(sys.argv[1]), Path(sys.argv[2]))
+    w = fit_logistic(x, y)
+    p = 1 / (1 + np.exp(-x @ w))
+    print(f"{len(y)} candidates, {int(y.sum())} right")
+    print("bias %.3f  psi %.3f  mean_px %.4f  matched %.3f" % tuple(w))
+    print("predicted    candidates  right")
+    for low in np.arange(0, 1, 0.1):
+        inside = (p >= low) & (p < low + 0.1 + 1e-9)
+        if inside.any():
+            print(f"{low:.1f} .. {low + 0.1:.1f}   {inside.sum():10d}  {y[inside].mean():.2f}")
+
+
+if __name__ == "__main__":
+    main()
