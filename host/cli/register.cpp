@@ -29,6 +29,10 @@ std::vector<RegisterModel> load_models(const RegisterRequest& request) {
   std::vector<RegisterModel> models;
   for (const std::string& file : request.template_files) {
     TemplateSet set = load_templates(file);
+    for (const RegisterModel& known : models)
+      if (known.object_id == set.object_id)
+        throw InputError(file, "object id", std::to_string(set.object_id) + " twice",
+                         "templates of different objects");
     models.push_back({set.object_id, std::move(set.model)});
   }
   if (!models.empty()) return models;
@@ -52,8 +56,9 @@ int register_all(RegisterRequest& request) {
   const std::vector<InputImage> images = list_images(request.inputs);
   const std::vector<RegisterJob> jobs = make_jobs(images, models, poses, request.multi_view, request.poses);
   const RegisterSummary summary = run_register(jobs, models, *backend, options);
-  std::cout << fmt::format("{} poses in {} images refined on {}, {} images failed; results in {}\n", summary.poses,
-                           summary.done, backend->name(), summary.images - summary.done, request.out);
+  std::cout << fmt::format("{} poses in {} images refined on {}, {} images failed; results in {}\n",
+                           summary.poses, summary.done, backend->name(), summary.images - summary.done,
+                           request.out);
   return summary.failures.empty() ? exit_done : exit_some_failed;
 }
 

@@ -111,6 +111,8 @@ TEST(Templates, DamagedFilesAreRefused) {
   refused(folder.write("version.est", version), {"version.est", "version", "expected 1"});
   refused(folder.write("sum.est", payload), {"sum.est", "checksum"});
   refused(folder.path() / "none.est", {"none.est", "No such file"});
+  expect_refused({"register", one_view(), "--poses", starts, "--templates", file, file, "--out", out},
+                 {"part.est", "object id", "2 twice"});
   EXPECT_FALSE(fs::exists(out));
 }
 
