@@ -30,8 +30,6 @@ struct Group {
 std::vector<Group> group_images(std::span<const InputImage> images, bool joint) {
   std::vector<Group> groups;
   for (const InputImage& image : images) {
-    if (joint && !image.camera_from_world)
-      throw InputError(image.file.string(), "world pose", "none", "cam_R_w2c and cam_t_w2c of every view with --joint");
     const bool same_scene = joint && !groups.empty() && groups.back().images[0]->scene_id == image.scene_id &&
                             groups.back().images[0]->file.parent_path() == image.file.parent_path();
     if (!same_scene) groups.emplace_back();
@@ -124,11 +122,11 @@ bool is_done(const Group& group, const BatchOptions& options) {
   return true;
 }
 
-// Of this run and, after a resume, of those before it: the JSON files are the memory.
-void write_csv(std::span<const InputImage> images, const BatchOptions& options) {
+// Of this run and, after a resume, of those before it: the JSON files are the memory. Of an image that failed now an older result is not listed.
+void write_csv(std::span<const InputImage> images, const BatchSummary& summary, const BatchOptions& options) {
   std::vector<BopResult> rows;
   for (const InputImage& input : images) {
-    if (!std::filesystem::exists(json_of(options, input))) continue;
+    if (summary.failures.contains(input.file.string()) || !std::filesystem::exists(json_of(options, input))) continue;
     const ImageResult result = load_image_result(json_of(options, input));
     double seconds = 0;
     for (const StageSeconds& stage : result.stages) seconds += stage.seconds;
@@ -149,57 +147,98 @@ void write_summary(const BatchSummary& summary, const std::map<std::string, doub
   write_file_atomically(options.out / "summary.json", json.dump(2) + "\n");
 }
 
-}  // namespace
-
-BatchSummary run_batch(std::span<const InputImage> images, std::span<const TemplateSet> sets, Backend& backend, const BatchOptions& options) {
-  const auto start = Clock::now();
-  require_writable_folder(options.out);
-  BatchSummary summary;
-  summary.images = static_cast<int>(images.size());
-  std::vector<Group> open;
-  for (Group& group : group_images(images, options.joint)) {
-    if (options.resume && is_done(group, options))
-      summary.skipped += static_cast<int>(group.images.size());
-    else
-      open.push_back(std::move(group));
+// The batch behind the preparation: device work group by group.
+class Detector {
+ public:
+  Detector(std::span<const TemplateSet> sets, Backend& backend, const BatchOptions& options) : sets_(sets), backend_(backend), options_(options) {
+    for (const TemplateSet& set : sets) models_.push_back(set.model);
   }
-  std::vector<EdgeModel> models;
-  for (const TemplateSet& set : sets) models.push_back(set.model);
-  Preparer preparer(options);
+  void work_on(const Group& group, Prepared prepared) {
+    Group good;
+    std::vector<PreparedImage> usable;
+    for (std::size_t i = 0; i < prepared.images.size(); ++i) {
+      if (!prepared.failures[i].empty()) {
+        list_failure(*group.images[i], prepared.failures[i]);
+        continue;
+      }
+      good.images.push_back(group.images[i]);
+      usable.push_back(std::move(prepared.images[i]));
+    }
+    if (usable.empty()) return;
+    Detections found;
+    try {
+      found = options_.joint ? detect_jointly(usable, sets_, backend_, options_.pipeline) : detect_objects(usable[0], sets_, backend_, options_.pipeline);
+    } catch (const InputError& error) {  // an image too large for the device
+      for (const InputImage* input : good.images) list_failure(*input, input->file.string() + ": " + error.what());
+      return;
+    }
+    for (const StageSeconds& stage : found.stages) stage_seconds[stage.name] += stage.seconds;
+    for (std::size_t i = 0; i < usable.size(); ++i) {
+      if (options_.overlays) write_overlay(*good.images[i], usable[i], found, models_, backend_, options_);
+      save_image_result(result_of(*good.images[i], usable[i], found, sets_, backend_, options_.joint), json_of(options_, *good.images[i]));
+      ++summary.done;
+    }
+  }
+
+  BatchSummary summary;
   std::map<std::string, double> stage_seconds;
+
+ private:
+  void list_failure(const InputImage& input, const std::string& message) {
+    summary.failures[input.file.string()] = message;
+    log(LogLevel::Warning, message);
+  }
+
+  std::span<const TemplateSet> sets_;
+  Backend& backend_;
+  const BatchOptions& options_;
+  std::vector<EdgeModel> models_;
+};
+
+void work_through(const std::vector<Group>& open, Preparer& preparer, Detector& detector) {
   Progress progress("detect", open.size(), std::cerr, stderr_is_terminal());
   std::future<Prepared> next;
   if (!open.empty()) next = std::async(std::launch::async, [&] { return preparer.prepare(open[0]); });
   for (std::size_t g = 0; g < open.size(); ++g) {
     Prepared prepared = next.get();
     if (g + 1 < open.size()) next = std::async(std::launch::async, [&, g] { return preparer.prepare(open[g + 1]); });
-    Group good;
-    std::vector<PreparedImage> usable;
-    for (std::size_t i = 0; i < prepared.images.size(); ++i) {
-      const InputImage& input = *open[g].images[i];
-      if (!prepared.failures[i].empty()) {
-        summary.failures[input.file.string()] = prepared.failures[i];
-        log(LogLevel::Warning, prepared.failures[i]);
-        continue;
-      }
-      good.images.push_back(&input);
-      usable.push_back(std::move(prepared.images[i]));
-    }
-    if (!usable.empty()) {
-      const Detections found = options.joint ? detect_jointly(usable, sets, backend, options.pipeline)
-                                             : detect_objects(usable[0], sets, backend, options.pipeline);
-      for (const StageSeconds& stage : found.stages) stage_seconds[stage.name] += stage.seconds;
-      for (std::size_t i = 0; i < usable.size(); ++i) {
-        if (options.overlays) write_overlay(*good.images[i], usable[i], found, models, backend, options);
-        save_image_result(result_of(*good.images[i], usable[i], found, sets, backend, options.joint), json_of(options, *good.images[i]));
-        ++summary.done;
-      }
-    }
+    detector.work_on(open[g], std::move(prepared));
     progress.step();
   }
+}
+
+}  // namespace
+
+void require_world_poses(std::span<const InputImage> images) {
+  for (const InputImage& image : images)
+    if (!image.camera_from_world) throw InputError(image.file.string(), "world pose", "none", "cam_R_w2c and cam_t_w2c of every view with --joint");
+}
+
+BatchSummary run_batch(std::span<const InputImage> images, std::span<const TemplateSet> sets, Backend& backend, const BatchOptions& options) {
+  const auto start = Clock::now();
+  if (options.joint) require_world_poses(images);
+  std::vector<Group> groups = group_images(images, options.joint);
+  Preparer preparer(options);
+  require_writable_folder(options.out);
+  Detector detector(sets, backend, options);
+  BatchSummary& summary = detector.summary;
+  summary.images = static_cast<int>(images.size());
+  std::vector<Group> open;
+  for (Group& group : groups) {
+    if (options.resume && is_done(group, options))
+      summary.skipped += static_cast<int>(group.images.size());
+    else
+      open.push_back(std::move(group));
+  }
+  try {
+    work_through(open, preparer, detector);
+  } catch (const GpuError&) {
+    write_csv(images, summary, options);  // of what was finished
+    throw;
+  }
   summary.seconds = seconds_since(start);
-  write_csv(images, options);
-  write_summary(summary, stage_seconds, backend, options);
+  write_csv(images, summary, options);
+  write_summary(summary, detector.stage_seconds, backend, options);
   return summary;
 }
 

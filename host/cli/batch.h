@@ -28,7 +28,11 @@ struct BatchSummary {
   double seconds = 0;
 };
 
-// Writes into `out`: NAME.json and NAME_overlay.png an image, results.csv (BOP) and summary.json. A bad image is listed and the batch goes on; a GpuError ends it.
+// InputError naming the first image without a world pose: what `joint` asks for.
+void require_world_poses(std::span<const InputImage> images);
+
+// Writes into `out`: NAME.json and NAME_overlay.png an image, results.csv (BOP) and summary.json. A bad image is listed and the batch goes on;
+// a GpuError ends it, and results.csv holds what was finished.
 BatchSummary run_batch(std::span<const InputImage> images, std::span<const TemplateSet> sets, Backend& backend, const BatchOptions& options);
 
 }  // namespace edgescout

@@ -27,15 +27,16 @@ struct DetectRequest {
   BatchOptions batch;
 };
 
-// The camera that default distances are taken from: the one given, or the first image's.
+// The camera that default distances are taken from: that of the first image that can be used. Where none can, the last one's error.
 Camera first_camera(const DetectRequest& request, std::span<const InputImage> images) {
+  std::optional<Camera> given;
+  if (!request.batch.camera_file.empty()) given = load_camera(request.batch.camera_file);
   for (const InputImage& input : images) {
+    if (!given && !input.camera) throw InputError(input.file.string(), "camera", "none", "--camera FILE");
     try {
       const Image image = load_image(input.file);
-      if (!request.batch.camera_file.empty())
-        return camera_for_image(load_camera(request.batch.camera_file), image.width, image.height, request.batch.scale_camera, request.batch.camera_file);
-      if (!input.camera) throw InputError(input.file.string(), "camera", "none", "--camera FILE");
-      return camera_for_image(*input.camera, image.width, image.height, request.batch.scale_camera, input.file.string());
+      const std::string source = given ? request.batch.camera_file : input.file.string();
+      return camera_for_image(given ? *given : *input.camera, image.width, image.height, request.batch.scale_camera, source);
     } catch (const InputError&) {
       if (&input == &images.back()) throw;
     }
@@ -43,14 +44,27 @@ Camera first_camera(const DetectRequest& request, std::span<const InputImage> im
   throw InputError("command line", "inputs", "no image", "at least one");
 }
 
+std::vector<TemplateSet> loaded_sets(const std::vector<std::string>& files) {
+  std::vector<TemplateSet> sets;
+  for (const std::string& file : files) {
+    sets.push_back(load_templates(file));
+    for (std::size_t i = 0; i + 1 < sets.size(); ++i)
+      if (sets[i].object_id == sets.back().object_id)
+        throw InputError(file, "object id", fmt::format("{} twice", sets[i].object_id), "ids that differ: give model build --object-id");
+  }
+  return sets;
+}
+
+// What can be judged without work is judged first: nothing is written for a request that cannot be met.
 std::vector<TemplateSet> template_sets(const DetectRequest& request, std::span<const InputImage> images, Backend& backend) {
   if (request.models.models.empty() == request.template_files.empty())
     throw InputError("command line", "--model, --templates", request.models.models.empty() ? "neither" : "both", "one of the two");
-  std::vector<TemplateSet> sets;
-  for (const std::string& file : request.template_files) sets.push_back(load_templates(file));
-  if (!sets.empty()) return sets;
-  const std::vector<Object> objects = load_objects(request.models);
+  std::vector<TemplateSet> sets = loaded_sets(request.template_files);
+  std::vector<Object> objects;
+  if (sets.empty()) objects = load_objects(request.models);
   const Camera camera = first_camera(request, images);
+  if (request.batch.joint) require_world_poses(images);
+  require_writable_folder(request.batch.out);
   for (const Object& object : objects) {
     const TemplateOptions options = with_default_distances(request.templates, object.mesh.diameter_m, camera);
     Progress progress("templates of " + object.mesh.name, 100, std::cerr, stderr_is_terminal());
