@@ -56,9 +56,11 @@ void add_folder(const fs::path& folder, std::vector<InputImage>& images) {
 }
 
 void make_names_unique(std::vector<InputImage>& images) {
-  std::map<std::string, int> seen;
-  for (InputImage& image : images)
-    if (const int times = ++seen[image.name]; times > 1) image.name += fmt::format("_{}", times);
+  std::set<std::string> taken{"summary"};  // the batch's own file
+  for (InputImage& image : images) {
+    const std::string name = image.name;
+    for (int times = 2; !taken.insert(image.name).second; ++times) image.name = fmt::format("{}_{}", name, times);
+  }
 }
 
 int id_in_name(const std::string& file, int otherwise) {
