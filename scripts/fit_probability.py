@@ -1,11 +1,17 @@
 #!/usr/bin/python3
 """Fits the logistic function behind Detection::probability (host/detect/probability.cpp) and prints its reliability.
 
-    edgescout render --part l_bracket bearing_block u_channel --scenes 8 --objects 6 --clutter 1 --pile 0.4 \\
-        --width 800 --height 600 --focal 950 --min-distance 0.35 --max-distance 0.6 --seed 500 --out FIT
-    edgescout detect FIT --model FIT/models/*.ply --unit mm --models-info FIT/models/models_info.json \\
-        --distance-min 0.33 --distance-max 0.66 --min-probability 0 --max-spent 1 --second-look 0 --no-overlays --out FIT_RESULTS
-    scripts/fit_probability.py FIT FIT_RESULTS
+    PARTS="l_bracket bearing_block u_channel"
+    edgescout render --part $PARTS --scenes 8 --objects 6 --clutter 1 --pile 0.4 --width 800 --height 600 --focal 950 \\
+        --min-distance 0.35 --max-distance 0.6 --seed 500 --out A
+    edgescout render --part $PARTS --scenes 8 --objects 5 --clutter 1 --pile 0.4 --width 640 --height 480 --focal 800 \\
+        --min-distance 0.4 --max-distance 0.7 --seed 900 --blur 1.4 --noise 3 --out B
+    ALL="--min-probability 0 --max-spent 1 --second-look 0 --no-overlays"
+    edgescout detect A --model A/models/*.ply --unit mm --models-info A/models/models_info.json \\
+        --distance-min 0.33 --distance-max 0.66 $ALL --out A_RESULTS
+    edgescout detect B --model B/models/*.ply --unit mm --models-info B/models/models_info.json \\
+        --distance-min 0.36 --distance-max 0.72 --candidates 120 $ALL --out B_RESULTS
+    scripts/fit_probability.py A A_RESULTS B B_RESULTS
 
 A candidate is right when the corners of its bounding box project within 10 px of those of a true instance, modulo
 symmetry. Features: Psi, mean DCD (px) and matched fraction, as written into the result files.
@@ -84,7 +90,7 @@ def load_candidates(scenes, results):
     return np.array(features), np.array(labels, float)
 
 
-def fit_logistic(x, y, ridge=1e-2):
+def fit_logistic(x, y, ridge=5):
     """Newton's method with a little ridge on standardised features (not on the bias)."""
     mean, scale = x.mean(0), x.std(0)
     mean[0], scale[0] = 0, 1
@@ -103,9 +109,25 @@ def fit_logistic(x, y, ridge=1e-2):
     return weights
 
 
+def fit_monotone(x, y):
+    """Closer edges and more matches must never lower the probability: a weight of the wrong sign (the features go
+    together) is fixed at zero and the others are fitted anew."""
+    signs = np.array([0, 1, -1, 1])
+    used = np.ones(4, bool)
+    while True:
+        w = np.zeros(4)
+        w[used] = fit_logistic(x[:, used], y)
+        wrong = used & (w * signs < 0)
+        if not wrong.any():
+            return w
+        used &= ~wrong
+
+
 def main():
-    x, y = load_candidates(Path(sys.argv[1]), Path(sys.argv[2]))
-    w = fit_logistic(x, y)
+    folders = [Path(argument) for argument in sys.argv[1:]]
+    sets = [load_candidates(scenes, results) for scenes, results in zip(folders[::2], folders[1::2])]
+    x, y = (np.concatenate(part) for part in zip(*sets))
+    w = fit_monotone(x, y)
     p = 1 / (1 + np.exp(-x @ w))
     print(f"{len(y)} candidates, {int(y.sum())} right")
     print("bias %.3f  psi %.3f  mean_px %.4f  matched %.3f" % tuple(w))

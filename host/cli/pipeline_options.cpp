@@ -22,7 +22,7 @@ void add_detection_options(CLI::App& verb, PipelineOptions& o) {
   OptionTable(verb, "Detection")
       .bounded("template-points", d.scan.points, 4, 256, "Of each template in the scan")
       .bounded("anchor-step", d.scan.anchor_step, 1, 16, "Between places of the scan, coarse px")
-      .bounded("rescored", d.rescored, 1, 10000000, "Scan hits looked at in full resolution")
+      .bounded("scan-hits", d.scan.kept, 1, 10000000, "Looked at in full resolution")
       .bounded("aligned", d.aligned, 1, 1000000, "Hits aligned on the coarse tensor")
       .bounded("candidates", d.candidates, 1, 100000, "Candidates registered in full")
       .bounded("second-look", d.second_look_rad, 0.0, 1.0, "Turned starts around what was chosen, rad; 0: none")

@@ -63,7 +63,7 @@ struct Workspace {
 };
 
 void scan_region(const TemplateSet& set, const Numbering& numbering, const Region& region, const Observation& observation, Backend& backend,
-                 const ScanOptions& options, Workspace& work, std::vector<ScanHit>& found) {
+                 const ScanOptions& options, std::size_t most, Workspace& work, std::vector<ScanHit>& found) {
   const std::size_t templates = set.views.size() * numbering.steps * numbering.distances.size();
   work.points.resize(templates * options.points);
   work.jobs.resize(templates);
@@ -85,7 +85,7 @@ void scan_region(const TemplateSet& set, const Numbering& numbering, const Regio
   const auto mean = [&](std::size_t t) { return double(work.hits[t].sum) / (4.0 * work.jobs[t].point_count); };
   std::vector<std::size_t> order(templates);
   for (std::size_t t = 0; t < templates; ++t) order[t] = t;
-  const std::size_t kept = std::min<std::size_t>(options.kept_per_region, templates);
+  const std::size_t kept = std::min(most, templates);
   std::partial_sort(order.begin(), order.begin() + kept, order.end(), [&](std::size_t a, std::size_t b) {
     const double ma = mean(a), mb = mean(b);
     return ma != mb ? ma < mb : a < b;
@@ -114,8 +114,9 @@ std::vector<ScanHit> coarse_scan(const TemplateSet& set, const Observation& obse
   const Numbering numbering{set.options.in_plane_steps, template_distances_m(set.options)};
   std::vector<ScanHit> found;
   Workspace work;
-  for (const Region& region : cut_into_regions(observation.coarse_camera, options))
-    scan_region(set, numbering, region, observation, backend, options, work, found);
+  const std::vector<Region> regions = cut_into_regions(observation.coarse_camera, options);
+  const std::size_t share = (options.kept + regions.size() - 1) / regions.size();
+  for (const Region& region : regions) scan_region(set, numbering, region, observation, backend, options, share, work, found);
   return found;
 }
 

@@ -14,7 +14,7 @@ struct ScanOptions {
   int anchor_step = 2;      // coarse pixels between places
   int region_columns = 32;  // anchors for which one projection of a template holds
   int region_rows = 16;
-  int kept_per_region = 300;
+  int kept = 10000;         // hits, shared evenly among the regions: texture must not crowd out the rest of the image
 };
 
 // One template at one place.

@@ -75,8 +75,7 @@ void DetectOptions::validate() const {
   };
   in("template_points", scan.points, 4, TEMPLATE_SCORE_MAX_POINTS);
   in("anchor_step", scan.anchor_step, 1, 16);
-  in("kept_per_region", scan.kept_per_region, 1, 1e6);
-  in("rescored", rescored, 1, 1e7);
+  in("scan_hits", scan.kept, 1, 1e7);
   in("aligned", aligned, 1, 1e6);
   in("candidates", candidates, 1, 1e5);
   in("min_probability", min_probability, 0, 1);
@@ -107,11 +106,7 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
   std::vector<RegisterView> coarse = full;
   coarse[0].view = observation.view.coarse;
 
-  std::vector<ScanHit> hits = coarse_scan(set, observation, backend, options.scan);
-  const std::size_t rescored = std::min<std::size_t>(options.rescored, hits.size());
-  std::ranges::nth_element(hits, hits.begin() + rescored, {}, &ScanHit::mean_px);
-  hits.resize(rescored);
-
+  const std::vector<ScanHit> hits = coarse_scan(set, observation, backend, options.scan);
   const std::vector<PoseScore> scores = rescore(set, hits, observation, backend, options.refine.score);
   std::vector<Se3> poses;
   for (const ScanHit& hit : hits) poses.push_back(hit.camera_from_object);

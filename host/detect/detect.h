@@ -12,8 +12,7 @@ namespace edgescout {
 
 struct DetectOptions {
   ScanOptions scan;
-  int rescored = 3000;      // scan hits looked at with all their points
-  int aligned = 500;        // different ones among them that are aligned on the coarse tensor
+  int aligned = 500;        // different ones among the scan's hits that are aligned on the coarse tensor
   int candidates = 60;      // different ones among those that are registered in full (the paper's object candidates)
   RefineOptions refine = refine_defaults();
   EvidenceOptions evidence;
