@@ -1,0 +1,137 @@
+// A batch whose device fails on the way.
+#include "host/cli/batch.h"
+
+#include <gtest/gtest.h>
+
+#include "host/io/results.h"
+#include "kernels/error.h"
+#include "tests/cli/small_scene.h"
+#include "tests/io/expect_input_error.h"
+
+namespace edgescout::test {
+namespace {
+
+// The fast CPU path, until a given view is made.
+class FailingBackend : public Backend {
+ public:
+  FailingBackend(int good_views, std::function<void()> failure)
+      : good_views_(good_views), failure_(std::move(failure)) {}
+  std::string name() const override { return "failing"; }
+  bool is_gpu() const override { return true; }
+  std::vector<EdgePoint> detect_edges(const ImageView& image, const EdgeOptions& options) override {
+    return cpu_->detect_edges(image, options);
+  }
+  ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height, const ImageView& image,
+                       const Intrinsics& intrinsics, const TensorOptions& options) override {
+    if (made_++ == good_views_) failure_();
+    return cpu_->make_view(edges, width, height, image, intrinsics, options);
+  }
+  void template_score(const BackendView& view, std::span<const TemplatePoint> points,
+                      std::span<const TemplateJob> jobs, int anchor_step,
+                      std::span<TemplateHit> hits) override {
+    cpu_->template_score(view, points, jobs, anchor_step, hits);
+  }
+  void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
+                             std::span<const PoseProblem> problems, const PoseLoss& loss,
+                             std::span<NormalEquations> out) override {
+    cpu_->pose_normal_equations(views, points, problems, loss, out);
+  }
+  void pose_score(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
+                  std::span<const PoseProblem> problems, const PoseScoreOptions& options,
+                  std::span<PoseScore> out) override {
+    cpu_->pose_score(views, points, problems, options, out);
+  }
+  void depth_raster(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
+                    std::span<float> depth) override {
+    cpu_->depth_raster(mesh, jobs, width, height, depth);
+  }
+  ThreadPool& threads() override { return cpu_->threads(); }
+
+ private:
+  std::unique_ptr<Backend> cpu_ = make_cpu_backend(2);
+  int made_ = 0, good_views_;
+  std::function<void()> failure_;
+};
+
+constexpr int views_per_image = 2;  // the full tensor and the coarse one
+
+struct Batch : SmallScene {
+  std::vector<InputImage> images;
+  std::vector<TemplateSet> sets;
+  BatchOptions options;
+
+  Batch() : SmallScene(3) {
+    images = list_images({scene});
+    TemplateOptions templates;
+    templates.frequency = 2;
+    templates.in_plane_steps = 8;
+    templates.distance_min_m = templates.distance_max_m = 0.3;
+    sets.push_back(build_templates(make_part("l_bracket"), templates, *make_cpu_backend(2)));
+    options.out = out;
+    options.pipeline.detect.min_probability = 0.1;
+    options.pipeline.detect.candidates = 10;
+  }
+  fs::path json(int i) const { return out / ("000003_00000" + std::to_string(i) + ".json"); }
+  std::set<int> listed() const {
+    std::set<int> ids;
+    for (const BopResult& row : load_bop_results(out / "results.csv")) ids.insert(row.image_id);
+    return ids;
+  }
+};
+
+TEST(RunBatch, KeepsWhatWasFinishedWhenTheDeviceIsLost) {
+  const Batch t;
+  FailingBackend backend(views_per_image, [] { throw GpuError("make_view: VK_ERROR_DEVICE_LOST"); });
+  EXPECT_THROW(run_batch(t.images, t.sets, backend, t.options), GpuError);
+  EXPECT_EQ(load_image_result(t.json(0)).device, "failing");
+  EXPECT_FALSE(fs::exists(t.json(1)) || fs::exists(t.json(2)));
+  EXPECT_EQ(t.listed(), std::set<int>{0});
+  BatchOptions again = t.options;
+  again.resume = true;
+  const BatchSummary summary = run_batch(t.images, t.sets, *make_cpu_backend(2), again);
+  EXPECT_EQ(summary.skipped, 1);
+  EXPECT_EQ(summary.done, 2);
+  EXPECT_EQ(t.listed(), (std::set<int>{0, 1, 2}));
+}
+
+TEST(RunBatch, GoesOnPastAnImageTheDeviceRefuses) {
+  const Batch t;
+  FailingBackend backend(views_per_image, [] { throw InputError("image", "size", "320x240", "less"); });
+  const BatchSummary summary = run_batch(t.images, t.sets, backend, t.options);
+  EXPECT_EQ(summary.done, 2);
+  ASSERT_EQ(summary.failures.size(), 1u);
+  EXPECT_EQ(summary.failures.begin()->first, t.image(1).string());
+  EXPECT_NE(summary.failures.begin()->second.find("000001.png: image: size"), std::string::npos);
+  EXPECT_EQ(t.listed(), (std::set<int>{0, 2}));
+}
+
+TEST(RunBatch, OurOwnBugsEndIt) {
+  const Batch t;
+  FailingBackend backend(0, [] { throw LogicError("bug"); });
+  EXPECT_THROW(run_batch(t.images, t.sets, backend, t.options), LogicError);
+}
+
+TEST(RunBatch, JoinsOnlyViewsOfKnownPlace) {
+  Batch t;
+  t.images[1].camera_from_world.reset();
+  t.options.joint = true;
+  expect_input_error([&] { run_batch(t.images, t.sets, *make_cpu_backend(1), t.options); },
+                     {"000001.png", "world pose", "--joint"});
+  EXPECT_FALSE(fs::exists(t.out));
+}
+
+TEST(ListImages, GivesEveryImageANameOfItsOwn) {
+  const TemporaryFolder folder;
+  for (const char* file : {"one/a.png", "two/a.png", "one/a_2.png", "one/summary.png"})
+    folder.write(file, "");
+  const std::string root = folder.path();
+  const std::vector<InputImage> images =
+      list_images({root + "/one/a.png", root + "/two/a.png", root + "/one"});
+  std::set<std::string> names{"summary"};  // the batch's own file
+  for (const InputImage& image : images) EXPECT_TRUE(names.insert(image.name).second) << image.name;
+  EXPECT_EQ(images.size(), 5u);
+  EXPECT_EQ(images[0].name, "a");
+}
+
+}  // namespace
+}  // namespace edgescout::test

@@ -1,0 +1,56 @@
+// A rendered BOP scene of one part, small enough to detect in within a second.
+#pragma once
+
+#include "host/io/image.h"
+#include "host/render/parts.h"
+#include "host/render/write_bop.h"
+#include "kernels/thread_pool.h"
+#include "tests/cli/example_scene.h"
+
+namespace edgescout::test {
+
+struct SmallScene {
+  TemporaryFolder folder;
+  fs::path scene = folder.path() / "000003";
+  fs::path out = folder.path() / "out";
+
+  explicit SmallScene(int views = 1) {
+    const std::vector<Object> parts{make_part("l_bracket")};
+    RenderOptions options;
+    options.width = 320;
+    options.height = 240;
+    options.focal_px = 400;
+    options.objects = 1;
+    options.views = views;
+    options.clutter = 0;
+    options.min_distance_m = options.max_distance_m = 0.3;
+    const Scene made = make_scene(parts, options);
+    ThreadPool pool(2);
+    write_bop_scene(made, render(made, pool), scene);
+  }
+
+  fs::path image(int index = 0) const { return scene / ("gray/00000" + std::to_string(index) + ".png"); }
+
+  // A ROS calibration of the scene's camera; the numbers may be replaced.
+  std::string camera(const std::string& fx = "400", int width = 320, int height = 240) const {
+    return folder.write("camera.yaml", "image_width: " + std::to_string(width) +
+                                           "\nimage_height: " + std::to_string(height) +
+                                           "\ncamera_matrix:\n  rows: 3\n  cols: 3\n  data: [" + fx +
+                                           ", 0, 159.5, 0, 400, 119.5, 0, 0, 1]\n");
+  }
+
+  // `edgescout detect INPUT`, with few templates.
+  std::vector<std::string> detect(const fs::path& input, const std::vector<std::string>& more = {}) const {
+    return joined({{"detect", input, "--out", out, "--device", "cpu"}, more});
+  }
+};
+
+// The part and the templates that detections of it are made with.
+inline std::vector<std::string> few_templates() {
+  return {"--viewpoints", "3", "--in-plane-steps", "12", "--distance-min", "0.27", "--distance-max", "0.33"};
+}
+inline std::vector<std::string> bracket() {
+  return joined({{"--model", part_file(1), "--unit", "mm"}, few_templates()});
+}
+
+}  // namespace edgescout::test
