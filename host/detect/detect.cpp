@@ -51,7 +51,10 @@ std::vector<PoseScore> rescore(const TemplateSet& set, std::span<const ScanHit> 
 
 // Before the visible points are known: the length of the template's edges in the image by their number, as if none were foreshortened.
 double rough_evidence(const PoseScore& score, const TemplateSet& set, const Se3& camera_from_object, double focal_px) {
-  return (score.psi - CHANCE_PSI) * score.points * set.model.raster_step_m * focal_px / (camera_from_object * set.model.center_m).z();
+  PoseFeatures features;
+  features.psi = score.psi;
+  features.length_px = score.points * set.model.raster_step_m * focal_px / (camera_from_object * set.model.center_m).z();
+  return evidence(features);
 }
 
 std::vector<Hypothesis> hypotheses_at(std::span<const Se3> poses, std::span<const std::size_t> chosen) {
@@ -123,7 +126,7 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
   const std::vector<PoseFeatures> aligned =
       pose_features(models, hypotheses_at(poses, all), full, backend, options.refine.score, options.refine.search.coarse.visibility);
   const std::vector<std::size_t> chosen = best_different(poses, set, 0.1 * diameter, options.candidates, [&](std::size_t i) {
-    return -evidence_px(aligned[i]);
+    return -evidence(aligned[i]);
   });
 
   const std::vector<Refined> refined = refine_poses(models, hypotheses_at(poses, chosen), full, backend, options.refine);

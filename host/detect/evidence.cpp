@@ -92,8 +92,8 @@ std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::sp
         open[p] = false;
         continue;
       }
-      const double evidence = fresh * evidence_px(features[p]);
-      if (evidence > best_evidence) best_evidence = evidence, best = p;
+      const double here = fresh * evidence(features[p]);
+      if (here > best_evidence) best_evidence = here, best = p;
     }
     if (best == poses.size()) return chosen;
     chosen.push_back({best, fresh_fraction(explained[best], spent)});

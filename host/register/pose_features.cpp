@@ -35,7 +35,11 @@ void add(PoseFeatures& sum, const PoseScore& score) {
 
 }  // namespace
 
-double evidence_px(const PoseFeatures& features) { return (features.psi - CHANCE_PSI) * features.length_px; }
+double evidence(const PoseFeatures& features) {
+  constexpr double spread = 0.308;        // of |cos| of unrelated directions
+  constexpr double independent_px = 5;    // neighbouring edge points agree or not together
+  return (features.psi - CHANCE_PSI) / spread * std::sqrt(features.length_px / independent_px);
+}
 
 std::vector<PoseFeatures> pose_features(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
                                         std::span<const RegisterView> views, Backend& backend, const PoseScoreOptions& options,

@@ -17,10 +17,11 @@ struct PoseFeatures {
   double in_image = 0;    // fraction of the visible points that project into the image
 };
 
-// How much a pose explains, px of edge: each visible edge contributes its length times its direction agreement in excess of chance. The mean alone
-// prefers small, simple views: two parallel lines match anywhere. (Unrelated directions have a mean |cos| of 2 / pi = 0.64.)
+// How far above chance the agreement is: psi's excess over that of unrelated directions (a mean |cos| of 2 / pi = 0.64), in units of its standard
+// error, which falls with the square root of the edge length seen. Psi alone prefers small, simple views (two parallel lines match anywhere); the
+// excess times the length prefers, of two poses of one object, the one that shows more edges.
 inline constexpr double CHANCE_PSI = 0.65;
-double evidence_px(const PoseFeatures& features);
+double evidence(const PoseFeatures& features);
 
 std::vector<PoseFeatures> pose_features(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
                                         std::span<const RegisterView> views, Backend& backend, const PoseScoreOptions& options,
