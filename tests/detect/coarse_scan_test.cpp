@@ -1,0 +1,180 @@
+#include "host/detect/coarse_scan.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/detect/part_image.h"
+#include "tests/test_random.h"
+
+namespace edgescout::test {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+TEST(PlaceTemplate, PutsTheCentreWhereItIsAskedFor) {
+  const auto backend = make_cpu_backend(1);
+  const TemplateSet set = part_templates("l_bracket", 1, 0.3, 0.3, *backend);
+  Random random = test_random();
+  for (int i = 0; i < 200; ++i) {
+    const TemplateView& view = set.views[random.below(int(set.views.size()))];
+    const Eigen::Vector2d pixel(random.uniform(0, 320), random.uniform(0, 240));
+    const double distance = random.uniform(0.2, 2);
+    const Se3 pose = place_template(set, view, random.uniform(0, 2 * pi), distance, pixel, small_camera());
+    const Eigen::Vector3d centre = pose * set.model.center_m;
+    EXPECT_NEAR(centre.norm(), distance, 1e-9);
+    EXPECT_LT((project(small_camera(), centre) - pixel).norm(), 1e-6);
+    EXPECT_NEAR(pose.rotation.norm(), 1, 1e-12);
+  }
+}
+
+// From wherever in the image, the object turns the same side to the camera: its visible points stay.
+TEST(PlaceTemplate, ShowsTheViewpointsSideEverywhere) {
+  const auto backend = make_cpu_backend(1);
+  const TemplateSet set = part_templates("l_bracket", 1, 0.3, 0.3, *backend);
+  Random random = test_random();
+  for (int i = 0; i < 200; ++i) {
+    const TemplateView& view = set.views[random.below(int(set.views.size()))];
+    const Se3 pose = place_template(set, view, random.uniform(0, 2 * pi), 0.3,
+                                    {random.uniform(0, 320), random.uniform(0, 240)}, small_camera());
+    const Eigen::Vector3d to_camera = inverse(pose) * Eigen::Vector3d::Zero() - set.model.center_m;
+    const Eigen::Vector3d of_view = view.camera_from_object.inverse() * -Eigen::Vector3d::UnitZ();
+    EXPECT_LT((to_camera.normalized() - of_view).norm(), 1e-9);
+  }
+}
+
+TEST(PlaceTemplate, TurnsAboutTheLineOfSight) {
+  const auto backend = make_cpu_backend(1);
+  const TemplateSet set = part_templates("l_bracket", 1, 0.3, 0.3, *backend);
+  const Eigen::Vector2d middle(159.5, 119.5);
+  const Se3 plain = place_template(set, set.views[0], 0, 0.3, middle, small_camera());
+  EXPECT_LT(plain.rotation.angularDistance(set.views[0].camera_from_object), 1e-7);
+  // x of the image towards y: clockwise as seen, since y points down.
+  const Se3 turned = place_template(set, set.views[0], pi / 2, 0.3, middle, small_camera());
+  const Eigen::Vector3d before = plain.rotation * Eigen::Vector3d(0.3, 0.5, 0.7),
+                        after = turned.rotation * Eigen::Vector3d(0.3, 0.5, 0.7);
+  EXPECT_LT((after - Eigen::Vector3d(-before.y(), before.x(), before.z())).norm(), 1e-9);
+}
+
+const ScanHit& best_of(const std::vector<ScanHit>& hits) {
+  return *std::ranges::min_element(hits, {}, &ScanHit::mean_px);
+}
+
+// Edges drawn from a template's own pose: the scan names the template and the place.
+TEST(CoarseScan, FindsTheTemplateThatMadeTheEdges) {
+  const auto backend = make_cpu_backend(2);
+  const TemplateSet set = part_templates("l_bracket", 2, 0.27, 0.33, *backend);
+  const std::vector<double> distances = template_distances_m(set.options);
+  const EdgeModel dense = part_model("l_bracket", 2e-4);
+  Random random = test_random();
+  for (double reduction : {1.0, 2.0}) {
+    const Camera coarse = scaled(small_camera(), 1 / reduction);
+    for (int i = 0; i < 3; ++i) {
+      const int view = random.below(int(set.views.size()));
+      const double turn = 2 * pi / 12 * random.below(12),
+                   distance = distances[random.below(int(distances.size()))];
+      // An anchor of the grid, the whole part in the image.
+      const Eigen::Vector2d place(2 * random.below(coarse.width / 4) + coarse.width / 4 / 2 * 2,
+                                  2 * random.below(coarse.height / 4) + coarse.height / 4 / 2 * 2);
+      const Se3 truth = place_template(set, set.views[view], turn, distance, place, coarse);
+      const Observation observation = observe_edges(ideal_edges(dense, small_camera(), truth, *backend),
+                                                    small_camera(), reduction, *backend);
+      const ScanHit best = best_of(coarse_scan(set, observation, *backend, {}));
+      EXPECT_LT(best.mean_px, 1.6);  // smoothing over orientation alone makes it 1.25
+      EXPECT_EQ(best.view, view);
+      EXPECT_LT(angle_between_rad(best.camera_from_object, truth), 1e-3);
+      EXPECT_NEAR((best.camera_from_object * set.model.center_m).norm(), distance, 1e-9);
+      EXPECT_LT((project(coarse, best.camera_from_object * set.model.center_m) - place).norm(), 1e-6);
+    }
+  }
+}
+
+// The scan as its header says it, in double and one value at a time.
+struct BruteForce {
+  const TemplateSet& set;
+  const Observation& observation;
+  const ScanOptions& options;
+  std::vector<std::uint16_t> tensor = observation.view.coarse->tensor();
+
+  double value(int x, int y, int bin) const {
+    const TensorShape& shape = observation.view.coarse->shape;
+    if (x < 0 || y < 0 || x >= shape.width || y >= shape.height) return 15.75;
+    return std::min(63, (tensor[shape.index(x, y, bin)] + 32) / 64) / 4.0;
+  }
+  // Mean of a template drawn at `middle` and shifted to an anchor.
+  double mean(const TemplateView& view, const Se3& at_middle, const Eigen::Vector2d& shift) const {
+    const int count = std::min<int>(options.points, int(view.points.size()));
+    const int bins = observation.view.coarse->shape.bins;
+    double sum = 0;
+    for (int i = 0; i < count; ++i) {
+      const ModelPoint& p = view.points[std::size_t(i) * view.points.size() / count];
+      const Eigen::Vector3d point = at_middle * Eigen::Vector3d(p.x_m, p.y_m, p.z_m);
+      const Eigen::Vector3d ahead = point + 1e-6 * (at_middle.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz));
+      const Eigen::Vector2d pixel = project(observation.coarse_camera, point),
+                            along = project(observation.coarse_camera, ahead) - pixel;
+      const double theta = std::fmod(std::atan2(along.y(), along.x()) + 2 * pi, pi);
+      sum += value(int(std::lround(pixel.x()) + shift.x()), int(std::lround(pixel.y()) + shift.y()),
+                   int(std::lround(theta * bins / pi)) % bins);
+    }
+    return sum / count;
+  }
+  // The best mean over the anchors of one region.
+  double best(const TemplateView& view, double turn, double distance, int x0, int y0, int columns,
+              int rows) const {
+    const int step = options.anchor_step;
+    const Eigen::Vector2d middle(std::round(x0 + 0.5 * step * (columns - 1)),
+                                 std::round(y0 + 0.5 * step * (rows - 1)));
+    const Se3 pose = place_template(set, view, turn, distance, middle, observation.coarse_camera);
+    double lowest = 1e9;
+    for (int r = 0; r < rows; ++r)
+      for (int c = 0; c < columns; ++c)
+        lowest = std::min(lowest, mean(view, pose, Eigen::Vector2d(x0 + step * c, y0 + step * r) - middle));
+    return lowest;
+  }
+};
+
+TEST(CoarseScan, EqualsBruteForceOverAllPlaces) {
+  const auto backend = make_cpu_backend(2);
+  TemplateSet set = part_templates("bearing_block", 1, 0.3, 0.33, *backend);
+  set.options.in_plane_steps = 5;
+  set.views.resize(4);
+  const Camera camera{61, 45, 150, 150, 30, 22, {}};
+  Random random = test_random();
+  std::vector<EdgePoint> edges;
+  for (int i = 0; i < 150; ++i)
+    edges.push_back(
+        {float(random.uniform(0, 60)), float(random.uniform(0, 44)), float(random.uniform(0, pi)), 1});
+  const Observation observation = observe_edges(edges, camera, 1, *backend);
+  ScanOptions options;  // 21 x 15 anchors: two regions by two, of different sizes
+  options.points = 20;
+  options.anchor_step = 3;
+  options.region_columns = 12;
+  options.region_rows = 9;
+  options.kept = 4 * 7;
+  const BruteForce brute{set, observation, options};
+  const std::vector<ScanHit> hits = coarse_scan(set, observation, *backend, options);
+  ASSERT_EQ(hits.size(), 4u * 7u);
+  std::size_t hit = 0;
+  for (const auto& [y0, rows] : {std::pair{0, 9}, {27, 6}})
+    for (const auto& [x0, columns] : {std::pair{0, 12}, {36, 9}}) {
+      std::vector<double> means;
+      for (const TemplateView& view : set.views)
+        for (int turn = 0; turn < 5; ++turn)
+          for (double distance : template_distances_m(set.options))
+            means.push_back(brute.best(view, 2 * pi / 5 * turn, distance, x0, y0, columns, rows));
+      std::ranges::sort(means);
+      for (int kept = 0; kept < 7; ++kept, ++hit) {
+        EXPECT_NEAR(hits[hit].mean_px, means[kept], 0.026)
+            << "one point that rounds the other way is 0.25 / 20";
+        const Eigen::Vector2d at = project(camera, hits[hit].camera_from_object * set.model.center_m);
+        EXPECT_GE(at.x(), x0 - 1e-6);
+        EXPECT_LE(at.x(), x0 + 3 * (columns - 1) + 1e-6);
+        EXPECT_GE(at.y(), y0 - 1e-6);
+        EXPECT_LE(at.y(), y0 + 3 * (rows - 1) + 1e-6);
+        EXPECT_LT(std::abs(std::remainder(at.x() - x0, 3)) + std::abs(std::remainder(at.y() - y0, 3)), 1e-6);
+      }
+    }
+}
+
+}  // namespace
+}  // namespace edgescout::test

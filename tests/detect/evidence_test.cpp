@@ -1,0 +1,107 @@
+#include "host/detect/evidence.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/detect/part_image.h"
+
+namespace edgescout::test {
+namespace {
+
+// Two brackets side by side.
+struct TwoParts {
+  std::unique_ptr<Backend> backend = make_cpu_backend(2);
+  std::vector<EdgeModel> models{part_model("l_bracket")};
+  Se3 left{so3_exp({0.6, 0.3, 0.2}), {-0.06, 0, 0.35}}, right{so3_exp({2.1, -0.4, 1.0}), {0.06, 0.01, 0.35}};
+  std::vector<RegisterView> views;
+
+  TwoParts() {
+    const EdgeModel dense = part_model("l_bracket", 2e-4);
+    std::vector<EdgePoint> edges = ideal_edges(dense, small_camera(), left, *backend);
+    const std::vector<EdgePoint> more = ideal_edges(dense, small_camera(), right, *backend);
+    edges.insert(edges.end(), more.begin(), more.end());
+    views.push_back(observe_edges(edges, small_camera(), 1, *backend).view);
+  }
+  static Se3 shifted(const Se3& pose, double x_m) {
+    return {pose.rotation, pose.translation_m + Eigen::Vector3d(x_m, 0, 0)};
+  }
+  // Poses whose edges agree fully and are so long, px; not at all where that is negative.
+  std::vector<ChosenPose> choose(const std::vector<Se3>& poses, const std::vector<double>& lengths_px,
+                                 const EvidenceOptions& options = {}) const {
+    std::vector<Hypothesis> hypotheses;
+    for (const Se3& pose : poses) hypotheses.push_back({0, pose});
+    std::vector<PoseFeatures> features;
+    for (double length_px : lengths_px) {
+      PoseFeatures f;
+      f.psi = length_px > 0 ? 1 : 0;
+      f.length_px = std::abs(length_px);
+      features.push_back(f);
+    }
+    return explain_image(models, hypotheses, features, views, *backend, options);
+  }
+};
+
+std::vector<std::size_t> indices(const std::vector<ChosenPose>& chosen) {
+  std::vector<std::size_t> out;
+  for (const ChosenPose& c : chosen) out.push_back(c.index);
+  return out;
+}
+using Indices = std::vector<std::size_t>;
+
+TEST(ExplainImage, OfTwoPosesOnTheSameEdgesTheBetterWins) {
+  const TwoParts t;
+  const std::vector<Se3> poses{t.left, t.shifted(t.left, 0.0005)};
+  EXPECT_EQ(indices(t.choose(poses, {100, 90})), Indices{0});
+  EXPECT_EQ(indices(t.choose(poses, {90, 100})), Indices{1});
+}
+
+TEST(ExplainImage, PosesOnDifferentEdgesBothStay) {
+  const TwoParts t;
+  const std::vector<ChosenPose> chosen = t.choose({t.left, t.right}, {90, 100});
+  EXPECT_EQ(indices(chosen), (Indices{1, 0}));
+  for (const ChosenPose& c : chosen) EXPECT_EQ(c.fresh, 1);
+  EXPECT_EQ(indices(t.choose({t.left, t.right, t.shifted(t.right, 0.0005)}, {90, 100, 110})),
+            (Indices{2, 0}));
+}
+
+TEST(ExplainImage, WhatExplainsNothingGoes) {
+  const TwoParts t;
+  const Se3 nowhere{t.left.rotation, {0, 0.07, 0.35}};
+  EXPECT_EQ(indices(t.choose({nowhere, t.left}, {1000, 10})), Indices{1});
+  EXPECT_EQ(indices(t.choose({t.left, t.right}, {10, -1})), Indices{0});
+  EXPECT_TRUE(t.choose({}, {}).empty());
+}
+
+TEST(ExplainImage, ToleratesAsMuchSpentAsItIsTold) {
+  const TwoParts t;
+  const std::vector<Se3> poses{t.left, t.shifted(t.left, 0.0005)};
+  EvidenceOptions all;
+  all.max_spent = 1;
+  const std::vector<ChosenPose> chosen = t.choose(poses, {100, 90}, all);
+  for (const ChosenPose& c : chosen) EXPECT_TRUE(c.fresh >= 0 && c.fresh <= 1) << c.fresh;
+  ASSERT_FALSE(chosen.empty());
+  EXPECT_EQ(chosen[0].index, 0u);
+  EXPECT_EQ(chosen[0].fresh, 1);
+  for (std::size_t i = 1; i < chosen.size(); ++i) EXPECT_LT(chosen[i].fresh, 0.1);
+}
+
+TEST(ExplainImage, CountsOnlyViewsWithEdges) {
+  TwoParts t;
+  t.views[0].edges = nullptr;
+  EXPECT_TRUE(t.choose({t.left}, {100}).empty());
+}
+
+TEST(ExplainImage, CountsAllViewsTogether) {
+  TwoParts t;
+  const EdgeModel dense = part_model("l_bracket", 2e-4);
+  const auto view_of_one = [&](const Se3& pose) {
+    return observe_edges(ideal_edges(dense, small_camera(), pose, *t.backend), small_camera(), 1, *t.backend)
+        .view;
+  };
+  t.views = {view_of_one(t.left)};
+  EXPECT_EQ(indices(t.choose({t.left, t.right}, {90, 100})), Indices{0});
+  t.views.push_back(view_of_one(t.right));
+  EXPECT_EQ(indices(t.choose({t.left, t.right}, {90, 100})), (Indices{1, 0}));
+}
+
+}  // namespace
+}  // namespace edgescout::test

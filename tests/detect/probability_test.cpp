@@ -1,0 +1,50 @@
+#include "host/detect/probability.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/test_random.h"
+
+namespace edgescout::test {
+namespace {
+
+PoseFeatures random_features(Random& random) {
+  PoseFeatures f;
+  f.psi = random.uniform();
+  f.mean_px = random.uniform(0, 60);
+  f.matched = random.uniform();
+  f.points = random.uniform(0, 300);
+  f.length_px = random.uniform(0, 1000);
+  f.in_image = random.uniform();
+  return f;
+}
+
+TEST(PoseProbability, IsOneAndGrowsWithWhatSpeaksForThePose) {
+  Random random = test_random();
+  for (int i = 0; i < 1000; ++i) {
+    const PoseFeatures f = random_features(random);
+    const double p = pose_probability(f);
+    EXPECT_TRUE(p >= 0 && p <= 1) << p;
+    PoseFeatures better = f;
+    better.psi = random.uniform(f.psi, 1);
+    EXPECT_GE(pose_probability(better), p);
+    better = f;
+    better.matched = random.uniform(f.matched, 1);
+    EXPECT_GE(pose_probability(better), p);
+    better = f;
+    better.mean_px = random.uniform(0, f.mean_px);
+    EXPECT_GE(pose_probability(better), p);
+  }
+}
+
+TEST(PoseProbability, TellsTheBestFromTheWorst) {
+  PoseFeatures f{1, 0, 1, 200, 500, 1};
+  EXPECT_GT(pose_probability(f), 0.9);
+  f.psi = 0.65;
+  f.matched = 0.2;
+  f.mean_px = 20;
+  EXPECT_LT(pose_probability(f), 0.1);
+  EXPECT_EQ(pose_probability(PoseFeatures{}), 0);
+}
+
+}  // namespace
+}  // namespace edgescout::test

@@ -1,0 +1,128 @@
+// Rendered scenes of known pose through the whole pipeline: found, more exactly by two views than by one, and
+// alike on every device.
+#include <gtest/gtest.h>
+
+#include "host/eval/metrics.h"
+#include "host/pipeline.h"
+#include "host/render/parts.h"
+#include "host/render/renderer.h"
+#include "kernels/thread_pool.h"
+
+namespace edgescout::test {
+namespace {
+
+// One part on a bare board, from `views` places 0.3 m away.
+struct RenderedPart {
+  Object part;
+  Scene scene;
+  std::vector<Rendering> renderings;
+  std::vector<TemplateSet> sets;
+
+  explicit RenderedPart(const std::string& name, int views = 1, unsigned seed = 1) : part(make_part(name)) {
+    RenderOptions options;
+    options.seed = seed;
+    options.width = 320;
+    options.height = 240;
+    options.focal_px = 400;
+    options.objects = 1;
+    options.views = views;
+    options.clutter = 0;
+    options.min_distance_m = options.max_distance_m = 0.3;
+    scene = make_scene(std::span(&part, 1), options);
+    ThreadPool pool(2);
+    renderings = render(scene, pool);
+    TemplateOptions templates;
+    templates.frequency = 3;
+    templates.in_plane_steps = 12;
+    templates.distance_min_m = 0.27;
+    templates.distance_max_m = 0.33;
+    sets.push_back(build_templates(part, templates, *make_cpu_backend(2)));
+  }
+  // What is probable enough to be reported is fitted elsewhere; here the best one counts.
+  static PipelineOptions options() {
+    PipelineOptions all;
+    all.detect.min_probability = 0.1;
+    return all;
+  }
+  Se3 world_truth() const { return scene.placed[0].world_from_object; }
+  Se3 truth_in(std::size_t view) const { return scene.views[view].camera_from_world * world_truth(); }
+  PreparedImage prepared(std::size_t view, const Se3& camera_from_world, Backend& backend) const {
+    return prepare_image(renderings[view].image, scene.views[view].camera, camera_from_world, backend,
+                         options());
+  }
+  Detections detect(std::size_t view, Backend& backend) const {
+    return detect_objects(prepared(view, Se3{}, backend), sets, backend, options());
+  }
+  Detections detect_in_all(Backend& backend) const {
+    std::vector<PreparedImage> views;
+    for (std::size_t v = 0; v < scene.views.size(); ++v)
+      views.push_back(prepared(v, scene.views[v].camera_from_world, backend));
+    return detect_jointly(views, sets, backend, options());
+  }
+  PoseError error(const Se3& found, const Se3& truth) const {
+    return pose_error(found, truth, part.symmetries);
+  }
+};
+
+class DetectParts : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(DetectParts, FindsThePartOnTheBoard) {
+  const RenderedPart t(GetParam());
+  const auto backend = make_cpu_backend(2);
+  const Detections found = t.detect(0, *backend);
+  ASSERT_FALSE(found.detections.empty());
+  const Detection& best = found.detections[0];
+  const PoseError error = t.error(best.world_from_object, t.truth_in(0));
+  std::printf("%s: %.4f rad, %.2f mm, probability %.2f, %zu detections\n", GetParam().c_str(),
+              error.angle_rad, 1000 * error.distance_m, best.probability, found.detections.size());
+  EXPECT_LT(error.distance_m, 0.003);
+  EXPECT_LT(error.angle_rad, 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(Parts, DetectParts, ::testing::Values("l_bracket", "bearing_block", "u_channel"),
+                         [](const auto& parameter) { return parameter.param; });
+
+TEST(DetectObjects, FindsNothingOnABareBoard) {
+  RenderedPart t("l_bracket");
+  ThreadPool pool(2);
+  t.scene.placed.clear();
+  t.renderings = render(t.scene, pool);
+  const auto backend = make_cpu_backend(2);
+  EXPECT_TRUE(detect_objects(t.prepared(0, Se3{}, *backend), t.sets, *backend, {}).detections.empty());
+}
+
+TEST(DetectJointly, IsMoreExactThanOneView) {
+  const RenderedPart t("l_bracket", 2);
+  const auto backend = make_cpu_backend(2);
+  double single_m = 0;
+  for (std::size_t view : {0, 1}) {
+    const Detections found = t.detect(view, *backend);
+    ASSERT_FALSE(found.detections.empty());
+    single_m += t.error(found.detections[0].world_from_object, t.truth_in(view)).distance_m / 2;
+  }
+  const Detections joint = t.detect_in_all(*backend);
+  ASSERT_FALSE(joint.detections.empty());
+  const PoseError error = t.error(joint.detections[0].world_from_object, t.world_truth());
+  std::printf("one view %.2f mm on average, both %.2f mm, %.4f rad\n", 1000 * single_m,
+              1000 * error.distance_m, error.angle_rad);
+  EXPECT_LT(error.distance_m, 0.001);
+  EXPECT_LT(error.angle_rad, 0.03);
+  EXPECT_LT(error.distance_m, single_m);
+}
+
+TEST(DetectObjects, IsTheSameOnADevice) {
+  if (vulkan_devices().empty()) GTEST_SKIP() << "no Vulkan device";
+  const RenderedPart t("l_bracket");
+  const Detections cpu = t.detect(0, *make_cpu_backend(2)), device = t.detect(0, *make_vulkan_backend(0));
+  ASSERT_EQ(cpu.detections.size(), device.detections.size());
+  ASSERT_FALSE(cpu.detections.empty());
+  for (std::size_t i = 0; i < cpu.detections.size(); ++i) {
+    const Detection &a = cpu.detections[i], &b = device.detections[i];
+    EXPECT_LT(distance_between_m(a.world_from_object, b.world_from_object), 0.0005);
+    EXPECT_LT(angle_between_rad(a.world_from_object, b.world_from_object), 0.005);
+    EXPECT_NEAR(a.probability, b.probability, 0.01);
+  }
+}
+
+}  // namespace
+}  // namespace edgescout::test

@@ -1,0 +1,98 @@
+#include "host/detect/suppression.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "host/render/parts.h"
+#include "tests/test_random.h"
+
+namespace edgescout::test {
+namespace {
+
+Se3 random_pose(Random& random) {
+  return {random.rotation(), {random.uniform(), random.uniform(), random.uniform()}};
+}
+
+Se3 moved(const Se3& pose, double distance_m, double angle_rad, Random& random) {
+  Vector6d delta;
+  delta << distance_m * random.direction(), angle_rad * random.direction();
+  return retract(pose, delta);
+}
+
+double brute_distance(const Se3& a, const Se3& b, const Object& object) {
+  double best = 1e9;
+  for (const Se3& symmetry : object.symmetries.discrete) {
+    double worst = 0;
+    for (double x : {object.mesh.box_min_m.x(), object.mesh.box_max_m.x()})
+      for (double y : {object.mesh.box_min_m.y(), object.mesh.box_max_m.y()})
+        for (double z : {object.mesh.box_min_m.z(), object.mesh.box_max_m.z()})
+          worst = std::max(worst,
+                           (a * Eigen::Vector3d(x, y, z) - b * (symmetry * Eigen::Vector3d(x, y, z))).norm());
+    best = std::min(best, worst);
+  }
+  return best;
+}
+
+TEST(PoseDistance, IsTheCornersWorstAtTheBestSymmetry) {
+  Random random = test_random();
+  for (const char* part : {"l_bracket", "hex_nut"}) {
+    const Object object = make_part(part);
+    for (int i = 0; i < 50; ++i) {
+      const Se3 a = random_pose(random), b = i % 2 ? random_pose(random) : moved(a, 0.01, 0.5, random);
+      EXPECT_NEAR(pose_distance_m(a, b, object.mesh, object.symmetries), brute_distance(a, b, object), 1e-12);
+    }
+  }
+}
+
+TEST(SuppressDuplicates, KnowsAPoseUnderEverySymmetry) {
+  const Object nut = make_part("hex_nut");
+  ASSERT_GT(nut.symmetries.discrete.size(), 5u);
+  Random random = test_random();
+  const Se3 pose = random_pose(random);
+  std::vector<Se3> poses;
+  for (const Se3& symmetry : nut.symmetries.discrete)
+    poses.push_back(moved(pose * symmetry, 0.0005, 0.01, random));
+  EXPECT_EQ(suppress_duplicates(poses, nut.mesh, nut.symmetries, 0.003, 100), std::vector<std::size_t>{0});
+  EXPECT_GT(suppress_duplicates(poses, nut.mesh, Symmetries{}, 0.003, 100).size(), 5u);
+}
+
+TEST(SuppressDuplicates, KeepsTheOrderAndAtMostSoMany) {
+  const Object bracket = make_part("l_bracket");
+  Random random = test_random();
+  const Se3 a = random_pose(random), b = moved(a, 0.02, 0, random), c = moved(a, 0, 1.0, random);
+  const std::vector<Se3> poses{b, moved(b, 0.0005, 0, random), a, moved(a, 0.0005, 0, random), c, b};
+  EXPECT_EQ(suppress_duplicates(poses, bracket.mesh, bracket.symmetries, 0.002, 100),
+            (std::vector<std::size_t>{0, 2, 4}));
+  EXPECT_EQ(suppress_duplicates(poses, bracket.mesh, bracket.symmetries, 0.002, 2),
+            (std::vector<std::size_t>{0, 2}));
+  EXPECT_TRUE(suppress_duplicates({}, bracket.mesh, bracket.symmetries, 0.002, 2).empty());
+}
+
+// Every pose that was dropped lies within the radius of a kept one before it, and no two kept ones do.
+TEST(SuppressDuplicates, AgreesWithTheDistance) {
+  Random random = test_random();
+  for (const char* part : {"l_bracket", "u_channel", "hex_nut"}) {
+    const Object object = make_part(part);
+    const Se3 origin = random_pose(random);
+    std::vector<Se3> poses;
+    for (int i = 0; i < 150; ++i)
+      poses.push_back(moved(origin, random.uniform(0, 0.02), random.uniform(0, 0.6), random));
+    const std::vector<std::size_t> kept =
+        suppress_duplicates(poses, object.mesh, object.symmetries, 0.015, poses.size());
+    EXPECT_GT(kept.size(), 3u);
+    EXPECT_LT(kept.size(), 140u);
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      double nearest = 1e9;
+      for (std::size_t k = 0; k < next; ++k)
+        nearest = std::min(nearest, brute_distance(poses[i], poses[kept[k]], object));
+      const bool is_kept = next < kept.size() && kept[next] == i;
+      EXPECT_EQ(is_kept, nearest >= 0.015) << part << " " << i;
+      next += is_kept;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace edgescout::test
