@@ -10,5 +10,6 @@ run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix)
 run(${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -G Ninja -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_CXX_FLAGS=${CXX_FLAGS})
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
-run(${WORK_DIR}/build/consumer ${CONSUMER_DIR}/box.obj)
+set(examples ${CONSUMER_DIR}/../../../docs/examples)
+run(${WORK_DIR}/build/consumer ${examples}/scenes/000000 ${examples}/parts/obj_000001.ply 1)
 run(${WORK_DIR}/prefix/bin/edgescout --version)
