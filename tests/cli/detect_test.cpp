@@ -118,7 +118,7 @@ TEST(Detect, JoinsTheViewsOfAScene) {
 
 TEST(Detect, ATemplateFileAndAConfigurationSayTheSame) {
   const SmallScene t;
-  ASSERT_EQ(run_program(t.detect(t.scene, joined({bracket(), {"--min-probability", "0.3"}}))).exit_code, 0);
+  ASSERT_EQ(run_program(t.detect(t.scene, bracket())).exit_code, 0);
   const std::vector<BopResult> direct = load_bop_results(t.out / "results.csv");
   ASSERT_FALSE(direct.empty());
   const auto expect_same = [&](const std::vector<std::string>& arguments) {
@@ -138,11 +138,11 @@ TEST(Detect, ATemplateFileAndAConfigurationSayTheSame) {
                           few_templates()}))
           .exit_code,
       0);
-  expect_same(t.detect(t.scene, {"--templates", set, "--min-probability", "0.3"}));
+  expect_same(t.detect(t.scene, {"--templates", set}));
   const std::string config =
       t.folder.write("detect.yaml",
                      "device: cpu\ndetect:\n  unit: mm\n  viewpoints: 3\n  in-plane-steps: 12\n  "
-                     "distance-min: 0.27\n  distance-max: 0.33\n  min-probability: 0.3\n  model: [" +
+                     "distance-min: 0.27\n  distance-max: 0.33\n  min-probability: 0.1\n  model: [" +
                          part_file(1) + "]\n");
   expect_same({"detect", t.scene, "--out", t.out, "--config", config});
 }

@@ -39,9 +39,9 @@ struct SmallScene {
                                            ", 0, 159.5, 0, 400, 119.5, 0, 0, 1]\n");
   }
 
-  // `edgescout detect INPUT`, with few templates.
+  // `edgescout detect INPUT`; where the line of what is reported lies is fitted elsewhere.
   std::vector<std::string> detect(const fs::path& input, const std::vector<std::string>& more = {}) const {
-    return joined({{"detect", input, "--out", out, "--device", "cpu"}, more});
+    return joined({{"detect", input, "--out", out, "--device", "cpu", "--min-probability", "0.1"}, more});
   }
 };
 
