@@ -55,6 +55,14 @@ std::vector<TemplateSet> loaded_sets(const std::vector<std::string>& files) {
   return sets;
 }
 
+// Overlays among the images would be taken for images the next time.
+void require_other_folder(const DetectRequest& request) {
+  std::error_code not_there;
+  for (const std::string& input : request.inputs)
+    if (std::filesystem::is_directory(input) && std::filesystem::equivalent(input, request.batch.out, not_there))
+      throw InputError("command line", "--out", "the folder of the images", "another one");
+}
+
 // What can be judged without work is judged first: nothing is written for a request that cannot be met.
 std::vector<TemplateSet> template_sets(const DetectRequest& request, std::span<const InputImage> images, Backend& backend) {
   if (request.models.models.empty() == request.template_files.empty())
@@ -64,6 +72,7 @@ std::vector<TemplateSet> template_sets(const DetectRequest& request, std::span<c
   if (sets.empty()) objects = load_objects(request.models);
   const Camera camera = first_camera(request, images);
   if (request.batch.joint) require_world_poses(images);
+  require_other_folder(request);
   require_writable_folder(request.batch.out);
   for (const Object& object : objects) {
     const TemplateOptions options = with_default_distances(request.templates, object.mesh.diameter_m, camera);

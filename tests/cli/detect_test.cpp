@@ -252,6 +252,16 @@ TEST(Detect, RefusesOptionsDevicesAndFolders) {
       {"empty", "no image"});
 }
 
+TEST(Detect, KeepsOverlaysApartFromTheImages) {
+  const SmallScene t;
+  const fs::path images = t.scene / "gray";
+  expect_refused(joined({{"detect", images, "--out", t.scene / "../000003/gray/", "--device", "cpu",
+                          "--camera", t.camera()},
+                         bracket()}),
+                 {"--out", "folder of the images"});
+  EXPECT_EQ(std::distance(fs::directory_iterator(images), {}), 1);
+}
+
 TEST(Detect, RefusesTheSameObjectInTwoTemplateFiles) {
   const SmallScene t;
   const std::string set = t.folder.path() / "part.est";
