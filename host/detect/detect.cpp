@@ -32,42 +32,29 @@ std::vector<std::size_t> best_different(std::span<const Se3> poses, const Templa
   return picked(order, suppress_duplicates(ordered, set.model.mesh, set.symmetries, radius_m, most));
 }
 
-// Eq. 7 and Eq. 10 at full resolution with the viewpoint's own points: no z-buffer yet.
-std::vector<PoseScore> rescore(const TemplateSet& set, std::span<const ScanHit> hits, const Observation& observation, Backend& backend,
-                               const PoseScoreOptions& options) {
-  std::vector<ModelPoint> points;
-  std::vector<std::uint32_t> first;
-  for (const TemplateView& view : set.views) {
-    first.push_back(static_cast<std::uint32_t>(points.size()));
-    points.insert(points.end(), view.points.begin(), view.points.end());
-  }
-  std::vector<PoseProblem> problems;
-  for (const ScanHit& hit : hits)
-    problems.push_back({to_pose(hit.camera_from_object), first[hit.view], static_cast<std::uint32_t>(set.views[hit.view].points.size()), 0});
-  std::vector<PoseScore> scores(problems.size());
-  backend.pose_score(std::vector<ViewHandle>{observation.view.view}, points, problems, options, scores);
-  return scores;
-}
-
-// Before the visible points are known: the length of the template's edges in the image by their number, as if none were foreshortened.
-double rough_evidence(const PoseScore& score, const TemplateSet& set, const Se3& camera_from_object, double focal_px) {
-  PoseFeatures features;
-  features.psi = score.psi;
-  features.length_px = score.points * set.model.raster_step_m * focal_px / (camera_from_object * set.model.center_m).z();
-  return evidence(features);
-}
-
 std::vector<Hypothesis> hypotheses_at(std::span<const Se3> poses, std::span<const std::size_t> chosen) {
   std::vector<Hypothesis> out;
   for (std::size_t i : chosen) out.push_back({0, poses[i]});
   return out;
 }
 
+std::vector<Hypothesis> moved(std::vector<Hypothesis> hypotheses, std::span<const Registration> registrations) {
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) hypotheses[i].world_from_object = registrations[i].world_from_object;
+  return hypotheses;
+}
+
 }  // namespace
+
+D2coOptions DetectOptions::touch_up_defaults() {
+  D2coOptions options;
+  options.rounds = {{LOSS_GEMAN_MCCLURE, 12, 6, 150}, {LOSS_GEMAN_MCCLURE, 5, 6, 200}};
+  options.visibility.depth_map_size_px = 96;
+  return options;
+}
 
 RefineOptions DetectOptions::refine_defaults() {
   RefineOptions options;
-  options.search.rotation_rad = 0;  // the templates are the search
+  options.search.rotation_rad = 0.25;  // templates stand some 0.2 rad apart
   return options;
 }
 
@@ -84,6 +71,7 @@ void DetectOptions::validate() const {
   in("min_probability", min_probability, 0, 1);
   in("second_look", second_look_rad, 0, 1);
   in("max_detections", max_detections, 1, 1e5);
+  touch_up.validate();
   refine.validate();
 }
 
@@ -110,21 +98,18 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
   coarse[0].view = observation.view.coarse;
 
   const std::vector<ScanHit> hits = coarse_scan(set, observation, backend, options.scan);
-  const std::vector<PoseScore> scores = rescore(set, hits, observation, backend, options.refine.score);
   std::vector<Se3> poses;
   for (const ScanHit& hit : hits) poses.push_back(hit.camera_from_object);
   const std::vector<std::size_t> starts =
-      best_different(poses, set, 0.1 * diameter, options.aligned, [&](std::size_t i) {
-        return -rough_evidence(scores[i], set, hits[i].camera_from_object, observation.view.camera.fx);
-      });
+      best_different(poses, set, 0.1 * diameter, options.aligned, [&](std::size_t i) { return hits[i].mean_px; });
 
-  const std::vector<Hypothesis> hypotheses = hypotheses_at(poses, starts);
+  std::vector<Hypothesis> hypotheses = hypotheses_at(poses, starts);
+  hypotheses = moved(hypotheses, register_poses(models, hypotheses, coarse, backend, options.refine.search.coarse));
+  hypotheses = moved(hypotheses, register_poses(models, hypotheses, full, backend, options.touch_up));
   poses.clear();
-  for (const Registration& r : register_poses(models, hypotheses, coarse, backend, options.refine.search.coarse)) poses.push_back(r.world_from_object);
-  std::vector<std::size_t> all(poses.size());
-  std::iota(all.begin(), all.end(), 0);
+  for (const Hypothesis& h : hypotheses) poses.push_back(h.world_from_object);
   const std::vector<PoseFeatures> aligned =
-      pose_features(models, hypotheses_at(poses, all), full, backend, options.refine.score, options.refine.search.coarse.visibility);
+      pose_features(models, hypotheses, full, backend, options.refine.score, options.touch_up.visibility);
   const std::vector<std::size_t> chosen = best_different(poses, set, 0.1 * diameter, options.candidates, [&](std::size_t i) {
     return -evidence(aligned[i]);
   });

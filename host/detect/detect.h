@@ -12,14 +12,16 @@ namespace edgescout {
 
 struct DetectOptions {
   ScanOptions scan;
-  int aligned = 500;        // different ones among the scan's hits that are aligned on the coarse tensor
+  int aligned = 2500;       // different ones among the scan's hits that are aligned, roughly and cheaply
   int candidates = 60;      // different ones among those that are registered in full (the paper's object candidates)
+  D2coOptions touch_up = touch_up_defaults();  // on the full tensor after the coarse one, before Psi can judge: it means nothing 3 px off
   RefineOptions refine = refine_defaults();
   EvidenceOptions evidence;
   double second_look_rad = 0.3;  // turned starts around what was chosen (settle.h); 0: none
   double min_probability = 0.5;
   int max_detections = 100;
   static RefineOptions refine_defaults();
+  static D2coOptions touch_up_defaults();
   void validate() const;
 };
 
