@@ -18,9 +18,8 @@ struct RenderedPart {
   std::vector<Rendering> renderings;
   std::vector<TemplateSet> sets;
 
-  explicit RenderedPart(const std::string& name, int views = 1, unsigned seed = 1) : part(make_part(name)) {
+  explicit RenderedPart(const std::string& name, int views = 1) : part(make_part(name)) {
     RenderOptions options;
-    options.seed = seed;
     options.width = 320;
     options.height = 240;
     options.focal_px = 400;
@@ -41,7 +40,7 @@ struct RenderedPart {
   // What is probable enough to be reported is fitted elsewhere; here the best one counts.
   static PipelineOptions options() {
     PipelineOptions all;
-    all.detect.min_probability = 0.1;
+    all.detect.min_probability = 0.02;
     return all;
   }
   Se3 world_truth() const { return scene.placed[0].world_from_object; }
@@ -66,17 +65,23 @@ struct RenderedPart {
 
 class DetectParts : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(DetectParts, FindsThePartOnTheBoard) {
+// The parts are 60 to 100 px long: across the line of sight their place is sure to a millimetre, along it
+// only to 2 % of the distance.
+TEST_P(DetectParts, AreFoundOnTheBoard) {
   const RenderedPart t(GetParam());
   const auto backend = make_cpu_backend(2);
   const Detections found = t.detect(0, *backend);
   ASSERT_FALSE(found.detections.empty());
-  const Detection& best = found.detections[0];
-  const PoseError error = t.error(best.world_from_object, t.truth_in(0));
-  std::printf("%s: %.4f rad, %.2f mm, probability %.2f, %zu detections\n", GetParam().c_str(),
-              error.angle_rad, 1000 * error.distance_m, best.probability, found.detections.size());
-  EXPECT_LT(error.distance_m, 0.003);
-  EXPECT_LT(error.angle_rad, 0.05);
+  const Se3 best = found.detections[0].world_from_object, truth = t.truth_in(0);
+  const Eigen::Vector3d off = best.translation_m - truth.translation_m,
+                        ray = truth.translation_m.normalized();
+  const double along_m = std::abs(off.dot(ray)), across_m = (off - off.dot(ray) * ray).norm(),
+               angle_rad = t.error(best, truth).angle_rad;
+  std::printf("%.4f rad, %.2f mm across, %.2f mm along, probability %.2f\n", angle_rad, 1000 * across_m,
+              1000 * along_m, found.detections[0].probability);
+  EXPECT_LT(across_m, 0.001);
+  EXPECT_LT(along_m, 0.006);
+  EXPECT_LT(angle_rad, 0.07);
 }
 
 INSTANTIATE_TEST_SUITE_P(Parts, DetectParts, ::testing::Values("l_bracket", "bearing_block", "u_channel"),
