@@ -22,7 +22,7 @@ say "a cube on a desk: photographs"
 
 say "parts on a printed board: rendered"
 "$edgescout" detect "$examples/scenes/000000" \
-  --model "$examples"/parts/*.ply --unit mm --models-info "$examples/parts/models_info.json" \
+  --model "$examples"/parts/obj_00000{1,2,5}.ply --unit mm --models-info "$examples/parts/models_info.json" \
   --out "$out/parts"
 
 say "pictures to look at: what was found, drawn over the images"

@@ -18,7 +18,7 @@ struct DetectOptions {
   RefineOptions refine = refine_defaults();
   EvidenceOptions evidence;
   double second_look_rad = 0.3;  // turned starts around what was chosen (settle.h); 0: none
-  double min_probability = 0.15;  // of what is reported; docs/evaluation.md has the reliability
+  double min_probability = 0.25;  // of what is reported; docs/evaluation.md has the reliability
   int max_detections = 100;
   static RefineOptions refine_defaults();
   static D2coOptions touch_up_defaults();
