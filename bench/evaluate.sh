@@ -16,7 +16,7 @@ say "detection on rendered scenes: 10 scenes, 3 parts, 6 instances each, clutter
 "$edgescout" render --part l_bracket bearing_block u_channel --scenes 10 --objects 6 --clutter 1 --pile 0.4 --width 800 --height 600 \
   --focal 950 --min-distance 0.35 --max-distance 0.6 --seed 100 --out "$out/rendered"
 "$edgescout" detect "$out/rendered" --model "$out"/rendered/models/*.ply --unit mm --models-info "$out/rendered/models/models_info.json" \
-  --distance-min 0.33 --distance-max 0.66 --device "$device" --out "$out/rendered_results"
+  --distance-min 0.33 --distance-max 0.66 --min-probability 0.05 --device "$device" --out "$out/rendered_results"
 "$edgescout" eval "$out/rendered_results/results.csv" "$out/rendered" --model "$out"/rendered/models/*.ply --unit mm \
   --models-info "$out/rendered/models/models_info.json" --min-visible 0.7
 
@@ -37,7 +37,7 @@ bracket() { # SCENE NAME [OPTION...]
   local scene=$1 name=$2
   shift 2
   "$edgescout" detect "$data/brackets/$scene" --model "$data/brackets/models/obj_000001.ply" --unit mm \
-    --models-info "$data/brackets/models/models_info.json" --distance-min 0.4 --distance-max 0.8 --device "$device" --out "$out/$name" "$@"
+    --models-info "$data/brackets/models/models_info.json" --distance-min 0.4 --distance-max 0.8 --min-probability 0.05 --device "$device" --out "$out/$name" "$@"
   "$edgescout" eval "$out/$name/results.csv" "$data/brackets/$scene" --model "$data/brackets/models/obj_000001.ply" --unit mm \
     --models-info "$data/brackets/models/models_info.json"
 }
@@ -48,5 +48,5 @@ say "brackets, three views jointly"
 bracket 000001 brackets_joint --joint
 
 say "cat"
-"$edgescout" detect "$data/cat" --model "$data/cat/models/obj_000001.ply" --unit mm --distance-min 0.39 --distance-max 0.78 --device "$device" --out "$out/cat"
+"$edgescout" detect "$data/cat" --model "$data/cat/models/obj_000001.ply" --unit mm --distance-min 0.39 --distance-max 0.78 --min-probability 0.05 --device "$device" --out "$out/cat"
 "$edgescout" eval "$out/cat/results.csv" "$data/cat" --model "$data/cat/models/obj_000001.ply" --unit mm

@@ -6,7 +6,7 @@
 
 namespace edgescout {
 
-// `edge_method` receives the word of --edges; apply_edge_method puts it into the options.
+// `edge_method` receives the word of --edges; edge_method_from_name (edge/edges.h) reads it.
 void add_edge_and_tensor_options(CLI::App& verb, PipelineOptions& options, std::string& edge_method);
 void add_detection_options(CLI::App& verb, PipelineOptions& options);
 void add_template_options(CLI::App& verb, TemplateOptions& options);
