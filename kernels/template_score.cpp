@@ -129,8 +129,10 @@ TemplateHit best_of_job(const Planes& planes, std::span<const TemplatePoint> poi
   return hit;
 }
 
-void check_jobs(const TensorShape& shape, std::span<const TemplatePoint> points,
-                std::span<const TemplateJob> jobs, int anchor_step, std::size_t hits) {
+}  // namespace
+
+void check_template_jobs(const TensorShape& shape, std::span<const TemplatePoint> points,
+                         std::span<const TemplateJob> jobs, int anchor_step, std::size_t hits) {
   check(anchor_step >= 1 && anchor_step <= 16, "template_score: anchor step in [1, 16]");
   check(hits == jobs.size(), "template_score: as many hits as jobs");
   for (const TemplatePoint& point : points) check(point.bin < shape.bins, "template_score: bin out of range");
@@ -143,12 +145,10 @@ void check_jobs(const TensorShape& shape, std::span<const TemplatePoint> points,
   }
 }
 
-}  // namespace
-
 void template_score_reference(std::span<const std::uint16_t> tensor, const TensorShape& shape,
                               std::span<const TemplatePoint> points, std::span<const TemplateJob> jobs,
                               int anchor_step, std::span<TemplateHit> hits) {
-  check_jobs(shape, points, jobs, anchor_step, hits.size());
+  check_template_jobs(shape, points, jobs, anchor_step, hits.size());
   for (std::size_t j = 0; j < jobs.size(); ++j) {
     const TemplateJob& job = jobs[j];
     hits[j] = {~0u, job.x0, job.y0};
@@ -169,7 +169,7 @@ void template_score_reference(std::span<const std::uint16_t> tensor, const Tenso
 void template_score_fast(std::span<const std::uint16_t> tensor, const TensorShape& shape,
                          std::span<const TemplatePoint> points, std::span<const TemplateJob> jobs,
                          int anchor_step, std::span<TemplateHit> hits, ThreadPool& pool) {
-  check_jobs(shape, points, jobs, anchor_step, hits.size());
+  check_template_jobs(shape, points, jobs, anchor_step, hits.size());
   if (jobs.empty()) return;
   const Planes planes =
       make_planes(tensor, shape, touched(shape, points, jobs, anchor_step), anchor_step, pool);

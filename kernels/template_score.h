@@ -50,6 +50,10 @@ struct TemplateHit {
   std::int32_t x, y;
 };
 
+// What every path asks of its input: LogicError for points, bins, jobs or an anchor step (1 to 16) out of bounds.
+void check_template_jobs(const TensorShape& shape, std::span<const TemplatePoint> points, std::span<const TemplateJob> jobs,
+                         int anchor_step, std::size_t hits);
+
 void template_score_reference(std::span<const std::uint16_t> tensor, const TensorShape& shape,
                               std::span<const TemplatePoint> points, std::span<const TemplateJob> jobs,
                               int anchor_step, std::span<TemplateHit> hits);

@@ -38,11 +38,6 @@ std::vector<Hypothesis> hypotheses_at(std::span<const Se3> poses, std::span<cons
   return out;
 }
 
-std::vector<Hypothesis> moved(std::vector<Hypothesis> hypotheses, std::span<const Registration> registrations) {
-  for (std::size_t i = 0; i < hypotheses.size(); ++i) hypotheses[i].world_from_object = registrations[i].world_from_object;
-  return hypotheses;
-}
-
 }  // namespace
 
 D2coOptions DetectOptions::touch_up_defaults() {
@@ -104,8 +99,8 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
       best_different(poses, set, 0.1 * diameter, options.aligned, [&](std::size_t i) { return hits[i].mean_px; });
 
   std::vector<Hypothesis> hypotheses = hypotheses_at(poses, starts);
-  hypotheses = moved(hypotheses, register_poses(models, hypotheses, coarse, backend, options.refine.search.coarse));
-  hypotheses = moved(hypotheses, register_poses(models, hypotheses, full, backend, options.touch_up));
+  hypotheses = as_hypotheses(hypotheses, register_poses(models, hypotheses, coarse, backend, options.refine.search.coarse));
+  hypotheses = as_hypotheses(hypotheses, register_poses(models, hypotheses, full, backend, options.touch_up));
   poses.clear();
   for (const Hypothesis& h : hypotheses) poses.push_back(h.world_from_object);
   const std::vector<PoseFeatures> aligned =

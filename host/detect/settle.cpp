@@ -28,7 +28,7 @@ std::vector<ChosenPose> compete(const Pool& pool, std::span<const EdgeModel> mod
 
 }  // namespace
 
-std::vector<Detection> settle(std::span<const EdgeModel> models, std::vector<Hypothesis> poses, std::vector<Refined> refined,
+std::vector<Detection> settle(std::span<const EdgeModel> models, std::span<const Hypothesis> poses, std::span<const Refined> refined,
                               std::span<const RegisterView> views, Backend& backend, const DetectOptions& options) {
   Pool pool;
   add_probable(pool, poses, refined, options.min_probability);

@@ -194,6 +194,12 @@ std::string to_string(Convergence reason) {
   throw LogicError("unknown convergence reason");
 }
 
+std::vector<Hypothesis> as_hypotheses(std::span<const Hypothesis> starts, std::span<const Registration> registrations) {
+  std::vector<Hypothesis> poses;
+  for (std::size_t i = 0; i < starts.size(); ++i) poses.push_back({starts[i].object, registrations[i].world_from_object});
+  return poses;
+}
+
 std::vector<Registration> register_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
                                          std::span<const RegisterView> views, Backend& backend, const D2coOptions& options) {
   options.validate();

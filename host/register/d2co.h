@@ -63,6 +63,9 @@ struct Registration {
 // Covariance of a pose from its final system: variance * hessian^-1 in the tangent of core/se3.h, infinite where singular.
 Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance);
 
+// The same objects at their registered poses: starts for what comes next.
+std::vector<Hypothesis> as_hypotheses(std::span<const Hypothesis> starts, std::span<const Registration> registrations);
+
 // Results in the order of the hypotheses.
 std::vector<Registration> register_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
                                          std::span<const RegisterView> views, Backend& backend, const D2coOptions& options = {});

@@ -28,12 +28,6 @@ bool same_pose(const Se3& a, const Se3& b, double diameter_m) {
   return distance_between_m(a, b) < 0.03 * diameter_m && angle_between_rad(a, b) < 0.06;
 }
 
-std::vector<Hypothesis> as_hypotheses(std::span<const Hypothesis> starts, std::span<const Registration> registrations) {
-  std::vector<Hypothesis> poses;
-  for (std::size_t i = 0; i < starts.size(); ++i) poses.push_back({starts[i].object, registrations[i].world_from_object});
-  return poses;
-}
-
 std::vector<RegisterView> coarse_views(std::span<const RegisterView> views) {
   std::vector<RegisterView> coarse(views.begin(), views.end());
   for (RegisterView& view : coarse)

@@ -1,6 +1,5 @@
 #include "kernels/gpu/template_score.h"
 
-#include "kernels/error.h"
 #include "kernels/template_score_push.h"
 #include "template_score.spv.h"
 
@@ -12,20 +11,6 @@ static_assert(sizeof(TemplatePoint) == 4 * TEMPLATE_POINT_WORDS);
 static_assert(sizeof(TemplateJob) == 4 * TEMPLATE_JOB_WORDS);
 static_assert(sizeof(TemplateHit) == 4 * TEMPLATE_HIT_WORDS);
 
-void check_jobs(const TensorShape& shape, std::span<const TemplatePoint> points,
-                std::span<const TemplateJob> jobs, int anchor_step, std::size_t hits) {
-  check(hits == jobs.size(), "template_score: as many hits as jobs");
-  check(anchor_step >= 1, "template_score: anchors at least a pixel apart");
-  for (const TemplatePoint& point : points) check(point.bin < shape.bins, "template_score: bin out of range");
-  for (const TemplateJob& job : jobs) {
-    check(job.point_count >= 1 && job.point_count <= TEMPLATE_SCORE_MAX_POINTS,
-          "template_score: points of a template");
-    check(std::size_t(job.first_point) + job.point_count <= points.size(),
-          "template_score: points beyond the list");
-    check(job.columns >= 1 && job.rows >= 1, "template_score: a job without anchors");
-  }
-}
-
 }  // namespace
 
 TemplateScore::TemplateScore(const Device& device)
@@ -34,7 +19,7 @@ TemplateScore::TemplateScore(const Device& device)
 
 void TemplateScore::record(Batch& batch, const DeviceTensor& tensor, std::span<const TemplatePoint> points,
                            std::span<const TemplateJob> jobs, int anchor_step, std::span<TemplateHit> hits) {
-  check_jobs(tensor.shape(), points, jobs, anchor_step, hits.size());
+  check_template_jobs(tensor.shape(), points, jobs, anchor_step, hits.size());
   points_.reserve(device_, points.size(), "template points");
   jobs_.reserve(device_, jobs.size(), "template jobs");
   hits_.reserve(device_, jobs.size(), "template hits");
