@@ -63,10 +63,10 @@ Image from_mat(const cv::Mat& grey) {
   return image;
 }
 
-void write_png(const cv::Mat& image, const std::filesystem::path& file) {
+std::string png_of(const cv::Mat& image) {
   std::vector<std::uint8_t> bytes;
   cv::imencode(".png", image, bytes);
-  write_file_atomically(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace
@@ -93,17 +93,21 @@ Image undistort(const Image& image, const Camera& camera) {
   return from_mat(result);
 }
 
-void save_png(const RgbImage& image, const std::filesystem::path& file) {
-  check(image.pixels.size() == std::size_t{3} * image.width * image.height, "save_png: pixel count");
+std::string encode_png(const RgbImage& image) {
+  check(image.pixels.size() == std::size_t{3} * image.width * image.height, "encode_png: pixel count");
   const cv::Mat rgb(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.pixels.data()));
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  write_png(bgr, file);
+  return png_of(bgr);
 }
 
-void save_png(const Image& image, const std::filesystem::path& file) {
-  check(image.pixels.size() == std::size_t{1} * image.width * image.height, "save_png: pixel count");
-  write_png(cv::Mat(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data())), file);
+std::string encode_png(const Image& image) {
+  check(image.pixels.size() == std::size_t{1} * image.width * image.height, "encode_png: pixel count");
+  return png_of(cv::Mat(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data())));
 }
+
+void save_png(const RgbImage& image, const std::filesystem::path& file) { write_file_atomically(file, encode_png(image)); }
+
+void save_png(const Image& image, const std::filesystem::path& file) { write_file_atomically(file, encode_png(image)); }
 
 }  // namespace edgescout

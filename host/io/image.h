@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "host/core/types.h"
 
@@ -14,13 +15,15 @@ Image load_image(const std::filesystem::path& file);
 // no ray of the original reaches repeat its border.
 Image undistort(const Image& image, const Camera& camera);
 
-// RGB, 8 bit, row-major; written as PNG, atomically.
+// RGB, 8 bit, row-major.
 struct RgbImage {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> pixels;
 };
-void save_png(const RgbImage& image, const std::filesystem::path& file);
+std::string encode_png(const RgbImage& image);  // a PNG file's bytes
+std::string encode_png(const Image& image);
+void save_png(const RgbImage& image, const std::filesystem::path& file);  // atomically
 void save_png(const Image& image, const std::filesystem::path& file);
 
 }  // namespace edgescout

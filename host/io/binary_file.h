@@ -1,0 +1,92 @@
+// Internal to host: the project's own binary files. A header that can be checked before anything is believed (magic, version, length, checksum), then plain
+// little-endian numbers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "host/core/se3.h"
+
+namespace edgescout {
+
+// What tells one kind of file from another.
+struct BinaryFormat {
+  std::array<char, 8> magic;
+  std::uint32_t version;
+  const char* name;  // "a template file", for errors
+};
+
+class BinaryWriter {
+ public:
+  template <typename T>
+  void put(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  template <typename T>
+  void put_list(const std::vector<T>& list) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    put(static_cast<std::uint64_t>(list.size()));
+    bytes.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T));
+  }
+  void put_text(std::string_view text) {
+    put(static_cast<std::uint64_t>(text.size()));
+    bytes.append(text);
+  }
+  void put_rotation(const Eigen::Quaterniond& rotation) {
+    for (double v : {rotation.w(), rotation.x(), rotation.y(), rotation.z()}) put(v);
+  }
+  void put_pose(const Se3& pose) {
+    put_rotation(pose.rotation);
+    for (int i = 0; i < 3; ++i) put(pose.translation_m[i]);
+  }
+  std::string bytes;
+};
+
+// InputError naming the file where a list is longer than what is left of it.
+class BinaryReader {
+ public:
+  BinaryReader(std::string_view bytes, std::string source, const char* name) : bytes_(bytes), source_(std::move(source)), name_(name) {}
+  template <typename T>
+  T get() {
+    static_assert(std::is_trivially_copyable_v<T>);
+    T value;
+    std::memcpy(&value, take(sizeof value), sizeof value);
+    return value;
+  }
+  template <typename T>
+  std::vector<T> get_list() {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::vector<T> list(count(sizeof(T)));
+    if (!list.empty()) std::memcpy(list.data(), take(list.size() * sizeof(T)), list.size() * sizeof(T));
+    return list;
+  }
+  std::string get_text() {
+    const std::size_t size = count(1);
+    return {take(size), size};
+  }
+  Eigen::Quaterniond get_rotation();
+  Se3 get_pose();
+  // Number of elements of at least `element_bytes` each that follow.
+  std::size_t count(std::size_t element_bytes);
+  bool at_end() const { return bytes_.empty(); }
+
+ private:
+  const char* take(std::size_t size);
+  std::string_view bytes_;
+  std::string source_;
+  const char* name_;
+};
+
+// Header and payload, atomically.
+void write_binary_file(const std::filesystem::path& file, const BinaryFormat& format, std::string_view payload);
+// The payload. InputError naming the file for a file cut short, of another version, with a wrong checksum or of another kind.
+std::string read_binary_file(const std::filesystem::path& file, const BinaryFormat& format);
+
+}  // namespace edgescout
