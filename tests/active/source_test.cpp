@@ -1,0 +1,182 @@
+// Where images come from: rendered, recorded and called back; what cannot be had is an AcquisitionError.
+#include "host/active/source.h"
+
+#include <gtest/gtest.h>
+
+#include "host/active/views.h"
+#include "host/io/image.h"
+#include "host/render/parts.h"
+#include "host/render/write_bop.h"
+#include "kernels/error.h"
+#include "kernels/thread_pool.h"
+#include "tests/io/expect_input_error.h"
+#include "tests/io/temporary_folder.h"
+
+namespace edgescout::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+RenderOptions small_options(int views = 1) {
+  RenderOptions options;
+  options.width = 160;
+  options.height = 120;
+  options.focal_px = 200;
+  options.objects = 1;
+  options.views = views;
+  options.clutter = 0;
+  options.supersampling = 1;
+  options.shadows = false;
+  options.min_distance_m = options.max_distance_m = 0.3;
+  return options;
+}
+
+Scene small_scene(int views = 1) {
+  const std::vector<Object> parts{make_part("l_bracket")};
+  return make_scene(parts, small_options(views));
+}
+
+struct Cell {
+  ThreadPool pool{2};
+  Scene scene = small_scene();
+  std::vector<Se3> views = hemisphere_views({{0, 0, 0}, 0.3, {40, 70}, 6});
+  SimulatedCell with(const ArmNoise& noise) { return {scene, scene.views[0].camera, views, noise, pool}; }
+};
+
+bool same(const Se3& a, const Se3& b) { return distance_between_m(a, b) == 0 && a.rotation.coeffs() == b.rotation.coeffs(); }
+
+TEST(SimulatedCell, RendersTheSceneFromThePlannedPlace) {
+  Cell t;
+  const Shot shot = t.with({}).acquire(3);
+  EXPECT_TRUE(same(shot.camera_from_world, t.views[3]));
+  Scene by_hand = t.scene;
+  by_hand.views = {{t.scene.views[0].camera, t.views[3]}};
+  by_hand.options.seed += 3;
+  EXPECT_EQ(shot.image.pixels, render(by_hand, t.pool)[0].image.pixels);
+}
+
+TEST(SimulatedCell, AnswersAlikeWhateverWasAskedBefore) {
+  Cell t;
+  const ArmNoise noise{0.002, 0.01, true, 5};
+  SimulatedCell once = t.with(noise), again = t.with(noise);
+  again.acquire(0);
+  again.acquire(4);
+  const Shot a = once.acquire(2), b = again.acquire(2);
+  EXPECT_EQ(a.image.pixels, b.image.pixels);
+  EXPECT_TRUE(same(a.camera_from_world, b.camera_from_world));
+}
+
+TEST(SimulatedCell, MissesThePlaceByTheArmsNoise) {
+  Cell t;
+  double shift2 = 0, turn2 = 0;
+  const int draws = 60;
+  for (int i = 0; i < draws; ++i) {
+    ArmNoise noise{0.002, 0.01, true, static_cast<std::uint64_t>(i)};
+    const Se3 error = t.with(noise).acquire(1).camera_from_world * inverse(t.views[1]);
+    shift2 += error.translation_m.squaredNorm() / (3 * draws);
+    turn2 += so3_log(error.rotation).squaredNorm() / (3 * draws);
+  }
+  // 180 draws: the standard deviation is known to 5 %.
+  EXPECT_NEAR(std::sqrt(shift2), 0.002, 0.0004);
+  EXPECT_NEAR(std::sqrt(turn2), 0.01, 0.002);
+}
+
+TEST(SimulatedCell, AnArmWithoutEncodersReportsThePlanAndSeesTheTruth) {
+  Cell t;
+  const ArmNoise hidden{0.01, 0.05, false, 2}, known{0.01, 0.05, true, 2};
+  const Shot blind = t.with(hidden).acquire(1), told = t.with(known).acquire(1);
+  EXPECT_TRUE(same(blind.camera_from_world, t.views[1]));
+  EXPECT_GT(distance_between_m(told.camera_from_world, t.views[1]), 0.001);
+  EXPECT_EQ(blind.image.pixels, told.image.pixels);
+  EXPECT_NE(blind.image.pixels, t.with({}).acquire(1).image.pixels);
+}
+
+TEST(SimulatedCell, RefusesNoiseOutOfBounds) {
+  Cell t;
+  expect_input_error([&] { t.with({-1, 0}); }, {"arm_noise.translation_m"});
+  expect_input_error([&] { t.with({0, NAN}); }, {"arm_noise.rotation_rad"});
+}
+
+struct Recorded {
+  TemporaryFolder folder;
+  Scene scene = small_scene(3);
+  std::vector<Rendering> renderings;
+  fs::path bop = folder.path() / "000004";
+  Recorded() {
+    ThreadPool pool(2);
+    renderings = render(scene, pool);
+    write_bop_scene(scene, renderings, bop);
+  }
+};
+
+TEST(RecordedViews, AreThoseOfABopScene) {
+  const Recorded t;
+  RecordedViews source = load_recorded_views(t.bop);
+  EXPECT_EQ(source.camera().width, 160);
+  EXPECT_EQ(source.camera().fx, 200);
+  ASSERT_EQ(source.views().size(), 3u);
+  for (int i = 0; i < 3; ++i) {
+    const Shot shot = source.acquire(i);
+    EXPECT_EQ(shot.image.pixels, t.renderings[i].image.pixels);
+    EXPECT_LT(distance_between_m(shot.camera_from_world, t.scene.views[i].camera_from_world), 1e-9);
+    EXPECT_LT(distance_between_m(source.views()[i], t.scene.views[i].camera_from_world), 1e-9);
+  }
+}
+
+TEST(RecordedViews, AnImageThatCannotBeReadIsAFailedAcquisition) {
+  const Recorded t;
+  fs::remove(t.bop / "gray/000000.png");
+  t.folder.write("000004/gray/000001.png", "no image");
+  RecordedViews source = load_recorded_views(t.bop);
+  EXPECT_EQ(source.camera().height, 120) << "of the first image that can be read";
+  EXPECT_THROW(source.acquire(0), AcquisitionError);
+  EXPECT_THROW(source.acquire(1), AcquisitionError);
+  EXPECT_EQ(source.acquire(2).image.width, 160);
+}
+
+TEST(RecordedViews, RefuseFoldersOfNoKnownForm) {
+  const Recorded t;
+  expect_input_error([&] { load_recorded_views(t.folder.path()); }, {"scene_camera.json", "CameraPose"});
+  std::string cameras = content_of(t.bop / "scene_camera.json");
+  t.folder.write("a/scene_camera.json", std::string(cameras).replace(cameras.find("200.0"), 5, "201.0"));
+  expect_input_error([&] { load_recorded_views(t.folder.path() / "a"); }, {"000001", "camera", "one camera"});
+  cameras.replace(cameras.rfind("cam_R_w2c"), 9, "cam_R_xyz");
+  t.folder.write("b/scene_camera.json", cameras);
+  expect_input_error([&] { load_recorded_views(t.folder.path() / "b"); }, {"000002", "world pose"});
+}
+
+// The form of Castle-simu.
+TEST(RecordedViews, AreThoseOfAVispFolder) {
+  const Recorded t;
+  Camera camera = t.scene.views[0].camera;
+  const fs::path folder = t.folder.path() / "castle";
+  t.folder.write("castle/CameraPose/Camera_001.txt", "1 0 0 0.05\n0 -1 0 0.1\n0 0 -1 0.6\n0 0 0 1\n");
+  t.folder.write("castle/CameraPose/Camera_002.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0.5\n0 0 0 1\n");
+  fs::create_directories(folder / "Images");
+  fs::copy_file(t.bop / "gray/000000.png", folder / "Images/Image_0002.pgm");
+  RecordedViews source = load_recorded_views(folder, camera);
+  ASSERT_EQ(source.views().size(), 2u);
+  EXPECT_EQ(source.views()[0] * Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(1.05, -1.9, -2.4));
+  EXPECT_THROW(source.acquire(0), AcquisitionError);
+  EXPECT_EQ(source.acquire(1).image.pixels, t.renderings[0].image.pixels);
+  expect_input_error([&] { load_recorded_views(folder); }, {"castle", "camera"});
+  t.folder.write("castle/CameraPose/Camera_002.txt", "1 0 0 0\n0 2 0 0\n0 0 1 0.5\n0 0 0 1\n");
+  expect_input_error([&] { load_recorded_views(folder, camera); }, {"Camera_002.txt", "rotation"});
+  t.folder.write("castle/CameraPose/Camera_002.txt", "1 0 0 0\n0 1 0\n");
+  expect_input_error([&] { load_recorded_views(folder, camera); }, {"Camera_002.txt"});
+}
+
+TEST(CallbackSource, CallsBack) {
+  int asked = -1;
+  CallbackSource source(small_scene().views[0].camera, {Se3{}, Se3{}}, [&](int view) -> Shot {
+    asked = view;
+    throw AcquisitionError("the arm is stuck");
+  });
+  EXPECT_EQ(source.views().size(), 2u);
+  EXPECT_EQ(source.camera().width, 160);
+  EXPECT_THROW(source.acquire(1), AcquisitionError);
+  EXPECT_EQ(asked, 1);
+}
+
+}  // namespace
+}  // namespace edgescout::test
