@@ -2,7 +2,7 @@
 //
 // Three kinds: the plain CPU reference (single-threaded, the judge of the others), the fast CPU path (SIMD and threads) and a
 // Vulkan device. All answer alike, within the agreement each kernel's header promises.
-// A backend may be used by one thread at a time. Tensors and views outlive the call that made them and must be
+// A backend may be used by one thread at a time. Tensors, views and cells outlive the call that made them and must be
 // handed back to the same backend.
 #pragma once
 
@@ -11,9 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "kernels/candidate_map.h"
+#include "kernels/combination_chamfer.h"
 #include "kernels/dcd_tensor.h"
 #include "kernels/depth_raster.h"
 #include "kernels/edge_detect.h"
+#include "kernels/mutual_information.h"
 #include "kernels/pose_normal_equations.h"
 #include "kernels/pose_score.h"
 #include "kernels/template_score.h"
@@ -31,6 +34,18 @@ class BackendView {
   virtual std::vector<std::uint16_t> tensor() const = 0;
 };
 using ViewHandle = std::shared_ptr<const BackendView>;
+
+// The cells of one view's combination_chamfer, in the backend's own memory: particles * realizations of them, too many to keep
+// those of all views.
+class BackendChamfer {
+ public:
+  virtual ~BackendChamfer() = default;
+  std::uint32_t particles = 0, realizations = 0;
+  ChamferOptions options;
+  // Copies them to the host, [particle][realization].
+  virtual std::vector<ChamferCell> cells() const = 0;
+};
+using ChamferHandle = std::shared_ptr<const BackendChamfer>;
 
 // Wall time of one kernel or batch since the last call of take_timings(), by name.
 struct StageTime {
@@ -59,6 +74,13 @@ class Backend {
                           std::span<PoseScore> out) = 0;
   virtual void depth_raster(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
                             std::span<float> depth) = 0;
+  virtual void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width, int height,
+                             std::span<std::uint32_t> nearest) = 0;
+  virtual ChamferHandle combination_chamfer(const ChamferView& view, const CombinationBits& combinations,
+                                            const ChamferOptions& options) = 0;
+  // Of one view, nats.
+  virtual double mutual_information(const BackendChamfer& chamfer, std::span<const ParticleBelief> beliefs,
+                                    const InformationOptions& options) = 0;
   // The threads host code may use beside the kernels.
   virtual ThreadPool& threads() = 0;
 

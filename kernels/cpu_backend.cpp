@@ -72,6 +72,12 @@ class CpuView : public BackendView {
   std::vector<std::int16_t> gradient_x2;
 };
 
+class CpuChamfer : public BackendChamfer {
+ public:
+  std::vector<ChamferCell> cells() const override { return values; }
+  std::vector<ChamferCell> values;
+};
+
 class CpuBackend : public Backend {
  public:
   CpuBackend(bool fast, int threads) : fast_(fast), pool_(fast ? threads : 1) {}
@@ -142,6 +148,37 @@ class CpuBackend : public Backend {
       depth_raster_fast(mesh, jobs, width, height, depth, pool_);
     else
       depth_raster_reference(mesh, jobs, width, height, depth);
+  }
+
+  void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width, int height,
+                     std::span<std::uint32_t> nearest) override {
+    const Timer timer(*this, "candidate_map");
+    if (fast_)
+      candidate_map_fast(edges, maps, width, height, nearest, pool_);
+    else
+      candidate_map_reference(edges, maps, width, height, nearest);
+  }
+
+  ChamferHandle combination_chamfer(const ChamferView& view, const CombinationBits& combinations,
+                                    const ChamferOptions& options) override {
+    const Timer timer(*this, "combination_chamfer");
+    auto chamfer = std::make_shared<CpuChamfer>();
+    chamfer->values = fast_ ? combination_chamfer_fast(view, combinations, options, pool_)
+                            : combination_chamfer_reference(view, combinations, options);
+    chamfer->particles = static_cast<std::uint32_t>(view.particles());
+    chamfer->realizations = combinations.count;
+    chamfer->options = options;
+    return chamfer;
+  }
+
+  double mutual_information(const BackendChamfer& chamfer, std::span<const ParticleBelief> beliefs,
+                            const InformationOptions& options) override {
+    const Timer timer(*this, "mutual_information");
+    const auto* mine = dynamic_cast<const CpuChamfer*>(&chamfer);
+    check(mine != nullptr, "cells made by another backend");
+    const ChamferTable table{chamfer.particles, chamfer.realizations, chamfer.options.cap_px, mine->values};
+    return fast_ ? mutual_information_fast(table, beliefs, options, pool_)
+                 : mutual_information_reference(table, beliefs, options);
   }
 
  private:

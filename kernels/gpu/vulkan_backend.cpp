@@ -46,6 +46,12 @@ class VulkanView : public BackendView {
   Buffer<std::int16_t> gradient_x2;
 };
 
+class VulkanChamfer : public BackendChamfer {
+ public:
+  std::vector<ChamferCell> cells() const override { return values; }
+  std::vector<ChamferCell> values;
+};
+
 class VulkanBackend : public Backend {
  public:
   explicit VulkanBackend(const DeviceOptions& options)
@@ -132,6 +138,29 @@ class VulkanBackend : public Backend {
                      depth.subspan(first * map, count * map));
       run(batch);
     }
+  }
+
+  void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width, int height,
+                     std::span<std::uint32_t> nearest) override {
+    candidate_map_fast(edges, maps, width, height, nearest, pool_);
+  }
+
+  ChamferHandle combination_chamfer(const ChamferView& view, const CombinationBits& combinations,
+                                    const ChamferOptions& options) override {
+    auto chamfer = std::make_shared<VulkanChamfer>();
+    chamfer->values = combination_chamfer_fast(view, combinations, options, pool_);
+    chamfer->particles = static_cast<std::uint32_t>(view.particles());
+    chamfer->realizations = combinations.count;
+    chamfer->options = options;
+    return chamfer;
+  }
+
+  double mutual_information(const BackendChamfer& chamfer, std::span<const ParticleBelief> beliefs,
+                            const InformationOptions& options) override {
+    const auto* mine = dynamic_cast<const VulkanChamfer*>(&chamfer);
+    check(mine != nullptr, "cells made by another backend");
+    return mutual_information_fast({chamfer.particles, chamfer.realizations, chamfer.options.cap_px, mine->values}, beliefs, options,
+                                   pool_);
   }
 
  private:
