@@ -1,0 +1,33 @@
+// Hypothetical scenes: subsets of the object candidates that can exist together (paper, Sec. 5.2, Algorithm 1).
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "host/active/bit_matrix.h"
+#include "host/register/d2co.h"
+
+namespace edgescout {
+
+// How far one part reaches into another: the length by which it must at least be pushed, in whatever direction, until no triangle of one cuts a triangle of the
+// other and neither lies inside the other (the translational penetration depth). Here only the question is answered whether `penetration_m` is enough: cutting triangles
+// and containment are decided exactly, directions are tried: 42 over the sphere and the normals of the faces in contact. So a pair is found apart too rarely, never
+// too often, by at most 1 / cos 18 deg = 5 % in length. Two sheets thinner than the tolerance pass through each other unnoticed: keep it below the thinnest wall.
+inline constexpr double DEFAULT_PENETRATION_M = 0.002;
+
+// Symmetric: candidate i with candidate j, true where they can exist together (true on the diagonal). Poses in any one frame.
+BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Hypothesis> candidates, double penetration_m, ThreadPool& pool);
+
+struct CombinationOptions {
+  int count = 1000;
+  std::uint64_t seed = 1;
+  double sharpness = 1;  // a: candidates are drawn with p ~ exp(-a (1 - psi)^2); 1 is the paper's, hardly less than flat
+  void validate() const;
+};
+
+// Algorithm 1: for each combination K ~ Bin(N, 0.5), then K draws without replacement; a candidate that clashes with one drawn before is left out and costs its draw. Rows
+// are draws: the same scene drawn twice stands there twice, and a scene without objects may be among them. Where all pairs clash each row has one candidate or none.
+// InputError where there is no candidate.
+BitMatrix sample_combinations(std::span<const double> psi, const BitMatrix& plausible, const CombinationOptions& options);
+
+}  // namespace edgescout

@@ -1,0 +1,31 @@
+// Whether the views' camera poses agree with their images: objects registered over all views must also lie where each single image has them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/register/refine.h"
+
+namespace edgescout {
+
+struct ViewAgreement {
+  double residual_px = 0;  // median over the objects of how far their points move in this image when only it has a say; 0 where `objects` is 0
+  int objects = 0;         // that could be judged in it
+  bool disagrees = false;
+};
+
+struct AgreementOptions {
+  double max_residual_px = 2.5;
+  double min_probability = 0.3;  // of an object's pose registered on the one image alone, for it to judge
+  D2coOptions joint = joint_defaults(), single = single_defaults();
+  PoseScoreOptions score{1.0f, 4.0f, 60.0f};
+  static D2coOptions joint_defaults();
+  static D2coOptions single_defaults();
+};
+
+// One a view. The worst view above max_residual_px is flagged and left out, then the rest are judged again: one wrong pose spoils the joint registration for all others. Of two views that
+// disagree with each other the later is flagged. Each flag is logged as a warning. Fewer than two views or no objects: nothing can disagree.
+std::vector<ViewAgreement> view_agreement(std::span<const EdgeModel> models, std::span<const Hypothesis> objects, std::span<const RegisterView> views,
+                                          Backend& backend, const AgreementOptions& options = {});
+
+}  // namespace edgescout
