@@ -1,29 +1,15 @@
 #include "host/pipeline.h"
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
 
+#include "host/core/stopwatch.h"
 #include "host/detect/joint.h"
 #include "host/io/image.h"
 
 namespace edgescout {
 
 namespace {
-
-// Names the time between two calls.
-class Stopwatch {
- public:
-  explicit Stopwatch(std::vector<StageSeconds>& stages) : stages_(stages) {}
-  void lap(const char* stage) {
-    const auto now = std::chrono::steady_clock::now();
-    stages_.push_back({stage, std::chrono::duration<double>(now - last_).count()});
-    last_ = now;
-  }
-
- private:
-  std::vector<StageSeconds>& stages_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 // Typical size of an object in the image: at the geometric middle of its distances.
 double size_px(const TemplateSet& set, const Camera& camera) {
@@ -34,17 +20,6 @@ double smallest_size_px(std::span<const TemplateSet> sets, const Camera& camera)
   double smallest = size_px(sets[0], camera);
   for (const TemplateSet& set : sets) smallest = std::min(smallest, size_px(set, camera));
   return smallest;
-}
-
-std::vector<EdgeModel> models_of(std::span<const TemplateSet> sets) {
-  std::vector<EdgeModel> models;
-  for (const TemplateSet& set : sets) models.push_back(set.model);
-  return models;
-}
-
-Observation observe_prepared(const PreparedImage& prepared, std::span<const TemplateSet> sets, Backend& backend, const PipelineOptions& options) {
-  return observe(prepared.image, prepared.camera, prepared.camera_from_world, prepared.edges,
-                 reduction_for(smallest_size_px(sets, prepared.camera)), options.tensor, backend);
 }
 
 }  // namespace
@@ -65,6 +40,17 @@ PreparedImage prepare_image(const Image& image, const Camera& camera, const Se3&
   prepared.edges = find_edges(prepared.image, options.edges, backend);
   watch.lap("edges");
   return prepared;
+}
+
+std::vector<EdgeModel> models_of(std::span<const TemplateSet> sets) {
+  std::vector<EdgeModel> models;
+  for (const TemplateSet& set : sets) models.push_back(set.model);
+  return models;
+}
+
+Observation observe_prepared(const PreparedImage& prepared, std::span<const TemplateSet> sets, Backend& backend, const PipelineOptions& options) {
+  return observe(prepared.image, prepared.camera, prepared.camera_from_world, prepared.edges,
+                 reduction_for(smallest_size_px(sets, prepared.camera)), options.tensor, backend);
 }
 
 Detections detect_objects(const PreparedImage& prepared, std::span<const TemplateSet> sets, Backend& backend, const PipelineOptions& options) {

@@ -34,6 +34,11 @@ struct PreparedImage {
 };
 PreparedImage prepare_image(const Image& image, const Camera& camera, const Se3& camera_from_world, Backend& backend, const PipelineOptions& options);
 
+// Its tensors, the coarse one reduced as suits the smallest of the objects.
+Observation observe_prepared(const PreparedImage& prepared, std::span<const TemplateSet> sets, Backend& backend, const PipelineOptions& options);
+
+std::vector<EdgeModel> models_of(std::span<const TemplateSet> sets);
+
 struct Detections {
   std::vector<Detection> detections;  // best probability first; world_from_object is camera_from_object for one view
   std::vector<StageSeconds> stages;   // in the order they ran

@@ -9,14 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "host/core/stopwatch.h"
 #include "host/core/types.h"
 
 namespace edgescout {
-
-struct StageSeconds {
-  std::string name;
-  double seconds = 0;
-};
 
 struct ObjectName {
   int id = 1;  // BOP obj_id
