@@ -1,0 +1,135 @@
+#include "host/active/combinations.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <map>
+
+#include "tests/io/expect_input_error.h"
+#include "tests/test_random.h"
+
+namespace edgescout::test {
+namespace {
+
+BitMatrix all_together(std::size_t count) {
+  BitMatrix pairs(count, count);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = 0; j < count; ++j) pairs.set(i, j);
+  return pairs;
+}
+
+BitMatrix each_alone(std::size_t count) {
+  BitMatrix pairs(count, count);
+  for (std::size_t i = 0; i < count; ++i) pairs.set(i, i);
+  return pairs;
+}
+
+std::uint32_t row_of(const BitMatrix& m, std::size_t row) {
+  std::uint32_t set = 0;
+  for (std::size_t c = 0; c < m.columns; ++c) set |= std::uint32_t(m.has(row, c)) << c;
+  return set;
+}
+
+// Probability of every outcome of Algorithm 1, by following every sequence of draws.
+void follow(const std::vector<double>& weights, const BitMatrix& plausible, int draws, std::uint32_t drawn, std::uint32_t set,
+            double probability, std::map<std::uint32_t, double>& outcome) {
+  if (draws == 0) {
+    outcome[set] += probability;
+    return;
+  }
+  double total = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    if (!(drawn >> i & 1)) total += weights[i];
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    if (drawn >> i & 1) continue;
+    bool fits = true;
+    for (std::size_t m = 0; m < weights.size(); ++m) fits &= !(set >> m & 1) || plausible.has(i, m);
+    follow(weights, plausible, draws - 1, drawn | 1u << i, fits ? set | 1u << i : set, probability * weights[i] / total, outcome);
+  }
+}
+
+TEST(SampleCombinations, HasTheDistributionOfAlgorithm1) {
+  const std::vector<double> psi{0.95, 0.2, 0.7, 0.5, 0.85};
+  BitMatrix plausible = each_alone(5);
+  for (auto [i, j] : {std::pair(0, 2), {1, 2}, {0, 4}, {2, 3}, {3, 4}, {1, 4}}) plausible.set(i, j), plausible.set(j, i);
+  CombinationOptions options;
+  options.count = 400000;
+  options.sharpness = 3;
+  std::vector<double> weights;
+  for (double p : psi) weights.push_back(std::exp(-3 * (1 - p) * (1 - p)));
+  std::map<std::uint32_t, double> expected;
+  for (int k = 0; k <= 5; ++k) {
+    const double binomial[] = {1, 5, 10, 10, 5, 1};
+    follow(weights, plausible, k, 0, 0, binomial[k] / 32, expected);
+  }
+  const BitMatrix drawn = sample_combinations(psi, plausible, options);
+  std::map<std::uint32_t, double> found;
+  for (std::size_t j = 0; j < drawn.rows; ++j) found[row_of(drawn, j)] += 1.0 / options.count;
+  ASSERT_EQ(found.size(), expected.size());
+  for (const auto& [set, probability] : expected)
+    EXPECT_NEAR(found[set], probability, 5 * std::sqrt(probability / options.count)) << std::hex << set;
+}
+
+TEST(SampleCombinations, NeverJoinsWhatClashes) {
+  Random random = test_random();
+  const std::size_t count = 70;  // more than two words
+  BitMatrix plausible = each_alone(count);
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (random.uniform() < 0.8) plausible.set(i, j), plausible.set(j, i);
+  std::vector<double> psi(count);
+  for (double& p : psi) p = random.uniform();
+  const BitMatrix drawn = sample_combinations(psi, plausible, {2000, 7, 1});
+  int largest = 0;
+  for (std::size_t row = 0; row < drawn.rows; ++row) {
+    int members = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      members += drawn.has(row, i);
+      for (std::size_t j = 0; j < i; ++j) ASSERT_FALSE(drawn.has(row, i) && drawn.has(row, j) && !plausible.has(i, j));
+    }
+    largest = std::max(largest, members);
+  }
+  EXPECT_GT(largest, 6);
+}
+
+TEST(SampleCombinations, DependsOnTheSeedAlone) {
+  const std::vector<double> psi(40, 0.8);
+  const BitMatrix a = sample_combinations(psi, all_together(40), {100, 3, 1}), b = sample_combinations(psi, all_together(40), {100, 3, 1});
+  EXPECT_EQ(a.words, b.words);
+  EXPECT_NE(a.words, sample_combinations(psi, all_together(40), {100, 4, 1}).words);
+}
+
+TEST(SampleCombinations, SharpnessPrefersTheGood) {
+  std::vector<double> psi(20, 0.5);
+  psi[3] = 0.95;
+  const auto share = [&](double sharpness) {
+    const BitMatrix drawn = sample_combinations(psi, each_alone(20), {4000, 1, sharpness});
+    double with = 0;
+    for (std::size_t j = 0; j < drawn.rows; ++j) with += drawn.has(j, 3);
+    return with / drawn.rows;
+  };
+  EXPECT_NEAR(share(0), 0.05, 0.015);  // all clash: the first draw stays, and all are alike
+  EXPECT_NEAR(share(20), std::exp(-0.05) / (std::exp(-0.05) + 19 * std::exp(-5.0)), 0.02);
+}
+
+// All pairs clash: what is left are scenes of one object, and the empty one where no coin fell.
+TEST(SampleCombinations, AllImplausibleLeavesSingleObjects) {
+  const BitMatrix drawn = sample_combinations(std::vector<double>(8, 0.9), each_alone(8), {4000, 1, 1});
+  int empty = 0;
+  for (std::size_t j = 0; j < drawn.rows; ++j) {
+    const int members = std::popcount(row_of(drawn, j));
+    ASSERT_LE(members, 1);
+    empty += members == 0;
+  }
+  EXPECT_NEAR(empty / 4000.0, 1 / 256.0, 0.005);
+}
+
+TEST(SampleCombinations, NeedsACandidate) {
+  expect_input_error([] { sample_combinations({}, BitMatrix(0, 0), {}); }, {"candidates", "none"});
+  expect_input_error([] { sample_combinations(std::vector<double>{1}, all_together(1), {0, 1, 1}); }, {"combinations.count"});
+  expect_input_error([] { sample_combinations(std::vector<double>{1}, all_together(1), {1, 1, -1}); }, {"combinations.sharpness"});
+}
+
+}  // namespace
+}  // namespace edgescout::test
