@@ -25,6 +25,7 @@ struct NextViewOptions {
   double sigma_px = 4;            // of the mean distance, image px
   double tolerance = 0.1;         // of the largest object's diameter: nearer than that a surface hides nothing
   bool literal = false;           // the paper's own formula (kernels/mutual_information.h)
+  double seen_px = 4;             // a template point was seen in a real view if an edge of its image lies so near, along it; 0: if it lies inside the image. At most 8
   VisibilityOptions visibility{96, 0.01};
   double motion_cost_per_m = 0;   // taken off the information: for the way from the last view's camera
   double motion_cost_per_rad = 0;
@@ -41,7 +42,7 @@ struct Planning {
   Camera camera;                              // ideal, full resolution
   std::span<const Se3> views;                 // camera_from_world of all possible views
   std::span<const char> closed;               // one a view: nonzero where it was taken or cannot be reached; empty: all are open
-  std::span<const Se3> real_views;            // camera_from_world of the images so far, in order
+  std::span<const RegisterView> real_views;   // the images so far, in order; of the tensors nothing is read
   std::span<const Detection> candidates;      // in the world
   const BitMatrix* combinations = nullptr;    // over the candidates; needed by Strategy::Information
   std::span<const Particle> particles;

@@ -23,7 +23,7 @@ struct Particle {
   Se3 world_from_object;
   Matrix6d covariance = Matrix6d::Zero();  // of the last refinement, or of the candidate it was drawn around; tangent of core/se3.h
   double log_weight = 0;                   // natural; weigh_particles makes the weights sum to 1
-  double upsilon_px2 = 0;
+  double upsilon_px2 = 0;                  // log_weight is spent_px2 - upsilon_px2, over s, up to a constant common to all
   double spent_px2 = 0;
   std::vector<PoseFeatures> by_view;       // at this pose, one a real view; empty until weighed
 };
@@ -40,7 +40,7 @@ struct ParticleOptions {
   std::uint64_t seed = 1;
   double sigma_px = 4;           // of the mean DCD of a right pose, image px
   Spread drawn{0.02, 0.1};       // around candidates
-  Spread roughened{0.003, 0.05}; // after resampling
+  Spread roughened{0.003, 0.02}; // after resampling
   double min_effective = 0.5;    // of the particles: with a lower effective sample size they are resampled
   int min_per_mode = 4;          // particles kept for every mode that may be an instance
   double min_mode_probability = 0.05;  // below it a mode lives by its weight alone

@@ -10,7 +10,7 @@ namespace edgescout {
 
 // A point of the object's edges; the same place of the object has the same `id` in every viewpoint.
 struct TemplateTablePoint {
-  Eigen::Vector3f in_object_m;
+  ModelPoint point;
   std::uint32_t id = 0;
 };
 
