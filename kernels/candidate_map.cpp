@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "kernels/error.h"
+#include "kernels/simd.h"
+#include "kernels/thread_pool.h"
 
 namespace edgescout {
 
@@ -13,6 +15,34 @@ constexpr int steps = CHAMFER_STEPS_PER_PX;
 
 // To the nearest 1/16 px; exact in float, so that shaders find the same.
 int to_steps(float px) { return static_cast<int>(std::floor(px * float(steps) + 0.5f)); }
+
+struct Stamp {
+  int x, y;              // its pixel
+  int x_steps, y_steps;  // its place
+  std::uint32_t number;
+};
+
+// Offers an edge point to every pixel in its reach: words are ordered by distance, then by number.
+EDGESCOUT_SIMD_CLONES
+void stamp(const MapWindow& window, const Stamp& edge, std::uint32_t* pixels) {
+  constexpr int reach = CANDIDATE_MAP_REACH_PX;
+  const int x0 = std::max(window.x0, edge.x - reach), x1 = std::min(window.x0 + int(window.width) - 1, edge.x + reach);
+  const int y0 = std::max(window.y0, edge.y - reach), y1 = std::min(window.y0 + int(window.height) - 1, edge.y + reach);
+  std::uint32_t dx2[2 * reach + 1];
+  const int count = x1 - x0 + 1;
+  for (int i = 0; i < count; ++i) {
+    const int dx = steps * (x0 + i) - edge.x_steps;
+    dx2[i] = std::uint32_t(dx * dx);
+  }
+  for (int y = y0; y <= y1; ++y) {
+    const int dy = steps * y - edge.y_steps;
+    std::uint32_t* row = pixels + std::size_t(y - window.y0) * window.width + (x0 - window.x0);
+    for (int i = 0; i < count; ++i) {
+      const std::uint32_t d2 = dx2[i] + std::uint32_t(dy * dy);
+      row[i] = std::min(row[i], d2 <= CANDIDATE_MAP_REACH2 ? d2 << 16 | edge.number : CANDIDATE_MAP_EMPTY);
+    }
+  }
+}
 
 }  // namespace
 
@@ -78,8 +108,19 @@ void candidate_map_reference(std::span<const MapEdge> edges, std::span<const Can
 }
 
 void candidate_map_fast(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width, int height,
-                        std::span<std::uint32_t> nearest, ThreadPool&) {
-  candidate_map_reference(edges, maps, width, height, nearest);
+                        std::span<std::uint32_t> nearest, ThreadPool& pool) {
+  check_candidate_maps(edges.size(), maps, width, height, nearest.size());
+  pool.for_each(maps.size(), [&](std::size_t m) {
+    const CandidateMap& map = maps[m];
+    const std::span<std::uint32_t> pixels = nearest.subspan(map.first_pixel, map.window.size());
+    std::ranges::fill(pixels, CANDIDATE_MAP_EMPTY);
+    for (std::uint32_t e = 0; e < map.edge_count; ++e) {
+      const MapEdge& edge = edges[map.first_edge + e];
+      int x = 0, y = 0;
+      if (nearest_pixel(edge.x_px, edge.y_px, width, height, x, y))
+        stamp(map.window, {x, y, to_steps(edge.x_px), to_steps(edge.y_px), e}, pixels.data());
+    }
+  });
 }
 
 }  // namespace edgescout

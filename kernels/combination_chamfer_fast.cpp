@@ -1,10 +1,135 @@
+// Realizations in blocks of 64, one byte each: a block's masks and rows stay in the second-level cache, its sums in registers.
+#include <algorithm>
+#include <array>
+
+#include "kernels/chamfer_plan.h"
 #include "kernels/combination_chamfer.h"
+#include "kernels/simd.h"
+#include "kernels/thread_pool.h"
 
 namespace edgescout {
 
+namespace {
+
+constexpr std::size_t block = 64;
+using Bytes = std::uint8_t __attribute__((vector_size(block)));
+using Pairs = std::uint16_t __attribute__((vector_size(block)));
+
+// 0xff where the candidate is no member, [candidate][realization of the block].
+std::vector<Bytes> absent_members(const CombinationBits& combinations, std::size_t first) {
+  std::vector<Bytes> absent(combinations.candidates);
+  for (std::size_t lane = 0; lane < block; ++lane)
+    for (std::uint32_t c = 0; c < combinations.candidates; ++c)
+      absent[c][lane] = first + lane < combinations.count && combinations.has(first + lane, c) ? 0 : 0xff;
+  return absent;
+}
+
+// 0xff where the mask does not have the realization.
+EDGESCOUT_SIMD_CLONES
+void fill_masks(const ChamferPlan& plan, const Bytes* absent, Bytes* masks) {
+  for (std::size_t m = 0; m < plan.masks.size(); ++m) {
+    const ChamferMask& mask = plan.masks[m];
+    Bytes out = mask.member == CHAMFER_NO_MEMBER ? Bytes{} : absent[mask.member];
+    for (std::uint32_t h = 0; h < mask.hider_count; ++h) out |= ~absent[plan.hiders[mask.first_hider + h]];
+    masks[m] = out;
+  }
+}
+
+EDGESCOUT_SIMD_CLONES
+void fill_rows(const ChamferPlan& plan, const Bytes* masks, Bytes* rows) {
+  constexpr std::uint32_t stride = 8;  // between looks whether every realization has its distance
+  const Bytes cap = Bytes{} + static_cast<std::uint8_t>(plan.cap);
+  for (std::size_t r = 0; r < plan.rows.size(); ++r) {
+    const ChamferRow& row = plan.rows[r];
+    const std::uint32_t *reach = plan.reach.data() + row.first_reach, *end = reach + row.reach_count;
+    Bytes least = cap;
+    while (reach != end) {
+      const std::uint32_t* stop = std::min(reach + stride, end);
+      for (; reach != stop; ++reach) {
+        const Bytes distance = (Bytes{} + static_cast<std::uint8_t>(*reach >> 24)) | masks[*reach & 0xffffffu];
+        least = distance < least ? distance : least;
+      }
+      if (reach == end) break;
+      const Bytes next = Bytes{} + static_cast<std::uint8_t>(*reach >> 24);
+      using Words = std::uint64_t __attribute__((vector_size(block)));
+      const Words farther = reinterpret_cast<Words>(least > next);
+      std::uint64_t any = 0;
+      for (std::size_t w = 0; w < block / 8; ++w) any |= farther[w];
+      if (any == 0) break;
+    }
+    rows[r] = least & ~masks[row.visible];
+  }
+}
+
+struct Sums {
+  std::array<std::uint32_t, block> distance{}, hidden{}, hidden_fresh{};
+};
+
+void flush(const Bytes& bytes, std::array<std::uint32_t, block>& sums) {
+  for (std::size_t lane = 0; lane < block; ++lane) sums[lane] += bytes[lane];
+}
+
+// The points [first, end) of a particle, at most 256 of them, so that sums of bytes fit 16 bits.
+EDGESCOUT_SIMD_CLONES
+void add_distances(const std::uint32_t* first, const std::uint32_t* end, const Bytes* rows, Sums& sums) {
+  Pairs even{}, odd{};
+  for (const std::uint32_t* p = first; p != end; ++p) {
+    const Pairs row = reinterpret_cast<Pairs>(rows[*p >> 1]);
+    even += row & 0xff;
+    odd += row >> 8;
+  }
+  for (std::size_t lane = 0; lane < block / 2; ++lane) {
+    sums.distance[2 * lane] += even[lane];
+    sums.distance[2 * lane + 1] += odd[lane];
+  }
+}
+
+// At most 255 points, so that their number fits a byte.
+EDGESCOUT_SIMD_CLONES
+void count_hidden(const std::uint32_t* first, const std::uint32_t* end, const ChamferPlan& plan, const Bytes* masks, Sums& sums) {
+  Bytes hidden{}, fresh{};
+  for (const std::uint32_t* p = first; p != end; ++p) {
+    const Bytes gone = masks[plan.rows[*p >> 1].visible];
+    hidden -= gone;
+    fresh -= gone & static_cast<std::uint8_t>(0 - (*p & 1u));
+  }
+  flush(hidden, sums.hidden);
+  flush(fresh, sums.hidden_fresh);
+}
+
+Sums sums_of(const ChamferPlan& plan, const ChamferRun& run, const Bytes* masks, const Bytes* rows) {
+  constexpr std::uint32_t chunk = 255;
+  Sums sums;
+  const std::uint32_t* points = plan.points.data();
+  for (std::uint32_t p = run.first; p < run.end; p += chunk)
+    add_distances(points + p, points + std::min(run.end, p + chunk), rows, sums);
+  for (std::uint32_t p = run.first_hideable; p < run.end; p += chunk)
+    count_hidden(points + p, points + std::min(run.end, p + chunk), plan, masks, sums);
+  return sums;
+}
+
+}  // namespace
+
 std::vector<ChamferCell> combination_chamfer_fast(const ChamferView& view, const CombinationBits& combinations,
-                                                  const ChamferOptions& options, ThreadPool&) {
-  return combination_chamfer_reference(view, combinations, options);
+                                                  const ChamferOptions& options, ThreadPool& pool) {
+  check_chamfer(view, combinations, options);
+  const ChamferPlan plan = plan_chamfer(view, options, pool);
+  std::vector<ChamferCell> cells(view.particles() * combinations.count);
+  pool.for_each((combinations.count + block - 1) / block, [&](std::size_t b) {
+    const std::size_t first = b * block, lanes = std::min(block, combinations.count - first);
+    const std::vector<Bytes> absent = absent_members(combinations, first);
+    std::vector<Bytes> masks(plan.masks.size()), rows(plan.rows.size());
+    fill_masks(plan, absent.data(), masks.data());
+    fill_rows(plan, masks.data(), rows.data());
+    for (std::size_t i = 0; i < plan.particles.size(); ++i) {
+      const ChamferRun& run = plan.particles[i];
+      const Sums sums = sums_of(plan, run, masks.data(), rows.data());
+      for (std::size_t lane = 0; lane < lanes; ++lane)
+        cells[i * combinations.count + first + lane] = {sums.distance[lane], std::uint16_t(run.end - run.first - sums.hidden[lane]),
+                                                        std::uint16_t(run.fresh - sums.hidden_fresh[lane])};
+    }
+  });
+  return cells;
 }
 
 }  // namespace edgescout

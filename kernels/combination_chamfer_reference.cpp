@@ -89,7 +89,8 @@ void check_chamfer(const ChamferView& view, const CombinationBits& combinations,
     const std::uint32_t first = view.first_point[i], end = view.first_point[i + 1];
     check(first <= end && end - first <= CHAMFER_MAX_POINTS, "combination_chamfer: points of a particle");
   }
-  for (const ParticlePoint& point : view.points) check(point.fresh <= 1, "combination_chamfer: fresh is 0 or 1");
+  for (std::uint32_t p = view.first_point.front(); p < view.first_point.back(); ++p)
+    check(view.points[p].fresh <= 1, "combination_chamfer: fresh is 0 or 1");
 }
 
 std::vector<ChamferCell> combination_chamfer_reference(const ChamferView& view, const CombinationBits& combinations,

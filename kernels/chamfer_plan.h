@@ -1,0 +1,46 @@
+// combination_chamfer without its combinations: what the fast path and Vulkan share. Everything that does not depend on the
+// realization is settled here once, so that what remains is bytes to look up and to add.
+//
+// A *mask* is a set of realizations: those with a candidate, but without any of those that hide it. A *row* is what a point meets
+// at one pixel when given surfaces lie in front of it: for every realization the distance, one byte, 0 where the point is hidden.
+// Many points of many particles share a row.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "kernels/combination_chamfer.h"
+
+namespace edgescout {
+
+inline constexpr std::uint32_t CHAMFER_NO_MEMBER = ~0u;
+
+struct ChamferMask {
+  std::uint32_t member = CHAMFER_NO_MEMBER;         // every realization, but
+  std::uint32_t first_hider = 0, hider_count = 0;   // those with one of hiders[first_hider, + hider_count)
+};
+
+// Distance in 1/16 px << 24 | mask.
+struct ChamferRow {
+  std::uint32_t first_reach = 0, reach_count = 0;  // nearest first: the first whose mask has the realization is its distance
+  std::uint32_t visible = 0;                       // mask; 0: nothing hides it
+};
+
+struct ChamferRun {
+  std::uint32_t first = 0, first_hideable = 0, end = 0;  // of `points`: those on rows that nothing hides, then the others
+  std::uint32_t fresh = 0;                               // of all of them
+};
+
+struct ChamferPlan {
+  std::uint32_t cap = CHAMFER_CAP;
+  std::vector<ChamferMask> masks;  // 0: all realizations; 1 + c: those with candidate c
+  std::vector<std::uint32_t> hiders, reach;
+  std::vector<ChamferRow> rows;
+  std::vector<std::uint32_t> points;  // row << 1 | fresh
+  std::vector<ChamferRun> particles;
+};
+
+// Throws LogicError as check_chamfer() does, and for more than 2^24 masks or 2^31 rows.
+ChamferPlan plan_chamfer(const ChamferView& view, const ChamferOptions& options, ThreadPool& pool);
+
+}  // namespace edgescout
