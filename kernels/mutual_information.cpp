@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernels/error.h"
+#include "kernels/thread_pool.h"
 
 namespace edgescout {
 
@@ -47,6 +48,11 @@ std::vector<double> log_likelihoods(const ChamferTable& table, std::uint32_t i, 
   return logs;
 }
 
+void check_table(const ChamferTable& table, std::span<const ParticleBelief> beliefs, const InformationOptions& options) {
+  check_information(table.particles, table.realizations, beliefs, options);
+  check(table.cells.size() == std::size_t(table.particles) * table.realizations, "mutual_information: cells of the table");
+}
+
 }  // namespace
 
 void InformationOptions::validate() const {
@@ -70,7 +76,7 @@ void check_information(std::uint32_t particles, std::uint32_t realizations, std:
 
 double mutual_information_reference(const ChamferTable& table, std::span<const ParticleBelief> beliefs,
                                     const InformationOptions& options) {
-  check_information(table.particles, table.realizations, beliefs, options);
+  check_table(table, beliefs, options);
   const std::vector<double> log_weight = log_weights(beliefs);
   std::vector<std::vector<double>> log_rows;
   for (std::uint32_t i = 0; i < table.particles; ++i) log_rows.push_back(log_likelihoods(table, i, beliefs[i], options));
@@ -86,9 +92,85 @@ double mutual_information_reference(const ChamferTable& table, std::span<const P
   return std::max(0.0, information);
 }
 
+namespace {
+
+// What a run of particles adds: to the evidence of every realization, and to the mean of sum_j L log L.
+struct Share {
+  std::vector<double> evidence;
+  double mean_l_log_l = 0;
+};
+
+class FastInformation {
+ public:
+  FastInformation(const ChamferTable& table, std::span<const ParticleBelief> beliefs, const InformationOptions& options)
+      : table_(table), beliefs_(beliefs), options_(options), log_weight_(log_weights(beliefs)) {
+    std::size_t fresh = 0, seen = 0;
+    for (const ChamferCell& cell : table.cells) fresh = std::max<std::size_t>(fresh, cell.fresh);
+    for (const ParticleBelief& belief : beliefs) seen = std::max<std::size_t>(seen, belief.already_seen);
+    log_count_.push_back(std::log(0.5));
+    for (std::size_t k = 1; k <= std::min(fresh + seen, most_tabled); ++k) log_count_.push_back(std::log(double(k)));
+  }
+
+  Share share(std::size_t begin, std::size_t end) const {
+    Share sum{std::vector<double>(table_.realizations, 0.0)};
+    std::vector<double> logs(table_.realizations);
+    for (std::size_t i = begin; i < end; ++i) {
+      const double weight = std::exp(log_weight_[i]);
+      if (weight == 0) continue;
+      fill_logs(i, logs);
+      const double shift = options_.literal ? 0 : log_sum_exp(logs);
+      double l_log_l = 0;
+      for (std::size_t j = 0; j < logs.size(); ++j) {
+        const double log_l = logs[j] - shift, l = std::exp(log_l);
+        sum.evidence[j] += weight * l;
+        l_log_l += l * log_l;
+      }
+      sum.mean_l_log_l += weight * l_log_l;
+    }
+    return sum;
+  }
+
+ private:
+  static constexpr std::size_t most_tabled = 1u << 17;
+
+  void fill_logs(std::size_t i, std::span<double> logs) const {
+    const ParticleBelief& belief = beliefs_[i];
+    const double offset = std::log(double(belief.total)) + (options_.literal ? belief.upsilon_px2 / options_.scale_px2 : 0);
+    const std::span cells = table_.cells.subspan(i * table_.realizations, table_.realizations);
+    for (std::size_t j = 0; j < logs.size(); ++j) {
+      const double mu = mean_px(cells[j], table_.cap_px);
+      logs[j] = log_count(std::size_t(belief.already_seen) + cells[j].fresh) - mu * mu / options_.scale_px2 - offset;
+    }
+  }
+  double log_count(std::size_t k) const { return k < log_count_.size() ? log_count_[k] : std::log(double(k)); }
+
+  const ChamferTable& table_;
+  std::span<const ParticleBelief> beliefs_;
+  const InformationOptions& options_;
+  std::vector<double> log_weight_;
+  std::vector<double> log_count_;  // of points seen, half a point for none
+};
+
+}  // namespace
+
+// I = sum_i w_i sum_j L log L - sum_j p log p: one look at every particle, and no table beside the cells.
 double mutual_information_fast(const ChamferTable& table, std::span<const ParticleBelief> beliefs, const InformationOptions& options,
-                               ThreadPool&) {
-  return mutual_information_reference(table, beliefs, options);
+                               ThreadPool& pool) {
+  check_table(table, beliefs, options);
+  const FastInformation information(table, beliefs, options);
+  constexpr std::size_t chunk = 16;  // sums are of the same order whatever the number of threads
+  std::vector<Share> shares((table.particles + chunk - 1) / chunk);
+  pool.for_each(shares.size(), [&](std::size_t s) {
+    shares[s] = information.share(s * chunk, std::min<std::size_t>(table.particles, (s + 1) * chunk));
+  });
+  double sum = 0;
+  for (const Share& share : shares) sum += share.mean_l_log_l;
+  for (std::uint32_t j = 0; j < table.realizations; ++j) {
+    double evidence = 0;
+    for (const Share& share : shares) evidence += share.evidence[j];
+    if (evidence > 0) sum -= evidence * std::log(evidence);
+  }
+  return std::max(0.0, sum);
 }
 
 }  // namespace edgescout
