@@ -2,17 +2,12 @@
 
 #include <cmath>
 
+#include "kernels/error.h"
 #include "kernels/pose_geometry.h"
 
 namespace edgescout {
 
 namespace {
-
-struct Slot {
-  std::size_t pose;
-  double visible;
-  double length_px;
-};
 
 // A raster point stands for raster_step of edge, seen at an angle; end-on edges are short in the image.
 double projected_length_px(const EdgeModel& model, const Se3& camera_from_object, const Intrinsics& k, std::span<const ModelPoint> points) {
@@ -26,13 +21,6 @@ double projected_length_px(const EdgeModel& model, const Se3& camera_from_object
   return length * model.raster_step_m;
 }
 
-void add(PoseFeatures& sum, const PoseScore& score) {
-  sum.psi += double(score.psi) * score.points;
-  sum.mean_px += double(score.mean_px) * score.points;
-  sum.matched += double(score.matched) * score.points;
-  sum.points += score.points;
-}
-
 }  // namespace
 
 double evidence(const PoseFeatures& features) {
@@ -41,12 +29,13 @@ double evidence(const PoseFeatures& features) {
   return (features.psi - CHANCE_PSI) / spread * std::sqrt(features.length_px / independent_px);
 }
 
-std::vector<PoseFeatures> pose_features(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
-                                        std::span<const RegisterView> views, Backend& backend, const PoseScoreOptions& options,
-                                        const VisibilityOptions& visibility) {
+std::vector<PoseFeatures> pose_features_by_view(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
+                                                std::span<const RegisterView> views, Backend& backend, const PoseScoreOptions& options,
+                                                const VisibilityOptions& visibility) {
+  std::vector<PoseFeatures> features(poses.size() * views.size());
   std::vector<ModelPoint> points;
   std::vector<PoseProblem> problems;
-  std::vector<Slot> slots;
+  std::vector<std::size_t> slots;  // of the problems, in `features`
   for (int object = 0; object < int(models.size()); ++object) {
     std::vector<Se3> in_camera;
     const std::size_t first = slots.size();
@@ -54,15 +43,15 @@ std::vector<PoseFeatures> pose_features(std::span<const EdgeModel> models, std::
       for (std::size_t v = 0; poses[p].object == object && v < views.size(); ++v) {
         in_camera.push_back(views[v].camera_from_world * poses[p].world_from_object);
         problems.push_back({to_pose(in_camera.back()), 0, 0, static_cast<std::uint32_t>(v)});
-        slots.push_back({p, 0, 0});
+        slots.push_back(p * views.size() + v);
       }
     const std::vector<std::vector<ModelPoint>> visible = visible_edges(models[object], in_camera, backend, visibility);
     for (std::size_t i = 0; i < visible.size(); ++i) {
       problems[first + i].first_point = static_cast<std::uint32_t>(points.size());
       problems[first + i].point_count = static_cast<std::uint32_t>(visible[i].size());
-      slots[first + i].visible = double(visible[i].size());
-      slots[first + i].length_px =
-          projected_length_px(models[object], in_camera[i], views[problems[first + i].view].view->intrinsics, visible[i]);
+      PoseFeatures& f = features[slots[first + i]];
+      f.visible = double(visible[i].size());
+      f.length_px = projected_length_px(models[object], in_camera[i], views[problems[first + i].view].view->intrinsics, visible[i]);
       points.insert(points.end(), visible[i].begin(), visible[i].end());
     }
   }
@@ -70,19 +59,42 @@ std::vector<PoseFeatures> pose_features(std::span<const EdgeModel> models, std::
   for (const RegisterView& view : views) handles.push_back(view.view);
   std::vector<PoseScore> scores(problems.size());
   backend.pose_score(handles, points, problems, options, scores);
-  std::vector<PoseFeatures> features(poses.size());
-  std::vector<double> visible(poses.size(), 0);
   for (std::size_t i = 0; i < scores.size(); ++i) {
-    add(features[slots[i].pose], scores[i]);
-    visible[slots[i].pose] += slots[i].visible;
-    features[slots[i].pose].length_px += slots[i].length_px;
+    PoseFeatures& f = features[slots[i]];
+    f.psi = scores[i].psi;
+    f.mean_px = scores[i].points > 0 ? scores[i].mean_px : options.cap_px;
+    f.matched = scores[i].matched;
+    f.points = scores[i].points;
+    f.in_image = f.visible > 0 ? f.points / f.visible : 0;
   }
-  for (std::size_t p = 0; p < poses.size(); ++p) {
-    PoseFeatures& f = features[p];
-    if (f.points > 0) f.psi /= f.points, f.mean_px /= f.points, f.matched /= f.points;
-    if (visible[p] > 0) f.in_image = f.points / visible[p];
-    if (f.points == 0) f.mean_px = options.cap_px;
+  return features;
+}
+
+PoseFeatures together(std::span<const PoseFeatures> by_view) {
+  check(!by_view.empty(), "together: features of at least one view");
+  PoseFeatures sum;
+  for (const PoseFeatures& f : by_view) {
+    sum.psi += f.psi * f.points;
+    sum.mean_px += f.mean_px * f.points;
+    sum.matched += f.matched * f.points;
+    sum.points += f.points;
+    sum.length_px += f.length_px;
+    sum.visible += f.visible;
   }
+  if (sum.points > 0)
+    sum.psi /= sum.points, sum.mean_px /= sum.points, sum.matched /= sum.points;
+  else
+    sum.mean_px = by_view[0].mean_px;
+  if (sum.visible > 0) sum.in_image = sum.points / sum.visible;
+  return sum;
+}
+
+std::vector<PoseFeatures> pose_features(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
+                                        std::span<const RegisterView> views, Backend& backend, const PoseScoreOptions& options,
+                                        const VisibilityOptions& visibility) {
+  const std::vector<PoseFeatures> by_view = pose_features_by_view(models, poses, views, backend, options, visibility);
+  std::vector<PoseFeatures> features;
+  for (std::size_t p = 0; p < poses.size(); ++p) features.push_back(together(std::span(by_view).subspan(p * views.size(), views.size())));
   return features;
 }
 

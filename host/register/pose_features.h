@@ -15,6 +15,7 @@ struct PoseFeatures {
   double points = 0;      // inside the images
   double length_px = 0;   // of the visible edges in the images
   double in_image = 0;    // fraction of the visible points that project into the image
+  double visible = 0;     // points that show from the camera, inside the image or not
 };
 
 // How far above chance the agreement is: psi's excess over that of unrelated directions (a mean |cos| of 2 / pi = 0.64), in units of its standard
@@ -22,6 +23,14 @@ struct PoseFeatures {
 // excess times the length prefers, of two poses of one object, the one that shows more edges.
 inline constexpr double CHANCE_PSI = 0.65;
 double evidence(const PoseFeatures& features);
+
+// One entry a pose and view, views of one pose side by side.
+std::vector<PoseFeatures> pose_features_by_view(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
+                                                std::span<const RegisterView> views, Backend& backend, const PoseScoreOptions& options,
+                                                const VisibilityOptions& visibility = {});
+
+// Those of several views (at least one) of a pose together.
+PoseFeatures together(std::span<const PoseFeatures> by_view);
 
 std::vector<PoseFeatures> pose_features(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
                                         std::span<const RegisterView> views, Backend& backend, const PoseScoreOptions& options,

@@ -1,0 +1,42 @@
+// Features of several views at once are those of each, weighted by the points it sees.
+#include "host/register/pose_features.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/register/scene.h"
+#include "tests/test_random.h"
+
+namespace edgescout::test {
+namespace {
+
+TEST(PoseFeatures, OfAllViewsAreTheMeansOverTheirPoints) {
+  Random random = test_random();
+  const auto backend = make_reference_backend();
+  const PartScene scene("l_bracket", 3, random, *backend);
+  const std::vector<Hypothesis> poses{{0, scene.truth}, scene.start, {0, {Eigen::Quaterniond::Identity(), {50, 0, 0}}}};
+  const std::vector<EdgeModel> models{scene.model};
+  const PoseScoreOptions options;
+  const std::vector<PoseFeatures> all = pose_features(models, poses, scene.views, *backend, options);
+  const std::vector<PoseFeatures> by_view = pose_features_by_view(models, poses, scene.views, *backend, options);
+  ASSERT_EQ(by_view.size(), 9u);
+  for (std::size_t p = 0; p < 2; ++p) {
+    double points = 0, mean = 0, matched = 0, visible = 0, length = 0;
+    for (std::size_t v = 0; v < 3; ++v) {
+      const PoseFeatures alone = pose_features(models, poses, std::span(scene.views).subspan(v, 1), *backend, options)[p], &f = by_view[3 * p + v];
+      EXPECT_EQ(f.points, alone.points);
+      EXPECT_DOUBLE_EQ(f.mean_px, alone.mean_px);
+      points += f.points, mean += f.points * f.mean_px, matched += f.points * f.matched, visible += f.visible, length += f.length_px;
+    }
+    EXPECT_GT(points, 100);
+    EXPECT_DOUBLE_EQ(all[p].points, points);
+    EXPECT_NEAR(all[p].mean_px, mean / points, 1e-9);
+    EXPECT_NEAR(all[p].matched, matched / points, 1e-9);
+    EXPECT_NEAR(all[p].in_image, points / visible, 1e-12);
+    EXPECT_NEAR(all[p].length_px, length, 1e-9);
+  }
+  EXPECT_EQ(all[2].points, 0);
+  EXPECT_EQ(all[2].mean_px, options.cap_px);
+}
+
+}  // namespace
+}  // namespace edgescout::test
