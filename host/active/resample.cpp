@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cmath>
+
+#include "host/active/modes.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+// Systematic resampling: `count` draws in proportion to the weights, all from one random number; how often each is drawn.
+std::vector<int> systematic(std::span<const double> weights, int count, Random& random) {
+  double total = 0;
+  for (const double w : weights) total += w;
+  std::vector<int> times(weights.size(), 0);
+  const double offset = random.uniform();
+  double reached = 0;
+  int drawn = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    reached += weights[i] / total * count;
+    while (drawn < count && offset + drawn < reached) ++drawn, ++times[i];
+  }
+  // What rounding left over at the end goes to the last one that has a weight.
+  for (std::size_t i = weights.size(); drawn < count && i-- > 0;)
+    if (weights[i] > 0) times[i] += count - drawn, drawn = count;
+  return times;
+}
+
+// Modes that keep particles however light they are; heaviest first as given. Where none is probable or heavy enough, all of them.
+std::vector<const Mode*> kept_modes(std::span<const Mode> modes, int count, const ParticleOptions& options) {
+  std::vector<const Mode*> kept, all;
+  for (const Mode& mode : modes) {
+    all.push_back(&mode);
+    if (mode.probability >= options.min_mode_probability || mode.weight * count >= 1) kept.push_back(&mode);
+  }
+  if (kept.empty()) kept = all;
+  if (int(kept.size()) > count) kept.resize(count);
+  return kept;
+}
+
+std::vector<int> quotas(std::span<const Mode* const> modes, int count, const ParticleOptions& options, Random& random) {
+  const int least = std::min<int>(options.min_per_mode, count / int(modes.size()));
+  std::vector<double> weights;
+  for (const Mode* mode : modes) weights.push_back(mode->weight);
+  std::vector<int> quota = systematic(weights, count - least * int(modes.size()), random);
+  for (int& q : quota) q += least;
+  return quota;
+}
+
+}  // namespace
+
+std::vector<Particle> resample(std::span<const Particle> particles, std::span<const Mode> modes, std::span<const EdgeModel> models, int count,
+                               const ParticleOptions& options, Random random) {
+  std::vector<Particle> next;
+  if (modes.empty()) return next;
+  const std::vector<const Mode*> kept = kept_modes(modes, count, options);
+  const std::vector<int> quota = quotas(kept, count, options, random);
+  double total = 0;  // of the weights that go on
+  for (std::size_t m = 0; m < kept.size(); ++m)
+    if (quota[m] > 0) total += kept[m]->weight;
+  for (std::size_t m = 0; m < kept.size(); ++m) {
+    const Mode& mode = *kept[m];
+    std::vector<double> weights;
+    for (const std::size_t i : mode.particles) weights.push_back(std::exp(particles[i].log_weight));
+    const std::vector<int> times = systematic(weights, quota[m], random);
+    for (std::size_t k = 0; k < times.size(); ++k)
+      for (int copy = 0; copy < times[k]; ++copy) {
+        Particle particle = particles[mode.particles[k]];
+        if (copy > 0)
+          particle.world_from_object = perturbed(particle.world_from_object, particle.covariance, models[particle.object].mesh.diameter_m, options.roughened, random);
+        particle.log_weight = std::log(mode.weight / total / quota[m]);
+        particle.spent_px2 = particle.upsilon_px2 + options.scale_px2() * particle.log_weight;
+        next.push_back(std::move(particle));
+      }
+  }
+  return next;
+}
+
+}  // namespace edgescout
