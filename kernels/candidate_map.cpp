@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "kernels/error.h"
 #include "kernels/simd.h"
@@ -16,30 +17,37 @@ constexpr int steps = CHAMFER_STEPS_PER_PX;
 // To the nearest 1/16 px; exact in float, so that shaders find the same.
 int to_steps(float px) { return static_cast<int>(std::floor(px * float(steps) + 0.5f)); }
 
-struct Stamp {
-  int x, y;              // its pixel
-  int x_steps, y_steps;  // its place
-  std::uint32_t number;
+constexpr int span = 2 * CANDIDATE_MAP_REACH_PX;  // pixels in reach of an edge point along one axis
+
+// A window with room for a whole span on both sides of its rows.
+struct Canvas {
+  MapWindow window;
+  std::size_t stride;
+  std::vector<std::uint32_t> words;
+  explicit Canvas(const MapWindow& w) : window(w), stride(w.width + 2 * span), words(stride * w.height, CANDIDATE_MAP_EMPTY) {}
+  std::uint32_t* row(int y) { return words.data() + std::size_t(y - window.y0) * stride + span; }
 };
 
-// Offers an edge point to every pixel in its reach: words are ordered by distance, then by number.
+// Offers an edge point to every pixel in its reach: words are ordered by distance, then by number. The columns' fixed number is
+// what lets the compiler keep them in vectors.
 EDGESCOUT_SIMD_CLONES
-void stamp(const MapWindow& window, const Stamp& edge, std::uint32_t* pixels) {
-  constexpr int reach = CANDIDATE_MAP_REACH_PX;
-  const int x0 = std::max(window.x0, edge.x - reach), x1 = std::min(window.x0 + int(window.width) - 1, edge.x + reach);
-  const int y0 = std::max(window.y0, edge.y - reach), y1 = std::min(window.y0 + int(window.height) - 1, edge.y + reach);
-  std::uint32_t dx2[2 * reach + 1];
-  const int count = x1 - x0 + 1;
-  for (int i = 0; i < count; ++i) {
-    const int dx = steps * (x0 + i) - edge.x_steps;
+void stamp(Canvas& canvas, int x_steps, int y_steps, std::uint32_t number) {
+  const MapWindow& window = canvas.window;
+  const auto first_in_reach = [](int at) { return (at - int(CHAMFER_CAP) + steps * span) / steps - span + 1; };
+  const int x0 = first_in_reach(x_steps), y0 = std::max(window.y0, first_in_reach(y_steps));
+  const int y1 = std::min(window.y0 + int(window.height), first_in_reach(y_steps) + span);
+  if (x0 + span <= window.x0 || x0 >= window.x0 + int(window.width)) return;
+  std::uint32_t dx2[span];
+  for (int i = 0; i < span; ++i) {
+    const int dx = steps * (x0 + i) - x_steps;
     dx2[i] = std::uint32_t(dx * dx);
   }
-  for (int y = y0; y <= y1; ++y) {
-    const int dy = steps * y - edge.y_steps;
-    std::uint32_t* row = pixels + std::size_t(y - window.y0) * window.width + (x0 - window.x0);
-    for (int i = 0; i < count; ++i) {
+  for (int y = y0; y < y1; ++y) {
+    const int dy = steps * y - y_steps;
+    std::uint32_t* row = canvas.row(y) + (x0 - window.x0);
+    for (int i = 0; i < span; ++i) {
       const std::uint32_t d2 = dx2[i] + std::uint32_t(dy * dy);
-      row[i] = std::min(row[i], d2 <= CANDIDATE_MAP_REACH2 ? d2 << 16 | edge.number : CANDIDATE_MAP_EMPTY);
+      row[i] = std::min(row[i], d2 <= CANDIDATE_MAP_REACH2 ? d2 << 16 | number : CANDIDATE_MAP_EMPTY);
     }
   }
 }
@@ -112,14 +120,15 @@ void candidate_map_fast(std::span<const MapEdge> edges, std::span<const Candidat
   check_candidate_maps(edges.size(), maps, width, height, nearest.size());
   pool.for_each(maps.size(), [&](std::size_t m) {
     const CandidateMap& map = maps[m];
-    const std::span<std::uint32_t> pixels = nearest.subspan(map.first_pixel, map.window.size());
-    std::ranges::fill(pixels, CANDIDATE_MAP_EMPTY);
+    const MapWindow& window = map.window;
+    Canvas canvas(window);
     for (std::uint32_t e = 0; e < map.edge_count; ++e) {
       const MapEdge& edge = edges[map.first_edge + e];
-      int x = 0, y = 0;
-      if (nearest_pixel(edge.x_px, edge.y_px, width, height, x, y))
-        stamp(map.window, {x, y, to_steps(edge.x_px), to_steps(edge.y_px), e}, pixels.data());
+      if (int x, y; nearest_pixel(edge.x_px, edge.y_px, width, height, x, y))
+        stamp(canvas, to_steps(edge.x_px), to_steps(edge.y_px), e);
     }
+    for (std::uint32_t r = 0; r < window.height; ++r)
+      std::copy_n(canvas.row(window.y0 + int(r)), window.width, nearest.begin() + map.first_pixel + std::size_t(r) * window.width);
   });
 }
 

@@ -156,9 +156,10 @@ class Planner {
   }
 
   void make_rows() {
+    const std::uint32_t farthest = plan_.cap - 1, farthest_d2 = farthest * farthest + farthest;  // that rounds below the cap
     PixelLists<std::uint32_t> reach = gather<std::uint32_t>(view_, pool_, [&](std::uint32_t c, std::size_t i, std::size_t pixel) {
       const std::uint32_t word = pixel_used_[pixel].load(std::memory_order_relaxed) ? view_.nearest[i] : CANDIDATE_MAP_EMPTY;
-      if (word == CANDIDATE_MAP_EMPTY || chamfer_steps(word) >= plan_.cap) return std::optional<std::uint32_t>();
+      if (word >> 16 > farthest_d2) return std::optional<std::uint32_t>();
       check((word & 0xffffu) < view_.candidates[c].edge_count, "combination_chamfer: a nearest edge point that is none");
       return std::optional(chamfer_steps(word) << 24 | edge_mask_[first_edge_[c] + (word & 0xffffu)]);
     });

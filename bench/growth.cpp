@@ -1,0 +1,86 @@
+// edgescout_bench_growth [--device WORD] [--repetitions N]
+//
+// How the time to choose the next view grows: the paper's size, then each of its four numbers three and ten times as large.
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <string>
+
+#include "bench/hypotheses.h"
+#include "kernels/backend.h"
+#include "kernels/thread_pool.h"
+
+namespace edgescout::bench {
+namespace {
+
+struct Times {
+  double maps_s = 0, chamfer_s = 0, information_s = 0;
+  double total() const { return maps_s + chamfer_s + information_s; }
+};
+
+double timed(const auto& body) {
+  const auto start = std::chrono::steady_clock::now();
+  body();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// View by view, as planning does it: never more than one view's cells at once.
+Times choose(Backend& backend, const HypothesesSize& size) {
+  const Hypotheses hypotheses(size);
+  Times times;
+  for (int v = 0; v < size.views; ++v) {
+    test::ChamferScene scene = hypotheses.view(v);
+    times.maps_s += timed([&] { backend.candidate_map(scene.edges, scene.maps, size.width, size.height, scene.nearest); });
+    ChamferHandle chamfer;
+    times.chamfer_s += timed([&] { chamfer = backend.combination_chamfer(scene.view(), scene.combinations(), {}); });
+    times.information_s += timed([&] { backend.mutual_information(*chamfer, hypotheses.beliefs(), {}); });
+  }
+  return times;
+}
+
+void report(Backend& backend, const HypothesesSize& size, int repetitions) {
+  std::vector<Times> runs;
+  for (int r = 0; r < repetitions; ++r) runs.push_back(choose(backend, size));
+  std::ranges::sort(runs, {}, &Times::total);
+  const Times& median = runs[runs.size() / 2];
+  std::printf("%5d %10d %9d %12u %9.1f %9.1f %9.1f %9.1f\n", size.views, size.candidates, size.particles, size.realizations,
+              1e3 * median.maps_s, 1e3 * median.chamfer_s, 1e3 * median.information_s, 1e3 * median.total());
+  std::fflush(stdout);
+}
+
+void run(const std::string& device, int repetitions) {
+  const std::unique_ptr<Backend> backend = make_backend(device);
+  std::printf("%s, %d threads, median of %d, ms\n", backend->name().c_str(), backend->threads().threads(), repetitions);
+  std::printf("%5s %10s %9s %12s %9s %9s %9s %9s\n", "views", "candidates", "particles", "realizations", "maps", "chamfer", "information",
+              "all");
+  choose(*backend, {2, 4, 4, 50, 64, 48, 64});  // the driver's compiler, the first pages
+  report(*backend, paper_hypotheses, repetitions);
+  for (const int by : {3, 10}) {
+    HypothesesSize candidates = paper_hypotheses, particles = paper_hypotheses, realizations = paper_hypotheses, views = paper_hypotheses;
+    candidates.candidates *= by;
+    particles.particles *= by;
+    realizations.realizations *= std::uint32_t(by);
+    views.views *= by;
+    for (const HypothesesSize& size : {candidates, particles, realizations, views}) report(*backend, size, repetitions);
+  }
+}
+
+}  // namespace
+}  // namespace edgescout::bench
+
+int main(int argc, char** argv) {
+  std::string device = "cpu";
+  int repetitions = 3;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    if (std::strcmp(argv[i], "--device") == 0) device = argv[i + 1];
+    if (std::strcmp(argv[i], "--repetitions") == 0) repetitions = std::max(1, std::atoi(argv[i + 1]));
+  }
+  try {
+    edgescout::bench::run(device, repetitions);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "edgescout_bench_growth: %s\n", error.what());
+    return 1;
+  }
+}
