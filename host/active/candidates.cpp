@@ -1,0 +1,73 @@
+#include "host/active/candidates.h"
+
+#include <algorithm>
+
+#include "host/detect/suppression.h"
+
+namespace edgescout {
+
+namespace {
+
+void sort_by_probability(std::vector<Detection>& detections) {
+  std::ranges::stable_sort(detections, [](const Detection& a, const Detection& b) { return a.probability > b.probability; });
+}
+
+// `detections` sorted; duplicates exist within one object only.
+std::vector<Detection> different_ones(const std::vector<Detection>& detections, std::span<const TemplateSet> sets) {
+  std::vector<Detection> kept;
+  for (std::size_t object = 0; object < sets.size(); ++object) {
+    std::vector<Detection> same;
+    std::vector<Se3> poses;
+    for (const Detection& d : detections)
+      if (d.object == static_cast<int>(object)) {
+        same.push_back(d);
+        poses.push_back(d.world_from_object);
+      }
+    const Mesh& mesh = sets[object].model.mesh;
+    for (std::size_t i : suppress_duplicates(poses, mesh, sets[object].symmetries, 0.1 * mesh.diameter_m, poses.size())) kept.push_back(same[i]);
+  }
+  sort_by_probability(kept);
+  return kept;
+}
+
+}  // namespace
+
+std::vector<Detection> candidates_in_image(std::span<const TemplateSet> sets, const Observation& observation, Backend& backend, const DetectOptions& options) {
+  std::vector<Detection> found;
+  for (std::size_t object = 0; object < sets.size(); ++object)
+    for (const Refined& candidate : find_candidates(sets[object], observation, backend, options))
+      found.push_back(candidate_in_world(to_detection(static_cast<int>(object), candidate.registration, candidate.features), observation.view.camera_from_world));
+  sort_by_probability(found);
+  return found;
+}
+
+std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets, std::span<const EdgeModel> models, std::span<const Detection> candidates,
+                                          std::span<const RegisterView> views, std::size_t most, Backend& backend, const DetectOptions& options) {
+  std::vector<Hypothesis> starts;
+  for (const Detection& candidate : candidates) starts.push_back({candidate.object, candidate.world_from_object});
+  RefineOptions refine = options.refine;
+  refine.search.rotation_rad = 0;  // the search around them was made in their own images
+  const std::vector<Refined> refined = refine_poses(models, starts, views, backend, refine);
+  std::vector<Detection> detections;
+  for (std::size_t i = 0; i < refined.size(); ++i) detections.push_back(to_detection(starts[i].object, refined[i].registration, refined[i].features));
+  sort_by_probability(detections);
+  detections = different_ones(detections, sets);
+  if (detections.size() > most) detections.resize(most);
+  return detections;
+}
+
+std::vector<Detection> without_particles(std::span<const Detection> candidates, std::span<const Particle> particles, std::span<const TemplateSet> sets,
+                                         double radius, double min_probability) {
+  std::vector<Detection> unknown;
+  for (const Detection& candidate : candidates) {
+    const TemplateSet& set = sets[static_cast<std::size_t>(candidate.object)];
+    const auto is_near = [&](const Particle& particle) {
+      return particle.object == candidate.object &&
+             pose_distance_m(particle.world_from_object, candidate.world_from_object, set.model.mesh, set.symmetries) < radius * set.model.mesh.diameter_m;
+    };
+    if (candidate.probability >= min_probability && std::ranges::none_of(particles, is_near)) unknown.push_back(candidate);
+  }
+  return unknown;
+}
+
+}  // namespace edgescout

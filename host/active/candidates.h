@@ -1,0 +1,23 @@
+// The object candidates of an active detection: found in single images, refined over all of them (paper, Algorithm 2, lines 2 and 3).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/active/particles.h"
+#include "host/detect/detect.h"
+
+namespace edgescout {
+
+// Of all objects in one image, in the world.
+std::vector<Detection> candidates_in_image(std::span<const TemplateSet> sets, const Observation& observation, Backend& backend, const DetectOptions& options);
+
+// Registers candidates over all views (Eq. 11), scores them by all views' features, merges duplicates; the `most` most probable, best first.
+std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets, std::span<const EdgeModel> models, std::span<const Detection> candidates,
+                                          std::span<const RegisterView> views, std::size_t most, Backend& backend, const DetectOptions& options);
+
+// Those that may be instances of which no particle knows: at least `min_probability`, and no particle within `radius` of the object's diameter (modulo symmetry).
+std::vector<Detection> without_particles(std::span<const Detection> candidates, std::span<const Particle> particles, std::span<const TemplateSet> sets,
+                                         double radius, double min_probability);
+
+}  // namespace edgescout

@@ -1,0 +1,275 @@
+#include "host/active/scout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/active/candidates.h"
+#include "host/active/views.h"
+#include "host/core/log.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+// The most and the least probable of the combinations, each candidate being there or not by its own probability.
+void keep_extremes(const BitMatrix& combinations, std::span<const Detection> candidates, ScoutDecision& decision) {
+  double best = -INFINITY, worst = INFINITY;
+  for (std::size_t row = 0; row < combinations.rows; ++row) {
+    std::vector<int> members;
+    double log_probability = 0;
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+      const double p = std::clamp(candidates[c].probability, 0.001, 0.999);
+      log_probability += std::log(combinations.has(row, c) ? p : 1 - p);
+      if (combinations.has(row, c)) members.push_back(static_cast<int>(c));
+    }
+    if (log_probability > best) decision.likeliest = members;
+    if (log_probability < worst) decision.unlikeliest = members;
+    best = std::max(best, log_probability);
+    worst = std::min(worst, log_probability);
+  }
+}
+
+std::vector<TemplateTable> tables_of(std::span<const TemplateSet> sets, Backend& backend) {
+  std::vector<TemplateTable> tables;
+  for (const TemplateSet& set : sets)
+    tables.push_back(make_template_table(set.model, std::sqrt(set.options.distance_min_m * set.options.distance_max_m), backend));
+  return tables;
+}
+
+ScoutDecision without_expectations(int view) {
+  ScoutDecision decision;
+  decision.view = view;
+  return decision;
+}
+
+}  // namespace
+
+Scout::Scout(std::span<const TemplateSet> sets, const Camera& camera, std::vector<Se3> camera_from_world_views, const ScoutOptions& options, Backend& backend)
+    : sets_(sets), camera_(camera), options_(options), backend_(backend), models_(models_of(sets)) {
+  options_.validate();
+  if (sets.empty()) throw InputError("scout: found no object, expected at least one");
+  validate(camera, "scout: camera");
+  validate_views(camera_from_world_views, "scout: views");
+  if (options_.first_view >= static_cast<int>(camera_from_world_views.size()))
+    throw InputError("options", "scout.first_view", std::to_string(options_.first_view), "one of " + std::to_string(camera_from_world_views.size()) + " views");
+  tables_ = tables_of(sets, backend);
+  state_.views = std::move(camera_from_world_views);
+}
+
+// Line 13: where to look next.
+std::optional<ScoutDecision> Scout::propose() {
+  if (proposal_) return proposal_;
+  state_.end = end_before_planning();
+  if (state_.end != ScoutEnd::No) return {};
+  ScoutDecision decision = decide();
+  if (decision.view < 0) {
+    state_.end = ScoutEnd::NoViewLeft;
+  } else if (!decision.views.empty() && options_.next_view.strategy == Strategy::Information &&
+             decision.views[decision.view].information < options_.min_information_nats) {
+    state_.end = ScoutEnd::LittleToLearn;
+  } else {
+    proposal_ = std::move(decision);
+  }
+  return proposal_;
+}
+
+void Scout::give(int view, const Image& image) {
+  check(view >= 0 && view < static_cast<int>(state_.views.size()), "Scout::give: no such view");
+  give(view, image, state_.views[static_cast<std::size_t>(view)]);
+}
+
+// Lines 14 to 20. Works on copies: an exception leaves everything as it was.
+void Scout::give(int view, const Image& image, const Se3& camera_from_world) {
+  require_open(view);
+  require_fitting(image, camera_from_world);
+  ScoutState next = state_;
+  std::vector<RegisterView> views = views_;
+  ScoutStep step;
+  step.decision = proposal_ && proposal_->view == view ? *proposal_ : without_expectations(view);
+  step.camera_from_world = camera_from_world;
+  look(image, step, next, views);
+  believe(step, next, views);
+  next.steps.push_back(std::move(step));
+  state_ = std::move(next);
+  views_ = std::move(views);
+  proposal_.reset();
+}
+
+void Scout::unreachable(int view, const std::string& reason) {
+  require_open(view);
+  log(LogLevel::Warning, "view " + std::to_string(view) + " cannot be had: " + reason);
+  state_.failed.push_back({view, reason, state_.steps.size()});
+  proposal_.reset();
+}
+
+// Lines 1 to 3: the image's edges and tensors, and what may be in it, refined over all images.
+void Scout::look(const Image& image, ScoutStep& step, ScoutState& next, std::vector<RegisterView>& views) const {
+  const PreparedImage prepared = prepare_image(image, camera_, step.camera_from_world, backend_, options_.pipeline);
+  step.image = prepared.image;
+  step.stages = prepared.stages;
+  Stopwatch watch(step.stages);
+  const Observation observation = observe_prepared(prepared, sets_, backend_, options_.pipeline);
+  views.push_back(observation.view);
+  done(watch, "tensors");
+  if (next.steps.empty() || options_.detect_in_every_image) {
+    const std::vector<Detection> found = candidates_in_image(sets_, observation, backend_, options_.pipeline.detect);
+    next.candidates.insert(next.candidates.end(), found.begin(), found.end());
+    done(watch, "detection");
+  }
+  next.candidates =
+      refined_candidates(sets_, models_, next.candidates, views, static_cast<std::size_t>(options_.max_candidates), backend_, options_.pipeline.detect);
+  done(watch, "candidates");
+}
+
+// Lines 11 and 15 to 19: the particles after this image, and the instances they amount to.
+void Scout::believe(ScoutStep& step, ScoutState& next, std::span<const RegisterView> views) const {
+  Stopwatch watch(step.stages);
+  step.new_candidates = add_particles(next);
+  step.before = next.particles;
+  step.update = update_particles(next.particles, sets_, models_, next.candidates, views, backend_, options_.particles);
+  step.after = next.particles;
+  done(watch, "particles");
+  next.modes = find_modes(next.particles, sets_, options_.particles);
+  next.entropy_nats = step.entropy_nats = belief_entropy(next.modes);
+  next.detections = step.detections = mode_detections(next.particles, next.modes, sets_, models_, views, backend_, options_.detections);
+  done(watch, "modes");
+  std::vector<Hypothesis> objects;
+  for (const ModeDetection& mode : next.detections) objects.push_back({mode.detection.object, mode.detection.world_from_object});
+  step.agreement = view_agreement(models_, objects, views, backend_, options_.agreement);
+  done(watch, "agreement");
+}
+
+// Around the first image's candidates all of them; later a share around each candidate that no particle is near.
+std::size_t Scout::add_particles(ScoutState& next) const {
+  const ParticleOptions& o = options_.particles;
+  const bool first = next.particles.empty();
+  const std::vector<Detection> unknown =
+      first ? next.candidates : without_particles(next.candidates, next.particles, sets_, o.mode_radius, o.min_mode_probability);
+  if (unknown.empty()) return 0;
+  const std::size_t share = static_cast<std::size_t>(o.count) * unknown.size() / next.candidates.size();
+  std::vector<Particle> drawn = draw_particles(models_, unknown, std::max(1, static_cast<int>(share)), o.drawn, Random(o.seed).split("new").split(next.steps.size()));
+  // Where the others' earlier images have been spent on their number, the new ones are weighed as if they had stood them like the best of the others.
+  double spent_px2 = first ? 0 : INFINITY;
+  for (const Particle& particle : next.particles) spent_px2 = std::min(spent_px2, particle.spent_px2);
+  for (Particle& particle : drawn) particle.spent_px2 = spent_px2;
+  next.particles.insert(next.particles.end(), drawn.begin(), drawn.end());
+  return unknown.size();
+}
+
+// Lines 4 to 10 and 13. No view is left where the decision's is negative.
+ScoutDecision Scout::decide() const {
+  if (state_.steps.empty()) return without_expectations(first_open_view());
+  ScoutDecision decision;
+  Stopwatch watch(decision.stages);
+  decision.candidates = state_.candidates;
+  BitMatrix combinations;
+  if (options_.next_view.strategy == Strategy::Information && !state_.candidates.empty()) {
+    combinations = sampled_combinations();
+    keep_extremes(combinations, state_.candidates, decision);
+    done(watch, "combinations");
+  }
+  const std::vector<char> closed = state_.closed();
+  decision.views = view_information({models_, tables_, undistorted(camera_), state_.views, closed, views_, state_.candidates, &combinations, state_.particles},
+                                    backend_, options_.next_view);
+  decision.view = best_view(decision.views).value_or(-1);
+  done(watch, "information");
+  return decision;
+}
+
+BitMatrix Scout::sampled_combinations() const {
+  std::vector<Hypothesis> poses;
+  std::vector<double> psi;
+  for (const Detection& candidate : state_.candidates) {
+    poses.push_back({candidate.object, candidate.world_from_object});
+    psi.push_back(candidate.psi);
+  }
+  CombinationOptions options = options_.combinations;
+  options.seed += state_.steps.size();
+  return sample_combinations(psi, plausible_pairs(models_, poses, options_.penetration_m, backend_.threads()), options);
+}
+
+ScoutEnd Scout::end_before_planning() const {
+  const std::vector<char> closed = state_.closed();
+  if (static_cast<int>(state_.steps.size()) >= options_.max_views) return ScoutEnd::ViewBudget;
+  if (std::ranges::find(closed, 0) == closed.end()) return ScoutEnd::NoViewLeft;
+  if (!state_.detections.empty() && state_.entropy_nats < options_.min_entropy_nats) return ScoutEnd::Certain;
+  if (options_.max_seconds > 0 && state_.seconds() >= options_.max_seconds) return ScoutEnd::TimeSpent;
+  return ScoutEnd::No;
+}
+
+int Scout::first_open_view() const {
+  const std::vector<char> closed = state_.closed();
+  const int count = static_cast<int>(closed.size());
+  for (int i = 0; i < count; ++i) {
+    const int view = (options_.first_view + i) % count;
+    if (!closed[static_cast<std::size_t>(view)] && (!options_.next_view.reachable || options_.next_view.reachable(view))) return view;
+  }
+  return -1;
+}
+
+void Scout::done(Stopwatch& watch, const char* stage) const {
+  watch.lap(stage);
+  if (options_.cancelled && options_.cancelled()) throw Cancelled();
+}
+
+void Scout::require_open(int view) const {
+  check(view >= 0 && view < static_cast<int>(state_.views.size()), "Scout: no such view");
+  if (state_.closed()[static_cast<std::size_t>(view)])
+    throw InputError("scout", "view", std::to_string(view) + " again", "one neither taken nor given up");
+}
+
+void Scout::require_fitting(const Image& image, const Se3& camera_from_world) const {
+  if (image.width != camera_.width || image.height != camera_.height)
+    throw InputError("scout", "image size", std::to_string(image.width) + "x" + std::to_string(image.height),
+                     "the camera's " + std::to_string(camera_.width) + "x" + std::to_string(camera_.height));
+  validate_views({&camera_from_world, 1}, "scout: camera pose");
+}
+
+void Scout::resume(ScoutState state, const std::string& source) {
+  const auto same = [](const Se3& a, const Se3& b) { return distance_between_m(a, b) < 1e-6 && angle_between_rad(a, b) < 1e-6; };
+  if (!std::ranges::equal(state.views, state_.views, same)) throw InputError(source, "views", "others", "those of this run");
+  for (const Detection& candidate : state.candidates)
+    if (candidate.object >= static_cast<int>(sets_.size())) throw InputError(source, "objects", "more", "the " + std::to_string(sets_.size()) + " of this run");
+  std::vector<RegisterView> views;
+  for (const ScoutStep& step : state.steps) {
+    require_fitting(step.image, step.camera_from_world);
+    const PreparedImage prepared = prepare_image(step.image, undistorted(camera_), step.camera_from_world, backend_, options_.pipeline);
+    views.push_back(observe_prepared(prepared, sets_, backend_, options_.pipeline).view);
+  }
+  state_ = std::move(state);
+  views_ = std::move(views);
+  proposal_.reset();
+}
+
+void ScoutOptions::validate() const {
+  const auto in = [](const char* field, double found, double low, double high) {
+    if (!(found >= low && found <= high))
+      throw InputError("options", std::string("scout.") + field, std::to_string(found), std::to_string(low) + " to " + std::to_string(high));
+  };
+  in("max_candidates", max_candidates, 1, 10000);
+  in("penetration_m", penetration_m, 0, 1);
+  in("first_view", first_view, 0, 1e6);
+  in("max_views", max_views, 1, 1e6);
+  in("min_entropy_nats", min_entropy_nats, 0, 1e6);
+  in("min_information_nats", min_information_nats, 0, 1e6);
+  in("max_seconds", max_seconds, 0, 1e9);
+  pipeline.validate();
+  combinations.validate();
+  particles.validate();
+  next_view.validate();
+}
+
+void run_scout(Scout& scout, ViewSource& source, const std::function<void(const ScoutState&)>& on_step) {
+  while (const std::optional<ScoutDecision> proposal = scout.propose()) {
+    try {
+      const Shot shot = source.acquire(proposal->view);
+      scout.give(proposal->view, shot.image, shot.camera_from_world);
+    } catch (const AcquisitionError& error) {
+      scout.unreachable(proposal->view, error.what());
+    }
+    if (on_step) on_step(scout.state());
+  }
+}
+
+}  // namespace edgescout

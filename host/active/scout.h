@@ -1,0 +1,95 @@
+// Active detection (paper, Sec. 5.4, Algorithm 2) as a state machine that a robot's control thread drives: propose a view, move there, give the image, read the state.
+//
+//   Scout scout(sets, camera, views, options, backend);
+//   while (const auto proposal = scout.propose()) {
+//     ... move the camera to views[proposal->view] ...
+//     scout.give(proposal->view, image);  // or unreachable(proposal->view, why)
+//   }
+//   scout.state().detections;
+//
+// No thread of its own, no global state, no clock but for timings: the same images in the same order give the same result. Each call leaves the state as it was where it throws.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <stdexcept>
+
+#include "host/active/combinations.h"
+#include "host/active/scout_state.h"
+#include "host/active/source.h"
+#include "host/pipeline.h"
+
+namespace edgescout {
+
+// Thrown where ScoutOptions::cancelled says so.
+class Cancelled : public std::runtime_error {
+ public:
+  Cancelled() : std::runtime_error("cancelled") {}
+};
+
+struct ScoutOptions {
+  PipelineOptions pipeline;
+  int max_candidates = 40;            // kept of all objects together (the paper's N_obj)
+  bool detect_in_every_image = true;  // else in the first alone, as in the paper
+  double penetration_m = DEFAULT_PENETRATION_M;
+  CombinationOptions combinations;
+  ParticleOptions particles;
+  NextViewOptions next_view;
+  ModeDetectionOptions detections;
+  AgreementOptions agreement;
+  int first_view = 0;
+  // The end, whichever comes first. A limit of 0 is none.
+  int max_views = 5;                // images
+  double min_entropy_nats = 0.01;   // less: the modes are certain
+  double min_information_nats = 0;  // less expected of the best view (Strategy::Information): not worth the way
+  double max_seconds = 0;           // of computing
+  std::function<bool()> cancelled;  // asked between stages, from the calling thread
+  void validate() const;            // InputError naming the field and the violated bound
+};
+
+class Scout {
+ public:
+  // `camera` takes every image; `sets` and `backend` must outlive this. InputError: options out of bounds, no or doubled or non-rigid views, no object.
+  Scout(std::span<const TemplateSet> sets, const Camera& camera, std::vector<Se3> camera_from_world_views, const ScoutOptions& options, Backend& backend);
+
+  // The next view and what is expected of each; nothing where an end is reached: state().end says which. Asked again without news it answers the same.
+  std::optional<ScoutDecision> propose();
+
+  // The image from a view, taken where it was planned or where the camera truly was. It need not be the proposed one. InputError: another size than the camera's, a view
+  // taken before, a pose that is not rigid.
+  void give(int view, const Image& image);
+  void give(int view, const Image& image, const Se3& camera_from_world);
+  // The view failed; it is never proposed again.
+  void unreachable(int view, const std::string& reason);
+
+  const ScoutState& state() const { return state_; }
+  // Goes on from a saved state, as if these steps had been made here. InputError naming `source`: other views than this scout's, objects it does not know, images of another size.
+  void resume(ScoutState state, const std::string& source);
+
+ private:
+  void require_open(int view) const;
+  void require_fitting(const Image& image, const Se3& camera_from_world) const;
+  ScoutEnd end_before_planning() const;
+  int first_open_view() const;
+  ScoutDecision decide() const;
+  BitMatrix sampled_combinations() const;
+  void look(const Image& image, ScoutStep& step, ScoutState& next, std::vector<RegisterView>& views) const;
+  void believe(ScoutStep& step, ScoutState& next, std::span<const RegisterView> views) const;
+  std::size_t add_particles(ScoutState& next) const;
+  void done(Stopwatch& watch, const char* stage) const;
+
+  std::span<const TemplateSet> sets_;
+  Camera camera_;
+  ScoutOptions options_;
+  Backend& backend_;
+  std::vector<EdgeModel> models_;
+  std::vector<TemplateTable> tables_;
+  ScoutState state_;
+  std::vector<RegisterView> views_;        // of the images so far
+  std::optional<ScoutDecision> proposal_;  // until there is news
+};
+
+// Drives the loop to its end: views that cannot be acquired are marked and it goes on. `on_step` is called after every image or failure.
+void run_scout(Scout& scout, ViewSource& source, const std::function<void(const ScoutState&)>& on_step = {});
+
+}  // namespace edgescout

@@ -1,0 +1,147 @@
+#include "host/active/scout_state.h"
+
+#include <concepts>
+
+#include "host/io/binary_file.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 1, "scout state"};
+
+template <typename T>
+concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+// The two directions in which `fields` below goes through a struct.
+class Put {
+ public:
+  explicit Put(BinaryWriter& out) : out_(out) {}
+  void operator()(const auto&... values) { (put(values), ...); }
+
+ private:
+  void put(const Number auto& value) { out_.put(value); }
+  void put(const std::string& text) { out_.put_text(text); }
+  void put(const Se3& pose) { out_.put_pose(pose); }
+  void put(const Matrix6d& matrix) {
+    for (int i = 0; i < matrix.size(); ++i) out_.put(matrix.data()[i]);
+  }
+  template <typename T>
+  void put(const std::vector<T>& list) {
+    out_.put(static_cast<std::uint64_t>(list.size()));
+    for (const T& element : list) put(element);
+  }
+  template <typename T>
+    requires(!Number<T>)
+  void put(const T& value) { fields(*this, value); }
+
+  BinaryWriter& out_;
+};
+
+class Get {
+ public:
+  explicit Get(BinaryReader& in) : in_(in) {}
+  void operator()(auto&... values) { (get(values), ...); }
+
+ private:
+  void get(Number auto& value) { value = in_.get<std::remove_reference_t<decltype(value)>>(); }
+  void get(std::string& text) { text = in_.get_text(); }
+  void get(Se3& pose) { pose = in_.get_pose(); }
+  void get(Matrix6d& matrix) {
+    for (int i = 0; i < matrix.size(); ++i) matrix.data()[i] = in_.get<double>();
+  }
+  template <typename T>
+  void get(std::vector<T>& list) {
+    list.resize(in_.count(1));  // every element takes a byte at least
+    for (T& element : list) get(element);
+  }
+  template <typename T>
+    requires(!Number<T>)
+  void get(T& value) { fields(*this, value); }
+
+  BinaryReader& in_;
+};
+
+// Every struct's members, once for both directions; T may be const.
+template <typename T, typename Struct>
+concept A = std::same_as<std::remove_const_t<T>, Struct>;
+
+void fields(auto& io, A<StageSeconds> auto& x) { io(x.name, x.seconds); }
+void fields(auto& io, A<ViewInformation> auto& x) { io(x.open, x.information, x.motion_cost); }
+void fields(auto& io, A<ViewAgreement> auto& x) { io(x.residual_px, x.objects, x.disagrees); }
+void fields(auto& io, A<PoseFeatures> auto& x) { io(x.psi, x.mean_px, x.matched, x.points, x.length_px, x.in_image); }
+void fields(auto& io, A<ParticleUpdate> auto& x) { io(x.effective, x.resampled, x.reseeded); }
+void fields(auto& io, A<FailedView> auto& x) { io(x.view, x.reason, x.after_step); }
+void fields(auto& io, A<Image> auto& x) { io(x.width, x.height, x.pixels); }
+void fields(auto& io, A<Mode> auto& x) { io(x.object, x.particles, x.weight, x.probability); }
+void fields(auto& io, A<ModeDetection> auto& x) { io(x.detection, x.weight, x.supporting_views); }
+void fields(auto& io, A<Detection> auto& x) {
+  io(x.object, x.world_from_object, x.covariance, x.probability, x.psi, x.cost_px, x.visible_fraction, x.convergence);
+}
+void fields(auto& io, A<Particle> auto& x) {
+  io(x.object, x.world_from_object, x.covariance, x.log_weight, x.upsilon_px2, x.spent_px2, x.by_view);
+}
+void fields(auto& io, A<ScoutDecision> auto& x) { io(x.view, x.views, x.candidates, x.likeliest, x.unlikeliest, x.stages); }
+void fields(auto& io, A<ScoutStep> auto& x) {
+  io(x.decision, x.camera_from_world, x.image, x.new_candidates, x.before, x.after, x.update, x.detections, x.agreement, x.entropy_nats, x.stages);
+}
+void fields(auto& io, A<ScoutState> auto& x) {
+  io(x.views, x.steps, x.failed, x.candidates, x.particles, x.modes, x.detections, x.entropy_nats, x.end);
+}
+
+double sum(const std::vector<StageSeconds>& stages) {
+  double seconds = 0;
+  for (const StageSeconds& stage : stages) seconds += stage.seconds;
+  return seconds;
+}
+
+}  // namespace
+
+std::string to_string(ScoutEnd end) {
+  switch (end) {
+    case ScoutEnd::No:
+      return "";
+    case ScoutEnd::ViewBudget:
+      return "view budget";
+    case ScoutEnd::NoViewLeft:
+      return "no view left";
+    case ScoutEnd::Certain:
+      return "certain";
+    case ScoutEnd::LittleToLearn:
+      return "little to learn";
+    case ScoutEnd::TimeSpent:
+      return "time spent";
+  }
+  throw LogicError("to_string: no such ScoutEnd");
+}
+
+std::vector<char> ScoutState::closed() const {
+  std::vector<char> closed(views.size(), 0);
+  for (const ScoutStep& step : steps) closed.at(static_cast<std::size_t>(step.decision.view)) = 1;
+  for (const FailedView& view : failed) closed.at(static_cast<std::size_t>(view.view)) = 1;
+  return closed;
+}
+
+double ScoutState::seconds() const {
+  double seconds = 0;
+  for (const ScoutStep& step : steps) seconds += sum(step.stages) + sum(step.decision.stages);
+  return seconds;
+}
+
+void save_scout_state(const ScoutState& state, const std::filesystem::path& file) {
+  BinaryWriter out;
+  Put{out}(state);
+  write_binary_file(file, format, out.bytes);
+}
+
+ScoutState load_scout_state(const std::filesystem::path& file) {
+  const std::string payload = read_binary_file(file, format);
+  BinaryReader in(payload, file.string(), format.name);
+  ScoutState state;
+  Get{in}(state);
+  if (!in.at_end()) throw InputError(file.string(), "payload", "more than a state", "a whole scout state");
+  return state;
+}
+
+}  // namespace edgescout
