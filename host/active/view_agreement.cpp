@@ -48,13 +48,12 @@ ViewAgreement judge(std::span<const EdgeModel> models, std::span<const Hypothesi
 
 // The view to distrust among `open`; views.size() where all are within the limit.
 std::size_t worst_of(std::span<const std::size_t> open, std::span<const ViewAgreement> views, const AgreementOptions& options) {
-  std::size_t worst = views.size();
-  for (const std::size_t v : open) {
-    if (views[v].residual_px <= options.max_residual_px) continue;
-    // Two views disagree with each other alike: the later one was added to a scene that agreed.
-    if (worst == views.size() || open.size() == 2 || views[v].residual_px > views[worst].residual_px) worst = v;
-  }
-  return worst;
+  std::size_t worst = open[0];
+  for (const std::size_t v : open)
+    if (views[v].residual_px > views[worst].residual_px) worst = v;
+  if (views[worst].residual_px <= options.max_residual_px) return views.size();
+  // Two views disagree with each other: the later one was added to a scene that agreed.
+  return open.size() == 2 ? open[1] : worst;
 }
 
 }  // namespace

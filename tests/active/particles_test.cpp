@@ -1,0 +1,329 @@
+#include "host/active/particles.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <limits>
+
+#include "host/active/modes.h"
+#include "host/eval/metrics.h"
+#include "tests/active/rendered_scene.h"
+#include "tests/io/collected_log.h"
+#include "tests/io/expect_input_error.h"
+#include "tests/register/scene.h"
+#include "tests/test_random.h"
+
+namespace edgescout::test {
+namespace {
+
+constexpr double INFINITE = std::numeric_limits<double>::infinity();
+
+Particle weighted(double weight) {
+  Particle p;
+  p.log_weight = std::log(weight);
+  return p;
+}
+
+TEST(CandidateInWorld, TurnsPoseAndCovariance) {
+  Random random = test_random();
+  const Se3 camera_from_world{random.rotation(), random.direction()};
+  Detection in_camera;
+  in_camera.world_from_object = {random.rotation(), {0.1, 0.2, 0.7}};
+  Matrix6d half;
+  for (int i = 0; i < 36; ++i) half(i / 6, i % 6) = random.normal();
+  in_camera.covariance = half * half.transpose();
+  const Detection in_world = candidate_in_world(in_camera, camera_from_world);
+  // A small step, made in the camera's tangent or in the world's: its Mahalanobis length is the same.
+  for (int i = 0; i < 5; ++i) {
+    Vector6d step;
+    for (int k = 0; k < 6; ++k) step[k] = 1e-6 * random.normal();
+    const Se3 moved = inverse(camera_from_world) * retract(in_camera.world_from_object, step);
+    const Vector6d in_tangent = local_coordinates(in_world.world_from_object, moved);
+    const double before = step.dot(in_camera.covariance.inverse() * step), after = in_tangent.dot(in_world.covariance.inverse() * in_tangent);
+    EXPECT_NEAR(after / before, 1, 1e-4);
+  }
+}
+
+TEST(Perturbed, HasTheCovarianceWithinItsBounds) {
+  Random random = test_random();
+  const double diameter = 0.1;
+  Matrix6d covariance = Matrix6d::Zero();
+  covariance.diagonal() << 1e-4, 4e-6, 1e-12, 1e-3, 4e-4, 1.0;  // deviations: 10, 2, 0 mm; 1.6, 1, 50 mm at half the diameter
+  const Spread spread{0.005, 0.06};
+  const double expected[] = {6e-3, 2e-3, 0.5e-3, std::sqrt(1e-3), 0.02, 6e-3 / 0.05};
+  Matrix6d sum = Matrix6d::Zero();
+  const int count = 20000;
+  const Se3 pose{random.rotation(), {1, 2, 3}};
+  for (int i = 0; i < count; ++i) {
+    const Vector6d off = local_coordinates(pose, perturbed(pose, covariance, diameter, spread, random));
+    sum += off * off.transpose() / count;
+  }
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(std::sqrt(sum(i, i)), expected[i], 0.03 * expected[i]) << i;
+  covariance.diagonal().setConstant(INFINITE);
+  double unknown = 0;
+  for (int i = 0; i < 2000; ++i) unknown += local_coordinates(pose, perturbed(pose, covariance, diameter, spread, random)).head<3>().squaredNorm() / 2000;
+  EXPECT_NEAR(std::sqrt(unknown / 3), 6e-3, 3e-4);
+}
+
+TEST(DrawParticles, SharesThemAmongTheCandidates) {
+  Random random = test_random();
+  const std::vector<EdgeModel> models{part_model("l_bracket"), part_model("hex_nut")};
+  std::vector<Detection> candidates(3);
+  for (int i = 0; i < 3; ++i) candidates[i].object = i % 2, candidates[i].psi = 0.5 + 0.1 * i, candidates[i].world_from_object = {random.rotation(), {0.3 * i, 0, 0}};
+  const std::vector<Particle> particles = draw_particles(models, candidates, 31, {0.02, 0.1}, random);
+  ASSERT_EQ(particles.size(), 31u);
+  int around[3] = {0, 0, 0}, exactly[3] = {0, 0, 0};
+  double total = 0;
+  for (const Particle& p : particles) {
+    const int i = int(std::lround(p.world_from_object.translation_m.x() / 0.3));
+    EXPECT_EQ(p.object, candidates[i].object);
+    ++around[i];
+    exactly[i] += distance_between_m(p.world_from_object, candidates[i].world_from_object) == 0;
+    total += std::exp(p.log_weight);
+  }
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(exactly[i], 1);
+    EXPECT_GE(around[i], 10);
+  }
+  EXPECT_NEAR(total, 1, 1e-12);
+  // Fewer than candidates: those of the highest psi. No candidate: none.
+  const std::vector<Particle> few = draw_particles(models, candidates, 2, {0.02, 0.1}, random);
+  ASSERT_EQ(few.size(), 2u);
+  EXPECT_EQ(few[0].world_from_object.translation_m.x(), 0.6);
+  EXPECT_EQ(few[1].world_from_object.translation_m.x(), 0.3);
+  EXPECT_TRUE(draw_particles(models, {}, 5, {0.02, 0.1}, random).empty());
+}
+
+TEST(EffectiveSampleSize, CountsTheWeightsThatMatter) {
+  EXPECT_EQ(effective_sample_size({}), 0);
+  EXPECT_NEAR(effective_sample_size(std::vector<Particle>(7, weighted(0.2))), 7, 1e-9);
+  EXPECT_NEAR(effective_sample_size(std::vector<Particle>{weighted(1), weighted(0), weighted(0)}), 1, 1e-9);
+  EXPECT_NEAR(effective_sample_size(std::vector<Particle>{weighted(3), weighted(1)}), 16.0 / 10, 1e-9);
+  Particle far = weighted(1);
+  far.log_weight = -5000;  // exp underflows
+  EXPECT_NEAR(effective_sample_size(std::vector<Particle>(3, far)), 3, 1e-9);
+}
+
+// Particles around one part, given as ideal edges seen from three sides.
+struct IdealScene {
+  std::unique_ptr<Backend> backend = make_cpu_backend(2);
+  PartScene part;
+  std::vector<EdgeModel> models;
+  ParticleOptions options;
+  explicit IdealScene(Random& random) : part("l_bracket", 3, random, *backend), models{part.model} {}
+  Particle off_by(double distance_m, Random& random) const {
+    Vector6d off = Vector6d::Zero();
+    off.head<3>() = distance_m * random.direction();
+    Particle p;
+    p.world_from_object = retract(part.truth, off);
+    return p;
+  }
+};
+
+TEST(WeighParticles, FollowsTheSquaredMeansOfAllViews) {
+  Random random = test_random();
+  IdealScene t(random);
+  std::vector<Particle> particles;
+  for (double d : {0.0, 0.001, 0.003, 0.006}) particles.push_back(t.off_by(d, random));
+  ASSERT_EQ(weigh_particles(t.models, particles, t.part.views, *t.backend, t.options), 4u);
+  // Oracle: the registration's own mean residual in each view.
+  D2coOptions still;
+  still.rounds = {{LOSS_HUBER, 1000, 1, 0}};
+  double log_weight[4], total = 0;
+  for (int i = 0; i < 4; ++i) {
+    double upsilon = 0;
+    for (const RegisterView& view : t.part.views) {
+      const Se3 pose = view.camera_from_world * particles[i].world_from_object;
+      const std::vector<ModelPoint> points = visible_edges(t.part.model, std::span(&pose, 1), *t.backend, t.options.d2co.visibility)[0];
+      const TensorShape shape = view.view->shape;
+      const std::vector<std::uint16_t> tensor = view.view->tensor();
+      double sum = 0;
+      int inside = 0;
+      for (const ModelPoint& point : points) {
+        const Landing at = land(view.view->intrinsics, pose, point);
+        if (at.u < -0.5 || at.v < -0.5 || at.u >= view.camera.width - 0.5 || at.v >= view.camera.height - 0.5) continue;
+        sum += tensor_lookup({tensor, shape, view.view->intrinsics}, float(at.u), float(at.v), float(at.theta), nullptr);
+        ++inside;
+      }
+      upsilon += (sum / inside) * (sum / inside);
+    }
+    EXPECT_NEAR(particles[i].upsilon_px2, upsilon, 0.01 * upsilon + 0.01);
+    log_weight[i] = -upsilon / (2 * t.options.sigma_px * t.options.sigma_px);
+    total += std::exp(log_weight[i]);
+  }
+  for (int i = 0; i < 4; ++i) EXPECT_NEAR(std::exp(particles[i].log_weight), std::exp(log_weight[i]) / total, 0.02) << i;
+  EXPECT_GT(particles[0].log_weight, particles[3].log_weight + 0.3);
+}
+
+TEST(WeighParticles, AViewThatSeesNothingOfAParticleLeavesItsShare) {
+  Random random = test_random();
+  IdealScene t(random);
+  std::vector<Particle> particles;
+  for (int i = 0; i < 6; ++i) particles.push_back(t.off_by(0.001 * i, random));
+  std::vector<RegisterView> views(t.part.views.begin(), t.part.views.begin() + 1);
+  weigh_particles(t.models, particles, views, *t.backend, t.options);
+  std::vector<double> before;
+  for (const Particle& p : particles) before.push_back(p.log_weight);
+  // A camera that looks the other way sees none of them.
+  views.push_back(t.part.views[1]);
+  views[1].camera_from_world = Se3{so3_exp({0, 3, 0}), {0, 0, 0}} * views[1].camera_from_world;
+  EXPECT_EQ(weigh_particles(t.models, particles, views, *t.backend, t.options), 6u);
+  for (int i = 0; i < 6; ++i) EXPECT_NEAR(particles[i].log_weight, before[i], 1e-9);
+}
+
+TEST(WeighParticles, TheDeadHaveNoWeight) {
+  Random random = test_random();
+  IdealScene t(random);
+  std::vector<Particle> particles{t.off_by(0.001, random), t.off_by(0.001, random), t.off_by(30, random)};
+  particles[1].world_from_object.translation_m.x() = std::nan("");
+  EXPECT_EQ(weigh_particles(t.models, particles, t.part.views, *t.backend, t.options), 1u);
+  EXPECT_NEAR(particles[0].log_weight, 0, 1e-12);
+  EXPECT_EQ(particles[1].log_weight, -INFINITE);
+  EXPECT_EQ(particles[2].log_weight, -INFINITE);
+  particles.erase(particles.begin());
+  EXPECT_EQ(weigh_particles(t.models, particles, t.part.views, *t.backend, t.options), 0u);
+  for (const Particle& p : particles) EXPECT_NEAR(p.log_weight, -std::log(2.0), 1e-12);
+}
+
+// Resampling turns weight into number; weighing the same images again must not count them again.
+TEST(WeighParticles, CountsNoViewTwiceAfterResampling) {
+  Random random = test_random();
+  IdealScene t(random);
+  std::vector<TemplateSet> sets{set_of(make_part("l_bracket"))};
+  t.options.roughened = {0, 0};
+  t.options.min_per_mode = 2;
+  t.options.sigma_px = 10;
+  // Two places, one fitting worse.
+  std::vector<Particle> particles;
+  for (int i = 0; i < 30; ++i) particles.push_back(t.off_by(i % 3 ? 0.0005 : 0.012, random));
+  for (Particle& p : particles)
+    if (distance_between_m(p.world_from_object, t.part.truth) > 0.01) p.world_from_object = particles[0].world_from_object;
+  weigh_particles(t.models, particles, t.part.views, *t.backend, t.options);
+  const auto weight_of_truth = [&] {
+    double sum = 0;
+    for (const Particle& p : particles) sum += distance_between_m(p.world_from_object, t.part.truth) < 0.005 ? std::exp(p.log_weight) : 0;
+    return sum;
+  };
+  const double before = weight_of_truth();
+  EXPECT_GT(before, 0.7);
+  EXPECT_LT(before, 0.9999);
+  for (int round = 0; round < 3; ++round) {
+    particles = resample(particles, find_modes(particles, sets, t.options), t.models, 30, t.options, random.split(round));
+    ASSERT_EQ(particles.size(), 30u);
+    EXPECT_NEAR(weight_of_truth(), before, 1e-9);
+    for (Particle& p : particles)
+      if (distance_between_m(p.world_from_object, t.part.truth) > 0.005) p.world_from_object = particles.back().world_from_object;
+    weigh_particles(t.models, particles, t.part.views, *t.backend, t.options);
+    EXPECT_NEAR(weight_of_truth(), before, 0.02);
+  }
+}
+
+// What is probable enough to be reported is fitted on larger images.
+ModeDetectionOptions reported() {
+  ModeDetectionOptions options;
+  options.min_probability = 0.1;
+  options.support_probability = 0.1;
+  return options;
+}
+
+// Three parts of two kinds: their candidates some millimetres off, and two where nothing is.
+TEST(UpdateParticles, FindsTheInstancesAndDropsTheRest) {
+  Random random = test_random();
+  const RenderedScene t({"l_bracket", "bearing_block"}, 3, 3);
+  const auto backend = make_cpu_backend(2);
+  std::vector<Detection> candidates;
+  for (std::size_t i = 0; i < 3; ++i) candidates.push_back(t.candidate(i, 0.003, 0.05, random));
+  candidates.push_back(t.false_candidate(0, {0.0, 0.0, 0.06}, random));
+  candidates.push_back(t.false_candidate(1, {0.05, 0.03, 0.07}, random));
+  ParticleOptions options;
+  options.count = 40;
+  std::vector<Particle> particles = draw_particles(t.models, candidates, options.count, options.drawn, random);
+  const std::vector<RegisterView> all = t.views(*backend);
+  for (std::size_t seen = 1; seen <= 3; ++seen) {
+    const std::span<const RegisterView> views(all.data(), seen);
+    const ParticleUpdate update = update_particles(particles, t.sets, t.models, candidates, views, *backend, options);
+    std::printf("%zu views: effective %.1f of %zu%s\n", seen, update.effective, particles.size(), update.resampled ? ", resampled" : "");
+    EXPECT_FALSE(update.reseeded);
+    EXPECT_EQ(particles.size(), 40u);
+  }
+  const std::vector<Mode> modes = find_modes(particles, t.sets, options);
+  for (const Mode& m : modes) std::printf("mode of object %d: %zu particles, weight %.3f, probability %.3f\n", m.object, m.particles.size(), m.weight, m.probability);
+  const std::vector<ModeDetection> found = mode_detections(particles, modes, t.sets, t.models, all, *backend, reported());
+  ASSERT_EQ(found.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PlacedObject& truth = t.scene.placed[i];
+    double distance = 1, angle = 9;
+    for (const ModeDetection& d : found) {
+      if (d.detection.object != truth.object) continue;
+      const PoseError error = pose_error(d.detection.world_from_object, truth.world_from_object, t.parts[truth.object].symmetries);
+      if (error.distance_m < distance) distance = error.distance_m, angle = error.angle_rad;
+    }
+    std::printf("part %zu: %.2f mm, %.3f rad\n", i, 1000 * distance, angle);
+    EXPECT_LT(distance, 0.0015);
+    EXPECT_LT(angle, 0.03);
+  }
+  for (const ModeDetection& d : found) {
+    EXPECT_GE(d.supporting_views.size(), 2u);
+    EXPECT_TRUE(d.detection.covariance.allFinite());
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6d>(d.detection.covariance).eigenvalues().minCoeff(), 0);
+  }
+}
+
+TEST(UpdateParticles, DrawsAnewWhereAllDied) {
+  Random random = test_random();
+  const RenderedScene t({"l_bracket"}, 1, 1);
+  const auto backend = make_cpu_backend(2);
+  const std::vector<Detection> candidates{t.candidate(0, 0.003, 0.05, random)};
+  ParticleOptions options;
+  options.count = 10;
+  std::vector<Particle> particles = draw_particles(t.models, candidates, options.count, options.drawn, random);
+  for (Particle& p : particles) p.world_from_object.translation_m.z() += 5;  // behind the camera
+  const CollectedLog log;
+  const ParticleUpdate update = update_particles(particles, t.sets, t.models, candidates, t.views(*backend), *backend, options);
+  EXPECT_TRUE(update.reseeded);
+  ASSERT_EQ(log.messages.size(), 1u);
+  EXPECT_NE(log.messages[0].second.find("all particles died"), std::string::npos);
+  const std::vector<Mode> modes = find_modes(particles, t.sets, options);
+  const std::vector<ModeDetection> found = mode_detections(particles, modes, t.sets, t.models, t.views(*backend), *backend, reported());
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_LT(distance_between_m(found[0].detection.world_from_object, t.scene.placed[0].world_from_object), 0.006);
+}
+
+TEST(UpdateParticles, IsTheSameAgain) {
+  Random random = test_random();
+  const RenderedScene t({"l_bracket"}, 1, 2);
+  const auto backend = make_cpu_backend(2);
+  const std::vector<Detection> candidates{t.candidate(0, 0.003, 0.05, random)};
+  ParticleOptions options;
+  options.count = 12;
+  options.min_effective = 1;
+  options.sigma_px = 0.1;  // one fits better than the others, and is copied
+  const auto run = [&](std::uint64_t seed) {
+    options.seed = seed;
+    std::vector<Particle> particles = draw_particles(t.models, candidates, options.count, options.drawn, Random(3));
+    update_particles(particles, t.sets, t.models, candidates, t.views(*backend), *backend, options);
+    std::vector<double> numbers;
+    for (const Particle& p : particles) numbers.push_back(p.world_from_object.translation_m.x());
+    return numbers;
+  };
+  EXPECT_EQ(run(1), run(1));
+  EXPECT_NE(run(1), run(2));
+}
+
+TEST(ParticleOptions, NamesWhatIsOutOfBounds) {
+  const auto with = [](auto change) {
+    return [change] {
+      ParticleOptions options;
+      change(options);
+      options.validate();
+    };
+  };
+  expect_input_error(with([](ParticleOptions& o) { o.count = 0; }), {"particles.count"});
+  expect_input_error(with([](ParticleOptions& o) { o.sigma_px = 0; }), {"particles.sigma"});
+  expect_input_error(with([](ParticleOptions& o) { o.drawn = {0.2, 0.1}; }), {"particles.drawn_min"});
+  EXPECT_NO_THROW(with([](ParticleOptions&) {})());
+}
+
+}  // namespace
+}  // namespace edgescout::test

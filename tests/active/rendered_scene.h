@@ -1,0 +1,81 @@
+// Parts lying apart on a bare board, seen from several places: everything the belief about them is made of.
+#pragma once
+
+#include "host/active/particles.h"
+#include "host/detect/observation.h"
+#include "host/pipeline.h"
+#include "host/render/parts.h"
+#include "host/render/renderer.h"
+#include "kernels/thread_pool.h"
+
+namespace edgescout::test {
+
+inline TemplateSet set_of(const Object& object) {
+  TemplateSet set;
+  set.object_id = object.id;
+  set.symmetries = object.symmetries;
+  set.model = make_edge_model(object.mesh);
+  return set;
+}
+
+struct RenderedScene {
+  std::vector<Object> parts;
+  Scene scene;
+  std::vector<Rendering> renderings;
+  std::vector<TemplateSet> sets;
+  std::vector<EdgeModel> models;
+
+  RenderedScene(const std::vector<std::string>& names, int objects, int views) {
+    for (const std::string& name : names) parts.push_back(make_part(name));
+    RenderOptions options;
+    options.width = 480;
+    options.height = 360;
+    options.focal_px = 600;
+    options.objects = objects;
+    options.views = views;
+    options.clutter = 0;
+    options.pile = 0;
+    scene = make_scene(parts, options);
+    ThreadPool pool(2);
+    renderings = render(scene, pool);
+    for (const Object& part : parts) sets.push_back(set_of(part));
+    for (const TemplateSet& set : sets) models.push_back(set.model);
+  }
+
+  Camera camera() const { return scene.views[0].camera; }
+
+  // `camera_from_world` is what the arm says; absent: the truth.
+  RegisterView view(std::size_t index, Backend& backend, std::optional<Se3> camera_from_world = {}) const {
+    const PreparedImage prepared = prepare_image(renderings[index].image, scene.views[index].camera,
+                                                 camera_from_world.value_or(scene.views[index].camera_from_world), backend, {});
+    return observe(prepared.image, prepared.camera, prepared.camera_from_world, prepared.edges, 1, {}, backend).view;
+  }
+  std::vector<RegisterView> views(Backend& backend) const {
+    std::vector<RegisterView> all;
+    for (std::size_t v = 0; v < scene.views.size(); ++v) all.push_back(view(v, backend));
+    return all;
+  }
+
+  // A candidate `distance_m` and `angle_rad` off a part, in a random direction.
+  Detection candidate(std::size_t placed, double distance_m, double angle_rad, Random& random) const {
+    Detection d;
+    d.object = scene.placed[placed].object;
+    Vector6d off;
+    off << distance_m * random.direction(), angle_rad * random.direction();
+    d.world_from_object = retract(scene.placed[placed].world_from_object, off);
+    d.covariance.diagonal() << 1e-6, 1e-6, 1e-6, 1e-4, 1e-4, 1e-4;
+    d.psi = 0.9;
+    return d;
+  }
+  // Where there is nothing: high above the board.
+  Detection false_candidate(int object, const Eigen::Vector3d& at_m, Random& random) const {
+    Detection d;
+    d.object = object;
+    d.world_from_object = {random.rotation(), at_m};
+    d.covariance.diagonal() << 1e-6, 1e-6, 1e-6, 1e-4, 1e-4, 1e-4;
+    d.psi = 0.7;
+    return d;
+  }
+};
+
+}  // namespace edgescout::test

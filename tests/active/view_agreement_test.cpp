@@ -1,0 +1,82 @@
+#include "host/active/view_agreement.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/active/rendered_scene.h"
+#include "tests/io/collected_log.h"
+#include "tests/test_random.h"
+
+namespace edgescout::test {
+namespace {
+
+// A camera pose turned about the scene's middle by some degrees: the parts stay in the image, in other places.
+Se3 wrong(const Se3& camera_from_world, double angle_rad) {
+  return camera_from_world * Se3{so3_exp({0.6 * angle_rad, 0, 0.8 * angle_rad}), {0, 0, 0}};
+}
+
+struct Objects {
+  RenderedScene scene;
+  std::unique_ptr<Backend> backend = make_cpu_backend(2);
+  std::vector<Hypothesis> poses;
+  explicit Objects(int views) : scene({"l_bracket", "bearing_block"}, 4, views) {
+    for (const PlacedObject& part : scene.scene.placed) poses.push_back({part.object, part.world_from_object});
+  }
+  std::vector<ViewAgreement> judge(const std::vector<RegisterView>& views) { return view_agreement(scene.models, poses, views, *backend); }
+};
+
+void print(const std::vector<ViewAgreement>& views) {
+  for (const ViewAgreement& v : views) std::printf("%.2f px by %d objects%s\n", v.residual_px, v.objects, v.disagrees ? ", disagrees" : "");
+}
+
+TEST(ViewAgreement, RightPosesAgree) {
+  Objects t(3);
+  const CollectedLog log;
+  const std::vector<ViewAgreement> agreement = t.judge(t.scene.views(*t.backend));
+  print(agreement);
+  for (const ViewAgreement& v : agreement) {
+    EXPECT_GE(v.objects, 2);
+    EXPECT_LT(v.residual_px, 1.5);
+    EXPECT_FALSE(v.disagrees);
+  }
+  EXPECT_TRUE(log.messages.empty());
+}
+
+TEST(ViewAgreement, FlagsTheOneThatIsWrong) {
+  Objects t(3);
+  for (const std::size_t odd : {0u, 2u}) {
+    std::vector<RegisterView> views = t.scene.views(*t.backend);
+    views[odd].camera_from_world = wrong(views[odd].camera_from_world, 0.06);
+    const CollectedLog log;
+    const std::vector<ViewAgreement> agreement = t.judge(views);
+    print(agreement);
+    for (std::size_t v = 0; v < 3; ++v) EXPECT_EQ(agreement[v].disagrees, v == odd) << v;
+    ASSERT_EQ(log.messages.size(), 1u);
+    EXPECT_NE(log.messages[0].second.find("view " + std::to_string(odd + 1)), std::string::npos) << log.messages[0].second;
+  }
+}
+
+TEST(ViewAgreement, OfTwoTheLaterIsDoubted) {
+  Objects t(2);
+  std::vector<RegisterView> views = t.scene.views(*t.backend);
+  views[0].camera_from_world = wrong(views[0].camera_from_world, 0.08);
+  const std::vector<ViewAgreement> agreement = t.judge(views);
+  print(agreement);
+  EXPECT_FALSE(agreement[0].disagrees);
+  EXPECT_TRUE(agreement[1].disagrees);
+}
+
+TEST(ViewAgreement, OneViewOrNoObjectCannotDisagree) {
+  Objects t(2);
+  std::vector<RegisterView> views = t.scene.views(*t.backend);
+  views[1].camera_from_world = wrong(views[1].camera_from_world, 0.08);
+  EXPECT_FALSE(t.judge({views[1]})[0].disagrees);
+  t.poses.clear();
+  for (const ViewAgreement& v : t.judge(views)) {
+    EXPECT_FALSE(v.disagrees);
+    EXPECT_EQ(v.objects, 0);
+  }
+  EXPECT_TRUE(t.judge({}).empty());
+}
+
+}  // namespace
+}  // namespace edgescout::test
