@@ -6,7 +6,7 @@
 #include "host/cli/batch.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/pipeline_options.h"
-#include "host/cli/progress.h"
+#include "host/cli/template_sets.h"
 #include "host/cli/verbs.h"
 #include "host/core/log.h"
 #include "host/io/camera_file.h"
@@ -19,7 +19,7 @@ namespace edgescout {
 namespace {
 
 struct DetectRequest {
-  std::vector<std::string> inputs, template_files;
+  std::vector<std::string> inputs;
   ModelArguments models;
   TemplateOptions templates;
   std::string device = "auto", edge_method = "gradient", out;
@@ -44,17 +44,6 @@ Camera first_camera(const DetectRequest& request, std::span<const InputImage> im
   throw InputError("command line", "inputs", "no image", "at least one");
 }
 
-std::vector<TemplateSet> loaded_sets(const std::vector<std::string>& files) {
-  std::vector<TemplateSet> sets;
-  for (const std::string& file : files) {
-    sets.push_back(load_templates(file));
-    for (std::size_t i = 0; i + 1 < sets.size(); ++i)
-      if (sets[i].object_id == sets.back().object_id)
-        throw InputError(file, "object id", fmt::format("{} twice", sets[i].object_id), "ids that differ: give model build --object-id");
-  }
-  return sets;
-}
-
 // Overlays among the images would be taken for images the next time.
 void require_other_folder(const DetectRequest& request) {
   std::error_code not_there;
@@ -65,21 +54,12 @@ void require_other_folder(const DetectRequest& request) {
 
 // What can be judged without work is judged first: nothing is written for a request that cannot be met.
 std::vector<TemplateSet> template_sets(const DetectRequest& request, std::span<const InputImage> images, Backend& backend) {
-  if (request.models.models.empty() == request.template_files.empty())
-    throw InputError("command line", "--model, --templates", request.models.models.empty() ? "neither" : "both", "one of the two");
-  std::vector<TemplateSet> sets = loaded_sets(request.template_files);
-  std::vector<Object> objects;
-  if (sets.empty()) objects = load_objects(request.models);
+  const KnownModels known = load_models(request.models);
   const Camera camera = first_camera(request, images);
   if (request.batch.joint) require_world_poses(images);
   require_other_folder(request);
   require_writable_folder(request.batch.out);
-  for (const Object& object : objects) {
-    const TemplateOptions options = with_default_distances(request.templates, object.mesh.diameter_m, camera);
-    Progress progress("templates of " + object.mesh.name, 100, std::cerr, stderr_is_terminal());
-    sets.push_back(build_templates(object, options, backend, [&](int done, int all) { progress.move_to(100 * done / all); }));
-  }
-  return sets;
+  return template_sets_of(known, request.templates, camera, backend);
 }
 
 int detect(DetectRequest& request) {
@@ -104,11 +84,7 @@ void add_detect(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("detect", "Find objects of known CAD models and their 6-DoF poses in images");
   auto request = std::make_shared<DetectRequest>();
   verb->add_option("inputs", request->inputs, "Images, folders of images, BOP scenes or folders of them")->required();
-  verb->add_option("--model", request->models.models, "STL, PLY, OBJ or CAO files")->type_name("FILE");
-  verb->add_option("--unit", request->models.unit, "Length unit of the model files: mm, cm, m or in");
-  verb->add_option("--models-info", request->models.models_info, "BOP models_info.json with symmetries")->type_name("FILE");
-  verb->add_option("--object-id", request->models.object_ids, "BOP ids of the models; default: the number their names end in");
-  verb->add_option("--templates", request->template_files, "Template files of `edgescout model build`, in place of --model")->type_name("FILE");
+  add_model_arguments(*verb, request->models);
   verb->add_option("--camera", request->batch.camera_file, "ROS or OpenCV YAML, or BOP camera JSON; BOP scenes bring their own")->type_name("FILE");
   verb->add_option("--out", request->out, "Folder of the results")->required()->type_name("DIR");
   verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")->capture_default_str();

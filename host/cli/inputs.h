@@ -30,6 +30,7 @@ struct ModelArguments {
   std::string unit;
   std::string models_info;             // BOP models_info.json; empty: no symmetries
   std::vector<int> object_ids;         // of the models; empty: the number at the end of the file's name, else 1, 2 ..
+  std::vector<std::string> templates;  // template files, in place of models
 };
 std::vector<Object> load_objects(const ModelArguments& arguments);
 

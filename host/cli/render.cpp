@@ -2,9 +2,9 @@
 #include <filesystem>
 #include <iostream>
 
-#include "host/cli/config.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/progress.h"
+#include "host/cli/scene_options.h"
 #include "host/cli/verbs.h"
 #include "host/io/bop.h"
 #include "host/io/mesh.h"
@@ -73,28 +73,14 @@ void render_scenes(const RenderRequest& request) {
             << out.string() << "\n";
 }
 
-void add_scene_options(CLI::App& verb, RenderOptions& o) {
-  OptionTable(verb, "Scene")
-      .bounded("seed", o.seed, 0u, 4000000000u, "Scene i is that of seed + i")
-      .bounded("objects", o.objects, 1, 20, "Instances a scene, dealt evenly over the models")
-      .bounded("clutter", o.clutter, 0, 2,
-               "0: bare board; 1: printed shapes and 3 foreign parts; 2: many and 8")
-      .bounded("pile", o.pile, 0.0, 1.0, "0: parts lie apart; 1: all on one heap, hiding each other");
+void add_camera_options(CLI::App& verb, RenderOptions& o) {
   OptionTable(verb, "Cameras")
       .bounded("views", o.views, 1, 50, "Images a scene, from around it")
-      .bounded("width", o.width, 16, 8192, "px")
-      .bounded("height", o.height, 16, 8192, "px")
-      .bounded("focal", o.focal_px, 1.0, 1e5, "Focal length, px")
       .bounded("min-elevation", o.min_elevation_deg, 10.0, 90.0, "Of the cameras over the board, degrees")
       .bounded("max-elevation", o.max_elevation_deg, 10.0, 90.0, "degrees")
       .bounded("min-distance", o.min_distance_m, 0.0, 100.0,
                "Camera to parts, m; 0: so that they fill the image")
       .bounded("max-distance", o.max_distance_m, 0.0, 100.0, "m");
-  OptionTable(verb, "Image")
-      .bounded("blur", o.blur_px, 0.0, 10.0, "Standard deviation of the lens's Gaussian, px")
-      .bounded("noise", o.noise_grey, 0.0, 50.0, "Standard deviation of the sensor's noise, grey levels")
-      .bounded("supersampling", o.supersampling, 1, 7, "Samples a pixel and axis; odd")
-      .flag("shadows,!--no-shadows", o.shadows, "Cast shadows (default)");
 }
 
 }  // namespace
@@ -115,6 +101,7 @@ void add_render(CLI::App& app, int& exit_code) {
   verb->add_option("--out", request->out, "Folder of the dataset")->required()->type_name("DIR");
   OptionTable(*verb, "Scene").bounded("scenes", request->scenes, 1, 100000, "How many");
   add_scene_options(*verb, request->options);
+  add_camera_options(*verb, request->options);
   verb->callback([request, &exit_code] {
     render_scenes(*request);
     exit_code = exit_done;
