@@ -78,6 +78,20 @@ std::vector<Se3> hemisphere_views(const HemisphereOptions& options) {
   return views;
 }
 
+Eigen::Vector3d looked_at_m(std::span<const Se3> camera_from_world) {
+  Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
+  for (const Se3& pose : camera_from_world) {
+    const Se3 world_from_camera = inverse(pose);
+    const Eigen::Vector3d axis = world_from_camera.rotation * Eigen::Vector3d::UnitZ();
+    const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
+    a += across;
+    b += across * world_from_camera.translation_m;
+  }
+  const Eigen::FullPivLU<Eigen::Matrix3d> lu = Eigen::FullPivLU<Eigen::Matrix3d>(a).setThreshold(1e-6);
+  return lu.isInvertible() ? Eigen::Vector3d(lu.solve(b)) : inverse(camera_from_world[0]) * Eigen::Vector3d::UnitZ();
+}
+
 void validate_views(std::span<const Se3> camera_from_world, const std::string& source) {
   if (camera_from_world.empty()) throw InputError(source, "views", "none", "at least one");
   for (std::size_t i = 0; i < camera_from_world.size(); ++i) {

@@ -26,6 +26,9 @@ struct HemisphereOptions {
 // camera_from_world of each, ring by ring in the given order; neighbouring rings are turned against each other.
 std::vector<Se3> hemisphere_views(const HemisphereOptions& options);
 
+// The point nearest to all optical axes: what the cameras look at. World frame. Of parallel axes the point 1 m ahead of the first.
+Eigen::Vector3d looked_at_m(std::span<const Se3> camera_from_world);
+
 // At least one view, each finite and rigid, no two alike (closer than 0.1 mm and 0.1 mrad). InputError naming `source` and the view.
 void validate_views(std::span<const Se3> camera_from_world, const std::string& source);
 

@@ -69,6 +69,7 @@ int run(int argc, char** argv) {
   add_model(app, exit_code);
   add_register(app, exit_code);
   add_render(app, exit_code);
+  add_scout(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

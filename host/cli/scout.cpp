@@ -1,0 +1,150 @@
+// edgescout scout: looks again from the best place, until the objects are found.
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "host/cli/exit_codes.h"
+#include "host/cli/pipeline_options.h"
+#include "host/cli/scout_report.h"
+#include "host/cli/scout_source.h"
+#include "host/cli/template_sets.h"
+#include "host/cli/verbs.h"
+#include "host/core/log.h"
+#include "host/io/files.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct ScoutRequest {
+  SourceRequest source;
+  ModelArguments models;
+  TemplateOptions templates;
+  ScoutOptions options;
+  std::string strategy = to_string(Strategy::Information), device = "auto", edge_method = "gradient", out;
+  std::vector<int> sequence;
+  bool first_image_only = false, resume = false, watch = false;
+};
+
+std::vector<Object> objects_of(const KnownModels& known) {
+  std::vector<Object> objects = known.objects;
+  for (const TemplateSet& set : known.sets) objects.push_back({set.object_id, set.model.mesh, set.symmetries});
+  return objects;
+}
+
+// Where the user says nothing: what the views see, 15 % on either side.
+TemplateOptions with_distances_of(TemplateOptions options, const std::vector<Se3>& views) {
+  if (options.distance_min_m > 0 || options.distance_max_m > 0) return options;
+  const Eigen::Vector3d center_m = looked_at_m(views);
+  double near_m = INFINITY, far_m = 0;
+  for (const Se3& view : views) {
+    const double distance_m = (view * center_m).norm();
+    near_m = std::min(near_m, distance_m);
+    far_m = std::max(far_m, distance_m);
+  }
+  options.distance_min_m = 0.85 * near_m;
+  options.distance_max_m = 1.15 * far_m;
+  return options;
+}
+
+const char* unit_of(Strategy strategy) { return strategy == Strategy::Information ? "nats" : strategy == Strategy::Disocclusion ? "points" : ""; }
+
+void settle_options(ScoutRequest& request) {
+  ScoutOptions& o = request.options;
+  o.pipeline.edges.method = edge_method_from_name(request.edge_method);
+  o.next_view.strategy = strategy_from(request.strategy);
+  o.next_view.sequence = request.sequence;
+  o.detect_in_every_image = !request.first_image_only;
+  o.detections.min_probability = o.pipeline.detect.min_probability;
+  o.validate();
+  request.templates.validate();
+}
+
+// Says on standard error what each step brought.
+void tell(const ScoutState& state) {
+  if (state.steps.empty()) return;
+  const ScoutStep& step = state.steps.back();
+  log(LogLevel::Info, fmt::format("image {} from view {}: {} objects, entropy {:.3f} nats", state.steps.size(), step.decision.view, state.detections.size(), state.entropy_nats));
+}
+
+void write_all(const ScoutState& state, const ScoutReport& report, const ScoutRequest& request, bool last, Backend& backend) {
+  const fs::path out = request.out;
+  save_scout_state(state, out / "scout.state");
+  save_scout_log(state, report, out);
+  if (last) save_scout_results(state, report, out);
+  if (last || request.watch) write_file_atomically(out / "scout.html", scout_page(state, report, !last, backend));
+}
+
+int scout(ScoutRequest& request) {
+  settle_options(request);
+  const std::unique_ptr<Backend> backend = make_backend(request.device);
+  const KnownModels known = load_models(request.models);
+  const ScoutSource source = make_source(request.source, objects_of(known), backend->threads());
+  const std::vector<Se3> views = source.source->views();
+  require_writable_folder(request.out);
+  const std::vector<TemplateSet> sets = template_sets_of(known, with_distances_of(request.templates, views), source.source->camera(), *backend);
+  Scout scout(sets, source.source->camera(), views, request.options, *backend);
+  const fs::path saved = fs::path(request.out) / "scout.state";
+  if (request.resume && fs::exists(saved)) scout.resume(load_scout_state(saved), saved.string());
+  const ScoutReport report{sets, undistorted(source.source->camera()), request.options.pipeline.edges, backend->name(), source.name, request.strategy,
+                           unit_of(request.options.next_view.strategy), source.truth, source.image_ids, source.scene_id};
+  run_scout(scout, *source.source, [&](const ScoutState& state) {
+    tell(state);
+    write_all(state, report, request, false, *backend);
+  });
+  const ScoutState& state = scout.state();
+  write_all(state, report, request, true, *backend);
+  std::cout << fmt::format("{} objects in {} images, {} views failed, {:.1f} s, ended by: {}; results in {}\n", state.detections.size(), state.steps.size(),
+                           state.failed.size(), state.seconds(), to_string(state.end), request.out);
+  return state.steps.empty() || !state.failed.empty() ? exit_some_failed : exit_done;
+}
+
+void add_loop_options(CLI::App& verb, ScoutRequest& r) {
+  ScoutOptions& o = r.options;
+  OptionTable(verb, "Budget")
+      .bounded("max-views", o.max_views, 1, 1000000, "Images at most")
+      .bounded("min-entropy", o.min_entropy_nats, 0.0, 1e6, "Ends where the modes are as certain as that, nats; 0: never")
+      .bounded("min-information", o.min_information_nats, 0.0, 1e6, "Ends where no view is expected to tell as much, nats; 0: never")
+      .bounded("max-seconds", o.max_seconds, 0.0, 1e9, "Of computing; 0: no limit");
+  OptionTable(verb, "Next view")
+      .choice("strategy", r.strategy, {"mi-max", "dis", "random", "fixed"}, "Most information, most disoccluded points, any view, or in the order of --sequence")
+      .bounded("first-view", o.first_view, 0, 1000000, "The first image's")
+      .bounded("map-reduction", o.next_view.reduction, 1.0, 16.0, "Image px a px of the distance maps")
+      .bounded("chamfer-cap", o.next_view.cap_px, 0.1, 255.0, "Of distances, image px")
+      .bounded("sigma", o.next_view.sigma_px, 0.001, 1000.0, "Of the mean distance of a right pose, image px")
+      .flag("literal", o.next_view.literal, "The paper's own formula for the information")
+      .bounded("metre-cost", o.next_view.motion_cost_per_m, 0.0, 1e6, "Taken off for a metre of the camera's way, nats")
+      .bounded("radian-cost", o.next_view.motion_cost_per_rad, 0.0, 1e6, "And for a radian of its turn, nats")
+      .bounded("combinations", o.combinations.count, 1, 1000000, "Scenes imagined for a decision")
+      .bounded("sharpness", o.combinations.sharpness, 0.0, 1000.0, "Of the preference for likely candidates in them; 1: the paper's")
+      .bounded("penetration", o.penetration_m, 0.0, 1.0, "How far parts may reach into each other, m");
+  verb.add_option("--sequence", r.sequence, "Views of strategy fixed; default: all in order")->group("Next view");
+  OptionTable(verb, "Belief")
+      .bounded("particles", o.particles.count, 1, 100000, "Poses that are followed")
+      .bounded("max-candidates", o.max_candidates, 1, 10000, "Of all objects together, kept from image to image")
+      .flag("first-image-only", r.first_image_only, "Detect in the first image only, as in the paper");
+}
+
+}  // namespace
+
+void add_scout(CLI::App& app, int& exit_code) {
+  CLI::App* verb = app.add_subcommand("scout", "Look again from the best place: detection with a next best view");
+  auto request = std::make_shared<ScoutRequest>();
+  add_source_options(*verb, request->source);
+  add_model_arguments(*verb, request->models);
+  verb->add_option("--out", request->out, "Folder of the results")->required()->type_name("DIR");
+  verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")->capture_default_str();
+  OptionTable(*verb, "Run")
+      .flag("watch", request->watch, "Write the page after every step, so that a browser follows it")
+      .flag("resume", request->resume, "Go on from DIR/scout.state where there is one");
+  add_loop_options(*verb, *request);
+  add_template_options(*verb, request->templates);
+  add_edge_and_tensor_options(*verb, request->options.pipeline, request->edge_method);
+  add_detection_options(*verb, request->options.pipeline);
+  verb->callback([request, &exit_code] { exit_code = scout(*request); });
+}
+
+}  // namespace edgescout

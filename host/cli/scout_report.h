@@ -1,0 +1,47 @@
+// What an active detection leaves behind: a JSON log, poses image by image, and a page to look at.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/active/scout.h"
+
+namespace edgescout {
+
+// An instance that is known to lie there, in a simulated cell.
+struct TrueObject {
+  int object = 0;
+  Se3 world_from_object;
+};
+
+struct ScoutReport {
+  std::span<const TemplateSet> sets;
+  Camera camera;  // ideal
+  EdgesOptions edges;
+  std::string device, source, strategy;
+  std::string unit = "nats";  // of ViewInformation::information
+  std::vector<TrueObject> truth;
+  std::vector<int> image_ids;  // one a view
+  int scene_id = 0;
+};
+
+// How far a detection lies from the nearest instance of its object; nothing where no truth is known.
+struct DistanceToTruth {
+  double angle_rad = 0, distance_m = 0;
+  bool right = false;  // below 0.1 rad and 5 mm, the paper's criterion
+};
+std::optional<DistanceToTruth> distance_to_truth(const Detection& detection, const ScoutReport& report);
+
+// FOLDER/scout.json: {edgescout_scout: 1, device, source, strategy, camera, views, steps [..], failed [..], detections [..], truth [..], end}; poses as in io/results.h. Atomically.
+void save_scout_log(const ScoutState& state, const ScoutReport& report, const std::filesystem::path& folder);
+
+// FOLDER/view_NNN.json (io/results.h) of every image taken, with all that was found in the world, and FOLDER/results.csv (BOP).
+void save_scout_results(const ScoutState& state, const ScoutReport& report, const std::filesystem::path& folder);
+
+// One HTML page that needs nothing beside itself: no network, no script, no other file. `refreshing`: the browser reads it again every two seconds.
+std::string scout_page(const ScoutState& state, const ScoutReport& report, bool refreshing, Backend& backend);
+
+}  // namespace edgescout

@@ -1,0 +1,34 @@
+// Where `edgescout scout` takes its images: a rendered cell or views recorded before.
+#pragma once
+
+#include "host/active/source.h"
+#include "host/active/views.h"
+#include "host/cli/config.h"
+#include "host/cli/scout_report.h"
+
+namespace edgescout {
+
+struct SourceRequest {
+  std::string source;       // "cell", or a folder (load_recorded_views)
+  std::string camera_file;  // of recorded views
+  std::string views_file;   // of a cell, in place of the hemisphere
+  RenderOptions scene;      // of a cell
+  ArmNoise arm;
+  HemisphereOptions hemisphere;  // radius 0: so that the parts fill the image
+  std::vector<double> center_m{0, 0, 0};
+};
+
+void add_source_options(CLI::App& verb, SourceRequest& request);
+
+struct ScoutSource {
+  std::unique_ptr<ViewSource> source;
+  std::string name;
+  std::vector<TrueObject> truth;  // of a cell
+  std::vector<int> image_ids;     // one a view: BOP's, else its number
+  int scene_id = 0;
+};
+
+// `objects` lie in a cell. InputError: neither "cell" nor a folder of recorded views, options of the one with the other.
+ScoutSource make_source(const SourceRequest& request, std::span<const Object> objects, ThreadPool& pool);
+
+}  // namespace edgescout
