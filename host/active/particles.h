@@ -2,7 +2,8 @@
 //
 // A particle is one pose one object may have. Its weight follows Bayes' rule on real images alone: w ~ exp(-Upsilon / s), Upsilon the sum over the real views of the
 // squared mean DCD at the particle's pose (Eq. 18), s = 2 sigma_px^2. Poses move when they are refined on a new image, so Upsilon is always that of all real views at the pose
-// of today; what resampling has turned from weight into number of particles is remembered in `spent_px2` and leaves the weight: no view counts twice.
+// of today; what resampling has turned from weight into number of particles is remembered in `spent_px2` and leaves the weight: no view counts twice. A particle drawn later starts with
+// nothing spent and is weighed by all views like the others.
 #pragma once
 
 #include <cstdint>

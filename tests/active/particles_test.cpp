@@ -227,6 +227,30 @@ ModeDetectionOptions reported() {
   return options;
 }
 
+// One that is drawn after others have been resampled weighs what it would have weighed from the start.
+TEST(WeighParticles, LateOnesFindTheirShare) {
+  Random random = test_random();
+  IdealScene t(random);
+  const std::vector<TemplateSet> sets{set_of(make_part("l_bracket"))};
+  t.options.roughened = {0, 0};
+  t.options.sigma_px = 10;
+  std::vector<Particle> early;
+  for (int i = 0; i < 12; ++i) early.push_back(t.off_by(0.002, random));
+  const Particle late = t.off_by(0.008, random);
+  std::vector<Particle> from_the_start = early;
+  from_the_start.push_back(late);
+  weigh_particles(t.models, from_the_start, t.part.views, *t.backend, t.options);
+  for (int round = 0; round < 2; ++round) {
+    weigh_particles(t.models, early, t.part.views, *t.backend, t.options);
+    early = resample(early, find_modes(early, sets, t.options), t.models, 50, t.options, random.split(round));
+  }
+  early.push_back(late);
+  weigh_particles(t.models, early, t.part.views, *t.backend, t.options);
+  EXPECT_GT(from_the_start.back().log_weight, -6);
+  EXPECT_LT(from_the_start.back().log_weight, -2.8);
+  EXPECT_NEAR(early.back().log_weight, from_the_start.back().log_weight, 0.05);
+}
+
 // Three parts of two kinds: their candidates some millimetres off, and two where nothing is.
 TEST(UpdateParticles, FindsTheInstancesAndDropsTheRest) {
   Random random = test_random();
