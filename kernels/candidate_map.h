@@ -26,7 +26,7 @@ EDGESCOUT_CONST(CHAMFER_CAP, 255);                 // of a distance, in 1/16 px:
 EDGESCOUT_CONST(CANDIDATE_MAP_REACH2, 64770);      // the largest d2 that rounds to 254
 EDGESCOUT_CONST(CANDIDATE_MAP_EMPTY, 0xffffffffu);
 EDGESCOUT_CONST(CANDIDATE_MAP_REACH_PX, 16);       // a window grown by it misses nothing
-EDGESCOUT_CONST(CANDIDATE_MAP_MAX_EDGES, 65535);
+EDGESCOUT_CONST(CANDIDATE_MAP_MAX_EDGES, 16384);
 EDGESCOUT_CONST(CANDIDATE_MAP_MAX_SIDE, 8192);
 #ifdef __cplusplus
 }  // namespace edgescout

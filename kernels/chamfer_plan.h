@@ -9,20 +9,19 @@
 #include <cstdint>
 #include <vector>
 
+#include "kernels/chamfer_push.h"
 #include "kernels/combination_chamfer.h"
 
 namespace edgescout {
-
-inline constexpr std::uint32_t CHAMFER_NO_MEMBER = ~0u;
 
 struct ChamferMask {
   std::uint32_t member = CHAMFER_NO_MEMBER;         // every realization, but
   std::uint32_t first_hider = 0, hider_count = 0;   // those with one of hiders[first_hider, + hider_count)
 };
 
-// Distance in 1/16 px << 24 | mask.
 struct ChamferRow {
-  std::uint32_t first_reach = 0, reach_count = 0;  // nearest first: the first whose mask has the realization is its distance
+  // Distances in 1/16 px << 24 | mask, nearest first: the first whose mask has the realization is its distance.
+  std::uint32_t first_reach = 0, reach_count = 0;
   std::uint32_t visible = 0;                       // mask; 0: nothing hides it
 };
 
@@ -40,7 +39,7 @@ struct ChamferPlan {
   std::vector<ChamferRun> particles;
 };
 
-// Throws LogicError as check_chamfer() does, and for more than 2^24 masks or 2^31 rows.
+// Of what check_chamfer() has passed. Throws LogicError for more than 2^24 masks or 2^31 rows, and for a nearest edge point that is none.
 ChamferPlan plan_chamfer(const ChamferView& view, const ChamferOptions& options, ThreadPool& pool);
 
 }  // namespace edgescout

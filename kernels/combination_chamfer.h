@@ -26,7 +26,7 @@
 
 namespace edgescout {
 
-inline constexpr std::uint32_t CHAMFER_MAX_POINTS = 65535;
+inline constexpr std::uint32_t CHAMFER_MAX_POINTS = 16384;  // lavapipe ends a shader's loops after 65535 turns in all
 
 struct ParticlePoint {
   float x_px, y_px;     // on the map

@@ -22,14 +22,6 @@ double log_sum_exp(std::span<const double> logs) {
   return top + std::log(sum);
 }
 
-std::vector<double> log_weights(std::span<const ParticleBelief> beliefs) {
-  std::vector<double> logs;
-  for (const ParticleBelief& belief : beliefs) logs.push_back(belief.log_weight);
-  const double total = log_sum_exp(logs);
-  for (double& v : logs) v -= total;
-  return logs;
-}
-
 // log l_ij, with Upsilon where the paper's own form is asked for.
 double log_likelihood(const ChamferCell& cell, double cap_px, const ParticleBelief& belief, const InformationOptions& options) {
   const double seen = std::max(0.5, double(belief.already_seen) + cell.fresh), mu = mean_px(cell, cap_px);
@@ -55,6 +47,14 @@ void check_table(const ChamferTable& table, std::span<const ParticleBelief> beli
 
 }  // namespace
 
+std::vector<double> normalised_log_weights(std::span<const ParticleBelief> beliefs) {
+  std::vector<double> logs;
+  for (const ParticleBelief& belief : beliefs) logs.push_back(belief.log_weight);
+  const double total = log_sum_exp(logs);
+  for (double& v : logs) v -= total;
+  return logs;
+}
+
 void InformationOptions::validate() const {
   if (!(scale_px2 > 0 && std::isfinite(scale_px2)))
     throw InputError("information options", "scale_px2", std::to_string(scale_px2), "a number above 0");
@@ -64,6 +64,7 @@ void check_information(std::uint32_t particles, std::uint32_t realizations, std:
                        const InformationOptions& options) {
   options.validate();
   check(particles > 0 && realizations > 0, "mutual_information: no particles or no realizations");
+  check(particles <= INFORMATION_MAX_PARTICLES, "mutual_information: too many particles");
   check(beliefs.size() == particles, "mutual_information: as many beliefs as particles");
   bool any = false;
   for (const ParticleBelief& belief : beliefs) {
@@ -77,7 +78,7 @@ void check_information(std::uint32_t particles, std::uint32_t realizations, std:
 double mutual_information_reference(const ChamferTable& table, std::span<const ParticleBelief> beliefs,
                                     const InformationOptions& options) {
   check_table(table, beliefs, options);
-  const std::vector<double> log_weight = log_weights(beliefs);
+  const std::vector<double> log_weight = normalised_log_weights(beliefs);
   std::vector<std::vector<double>> log_rows;
   for (std::uint32_t i = 0; i < table.particles; ++i) log_rows.push_back(log_likelihoods(table, i, beliefs[i], options));
   double information = 0;
@@ -103,7 +104,7 @@ struct Share {
 class FastInformation {
  public:
   FastInformation(const ChamferTable& table, std::span<const ParticleBelief> beliefs, const InformationOptions& options)
-      : table_(table), beliefs_(beliefs), options_(options), log_weight_(log_weights(beliefs)) {
+      : table_(table), beliefs_(beliefs), options_(options), log_weight_(normalised_log_weights(beliefs)) {
     std::size_t fresh = 0, seen = 0;
     for (const ChamferCell& cell : table.cells) fresh = std::max<std::size_t>(fresh, cell.fresh);
     for (const ParticleBelief& belief : beliefs) seen = std::max<std::size_t>(seen, belief.already_seen);

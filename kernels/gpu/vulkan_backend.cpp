@@ -5,9 +5,12 @@
 #include <chrono>
 
 #include "kernels/error.h"
+#include "kernels/gpu/candidate_map.h"
+#include "kernels/gpu/combination_chamfer.h"
 #include "kernels/gpu/dcd_tensor.h"
 #include "kernels/gpu/depth_raster.h"
 #include "kernels/gpu/edge_detect.h"
+#include "kernels/gpu/mutual_information.h"
 #include "kernels/gpu/pose_normal_equations.h"
 #include "kernels/gpu/pose_score.h"
 #include "kernels/gpu/template_score.h"
@@ -48,8 +51,29 @@ class VulkanView : public BackendView {
 
 class VulkanChamfer : public BackendChamfer {
  public:
-  std::vector<ChamferCell> cells() const override { return values; }
-  std::vector<ChamferCell> values;
+  VulkanChamfer(std::shared_ptr<const Device> device, std::size_t particle_count, std::uint32_t realization_count)
+      : device_(std::move(device)), values(*device_, particle_count, realization_count) {
+    particles = values.particles;
+    realizations = values.realizations;
+  }
+  const Device& device() const { return *device_; }
+  std::vector<ChamferCell> cells() const override {
+    std::vector<std::uint32_t> sums(std::size_t(particles) * realizations), counts(sums.size());
+    Batch batch(*device_, "cells download");
+    batch.download<std::uint32_t>(values.sums, sums);
+    batch.download<std::uint32_t>(values.counts, counts);
+    batch.run();
+    std::vector<ChamferCell> cells(sums.size());
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      cells[i] = {sums[i], std::uint16_t(counts[i] & 0xffffu), std::uint16_t(counts[i] >> 16)};
+    return cells;
+  }
+
+ private:
+  std::shared_ptr<const Device> device_;
+
+ public:
+  DeviceCells values;
 };
 
 class VulkanBackend : public Backend {
@@ -61,7 +85,10 @@ class VulkanBackend : public Backend {
         templates_(*device_),
         systems_(*device_),
         scorer_(*device_),
-        raster_(*device_) {}
+        raster_(*device_),
+        candidates_(*device_),
+        chamfer_(*device_),
+        information_(*device_) {}
 
   std::string name() const override {
     return "vulkan:" + std::to_string(device_->info().index) + " " + device_->info().name;
@@ -142,25 +169,38 @@ class VulkanBackend : public Backend {
 
   void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width, int height,
                      std::span<std::uint32_t> nearest) override {
-    candidate_map_fast(edges, maps, width, height, nearest, pool_);
+    check_candidate_maps(edges.size(), maps, width, height, nearest.size());
+    for (std::size_t first = 0, count = 0; first < maps.size(); first += count) {
+      count = candidates_.take(maps.subspan(first));
+      Batch batch(*device_, "candidate_map");
+      candidates_.record(batch, edges, maps.subspan(first, count), width, height);
+      run(batch);
+      candidates_.collect(maps.subspan(first, count), nearest);
+    }
   }
 
   ChamferHandle combination_chamfer(const ChamferView& view, const CombinationBits& combinations,
                                     const ChamferOptions& options) override {
-    auto chamfer = std::make_shared<VulkanChamfer>();
-    chamfer->values = combination_chamfer_fast(view, combinations, options, pool_);
-    chamfer->particles = static_cast<std::uint32_t>(view.particles());
-    chamfer->realizations = combinations.count;
+    check_chamfer(view, combinations, options);
+    auto chamfer = std::make_shared<VulkanChamfer>(device_, view.particles(), combinations.count);
     chamfer->options = options;
+    const auto start = std::chrono::steady_clock::now();
+    const ChamferPlan plan = plan_chamfer(view, options, pool_);
+    add_time("chamfer_plan", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    Batch batch(*device_, "combination_chamfer");
+    chamfer_.record(batch, plan, combinations, chamfer->values);
+    run(batch);
     return chamfer;
   }
 
   double mutual_information(const BackendChamfer& chamfer, std::span<const ParticleBelief> beliefs,
                             const InformationOptions& options) override {
     const auto* mine = dynamic_cast<const VulkanChamfer*>(&chamfer);
-    check(mine != nullptr, "cells made by another backend");
-    return mutual_information_fast({chamfer.particles, chamfer.realizations, chamfer.options.cap_px, mine->values}, beliefs, options,
-                                   pool_);
+    check(mine != nullptr && &mine->device() == device_.get(), "cells made by another backend");
+    Batch batch(*device_, "mutual_information");
+    information_.record(batch, mine->values, chamfer.options.cap_px, beliefs, options);
+    run(batch);
+    return information_.information();
   }
 
  private:
@@ -197,6 +237,9 @@ class VulkanBackend : public Backend {
   PoseNormalEquations systems_;
   PoseScorer scorer_;
   DepthRaster raster_;
+  CandidateMaps candidates_;
+  CombinationChamfer chamfer_;
+  MutualInformation information_;
 };
 
 }  // namespace

@@ -49,6 +49,13 @@ TEST_P(CombinationChamferPaths, ManyPointsInAParticle) {
   expect_equal(scene, {0, 255.0f / 16});
 }
 
+// More rows than the smallest device binds at once for all realizations.
+TEST_P(CombinationChamferPaths, RealizationsInTiles) {
+  std::mt19937 rng = test::test_rng();
+  const test::ChamferScene scene = test::random_scene(rng, {60, 40, 12, 60, 30, 60, 1500});
+  expect_equal(scene, {0.02f, 255.0f / 16});
+}
+
 // Lists that other views share: nothing of them begins at 0.
 TEST_P(CombinationChamferPaths, PartsOfLongerLists) {
   std::mt19937 rng = test::test_rng();

@@ -9,6 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "candidate_map.spv.h"
+#include "chamfer_masks.spv.h"
+#include "chamfer_rows.spv.h"
+#include "chamfer_sums.spv.h"
 #include "dcd_seed.spv.h"
 #include "dcd_sweep.spv.h"
 #include "depth_raster.spv.h"
@@ -16,11 +20,16 @@
 #include "edge_gradient.spv.h"
 #include "edge_link.spv.h"
 #include "edge_thin.spv.h"
+#include "information_columns.spv.h"
+#include "information_rows.spv.h"
+#include "kernels/candidate_map_push.h"
+#include "kernels/chamfer_push.h"
 #include "kernels/dcd_seed.h"
 #include "kernels/dcd_sweep.h"
 #include "kernels/depth_raster_push.h"
 #include "kernels/distance_pass.h"
 #include "kernels/edge_link.h"
+#include "kernels/information_push.h"
 #include "kernels/pose_push.h"
 #include "kernels/template_score_push.h"
 #include "pose_normal_equations.spv.h"
@@ -157,6 +166,26 @@ TEST(PushConstants, DepthRaster) {
   using Push = DepthRasterPush;
   expect_members<Push>(depth_raster_spv,
                        {MEMBER(triangle_count), MEMBER(width), MEMBER(height), MEMBER(near_m)});
+}
+
+TEST(PushConstants, CandidateMap) {
+  using Push = CandidateMapPush;
+  expect_members<Push>(candidate_map_spv, {MEMBER(tile_count), MEMBER(width), MEMBER(height)});
+}
+
+TEST(PushConstants, CombinationChamfer) {
+  using Push = ChamferPush;
+  for (const std::span<const std::uint32_t> spirv :
+       {std::span<const std::uint32_t>(chamfer_masks_spv), std::span<const std::uint32_t>(chamfer_rows_spv),
+        std::span<const std::uint32_t>(chamfer_sums_spv)})
+    expect_members<Push>(spirv, {MEMBER(count), MEMBER(words), MEMBER(first_word), MEMBER(column_words), MEMBER(realizations), MEMBER(cap)});
+}
+
+TEST(PushConstants, MutualInformation) {
+  using Push = InformationPush;
+  for (const std::span<const std::uint32_t> spirv :
+       {std::span<const std::uint32_t>(information_rows_spv), std::span<const std::uint32_t>(information_columns_spv)})
+    expect_members<Push>(spirv, {MEMBER(particles), MEMBER(realizations), MEMBER(cap_px), MEMBER(inverse_scale)});
 }
 
 TEST(PushConstants, EdgeGradient) {

@@ -1,0 +1,38 @@
+// Records combination_chamfer (kernels/combination_chamfer.h, chamfer_plan.h, chamfer_push.h): the plan is made on the processor,
+// the realizations are the device's.
+#pragma once
+
+#include "kernels/chamfer_plan.h"
+#include "kernels/gpu/batch.h"
+
+namespace edgescout::gpu {
+
+// The cells of one view, [particle][realization].
+struct DeviceCells {
+  std::uint32_t particles = 0, realizations = 0;
+  Buffer<std::uint32_t> sums, counts;  // counts: fresh << 16 | seen
+  // Throws GpuError where the device does not bind as much.
+  DeviceCells(const Device& device, std::size_t particles, std::uint32_t realizations);
+};
+
+class CombinationChamfer {
+ public:
+  explicit CombinationChamfer(const Device& device);
+  // `cells` are there when the batch has run.
+  void record(Batch& batch, const ChamferPlan& plan, const CombinationBits& combinations, const DeviceCells& cells);
+
+ private:
+  void upload(Batch& batch, const ChamferPlan& plan, const CombinationBits& combinations);
+  // Words of 32 realizations whose rows fit the device together.
+  std::uint32_t tile_words(const ChamferPlan& plan, std::uint32_t words) const;
+  void record_tile(Batch& batch, const ChamferPlan& plan, const ChamferPush& tile, const DeviceCells& cells);
+
+  const Device& device_;
+  Kernel masks_kernel_, rows_kernel_, sums_kernel_;
+  Buffer<ChamferMask> masks_;
+  Buffer<ChamferRow> rows_;
+  Buffer<ChamferRun> particles_;
+  Buffer<std::uint32_t> hiders_, reach_, points_, columns_, bits_, bytes_;
+};
+
+}  // namespace edgescout::gpu
