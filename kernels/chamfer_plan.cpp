@@ -88,7 +88,7 @@ class Planner {
     place_points();
     mask_edges();
     make_rows();
-    sort_points();
+    sort_visits();
     return std::move(plan_);
   }
 
@@ -181,25 +181,50 @@ class Planner {
     plan_.reach = std::move(reach.entries);
   }
 
-  void sort_points() {
-    plan_.particles.resize(view_.particles());
-    std::uint32_t next = 0;
-    for (std::size_t i = 0; i < view_.particles(); ++i) {
-      plan_.particles[i].first = next;
-      for (std::uint32_t p = view_.first_point[i]; p < view_.first_point[i + 1]; ++p) next += slot_[p - base_] != nowhere;
-      plan_.particles[i].end = next;
+  // Calls `body(visit, hideable)` for a particle's visits in the order of its points.
+  template <class Body>
+  void for_visits(std::size_t particle, const Body& body) const {
+    ChamferVisit visit;
+    const auto leave = [&] {
+      if (visit.count > 0) body(visit, plan_.rows[visit.row].visible != 0);
+    };
+    for (std::uint32_t p = view_.first_point[particle]; p < view_.first_point[particle + 1]; ++p) {
+      if (slot_[p - base_] == nowhere) continue;
+      const std::uint32_t row = row_of_slot_[slot_[p - base_]];
+      if (row != visit.row || visit.count == CHAMFER_POINTS_AT_ONCE) {
+        leave();
+        visit = {row, 0, 0};
+      }
+      ++visit.count;
+      visit.fresh = static_cast<std::uint16_t>(visit.fresh + view_.points[p].fresh);
     }
-    plan_.points.resize(next);
+    leave();
+  }
+
+  void sort_visits() {
+    plan_.particles.resize(view_.particles());
+    for_particles([&](std::size_t i) {
+      for_visits(i, [&](const ChamferVisit&, bool hideable) {
+        ++plan_.particles[i].end;
+        plan_.particles[i].first_hideable += !hideable;
+      });
+    });
+    std::uint32_t next = 0;
+    for (ChamferRun& run : plan_.particles) {
+      run.first += next;
+      run.first_hideable += next;
+      run.end += next;
+      next = run.end;
+    }
+    plan_.visits.resize(next);
     for_particles([&](std::size_t i) {
       ChamferRun& run = plan_.particles[i];
-      std::uint32_t open = run.first, hideable = run.end;
-      for (std::uint32_t p = view_.first_point[i]; p < view_.first_point[i + 1]; ++p) {
-        if (slot_[p - base_] == nowhere) continue;
-        const std::uint32_t row = row_of_slot_[slot_[p - base_]], fresh = view_.points[p].fresh;
-        plan_.points[plan_.rows[row].visible == 0 ? open++ : --hideable] = row << 1 | fresh;
-        run.fresh += fresh;
-      }
-      run.first_hideable = open;
+      std::uint32_t open = run.first, hideable = run.first_hideable;
+      for_visits(i, [&](const ChamferVisit& visit, bool may_hide) {
+        plan_.visits[may_hide ? hideable++ : open++] = visit;
+        run.points += visit.count;
+        run.fresh += visit.fresh;
+      });
     });
   }
 

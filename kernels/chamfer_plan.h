@@ -25,9 +25,15 @@ struct ChamferRow {
   std::uint32_t visible = 0;                       // mask; 0: nothing hides it
 };
 
+// Neighbouring points of a particle on one row.
+struct ChamferVisit {
+  std::uint32_t row = 0;
+  std::uint16_t count = 0, fresh = 0;  // points, 1 to CHAMFER_POINTS_AT_ONCE, and those of them that are fresh
+};
+
 struct ChamferRun {
-  std::uint32_t first = 0, first_hideable = 0, end = 0;  // of `points`: those on rows that nothing hides, then the others
-  std::uint32_t fresh = 0;                               // of all of them
+  std::uint32_t first = 0, first_hideable = 0, end = 0;  // of `visits`: those to rows that nothing hides, then the others
+  std::uint32_t points = 0, fresh = 0;                   // of all of them
 };
 
 struct ChamferPlan {
@@ -35,7 +41,7 @@ struct ChamferPlan {
   std::vector<ChamferMask> masks;  // 0: all realizations; 1 + c: those with candidate c
   std::vector<std::uint32_t> hiders, reach;
   std::vector<ChamferRow> rows;
-  std::vector<std::uint32_t> points;  // row << 1 | fresh
+  std::vector<ChamferVisit> visits;
   std::vector<ChamferRun> particles;
 };
 

@@ -1,6 +1,7 @@
 // Realizations in blocks of 64, one byte each: a block's masks and rows stay in the second-level cache, its sums in registers.
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "kernels/chamfer_plan.h"
 #include "kernels/combination_chamfer.h"
@@ -69,14 +70,25 @@ void flush(const Bytes& bytes, std::array<std::uint32_t, block>& sums) {
   for (std::size_t lane = 0; lane < block; ++lane) sums[lane] += bytes[lane];
 }
 
-// The points [first, end) of a particle, at most 256 of them, so that sums of bytes fit 16 bits.
+using Visits = std::span<const ChamferVisit>;
+
+// As many visits, from the first, as have at most CHAMFER_POINTS_AT_ONCE points: sums of distances fit 16 bits, counts a byte.
+Visits take(Visits visits) {
+  std::size_t count = 0;
+  for (std::uint32_t points = 0; count < visits.size(); ++count) {
+    points += visits[count].count;
+    if (points > CHAMFER_POINTS_AT_ONCE) break;
+  }
+  return visits.first(count);
+}
+
 EDGESCOUT_SIMD_CLONES
-void add_distances(const std::uint32_t* first, const std::uint32_t* end, const Bytes* rows, Sums& sums) {
+void add_distances(Visits visits, const Bytes* rows, Sums& sums) {
   Pairs even{}, odd{};
-  for (const std::uint32_t* p = first; p != end; ++p) {
-    const Pairs row = reinterpret_cast<Pairs>(rows[*p >> 1]);
-    even += row & 0xff;
-    odd += row >> 8;
+  for (const ChamferVisit& visit : visits) {
+    const Pairs row = reinterpret_cast<Pairs>(rows[visit.row]);
+    even += (row & 0xff) * visit.count;
+    odd += (row >> 8) * visit.count;
   }
   for (std::size_t lane = 0; lane < block / 2; ++lane) {
     sums.distance[2 * lane] += even[lane];
@@ -84,27 +96,29 @@ void add_distances(const std::uint32_t* first, const std::uint32_t* end, const B
   }
 }
 
-// At most 255 points, so that their number fits a byte.
 EDGESCOUT_SIMD_CLONES
-void count_hidden(const std::uint32_t* first, const std::uint32_t* end, const ChamferPlan& plan, const Bytes* masks, Sums& sums) {
+void count_hidden(Visits visits, const ChamferPlan& plan, const Bytes* masks, Sums& sums) {
   Bytes hidden{}, fresh{};
-  for (const std::uint32_t* p = first; p != end; ++p) {
-    const Bytes gone = masks[plan.rows[*p >> 1].visible];
-    hidden -= gone;
-    fresh -= gone & static_cast<std::uint8_t>(0 - (*p & 1u));
+  for (const ChamferVisit& visit : visits) {
+    const Bytes gone = masks[plan.rows[visit.row].visible];
+    hidden += gone & static_cast<std::uint8_t>(visit.count);
+    fresh += gone & static_cast<std::uint8_t>(visit.fresh);
   }
   flush(hidden, sums.hidden);
   flush(fresh, sums.hidden_fresh);
 }
 
 Sums sums_of(const ChamferPlan& plan, const ChamferRun& run, const Bytes* masks, const Bytes* rows) {
-  constexpr std::uint32_t chunk = 255;
   Sums sums;
-  const std::uint32_t* points = plan.points.data();
-  for (std::uint32_t p = run.first; p < run.end; p += chunk)
-    add_distances(points + p, points + std::min(run.end, p + chunk), rows, sums);
-  for (std::uint32_t p = run.first_hideable; p < run.end; p += chunk)
-    count_hidden(points + p, points + std::min(run.end, p + chunk), plan, masks, sums);
+  const Visits all = Visits(plan.visits).subspan(run.first, run.end - run.first);
+  for (Visits rest = all, now; !rest.empty(); rest = rest.subspan(now.size())) {
+    now = take(rest);
+    add_distances(now, rows, sums);
+  }
+  for (Visits rest = all.subspan(run.first_hideable - run.first), now; !rest.empty(); rest = rest.subspan(now.size())) {
+    now = take(rest);
+    count_hidden(now, plan, masks, sums);
+  }
   return sums;
 }
 
@@ -125,7 +139,7 @@ std::vector<ChamferCell> combination_chamfer_fast(const ChamferView& view, const
       const ChamferRun& run = plan.particles[i];
       const Sums sums = sums_of(plan, run, masks.data(), rows.data());
       for (std::size_t lane = 0; lane < lanes; ++lane)
-        cells[i * combinations.count + first + lane] = {sums.distance[lane], std::uint16_t(run.end - run.first - sums.hidden[lane]),
+        cells[i * combinations.count + first + lane] = {sums.distance[lane], std::uint16_t(run.points - sums.hidden[lane]),
                                                         std::uint16_t(run.fresh - sums.hidden_fresh[lane])};
     }
   });

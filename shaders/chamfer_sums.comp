@@ -7,62 +7,95 @@
 layout(local_size_x = CHAMFER_GROUP) in;
 layout(push_constant) uniform Push { ChamferPush push; };
 layout(binding = 0) readonly buffer Particles { uint particles[]; };
-layout(binding = 1) readonly buffer Points { uint points[]; };
+layout(binding = 1) readonly buffer Visits { uvec2 visits[]; };
 layout(binding = 2) readonly buffer Rows { uint rows[]; };
 layout(binding = 3) readonly buffer Bits { uint bits[]; };
-layout(binding = 4) readonly buffer Bytes { uint bytes[]; };
+layout(binding = 4) readonly buffer Bytes { uvec4 bytes[]; };
 layout(binding = 5) writeonly buffer Sums { uint sums[]; };
 layout(binding = 6) writeonly buffer Counts { uint counts[]; };
 
-uvec4 unpacked(uint four) { return uvec4(four, four >> 8, four >> 16, four >> 24) & 0xffu; }
+// Of 16 realizations; those of one component of `even` and `odd` are 4k, 4k + 2 and 4k + 1, 4k + 3.
+uint distance_sum[16];
+uint hidden_sum[16];
+uint hidden_fresh_sum[16];
 
-uvec4 sum_distances(uint first, uint end, uint quad) {
-  const uint stride = push.words * CHAMFER_QUADS;
-  uvec4 sum = uvec4(0u);
-  [[dont_unroll]] for (uint begin = first; begin < end; begin += CHAMFER_POINTS_AT_ONCE) {
-    uint even = 0u, odd = 0u;
-    const uint stop = min(end, begin + CHAMFER_POINTS_AT_ONCE);
-    [[dont_unroll]] for (uint p = begin; p < stop; ++p) {
-      const uint four = bytes[(points[p] >> 1) * stride + quad];
-      even += four & 0x00ff00ffu;
-      odd += (four >> 8) & 0x00ff00ffu;
-    }
-    sum += uvec4(even & 0xffffu, odd & 0xffffu, even >> 16, odd >> 16);
+void flush_pairs(uvec4 even, uvec4 odd) {
+  for (uint k = 0u; k < 4u; ++k) {
+    distance_sum[4u * k] += even[k] & 0xffffu;
+    distance_sum[4u * k + 1u] += odd[k] & 0xffffu;
+    distance_sum[4u * k + 2u] += even[k] >> 16;
+    distance_sum[4u * k + 3u] += odd[k] >> 16;
   }
-  return sum;
 }
 
-void count_hidden(uint first, uint end, uint quad, out uvec4 hidden, out uvec4 fresh) {
-  hidden = uvec4(0u);
-  fresh = uvec4(0u);
-  [[dont_unroll]] for (uint begin = first; begin < end; begin += CHAMFER_POINTS_AT_ONCE) {
-    uint all = 0u, new = 0u;
-    const uint stop = min(end, begin + CHAMFER_POINTS_AT_ONCE);
-    [[dont_unroll]] for (uint p = begin; p < stop; ++p) {
-      const uint visible = rows[(points[p] >> 1) * CHAMFER_ROW_WORDS + 2u];
-      const uint word = ~bits[visible * push.words + quad / CHAMFER_QUADS];
-      const uint gone = bytes_of(bitfieldExtract(word, int(4u * (quad % CHAMFER_QUADS)), 4));
-      all += gone;
-      new += gone * (points[p] & 1u);
-    }
-    hidden += unpacked(all);
-    fresh += unpacked(new);
+void flush_bytes(uvec4 all, uvec4 fresh) {
+  for (uint k = 0u; k < 16u; ++k) {
+    hidden_sum[k] += all[k / 4u] >> (8u * (k % 4u)) & 0xffu;
+    hidden_fresh_sum[k] += fresh[k / 4u] >> (8u * (k % 4u)) & 0xffu;
   }
+}
+
+void sum_distances(uint first, uint end, uint half_word) {
+  const uint stride = push.words * CHAMFER_HALVES;
+  uvec4 even = uvec4(0u), odd = uvec4(0u);
+  uint points = 0u;
+  [[dont_unroll]] for (uint v = first; v < end; ++v) {
+    const uvec2 visit = visits[v];
+    const uint count = visit.y & 0xffffu;
+    if (points + count > CHAMFER_POINTS_AT_ONCE) {
+      flush_pairs(even, odd);
+      even = uvec4(0u);
+      odd = uvec4(0u);
+      points = 0u;
+    }
+    points += count;
+    const uvec4 row = bytes[visit.x * stride + half_word];
+    even += (row & 0x00ff00ffu) * count;
+    odd += (row >> 8 & 0x00ff00ffu) * count;
+  }
+  flush_pairs(even, odd);
+}
+
+void count_hidden(uint first, uint end, uint half_word) {
+  uvec4 all = uvec4(0u), fresh = uvec4(0u);
+  uint points = 0u;
+  [[dont_unroll]] for (uint v = first; v < end; ++v) {
+    const uvec2 visit = visits[v];
+    const uint count = visit.y & 0xffffu;
+    if (points + count > CHAMFER_POINTS_AT_ONCE) {
+      flush_bytes(all, fresh);
+      all = uvec4(0u);
+      fresh = uvec4(0u);
+      points = 0u;
+    }
+    points += count;
+    const uint word = ~bits[rows[visit.x * CHAMFER_ROW_WORDS + 2u] * push.words + half_word / CHAMFER_HALVES];
+    const uint gone = word >> (16u * (half_word % CHAMFER_HALVES));
+    const uvec4 four = uvec4(bytes_of(gone & 0xfu), bytes_of(gone >> 4 & 0xfu), bytes_of(gone >> 8 & 0xfu), bytes_of(gone >> 12 & 0xfu));
+    all += four * count;
+    fresh += four * (visit.y >> 16);
+  }
+  flush_bytes(all, fresh);
 }
 
 void main() {
-  const uint quads = push.words * CHAMFER_QUADS, groups = (quads + CHAMFER_GROUP - 1u) / CHAMFER_GROUP;
+  const uint halves = push.words * CHAMFER_HALVES, groups = (halves + CHAMFER_GROUP - 1u) / CHAMFER_GROUP;
   const uint group = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
-  const uint i = group / groups, quad = group % groups * CHAMFER_GROUP + gl_LocalInvocationID.x;
-  if (i >= push.count || quad >= quads) return;
-  const uint at = i * CHAMFER_RUN_WORDS, first = particles[at], end = particles[at + 2u];
-  uvec4 hidden, hidden_fresh;
-  count_hidden(particles[at + 1u], end, quad, hidden, hidden_fresh);
-  const uvec4 sum = sum_distances(first, end, quad), seen = end - first - hidden, fresh = particles[at + 3u] - hidden_fresh;
-  for (uint k = 0u; k < 4u; ++k) {
-    const uint j = push.first_word * 32u + quad * 4u + k;
+  const uint i = group / groups, half_word = group % groups * CHAMFER_GROUP + gl_LocalInvocationID.x;
+  if (i >= push.count || half_word >= halves) return;
+  for (uint k = 0u; k < 16u; ++k) {
+    distance_sum[k] = 0u;
+    hidden_sum[k] = 0u;
+    hidden_fresh_sum[k] = 0u;
+  }
+  const uint at = i * CHAMFER_RUN_WORDS, end = particles[at + 2u];
+  sum_distances(particles[at], end, half_word);
+  count_hidden(particles[at + 1u], end, half_word);
+  const uint points = particles[at + 3u], fresh = particles[at + 4u];
+  for (uint k = 0u; k < 16u; ++k) {
+    const uint j = push.first_word * 32u + half_word * 16u + k;
     if (j >= push.realizations) return;
-    sums[i * push.realizations + j] = sum[k];
-    counts[i * push.realizations + j] = fresh[k] << 16 | seen[k];
+    sums[i * push.realizations + j] = distance_sum[k];
+    counts[i * push.realizations + j] = (fresh - hidden_fresh_sum[k]) << 16 | (points - hidden_sum[k]);
   }
 }

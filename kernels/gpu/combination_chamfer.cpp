@@ -15,6 +15,7 @@ namespace {
 static_assert(sizeof(ChamferMask) == 4 * CHAMFER_MASK_WORDS);
 static_assert(sizeof(ChamferRow) == 4 * CHAMFER_ROW_WORDS);
 static_assert(sizeof(ChamferRun) == 4 * CHAMFER_RUN_WORDS);
+static_assert(sizeof(ChamferVisit) == 4 * CHAMFER_VISIT_WORDS);
 
 constexpr std::size_t max_row_bytes = std::size_t{64} << 20;
 
@@ -57,14 +58,14 @@ void CombinationChamfer::upload(Batch& batch, const ChamferPlan& plan, const Com
   particles_.reserve(device_, plan.particles.size(), "particles");
   hiders_.reserve(device_, plan.hiders.size(), "hiding candidates");
   reach_.reserve(device_, plan.reach.size(), "edges in reach");
-  points_.reserve(device_, plan.points.size(), "particles' points");
+  visits_.reserve(device_, plan.visits.size(), "particles' visits");
   columns_.reserve(device_, columns.size(), "combinations");
   batch.upload<ChamferMask>(masks_, plan.masks);
   batch.upload<ChamferRow>(rows_, plan.rows);
   batch.upload<ChamferRun>(particles_, plan.particles);
   batch.upload<std::uint32_t>(hiders_, plan.hiders);
   batch.upload<std::uint32_t>(reach_, plan.reach);
-  batch.upload<std::uint32_t>(points_, plan.points);
+  batch.upload<ChamferVisit>(visits_, plan.visits);
   batch.upload<std::uint32_t>(columns_, columns);
 }
 
@@ -84,8 +85,8 @@ void CombinationChamfer::record_tile(Batch& batch, const ChamferPlan& plan, cons
   const std::size_t masks = plan.masks.size(), rows = plan.rows.size(), particles = plan.particles.size();
   record(masks_kernel_, masks, groups_for(masks * tile.words, CHAMFER_GROUP), {masks_, hiders_, columns_, bits_});
   record(rows_kernel_, rows, groups_for(rows * tile.words, CHAMFER_GROUP), {rows_, reach_, bits_, bytes_});
-  record(sums_kernel_, particles, particles * groups_for(std::size_t{tile.words} * CHAMFER_QUADS, CHAMFER_GROUP),
-         {particles_, points_, rows_, bits_, bytes_, cells.sums, cells.counts});
+  record(sums_kernel_, particles, particles * groups_for(std::size_t{tile.words} * CHAMFER_HALVES, CHAMFER_GROUP),
+         {particles_, visits_, rows_, bits_, bytes_, cells.sums, cells.counts});
 }
 
 void CombinationChamfer::record(Batch& batch, const ChamferPlan& plan, const CombinationBits& combinations, const DeviceCells& cells) {

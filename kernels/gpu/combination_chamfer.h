@@ -32,7 +32,8 @@ class CombinationChamfer {
   Buffer<ChamferMask> masks_;
   Buffer<ChamferRow> rows_;
   Buffer<ChamferRun> particles_;
-  Buffer<std::uint32_t> hiders_, reach_, points_, columns_, bits_, bytes_;
+  Buffer<ChamferVisit> visits_;
+  Buffer<std::uint32_t> hiders_, reach_, columns_, bits_, bytes_;
 };
 
 }  // namespace edgescout::gpu
