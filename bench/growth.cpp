@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <string>
 
@@ -16,25 +17,27 @@ namespace {
 
 struct Times {
   double maps_s = 0, chamfer_s = 0, information_s = 0;
+  double processor_s = 0;  // of all threads: what other programs on the machine change little
   double total() const { return maps_s + chamfer_s + information_s; }
 };
-
-double timed(const auto& body) {
-  const auto start = std::chrono::steady_clock::now();
-  body();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 // View by view, as planning does it: never more than one view's cells at once.
 Times choose(Backend& backend, const HypothesesSize& size) {
   const Hypotheses hypotheses(size);
   Times times;
+  const auto time = [&](double& sum_s, const auto& body) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t used = std::clock();
+    body();
+    times.processor_s += double(std::clock() - used) / CLOCKS_PER_SEC;
+    sum_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
   for (int v = 0; v < size.views; ++v) {
     test::ChamferScene scene = hypotheses.view(v);
-    times.maps_s += timed([&] { backend.candidate_map(scene.edges, scene.maps, size.width, size.height, scene.nearest); });
+    time(times.maps_s, [&] { backend.candidate_map(scene.edges, scene.maps, size.width, size.height, scene.nearest); });
     ChamferHandle chamfer;
-    times.chamfer_s += timed([&] { chamfer = backend.combination_chamfer(scene.view(), scene.combinations(), {}); });
-    times.information_s += timed([&] { backend.mutual_information(*chamfer, hypotheses.beliefs(), {}); });
+    time(times.chamfer_s, [&] { chamfer = backend.combination_chamfer(scene.view(), scene.combinations(), {}); });
+    time(times.information_s, [&] { backend.mutual_information(*chamfer, hypotheses.beliefs(), {}); });
   }
   return times;
 }
@@ -44,16 +47,16 @@ void report(Backend& backend, const HypothesesSize& size, int repetitions) {
   for (int r = 0; r < repetitions; ++r) runs.push_back(choose(backend, size));
   std::ranges::sort(runs, {}, &Times::total);
   const Times& median = runs[runs.size() / 2];
-  std::printf("%5d %10d %9d %12u %9.1f %9.1f %9.1f %9.1f\n", size.views, size.candidates, size.particles, size.realizations,
-              1e3 * median.maps_s, 1e3 * median.chamfer_s, 1e3 * median.information_s, 1e3 * median.total());
+  std::printf("%5d %10d %9d %12u %9.1f %9.1f %11.1f %9.1f %9.1f\n", size.views, size.candidates, size.particles, size.realizations,
+              1e3 * median.maps_s, 1e3 * median.chamfer_s, 1e3 * median.information_s, 1e3 * median.total(), 1e3 * median.processor_s);
   std::fflush(stdout);
 }
 
 void run(const std::string& device, int repetitions) {
   const std::unique_ptr<Backend> backend = make_backend(device);
   std::printf("%s, %d threads, median of %d, ms\n", backend->name().c_str(), backend->threads().threads(), repetitions);
-  std::printf("%5s %10s %9s %12s %9s %9s %9s %9s\n", "views", "candidates", "particles", "realizations", "maps", "chamfer", "information",
-              "all");
+  std::printf("%5s %10s %9s %12s %9s %9s %11s %9s %9s\n", "views", "candidates", "particles", "realizations", "maps", "chamfer", "information",
+              "all", "processor");
   choose(*backend, {2, 4, 4, 50, 64, 48, 64});  // the driver's compiler, the first pages
   report(*backend, paper_hypotheses, repetitions);
   for (const int by : {3, 10}) {
