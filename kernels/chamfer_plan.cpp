@@ -106,6 +106,11 @@ class Planner {
   std::size_t slots() const { return surfaces_.entries.size() + surfaces_.first.size() - 1; }
   std::size_t first_slot(std::size_t pixel) const { return surfaces_.first[pixel] + pixel; }
 
+  // Read first: lines that are only read need not change hands between threads.
+  static void mark(std::atomic<bool>& used) {
+    if (!used.load(std::memory_order_relaxed)) used.store(true, std::memory_order_relaxed);
+  }
+
   void place_points() {
     slot_.assign(view_.first_point.back() - base_, nowhere);
     slot_used_ = std::vector<std::atomic<bool>>(slots());
@@ -118,8 +123,8 @@ class Planner {
         const std::size_t pixel = std::size_t(y) * view_.width + x;
         const std::size_t slot = first_slot(pixel) + surfaces_before(pixel, point.z_m);
         slot_[p - base_] = static_cast<std::uint32_t>(slot);
-        pixel_used_[pixel].store(true, std::memory_order_relaxed);
-        slot_used_[slot].store(true, std::memory_order_relaxed);
+        mark(pixel_used_[pixel]);
+        mark(slot_used_[slot]);
       }
     });
   }
