@@ -42,8 +42,8 @@ std::vector<Region> cut_into_regions(const Camera& camera, const ScanOptions& op
 int project_template(const TemplateSet& set, const TemplateView& view, const Se3& pose, const Region& region, const Observation& observation,
                      int most, TemplatePoint* points) {
   const Pose transform = to_pose(pose);
-  const Intrinsics& k = observation.view.coarse->intrinsics;
-  const int bins = observation.view.coarse->shape.bins, count = std::min<int>(most, int(view.points.size()));
+  const Intrinsics& k = observation.salient->intrinsics;
+  const int bins = observation.salient->shape.bins, count = std::min<int>(most, int(view.points.size()));
   for (int i = 0; i < count; ++i) {
     const PosedPoint<float> posed = pose_point<float>(transform, view.points[std::size_t(i) * view.points.size() / count]);
     if (posed.point.z < 0.1 * set.model.radius_m) return 0;
@@ -81,7 +81,7 @@ void scan_region(const TemplateSet& set, const Numbering& numbering, const Regio
                       static_cast<std::uint32_t>(region.columns), static_cast<std::uint32_t>(region.rows)};
     }
   });
-  backend.template_score(*observation.view.coarse, work.points, work.jobs, options.anchor_step, work.hits);
+  backend.template_score(*observation.salient, work.points, work.jobs, options.anchor_step, work.hits);
   const auto mean = [&](std::size_t t) { return double(work.hits[t].sum) / (4.0 * work.jobs[t].point_count); };
   std::vector<std::size_t> order(templates);
   for (std::size_t t = 0; t < templates; ++t) order[t] = t;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/edge/salient_edges.h"
+
 namespace edgescout {
 
 namespace {
@@ -18,16 +20,20 @@ Observation observe(const Image& image, const Camera& camera, const Se3& camera_
   o.coarse_camera = scaled(camera, 1 / reduction);
   o.view.camera = camera;
   o.view.camera_from_world = camera_from_world;
+  o.view.image = std::make_shared<Image>(image);
   o.view.edges = std::make_shared<EdgeIndex>(edges, camera.width, camera.height);
   o.view.view = backend.make_view(edges, camera.width, camera.height, {image.width, image.height, image.pixels.data()}, intrinsics_of(camera), tensor);
-  std::vector<EdgePoint> reduced(edges.begin(), edges.end());
-  for (EdgePoint& edge : reduced) {
-    edge.x_px = float((edge.x_px + 0.5) / reduction - 0.5);
-    edge.y_px = float((edge.y_px + 0.5) / reduction - 0.5);
-  }
   TensorOptions coarse = tensor;
   coarse.lambda_px_per_rad = float(tensor.lambda_px_per_rad / reduction);
-  o.view.coarse = backend.make_view(reduced, o.coarse_camera.width, o.coarse_camera.height, {}, intrinsics_of(o.coarse_camera), coarse);
+  const auto reduced_view = [&](std::vector<EdgePoint> points) {
+    for (EdgePoint& edge : points) {
+      edge.x_px = float((edge.x_px + 0.5) / reduction - 0.5);
+      edge.y_px = float((edge.y_px + 0.5) / reduction - 0.5);
+    }
+    return backend.make_view(points, o.coarse_camera.width, o.coarse_camera.height, {}, intrinsics_of(o.coarse_camera), coarse);
+  };
+  o.view.coarse = reduced_view({edges.begin(), edges.end()});
+  o.salient = reduced_view(salient_edges(edges, camera.width, camera.height));
   return o;
 }
 

@@ -9,6 +9,7 @@ namespace edgescout {
 
 struct Observation {
   RegisterView view;    // full and coarse tensors, camera, edge index
+  ViewHandle salient;   // the coarse tensor of the salient edges alone, for the scan (edge/salient_edges.h)
   Camera coarse_camera;
   double reduction = 1; // image pixels to a coarse pixel
 };
