@@ -106,7 +106,7 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
   const std::vector<PoseFeatures> aligned =
       pose_features(models, hypotheses, full, backend, options.refine.score, options.touch_up.visibility);
   const std::vector<std::size_t> chosen = best_different(poses, set, 0.1 * diameter, options.candidates, [&](std::size_t i) {
-    return -evidence(aligned[i]);
+    return -log_odds(aligned[i]);
   });
 
   const std::vector<Refined> refined = refine_poses(models, hypotheses_at(poses, chosen), full, backend, options.refine);

@@ -1,4 +1,4 @@
-// Probability that a registered pose is right: a logistic function of its features, fitted on rendered scenes (docs/evaluation.md says how).
+// Probability that a registered pose is right: the logistic function of its log-odds (register/pose_features.h), less for poses partly outside the image.
 #pragma once
 
 #include "host/register/pose_features.h"

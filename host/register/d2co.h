@@ -40,6 +40,7 @@ struct RegisterView {
   Se3 camera_from_world;  // identity where the world is the camera frame
   std::shared_ptr<const EdgeIndex> edges;  // the edge points themselves; needed by polish_poses only
   ViewHandle coarse;                       // the same edges on a reduced tensor: a wider basin for the search (refine.h)
+  std::shared_ptr<const Image> image;      // undistorted; needed by shading (shading.h) only
 };
 
 struct Hypothesis {

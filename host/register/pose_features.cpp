@@ -1,5 +1,6 @@
 #include "host/register/pose_features.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "kernels/error.h"
@@ -27,6 +28,13 @@ double evidence(const PoseFeatures& features) {
   constexpr double spread = 0.308;        // of |cos| of unrelated directions
   constexpr double independent_px = 5;    // neighbouring edge points agree or not together
   return (features.psi - CHANCE_PSI) / spread * std::sqrt(features.length_px / independent_px);
+}
+
+double log_odds(const PoseFeatures& features) {
+  constexpr double bias = -2.126, by_log_evidence = 3.199, by_mean_px = -0.095, by_unexplained = -8.558;
+  constexpr double least_evidence = 0.5;  // below that all poses are as bad
+  return bias + by_log_evidence * std::log(std::max(evidence(features), least_evidence)) + by_mean_px * features.mean_px +
+         by_unexplained * unexplained_grey(features.shading);
 }
 
 std::vector<PoseFeatures> pose_features_by_view(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
@@ -67,6 +75,8 @@ std::vector<PoseFeatures> pose_features_by_view(std::span<const EdgeModel> model
     f.points = scores[i].points;
     f.in_image = f.visible > 0 ? f.points / f.visible : 0;
   }
+  const std::vector<Shading> shadings = shading(models, poses, views, backend);
+  for (std::size_t i = 0; i < features.size(); ++i) features[i].shading = shadings[i];
   return features;
 }
 
@@ -80,6 +90,7 @@ PoseFeatures together(std::span<const PoseFeatures> by_view) {
     sum.points += f.points;
     sum.length_px += f.length_px;
     sum.visible += f.visible;
+    add(sum.shading, f.shading);
   }
   if (sum.points > 0)
     sum.psi /= sum.points, sum.mean_px /= sum.points, sum.matched /= sum.points;

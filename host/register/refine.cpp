@@ -53,7 +53,7 @@ Searched search(std::span<const EdgeModel> models, std::span<const Hypothesis> h
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
     std::vector<std::size_t> order(per_hypothesis);
     for (std::size_t i = 0; i < per_hypothesis; ++i) order[i] = h * per_hypothesis + i;
-    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return evidence(features[a]) > evidence(features[b]); });
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return log_odds(features[a]) > log_odds(features[b]); });
     const std::size_t first = found.poses.size();
     for (std::size_t i : order) {
       if (int(found.poses.size() - first) >= options.search.survivors) break;
@@ -114,7 +114,7 @@ std::vector<Refined> refine_poses(std::span<const EdgeModel> models, std::span<c
   std::vector<bool> filled(hypotheses.size(), false);
   for (std::size_t i = 0; i < found.poses.size(); ++i) {
     const std::size_t h = found.owner[i];
-    if (filled[h] && evidence(results[h].features) >= evidence(features[i])) continue;
+    if (filled[h] && log_odds(results[h].features) >= log_odds(features[i])) continue;
     results[h] = {registrations[i], features[i]};
     filled[h] = true;
   }
