@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "host/active/mode_probability.h"
 #include "host/detect/detect.h"
 #include "host/detect/suppression.h"
 #include "kernels/error.h"
@@ -48,11 +49,12 @@ Matrix6d scatter(std::span<const Particle> particles, const Mode& mode, const Te
   return total > 0 ? Matrix6d(sum / total) : sum;
 }
 
-Detection to_detection(const Particle& particle, const PoseFeatures& features) {
+Detection to_detection(const Particle& particle, const PoseFeatures& features, double probability) {
   Registration registration;
   registration.world_from_object = particle.world_from_object;
   registration.covariance = particle.covariance;
   Detection detection = to_detection(particle.object, registration, features);
+  detection.probability = probability;
   detection.convergence = "particle mode";
   return detection;
 }
@@ -73,7 +75,7 @@ std::vector<Mode> find_modes(std::span<const Particle> particles, std::span<cons
              pose_distance_m(particles[mode.particles[0]].world_from_object, particle.world_from_object, set.model.mesh, set.symmetries) < radius_m;
     });
     if (home == modes.end()) {
-      const double probability = particle.by_view.empty() ? 0 : pose_probability(together(particle.by_view));
+      const double probability = probability_over_views(particle.by_view);
       home = modes.insert(home, {particle.object, {}, 0, probability});
     }
     home->particles.push_back(i);
@@ -102,7 +104,7 @@ std::vector<ModeDetection> mode_detections(std::span<const Particle> particles, 
   for (const ChosenPose& chosen : explain_image(models, poses, features, views, backend, options.evidence)) {
     const Mode& mode = *probable[chosen.index];
     const Particle& best = particles[mode.particles[0]];
-    ModeDetection detection{to_detection(best, features[chosen.index]), mode.weight, {}};
+    ModeDetection detection{to_detection(best, features[chosen.index], mode.probability), mode.weight, {}};
     detection.detection.covariance += scatter(particles, mode, sets[mode.object]);
     for (std::size_t v = 0; v < views.size(); ++v)
       if (pose_probability(best.by_view[v]) >= options.support_probability) detection.supporting_views.push_back(int(v));

@@ -13,7 +13,7 @@ struct Mode {
   int object = 0;
   std::vector<std::size_t> particles;  // the best one, by evidence over all views, first
   double weight = 0;                   // sum of its particles', over that of all
-  double probability = 0;              // of the best particle (detect/probability.h), from all views' features together; 0 before particles are weighed
+  double probability = 0;              // of the best particle, from all views (mode_probability.h); 0 before particles are weighed
 };
 
 // Heaviest first. Every particle of weight above 0 belongs to one mode.
@@ -34,7 +34,7 @@ struct ModeDetection {
 
 struct ModeDetectionOptions {
   double min_probability = 0.25;   // of what is reported
-  double support_probability = 0.5;  // of the pose by one view's features alone, for the view to support it
+  double support_probability = 0.1;  // of the pose by one view's features alone, for the view to support it
   EvidenceOptions evidence;        // modes that compete for the same edges: the one with most evidence stays
 };
 

@@ -154,7 +154,7 @@ std::size_t weigh_particles(std::span<const EdgeModel> models, std::span<Particl
                             const ParticleOptions& options) {
   check(!views.empty(), "weigh_particles: at least one view");
   const std::vector<PoseFeatures> features =
-      pose_features_by_view(models, poses_of(particles), views, backend, options.score, options.d2co.visibility);
+      pose_features_by_view(models, poses_of(particles), views, backend, options.score, options.visibility);
   std::vector<char> living;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     particles[i].by_view.assign(features.begin() + i * views.size(), features.begin() + (i + 1) * views.size());

@@ -52,6 +52,7 @@ struct ParticleOptions {
   bool polish = true;
   PolishOptions polish_options;
   PoseScoreOptions score{1.0f, 4.0f, 60.0f};
+  VisibilityOptions visibility;      // of the points that are scored; probabilities are fitted with the finest
   static D2coOptions refine_defaults();
   double scale_px2() const { return 2 * sigma_px * sigma_px; }
   void validate() const;  // throws InputError naming the field and the violated bound
