@@ -15,29 +15,33 @@ namespace {
 constexpr std::size_t block = 64;
 using Bytes = std::uint8_t __attribute__((vector_size(block)));
 using Pairs = std::uint16_t __attribute__((vector_size(block)));
+// A template forgets the alignment that is an attribute: vectors keep these.
+struct alignas(block) Lanes {
+  Bytes bytes;
+};
 
 // 0xff where the candidate is no member, [candidate][realization of the block].
-std::vector<Bytes> absent_members(const CombinationBits& combinations, std::size_t first) {
-  std::vector<Bytes> absent(combinations.candidates);
+std::vector<Lanes> absent_members(const CombinationBits& combinations, std::size_t first) {
+  std::vector<Lanes> absent(combinations.candidates);
   for (std::size_t lane = 0; lane < block; ++lane)
     for (std::uint32_t c = 0; c < combinations.candidates; ++c)
-      absent[c][lane] = first + lane < combinations.count && combinations.has(first + lane, c) ? 0 : 0xff;
+      absent[c].bytes[lane] = first + lane < combinations.count && combinations.has(first + lane, c) ? 0 : 0xff;
   return absent;
 }
 
 // 0xff where the mask does not have the realization.
 EDGESCOUT_SIMD_CLONES
-void fill_masks(const ChamferPlan& plan, const Bytes* absent, Bytes* masks) {
+void fill_masks(const ChamferPlan& plan, const Lanes* absent, Lanes* masks) {
   for (std::size_t m = 0; m < plan.masks.size(); ++m) {
     const ChamferMask& mask = plan.masks[m];
-    Bytes out = mask.member == CHAMFER_NO_MEMBER ? Bytes{} : absent[mask.member];
-    for (std::uint32_t h = 0; h < mask.hider_count; ++h) out |= ~absent[plan.hiders[mask.first_hider + h]];
-    masks[m] = out;
+    Bytes out = mask.member == CHAMFER_NO_MEMBER ? Bytes{} : absent[mask.member].bytes;
+    for (std::uint32_t h = 0; h < mask.hider_count; ++h) out |= ~absent[plan.hiders[mask.first_hider + h]].bytes;
+    masks[m].bytes = out;
   }
 }
 
 EDGESCOUT_SIMD_CLONES
-void fill_rows(const ChamferPlan& plan, const Bytes* masks, Bytes* rows) {
+void fill_rows(const ChamferPlan& plan, const Lanes* masks, Lanes* rows) {
   constexpr std::uint32_t stride = 8;  // between looks whether every realization has its distance
   const Bytes cap = Bytes{} + static_cast<std::uint8_t>(plan.cap);
   for (std::size_t r = 0; r < plan.rows.size(); ++r) {
@@ -47,7 +51,7 @@ void fill_rows(const ChamferPlan& plan, const Bytes* masks, Bytes* rows) {
     while (reach != end) {
       const std::uint32_t* stop = std::min(reach + stride, end);
       for (; reach != stop; ++reach) {
-        const Bytes distance = (Bytes{} + static_cast<std::uint8_t>(*reach >> 24)) | masks[*reach & 0xffffffu];
+        const Bytes distance = (Bytes{} + static_cast<std::uint8_t>(*reach >> 24)) | masks[*reach & 0xffffffu].bytes;
         least = distance < least ? distance : least;
       }
       if (reach == end) break;
@@ -58,7 +62,7 @@ void fill_rows(const ChamferPlan& plan, const Bytes* masks, Bytes* rows) {
       for (std::size_t w = 0; w < block / 8; ++w) any |= farther[w];
       if (any == 0) break;
     }
-    rows[r] = least & ~masks[row.visible];
+    rows[r].bytes = least & ~masks[row.visible].bytes;
   }
 }
 
@@ -83,10 +87,10 @@ Visits take(Visits visits) {
 }
 
 EDGESCOUT_SIMD_CLONES
-void add_distances(Visits visits, const Bytes* rows, Sums& sums) {
+void add_distances(Visits visits, const Lanes* rows, Sums& sums) {
   Pairs even{}, odd{};
   for (const ChamferVisit& visit : visits) {
-    const Pairs row = reinterpret_cast<Pairs>(rows[visit.row]);
+    const Pairs row = reinterpret_cast<Pairs>(rows[visit.row].bytes);
     even += (row & 0xff) * visit.count;
     odd += (row >> 8) * visit.count;
   }
@@ -97,10 +101,10 @@ void add_distances(Visits visits, const Bytes* rows, Sums& sums) {
 }
 
 EDGESCOUT_SIMD_CLONES
-void count_hidden(Visits visits, const ChamferPlan& plan, const Bytes* masks, Sums& sums) {
+void count_hidden(Visits visits, const ChamferPlan& plan, const Lanes* masks, Sums& sums) {
   Bytes hidden{}, fresh{};
   for (const ChamferVisit& visit : visits) {
-    const Bytes gone = masks[plan.rows[visit.row].visible];
+    const Bytes gone = masks[plan.rows[visit.row].visible].bytes;
     hidden += gone & static_cast<std::uint8_t>(visit.count);
     fresh += gone & static_cast<std::uint8_t>(visit.fresh);
   }
@@ -108,7 +112,7 @@ void count_hidden(Visits visits, const ChamferPlan& plan, const Bytes* masks, Su
   flush(fresh, sums.hidden_fresh);
 }
 
-Sums sums_of(const ChamferPlan& plan, const ChamferRun& run, const Bytes* masks, const Bytes* rows) {
+Sums sums_of(const ChamferPlan& plan, const ChamferRun& run, const Lanes* masks, const Lanes* rows) {
   Sums sums;
   const Visits all = Visits(plan.visits).subspan(run.first, run.end - run.first);
   for (Visits rest = all, now; !rest.empty(); rest = rest.subspan(now.size())) {
@@ -131,8 +135,8 @@ std::vector<ChamferCell> combination_chamfer_fast(const ChamferView& view, const
   std::vector<ChamferCell> cells(view.particles() * combinations.count);
   pool.for_each((combinations.count + block - 1) / block, [&](std::size_t b) {
     const std::size_t first = b * block, lanes = std::min(block, combinations.count - first);
-    const std::vector<Bytes> absent = absent_members(combinations, first);
-    std::vector<Bytes> masks(plan.masks.size()), rows(plan.rows.size());
+    const std::vector<Lanes> absent = absent_members(combinations, first);
+    std::vector<Lanes> masks(plan.masks.size()), rows(plan.rows.size());
     fill_masks(plan, absent.data(), masks.data());
     fill_rows(plan, masks.data(), rows.data());
     for (std::size_t i = 0; i < plan.particles.size(); ++i) {
