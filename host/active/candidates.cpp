@@ -49,7 +49,8 @@ std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets, std
   refine.search.rotation_rad = 0;  // the search around them was made in their own images
   const std::vector<Refined> refined = refine_poses(models, starts, views, backend, refine);
   std::vector<Detection> detections;
-  for (std::size_t i = 0; i < refined.size(); ++i) detections.push_back(to_detection(starts[i].object, refined[i].registration, refined[i].features));
+  for (std::size_t i = 0; i < refined.size(); ++i)
+    if (refined[i].features.matched > 0) detections.push_back(to_detection(starts[i].object, refined[i].registration, refined[i].features));
   sort_by_probability(detections);
   detections = different_ones(detections, sets);
   if (detections.size() > most) detections.resize(most);

@@ -1,0 +1,67 @@
+// A small rendered cell with brackets, and what a scout needs to look around in it within seconds.
+#pragma once
+
+#include "host/active/scout.h"
+#include "host/active/views.h"
+#include "host/eval/metrics.h"
+#include "host/render/parts.h"
+#include "kernels/thread_pool.h"
+
+namespace edgescout::test {
+
+struct SmallCell {
+  Object part = make_part("l_bracket");
+  ThreadPool pool{2};
+  Scene scene;
+  std::vector<Se3> views = hemisphere_views({{0, 0, 0.01}, 0.3, {40, 70}, 8});
+  std::unique_ptr<Backend> backend = make_cpu_backend(2);
+  std::vector<TemplateSet> sets;
+
+  explicit SmallCell(int objects = 1) {
+    RenderOptions options;
+    options.width = 320;
+    options.height = 240;
+    options.focal_px = 400;
+    options.objects = objects;
+    options.pile = 0;
+    options.clutter = 0;
+    options.min_distance_m = options.max_distance_m = 0.3;
+    scene = make_scene(std::span(&part, 1), options);
+    TemplateOptions templates;
+    templates.frequency = 3;
+    templates.in_plane_steps = 12;
+    templates.distance_min_m = 0.26;
+    templates.distance_max_m = 0.34;
+    sets.push_back(build_templates(part, templates, *backend));
+  }
+
+  Camera camera() const { return scene.views[0].camera; }
+  SimulatedCell source(const ArmNoise& noise = {}) { return {scene, camera(), views, noise, pool}; }
+
+  // Few of everything, three images; where the line of what is reported lies is fitted elsewhere.
+  static ScoutOptions options() {
+    ScoutOptions o;
+    o.pipeline.detect.aligned = 200;
+    o.pipeline.detect.candidates = 8;
+    o.max_candidates = 12;
+    o.particles.count = 60;
+    o.combinations.count = 200;
+    o.detections.min_probability = 0.1;
+    o.min_entropy_nats = 0;
+    o.max_views = 3;
+    return o;
+  }
+  Scout scout(const ScoutOptions& o = options()) { return {sets, camera(), views, o, *backend}; }
+
+  // Instances with a detection within 2 mm and 0.05 rad.
+  int found(const ScoutState& state) const {
+    int count = 0;
+    for (const PlacedObject& placed : scene.placed)
+      count += std::ranges::any_of(state.detections, [&](const ModeDetection& mode) {
+        return pose_error(mode.detection.world_from_object, placed.world_from_object, part.symmetries).passes(0.05, 0.002);
+      });
+    return count;
+  }
+};
+
+}  // namespace edgescout::test
