@@ -57,6 +57,8 @@ struct Detection {
   double psi = 0;               // Eq. 10, [0, 1]
   double cost_px = 0;           // mean tensor value over visible points
   double visible_fraction = 0;  // of the predicted edge points, those with an edge of the image near
+  double evidence = 0;          // of gradient directions, in standard errors above chance (register/pose_features.h)
+  double unexplained_grey = 1;  // of the contrast inside the silhouette, what the surface does not explain (register/shading.h), [0, 1]
   std::string convergence;      // why the refinement stopped
 };
 

@@ -79,6 +79,8 @@ Detection to_detection(int object, const Registration& registration, const PoseF
   d.psi = features.psi;
   d.cost_px = features.mean_px;
   d.visible_fraction = features.matched;
+  d.evidence = evidence(features);
+  d.unexplained_grey = unexplained_grey(features.shading);
   d.convergence = to_string(registration.reason);
   return d;
 }

@@ -37,6 +37,8 @@ json detection_json(const Detection& detection, const ImageResult& result) {
           {"psi", detection.psi},
           {"cost_px", detection.cost_px},
           {"visible_fraction", detection.visible_fraction},
+          {"evidence", detection.evidence},
+          {"unexplained_grey", detection.unexplained_grey},
           {"convergence", detection.convergence},
           {"world_from_object", pose_json(detection.world_from_object)},
           {"camera_from_object", pose_json(camera_from_world * detection.world_from_object)},
@@ -82,6 +84,8 @@ Detection read_detection(const JsonField& field, const std::vector<ObjectName>& 
   detection.psi = number_or_nan(field.at("psi"));
   detection.cost_px = number_or_nan(field.at("cost_px"));
   detection.visible_fraction = number_or_nan(field.at("visible_fraction"));
+  detection.evidence = number_or_nan(field.at("evidence"));
+  detection.unexplained_grey = number_or_nan(field.at("unexplained_grey"));
   detection.convergence = field.at("convergence").text();
   return detection;
 }
