@@ -1,20 +1,20 @@
 #!/usr/bin/python3
-"""Fits the logistic function behind Detection::probability (host/detect/probability.cpp) and prints its reliability.
+"""Fits the log-odds behind Detection::probability (log_odds in host/register/pose_features.cpp) and prints the reliability.
 
     PARTS="l_bracket bearing_block u_channel"
     edgescout render --part $PARTS --scenes 8 --objects 6 --clutter 1 --pile 0.4 --width 800 --height 600 --focal 950 \\
         --min-distance 0.35 --max-distance 0.6 --seed 500 --out A
     edgescout render --part $PARTS --scenes 8 --objects 5 --clutter 1 --pile 0.4 --width 640 --height 480 --focal 800 \\
         --min-distance 0.4 --max-distance 0.7 --seed 900 --blur 1.4 --noise 3 --out B
-    ALL="--min-probability 0 --max-spent 1 --second-look 0 --no-overlays"
+    ALL="--min-probability 0 --no-overlays"
     edgescout detect A --model A/models/*.ply --unit mm --models-info A/models/models_info.json \\
         --distance-min 0.33 --distance-max 0.66 $ALL --out A_RESULTS
     edgescout detect B --model B/models/*.ply --unit mm --models-info B/models/models_info.json \\
-        --distance-min 0.36 --distance-max 0.72 --candidates 120 $ALL --out B_RESULTS
+        --distance-min 0.36 --distance-max 0.72 $ALL --out B_RESULTS
     scripts/fit_probability.py A A_RESULTS B B_RESULTS
 
 A candidate is right when the corners of its bounding box project within 10 px of those of a true instance, modulo
-symmetry. Features: Psi, mean DCD (px) and matched fraction, as written into the result files.
+symmetry. Features: the logarithm of the evidence, mean DCD (px) and unexplained grey, from the result files.
 """
 import json
 import sys
@@ -23,6 +23,7 @@ from pathlib import Path
 import numpy as np
 
 RIGHT_PX = 10
+LEAST_EVIDENCE = 0.5
 
 
 def rotation_about(axis, angle):
@@ -85,7 +86,7 @@ def load_candidates(scenes, results):
                 for s in symmetries(info):
                     there = project(camera, rotation, translation, corners @ s[:3, :3].T + s[:3, 3])
                     error = min(error, np.abs(np.linalg.norm(there - seen, axis=1)).max())
-            features.append([1, d["psi"], d["cost_px"], d["visible_fraction"]])
+            features.append([1, np.log(max(d["evidence"], LEAST_EVIDENCE)), d["cost_px"], d["unexplained_grey"]])
             labels.append(error < RIGHT_PX)
     return np.array(features), np.array(labels, float)
 
@@ -110,9 +111,9 @@ def fit_logistic(x, y, ridge=5):
 
 
 def fit_monotone(x, y):
-    """Closer edges and more matches must never lower the probability: a weight of the wrong sign (the features go
-    together) is fixed at zero and the others are fitted anew."""
-    signs = np.array([0, 1, -1, 1])
+    """More evidence, closer edges and less unexplained grey must never lower the probability: a weight of the wrong
+    sign (the features go together) is fixed at zero and the others are fitted anew."""
+    signs = np.array([0, 1, -1, -1])
     used = np.ones(4, bool)
     while True:
         w = np.zeros(4)
@@ -130,7 +131,7 @@ def main():
     w = fit_monotone(x, y)
     p = 1 / (1 + np.exp(-x @ w))
     print(f"{len(y)} candidates, {int(y.sum())} right")
-    print("bias %.3f  psi %.3f  mean_px %.4f  matched %.3f" % tuple(w))
+    print("bias %.3f  log evidence %.3f  mean_px %.4f  unexplained grey %.3f" % tuple(w))
     print("predicted    candidates  right")
     for low in np.arange(0, 1, 0.1):
         inside = (p >= low) & (p < low + 0.1 + 1e-9)
