@@ -34,7 +34,7 @@ struct ModeDetection {
 
 struct ModeDetectionOptions {
   double min_probability = 0.25;   // of what is reported
-  double support_probability = 0.1;  // of the pose by one view's features alone, for the view to support it
+  double support_probability = 0.03;  // three times the base rate: of the pose by one view's features alone, for the view to support it
   EvidenceOptions evidence;        // modes that compete for the same edges: the one with most evidence stays
 };
 

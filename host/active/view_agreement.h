@@ -15,7 +15,7 @@ struct ViewAgreement {
 };
 
 struct AgreementOptions {
-  double max_residual_px = 2.5;
+  double max_residual_px = 2;
   double min_probability = 0.3;  // of an object's pose registered on the one image alone, for it to judge
   D2coOptions joint = joint_defaults(), single = single_defaults();
   PoseScoreOptions score{1.0f, 4.0f, 60.0f};

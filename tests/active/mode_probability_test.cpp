@@ -15,6 +15,7 @@ PoseFeatures with_psi(double psi) {
   f.points = f.visible = 200;
   f.length_px = 500;
   f.in_image = 1;
+  f.shading = {1000, 1e6, 4e4};
   return f;
 }
 

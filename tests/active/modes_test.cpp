@@ -19,6 +19,7 @@ PoseFeatures features(bool probable) {
   f.points = f.visible = 200;
   f.length_px = 600;
   f.in_image = 1;
+  f.shading = {1000, 1e6, probable ? 1e4 : 9e5};
   return f;
 }
 
