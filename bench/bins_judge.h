@@ -1,0 +1,36 @@
+// What was found of a bin's instances, and what was reported that is none, split by how much of an instance shows in the first view.
+#pragma once
+
+#include <span>
+
+#include "host/active/modes.h"
+#include "host/core/types.h"
+
+namespace edgescout {
+
+struct Instance {
+  int object = 0;  // index into the searched objects
+  Se3 world_from_object;
+  double visible = 0;  // fraction of its silhouette, in the first view
+};
+
+inline constexpr double LIGHTLY_OCCLUDED = 0.7;  // more than this is visible; else it is highly occluded (the paper's 30 %)
+inline constexpr double IGNORED = 0.1;           // less than this is visible: not finding it is no miss, finding it is not wrong
+
+// A pose is right below 0.1 rad and 5 mm modulo symmetry; "_px": where no vertex of it is 10 px or more from its place in the first view. Detections, best first, each take the free
+// instance they fit best. Wrong ones belong to the group of the instance that is nearest to them, ignored ones being highly occluded.
+struct Tally {
+  int instances = 0;  // that count
+  int correct = 0, correct_px = 0;
+  int wrong = 0, wrong_px = 0;
+};
+
+struct Judgement {
+  Tally light, heavy;
+};
+
+// All poses in the world; `camera` and `camera_from_world` are the first view's.
+Judgement judge(std::span<const Instance> instances, std::span<const ModeDetection> detections, std::span<const Object> objects, const Camera& camera,
+                const Se3& camera_from_world);
+
+}  // namespace edgescout
