@@ -84,6 +84,8 @@ int scout(ScoutRequest& request) {
   const KnownModels known = load_models(request.models);
   const ScoutSource source = make_source(request.source, objects_of(known), backend->threads());
   const std::vector<Se3> views = source.source->views();
+  if (request.options.first_view >= static_cast<int>(views.size()))
+    throw InputError("command line", "--first-view", std::to_string(request.options.first_view), fmt::format("one of {} views", views.size()));
   require_writable_folder(request.out);
   const std::vector<TemplateSet> sets = template_sets_of(known, with_distances_of(request.templates, views), source.source->camera(), *backend);
   Scout scout(sets, source.source->camera(), views, request.options, *backend);

@@ -45,6 +45,18 @@ class FailingBackend : public Backend {
                     std::span<float> depth) override {
     cpu_->depth_raster(mesh, jobs, width, height, depth);
   }
+  void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width, int height,
+                     std::span<std::uint32_t> nearest) override {
+    cpu_->candidate_map(edges, maps, width, height, nearest);
+  }
+  ChamferHandle combination_chamfer(const ChamferView& view, const CombinationBits& combinations,
+                                    const ChamferOptions& options) override {
+    return cpu_->combination_chamfer(view, combinations, options);
+  }
+  double mutual_information(const BackendChamfer& chamfer, std::span<const ParticleBelief> beliefs,
+                            const InformationOptions& options) override {
+    return cpu_->mutual_information(chamfer, beliefs, options);
+  }
   ThreadPool& threads() override { return cpu_->threads(); }
 
  private:

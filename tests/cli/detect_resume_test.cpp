@@ -1,5 +1,4 @@
 // edgescout detect interrupted and taken up again: nothing half-written, nothing done twice.
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
@@ -62,19 +61,6 @@ TEST(DetectResume, ListsNoOlderResultOfAnImageThatFailsNow) {
   t.folder.write("images/b.png", "no image");
   EXPECT_EQ(run_program(t.arguments()).exit_code, 1);
   for (const BopResult& row : load_bop_results(t.out / "results.csv")) EXPECT_EQ(row.image_id, 0);
-}
-
-// Starts the program and leaves it running.
-pid_t start_program(const std::vector<std::string>& arguments) {
-  std::vector<char*> argv{const_cast<char*>(EDGESCOUT_CLI)};
-  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-  argv.push_back(nullptr);
-  const pid_t child = ::fork();
-  if (child != 0) return child;
-  const int nowhere = ::open("/dev/null", O_RDWR);
-  for (int stream : {0, 1, 2}) ::dup2(nowhere, stream);
-  ::execv(EDGESCOUT_CLI, argv.data());
-  ::_exit(127);
 }
 
 TEST(DetectResume, GoesOnAfterBeingKilled) {

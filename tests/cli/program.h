@@ -1,7 +1,9 @@
 // Runs the built program and keeps what it said.
 #pragma once
 
+#include <fcntl.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <string>
@@ -26,6 +28,19 @@ inline Outcome run_program(const std::vector<std::string>& arguments, const std:
   command += " >'" + out.string() + "' 2>'" + err.string() + "' </dev/null";
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(out), content_of(err)};
+}
+
+// Starts the program and leaves it running.
+inline pid_t start_program(const std::vector<std::string>& arguments) {
+  std::vector<char*> argv{const_cast<char*>(EDGESCOUT_CLI)};
+  for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
+  argv.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  const int nowhere = ::open("/dev/null", O_RDWR);
+  for (int stream : {0, 1, 2}) ::dup2(nowhere, stream);
+  ::execv(EDGESCOUT_CLI, argv.data());
+  ::_exit(127);
 }
 
 // One line that starts with the program's name.

@@ -1,0 +1,152 @@
+// edgescout scout: what it writes, the page that needs nothing beside itself, and a run that is killed and taken up again.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <thread>
+
+#include "host/io/results.h"
+#include "tests/cli/small_scene.h"
+
+namespace edgescout::test {
+namespace {
+
+struct SmallScout {
+  TemporaryFolder folder;
+  fs::path out = folder.path() / "out";
+
+  // A bracket in a rendered cell, three images of eight views, few of everything.
+  std::vector<std::string> arguments(const std::vector<std::string>& more = {}) const {
+    return joined({{"scout", "cell", "--out", out, "--device", "cpu", "--model", part_file(1), "--unit", "mm"},
+                   {"--width", "320", "--height", "240", "--focal", "400", "--objects", "1", "--clutter", "0"},
+                   {"--radius", "0.3", "--view-count", "8", "--elevations", "40", "70", "--max-views", "3", "--min-entropy", "0"},
+                   {"--viewpoints", "3", "--in-plane-steps", "12", "--aligned", "200", "--candidates", "8", "--particles", "60"},
+                   {"--combinations", "200", "--min-probability", "0.1"},
+                   more});
+  }
+  nlohmann::json log() const { return nlohmann::json::parse(content_of(out / "scout.json")); }
+  std::string page() const { return content_of(out / "scout.html"); }
+};
+
+std::size_t count_of(const std::string& text, const std::string& word) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+  return count;
+}
+
+// Pictures are in it, everything else it names too.
+void expect_self_contained(const std::string& page) {
+  for (const char* word : {"http:", "https:", "<script", "<link", "@import", "url("}) EXPECT_EQ(page.find(word), std::string::npos) << word;
+  const std::regex reference("(src|href)='([^']{0,12})");
+  int references = 0;
+  for (std::sregex_iterator it(page.begin(), page.end(), reference), end; it != end; ++it, ++references) {
+    const std::string target = (*it)[2];
+    EXPECT_TRUE(target.starts_with("data:image/p") || target == "#first") << target;
+  }
+  EXPECT_GE(references, 5);
+  EXPECT_EQ(count_of(page, "src="), count_of(page, "src='data:image/png;base64,iVBORw0KGgo"));
+  EXPECT_NE(page.find("id=first"), std::string::npos);
+}
+
+TEST(Scout, FindsThePartAndShowsHow) {
+  const SmallScout t;
+  const Outcome outcome = run_program(t.arguments());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("1 objects in 3 images, 0 views failed"), std::string::npos) << outcome.out;
+  const nlohmann::json log = t.log();
+  EXPECT_EQ(log.at("end"), "view budget");
+  ASSERT_EQ(log.at("steps").size(), 3u);
+  ASSERT_EQ(log.at("views").size(), 8u);
+  EXPECT_TRUE(log["steps"][0].at("information").empty());
+  for (int i : {1, 2}) {
+    const nlohmann::json& step = log["steps"][i];
+    ASSERT_EQ(step.at("information").size(), 8u);
+    const double chosen = step["information"].at(step.at("view").get<std::size_t>());
+    int taken = 0;
+    for (const nlohmann::json& information : step["information"]) {
+      taken += information.is_null();
+      EXPECT_TRUE(information.is_null() || information.get<double>() <= chosen);
+    }
+    EXPECT_EQ(taken, i);
+    EXPECT_FALSE(step.at("decision_ms").empty());
+    EXPECT_EQ(step.at("agreement").size(), static_cast<std::size_t>(i + 1));
+  }
+  ASSERT_EQ(log.at("detections").size(), 1u);
+  EXPECT_TRUE(log["detections"][0].at("off_truth").at("right"));
+  ASSERT_EQ(log.at("truth").size(), 1u);
+
+  EXPECT_EQ(load_bop_results(t.out / "results.csv").size(), 3u);
+  for (const nlohmann::json& step : log["steps"]) {
+    const std::string number = std::to_string(step.at("view").get<int>());
+    const ImageResult result = load_image_result(t.out / ("view_00" + number + ".json"));
+    EXPECT_TRUE(result.camera_from_world.has_value());
+    EXPECT_EQ(result.detections.size(), 1u);
+  }
+  const std::string page = t.page();
+  expect_self_contained(page);
+  EXPECT_EQ(count_of(page, "<svg class=hemisphere"), 3u);
+  EXPECT_EQ(count_of(page, "particles before"), 3u);
+  EXPECT_EQ(count_of(page, "Likeliest scene"), 2u);
+  EXPECT_EQ(page.find("http-equiv=refresh"), std::string::npos) << "it is finished";
+}
+
+TEST(Scout, KilledItGoesOnToTheSameEnd) {
+  const SmallScout whole, t;
+  ASSERT_EQ(run_program(whole.arguments()).exit_code, 0);
+  const pid_t child = start_program(t.arguments({"--watch"}));
+  ASSERT_GT(child, 0);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
+  while (!fs::exists(t.out / "scout.html") && std::chrono::steady_clock::now() < deadline) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  ::kill(child, SIGKILL);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status)) << "it had ended before";
+  expect_self_contained(t.page());
+  EXPECT_NE(t.page().find("<meta http-equiv=refresh"), std::string::npos);
+  const std::size_t steps = t.log().at("steps").size();
+  EXPECT_TRUE(steps >= 1 && steps < 3) << steps;
+
+  ASSERT_EQ(run_program(t.arguments({"--resume"})).exit_code, 0);
+  const nlohmann::json a = whole.log(), b = t.log();
+  ASSERT_EQ(a.at("steps").size(), b.at("steps").size());
+  for (std::size_t i = 0; i < a["steps"].size(); ++i)
+    for (const char* field : {"view", "information", "entropy_nats", "modes", "agreement"}) EXPECT_EQ(a["steps"][i].at(field), b["steps"][i].at(field)) << i << field;
+  EXPECT_EQ(a.at("detections"), b.at("detections"));
+}
+
+TEST(Scout, TakesRecordedViewsAndGoesOnPastAMissingImage) {
+  const SmallScene scene(4);
+  fs::remove(scene.image(0));
+  const Outcome outcome = run_program(joined({{"scout", scene.scene, "--out", scene.out, "--device", "cpu", "--aligned", "200", "--candidates", "8", "--max-views", "2",
+                                               "--min-probability", "0.1", "--strategy", "dis", "--min-entropy", "0"},
+                                              bracket()}));
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  const auto log = nlohmann::json::parse(content_of(scene.out / "scout.json"));
+  EXPECT_EQ(log.at("steps").size(), 2u);
+  ASSERT_EQ(log.at("failed").size(), 1u);
+  EXPECT_EQ(log["failed"][0].at("view"), 0);
+  EXPECT_EQ(log.at("information_unit"), "points");
+  expect_self_contained(content_of(scene.out / "scout.html"));
+  for (const BopResult& row : load_bop_results(scene.out / "results.csv")) EXPECT_EQ(row.scene_id, 3);
+}
+
+TEST(Scout, RefusesWhatItCannotUse) {
+  const SmallScout t;
+  const auto refused = [&](const std::vector<std::string>& arguments, std::initializer_list<std::string> words) {
+    expect_refused(arguments, words);
+    EXPECT_FALSE(fs::exists(t.out)) << "something was written";
+  };
+  refused({"scout", "nowhere", "--out", t.out, "--device", "cpu", "--model", part_file(1), "--unit", "mm"}, {"nowhere", "cell"});
+  refused({"scout", "cell", "--out", t.out, "--device", "cpu"}, {"--model"});
+  refused(t.arguments({"--camera", "x.yaml"}), {"--camera", "cell"});
+  refused(t.arguments({"--strategy", "best"}), {"strategy", "best", "mi-max"});
+  refused(t.arguments({"--first-view", "8"}), {"--first-view", "8 views"});
+  refused(t.arguments({"--views", t.folder.write("views.json", "[]")}), {"views.json"});
+  refused(t.arguments({"--elevations", "120"}), {"elevation"});
+  refused(t.arguments({"--arm-shift", "nan"}), {"--arm-shift", "nan"});
+}
+
+}  // namespace
+}  // namespace edgescout::test
