@@ -1,6 +1,7 @@
 #!/bin/bash
-# Installs what is missing, builds, and detects objects: in photographs that Debian ships (package visp-images-data), and in
-# the rendered scenes of docs/examples, where the true poses are known. Results go to out/demo, made anew at every run.
+# Installs what is missing, builds, and detects objects: in photographs that Debian ships (package visp-images-data), in the
+# rendered scenes of docs/examples, where the true poses are known, and in a rendered cell where the camera is sent to the
+# views that promise most. Results go to out/demo, made anew at every run.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 scripts/setup.sh
@@ -25,5 +26,10 @@ say "parts on a printed board: rendered"
   --model "$examples"/parts/obj_00000{1,2,5}.ply --unit mm --models-info "$examples/parts/models_info.json" \
   --out "$out/parts"
 
-say "pictures to look at: what was found, drawn over the images"
-find "$out" -name '*.png' | sort
+say "looking again from the best place: a rendered cell"
+"$edgescout" scout cell --model "$examples"/parts/obj_00000{1,5}.ply --unit mm --models-info "$examples/parts/models_info.json" \
+  --objects 5 --seed 3 --pile 0.7 --width 640 --height 480 --focal 700 --view-count 24 --max-views 5 \
+  --viewpoints 4 --aligned 300 --candidates 20 --out "$out/scout"
+
+say "pictures to look at: what was found, drawn over the images, and how the views were chosen"
+find "$out" -name '*.png' -o -name '*.html' | sort

@@ -12,4 +12,5 @@ run(${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -G Ninja -DCMAKE_BU
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 set(examples ${CONSUMER_DIR}/../../../docs/examples)
 run(${WORK_DIR}/build/consumer ${examples}/scenes/000000 ${examples}/parts/obj_000001.ply 1)
+run(${WORK_DIR}/build/look_around ${examples}/scenes/000001 ${examples}/parts/obj_000001.ply)
 run(${WORK_DIR}/prefix/bin/edgescout --version)
