@@ -1,12 +1,14 @@
 #!/usr/bin/python3
-"""Fits the log-odds behind Detection::probability (log_odds in host/register/pose_features.cpp) and prints the reliability.
+"""Fits a logistic function of a pose's features, and prints its reliability: Detection::probability
+(host/detect/probability.cpp) on what is reported, and log_odds (host/register/pose_features.cpp), by which poses are
+ranked, on all registered candidates.
 
     PARTS="l_bracket bearing_block u_channel"
     edgescout render --part $PARTS --scenes 8 --objects 6 --clutter 1 --pile 0.4 --width 800 --height 600 --focal 950 \\
         --min-distance 0.35 --max-distance 0.6 --seed 500 --out A
     edgescout render --part $PARTS --scenes 8 --objects 5 --clutter 1 --pile 0.4 --width 640 --height 480 --focal 800 \\
         --min-distance 0.4 --max-distance 0.7 --seed 900 --blur 1.4 --noise 3 --out B
-    ALL="--min-probability 0 --no-overlays"
+    ALL="--min-probability 0 --no-overlays"   # for log_odds, besides: --max-spent 1 --second-look 0
     edgescout detect A --model A/models/*.ply --unit mm --models-info A/models/models_info.json \\
         --distance-min 0.33 --distance-max 0.66 $ALL --out A_RESULTS
     edgescout detect B --model B/models/*.ply --unit mm --models-info B/models/models_info.json \\

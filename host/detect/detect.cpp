@@ -115,7 +115,7 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
   std::vector<Se3> final_poses;
   for (const Refined& r : refined) final_poses.push_back(r.registration.world_from_object);
   return picked(refined, best_different(final_poses, set, 0.1 * diameter, refined.size(),
-                                        [&](std::size_t i) { return -pose_probability(refined[i].features); }));
+                                        [&](std::size_t i) { return -log_odds(refined[i].features); }));
 }
 
 }  // namespace edgescout

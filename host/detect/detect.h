@@ -18,7 +18,7 @@ struct DetectOptions {
   RefineOptions refine = refine_defaults();
   EvidenceOptions evidence;
   double second_look_rad = 0.3;  // turned starts around what was chosen (settle.h); 0: none
-  double min_probability = 0.25;  // of what is reported; docs/evaluation.md has the reliability
+  double min_probability = 0.05;  // of what is reported; docs/evaluation.md has the reliability
   int max_detections = 100;
   static RefineOptions refine_defaults();
   static D2coOptions touch_up_defaults();
@@ -28,7 +28,7 @@ struct DetectOptions {
 
 Detection to_detection(int object, const Registration& registration, const PoseFeatures& features);
 
-// The registered candidates of one object in one view (world: its camera frame), best probability first, duplicates merged.
+// The registered candidates of one object in one view (world: its camera frame), highest log-odds first, duplicates merged.
 std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation, Backend& backend, const DetectOptions& options);
 
 }  // namespace edgescout

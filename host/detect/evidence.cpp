@@ -4,7 +4,6 @@
 #include <cmath>
 #include <unordered_set>
 
-#include "host/detect/probability.h"
 #include "kernels/pose_geometry.h"
 
 namespace edgescout {
@@ -93,7 +92,7 @@ std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::sp
         open[p] = false;
         continue;
       }
-      const double here = fresh * pose_probability(features[p]);
+      const double here = fresh / (1 + std::exp(-log_odds(features[p])));
       if (here > best_evidence) best_evidence = here, best = p;
     }
     if (best == poses.size()) return chosen;

@@ -1,4 +1,7 @@
-// Probability that a registered pose is right: the logistic function of its log-odds (register/pose_features.h), less for poses partly outside the image.
+// Probability that a reported pose is right: a logistic function of its features, less for poses partly outside the image.
+//
+// Fitted on what is reported of rendered scenes (docs/evaluation.md says how). Poses are ranked by log_odds (register/pose_features.h) instead, which was fitted on all
+// registered candidates: among those that ranking has left, its features tell less.
 #pragma once
 
 #include "host/register/pose_features.h"
