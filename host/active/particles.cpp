@@ -73,6 +73,14 @@ D2coOptions ParticleOptions::refine_defaults() {
   return options;
 }
 
+// Several views see every particle: some of their points place it well enough.
+PolishOptions ParticleOptions::polish_defaults() {
+  PolishOptions options;
+  options.max_points = 200;
+  options.visibility.depth_map_size_px = 96;
+  return options;
+}
+
 void ParticleOptions::validate() const {
   const auto in = [](const char* field, double found, double low, double high) {
     if (!(found >= low && found <= high))

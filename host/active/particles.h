@@ -50,10 +50,11 @@ struct ParticleOptions {
   double min_points = 12;        // in an image, for it to say something about a particle
   D2coOptions d2co = refine_defaults();
   bool polish = true;
-  PolishOptions polish_options;
+  PolishOptions polish_options = polish_defaults();
   PoseScoreOptions score{1.0f, 4.0f, 60.0f};
   VisibilityOptions visibility;      // of the points that are scored; probabilities are fitted with the finest
   static D2coOptions refine_defaults();
+  static PolishOptions polish_defaults();
   double scale_px2() const { return 2 * sigma_px * sigma_px; }
   void validate() const;  // throws InputError naming the field and the violated bound
 };

@@ -24,13 +24,6 @@ struct Track {
   Convergence reason = Convergence::IterationLimit;
 };
 
-std::vector<ModelPoint> thinned(const std::vector<ModelPoint>& points, int most) {
-  if (most <= 0 || int(points.size()) <= most) return points;
-  std::vector<ModelPoint> kept(most);
-  for (int i = 0; i < most; ++i) kept[i] = points[std::size_t(i) * points.size() / most];
-  return kept;
-}
-
 // Visible points of every (hypothesis, view), in one list.
 struct PointSets {
   std::vector<ModelPoint> points;
@@ -158,6 +151,13 @@ Registration finish(const Track& track) {
 }
 
 }  // namespace
+
+std::vector<ModelPoint> thinned(const std::vector<ModelPoint>& points, int most) {
+  if (most <= 0 || int(points.size()) <= most) return points;
+  std::vector<ModelPoint> kept(most);
+  for (int i = 0; i < most; ++i) kept[i] = points[std::size_t(i) * points.size() / most];
+  return kept;
+}
 
 Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance) {
   const Eigen::LDLT<Matrix6d> factor(hessian);

@@ -67,6 +67,9 @@ Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance);
 // The same objects at their registered poses: starts for what comes next.
 std::vector<Hypothesis> as_hypotheses(std::span<const Hypothesis> starts, std::span<const Registration> registrations);
 
+// Evenly; all of them where `most` is 0 or enough.
+std::vector<ModelPoint> thinned(const std::vector<ModelPoint>& points, int most);
+
 // Results in the order of the hypotheses.
 std::vector<Registration> register_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
                                          std::span<const RegisterView> views, Backend& backend, const D2coOptions& options = {});

@@ -37,8 +37,8 @@ void add_points(LineSystem& sum, const RegisterView& view, const Se3& world_from
                 const PolishRound& round, float max_turn_rad) {
   const Pose pose = to_pose(view.camera_from_world * world_from_object);
   const Intrinsics& k = view.view->intrinsics;
-  Matrix6d to_world = Matrix6d::Zero();
-  to_world.topLeftCorner<3, 3>() = to_world.bottomRightCorner<3, 3>() = view.camera_from_world.rotation.toRotationMatrix();
+  Matrix6d hessian = Matrix6d::Zero();  // by the camera's tangent
+  Vector6d gradient = Vector6d::Zero();
   for (const ModelPoint& model : points) {
     const PosedPoint<double> posed = pose_point<double>(pose, model);
     if (posed.point.z <= POSE_MIN_DEPTH_M) continue;
@@ -50,12 +50,15 @@ void add_points(LineSystem& sum, const RegisterView& view, const Se3& world_from
     ++sum.matched;
     const LineResidual r = residual_to(*edge, posed, projected, k);
     const double s2 = round.scale_px * round.scale_px, q = s2 / (s2 + r.value * r.value), weight = q * q;
-    const Vector6d jacobian = to_world.transpose() * r.jacobian;
-    sum.hessian += weight * jacobian * jacobian.transpose();
-    sum.gradient += weight * r.value * jacobian;
+    hessian += weight * r.jacobian * r.jacobian.transpose();
+    gradient += weight * r.value * r.jacobian;
     sum.weighted_square += weight * r.value * r.value;
     sum.weight += weight;
   }
+  Matrix6d to_camera = Matrix6d::Zero();
+  to_camera.topLeftCorner<3, 3>() = to_camera.bottomRightCorner<3, 3>() = view.camera_from_world.rotation.toRotationMatrix();
+  sum.hessian += to_camera.transpose() * hessian * to_camera;
+  sum.gradient += to_camera.transpose() * gradient;
 }
 
 LineSystem system_at(const Se3& pose, std::span<const RegisterView> views, std::span<const std::vector<ModelPoint>> points,
@@ -77,6 +80,7 @@ void polish_one(Registration& registration, std::span<const RegisterView> views,
       const Vector6d step = -system.hessian.ldlt().solve(system.gradient);
       if (!step.allFinite()) return;
       pose = retract(pose, step);
+      if (step.head<3>().norm() < options.min_step_m && step.tail<3>().norm() < options.min_step_rad) break;
     }
   const LineSystem final_system = system_at(pose, views, points, options.rounds.back(), options.max_turn_rad);
   if (final_system.matched < options.min_matched * final_system.points) return;
@@ -97,7 +101,8 @@ void polish_poses(std::span<const EdgeModel> models, std::span<const Hypothesis>
         members.push_back(h);
         for (const RegisterView& view : views) poses.push_back(view.camera_from_world * registrations[h].world_from_object);
       }
-    const std::vector<std::vector<ModelPoint>> points = visible_edges(models[object], poses, backend, options.visibility);
+    std::vector<std::vector<ModelPoint>> points = visible_edges(models[object], poses, backend, options.visibility);
+    for (std::vector<ModelPoint>& list : points) list = thinned(list, options.max_points);
     backend.threads().for_each(members.size(), [&](std::size_t m) {
       polish_one(registrations[members[m]], views, std::span(points).subspan(m * views.size(), views.size()), options);
     });

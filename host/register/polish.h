@@ -22,6 +22,9 @@ struct PolishOptions {
   std::vector<PolishRound> rounds{{5, 2.5f, 4}, {3, 1.2f, 5}, {2, 0.8f, 5}};
   float max_turn_rad = 0.3f;
   double min_matched = 0.1;        // of the visible points in all views: with fewer the pose is left alone
+  int max_points = 0;              // per view, evenly thinned; 0: all
+  double min_step_m = 2e-6;        // a smaller step ends the round
+  double min_step_rad = 2e-5;
   VisibilityOptions visibility;
 };
 
