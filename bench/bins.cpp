@@ -1,6 +1,6 @@
 // The fixed benchmark of the next best view: rendered bins of piled parts, the strategies side by side (paper, Sec. 6.4, figure 15).
 //
-//   edgescout_bench_bins --out bins.csv [--scenes 30] [--sought 1 3] [--strategies mi-max random dis fixed] [--resume] [--help]
+//   edgescout_bench_bins --out bins.csv [--scenes 30] [--sought 1 3] [--strategies mi-max random dis fixed] [--resume] [--images DIR] [--help]
 //
 // Every bin has parts of all types, piled among foreign parts on a printed board, and a hemisphere of views around it. All strategies start from one and the same belief: what was
 // found in the first image, where "sought" types are searched for: one (another from bin to bin) or all. Images of a view are the same for all.
@@ -10,6 +10,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <map>
@@ -18,6 +19,7 @@
 
 #include "bench/bins_judge.h"
 #include "bench/bins_settings.h"
+#include "host/io/image.h"
 #include "host/render/renderer.h"
 #include "kernels/error.h"
 
@@ -27,23 +29,36 @@ using namespace edgescout;
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-// A simulated cell whose images are rendered once, however many strategies ask for them.
+// A simulated cell whose images are rendered once, however many strategies or, with a folder, runs ask for them.
 class Cell : public ViewSource {
  public:
-  Cell(const Scene& scene, std::vector<Se3> views, ThreadPool& pool) : cell_(scene, scene.views[0].camera, std::move(views), {}, pool) {}
+  Cell(const Scene& scene, std::vector<Se3> views, std::string folder, ThreadPool& pool)
+      : cell_(scene, scene.views[0].camera, std::move(views), {}, pool), folder_(std::move(folder)) {
+    if (!folder_.empty()) std::filesystem::create_directories(folder_);
+  }
   Camera camera() const override { return cell_.camera(); }
   std::vector<Se3> views() const override { return cell_.views(); }
   Shot acquire(int view) override {
     if (const auto known = shots_.find(view); known != shots_.end()) return known->second;
     const auto start = Clock::now();
-    const Shot shot = shots_[view] = cell_.acquire(view);
+    shots_[view] = kept_or_rendered(view);
     seconds_ += seconds_since(start);
-    return shot;
+    return shots_[view];
   }
   double seconds() const { return seconds_; }  // of rendering
 
  private:
+  Shot kept_or_rendered(int view) {
+    if (folder_.empty()) return cell_.acquire(view);
+    const std::string file = folder_ + "/" + std::to_string(view) + ".png";
+    if (std::filesystem::exists(file)) return {load_image(file), cell_.views()[static_cast<std::size_t>(view)]};
+    const Shot shot = cell_.acquire(view);
+    save_png(shot.image, file);
+    return shot;
+  }
+
   SimulatedCell cell_;
+  std::string folder_;
   std::map<int, Shot> shots_;
   double seconds_ = 0;
 };
@@ -66,7 +81,7 @@ Bin make_bin(const BinsSettings& s, std::span<const Object> objects, int number,
   bin.first_view = random.below(s.hemisphere.count);
   bin.scene = make_scene(objects, render);
   const std::vector<Se3> views = hemisphere_views(s.hemisphere);
-  bin.cell = std::make_unique<Cell>(bin.scene, views, pool);
+  bin.cell = std::make_unique<Cell>(bin.scene, views, s.images.empty() ? "" : images_folder(s) + "/" + std::to_string(number), pool);
   Scene first = bin.scene;
   first.views = {{bin.cell->camera(), views[static_cast<std::size_t>(bin.first_view)]}};
   first.options.supersampling = 1;  // the truth at the pixels' centres alone
@@ -121,15 +136,15 @@ std::string rows_of(const Bin& bin, const Search& search, const std::string& str
   std::ostringstream rows;
   for (std::size_t i = 0; i < state.steps.size(); ++i) {
     const ScoutStep& step = state.steps[i];
-    const Judgement judgement = judge(search.instances, step.detections, search.objects, bin.cell->camera(), state.steps[0].camera_from_world);
+    const Judgement judgement = judge(search.instances, step, search.objects, bin.cell->camera(), state.steps[0].camera_from_world);
     for (const auto& [group, tally] : {std::pair{"light", judgement.light}, {"heavy", judgement.heavy}})
       rows << bin.number << ',' << search.count << ',' << strategy << ',' << i + 1 << ',' << step.decision.view << ',' << group << ',' << tally.instances << ',' << tally.correct
-           << ',' << tally.correct_px << ',' << tally.wrong << ',' << tally.wrong_px << ',' << step.entropy_nats << ',' << seconds_of(step) << '\n';
+           << ',' << tally.correct_px << ',' << tally.wrong << ',' << tally.wrong_px << ',' << tally.followed << ',' << step.entropy_nats << ',' << seconds_of(step) << '\n';
   }
   return rows.str();
 }
 
-constexpr const char* HEADER = "scene,sought,strategy,views,view,group,instances,correct,correct_px,wrong,wrong_px,entropy_nats,seconds\n";
+constexpr const char* HEADER = "scene,sought,strategy,views,view,group,instances,correct,correct_px,wrong,wrong_px,followed,entropy_nats,seconds\n";
 
 // Seconds by stage of the steps from `first` on.
 void print_times(const std::string& what, const ScoutState& state, std::size_t first) {

@@ -36,21 +36,36 @@ void match(std::span<const Instance> instances, std::span<const ModeDetection> d
   }
 }
 
+// Of a pose at an instance of its object: below 1 where it is right.
+double error_of(const Se3& pose, const Instance& instance, const Object& object) {
+  const PoseError e = pose_error(pose, instance.world_from_object, object.symmetries);
+  return std::max(e.angle_rad / 0.1, e.distance_m / 0.005);
+}
+
+bool is_followed(const Instance& instance, std::span<const Particle> particles, const Object& object) {
+  return std::ranges::any_of(particles, [&](const Particle& particle) {
+    return particle.object == instance.object && distance_between_m(particle.world_from_object, instance.world_from_object) < object.mesh.diameter_m &&
+           error_of(particle.world_from_object, instance, object) < 1;
+  });
+}
+
 }  // namespace
 
-Judgement judge(std::span<const Instance> instances, std::span<const ModeDetection> detections, std::span<const Object> objects, const Camera& camera,
-                const Se3& camera_from_world) {
+Judgement judge(std::span<const Instance> instances, const ScoutStep& step, std::span<const Object> objects, const Camera& camera, const Se3& camera_from_world) {
+  const auto object_of = [&](int index) -> const Object& { return objects[static_cast<std::size_t>(index)]; };
   Judgement judgement;
-  for (const Instance& instance : instances)
-    if (instance.visible >= IGNORED) ++group_of(judgement, instance).instances;
+  for (const Instance& instance : instances) {
+    if (instance.visible < IGNORED) continue;
+    Tally& tally = group_of(judgement, instance);
+    ++tally.instances;
+    tally.followed += is_followed(instance, step.after, object_of(instance.object));
+  }
   if (instances.empty()) return judgement;
-  match(instances, detections, judgement, &Tally::correct, &Tally::wrong, [&](const Detection& found, const Instance& instance) {
-    const PoseError e = pose_error(found.world_from_object, instance.world_from_object, objects[static_cast<std::size_t>(found.object)].symmetries);
-    return std::max(e.angle_rad / 0.1, e.distance_m / 0.005);
+  match(instances, step.detections, judgement, &Tally::correct, &Tally::wrong, [&](const Detection& found, const Instance& instance) {
+    return error_of(found.world_from_object, instance, object_of(found.object));
   });
-  match(instances, detections, judgement, &Tally::correct_px, &Tally::wrong_px, [&](const Detection& found, const Instance& instance) {
-    const Object& object = objects[static_cast<std::size_t>(found.object)];
-    return mspd_px(camera_from_world * found.world_from_object, camera_from_world * instance.world_from_object, object, camera) / 10;
+  match(instances, step.detections, judgement, &Tally::correct_px, &Tally::wrong_px, [&](const Detection& found, const Instance& instance) {
+    return mspd_px(camera_from_world * found.world_from_object, camera_from_world * instance.world_from_object, object_of(found.object), camera) / 10;
   });
   return judgement;
 }

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "host/active/modes.h"
+#include "host/active/scout_state.h"
 #include "host/core/types.h"
 
 namespace edgescout {
@@ -23,14 +23,14 @@ struct Tally {
   int instances = 0;  // that count
   int correct = 0, correct_px = 0;
   int wrong = 0, wrong_px = 0;
+  int followed = 0;  // instances with a particle that is right, reported or not: more cannot be found by looking again
 };
 
 struct Judgement {
   Tally light, heavy;
 };
 
-// All poses in the world; `camera` and `camera_from_world` are the first view's.
-Judgement judge(std::span<const Instance> instances, std::span<const ModeDetection> detections, std::span<const Object> objects, const Camera& camera,
-                const Se3& camera_from_world);
+// After a step. All poses in the world; `camera` and `camera_from_world` are the first view's.
+Judgement judge(std::span<const Instance> instances, const ScoutStep& step, std::span<const Object> objects, const Camera& camera, const Se3& camera_from_world);
 
 }  // namespace edgescout

@@ -1,7 +1,9 @@
 #include "bench/bins_settings.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <map>
+#include <sstream>
 
 #include "host/io/bop.h"
 #include "host/io/mesh.h"
@@ -23,6 +25,7 @@ namespace {
 void add_scene_options(CLI::App& app, BinsSettings& s) {
   app.add_option("--out", s.out, "CSV to write")->required();
   app.add_flag("--resume", s.resume, "Keep what the CSV holds and add what is missing");
+  app.add_option("--images", s.images, "Folder where rendered images are kept for the next run; none: nowhere");
   app.add_option("--scenes", s.scenes)->capture_default_str();
   app.add_option("--first-scene", s.first_scene)->capture_default_str();
   app.add_option("--parts", s.parts, "The project's own")->capture_default_str();
@@ -88,6 +91,15 @@ std::vector<Object> objects_of(const BinsSettings& s) {
     objects.push_back({id, load_mesh(file, length_unit(s.unit)), symmetries[id]});
   }
   return objects;
+}
+
+std::string images_folder(const BinsSettings& s) {
+  std::ostringstream name;
+  for (const std::string& part : s.models.empty() ? s.parts : s.models) name << std::filesystem::path(part).stem().string() << '_';
+  const RenderOptions& r = s.render;
+  name << s.fewest_parts << '-' << s.most_parts << "_p" << r.pile << "_c" << r.clutter << '_' << r.width << 'x' << r.height << "_f" << r.focal_px << "_n" << r.noise_grey << "_r"
+       << s.hemisphere.radius_m << "_v" << s.hemisphere.count << "_s" << r.seed;
+  return s.images + "/" + name.str();
 }
 
 }  // namespace edgescout
