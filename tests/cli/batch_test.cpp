@@ -65,7 +65,7 @@ class FailingBackend : public Backend {
   std::function<void()> failure_;
 };
 
-constexpr int views_per_image = 2;  // the full tensor and the coarse one
+constexpr int views_per_image = 3;  // the full tensor, the coarse one and that of the salient edges
 
 struct Batch : SmallScene {
   std::vector<InputImage> images;
