@@ -135,6 +135,8 @@ void add_loop_options(CLI::App& verb, ScoutRequest& r) {
 void add_scout(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand("scout", "Look again from the best place: detection with a next best view");
   auto request = std::make_shared<ScoutRequest>();
+  // --min-probability is of what the belief over all views reports, which has its own default.
+  request->options.pipeline.detect.min_probability = request->options.detections.min_probability;
   add_source_options(*verb, request->source);
   add_model_arguments(*verb, request->models);
   verb->add_option("--out", request->out, "Folder of the results")->required()->type_name("DIR");
