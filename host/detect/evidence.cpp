@@ -84,7 +84,7 @@ std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::sp
   std::vector<bool> open(poses.size(), true);
   for (;;) {
     std::size_t best = poses.size();
-    double best_evidence = 0;
+    double best_merit = 0;
     for (std::size_t p = 0; p < poses.size(); ++p) {
       if (!open[p]) continue;
       const double fresh = fresh_fraction(explained[p], spent);
@@ -92,8 +92,8 @@ std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::sp
         open[p] = false;
         continue;
       }
-      const double here = fresh / (1 + std::exp(-log_odds(features[p])));
-      if (here > best_evidence) best_evidence = here, best = p;
+      const double merit = fresh / (1 + std::exp(-log_odds(features[p])));
+      if (merit > best_merit) best_merit = merit, best = p;
     }
     if (best == poses.size()) return chosen;
     chosen.push_back({best, fresh_fraction(explained[best], spent)});

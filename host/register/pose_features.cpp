@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/register/odds_weights.h"
 #include "kernels/error.h"
 #include "kernels/pose_geometry.h"
 
@@ -30,12 +31,13 @@ double evidence(const PoseFeatures& features) {
   return (features.psi - CHANCE_PSI) / spread * std::sqrt(features.length_px / independent_px);
 }
 
-double log_odds(const PoseFeatures& features) {
-  constexpr double bias = -5.036, by_log_evidence = 4.105, by_mean_px = -0.382, by_unexplained = -6.012;
+double weighted_odds(const PoseFeatures& features, const OddsWeights& w) {
   constexpr double least_evidence = 0.5;  // below that all poses are as bad
-  return bias + by_log_evidence * std::log(std::max(evidence(features), least_evidence)) + by_mean_px * features.mean_px +
-         by_unexplained * unexplained_grey(features.shading);
+  return w.bias + w.by_log_evidence * std::log(std::max(evidence(features), least_evidence)) + w.by_mean_px * features.mean_px +
+         w.by_unexplained_grey * unexplained_grey(features.shading);
 }
+
+double log_odds(const PoseFeatures& features) { return weighted_odds(features, {-5.036, 4.105, -0.382, -6.012}); }
 
 std::vector<PoseFeatures> pose_features_by_view(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
                                                 std::span<const RegisterView> views, Backend& backend, const PoseScoreOptions& options,
