@@ -35,7 +35,7 @@ struct ModeDetection {
 struct ModeDetectionOptions {
   double min_probability = 0.25;   // of what is reported
   double support_probability = 0.03;  // three times the base rate: of the pose by one view's features alone, for the view to support it
-  EvidenceOptions evidence;        // modes that compete for the same edges: the one with most evidence stays
+  EvidenceOptions evidence;        // modes that compete for the same edges: the likeliest stays
 };
 
 // Best probability first. `particles` must have been weighed with these views.

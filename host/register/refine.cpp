@@ -35,7 +35,7 @@ std::vector<RegisterView> coarse_views(std::span<const RegisterView> views) {
   return coarse;
 }
 
-// For each hypothesis the different poses its search ended in, most evidence first; `owner` says whose they are.
+// For each hypothesis the different poses its search ended in, highest log-odds first; `owner` says whose they are.
 struct Searched {
   std::vector<Hypothesis> poses;
   std::vector<std::size_t> owner;
