@@ -6,23 +6,12 @@
 
 #include <Eigen/Cholesky>
 
-#include "host/register/world_system.h"
+#include "host/register/pose_track.h"
 #include "kernels/error.h"
 
 namespace edgescout {
 
 namespace {
-
-// What Levenberg-Marquardt remembers of one pose between two kernel calls.
-struct Track {
-  Se3 pose, trial;
-  WorldSystem system;
-  Vector6d step = Vector6d::Zero();
-  double damping = 1e-3;
-  bool active = true;
-  int iterations = 0;
-  Convergence reason = Convergence::IterationLimit;
-};
 
 // Visible points of every (hypothesis, view), in one list.
 struct PointSets {
@@ -30,7 +19,7 @@ struct PointSets {
   std::vector<std::uint32_t> first, count;  // [hypothesis * views + view]
 };
 
-PointSets collect_points(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses, std::span<const Track> tracks,
+PointSets collect_points(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses, std::span<const PoseTrack> tracks,
                          std::span<const RegisterView> views, Backend& backend, const D2coOptions& options, int most) {
   std::vector<std::vector<ModelPoint>> lists(hypotheses.size() * views.size());
   for (int object = 0; object < int(models.size()); ++object) {
@@ -62,7 +51,7 @@ class Evaluator {
   }
 
   // Systems at the trial poses of the active tracks, in the tracks' order; inactive ones stay empty.
-  std::vector<WorldSystem> at_trials(std::span<const Track> tracks) {
+  std::vector<WorldSystem> at_trials(std::span<const PoseTrack> tracks) {
     problems_.clear();
     for (std::size_t h = 0; h < tracks.size(); ++h)
       for (std::size_t v = 0; tracks[h].active && v < views_.size(); ++v) {
@@ -89,65 +78,18 @@ class Evaluator {
   std::vector<NormalEquations> results_;
 };
 
-// Marquardt's damping scales with the diagonal, so metres and radians are damped alike: by the image motion they cause.
-void propose(Track& track) {
-  Matrix6d damped = track.system.hessian;
-  const double floor = 1e-9 * damped.diagonal().maxCoeff();
-  for (int i = 0; i < 6; ++i) damped(i, i) += track.damping * damped(i, i) + floor;
-  track.step = -damped.ldlt().solve(track.system.gradient);
-  if (!track.step.allFinite()) track.step.setZero();
-  track.trial = retract(track.pose, track.step);
-}
-
-void judge(Track& track, const WorldSystem& at_trial, const D2coOptions& options) {
-  ++track.iterations;
-  // Points that left through the camera plane must not look like progress: compare means.
-  const bool better = at_trial.points > 0 && at_trial.cost / at_trial.points < track.system.cost / track.system.points;
-  if (better) {
-    track.pose = track.trial;
-    track.system = at_trial;
-    track.damping = std::max(1e-7, track.damping * 0.2);
-  } else {
-    track.damping *= 6;
-  }
-  const bool small = track.step.head<3>().norm() < options.min_step_m && track.step.tail<3>().norm() < options.min_step_rad;
-  if (small) track.active = false, track.reason = Convergence::SmallStep;
-  if (!better && track.damping > 1e6) track.active = false, track.reason = Convergence::NoDecrease;
-}
-
-void run_round(std::span<Track> tracks, Evaluator& evaluator, const D2coRound& round, const D2coOptions& options) {
-  for (Track& track : tracks) {
-    track.active = true;
-    track.damping = 1e-3;
-    track.trial = track.pose;
-    track.reason = Convergence::IterationLimit;
-  }
+void run_round(std::span<PoseTrack> tracks, Evaluator& evaluator, const D2coRound& round, const D2coOptions& options) {
+  for (PoseTrack& track : tracks) restart(track);
   std::vector<WorldSystem> systems = evaluator.at_trials(tracks);
-  for (std::size_t h = 0; h < tracks.size(); ++h) {
-    tracks[h].system = systems[h];
-    if (systems[h].points == 0) tracks[h].active = false, tracks[h].reason = Convergence::NoPoints;
-  }
+  for (std::size_t h = 0; h < tracks.size(); ++h) begin_at(tracks[h], systems[h]);
   for (int i = 0; i < round.iterations; ++i) {
-    if (std::ranges::none_of(tracks, [](const Track& t) { return t.active; })) return;
-    for (Track& track : tracks)
+    if (std::ranges::none_of(tracks, [](const PoseTrack& t) { return t.active; })) return;
+    for (PoseTrack& track : tracks)
       if (track.active) propose(track);
     systems = evaluator.at_trials(tracks);
     for (std::size_t h = 0; h < tracks.size(); ++h)
-      if (tracks[h].active) judge(tracks[h], systems[h], options);
+      if (tracks[h].active) judge(tracks[h], systems[h], options.min_step_m, options.min_step_rad);
   }
-}
-
-Registration finish(const Track& track) {
-  Registration result;
-  result.world_from_object = track.pose;
-  const WorldSystem& system = track.system;
-  result.cost_px2 = system.cost;
-  result.points = static_cast<int>(system.points);
-  result.mean_px = system.points > 0 ? system.residual_sum / system.points : 0;
-  result.iterations = track.iterations;
-  result.reason = track.reason;
-  result.covariance = pose_covariance(system.hessian, 2 * system.cost / std::max(1.0, system.weight_sum - 6));
-  return result;
 }
 
 }  // namespace
@@ -204,7 +146,7 @@ std::vector<Registration> register_poses(std::span<const EdgeModel> models, std:
                                          std::span<const RegisterView> views, Backend& backend, const D2coOptions& options) {
   options.validate();
   check(!views.empty(), "register_poses: at least one view");
-  std::vector<Track> tracks(hypotheses.size());
+  std::vector<PoseTrack> tracks(hypotheses.size());
   for (std::size_t h = 0; h < hypotheses.size(); ++h) tracks[h].pose = hypotheses[h].world_from_object;
   for (const D2coRound& round : options.rounds) {
     const PointSets sets = collect_points(models, hypotheses, tracks, views, backend, options, round.max_points);
@@ -212,7 +154,7 @@ std::vector<Registration> register_poses(std::span<const EdgeModel> models, std:
     run_round(tracks, evaluator, round, options);
   }
   std::vector<Registration> results;
-  for (const Track& track : tracks) results.push_back(finish(track));
+  for (const PoseTrack& track : tracks) results.push_back(registration_of(track));
   return results;
 }
 
