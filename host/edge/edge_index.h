@@ -28,6 +28,9 @@ class EdgeIndex {
       }
   }
 
+  // All of them, in no order that means anything.
+  std::span<const EdgePoint> points() const { return points_; }
+
   static constexpr int CELL_PX = 8;
 
  private:

@@ -2,8 +2,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "host/register/image_motion.h"
 #include "host/register/world_system.h"
-#include "kernels/pose_geometry.h"
 #include "kernels/thread_pool.h"
 
 namespace edgescout {
@@ -17,13 +17,8 @@ struct LineResidual {
 };
 
 LineResidual residual_to(const EdgePoint& edge, const PosedPoint<double>& p, const ProjectedEdge<double>& projected, const Intrinsics& k) {
-  const double nx = -std::sin(edge.theta_rad), ny = std::cos(edge.theta_rad), z = p.point.z;
-  LineResidual r;
-  r.value = nx * (projected.u - edge.x_px) + ny * (projected.v - edge.y_px);
-  const Vec3<double> by_point{nx * k.fx / z, ny * k.fy / z, -(nx * k.fx * p.point.x + ny * k.fy * p.point.y) / (z * z)};
-  const Vec3<double> by_turn = cross(p.arm, by_point);
-  r.jacobian << by_point.x, by_point.y, by_point.z, by_turn.x, by_turn.y, by_turn.z;
-  return r;
+  const double nx = -std::sin(edge.theta_rad), ny = std::cos(edge.theta_rad);
+  return {nx * (projected.u - edge.x_px) + ny * (projected.v - edge.y_px), image_motion(nx, ny, p, k)};
 }
 
 struct LineSystem {

@@ -30,7 +30,8 @@ void propose(PoseTrack& track) {
 void judge(PoseTrack& track, const WorldSystem& at_trial, double min_step_m, double min_step_rad) {
   ++track.iterations;
   // Points that left through the camera plane must not look like progress: compare means.
-  const bool better = at_trial.points > 0 && at_trial.cost / at_trial.points < track.system.cost / track.system.points;
+  const bool better =
+      at_trial.points > 0 && at_trial.cost / at_trial.points < track.system.cost / track.system.points;
   if (better) {
     track.pose = track.trial;
     track.system = at_trial;
@@ -38,7 +39,8 @@ void judge(PoseTrack& track, const WorldSystem& at_trial, double min_step_m, dou
   } else {
     track.damping *= 6;
   }
-  if (is_small(track.step, min_step_m, min_step_rad)) track.active = false, track.reason = Convergence::SmallStep;
+  if (is_small(track.step, min_step_m, min_step_rad))
+    track.active = false, track.reason = Convergence::SmallStep;
   if (!better && track.damping > 1e6) track.active = false, track.reason = Convergence::NoDecrease;
 }
 

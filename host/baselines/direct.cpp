@@ -1,0 +1,87 @@
+// Direct: "a simple coarse-to-fine object registration strategy that uses a Gaussian pyramid of gradient
+// magnitudes images" (paper, Sec. 6). No edge detection: r = 1 - |grad I| / (the level's largest) at every
+// projected point, its square minimised level by level.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <opencv2/imgproc.hpp>
+
+#include "host/baselines/methods.h"
+#include "host/baselines/point_sums.h"
+#include "host/baselines/scalar_image.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+// Gradient magnitudes over the level's largest; zero where the image is flat.
+ScalarImage normalised_magnitude(const cv::Mat& image) {
+  cv::Mat gx, gy, magnitude;
+  cv::Sobel(image, gx, CV_32F, 1, 0);
+  cv::Sobel(image, gy, CV_32F, 0, 1);
+  cv::magnitude(gx, gy, magnitude);
+  double largest = 0;
+  cv::minMaxLoc(magnitude, nullptr, &largest);
+  if (largest > 0) magnitude /= largest;
+  return {magnitude.cols, magnitude.rows, {magnitude.begin<float>(), magnitude.end<float>()}};
+}
+
+// Finest first; levels smaller than 16 px are left out.
+std::vector<ScalarImage> magnitude_pyramid(const Image& image, int levels) {
+  cv::Mat level;
+  cv::Mat(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data()))
+      .convertTo(level, CV_32F);
+  std::vector<ScalarImage> pyramid{normalised_magnitude(level)};
+  while (int(pyramid.size()) < levels && std::min(level.cols, level.rows) >= 32) {
+    cv::Mat half;
+    cv::pyrDown(level, half);
+    level = half;
+    pyramid.push_back(normalised_magnitude(level));
+  }
+  return pyramid;
+}
+
+}  // namespace
+
+PoseSolver prepare_direct(std::span<const RegisterView> views, const BaselineOptions& options) {
+  const auto pyramids = std::make_shared<std::vector<std::vector<ScalarImage>>>();
+  int levels = 1;
+  for (const RegisterView& view : views) {
+    check(view.image != nullptr, "direct: a view without its image");
+    pyramids->push_back(magnitude_pyramid(*view.image, options.pyramid_levels));
+    levels = std::max(levels, int(pyramids->back().size()));
+  }
+  return
+      [views, options, pyramids, levels](const Se3& start, std::span<const std::vector<ModelPoint>> points) {
+        PoseTrack track;
+        track.pose = start;
+        for (int level = levels - 1; level >= 0; --level) {
+          const SystemAt system_at = [&](const Se3& pose) {
+            return sum_over_points(views, points, pose,
+                                   [&](WorldSystem& sum, std::size_t v, std::size_t,
+                                       const PosedPoint<double>& posed, const ProjectedEdge<double>& at) {
+                                     const std::vector<ScalarImage>& pyramid = (*pyramids)[v];
+                                     const int own = std::min(level, int(pyramid.size()) - 1);
+                                     // A pixel of a halved image lies on every second one of the image
+                                     // before.
+                                     const double shrink = std::ldexp(1.0, -own);
+                                     const Sample m = sample(pyramid[own], shrink * at.u, shrink * at.v);
+                                     const double r = 1 - m.value;
+                                     add_residual(sum, r, 1, 0.5 * r * r,
+                                                  image_motion(-shrink * m.by_x, -shrink * m.by_y, posed,
+                                                               views[v].view->intrinsics));
+                                     sum.residual_sum += r;
+                                     sum.weight_sum += 1;
+                                     sum.points += 1;
+                                   });
+          };
+          levenberg_marquardt(track, system_at, options.outer_iterations, options.min_step_m,
+                              options.min_step_rad);
+        }
+        return track;
+      };
+}
+
+}  // namespace edgescout

@@ -1,0 +1,129 @@
+#include "host/baselines/line2d.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <opencv2/imgproc.hpp>
+#include <opencv2/rgbd/linemod.hpp>
+
+#include "host/baselines/visible_points.h"
+#include "kernels/error.h"
+#include "kernels/pose_geometry.h"
+
+namespace edgescout {
+
+namespace {
+
+constexpr int directions = 8;  // of linemod, over pi
+constexpr int margin_px = 8;   // around a template: what blur, Sobel and the vote of neighbours reach
+
+// A template in the image, its features relative to the corner of the patch that it is compared with.
+struct PlacedTemplate {
+  cv::linemod::Template features;
+  cv::Rect patch;
+  int asked = 0;  // features that the candidate has; those outside the image are not among `features`
+};
+
+// Gradients point across the edge, polarity does not count.
+int label_of(double edge_rad) {
+  return static_cast<int>(
+             std::lround((edge_rad + 0.5 * std::numbers::pi) / (std::numbers::pi / directions))) %
+         directions;
+}
+
+// linemod reads memory in blocks: sides divisible by the spread, areas by 16.
+int patch_side(int length_px, int spread_px) {
+  const int unit = 4 * spread_px;
+  return (length_px + 2 * margin_px + unit - 1) / unit * unit;
+}
+
+PlacedTemplate place_template(std::span<const ModelPoint> points, const Se3& camera_from_object,
+                              const RegisterView& view, int spread_px) {
+  const Pose pose = to_pose(camera_from_object);
+  PlacedTemplate placed;
+  placed.asked = static_cast<int>(points.size());
+  std::vector<cv::Point> places;
+  for (const ModelPoint& model : points) {
+    const PosedPoint<double> posed = pose_point<double>(pose, model);
+    if (posed.point.z <= POSE_MIN_DEPTH_M) continue;
+    const ProjectedEdge<double> at = project_edge(posed, view.view->intrinsics);
+    if (!(at.u >= 0 && at.v >= 0 && at.u <= view.camera.width - 1 && at.v <= view.camera.height - 1))
+      continue;
+    // linemod spreads a direction to the pixels left of and above it: half of that back, and it is spread
+    // evenly.
+    const cv::Point place(int(std::lround(at.u)) - spread_px / 2, int(std::lround(at.v)) - spread_px / 2);
+    places.push_back(place);
+    placed.features.features.emplace_back(place.x, place.y, label_of(orientation(at.dx, at.dy)));
+  }
+  if (places.empty()) return placed;
+  const cv::Rect box = cv::boundingRect(places);
+  placed.patch = {box.x - margin_px, box.y - margin_px, patch_side(box.width, spread_px),
+                  patch_side(box.height, spread_px)};
+  for (cv::linemod::Feature& feature : placed.features.features)
+    feature.x -= placed.patch.x, feature.y -= placed.patch.y;
+  placed.features.width = placed.patch.width;
+  placed.features.height = placed.patch.height;
+  placed.features.pyramid_level = 0;
+  return placed;
+}
+
+// A patch of the image, its border continued where the patch reaches beyond.
+cv::Mat patch_of(const cv::Mat& image, const cv::Rect& patch) {
+  const cv::Rect inside = patch & cv::Rect(0, 0, image.cols, image.rows);
+  cv::Mat filled;
+  cv::copyMakeBorder(image(inside), filled, inside.y - patch.y, patch.br().y - inside.br().y,
+                     inside.x - patch.x, patch.br().x - inside.br().x, cv::BORDER_REPLICATE);
+  return filled;
+}
+
+double similarity(const PlacedTemplate& placed, const cv::Mat& image, const Line2dOptions& options) {
+  const std::vector<cv::linemod::Feature>& features = placed.features.features;
+  if (features.empty()) return 0;
+  // A patch of the template's own size has room for it at one place only.
+  cv::linemod::Detector detector(
+      {cv::linemod::ColorGradient::create(options.weak_gradient, features.size(), options.weak_gradient)},
+      {options.spread_px});
+  detector.addSyntheticTemplate({placed.features}, "candidate");
+  std::vector<cv::linemod::Match> matches;
+  detector.match({patch_of(image, placed.patch)}, 0, matches);
+  check(matches.size() <= 1, "line2d: more than one place");
+  return matches.empty() ? 0 : matches[0].similarity * double(features.size()) / placed.asked;
+}
+
+}  // namespace
+
+void Line2dOptions::validate() const {
+  const auto refuse = [](const char* field, double found, const char* bound) {
+    throw InputError("options", std::string("line2d.") + field, std::to_string(found), bound);
+  };
+  if (features < 1 || features > 63) refuse("features", features, "a number in [1, 63]");
+  if (spread_px < 1 || spread_px > 15 || spread_px % 2 == 0)
+    refuse("spread_px", spread_px, "an odd number in [1, 15]");
+  if (!(weak_gradient >= 0)) refuse("weak_gradient", weak_gradient, "a gradient of 0 or more");
+}
+
+std::vector<double> line2d_scores(std::span<const EdgeModel> models, std::span<const Candidate> candidates,
+                                  const RegisterView& view, Backend& backend, const Line2dOptions& options) {
+  options.validate();
+  check(view.image != nullptr, "line2d: a view without its image");
+  cv::Mat image;  // linemod takes colour
+  cv::cvtColor(cv::Mat(view.image->height, view.image->width, CV_8UC1,
+                       const_cast<std::uint8_t*>(view.image->pixels.data())),
+               image, cv::COLOR_GRAY2BGR);
+  std::vector<int> objects;
+  std::vector<Se3> poses;
+  for (const Candidate& candidate : candidates) {
+    objects.push_back(candidate.object);
+    poses.push_back(candidate.camera_from_object);
+  }
+  std::vector<double> scores;
+  for (const std::vector<ModelPoint>& points :
+       visible_points(models, objects, poses, backend, options.visibility))
+    scores.push_back(similarity(
+        place_template(thinned(points, options.features), poses[scores.size()], view, options.spread_px),
+        image, options));
+  return scores;
+}
+
+}  // namespace edgescout
