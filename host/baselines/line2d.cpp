@@ -32,10 +32,13 @@ int label_of(double edge_rad) {
          directions;
 }
 
-// linemod reads memory in blocks: sides divisible by the spread, areas by 16.
-int patch_side(int length_px, int spread_px) {
-  const int unit = 4 * spread_px;
-  return (length_px + 2 * margin_px + unit - 1) / unit * unit;
+// Whole steps of the spread either way; rows that all begin at a multiple of 16 bytes, as linemod's vector
+// code takes for granted.
+cv::Size patch_size(const cv::Rect& box, int spread_px) {
+  const auto whole = [](int length_px, int unit) {
+    return (length_px + 2 * margin_px + unit - 1) / unit * unit;
+  };
+  return {whole(box.width, 16 * spread_px), whole(box.height, spread_px)};
 }
 
 PlacedTemplate place_template(std::span<const ModelPoint> points, const Se3& camera_from_object,
@@ -58,8 +61,7 @@ PlacedTemplate place_template(std::span<const ModelPoint> points, const Se3& cam
   }
   if (places.empty()) return placed;
   const cv::Rect box = cv::boundingRect(places);
-  placed.patch = {box.x - margin_px, box.y - margin_px, patch_side(box.width, spread_px),
-                  patch_side(box.height, spread_px)};
+  placed.patch = {box.tl() - cv::Point(margin_px, margin_px), patch_size(box, spread_px)};
   for (cv::linemod::Feature& feature : placed.features.features)
     feature.x -= placed.patch.x, feature.y -= placed.patch.y;
   placed.features.width = placed.patch.width;
@@ -85,10 +87,14 @@ double similarity(const PlacedTemplate& placed, const cv::Mat& image, const Line
       {cv::linemod::ColorGradient::create(options.weak_gradient, features.size(), options.weak_gradient)},
       {options.spread_px});
   detector.addSyntheticTemplate({placed.features}, "candidate");
+  // linemod counts its threshold from half the largest similarity on, which is what chance gives: this is
+  // none.
+  constexpr float no_threshold = -100;
   std::vector<cv::linemod::Match> matches;
-  detector.match({patch_of(image, placed.patch)}, 0, matches);
+  detector.match({patch_of(image, placed.patch)}, no_threshold, matches);
   check(matches.size() <= 1, "line2d: more than one place");
-  return matches.empty() ? 0 : matches[0].similarity * double(features.size()) / placed.asked;
+  // It adds half a per cent, as if to round.
+  return matches.empty() ? 0 : (matches[0].similarity - 0.5) * double(features.size()) / placed.asked;
 }
 
 }  // namespace
