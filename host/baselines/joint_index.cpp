@@ -57,11 +57,10 @@ void JointIndex::search_cell(int sector, int column, int row, const Query& query
   const std::size_t cell = (std::size_t(sector) * rows_ + row) * columns_ + column;
   for (std::uint32_t i = cell_end_[cell]; i < cell_end_[cell + 1]; ++i) {
     const EdgePoint& edge = points_[i];
-    const float dx = edge.x_px - query.x_px, dy = edge.y_px - query.y_px;
-    const float left_px = best.cost_px - lambda_px_per_rad_ * turn_between(edge.theta_rad, query.theta_rad);
-    const float distance2 = dx * dx + dy * dy;
-    if (left_px <= 0 || distance2 >= left_px * left_px) continue;
-    best = {&edge, best.cost_px - left_px + std::sqrt(distance2)};
+    const float dx = edge.x_px - query.x_px, dy = edge.y_px - query.y_px, distance2 = dx * dx + dy * dy;
+    const float turn_px = lambda_px_per_rad_ * turn_between(edge.theta_rad, query.theta_rad);
+    const float reach_px = best.cost_px - turn_px;
+    if (reach_px > 0 && distance2 < reach_px * reach_px) best = {&edge, turn_px + std::sqrt(distance2)};
   }
 }
 
