@@ -37,7 +37,7 @@ struct BaselineOptions {
   int inner_iterations = 10;  // of Gauss-Newton on one association. [1, 1000]
   double min_step_m = 2e-6;   // a step smaller than both ends a method, in [0, 1]
   double min_step_rad = 2e-5;
-  double loss_scale_px = 4;  // of the Huber loss; not of Direct, whose residuals are bounded. (0, 1000]
+  double loss_scale_px = 1;  // of the Huber loss; not of Direct, whose residuals are bounded. (0, 1000]
   int pyramid_levels = 3;    // of Direct, the image itself included. [1, 8]
   VisibilityOptions visibility;
   void validate() const;  // throws InputError naming field and bound

@@ -29,11 +29,11 @@ ScalarImage normalised_magnitude(const cv::Mat& image) {
 }
 
 // Finest first; levels smaller than 16 px are left out.
-std::vector<ScalarImage> magnitude_pyramid(const Image& image, int levels) {
+MagnitudePyramid magnitude_pyramid(const Image& image, int levels) {
   cv::Mat level;
   cv::Mat(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data()))
       .convertTo(level, CV_32F);
-  std::vector<ScalarImage> pyramid{normalised_magnitude(level)};
+  MagnitudePyramid pyramid{normalised_magnitude(level)};
   while (int(pyramid.size()) < levels && std::min(level.cols, level.rows) >= 32) {
     cv::Mat half;
     cv::pyrDown(level, half);
@@ -45,8 +45,29 @@ std::vector<ScalarImage> magnitude_pyramid(const Image& image, int levels) {
 
 }  // namespace
 
+WorldSystem magnitude_system(std::span<const RegisterView> views,
+                             std::span<const std::vector<ModelPoint>> points,
+                             std::span<const MagnitudePyramid> pyramids, int level,
+                             const Se3& world_from_object) {
+  return sum_over_points(
+      views, points, world_from_object,
+      [&](WorldSystem& sum, std::size_t v, std::size_t, const PosedPoint<double>& posed,
+          const ProjectedEdge<double>& at) {
+        const int own = std::min(level, int(pyramids[v].size()) - 1);
+        // A pixel of a halved image lies on every second one of the image before.
+        const double shrink = std::ldexp(1.0, -own);
+        const Sample m = sample(pyramids[v][own], shrink * at.u, shrink * at.v);
+        const double r = 1 - m.value;
+        add_residual(sum, r, 1, 0.5 * r * r,
+                     image_motion(-shrink * m.by_x, -shrink * m.by_y, posed, views[v].view->intrinsics));
+        sum.residual_sum += r;
+        sum.weight_sum += 1;
+        sum.points += 1;
+      });
+}
+
 PoseSolver prepare_direct(std::span<const RegisterView> views, const BaselineOptions& options) {
-  const auto pyramids = std::make_shared<std::vector<std::vector<ScalarImage>>>();
+  const auto pyramids = std::make_shared<std::vector<MagnitudePyramid>>();
   int levels = 1;
   for (const RegisterView& view : views) {
     check(view.image != nullptr, "direct: a view without its image");
@@ -57,29 +78,10 @@ PoseSolver prepare_direct(std::span<const RegisterView> views, const BaselineOpt
       [views, options, pyramids, levels](const Se3& start, std::span<const std::vector<ModelPoint>> points) {
         PoseTrack track;
         track.pose = start;
-        for (int level = levels - 1; level >= 0; --level) {
-          const SystemAt system_at = [&](const Se3& pose) {
-            return sum_over_points(views, points, pose,
-                                   [&](WorldSystem& sum, std::size_t v, std::size_t,
-                                       const PosedPoint<double>& posed, const ProjectedEdge<double>& at) {
-                                     const std::vector<ScalarImage>& pyramid = (*pyramids)[v];
-                                     const int own = std::min(level, int(pyramid.size()) - 1);
-                                     // A pixel of a halved image lies on every second one of the image
-                                     // before.
-                                     const double shrink = std::ldexp(1.0, -own);
-                                     const Sample m = sample(pyramid[own], shrink * at.u, shrink * at.v);
-                                     const double r = 1 - m.value;
-                                     add_residual(sum, r, 1, 0.5 * r * r,
-                                                  image_motion(-shrink * m.by_x, -shrink * m.by_y, posed,
-                                                               views[v].view->intrinsics));
-                                     sum.residual_sum += r;
-                                     sum.weight_sum += 1;
-                                     sum.points += 1;
-                                   });
-          };
-          levenberg_marquardt(track, system_at, options.outer_iterations, options.min_step_m,
-                              options.min_step_rad);
-        }
+        for (int level = levels - 1; level >= 0; --level)
+          levenberg_marquardt(
+              track, [&](const Se3& pose) { return magnitude_system(views, points, *pyramids, level, pose); },
+              options.outer_iterations, options.min_step_m, options.min_step_rad);
         return track;
       };
 }

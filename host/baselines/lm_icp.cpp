@@ -28,6 +28,23 @@ Sample distance_at(const ScalarImage& distance, double x_px, double y_px) {
 
 }  // namespace
 
+WorldSystem distance_system(std::span<const RegisterView> views,
+                            std::span<const std::vector<ModelPoint>> points,
+                            std::span<const ScalarImage> distances, const Se3& world_from_object,
+                            double loss_scale_px) {
+  return sum_over_points(views, points, world_from_object,
+                         [&](WorldSystem& sum, std::size_t v, std::size_t, const PosedPoint<double>& posed,
+                             const ProjectedEdge<double>& at) {
+                           const Sample d = distance_at(distances[v], at.u, at.v);
+                           const Weighted loss = huber(d.value, loss_scale_px);
+                           add_residual(sum, d.value, loss.weight, loss.rho,
+                                        image_motion(d.by_x, d.by_y, posed, views[v].view->intrinsics));
+                           sum.residual_sum += d.value;
+                           sum.weight_sum += loss.weight;
+                           sum.points += 1;
+                         });
+}
+
 PoseSolver prepare_lm_icp(std::span<const RegisterView> views, const BaselineOptions& options) {
   const auto distances = std::make_shared<std::vector<ScalarImage>>();
   for (const RegisterView& view : views) {
@@ -37,22 +54,14 @@ PoseSolver prepare_lm_icp(std::span<const RegisterView> views, const BaselineOpt
                                         view.view->options.cap_px));
   }
   return [views, options, distances](const Se3& start, std::span<const std::vector<ModelPoint>> points) {
-    const SystemAt system_at = [&](const Se3& pose) {
-      return sum_over_points(views, points, pose,
-                             [&](WorldSystem& sum, std::size_t v, std::size_t,
-                                 const PosedPoint<double>& posed, const ProjectedEdge<double>& at) {
-                               const Sample d = distance_at((*distances)[v], at.u, at.v);
-                               const Weighted loss = huber(d.value, options.loss_scale_px);
-                               add_residual(sum, d.value, loss.weight, loss.rho,
-                                            image_motion(d.by_x, d.by_y, posed, views[v].view->intrinsics));
-                               sum.residual_sum += d.value;
-                               sum.weight_sum += loss.weight;
-                               sum.points += 1;
-                             });
-    };
     PoseTrack track;
     track.pose = start;
-    levenberg_marquardt(track, system_at, options.outer_iterations, options.min_step_m, options.min_step_rad);
+    levenberg_marquardt(
+        track,
+        [&](const Se3& pose) {
+          return distance_system(views, points, *distances, pose, options.loss_scale_px);
+        },
+        options.outer_iterations, options.min_step_m, options.min_step_rad);
     return track;
   };
 }

@@ -21,10 +21,10 @@ void along_columns(NearestEdges& map, std::vector<int>& seed_row) {
     map.index[here] = map.index[there];
     seed_row[here] = seed_row[there];
   };
-  for (int x = 0; x < map.width; ++x) {
-    for (int y = 1; y < map.height; ++y) take(x, y, y - 1);
-    for (int y = map.height - 2; y >= 0; --y) take(x, y, y + 1);
-  }
+  for (int y = 1; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x) take(x, y, y - 1);
+  for (int y = map.height - 2; y >= 0; --y)
+    for (int x = 0; x < map.width; ++x) take(x, y, y + 1);
 }
 
 // Lower envelope of the parabolas that the columns' seeds span over one row (Felzenszwalb and Huttenlocher,

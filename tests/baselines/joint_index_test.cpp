@@ -1,0 +1,66 @@
+// DC-ICP's association against a look at every edge point.
+#include "host/baselines/joint_index.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "tests/baselines/random_edges.h"
+#include "tests/test_random.h"
+
+namespace edgescout {
+namespace {
+
+using namespace test;
+
+double joint_distance(const EdgePoint& edge, float x_px, float y_px, float theta_rad, float lambda) {
+  const double turn = std::abs(double(edge.theta_rad) - theta_rad);
+  return std::hypot(edge.x_px - x_px, edge.y_px - y_px) + lambda * std::min(turn, std::numbers::pi - turn);
+}
+
+// Sparse and dense images of odd sizes, weights from none to the paper's, places inside and far outside.
+TEST(JointIndex, FindsTheClosestInPlaceAndDirection) {
+  Random random = test_random();
+  for (const int count : {1, 3, 40, 2000})
+    for (const float lambda : {0.0f, 6.0f, 100.0f}) {
+      const int width = 157, height = 93;
+      const std::vector<EdgePoint> edges = random_edges(count, width, height, random);
+      const JointIndex index(edges, width, height, lambda);
+      for (int tries = 0; tries < 200; ++tries) {
+        const float x = float(random.uniform(-150, 300)), y = float(random.uniform(-150, 250)),
+                    theta = float(random.uniform(0, std::numbers::pi));
+        double least = std::numeric_limits<double>::max();
+        for (const EdgePoint& edge : edges)
+          least = std::min(least, joint_distance(edge, x, y, theta, lambda));
+        const EdgePoint* found = index.closest(x, y, theta);
+        ASSERT_NE(found, nullptr);
+        EXPECT_NEAR(joint_distance(*found, x, y, theta, lambda), least, 1e-4 * (1 + least))
+            << count << " edges, lambda " << lambda;
+      }
+    }
+}
+
+// 10 px away in the same direction, or 1 px away across it.
+TEST(JointIndex, WeighsDirectionByLambda) {
+  const float across = float(std::numbers::pi) / 2;
+  const std::vector<EdgePoint> edges{{60, 50, 0.2f, 1}, {51, 50, 0.2f + across, 1}};
+  const float even = 9 / across;
+  EXPECT_EQ(JointIndex(edges, 100, 100, 0.99f * even).closest(50, 50, 0.2f)->x_px, 51);
+  EXPECT_EQ(JointIndex(edges, 100, 100, 1.01f * even).closest(50, 50, 0.2f)->x_px, 60);
+}
+
+TEST(JointIndex, TakesDirectionsAsUndirected) {
+  const std::vector<EdgePoint> edges{{50, 50, 0.3f, 1}, {50, 50, 3.1f, 1}};
+  EXPECT_EQ(JointIndex(edges, 100, 100, 30).closest(50, 50, 0.02f)->theta_rad, 3.1f);
+}
+
+TEST(JointIndex, FindsNothingWhereNothingIs) {
+  EXPECT_EQ(JointIndex({}, 100, 100, 30).closest(50, 50, 0), nullptr);
+  const std::vector<EdgePoint> outside{{-1, 50, 0, 1}, {50, 100, 0, 1}};
+  EXPECT_EQ(JointIndex(outside, 100, 100, 30).closest(50, 50, 0), nullptr);
+}
+
+}  // namespace
+}  // namespace edgescout
