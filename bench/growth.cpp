@@ -8,7 +8,7 @@
 #include <exception>
 #include <string>
 
-#include "bench/hypotheses.h"
+#include "kernels/cases/hypotheses.h"
 #include "kernels/backend.h"
 #include "kernels/thread_pool.h"
 

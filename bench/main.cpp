@@ -1,16 +1,14 @@
 // edgescout_bench [--device WORD] [--out FOLDER] [--repetitions N] [--small]
 //
 // Times every kernel on the CPU, on the plain reference (small sizes) and on every Vulkan device found.
-#include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 
-#include "bench/cases.h"
 #include "bench/report.h"
 #include "commit.h"
+#include "kernels/cases/measure.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
 
@@ -49,29 +47,6 @@ Options parse(int argc, char** argv) {
     }
   }
   return options;
-}
-
-double now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
-Row measure(Backend& backend, const Case& c, int repetitions) {
-  constexpr double enough_ms = 20000;  // a slow device gets fewer repetitions, but three
-  c.run();                             // warm-up: caches, pages, the driver's compiler
-  backend.take_timings();
-  std::vector<double> times;
-  const double begin = now_ms();
-  for (int i = 0; i < repetitions && (i < 3 || now_ms() - begin < enough_ms); ++i) {
-    const double start = now_ms();
-    c.run();
-    times.push_back(now_ms() - start);
-  }
-  const std::vector<StageTime> stages = backend.take_timings();
-  std::ranges::sort(times);
-  const double median = 0.5 * (times[(times.size() - 1) / 2] + times[times.size() / 2]);
-  return {c.kernel, c.size, static_cast<int>(times.size()), median, times.front(), times.back(),
-          c.bytes,  stages};
 }
 
 void run_device(const std::string& word, const std::string& driver, const Options& options) {

@@ -4,18 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "kernels/backend.h"
+#include "kernels/cases/measure.h"
 
 namespace edgescout::bench {
-
-struct Row {
-  std::string kernel, size;
-  int repetitions;
-  double median_ms, min_ms, max_ms;
-  std::size_t bytes;
-  std::vector<StageTime> stages;  // of all repetitions together, by the device's clock
-  double gigabytes_per_s() const { return double(bytes) / (median_ms * 1e6); }
-};
 
 struct Report {
   std::string device, driver, commit;

@@ -109,7 +109,7 @@ const RawBuffer& Batch::stage(VkDeviceSize bytes, Memory memory, const RawBuffer
   return staging_.back();
 }
 
-void Batch::copy(VkBuffer from, VkBuffer to, VkDeviceSize bytes) {
+void Batch::copy_bytes(VkBuffer from, VkBuffer to, VkDeviceSize bytes) {
   const VkBufferCopy region{0, 0, bytes};
   vkCmdCopyBuffer(commands_, from, to, 1, &region);
 }
@@ -121,7 +121,7 @@ void Batch::upload_bytes(const RawBuffer& to, std::span<const std::byte> bytes) 
   if (!target) {
     const RawBuffer& staged = stage(bytes.size(), Memory::upload, to);
     target = staged.mapped();
-    copy(staged.get(), to.get(), bytes.size());
+    copy_bytes(staged.get(), to.get(), bytes.size());
   }
   std::memcpy(target, bytes.data(), bytes.size());
 }
@@ -134,13 +134,18 @@ void Batch::download_bytes(const RawBuffer& from, std::span<std::byte> to) {
     const RawBuffer& staged = stage(to.size(), Memory::download, from);
     source = staged.mapped();
     barrier();
-    copy(from.get(), staged.get(), to.size());
+    copy_bytes(from.get(), staged.get(), to.size());
   }
   downloads_.push_back({source, to});
 }
 
 void Batch::fill(const RawBuffer& buffer, std::uint32_t word) {
   vkCmdFillBuffer(commands_, buffer.get(), 0, VK_WHOLE_SIZE, word);
+}
+
+void Batch::copy(const RawBuffer& from, const RawBuffer& to) {
+  check(from.bytes() <= to.bytes(), "copy into a smaller buffer");
+  copy_bytes(from.get(), to.get(), from.bytes());
 }
 
 void Batch::barrier() { memory_barrier(commands_, any_access, any_stage); }

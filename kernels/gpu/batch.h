@@ -67,6 +67,8 @@ class Batch {
     upload_bytes(to, std::as_bytes(values));
   }
   void fill(const RawBuffer& buffer, std::uint32_t word);
+  // All of it; `to` must be as large.
+  void copy(const RawBuffer& from, const RawBuffer& to);
   // Everything written so far is visible to everything that follows.
   void barrier();
   // Throws GpuError where the device's limits do not take this many groups or a range this long.
@@ -102,7 +104,7 @@ class Batch {
   VkDescriptorSet bind(const Kernel& kernel, std::span<const Bound> bound);
   void check_dispatch(const Kernel& kernel, Groups groups, std::span<const Bound> bound) const;
   const RawBuffer& stage(VkDeviceSize bytes, Memory memory, const RawBuffer& other_end);
-  void copy(VkBuffer from, VkBuffer to, VkDeviceSize bytes);
+  void copy_bytes(VkBuffer from, VkBuffer to, VkDeviceSize bytes);
   std::vector<StageTime> read_times() const;
 
   const Device& device_;

@@ -60,6 +60,7 @@ RawBuffer::RawBuffer(const Device& device, VkDeviceSize bytes, Memory memory, st
   VkMemoryRequirements needs;
   vkGetBufferMemoryRequirements(device.get(), get(), &needs);
   memory_ = {device.get(), allocate(device, needs, memory, what), vkFreeMemory};
+  counted_ = CountedMemory(needs.size);
   require(vkBindBufferMemory(device.get(), get(), memory_.get(), 0), "vkBindBufferMemory for " + what);
   if (memory == Memory::device && !device.unified_memory()) return;
   void* address = nullptr;

@@ -7,6 +7,7 @@
 
 #include <vulkan/vulkan.h>
 
+#include "kernels/device_memory.h"
 #include "kernels/gpu/device.h"
 #include "kernels/gpu/handle.h"
 
@@ -35,6 +36,7 @@ class RawBuffer {
   std::string name_;
   VkDeviceSize bytes_ = 0;
   Memory kind_ = Memory::device;
+  CountedMemory counted_;
   Handle<VkDeviceMemory> memory_;  // freed after the buffer bound to it
   Handle<VkBuffer> buffer_;
   std::byte* mapped_ = nullptr;

@@ -2,7 +2,7 @@
 #include "kernels/candidate_map.h"
 
 #include "kernels/error.h"
-#include "tests/kernels/chamfer_cases.h"
+#include "kernels/cases/chamfer_cases.h"
 #include "tests/kernels/paths.h"
 
 namespace edgescout {

@@ -1,6 +1,6 @@
 // combination_chamfer on every path: integer cells, equal bit for bit (combination_chamfer.h).
 #include "kernels/error.h"
-#include "tests/kernels/chamfer_cases.h"
+#include "kernels/cases/chamfer_cases.h"
 #include "tests/kernels/paths.h"
 
 namespace edgescout {

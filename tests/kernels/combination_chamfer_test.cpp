@@ -8,7 +8,7 @@
 #include "kernels/combination_chamfer.h"
 
 #include "kernels/error.h"
-#include "tests/kernels/chamfer_cases.h"
+#include "kernels/cases/chamfer_cases.h"
 #include "tests/kernels/paths.h"
 
 namespace edgescout {

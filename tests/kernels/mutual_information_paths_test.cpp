@@ -1,6 +1,6 @@
 // mutual_information on every path, on cells that combination_chamfer made there, against the reference (mutual_information.h).
 #include "kernels/error.h"
-#include "tests/kernels/chamfer_cases.h"
+#include "kernels/cases/chamfer_cases.h"
 #include "tests/kernels/paths.h"
 
 namespace edgescout {

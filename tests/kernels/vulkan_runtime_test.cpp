@@ -155,6 +155,22 @@ TEST_F(VulkanRuntime, KernelsAreTimedByName) {
   EXPECT_GT(times[0].seconds, 0);
 }
 
+TEST_F(VulkanRuntime, CopiesWholeBuffers) {
+  std::vector<std::uint32_t> values(1000);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::uint32_t>(7 * i);
+  const Buffer<std::uint32_t> from(*device, values.size(), "from"), to(*device, values.size() + 1, "to"), small(*device, 10, "small");
+  Batch batch(*device, "copy");
+  batch.upload<std::uint32_t>(from, values);
+  batch.fill(to, 9);
+  batch.barrier();
+  batch.copy(from, to);
+  EXPECT_THROW(batch.copy(from, small), LogicError);
+  batch.barrier();
+  batch.run();
+  values.push_back(9);
+  EXPECT_EQ(read<std::uint32_t>(to, values.size()), values);
+}
+
 // Without this the other tests' silence would prove nothing.
 TEST_F(VulkanRuntime, ValidationSeesAMissingBarrier) {
   const Kernel kernel = seed_kernel();

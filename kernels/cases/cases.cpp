@@ -1,10 +1,10 @@
-#include "bench/cases.h"
+#include "kernels/cases/cases.h"
 
 #include <cstdio>
 #include <numbers>
 
-#include "bench/hypotheses.h"
-#include "bench/synthetic.h"
+#include "kernels/cases/hypotheses.h"
+#include "kernels/cases/synthetic.h"
 
 namespace edgescout::bench {
 

@@ -1,4 +1,4 @@
-#include "bench/hypotheses.h"
+#include "kernels/cases/hypotheses.h"
 
 #include <numbers>
 

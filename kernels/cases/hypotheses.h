@@ -3,7 +3,7 @@
 #pragma once
 
 #include "kernels/mutual_information.h"
-#include "tests/kernels/chamfer_cases.h"
+#include "kernels/cases/chamfer_cases.h"
 
 namespace edgescout::bench {
 

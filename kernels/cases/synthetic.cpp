@@ -1,4 +1,4 @@
-#include "bench/synthetic.h"
+#include "kernels/cases/synthetic.h"
 
 #include <algorithm>
 #include <cmath>
