@@ -63,6 +63,7 @@ int run(int argc, char** argv) {
   add_yaml_config(app);
   add_log_level(app);
   int exit_code = exit_internal_error;
+  add_bench(app, exit_code);
   add_detect(app, exit_code);
   add_devices(app, exit_code);
   add_eval(app, exit_code);

@@ -6,6 +6,7 @@
 namespace edgescout {
 
 // `exit_code` is set by the verb that ran (exit_codes.h); it outlives the app.
+void add_bench(CLI::App& app, int& exit_code);
 void add_detect(CLI::App& app, int& exit_code);
 void add_devices(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);

@@ -1,0 +1,124 @@
+// edgescout bench experiments: every method of the paper's experiments on the same data.
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "commit.h"
+#include "host/cli/bench_verbs.h"
+#include "host/cli/config.h"
+#include "host/cli/exit_codes.h"
+#include "host/cli/progress.h"
+#include "host/experiments/experiment.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+struct ExperimentsRequest {
+  std::vector<std::string> names;
+  std::string out, data, device = "cpu";
+  bool is_short = false, is_full = false, resume = false;
+  ExperimentSettings settings;  // what was given on the command line
+};
+
+// The numbers that a form sets and an option changes.
+constexpr std::pair<const char*, int ExperimentSettings::*> SIZES[] = {
+    {"scenes", &ExperimentSettings::scenes},         {"groups", &ExperimentSettings::groups},
+    {"starts", &ExperimentSettings::starts},         {"group-starts", &ExperimentSettings::group_starts},
+    {"every", &ExperimentSettings::every},           {"frames-every", &ExperimentSettings::frames_every},
+    {"candidates", &ExperimentSettings::candidates},
+};
+
+ExperimentSettings settings_of(const ExperimentsRequest& request, const CLI::App& verb) {
+  if (request.is_short && request.is_full)
+    throw InputError("command line", "--short, --full", "both", "one of the two");
+  ExperimentSettings settings = request.settings;
+  const ExperimentSettings form =
+      request.is_full ? ExperimentSettings::full_form() : ExperimentSettings::short_form();
+  for (const auto& [name, size] : SIZES)
+    if (verb.count(std::string("--") + name) == 0) settings.*size = form.*size;
+  settings.data = request.data;
+  return settings;
+}
+
+// A bar an experiment.
+class Bars {
+ public:
+  void move_to(const std::string& experiment, std::size_t done, std::size_t all) {
+    if (title_ != experiment) {
+      bar_.reset();
+      bar_ = std::make_unique<Progress>(experiment, all, std::cerr, stderr_is_terminal());
+      title_ = experiment;
+    }
+    bar_->move_to(done);
+  }
+
+ private:
+  std::string title_;
+  std::unique_ptr<Progress> bar_;
+};
+
+void run(const ExperimentsRequest& request, const CLI::App& verb) {
+  Bars bars;
+  ExperimentRun run;
+  run.out = request.out;
+  run.device = request.device;
+  run.commit = EDGESCOUT_COMMIT;
+  run.resume = request.resume;
+  run.progress = [&](const std::string& experiment, std::size_t done, std::size_t all) {
+    bars.move_to(experiment, done, all);
+  };
+  run_experiments(experiments_named(request.names), settings_of(request, verb), run);
+  std::cout << fmt::format("tables and plots: {}/index.md\n", request.out);
+}
+
+std::string names_text() {
+  std::string text;
+  for (const Experiment& experiment : experiments()) text += (text.empty() ? "" : ", ") + experiment.name;
+  return text;
+}
+
+void add_sizes(CLI::App& verb, ExperimentsRequest& r) {
+  ExperimentSettings& s = r.settings;
+  OptionTable(verb, "Sizes (default: those of the form)")
+      .flag("short", r.is_short, "Minutes (default)")
+      .flag("full", r.is_full, "The paper's numbers of images: about an hour on two cores")
+      .bounded("scenes", s.scenes, 1, 10000, "Images with up to five parts")
+      .bounded("groups", s.groups, 1, 10000, "Groups of three images with up to twenty parts")
+      .bounded("starts", s.starts, 1, 1000, "Registrations around every instance; the paper has 100")
+      .bounded("group-starts", s.group_starts, 1, 1000, "The same in the groups")
+      .bounded("every", s.every, 1, 10000, "Of the recorded starts those whose number this divides")
+      .bounded("frames-every", s.frames_every, 1, 100, "Of the cat's photographs one in so many")
+      .bounded("candidates", s.candidates, 1, 100000, "Of the detection, in every image and for every type")
+      .bounded("image-scale", s.image_scale, 0.1, 2.0, "Of the paper's image sizes")
+      .bounded("supersampling", s.supersampling, 1, 7, "Samples a pixel and axis of rendered images; odd");
+}
+
+}  // namespace
+
+void add_bench_experiments(CLI::App& bench, int& exit_code) {
+  CLI::App* verb = bench.add_subcommand(
+      "experiments", "Rerun the paper's experiments: tables, plots and every row behind them");
+  auto request = std::make_shared<ExperimentsRequest>();
+  verb->add_option("names", request->names, "Of the experiments: " + names_text() + "; default: all")
+      ->type_name("NAME");
+  verb->add_option("--out", request->out, "Folder of the results")->required()->type_name("DIR");
+  verb->add_option("--data", request->data,
+                   "Folder with d2co-starts, brackets and cat; without it rendered images alone")
+      ->type_name("DIR");
+  verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
+      ->capture_default_str();
+  OptionTable(*verb, "Run")
+      .flag("resume", request->resume, "Go on where DIR has finished cells of the same settings")
+      .bounded("seed", request->settings.seed, 0u, 4000000000u, "Of scenes, starts and candidates")
+      .flag("times,!--no-times", request->settings.times,
+            "Measured times among the rows (default); without, two runs give the same bytes");
+  add_sizes(*verb, *request);
+  verb->callback([request, verb, &exit_code] {
+    run(*request, *verb);
+    exit_code = exit_done;
+  });
+}
+
+}  // namespace edgescout

@@ -1,0 +1,30 @@
+// How far a measured rate can be trusted.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace edgescout {
+
+struct Interval {
+  double low = 0, high = 1;
+};
+
+// Wilson's score interval of `hits` in `trials` independent ones, for a normal deviate of z (1.96: 95 %). [0,
+// 1] without trials.
+Interval wilson_interval(double hits, double trials, double z = 1.96);
+
+// What belongs together: the starts in one image, the instances of one bin. They succeed and fail together.
+struct Cluster {
+  double hits = 0, trials = 0;
+};
+
+// Of all clusters together; 0 without trials.
+double rate(std::span<const Cluster> clusters);
+
+// Percentile bootstrap of `rate` over clusters: as many are drawn with replacement, `resamples` times; the
+// interval holds 95 %. With fewer than two clusters nothing can be said of their spread: Wilson's interval
+// then.
+Interval bootstrap_interval(std::span<const Cluster> clusters, int resamples = 2000, std::uint64_t seed = 1);
+
+}  // namespace edgescout

@@ -1,0 +1,40 @@
+// An experiment cut into cells: small units of work with a stable name, each a file as soon as it is
+// finished, so that stopping loses nothing and resuming does nothing twice.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/experiments/table.h"
+#include "kernels/backend.h"
+
+namespace edgescout {
+
+// `name` is the file's path below the folder of cells, without extension: "rendered/scene_007". `run` may be
+// called on any thread; its result must not depend on which cells ran before.
+struct Cell {
+  std::string name;
+  std::function<Table(Backend&)> run;
+};
+
+struct CellRun {
+  std::filesystem::path folder;  // of the cells' files
+  Notes settings;                // what the results depend on; the head of every file
+  std::string commit;            // noted beside the settings; cells of several commits may be joined
+  bool resume = false;
+  int workers = 1;  // cells that run side by side, each with a backend of its own
+  std::function<std::unique_ptr<Backend>()> make_backend;
+  std::function<void(std::size_t done, std::size_t all)>
+      progress;  // may be empty; at the start too, by one thread at a time
+};
+
+// The cells' tables, in their order. A finished cell's file is taken as it is with `resume`; one that cannot
+// be read is done again. InputError: finished cells without `resume`; a finished cell with other settings,
+// naming the first that differs; a file that cannot be written. Whatever ends the run, finished cells stay.
+std::vector<Table> run_cells(std::span<const Cell> cells, const CellRun& run);
+
+}  // namespace edgescout

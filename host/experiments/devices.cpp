@@ -1,0 +1,212 @@
+#include "host/experiments/devices.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+
+#include "host/detect/coarse_scan.h"
+#include "host/experiments/known_scene.h"
+#include "host/experiments/rates.h"
+#include "host/experiments/settings.h"
+#include "host/experiments/trials.h"
+#include "host/pipeline.h"
+#include "host/register/refine.h"
+#include "host/render/parts.h"
+#include "kernels/copy_speed.h"
+#include "kernels/device_memory.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+constexpr int PARTS = 5, POSES = 40;
+constexpr double ENOUGH_MS = 120000;  // a device that took so long is not asked again
+constexpr int LEAST_REPETITIONS = 3;
+
+// The same for all devices: made on the CPU.
+struct Work {
+  KnownScene scene;
+  std::vector<TemplateSet> sets;
+  std::vector<EdgeModel> models;
+  std::vector<Hypothesis> starts, truths;  // of registration and of scoring, camera frame
+  PipelineOptions options;
+};
+
+Work make_work(const DevicesOptions& o, Backend& cpu) {
+  Work work;
+  ExperimentSettings settings;
+  settings.image_scale = o.image_scale;
+  RenderOptions render = single_image_options(settings, 0);
+  render.seed = o.seed;
+  render.objects = PARTS;
+  render.clutter = 1;
+  render.pile = 0.3;
+  work.scene = rendered_scene("devices", {make_part("bearing_block")}, render, cpu.threads());
+  if (work.scene.instances.empty())
+    throw InputError("bench devices", "seed", std::to_string(o.seed), "one whose parts can be seen");
+  TemplateOptions templates;
+  double nearest_m = 1e9, farthest_m = 0;
+  for (const KnownInstance& instance : work.scene.instances) {
+    const double distance_m =
+        (work.scene.images[0].camera_from_world * instance.world_from_object).translation_m.norm();
+    nearest_m = std::min(nearest_m, distance_m);
+    farthest_m = std::max(farthest_m, distance_m);
+  }
+  templates.distance_min_m = 0.85 * nearest_m;
+  templates.distance_max_m = 1.15 * farthest_m;
+  work.sets.push_back(build_templates(work.scene.objects[0], templates, cpu));
+  work.models = models_of(work.sets);
+  const int each = (POSES + static_cast<int>(work.scene.instances.size()) - 1) /
+                   static_cast<int>(work.scene.instances.size());
+  for (const Start& start : starts_around(work.scene, each, o.seed)) {
+    if (static_cast<int>(work.starts.size()) == POSES) break;
+    work.starts.push_back({0, start.camera_from_object});
+    work.truths.push_back(
+        {0, work.scene.images[0].camera_from_world * work.scene.instances[start.instance].world_from_object});
+  }
+  return work;
+}
+
+// Times of the stages, one after the other on one image.
+class Stages {
+ public:
+  explicit Stages(std::vector<StageSamples>& samples) : samples_(samples) {}
+  template <typename Stage>
+  auto time(const char* name, const Stage& stage) {
+    const Clock::time_point start = Clock::now();
+    auto result = stage();
+    if (next_ == samples_.size()) samples_.push_back({name, {}});
+    samples_[next_++].ms.push_back(ms_since(start));
+    return result;
+  }
+
+ private:
+  std::vector<StageSamples>& samples_;
+  std::size_t next_ = 0;
+};
+
+void run_stages(const Work& work, Backend& backend, std::vector<StageSamples>& samples) {
+  const KnownImage& image = work.scene.images[0];
+  Stages stages(samples);
+  const PreparedImage prepared = stages.time(
+      "edges", [&] { return prepare_image(image.image, image.camera, Se3{}, backend, work.options); });
+  const Observation observation =
+      stages.time("tensors", [&] { return observe_prepared(prepared, work.sets, backend, work.options); });
+  const RegisterView& view = observation.view;
+  const std::span<const RegisterView> views(&view, 1);
+  stages.time("scan",
+              [&] { return coarse_scan(work.sets[0], observation, backend, work.options.detect.scan); });
+  stages.time("registration", [&] {
+    return refine_poses(work.models, work.starts, views, backend, work.options.detect.refine);
+  });
+  stages.time("scoring", [&] {
+    return pose_features(work.models, work.truths, views, backend, work.options.detect.refine.score);
+  });
+  stages.time("image to poses", [&] {
+    return detect_objects(prepare_image(image.image, image.camera, Se3{}, backend, work.options), work.sets,
+                          backend, work.options);
+  });
+}
+
+// A device under measurement.
+struct Runner {
+  DeviceTimes times;
+  std::unique_ptr<Backend> backend;
+  double spent_ms = 0;
+};
+
+std::vector<Runner> make_runners(const DevicesOptions& options) {
+  const std::vector<DeviceInfo> known = vulkan_devices();
+  std::vector<std::string> choices{"cpu"};
+  if (options.devices.empty())
+    for (const DeviceInfo& device : known) choices.push_back("vulkan:" + std::to_string(device.index));
+  for (const std::string& choice : options.devices)
+    if (std::ranges::find(choices, choice) == choices.end()) choices.push_back(choice);
+  std::vector<Runner> runners;
+  for (const std::string& choice : choices) {
+    Runner& runner = runners.emplace_back();
+    runner.backend = make_backend(choice);
+    runner.times.choice = choice;
+    runner.times.name = runner.backend->name();
+    for (const DeviceInfo& device : known) {
+      if (!runner.times.name.starts_with("vulkan:" + std::to_string(device.index) + " ")) continue;
+      runner.times.driver = device.driver;
+      runner.times.is_software = !device.hardware;
+    }
+  }
+  return runners;
+}
+
+// The first image on a device does not count as time (pages, the driver's compiler), but as memory.
+void warm_up(Runner& runner, const Work& work) {
+  forget_peak_memory();
+  forget_peak_device_memory();
+  std::vector<StageSamples> ignored;
+  run_stages(work, *runner.backend, ignored);
+  runner.times.peak_host_bytes = peak_memory_bytes();
+  runner.times.peak_device_bytes = runner.backend->is_gpu() ? peak_device_memory_bytes() : 0;
+}
+
+void time_kernels(Runner& runner, int repetitions) {
+  runner.times.copy_bytes_per_s = copy_bytes_per_s(runner.times.choice);
+  for (const bench::Case& timed : bench::make_cases(*runner.backend, bench::Size::full))
+    runner.times.kernels.push_back(bench::measure(*runner.backend, timed, repetitions));
+}
+
+}  // namespace
+
+void DevicesOptions::validate() const {
+  const auto require = [](bool holds, const char* field, double found, const char* expected) {
+    if (!holds) throw InputError("bench devices", field, number_text(found), expected);
+  };
+  require(repetitions >= LEAST_REPETITIONS && repetitions <= 1000, "repetitions", repetitions, "3 to 1000");
+  require(image_scale >= 0.1 && image_scale <= 4, "image_scale", image_scale, "0.1 to 4");
+}
+
+double StageSamples::median_ms() const { return median(ms); }
+
+DevicesReport time_devices(const DevicesOptions& options,
+                           const std::function<void(std::size_t, std::size_t)>& progress) {
+  options.validate();
+  DevicesReport report;
+  report.options = options;
+  report.load = machine_load();
+  report.warnings = warnings_of(report.load);
+  std::vector<Runner> runners = make_runners(options);
+  const Work work = make_work(options, *runners[0].backend);
+  report.width = work.scene.images[0].camera.width;
+  report.height = work.scene.images[0].camera.height;
+  report.instances = static_cast<int>(work.scene.instances.size());
+  report.poses = static_cast<int>(work.starts.size());
+  for (Runner& runner : runners) {
+    if (runner.times.is_software)
+      report.warnings.push_back(runner.times.name +
+                                " is a software device: its times say nothing of a graphics card");
+    warm_up(runner, work);
+  }
+  // Side by side, so that what changes on the machine meanwhile meets all devices alike.
+  for (int i = 0; i < options.repetitions; ++i) {
+    for (Runner& runner : runners) {
+      if (i >= LEAST_REPETITIONS && runner.spent_ms > ENOUGH_MS) continue;
+      const Clock::time_point start = Clock::now();
+      run_stages(work, *runner.backend, runner.times.stages);
+      runner.spent_ms += ms_since(start);
+    }
+    if (progress) progress(static_cast<std::size_t>(i) + 1, static_cast<std::size_t>(options.repetitions));
+  }
+  for (Runner& runner : runners) {
+    if (options.kernels) time_kernels(runner, options.repetitions);
+    report.devices.push_back(std::move(runner.times));
+  }
+  return report;
+}
+
+}  // namespace edgescout

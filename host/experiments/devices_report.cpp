@@ -1,0 +1,133 @@
+// The comparison of devices as JSON and as Markdown tables.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "host/experiments/devices.h"
+
+namespace edgescout {
+
+namespace {
+
+constexpr double MIB = 1 << 20;
+
+double least(const StageSamples& stage) { return *std::ranges::min_element(stage.ms); }
+double most(const StageSamples& stage) { return *std::ranges::max_element(stage.ms); }
+
+double images_per_second(const DeviceTimes& device) { return 1000 / device.stages.back().median_ms(); }
+
+// What copying as many bytes would take.
+double floor_ms(const bench::Row& kernel, const DeviceTimes& device) {
+  return 1000 * static_cast<double>(kernel.bytes) / device.copy_bytes_per_s;
+}
+
+nlohmann::ordered_json device_json(const DeviceTimes& device, const DeviceTimes& cpu) {
+  nlohmann::ordered_json json{{"device", device.name},
+                              {"driver", device.driver},
+                              {"software", device.is_software},
+                              {"images_per_second", images_per_second(device)},
+                              {"peak_host_bytes", device.peak_host_bytes},
+                              {"peak_device_bytes", device.peak_device_bytes}};
+  for (std::size_t s = 0; s < device.stages.size(); ++s) {
+    const StageSamples& stage = device.stages[s];
+    json["stages"].push_back({{"stage", stage.stage},
+                              {"median_ms", stage.median_ms()},
+                              {"min_ms", least(stage)},
+                              {"max_ms", most(stage)},
+                              {"repetitions", stage.ms.size()},
+                              {"times_cpu", stage.median_ms() / cpu.stages[s].median_ms()}});
+  }
+  if (device.kernels.empty()) return json;
+  json["copy_bytes_per_s"] = device.copy_bytes_per_s;
+  for (const bench::Row& kernel : device.kernels)
+    json["kernels"].push_back({{"kernel", kernel.kernel},
+                               {"size", kernel.size},
+                               {"median_ms", kernel.median_ms},
+                               {"min_ms", kernel.min_ms},
+                               {"max_ms", kernel.max_ms},
+                               {"bytes", kernel.bytes},
+                               {"floor_ms", floor_ms(kernel, device)},
+                               {"times_floor", kernel.median_ms / floor_ms(kernel, device)}});
+  return json;
+}
+
+std::string stage_table(const DevicesReport& report) {
+  std::string head = "| stage |", line = "|---|", text;
+  for (const DeviceTimes& device : report.devices)
+    head += fmt::format(" {}, ms (least to most) | times CPU |", device.name), line += "---|---|";
+  const DeviceTimes& cpu = report.devices[0];
+  for (std::size_t s = 0; s < cpu.stages.size(); ++s) {
+    text += "| " + cpu.stages[s].stage + " |";
+    for (const DeviceTimes& device : report.devices) {
+      const StageSamples& stage = device.stages[s];
+      text += fmt::format(" {:.1f} ({:.1f} to {:.1f}) | {:.2f} |", stage.median_ms(), least(stage),
+                          most(stage), stage.median_ms() / cpu.stages[s].median_ms());
+    }
+    text += "\n";
+  }
+  return head + "\n" + line + "\n" + text;
+}
+
+std::string device_table(const DevicesReport& report) {
+  std::string text =
+      "| device | driver | images/s | peak host memory, MiB | peak device memory, MiB | copies, GB/s "
+      "|\n|---|---|---|---|---|---|\n";
+  for (const DeviceTimes& device : report.devices)
+    text +=
+        fmt::format("| {} | {} | {:.2f} | {:.0f} | {:.0f} | {} |\n", device.name, device.driver,
+                    images_per_second(device), static_cast<double>(device.peak_host_bytes) / MIB,
+                    static_cast<double>(device.peak_device_bytes) / MIB,
+                    device.copy_bytes_per_s > 0 ? fmt::format("{:.1f}", 1e-9 * device.copy_bytes_per_s) : "");
+  return text;
+}
+
+std::string kernel_table(const DeviceTimes& device) {
+  std::string text = fmt::format(
+      "\n## Kernels on {}\n\nThe floor is the time of copying as many bytes as the kernel must read and "
+      "write at least.\n\n"
+      "| kernel | size | median ms | floor, ms | times floor |\n|---|---|---|---|---|\n",
+      device.name);
+  for (const bench::Row& kernel : device.kernels)
+    text +=
+        fmt::format("| {} | {} | {:.3f} | {:.3f} | {:.1f} |\n", kernel.kernel, kernel.size, kernel.median_ms,
+                    floor_ms(kernel, device), kernel.median_ms / floor_ms(kernel, device));
+  return text;
+}
+
+}  // namespace
+
+std::string devices_json(const DevicesReport& report) {
+  nlohmann::ordered_json json{{"commit", report.commit},
+                              {"seed", report.options.seed},
+                              {"repetitions", report.options.repetitions},
+                              {"width", report.width},
+                              {"height", report.height},
+                              {"instances", report.instances},
+                              {"poses", report.poses},
+                              {"threads", report.load.threads},
+                              {"load_average", report.load.load_average},
+                              {"processor_share", report.load.share},
+                              {"warnings", report.warnings}};
+  for (const DeviceTimes& device : report.devices)
+    json["devices"].push_back(device_json(device, report.devices[0]));
+  return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string devices_markdown(const DevicesReport& report) {
+  std::string text = fmt::format(
+      "# Devices\n\nOne rendered image of {} x {} with {} instances of one part; {} poses registered and "
+      "scored. Medians of {} repetitions (fewer where a device is slow), "
+      "devices in turn within one run. {} threads, load average {:.2f}, {:.0f} % of the processors to be had "
+      "before. Seed {}, commit {}.\n\n",
+      report.width, report.height, report.instances, report.poses, report.options.repetitions,
+      report.load.threads, report.load.load_average, 100 * report.load.share, report.options.seed,
+      report.commit);
+  for (const std::string& warning : report.warnings) text += "**Warning:** " + warning + "\n\n";
+  text += stage_table(report) + "\n" + device_table(report);
+  for (const DeviceTimes& device : report.devices)
+    if (!device.kernels.empty()) text += kernel_table(device);
+  return text;
+}
+
+}  // namespace edgescout

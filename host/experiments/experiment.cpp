@@ -1,0 +1,114 @@
+#include "host/experiments/experiment.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "host/experiments/detection.h"
+#include "host/experiments/multiview.h"
+#include "host/experiments/registration.h"
+#include "host/io/files.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The CPU's cells are single-threaded: their times are those of one thread, as the paper's.
+std::unique_ptr<Backend> backend_of_cell(const std::string& device) {
+  return device == "cpu" ? make_cpu_backend(1) : make_backend(device);
+}
+
+int workers_on(const std::string& device) {
+  return device == "cpu" ? static_cast<int>(std::max(1u, std::thread::hardware_concurrency())) : 1;
+}
+
+Notes settings_notes(const Experiment& experiment, const ExperimentSettings& settings,
+                     const std::string& device_name) {
+  Notes notes{
+      {"experiment", experiment.name}, {"seed", std::to_string(settings.seed)}, {"device", device_name}};
+  for (const auto& note : experiment.options(settings)) notes.push_back(note);
+  notes.emplace_back("times", settings.times ? "yes" : "no");
+  return notes;
+}
+
+std::string provenance(const Table& table) {
+  std::string text;
+  for (const auto& [name, value] : table.notes) text += (text.empty() ? "" : "; ") + name + " " + value;
+  return "Made with: " + text + ".\n";
+}
+
+void write_report(const Experiment& experiment, const ExperimentSettings& settings, const Table& table,
+                  const fs::path& out) {
+  const Report report = experiment.report(settings, table);
+  const std::string& name = experiment.name;
+  write_file_atomically(out / (name + ".csv"), to_csv(table));
+  write_file_atomically(out / (name + ".svg"), svg_of(report.panels));
+  write_file_atomically(out / (name + ".md"),
+                        fmt::format("# {0}\n\n{1}\n![{0}]({2}.svg)\n\nRows: [{2}.csv]({2}.csv). {3}",
+                                    experiment.title, report.markdown, name, provenance(table)));
+}
+
+// Lists every experiment whose report is there, of this run or of an earlier one.
+void write_index(const fs::path& out) {
+  std::string text = "# Experiments\n\n";
+  for (const Experiment& experiment : experiments())
+    if (fs::exists(out / (experiment.name + ".md")))
+      text += fmt::format("- [{0}]({1}.md), [plot]({1}.svg), [rows]({1}.csv)\n", experiment.title,
+                          experiment.name);
+  write_file_atomically(out / "index.md", text);
+}
+
+Table run_cells_of(const Experiment& experiment, const ExperimentSettings& settings, const ExperimentRun& run,
+                   const std::string& device_name) {
+  CellRun cells;
+  cells.folder = run.out / "cells" / experiment.name;
+  cells.settings = settings_notes(experiment, settings, device_name);
+  cells.commit = run.commit;
+  cells.resume = run.resume;
+  cells.workers = workers_on(device_name);
+  cells.make_backend = [&] {
+    return backend_of_cell(run.device == "auto" && device_name == "cpu" ? "cpu" : run.device);
+  };
+  if (run.progress)
+    cells.progress = [&](std::size_t done, std::size_t all) { run.progress(experiment.name, done, all); };
+  return joined(run_cells(experiment.cells(settings), cells));
+}
+
+}  // namespace
+
+const std::vector<Experiment>& experiments() {
+  static const std::vector<Experiment> all{detection_experiment(), registration_experiment(),
+                                           multiview_experiment()};
+  return all;
+}
+
+std::vector<Experiment> experiments_named(const std::vector<std::string>& names) {
+  if (names.empty()) return experiments();
+  std::vector<Experiment> chosen;
+  std::string known;
+  for (const Experiment& experiment : experiments()) known += (known.empty() ? "" : ", ") + experiment.name;
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(experiments(), name, &Experiment::name);
+    if (found == experiments().end()) throw InputError("experiments", "name", name, "one of " + known);
+    chosen.push_back(*found);
+  }
+  return chosen;
+}
+
+void run_experiments(const std::vector<Experiment>& chosen, const ExperimentSettings& settings,
+                     const ExperimentRun& run) {
+  settings.validate();
+  const std::string device_name = make_backend(run.device)->name();
+  require_writable_folder(run.out);
+  for (const Experiment& experiment : chosen) {
+    const Table table = run_cells_of(experiment, settings, run, device_name);
+    write_report(experiment, settings, table, run.out);
+    write_index(run.out);
+  }
+}
+
+}  // namespace edgescout

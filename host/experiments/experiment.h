@@ -1,0 +1,47 @@
+// The experiments of the paper (Sec. 6), each as cells to run and a report of what they gave.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "host/experiments/cells.h"
+#include "host/experiments/plot.h"
+#include "host/experiments/settings.h"
+
+namespace edgescout {
+
+struct Report {
+  std::string markdown;  // tables and what they count, in the form of docs/evaluation.md
+  std::vector<Panel> panels;
+};
+
+struct Experiment {
+  std::string name, title;
+  Notes (*options)(const ExperimentSettings&);  // what its results depend on, beside seed, device and commit
+  std::vector<Cell> (*cells)(const ExperimentSettings&);
+  Report (*report)(const ExperimentSettings&, const Table&);  // of the rows of all cells
+};
+
+// In the paper's order.
+const std::vector<Experiment>& experiments();
+// InputError listing the names there are on another one. No names: all of them.
+std::vector<Experiment> experiments_named(const std::vector<std::string>& names);
+
+struct ExperimentRun {
+  std::filesystem::path out;
+  std::string device = "cpu";  // as make_backend takes it
+  std::string commit;
+  bool resume = false;
+  std::function<void(const std::string& experiment, std::size_t done, std::size_t all)>
+      progress;  // may be empty
+};
+
+// Writes into `out`: cells/NAME/.., and when the experiment's cells are finished NAME.csv (all rows),
+// NAME.md, NAME.svg; at the end index.md. On a CPU as many cells run side by side as it has threads, each on
+// one of them; on a device one after the other. InputError as run_cells, for settings out of bounds and for
+// data that is not there.
+void run_experiments(const std::vector<Experiment>& chosen, const ExperimentSettings& settings,
+                     const ExperimentRun& run);
+
+}  // namespace edgescout

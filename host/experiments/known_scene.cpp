@@ -1,0 +1,133 @@
+#include "host/experiments/known_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "host/detect/observation.h"
+#include "host/edge/edges.h"
+#include "host/io/bop.h"
+#include "host/io/image.h"
+#include "host/io/mesh.h"
+#include "host/render/parts.h"
+#include "host/render/renderer.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Of a turned part, in which it is judged: every 0.01 rad half way, as the BOP toolkit does.
+constexpr int TURNS = 315;
+
+// Of the smallest instance, in an image: what the coarse tensor must still resolve.
+double smallest_size_px(const KnownScene& scene, const KnownImage& view) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const KnownInstance& instance : scene.instances) {
+    const double depth_m = (view.camera_from_world * instance.world_from_object).translation_m.z();
+    if (depth_m > 0)
+      smallest =
+          std::min(smallest, view.camera.fx * scene.objects[instance.object].mesh.diameter_m / depth_m);
+  }
+  return std::min<double>(smallest, std::max(view.camera.width, view.camera.height));
+}
+
+Object load_bop_object(const fs::path& models, int id) {
+  Object object;
+  object.id = id;
+  object.mesh = load_mesh(models / fmt::format("obj_{:06}.ply", id), LengthUnit::Millimetre);
+  if (const fs::path info = models / "models_info.json"; fs::exists(info)) {
+    const std::map<int, Symmetries> symmetries = load_symmetries(info);
+    if (symmetries.contains(id)) object.symmetries = symmetries.at(id);
+  }
+  return object;
+}
+
+const BopImage& image_of(const BopScene& scene, int id) {
+  const auto image = std::ranges::find(scene.images, id, &BopImage::image_id);
+  if (image == scene.images.end())
+    throw InputError((scene.folder / "scene_camera.json").string(), std::to_string(id), "no entry",
+                     "this image");
+  return *image;
+}
+
+}  // namespace
+
+std::vector<Object> rendered_types() {
+  std::vector<Object> types;
+  for (const char* name : {"bearing_block", "l_bracket", "u_channel", "gear_plate", "stepped_shaft"})
+    types.push_back(make_part(name));
+  for (const auto& [id, axis] : turning_axes(types)) {
+    Symmetries& symmetries = std::ranges::find(types, id, &Object::id)->symmetries;
+    symmetries.discrete.clear();
+    for (int step = 0; step < TURNS; ++step)
+      symmetries.discrete.push_back({so3_exp(2 * std::numbers::pi * step / TURNS * axis), {0, 0, 0}});
+  }
+  return types;
+}
+
+KnownScene rendered_scene(const std::string& name, const std::vector<Object>& types,
+                          const RenderOptions& options, ThreadPool& pool) {
+  KnownScene known;
+  known.set = "rendered";
+  known.name = name;
+  known.objects = types;
+  const Scene scene = make_scene(known.objects, options);
+  const std::vector<Rendering> renderings = render(scene, pool);
+  for (std::size_t v = 0; v < scene.views.size(); ++v)
+    known.images.push_back({renderings[v].image, scene.views[v].camera, scene.views[v].camera_from_world});
+  for (std::size_t i = 0; i < scene.placed.size(); ++i)
+    if (const PlacedObject& placed = scene.placed[i]; placed.target)
+      known.instances.push_back({fmt::format("{}_{}", known.objects[placed.object].mesh.name, i),
+                                 placed.object, placed.world_from_object, renderings[0].visible_fraction[i]});
+  std::erase_if(known.instances,
+                [](const KnownInstance& instance) { return instance.visible < LEAST_VISIBLE; });
+  return known;
+}
+
+KnownScene bop_scene(const std::string& set, const fs::path& scene_folder, const fs::path& models,
+                     const std::vector<int>& image_ids) {
+  const BopScene scene = load_bop_scene(scene_folder);
+  KnownScene known;
+  known.set = set;
+  known.name = fmt::format("{}_{:06}", scene_folder.filename().string(), image_ids.front());
+  const Se3 first_from_world = image_of(scene, image_ids.front()).camera_from_world.value_or(Se3{});
+  for (const int id : image_ids) {
+    const BopImage& entry = image_of(scene, id);
+    const Image image = load_image(entry.file);
+    Camera camera = entry.camera;
+    camera.width = image.width;
+    camera.height = image.height;
+    known.images.push_back(
+        {undistort(image, camera), undistorted(camera), entry.camera_from_world.value_or(Se3{})});
+  }
+  if (!scene.truth.contains(image_ids.front()))
+    throw InputError((scene_folder / "scene_gt.json").string(), std::to_string(image_ids.front()), "no entry",
+                     "the poses in this image");
+  std::map<int, int> index_of;
+  for (const BopTruth& truth : scene.truth.at(image_ids.front())) {
+    const auto [index, is_new] = index_of.emplace(truth.object_id, static_cast<int>(known.objects.size()));
+    if (is_new) known.objects.push_back(load_bop_object(models, truth.object_id));
+    if (truth.visible_fraction < LEAST_VISIBLE) continue;
+    known.instances.push_back({fmt::format("{}_{}", truth.object_id, known.instances.size()), index->second,
+                               inverse(first_from_world) * truth.camera_from_object, truth.visible_fraction});
+  }
+  return known;
+}
+
+std::vector<RegisterView> register_views(const KnownScene& scene, Backend& backend) {
+  std::vector<RegisterView> views;
+  for (const KnownImage& view : scene.images)
+    views.push_back(observe(view.image, view.camera, view.camera_from_world,
+                            find_edges(view.image, {}, backend), reduction_for(smallest_size_px(scene, view)),
+                            {}, backend)
+                        .view);
+  return views;
+}
+
+}  // namespace edgescout

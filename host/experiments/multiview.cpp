@@ -1,0 +1,116 @@
+#include "host/experiments/multiview.h"
+
+#include <fmt/format.h>
+
+#include "host/experiments/photographs.h"
+#include "host/experiments/rates.h"
+#include "host/experiments/recorded_starts.h"
+#include "host/experiments/trials.h"
+
+namespace edgescout {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int VIEWS = 3;  // the first and N_v = 2 more
+
+std::vector<Trial> trials() { return {{"d2co", 1}, {"d2co", VIEWS}, {"edgescout", 1}, {"edgescout", VIEWS}}; }
+
+Notes options(const ExperimentSettings& s) {
+  Notes notes{{"groups", std::to_string(s.groups)},
+              {"group_starts", std::to_string(s.group_starts)},
+              {"image_scale", number_text(s.image_scale)},
+              {"supersampling", std::to_string(s.supersampling)}};
+  if (s.data.empty()) return notes;
+  notes.emplace_back("data", "given");
+  notes.emplace_back("every", std::to_string(s.every));
+  return notes;
+}
+
+Table run_recorded(const fs::path& folder, const std::string& image, const ExperimentSettings& settings,
+                   Backend& backend) {
+  const KnownScene scene = recorded_scene(folder, image, VIEWS - 1);
+  std::vector<Start> starts;
+  for (const RecordedStart& start : recorded_starts(folder, scene, std::max(1, settings.every / 3)))
+    starts.push_back({start.id, start.instance, LEVELS_RAD[start.level - 1], start.camera_from_object});
+  return run_trials(scene, starts, trials(), settings, backend);
+}
+
+std::vector<Cell> cells(const ExperimentSettings& s) {
+  std::vector<Cell> list;
+  for (int number = 0; number < s.groups; ++number) {
+    const std::string name = fmt::format("group_{:03}", number);
+    list.push_back(
+        {"rendered/" + name, [s, number, name](Backend& backend) {
+           const KnownScene scene =
+               rendered_scene(name, rendered_types(), image_group_options(s, number), backend.threads());
+           return run_trials(scene, starts_around(scene, s.group_starts, s.seed), trials(), s, backend);
+         }});
+  }
+  if (s.data.empty()) return list;
+  const fs::path recorded = s.data / "d2co-starts";
+  for (const std::string& image : recorded_images(recorded))
+    if (other_views(recorded, image) >= VIEWS - 1)
+      list.push_back({"d2co-starts/" + image, [s, recorded, image](Backend& backend) {
+                        return run_recorded(recorded, image, s, backend);
+                      }});
+  const Photographs pile = photographs_in(s.data, s.frames_every)[0];
+  list.push_back({"brackets/pile", [s, pile](Backend& backend) {
+                    const KnownScene scene = bop_scene(pile.set, pile.scene, pile.models, pile.images);
+                    return run_trials(scene, starts_around(scene, 5 * s.group_starts, s.seed), trials(), s,
+                                      backend);
+                  }});
+  return list;
+}
+
+std::vector<Series> series() {
+  std::vector<Series> list;
+  for (const Trial& trial : trials())
+    list.push_back({fmt::format("{}, {}", trial.method,
+                                trial.views == 1 ? "one view" : fmt::format("{} views", trial.views)),
+                    [trial](const Table& table, std::size_t row) {
+                      return text_in(table, row, "method") == trial.method &&
+                             text_in(table, row, "views") == std::to_string(trial.views);
+                    }});
+  return list;
+}
+
+Report report(const ExperimentSettings&, const Table& table) {
+  Report result;
+  const auto rows_of = [&](const std::function<bool(const Table&, std::size_t)>& fits) {
+    return rows_where(table, fits);
+  };
+  const auto add = [&](const std::string& title, const Table& rows, const Criterion& criterion) {
+    if (rows.rows.empty()) return;
+    result.markdown += fmt::format("## {}\n\nCorrect is {}.\n\n{}\n", title, criterion.text,
+                                   rate_table(rows, series(), criterion));
+    result.panels.push_back(rate_panel(title, rows, series(), criterion));
+  };
+  constexpr double LIGHTLY =
+      0.7;  // more than this is visible: lightly occluded, as in the paper's last experiment
+  const auto is_rendered = [](const Table& t, std::size_t row) {
+    return text_in(t, row, "set") == "rendered";
+  };
+  const auto is_light = [](const Table& t, std::size_t row) {
+    return number_in(t, row, "visible") > LIGHTLY;
+  };
+  add("Rendered groups", rows_of(is_rendered), pose_criterion());
+  add("Rendered groups, lightly occluded",
+      rows_of([&](const Table& t, std::size_t row) { return is_rendered(t, row) && is_light(t, row); }),
+      pose_criterion());
+  add("Rendered groups, highly occluded",
+      rows_of([&](const Table& t, std::size_t row) { return is_rendered(t, row) && !is_light(t, row); }),
+      pose_criterion());
+  for (const auto& [set, criterion] :
+       {std::pair{"d2co-starts", pose_criterion()}, {"brackets", image_criterion()}})
+    add(set, rows_of([&](const Table& t, std::size_t row) { return text_in(t, row, "set") == set; }),
+        criterion);
+  return result;
+}
+
+}  // namespace
+
+Experiment multiview_experiment() { return {"multiview", "One view against three", options, cells, report}; }
+
+}  // namespace edgescout

@@ -1,0 +1,161 @@
+#include "host/experiments/rates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace edgescout {
+
+namespace {
+
+using Clusters = std::map<std::string, Cluster>;  // by image
+
+std::vector<Cluster> as_list(const Clusters& clusters) {
+  std::vector<Cluster> list;
+  for (const auto& [image, cluster] : clusters) list.push_back(cluster);
+  return list;
+}
+
+std::string image_of(const Table& table, std::size_t row) {
+  return text_in(table, row, "set") + "/" + text_in(table, row, "image");
+}
+
+void count(Clusters& clusters, const Table& table, std::size_t row, const Criterion& criterion) {
+  Cluster& cluster = clusters[image_of(table, row)];
+  cluster.hits += criterion.holds(table, row);
+  ++cluster.trials;
+}
+
+double trials_of(const std::vector<Cluster>& clusters) {
+  double trials = 0;
+  for (const Cluster& cluster : clusters) trials += cluster.trials;
+  return trials;
+}
+
+// Recorded starts lie at the levels' ends; drawn ones anywhere.
+double step_rad(const Table& table) {
+  const auto is_end = [](const std::string& distance) {
+    return std::ranges::any_of(LEVELS_RAD, [&](double level) { return number_text(level) == distance; });
+  };
+  return std::ranges::all_of(values_of(table, "distance_rad"), is_end) ? 0.1 : 0.05;
+}
+
+PlotLine line_of(const Series& series, const Table& table, const Criterion& criterion, double step) {
+  std::map<int, Clusters> bins;
+  constexpr double SLACK = 1e-6;  // a distance written with six digits stays in its bin
+  for (std::size_t row = 0; row < table.rows.size(); ++row)
+    if (series.has(table, row))
+      count(bins[static_cast<int>(std::ceil(number_in(table, row, "distance_rad") / step - SLACK))], table,
+            row, criterion);
+  PlotLine line{series.name, {}};
+  const bool at_the_end = step == 0.1;  // of its bin lies every start, else the middle stands for them
+  for (const auto& [bin, clusters] : bins) {
+    const std::vector<Cluster> list = as_list(clusters);
+    const Interval interval = bootstrap_interval(list);
+    line.points.push_back({step * (at_the_end ? bin : bin - 0.5), rate(list), interval.low, interval.high});
+  }
+  return line;
+}
+
+}  // namespace
+
+Criterion pose_criterion() {
+  return {"below 0.1 rad and 5 mm",
+          [](const Table& table, std::size_t row) { return text_in(table, row, "right") == "1"; }};
+}
+
+Criterion image_criterion() {
+  return {"MSPD < 10 px",
+          [](const Table& table, std::size_t row) { return number_in(table, row, "mspd_px") < 10; }};
+}
+
+int level_of(double distance_rad) {
+  constexpr double SLACK = 1e-6;
+  return std::clamp(static_cast<int>(std::ceil(distance_rad / LEVELS_RAD[0] - SLACK)), 1,
+                    static_cast<int>(std::size(LEVELS_RAD)));
+}
+
+LevelRates rates_of(const Table& table, const Series& series, const Criterion& criterion) {
+  Clusters levels[std::size(LEVELS_RAD)];
+  LevelRates rates;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    if (!series.has(table, row)) continue;
+    count(levels[level_of(number_in(table, row, "distance_rad")) - 1], table, row, criterion);
+    if (!text_in(table, row, "ms").empty()) rates.ms.push_back(number_in(table, row, "ms"));
+  }
+  for (std::size_t level = 0; level < std::size(LEVELS_RAD); ++level)
+    rates.clusters[level] = as_list(levels[level]);
+  return rates;
+}
+
+std::string rate_table(const Table& table, const std::vector<Series>& series, const Criterion& criterion) {
+  std::string text =
+      "| method | up to 0.1 rad, 5 mm | 0.2 / 10 | 0.3 / 15 | 0.4 / 20 | all | starts | ms (median) "
+      "|\n|---|---|---|---|---|---|---|---|\n";
+  for (const Series& one : series) {
+    const LevelRates rates = rates_of(table, one, criterion);
+    std::vector<Cluster> all;
+    text += "| " + one.name;
+    for (const std::vector<Cluster>& level : rates.clusters) {
+      text += " | " + (trials_of(level) > 0 ? percent(rate(level), bootstrap_interval(level)) : "");
+      all.insert(all.end(), level.begin(), level.end());
+    }
+    text += fmt::format(" | {} | {:.0f} | {} |\n", trials_of(all) > 0 ? percent(rate(all)) : "",
+                        trials_of(all), rates.ms.empty() ? "" : fmt::format("{:.1f}", median(rates.ms)));
+  }
+  return text;
+}
+
+Panel rate_panel(const std::string& title, const Table& table, const std::vector<Series>& series,
+                 const Criterion& criterion) {
+  Panel panel{title, "distance of the start, rad (0.1 rad with 5 mm)", "correct registrations", {}, 0, 1,
+              false};
+  const double step = step_rad(table);
+  for (const Series& one : series)
+    if (PlotLine line = line_of(one, table, criterion, step); !line.points.empty())
+      panel.lines.push_back(std::move(line));
+  return panel;
+}
+
+Table rows_where(const Table& table, const std::function<bool(const Table&, std::size_t row)>& fits) {
+  Table result{table.notes, table.columns, {}};
+  for (std::size_t row = 0; row < table.rows.size(); ++row)
+    if (fits(table, row)) result.rows.push_back(table.rows[row]);
+  return result;
+}
+
+std::vector<std::string> values_of(const Table& table, std::string_view column) {
+  std::vector<std::string> values;
+  std::set<std::string> known;
+  const std::size_t index = table.column(column);
+  for (const std::vector<std::string>& row : table.rows)
+    if (known.insert(row[index]).second) values.push_back(row[index]);
+  return values;
+}
+
+std::string percent(double rate) {
+  const bool is_whole = std::abs(100 * rate - std::round(100 * rate)) < 0.05;
+  return fmt::format("{:.{}f} %", 100 * rate, is_whole ? 0 : 1);
+}
+
+std::string percent(double rate, const Interval& interval) {
+  return fmt::format("{} [{:.0f}, {:.0f}]", percent(rate), 100 * interval.low, 100 * interval.high);
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  std::ranges::sort(values);
+  return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
+}
+
+double mean(const std::vector<double>& values) {
+  return values.empty()
+             ? 0
+             : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+}  // namespace edgescout

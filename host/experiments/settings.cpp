@@ -1,0 +1,79 @@
+#include "host/experiments/settings.h"
+
+#include <cmath>
+
+#include "host/core/random.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+constexpr int MOST_PARTS = 5, MOST_PARTS_IN_GROUP = 20, VIEWS_OF_GROUP = 3;
+
+void require(bool holds, const char* field, double found, const char* expected) {
+  if (!holds) throw InputError("experiments", field, number_text(found), expected);
+}
+
+// Every second image has a cluttered board, as "many images" of the paper do; how many parts there are and
+// how much they hide each other changes from scene to scene.
+RenderOptions options_of(const ExperimentSettings& settings, const char* dataset, int number,
+                         int most_parts) {
+  Random random = Random(settings.seed).split(dataset).split(static_cast<std::uint64_t>(number));
+  RenderOptions options;
+  options.seed = static_cast<unsigned>(random.bits() >> 33);
+  options.objects = 1 + random.below(most_parts);
+  options.clutter = number % 2;
+  options.pile = random.uniform(0, 0.8);
+  options.supersampling = settings.supersampling;
+  return options;
+}
+
+void set_camera(RenderOptions& options, int width, int height, double focal_px, double scale) {
+  options.width = static_cast<int>(std::lround(width * scale));
+  options.height = static_cast<int>(std::lround(height * scale));
+  options.focal_px = focal_px * scale;
+}
+
+}  // namespace
+
+ExperimentSettings ExperimentSettings::short_form() { return {}; }
+
+ExperimentSettings ExperimentSettings::full_form() {
+  ExperimentSettings settings;
+  settings.scenes = 60;
+  settings.groups = 30;
+  settings.starts = 20;
+  settings.group_starts = 4;
+  settings.every = 9;
+  settings.frames_every = 1;
+  return settings;
+}
+
+void ExperimentSettings::validate() const {
+  require(scenes >= 1 && scenes <= 10000, "scenes", scenes, "1 to 10000");
+  require(groups >= 1 && groups <= 10000, "groups", groups, "1 to 10000");
+  require(starts >= 1 && starts <= 1000, "starts", starts, "1 to 1000");
+  require(group_starts >= 1 && group_starts <= 1000, "group_starts", group_starts, "1 to 1000");
+  require(every >= 1, "every", every, "at least 1");
+  require(frames_every >= 1, "frames_every", frames_every, "at least 1");
+  require(candidates >= 1 && candidates <= 100000, "candidates", candidates, "1 to 100000");
+  require(image_scale >= 0.1 && image_scale <= 2, "image_scale", image_scale, "0.1 to 2");
+  require(supersampling % 2 == 1 && supersampling >= 1 && supersampling <= 7, "supersampling", supersampling,
+          "1, 3, 5 or 7");
+}
+
+RenderOptions single_image_options(const ExperimentSettings& settings, int scene) {
+  RenderOptions options = options_of(settings, "single images", scene, MOST_PARTS);
+  set_camera(options, 1024, 768, 1200, settings.image_scale);
+  return options;
+}
+
+RenderOptions image_group_options(const ExperimentSettings& settings, int group) {
+  RenderOptions options = options_of(settings, "image groups", group, MOST_PARTS_IN_GROUP);
+  options.views = VIEWS_OF_GROUP;
+  set_camera(options, 1920, 1200, 2200, settings.image_scale);
+  return options;
+}
+
+}  // namespace edgescout

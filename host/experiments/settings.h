@@ -1,0 +1,35 @@
+// How large the experiments are, and on what they run.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "host/experiments/table.h"
+#include "host/render/scene.h"
+
+namespace edgescout {
+
+struct ExperimentSettings {
+  std::filesystem::path data;  // folder with d2co-starts, brackets, cat; empty: rendered scenes alone
+  unsigned seed = 1;
+  int scenes = 4;          // images with up to five parts: detection and registration
+  int groups = 1;          // of three images with up to twenty parts: several views
+  int starts = 8;          // of the registration around every instance
+  int group_starts = 2;    // the same for the groups
+  int every = 54;          // of the recorded starts (d2co-starts) those whose number this divides
+  int frames_every = 4;    // of the cat's photographs one in so many is used
+  int candidates = 1260;   // of the detection, in every image and for every type
+  double image_scale = 1;  // of the paper's image sizes
+  int supersampling = 3;   // of the renderer; odd
+  bool times = true;       // off: columns of times stay empty, so that two runs give the same bytes
+  static ExperimentSettings short_form();  // minutes on two cores
+  static ExperimentSettings full_form();   // the paper's numbers of images; about an hour on two cores
+  void validate() const;                   // InputError naming the field and the violated bound
+};
+
+// Dataset 1: up to five parts in an image; Dataset 2: up to twenty in three (paper, Sec. 6). At the paper's
+// sizes times `image_scale`.
+RenderOptions single_image_options(const ExperimentSettings& settings, int scene);
+RenderOptions image_group_options(const ExperimentSettings& settings, int group);
+
+}  // namespace edgescout

@@ -1,0 +1,135 @@
+#include "host/experiments/trials.h"
+
+#include <time.h>
+
+#include <chrono>
+#include <map>
+#include <set>
+
+#include "host/baselines/baseline.h"
+#include "host/core/random.h"
+#include "host/eval/metrics.h"
+#include "host/register/refine.h"
+
+namespace edgescout {
+
+namespace {
+
+// On a CPU the thread's own time: other work on the machine does not count. On a device the time that passes.
+double seconds_now(const Backend& backend) {
+  if (backend.is_gpu())
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+Registrar edgescout_itself(std::span<const EdgeModel> models, std::span<const RegisterView> views,
+                           Backend& backend) {
+  return [models, views, &backend](std::span<const Hypothesis> starts) {
+    const RefineOptions defaults;
+    std::vector<Registration> registrations;
+    for (const Refined& refined : refine_poses(models, starts, views, backend, defaults))
+      registrations.push_back(refined.registration);
+    return registrations;
+  };
+}
+
+struct TimedPoses {
+  std::vector<Se3> camera_from_object;  // one a start, in the first image
+  double ms = 0;                        // of one
+};
+
+// All starts of one call have one type, so that every method works on batches alike.
+TimedPoses run_trial(const Trial& trial, const KnownScene& scene, const std::vector<Start>& starts,
+                     std::span<const EdgeModel> models, std::span<const RegisterView> views,
+                     Backend& backend) {
+  const Registrar registrar = trial.method == "edgescout"
+                                  ? edgescout_itself(models, views, backend)
+                                  : prepare_method(method_from(trial.method), models, views, backend);
+  const Se3& camera_from_world = scene.images[0].camera_from_world;
+  std::vector<Hypothesis> hypotheses;
+  for (const Start& start : starts)
+    hypotheses.push_back(
+        {scene.instances[start.instance].object, inverse(camera_from_world) * start.camera_from_object});
+  const double begin = seconds_now(backend);
+  const std::vector<Registration> registrations = registrar(hypotheses);
+  TimedPoses result;
+  result.ms = 1000 * (seconds_now(backend) - begin) / static_cast<double>(starts.size());
+  for (const Registration& registration : registrations)
+    result.camera_from_object.push_back(camera_from_world * registration.world_from_object);
+  return result;
+}
+
+std::vector<std::string> row_of(const KnownScene& scene, const Start& start, const Trial& trial,
+                                const Se3& pose, const std::string& ms) {
+  const KnownInstance& instance = scene.instances[start.instance];
+  const Object& object = scene.objects[instance.object];
+  const Se3 truth = scene.images[0].camera_from_world * instance.world_from_object;
+  const PoseError error = pose_error(pose, truth, object.symmetries);
+  return {scene.set,
+          scene.name,
+          object.mesh.name,
+          instance.name,
+          std::to_string(start.number),
+          number_text(start.distance_rad),
+          number_text(instance.visible),
+          trial.method,
+          std::to_string(trial.views),
+          number_text(error.angle_rad),
+          number_text(1000 * error.distance_m),
+          number_text(mspd_px(pose, truth, object, scene.images[0].camera)),
+          error.passes() ? "1" : "0",
+          ms};
+}
+
+std::vector<std::vector<Start>> by_object(const KnownScene& scene, const std::vector<Start>& starts) {
+  std::vector<std::vector<Start>> groups(scene.objects.size());
+  for (const Start& start : starts) groups[scene.instances[start.instance].object].push_back(start);
+  std::erase_if(groups, [](const std::vector<Start>& group) { return group.empty(); });
+  return groups;
+}
+
+}  // namespace
+
+std::vector<Start> starts_around(const KnownScene& scene, int count, unsigned seed) {
+  std::vector<Start> starts;
+  const Random scene_random = Random(seed).split(scene.set).split(scene.name);
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    Random random = scene_random.split(scene.instances[i].name);
+    const Se3 truth = scene.images[0].camera_from_world * scene.instances[i].world_from_object;
+    for (int k = 0; k < count; ++k) {
+      const double distance_rad = FARTHEST_START_RAD * (k + 1 - random.uniform()) / count;
+      Vector6d offset;
+      offset << METRES_PER_RADIAN * distance_rad * random.direction(), distance_rad * random.direction();
+      starts.push_back(
+          {static_cast<int>(starts.size()), static_cast<int>(i), distance_rad, retract(truth, offset)});
+    }
+  }
+  return starts;
+}
+
+std::vector<std::string> trial_columns() {
+  return {"set",    "image", "object",    "instance",    "start",   "distance_rad", "visible",
+          "method", "views", "angle_rad", "distance_mm", "mspd_px", "right",        "ms"};
+}
+
+Table run_trials(const KnownScene& scene, const std::vector<Start>& starts, const std::vector<Trial>& trials,
+                 const ExperimentSettings& settings, Backend& backend) {
+  std::vector<EdgeModel> models;
+  for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
+  const std::vector<RegisterView> views = register_views(scene, backend);
+  Table table{{}, trial_columns(), {}};
+  for (const std::vector<Start>& group : by_object(scene, starts))
+    for (const Trial& trial : trials) {
+      if (trial.views > static_cast<int>(views.size())) continue;
+      const TimedPoses poses =
+          run_trial(trial, scene, group, models, std::span(views).first(trial.views), backend);
+      for (std::size_t i = 0; i < group.size(); ++i)
+        table.rows.push_back(row_of(scene, group[i], trial, poses.camera_from_object[i],
+                                    settings.times ? number_text(poses.ms) : ""));
+    }
+  return table;
+}
+
+}  // namespace edgescout

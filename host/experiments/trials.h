@@ -1,0 +1,42 @@
+// Registrations from starts of known distance, by every method on the same views: the work of experiments 2
+// and 3.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/experiments/known_scene.h"
+#include "host/experiments/settings.h"
+
+namespace edgescout {
+
+// A start and how far from the truth it lies; 0.1 rad go with 5 mm, as in the paper's criterion.
+struct Start {
+  int number = 0;
+  int instance = 0;
+  double distance_rad = 0;
+  Se3 camera_from_object;  // in the first image
+};
+
+inline constexpr double METRES_PER_RADIAN = 0.05;  // of a start: 5 mm go with 0.1 rad
+inline constexpr double FARTHEST_START_RAD = 0.4;
+
+// `count` starts around every instance of the first image: random directions of turn and shift, distances
+// spread evenly over (0, FARTHEST_START_RAD].
+std::vector<Start> starts_around(const KnownScene& scene, int count, unsigned seed);
+
+// A method and how many of the scene's views it uses. "edgescout" is refine_poses at its defaults; the others
+// are those of host/baselines.
+struct Trial {
+  std::string method;
+  int views = 1;
+};
+
+// Columns: set, image, object, instance, start, distance_rad, visible, method, views, angle_rad, distance_mm,
+// mspd_px, right (1: below 0.1 rad and 5 mm modulo symmetry), ms (of one registration, mean over its batch,
+// tensors not included). Trials of more views than the scene has are left out.
+std::vector<std::string> trial_columns();
+Table run_trials(const KnownScene& scene, const std::vector<Start>& starts, const std::vector<Trial>& trials,
+                 const ExperimentSettings& settings, Backend& backend);
+
+}  // namespace edgescout
