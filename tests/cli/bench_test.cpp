@@ -1,0 +1,200 @@
+// edgescout bench experiments as a user runs it: stopped and taken up again, with what it cannot use, and
+// with a disk that is full.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "host/experiments/table.h"
+#include "kernels/backend.h"
+#include "tests/cli/program.h"
+#include "tests/experiments/well_formed.h"
+
+namespace edgescout::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Images of a quarter of the paper's size, two starts, few candidates.
+std::vector<std::string> experiments(const fs::path& out, const std::vector<std::string>& more = {},
+                                     int scenes = 3, int starts = 2) {
+  std::vector<std::string> arguments{
+      "bench",    "experiments",          "--out",    out,        "--image-scale",
+      "0.25",     "--supersampling",      "1",        "--scenes", std::to_string(scenes),
+      "--starts", std::to_string(starts), "--groups", "1",        "--group-starts",
+      "1",        "--candidates",         "60"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+std::map<std::string, std::string> files_in(const fs::path& folder) {
+  std::map<std::string, std::string> contents;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) contents[fs::relative(entry.path(), folder)] = content_of(entry.path());
+  return contents;
+}
+
+void expect_one_line(const Outcome& outcome, std::initializer_list<std::string> words) {
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+  const std::string last = outcome.err.substr(outcome.err.rfind("edgescout: error: "));
+  EXPECT_TRUE(is_one_line_error(last)) << outcome.err;
+  for (const std::string& word : words)
+    EXPECT_NE(last.find(word), std::string::npos) << word << " not in " << last;
+}
+
+TEST(BenchExperiments, WritesRowsTablesAndPlots) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  const Outcome outcome = run_program(experiments(out, {"--seed", "5"}));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("registration: 3/3"), std::string::npos) << outcome.err;
+  const std::string index = content_of(out / "index.md");
+  for (const std::string name : {"detection", "registration", "multiview"}) {
+    const Table rows = load_table(out / (name + ".csv"));
+    EXPECT_GT(rows.rows.size(), 10u) << name;
+    EXPECT_EQ(rows.notes[1], (std::pair<std::string, std::string>{"seed", "5"}));
+    EXPECT_EQ(rows.notes[2], (std::pair<std::string, std::string>{"device", "cpu"}));
+    EXPECT_EQ(rows.notes.back().first, "commit");
+    const std::string text = content_of(out / (name + ".md"));
+    EXPECT_NE(text.find("seed 5; device cpu; "), std::string::npos) << text;
+    EXPECT_NE(text.find("|---|"), std::string::npos);
+    EXPECT_EQ(fault_of_xml(content_of(out / (name + ".svg"))), "");
+    EXPECT_NE(index.find(name + ".md"), std::string::npos);
+  }
+  std::size_t rows = 0;
+  for (const auto& [file, content] : files_in(out / "cells/registration"))
+    rows += table_from_csv(content, file).rows.size();
+  EXPECT_EQ(load_table(out / "registration.csv").rows.size(), rows);
+}
+
+TEST(BenchExperiments, KilledAndResumedGiveTheSameBytes) {
+  const TemporaryFolder folder;
+  const fs::path whole = folder.path() / "whole", cut = folder.path() / "cut";
+  const std::vector<std::string> more{"registration", "--no-times"};
+  ASSERT_EQ(run_program(experiments(whole, more, 6)).exit_code, 0);
+  const pid_t child = start_program(experiments(cut, more, 6));
+  ASSERT_GT(child, 0);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  const auto finished = [&] { return fs::exists(cut / "cells") ? files_in(cut / "cells").size() : 0; };
+  while (finished() == 0 && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ::kill(child, SIGKILL);
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status)) << "it had ended before";
+  std::map<std::string, std::string> left = files_in(cut);
+  std::erase_if(left, [](const auto& file) { return file.first.find(".part") != std::string::npos; });
+  ASSERT_GE(left.size(), 1u);
+  ASSERT_LT(left.size(), 6u);
+  const std::map<std::string, std::string> expected = files_in(whole);
+  for (const auto& [file, content] : left) EXPECT_EQ(content, expected.at(file)) << file;
+
+  std::vector<std::string> again = experiments(cut, more, 6);
+  again.push_back("--resume");
+  const Outcome outcome = run_program(again);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::map<std::string, std::string> files = files_in(cut);
+  std::erase_if(files, [](const auto& file) { return file.first.find(".part") != std::string::npos; });
+  EXPECT_EQ(files, expected);
+}
+
+TEST(BenchExperiments, OfAnUnknownNameListTheKnownOnes) {
+  const TemporaryFolder folder;
+  expect_one_line(run_program(experiments(folder.path() / "out", {"registratoin"})),
+                  {"found registratoin", "detection, registration, multiview"});
+  EXPECT_FALSE(fs::exists(folder.path() / "out"));
+}
+
+TEST(BenchExperiments, NameWhatIsMissingOfTheData) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out", data = folder.path() / "data";
+  expect_one_line(run_program(experiments(out, {"registration", "--data", data})),
+                  {(data / "d2co-starts/ground_truth.json").string()});
+  folder.write("data/d2co-starts/ground_truth.json", "{}");
+  folder.write("data/d2co-starts/starts.csv", "start_id,image,object_id,level,r00,tz\n");
+  expect_one_line(run_program(experiments(out, {"registration", "--data", data})),
+                  {(data / "brackets/000001/scene_camera.json").string()});
+}
+
+TEST(BenchExperiments, OfOtherSettingsAreNotMixed) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  ASSERT_EQ(run_program(experiments(out, {"registration"})).exit_code, 0);
+  const auto before = files_in(out);
+  expect_one_line(run_program(experiments(out, {"registration"})), {"scene_000.csv", "--resume"});
+  expect_one_line(run_program(experiments(out, {"registration", "--resume", "--seed", "2"})),
+                  {"scene_000.csv", "seed", "found 1", "expected 2"});
+  expect_one_line(run_program(experiments(out, {"registration", "--resume"}, 3, 3)),
+                  {"scene_000.csv", "starts", "found 2", "expected 3"});
+  EXPECT_EQ(files_in(out), before);
+}
+
+TEST(BenchExperiments, OnAFullDiskKeepWhatIsFinished) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  // Cells are of a few KiB, the table of all rows is larger than 12; the shell counts in blocks of 512 bytes.
+  const std::vector<std::string> arguments = experiments(out, {"registration"}, 8);
+  const Outcome outcome = run_program(arguments, "ulimit -f 24;");
+  expect_one_line(outcome, {"registration.csv", "File too large"});
+  EXPECT_EQ(files_in(out / "cells").size(), 8u);
+  std::vector<std::string> again = arguments;
+  again.push_back("--resume");
+  EXPECT_EQ(run_program(again).exit_code, 0);
+  EXPECT_GT(fs::file_size(out / "registration.csv"), 12u * 1024);
+}
+
+TEST(BenchExperiments, RefuseSizesOutOfBounds) {
+  const TemporaryFolder folder;
+  expect_one_line(run_program(experiments(folder.path() / "out", {"--short", "--full"})),
+                  {"--short, --full", "one of the two"});
+  expect_one_line(run_program({"bench", "experiments", "--out", folder.path() / "out", "--candidates", "0"}),
+                  {"--candidates", "found 0"});
+  expect_one_line(
+      run_program({"bench", "experiments", "--out", folder.path() / "out", "--supersampling", "2"}),
+      {"supersampling", "found 2", "1, 3, 5 or 7"});
+}
+
+TEST(BenchDevices, TimesEveryStageBesideTheCpu) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  const Outcome outcome = run_program(
+      {"bench", "devices", "--out", out, "--image-scale", "0.25", "--repetitions", "3", "--no-kernels"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const nlohmann::json json = nlohmann::json::parse(content_of(out / "devices.json"));
+  EXPECT_EQ(json.at("devices").size(), 1 + vulkan_devices().size());
+  for (const nlohmann::json& device : json.at("devices")) {
+    std::vector<std::string> stages;
+    double parts_ms = 0, whole_ms = 0;
+    for (const nlohmann::json& stage : device.at("stages")) {
+      stages.push_back(stage.at("stage"));
+      (stages.back() == "image to poses" ? whole_ms : parts_ms) += stage.at("median_ms").get<double>();
+      EXPECT_EQ(stage.at("repetitions"), 3);
+      EXPECT_LE(stage.at("min_ms"), stage.at("median_ms"));
+      EXPECT_LE(stage.at("median_ms"), stage.at("max_ms"));
+    }
+    EXPECT_EQ(stages, (std::vector<std::string>{"edges", "tensors", "scan", "registration", "scoring",
+                                                "image to poses"}));
+    EXPECT_GT(parts_ms, 0);
+    EXPECT_NEAR(device.at("images_per_second").get<double>() * whole_ms, 1000, 1);
+  }
+  EXPECT_EQ(json.at("devices").at(0).at("device"), "cpu");
+  EXPECT_EQ(content_of(out / "devices.md"), outcome.out);
+  for (const DeviceInfo& device : vulkan_devices())
+    if (!device.hardware) {
+      EXPECT_NE(outcome.out.find("is a software device"), std::string::npos) << outcome.out;
+    }
+}
+
+TEST(BenchDevices, RefuseADeviceThatIsNotThere) {
+  const TemporaryFolder folder;
+  expect_one_line(run_program({"bench", "devices", "--out", folder.path() / "out", "--device", "vulkan:99"}),
+                  {"vulkan:99"});
+  expect_one_line(run_program({"bench", "devices", "--out", folder.path() / "out", "--repetitions", "2"}),
+                  {"--repetitions", "3 to 1000"});
+}
+
+}  // namespace
+}  // namespace edgescout::test

@@ -1,0 +1,73 @@
+#include "host/eval/intervals.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace edgescout {
+namespace {
+
+TEST(Wilson, AgreesWithTheTextbook) {
+  // 8 of 10 at z = 1.96, worked out by hand: centre (0.8 + 0.19208) / 1.38416, half width
+  // sqrt(0.16 * 0.38416 + 0.0368947) / 1.38416.
+  const Interval interval = wilson_interval(8, 10);
+  EXPECT_NEAR(interval.low, 0.49016, 1e-5);
+  EXPECT_NEAR(interval.high, 0.94332, 1e-5);
+}
+
+TEST(Wilson, StaysInsideAtTheEnds) {
+  // None of 10: the upper end is z^2 / (n + z^2).
+  EXPECT_EQ(wilson_interval(0, 10).low, 0);
+  EXPECT_NEAR(wilson_interval(0, 10).high, 3.8416 / 13.8416, 1e-12);
+  EXPECT_EQ(wilson_interval(10, 10).high, 1);
+  EXPECT_NEAR(wilson_interval(10, 10).low, 10 / 13.8416, 1e-12);
+}
+
+TEST(Wilson, OfNothingSaysNothing) {
+  EXPECT_EQ(wilson_interval(0, 0).low, 0);
+  EXPECT_EQ(wilson_interval(0, 0).high, 1);
+}
+
+TEST(Rate, WeighsClustersByTheirTrials) {
+  const std::vector<Cluster> clusters{{1, 1}, {0, 3}};
+  EXPECT_DOUBLE_EQ(rate(clusters), 0.25);
+  EXPECT_EQ(rate({}), 0);
+}
+
+TEST(Bootstrap, OfClustersThatAgreeIsAPoint) {
+  const std::vector<Cluster> clusters(7, {3, 4});
+  EXPECT_DOUBLE_EQ(bootstrap_interval(clusters).low, 0.75);
+  EXPECT_DOUBLE_EQ(bootstrap_interval(clusters).high, 0.75);
+}
+
+TEST(Bootstrap, OfTwoClustersKnowsItsFourDraws) {
+  // Rates 0, 1/2, 1/2, 1 with a quarter each: 2.5 % and 97.5 % fall on 0 and 1.
+  const std::vector<Cluster> clusters{{0, 1}, {1, 1}};
+  EXPECT_EQ(bootstrap_interval(clusters).low, 0);
+  EXPECT_EQ(bootstrap_interval(clusters).high, 1);
+}
+
+// 40 clusters of one trial each are independent trials: the bootstrap's spread is that of the binomial
+// distribution.
+TEST(Bootstrap, OfIndependentTrialsIsTheBinomialSpread) {
+  std::vector<Cluster> clusters;
+  for (int i = 0; i < 40; ++i) clusters.push_back({i < 20 ? 1.0 : 0.0, 1});
+  const Interval interval = bootstrap_interval(clusters, 4000);
+  const double half = 1.96 * 0.07905694;  // sqrt(0.25 / 40)
+  EXPECT_NEAR(interval.low, 0.5 - half, 0.03);
+  EXPECT_NEAR(interval.high, 0.5 + half, 0.03);
+}
+
+TEST(Bootstrap, RepeatsItself) {
+  const std::vector<Cluster> clusters{{0, 2}, {1, 3}, {4, 4}, {2, 5}};
+  EXPECT_EQ(bootstrap_interval(clusters).low, bootstrap_interval(clusters).low);
+  EXPECT_EQ(bootstrap_interval(clusters).high, bootstrap_interval(clusters).high);
+}
+
+TEST(Bootstrap, OfOneClusterFallsBackToWilson) {
+  const std::vector<Cluster> clusters{{8, 10}};
+  EXPECT_DOUBLE_EQ(bootstrap_interval(clusters).low, wilson_interval(8, 10).low);
+}
+
+}  // namespace
+}  // namespace edgescout

@@ -1,0 +1,109 @@
+// The comparison of devices: what is worked out from the times, and what is warned of.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "host/experiments/devices.h"
+#include "kernels/error.h"
+
+namespace edgescout::test {
+namespace {
+
+DevicesReport report() {
+  DevicesReport report;
+  report.load = {4, 0.5, 0.97};
+  report.warnings = {"something is odd"};
+  report.width = 1024;
+  report.height = 768;
+  report.instances = 5;
+  report.poses = 40;
+  report.commit = "abc";
+  DeviceTimes cpu, card;
+  cpu.name = "cpu";
+  cpu.stages = {{"edges", {4, 2, 3}}, {"image to poses", {400, 500, 800}}};
+  cpu.peak_host_bytes = 300u << 20;
+  card.name = "vulkan:0 card";
+  card.driver = "driver 1";
+  card.stages = {{"edges", {1, 1.5, 2}}, {"image to poses", {100, 50, 40}}};
+  card.peak_device_bytes = 64u << 20;
+  card.copy_bytes_per_s = 2e9;
+  // 4 MB at 2 GB/s take 2 ms; the kernel took 5.
+  card.kernels = {{"dcd_tensor", "64x48", 3, 5, 4, 6, 4000000, {}}};
+  report.devices = {cpu, card};
+  return report;
+}
+
+TEST(DevicesReport, AsJsonHasMediansRatiosAndFloors) {
+  const nlohmann::json json = nlohmann::json::parse(devices_json(report()));
+  EXPECT_EQ(json.at("commit"), "abc");
+  EXPECT_EQ(json.at("warnings").at(0), "something is odd");
+  const nlohmann::json& cpu = json.at("devices").at(0);
+  const nlohmann::json& card = json.at("devices").at(1);
+  EXPECT_EQ(cpu.at("stages").at(0).at("median_ms"), 3);
+  EXPECT_EQ(cpu.at("stages").at(0).at("min_ms"), 2);
+  EXPECT_EQ(cpu.at("stages").at(0).at("max_ms"), 4);
+  EXPECT_EQ(cpu.at("images_per_second"), 2);
+  EXPECT_EQ(card.at("stages").at(0).at("times_cpu"), 0.5);
+  EXPECT_EQ(card.at("stages").at(1).at("times_cpu"), 0.1);
+  EXPECT_EQ(card.at("images_per_second"), 20);
+  EXPECT_EQ(card.at("kernels").at(0).at("floor_ms"), 2);
+  EXPECT_EQ(card.at("kernels").at(0).at("times_floor"), 2.5);
+  EXPECT_FALSE(cpu.contains("kernels"));
+}
+
+TEST(DevicesReport, AsMarkdownHasARowAStageADeviceAndAKernel) {
+  const std::string text = devices_markdown(report());
+  for (const char* row :
+       {"| edges | 3.0 (2.0 to 4.0) | 1.00 | 1.5 (1.0 to 2.0) | 0.50 |",
+        "| image to poses | 500.0 (400.0 to 800.0) | 1.00 | 50.0 (40.0 to 100.0) | 0.10 |",
+        "| cpu |  | 2.00 | 300 | 0 |  |", "| vulkan:0 card | driver 1 | 20.00 | 0 | 64 | 2.0 |",
+        "| dcd_tensor | 64x48 | 5.000 | 2.000 | 2.5 |", "**Warning:** something is odd"})
+    EXPECT_NE(text.find(row), std::string::npos) << row << " not in\n" << text;
+}
+
+TEST(MachineLoad, IsWarnedOfWhereItSpoilsTimes) {
+  EXPECT_TRUE(warnings_of({8, 1.9, 0.95}).empty());
+  ASSERT_EQ(warnings_of({8, 2.1, 0.95}).size(), 1u);
+  EXPECT_NE(warnings_of({8, 2.1, 0.95})[0].find("load average 2.10 on 8 threads"), std::string::npos);
+  ASSERT_EQ(warnings_of({8, -1, 0.5}).size(), 1u) << "no load average is no warning";
+  EXPECT_NE(warnings_of({8, -1, 0.5})[0].find("50 %"), std::string::npos);
+  EXPECT_EQ(warnings_of({2, 3, 0.5}).size(), 2u);
+}
+
+TEST(MachineLoad, OfThisMachineIsAShare) {
+  const MachineLoad load = machine_load();
+  EXPECT_GE(load.threads, 1);
+  EXPECT_GT(load.share, 0);
+  EXPECT_LE(load.share, 1.01);
+}
+
+TEST(PeakMemory, GrowsByWhatIsTouchedAndIsForgotten) {
+  constexpr std::size_t SIZE = std::size_t{200} << 20;
+  const bool forgets = forget_peak_memory();
+  const std::size_t before = peak_memory_bytes();
+  if (!forgets || before == 0) GTEST_SKIP() << "the system does not tell";
+  {
+    std::vector<char> block(SIZE);
+    std::memset(block.data(), 1, block.size());
+    EXPECT_EQ(block[SIZE / 2], 1);
+  }
+  const std::size_t grown = peak_memory_bytes() - before;
+  EXPECT_GT(grown, SIZE - (SIZE >> 4));
+  EXPECT_LT(grown, SIZE + (SIZE >> 2));
+  forget_peak_memory();
+  EXPECT_LT(peak_memory_bytes(), before + SIZE / 2);
+}
+
+TEST(DevicesOptions, NameWhatIsOutOfBounds) {
+  DevicesOptions options;
+  options.repetitions = 2;
+  EXPECT_THROW(options.validate(), InputError);
+  options = {};
+  options.image_scale = 0;
+  EXPECT_THROW(options.validate(), InputError);
+}
+
+}  // namespace
+}  // namespace edgescout::test

@@ -1,0 +1,87 @@
+// The set d2co-starts, where EDGESCOUT_DATA names the folder it lies in: other people's poses, judged by our
+// metrics.
+#include "host/experiments/recorded_starts.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "host/eval/metrics.h"
+#include "tests/io/expect_input_error.h"
+#include "tests/io/temporary_folder.h"
+
+namespace edgescout::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RecordedStarts : public testing::Test {
+ protected:
+  void SetUp() override {
+    const char* data = std::getenv("EDGESCOUT_DATA");
+    if (!data || !fs::exists(fs::path(data) / "d2co-starts"))
+      GTEST_SKIP() << "EDGESCOUT_DATA names no folder with d2co-starts";
+    folder = fs::path(data) / "d2co-starts";
+  }
+  fs::path folder;
+};
+
+// The published files say of every final pose whether its authors counted it as right.
+TEST_F(RecordedStarts, OriginalResultsAreJudgedAsPublished) {
+  std::map<std::string, KnownScene> scenes;
+  int files = 0, poses = 0, right = 0;
+  for (const fs::directory_entry& file : fs::directory_iterator(folder / "original_results")) {
+    ++files;
+    for (const RecordedResult& result : recorded_results(file.path())) {
+      if (!scenes.contains(result.image)) scenes[result.image] = recorded_scene(folder, result.image, 0);
+      const KnownScene& scene = scenes.at(result.image);
+      const auto instance = std::ranges::find(scene.instances, result.instance, &KnownInstance::name);
+      ASSERT_NE(instance, scene.instances.end()) << result.instance;
+      const Se3 truth = scene.images[0].camera_from_world * instance->world_from_object;
+      EXPECT_EQ(pose_error(result.camera_from_object, truth, {}).passes(), result.is_right)
+          << file.path() << ": start " << result.start << ", " << result.method;
+      ++poses;
+      right += result.is_right;
+    }
+  }
+  EXPECT_GE(files, 8);
+  EXPECT_GT(poses, 6000);
+  EXPECT_GT(right, 2000);
+}
+
+// What starts.csv says of a start's level is how far it lies from the truth.
+TEST_F(RecordedStarts, LieAsFarFromTheTruthAsTheirLevelSays) {
+  int count = 0;
+  for (const std::string& image : recorded_images(folder)) {
+    const KnownScene scene = recorded_scene(folder, image, 0);
+    for (const RecordedStart& start : recorded_starts(folder, scene, 1)) {
+      const Se3 truth = scene.images[0].camera_from_world * scene.instances[start.instance].world_from_object;
+      EXPECT_NEAR(angle_between_rad(start.camera_from_object, truth), 0.1 * start.level, 1e-5);
+      EXPECT_NEAR(distance_between_m(start.camera_from_object, truth), 0.005 * start.level, 1e-7);
+      ++count;
+    }
+  }
+  EXPECT_EQ(count, 1500);
+}
+
+TEST_F(RecordedStarts, OfOneSceneInThreeViewsBelongTogether) {
+  EXPECT_EQ(other_views(folder, "m00_v0"), 2);
+  EXPECT_EQ(other_views(folder, "s00"), 0);
+  const KnownScene scene = recorded_scene(folder, "m00_v0", 2);
+  EXPECT_EQ(scene.images.size(), 3u);
+  EXPECT_EQ(recorded_scene(folder, "m00_v0", 0).instances.size(), scene.instances.size());
+}
+
+TEST(RecordedStartsMissing, AreNamed) {
+  const TemporaryFolder folder;
+  expect_input_error([&] { recorded_images(folder.path()); }, {"ground_truth.json"});
+  folder.write("ground_truth.json", "{}");
+  expect_input_error([&] { recorded_images(folder.path()); }, {"starts.csv"});
+  folder.write("starts.csv", "start_id,image\n0,s00\n");
+  expect_input_error([&] { recorded_images(folder.path()); }, {"starts.csv", "object_id"});
+  folder.write("starts.csv", "start_id,image,object_id,level,r00,tz\n0,s00,a,1,1,1\n");
+  expect_input_error([&] { recorded_images(folder.path()); }, {"s00.png"});
+}
+
+}  // namespace
+}  // namespace edgescout::test

@@ -1,0 +1,126 @@
+// Starts around known poses, and what the methods make of them on a rendered image.
+#include "host/experiments/trials.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "host/eval/metrics.h"
+#include "host/experiments/pose_candidates.h"
+
+namespace edgescout::test {
+namespace {
+
+ExperimentSettings small_settings() {
+  ExperimentSettings settings;
+  settings.image_scale = 0.5;
+  settings.supersampling = 1;
+  return settings;
+}
+
+// Two bearing blocks and a bracket as nobody rendered them: for what needs poses alone.
+KnownScene empty_scene() {
+  KnownScene scene;
+  scene.set = "made";
+  scene.name = "up";
+  const std::vector<Object> types = rendered_types();
+  scene.objects = {types[0], types[1]};
+  scene.images = {{{}, {640, 480, 800, 800, 319.5, 239.5, {}}, {so3_exp({0.2, 0, 0}), {0, 0, 0.5}}}};
+  scene.instances = {{"a", 0, {so3_exp({0, 0.3, 1}), {0.03, 0, 0}}, 1},
+                     {"b", 0, {so3_exp({1, 0.3, 0}), {-0.05, 0.02, 0}}, 1},
+                     {"c", 1, {Eigen::Quaterniond::Identity(), {0, -0.04, 0.01}}, 1}};
+  return scene;
+}
+
+TEST(Starts, LieAsFarAsTheySay) {
+  const KnownScene scene = empty_scene();
+  const std::vector<Start> starts = starts_around(scene, 40, 1);
+  ASSERT_EQ(starts.size(), 120u);
+  std::map<int, int> by_level;
+  for (const Start& start : starts) {
+    const Se3 truth = scene.images[0].camera_from_world * scene.instances[start.instance].world_from_object;
+    EXPECT_NEAR(angle_between_rad(start.camera_from_object, truth), start.distance_rad, 1e-6);
+    EXPECT_NEAR(distance_between_m(start.camera_from_object, truth), METRES_PER_RADIAN * start.distance_rad,
+                1e-9);
+    ++by_level[static_cast<int>(start.distance_rad / 0.1)];
+  }
+  EXPECT_EQ(by_level, (std::map<int, int>{{0, 30}, {1, 30}, {2, 30}, {3, 30}}))
+      << "spread evenly over the distances";
+}
+
+TEST(Starts, DependOnTheSeedAlone) {
+  const KnownScene scene = empty_scene();
+  const auto at = [&](unsigned seed) {
+    return starts_around(scene, 3, seed)[4].camera_from_object.translation_m;
+  };
+  EXPECT_EQ(at(1), at(1));
+  EXPECT_NE(at(1), at(2));
+}
+
+TEST(Candidates, HaveAShareAroundEveryInstance) {
+  const KnownScene scene = empty_scene();
+  const std::vector<PoseCandidate> candidates = pose_candidates(scene, 0, 300, 1);
+  ASSERT_EQ(candidates.size(), 300u);
+  std::map<int, int> of_instance;
+  for (const PoseCandidate& candidate : candidates) {
+    ++of_instance[candidate.instance];
+    int expected = -1;
+    for (int i : {0, 1})
+      if (const Se3 truth = scene.images[0].camera_from_world * scene.instances[i].world_from_object;
+          pose_error(candidate.camera_from_object, truth, scene.objects[0].symmetries).passes(0.2, 0.01))
+        expected = i;
+    EXPECT_EQ(candidate.instance, expected);
+    const Eigen::Vector2d at = project(scene.images[0].camera, candidate.camera_from_object.translation_m);
+    EXPECT_TRUE(candidate.camera_from_object.translation_m.z() > 0 && at.x() >= 0 && at.x() < 640 &&
+                at.y() >= 0 && at.y() < 480);
+  }
+  EXPECT_EQ(of_instance[0], 20);
+  EXPECT_EQ(of_instance[1], 20);
+  EXPECT_EQ(of_instance[-1], 260);
+}
+
+TEST(Candidates, AreAsManyAsAskedForWhereThereIsRoomForFew) {
+  EXPECT_EQ(pose_candidates(empty_scene(), 0, 5, 1).size(), 5u);
+}
+
+// From up to 0.1 rad and 5 mm on a bare board every registration ends right, and the rows say so.
+TEST(Trials, RowsSayWhatThePosesAre) {
+  const ExperimentSettings settings = small_settings();
+  RenderOptions options = single_image_options(settings, 0);
+  options.objects = 2;
+  options.pile = 0;
+  options.clutter = 0;
+  const std::unique_ptr<Backend> backend = make_cpu_backend(1);
+  const KnownScene scene = rendered_scene("bare", rendered_types(), options, backend->threads());
+  ASSERT_EQ(scene.instances.size(), 2u);
+  std::vector<Start> starts = starts_around(scene, 8, 3);
+  std::erase_if(starts, [](const Start& start) { return start.distance_rad > 0.1; });
+  ASSERT_EQ(starts.size(), 4u);
+  const Table table =
+      run_trials(scene, starts, {{"edgescout", 1}, {"d2co", 1}, {"edgescout", 3}}, settings, *backend);
+  EXPECT_EQ(table.rows.size(), 8u) << "three views are not there";
+  int right = 0;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const bool is_right =
+        number_in(table, row, "angle_rad") < 0.1 && number_in(table, row, "distance_mm") < 5;
+    EXPECT_EQ(text_in(table, row, "right"), is_right ? "1" : "0");
+    EXPECT_GT(number_in(table, row, "ms"), 0);
+    right += is_right && text_in(table, row, "method") == "edgescout";
+  }
+  EXPECT_EQ(right, 4);
+}
+
+TEST(Trials, LeaveTimesOutWhereNobodyWantsThem) {
+  ExperimentSettings settings = small_settings();
+  settings.times = false;
+  RenderOptions options = single_image_options(settings, 0);
+  options.objects = 1;
+  const std::unique_ptr<Backend> backend = make_cpu_backend(1);
+  const KnownScene scene = rendered_scene("one", rendered_types(), options, backend->threads());
+  const Table table = run_trials(scene, starts_around(scene, 1, 1), {{"d2co", 1}}, settings, *backend);
+  ASSERT_FALSE(table.rows.empty());
+  EXPECT_EQ(text_in(table, 0, "ms"), "");
+}
+
+}  // namespace
+}  // namespace edgescout::test
