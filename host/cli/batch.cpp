@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <future>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
 #include "host/cli/progress.h"
 #include "host/core/log.h"
@@ -98,8 +98,6 @@ ImageResult result_of(const InputImage& input, const PreparedImage& prepared, co
   return result;
 }
 
-std::filesystem::path json_of(const BatchOptions& options, const InputImage& input) { return options.out / (input.name + ".json"); }
-
 void write_overlay(const InputImage& input, const PreparedImage& prepared, const Detections& found, std::span<const EdgeModel> models, Backend& backend,
                    const BatchOptions& options) {
   std::vector<OverlayPose> poses;
@@ -110,41 +108,7 @@ void write_overlay(const InputImage& input, const PreparedImage& prepared, const
 }
 
 bool is_done(const Group& group, const BatchOptions& options) {
-  for (const InputImage* input : group.images) {
-    const std::filesystem::path file = json_of(options, *input);
-    if (!std::filesystem::exists(file)) return false;
-    try {
-      load_image_result(file);
-    } catch (const InputError&) {
-      return false;  // an older format or another file: done again
-    }
-  }
-  return true;
-}
-
-// Of this run and, after a resume, of those before it: the JSON files are the memory. Of an image that failed now an older result is not listed.
-void write_csv(std::span<const InputImage> images, const BatchSummary& summary, const BatchOptions& options) {
-  std::vector<BopResult> rows;
-  for (const InputImage& input : images) {
-    if (summary.failures.contains(input.file.string()) || !std::filesystem::exists(json_of(options, input))) continue;
-    const ImageResult result = load_image_result(json_of(options, input));
-    double seconds = 0;
-    for (const StageSeconds& stage : result.stages) seconds += stage.seconds;
-    for (const Detection& d : result.detections)
-      rows.push_back({result.scene_id, result.image_id, result.objects[d.object].id, d.probability,
-                      result.camera_from_world.value_or(Se3{}) * d.world_from_object, seconds});
-  }
-  save_bop_results(rows, options.out / "results.csv");
-}
-
-void write_summary(const BatchSummary& summary, const std::map<std::string, double>& stage_seconds, const Backend& backend, const BatchOptions& options) {
-  nlohmann::ordered_json json{{"images", summary.images}, {"done", summary.done}, {"skipped", summary.skipped}, {"failed", summary.failures.size()},
-                              {"device", backend.name()}, {"seconds", summary.seconds},
-                              {"images_per_second", summary.seconds > 0 ? summary.done / summary.seconds : 0.0}};
-  for (const auto& [stage, seconds] : stage_seconds) json["mean_ms_per_image"][stage] = 1000 * seconds / std::max(1, summary.done);
-  json["failures"] = nlohmann::ordered_json::array();
-  for (const auto& [file, message] : summary.failures) json["failures"].push_back({{"file", file}, {"error", message}});
-  write_file_atomically(options.out / "summary.json", json.dump(2) + "\n");
+  return std::ranges::all_of(group.images, [&](const InputImage* input) { return is_done(options.out, *input); });
 }
 
 // The batch behind the preparation: device work group by group.
@@ -172,16 +136,15 @@ class Detector {
       for (const InputImage* input : good.images) list_failure(*input, input->file.string() + ": " + error.what());
       return;
     }
-    for (const StageSeconds& stage : found.stages) stage_seconds[stage.name] += stage.seconds;
+    for (const StageSeconds& stage : found.stages) summary.stage_seconds[stage.name] += stage.seconds;
     for (std::size_t i = 0; i < usable.size(); ++i) {
       if (options_.overlays) write_overlay(*good.images[i], usable[i], found, models_, backend_, options_);
-      save_image_result(result_of(*good.images[i], usable[i], found, sets_, backend_, options_.joint), json_of(options_, *good.images[i]));
+      save_image_result(result_of(*good.images[i], usable[i], found, sets_, backend_, options_.joint), json_of(options_.out, *good.images[i]));
       ++summary.done;
     }
   }
 
   BatchSummary summary;
-  std::map<std::string, double> stage_seconds;
 
  private:
   void list_failure(const InputImage& input, const std::string& message) {
@@ -233,12 +196,12 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
   try {
     work_through(open, preparer, detector);
   } catch (const GpuError&) {
-    write_csv(images, summary, options);  // of what was finished
+    write_csv(images, summary, options.out);  // of what was finished
     throw;
   }
   summary.seconds = seconds_since(start);
-  write_csv(images, summary, options);
-  write_summary(summary, detector.stage_seconds, backend, options);
+  write_csv(images, summary, options.out);
+  write_summary(summary, backend.name(), options.out);
   return summary;
 }
 

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <span>
 #include <string>
-#include <vector>
 
-#include "host/cli/inputs.h"
+#include "host/cli/batch_results.h"
 #include "host/pipeline.h"
 
 namespace edgescout {
@@ -20,12 +18,6 @@ struct BatchOptions {
   bool joint = false;          // all views of a BOP scene at once
   bool overlays = true;
   PipelineOptions pipeline;
-};
-
-struct BatchSummary {
-  int images = 0, done = 0, skipped = 0;
-  std::map<std::string, std::string> failures;  // message by file
-  double seconds = 0;
 };
 
 // InputError naming the first image without a world pose: what `joint` asks for.

@@ -56,9 +56,9 @@ int register_all(RegisterRequest& request) {
   const std::vector<InputImage> images = list_images(request.inputs);
   const std::vector<RegisterJob> jobs = make_jobs(images, models, poses, request.multi_view, request.poses);
   const RegisterSummary summary = run_register(jobs, models, *backend, options);
-  std::cout << fmt::format("{} poses in {} images refined on {}, {} images failed; results in {}\n",
-                           summary.poses, summary.done, backend->name(), summary.images - summary.done,
-                           request.out);
+  std::cout << fmt::format("{} poses in {} images refined on {}, {} images skipped, {} failed in {:.1f} s; results in {}\n",
+                           summary.poses, summary.done, backend->name(), summary.skipped,
+                           summary.images - summary.done - summary.skipped, summary.seconds, request.out);
   return summary.failures.empty() ? exit_done : exit_some_failed;
 }
 
@@ -102,6 +102,7 @@ void add_register(CLI::App& app, int& exit_code) {
       .flag("no-polish", request->no_polish, "Leave out the last step, on sub-pixel edge points")
       .flag("scale-camera", request->options.scale_camera,
             "Accept images whose size is a pure scale of the calibration's")
+      .flag("resume", request->options.resume, "Skip images whose result is there already")
       .flag("no-overlays", request->no_overlays, "Write no overlay pictures");
   add_edge_and_tensor_options(*verb, request->options.pipeline, request->edge_method);
   verb->callback([request, &exit_code] { exit_code = register_all(*request); });

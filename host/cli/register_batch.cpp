@@ -104,7 +104,7 @@ void save_json(const ReadyJob& ready, std::size_t view, const Detections& found,
     result.objects.push_back({model.object_id, model.edges.mesh.name});
   for (std::size_t i = 0; i < found.detections.size(); ++i)
     if (ready.job->starts[i].view == view) result.detections.push_back(found.detections[i]);
-  if (!result.detections.empty()) save_image_result(result, options.out / (input.name + ".json"));
+  save_image_result(result, json_of(options.out, input));
 }
 
 void save_overlay(const ReadyJob& ready, std::size_t view, const Detections& found,
@@ -119,58 +119,92 @@ void save_overlay(const ReadyJob& ready, std::size_t view, const Detections& fou
            options.out / (ready.job->views[view].name + "_overlay.png"));
 }
 
-void add_rows(const ReadyJob& ready, const Detections& found, std::span<const RegisterModel> models,
-              std::vector<BopResult>& rows) {
-  double seconds = 0;
-  for (const StageSeconds& stage : found.stages) seconds += stage.seconds;
-  for (std::size_t i = 0; i < found.detections.size(); ++i) {
-    const Detection& d = found.detections[i];
-    const std::size_t view = ready.job->starts[i].view;
-    const InputImage& input = ready.job->views[view];
-    rows.push_back({input.scene_id, input.image_id, models[static_cast<std::size_t>(d.object)].object_id,
-                    d.probability, ready.views[view].camera_from_world * d.world_from_object, seconds});
-  }
+// The images that starts were given in: those that get a result of their own.
+std::vector<std::size_t> views_with_starts(const RegisterJob& job) {
+  std::vector<std::size_t> views;
+  for (std::size_t view = 0; view < job.views.size(); ++view)
+    if (std::ranges::any_of(job.starts, [&](const RegisterJob::Start& start) { return start.view == view; })) views.push_back(view);
+  return views;
 }
 
-int images_with_starts(const RegisterJob& job) {
-  std::vector<char> has_start(job.views.size(), 0);
-  for (const RegisterJob::Start& start : job.starts) has_start[start.view] = 1;
-  return static_cast<int>(std::count(has_start.begin(), has_start.end(), 1));
+bool is_done(const RegisterJob& job, const RegisterOptions& options) {
+  return std::ranges::all_of(views_with_starts(job), [&](std::size_t view) { return is_done(options.out, job.views[view]); });
+}
+
+// The batch job by job.
+class Registrar {
+ public:
+  Registrar(std::span<const RegisterModel> models, Backend& backend, const RegisterOptions& options)
+      : models_(models), backend_(backend), options_(options) {
+    for (const RegisterModel& model : models) edge_models_.push_back(model.edges);
+  }
+
+  // InputError: an image that cannot be used.
+  void work_on(const RegisterJob& job) {
+    const ReadyJob ready = prepare_job(job, backend_, options_);
+    require_writable_folder(options_.out);
+    const Detections found = refine_job(ready, models_, edge_models_, backend_, options_);
+    for (std::size_t view = 0; options_.overlays && view < job.views.size(); ++view)
+      save_overlay(ready, view, found, edge_models_, backend_, options_);
+    for (std::size_t view : views_with_starts(job)) save_json(ready, view, found, models_, backend_, options_);
+    for (const StageSeconds& stage : found.stages) summary.stage_seconds[stage.name] += stage.seconds;
+    summary.done += static_cast<int>(views_with_starts(job).size());
+    summary.poses += static_cast<int>(found.detections.size());
+  }
+
+  RegisterSummary summary;
+
+ private:
+  std::span<const RegisterModel> models_;
+  Backend& backend_;
+  const RegisterOptions& options_;
+  std::vector<EdgeModel> edge_models_;
+};
+
+std::vector<InputImage> images_of(std::span<const RegisterJob> jobs) {
+  std::vector<InputImage> images;
+  for (const RegisterJob& job : jobs)
+    for (std::size_t view : views_with_starts(job)) images.push_back(job.views[view]);
+  return images;
+}
+
+void work_through(std::span<const RegisterJob> jobs, Registrar& registrar, const RegisterOptions& options) {
+  Progress progress("register", jobs.size(), std::cerr, stderr_is_terminal());
+  std::size_t failed = 0;
+  for (const RegisterJob& job : jobs) {
+    if (options.resume && is_done(job, options)) {
+      registrar.summary.skipped += static_cast<int>(views_with_starts(job).size());
+    } else {
+      try {
+        registrar.work_on(job);
+      } catch (const InputError& error) {
+        if (++failed == jobs.size()) throw;
+        for (std::size_t view : views_with_starts(job)) registrar.summary.failures[job.views[view].file.string()] = error.what();
+        log(LogLevel::Warning, error.what());
+      }
+    }
+    progress.step();
+  }
 }
 
 }  // namespace
 
-RegisterSummary run_register(std::span<const RegisterJob> jobs, std::span<const RegisterModel> models,
-                             Backend& backend, const RegisterOptions& options) {
-  RegisterSummary summary;
-  std::vector<EdgeModel> edge_models;
-  for (const RegisterModel& model : models) edge_models.push_back(model.edges);
-  std::vector<BopResult> rows;
-  Progress progress("register", jobs.size(), std::cerr, stderr_is_terminal());
-  for (const RegisterJob& job : jobs) {
-    summary.images += images_with_starts(job);
-    ReadyJob ready;
-    try {
-      ready = prepare_job(job, backend, options);
-    } catch (const InputError& error) {
-      summary.failures[job.views[0].file.string()] = error.what();
-      if (summary.failures.size() == jobs.size()) throw;
-      log(LogLevel::Warning, error.what());
-      progress.step();
-      continue;
-    }
-    require_writable_folder(options.out);
-    const Detections found = refine_job(ready, models, edge_models, backend, options);
-    for (std::size_t view = 0; view < job.views.size(); ++view) {
-      if (options.overlays) save_overlay(ready, view, found, edge_models, backend, options);
-      save_json(ready, view, found, models, backend, options);
-    }
-    add_rows(ready, found, models, rows);
-    save_bop_results(rows, options.out / "results.csv");
-    summary.done += images_with_starts(job);
-    summary.poses += static_cast<int>(found.detections.size());
-    progress.step();
+RegisterSummary run_register(std::span<const RegisterJob> jobs, std::span<const RegisterModel> models, Backend& backend,
+                             const RegisterOptions& options) {
+  const auto start = Clock::now();
+  const std::vector<InputImage> images = images_of(jobs);
+  Registrar registrar(models, backend, options);
+  RegisterSummary& summary = registrar.summary;
+  summary.images = static_cast<int>(images.size());
+  try {
+    work_through(jobs, registrar, options);
+  } catch (const GpuError&) {
+    if (summary.done + summary.skipped > 0) write_csv(images, summary, options.out);  // of what was finished
+    throw;
   }
+  summary.seconds = seconds_since(start);
+  write_csv(images, summary, options.out);
+  write_summary(summary, backend.name(), options.out);
   return summary;
 }
 

@@ -3,13 +3,12 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "host/cli/inputs.h"
+#include "host/cli/batch_results.h"
 #include "host/io/poses.h"
 #include "host/pipeline.h"
 
@@ -20,6 +19,7 @@ struct RegisterOptions {
   std::optional<Camera> camera;  // absent: BOP scenes bring their own
   std::string camera_file;
   bool scale_camera = false;
+  bool resume = false;
   bool overlays = true;
   PipelineOptions pipeline;  // edges and tensor of it
   RefineOptions refine;
@@ -50,16 +50,14 @@ std::vector<RegisterJob> make_jobs(std::span<const InputImage> images, std::span
                                    std::span<const StartPose> poses, bool multi_view,
                                    const std::string& poses_file);
 
-struct RegisterSummary {
-  int images = 0, done = 0;  // images: those with starts
-  int poses = 0;
-  std::map<std::string, std::string> failures;  // message by file
+struct RegisterSummary : BatchSummary {  // images: those with starts
+  int poses = 0;  // refined now
 };
 
 // Writes into `out`: NAME.json for every image with starts, its detections in the order of the starts;
-// NAME_overlay.png of every view; and results.csv with one row a start, kept up to date after every job. A
-// job with a bad image is listed and the batch goes on. Where all jobs fail the last one's error is thrown and
-// nothing is written. A GpuError ends the batch.
+// NAME_overlay.png of every view; and at the end, also that by a GpuError, results.csv with one row a start and
+// summary.json. A job with a bad image is listed and the batch goes on. Where all jobs fail the last one's error is
+// thrown and nothing is written. With `resume`, jobs whose results are there are skipped.
 RegisterSummary run_register(std::span<const RegisterJob> jobs, std::span<const RegisterModel> models,
                              Backend& backend, const RegisterOptions& options);
 

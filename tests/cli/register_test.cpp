@@ -129,6 +129,31 @@ TEST(Register, GoesOnPastABadImage) {
   EXPECT_FALSE(fs::exists(out / "000001_000000.json"));
 }
 
+TEST(Register, DoesOnlyWhatIsMissingWhenResumed) {
+  const TemporaryFolder folder;
+  const BopScene scene = load_bop_scene(two_views());
+  std::vector<BopResult> starts{true_results(scene, 0)[0], true_results(scene, 1)[0]};
+  save_bop_results(starts, folder.path() / "starts.csv");
+  const fs::path out = folder.path() / "out";
+  const std::vector<std::string> call = register_in(two_views(), folder.path() / "starts.csv", out, {"--search-rotation", "0", "--no-overlays"});
+  ASSERT_EQ(run_program(call).exit_code, 0);
+  const auto summary = [&] { return nlohmann::json::parse(content_of(out / "summary.json")); };
+  EXPECT_EQ(summary().at("done"), 2);
+  EXPECT_GT(summary().at("mean_ms_per_image").at("registration"), 0);
+  const std::vector<BopResult> rows = load_bop_results(out / "results.csv");
+  ASSERT_EQ(rows.size(), 2u);
+  const fs::path kept = out / "000001_000000.json", cut = out / "000001_000001.json";
+  const auto before = fs::last_write_time(kept);
+  folder.write("out/000001_000001.json", content_of(cut).substr(0, 100));
+  ASSERT_EQ(run_program(joined({call, {"--resume"}})).exit_code, 0);
+  EXPECT_EQ(summary().at("done"), 1);
+  EXPECT_EQ(summary().at("skipped"), 1);
+  EXPECT_EQ(fs::last_write_time(kept), before);
+  const std::vector<BopResult> again = load_bop_results(out / "results.csv");
+  ASSERT_EQ(again.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_LT(distance_between_m(again[i].camera_from_object, rows[i].camera_from_object), 1e-9);
+}
+
 struct Refused {
   TemporaryFolder folder;
   fs::path out = folder.path() / "out";

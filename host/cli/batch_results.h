@@ -1,0 +1,34 @@
+// What a batch leaves in its folder beside the pictures: NAME.json an image, results.csv over all and summary.json. The JSON files are the memory of
+// a batch that was interrupted.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "host/cli/inputs.h"
+#include "host/io/results.h"
+
+namespace edgescout {
+
+struct BatchSummary {
+  int images = 0, done = 0, skipped = 0;
+  std::map<std::string, std::string> failures;  // message by file
+  std::map<std::string, double> stage_seconds;  // of all images done, by stage
+  double seconds = 0;
+};
+
+std::filesystem::path json_of(const std::filesystem::path& out, const InputImage& input);
+
+// Whether a whole result in today's format is there.
+bool is_done(const std::filesystem::path& out, const InputImage& input);
+
+// results.csv, from the JSON files of this run and, after a resume, of those before it. Of an image that failed now an older result is not listed.
+void write_csv(std::span<const InputImage> images, const BatchSummary& summary, const std::filesystem::path& out);
+
+// summary.json: counts, throughput, mean time of every stage, failures.
+void write_summary(const BatchSummary& summary, const std::string& device, const std::filesystem::path& out);
+
+}  // namespace edgescout

@@ -1,0 +1,60 @@
+// A device that is lost in the middle of a batch: an error that names it, finished images on disk, the rest done by a resumed run.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "host/io/results.h"
+#include "tests/cli/small_scene.h"
+
+namespace edgescout::test {
+namespace {
+
+struct LostDevice : ::testing::Test {
+  SmallScene scene;
+  fs::path images = scene.folder.path() / "images";
+  fs::path submits_file = scene.folder.path() / "submits";
+
+  void SetUp() override {
+    if (nlohmann::json::parse(run_program({"devices", "--json"}).out).at("devices").empty()) GTEST_SKIP() << "no Vulkan device";
+    fs::create_directories(images);
+    fs::copy_file(scene.image(), images / "a.png");
+  }
+  std::vector<std::string> detect(const std::vector<std::string>& more = {}) const {
+    return joined({{"detect", images, "--out", scene.out, "--device", "vulkan", "--no-overlays", "--camera", scene.camera()}, bracket(), more});
+  }
+  // ASan insists on being first; the shim replaces one function of the loader, not of the C library.
+  Outcome detect_on_device_lost_after(int submits) const {
+    return run_program(detect(), "ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD='" EDGESCOUT_FAILING_DEVICE "' SUBMITS_FILE='" + submits_file.string() +
+                                     "' FAIL_AFTER_SUBMITS=" + std::to_string(submits));
+  }
+};
+
+TEST_F(LostDevice, KeepsWhatWasFinished) {
+  const Outcome alone = detect_on_device_lost_after(std::numeric_limits<int>::max());
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  const int submits_of_one = std::stoi(content_of(submits_file));
+  ASSERT_GT(submits_of_one, 0);
+  fs::remove_all(scene.out);
+  fs::copy_file(scene.image(), images / "b.png");
+
+  const Outcome outcome = detect_on_device_lost_after(submits_of_one);
+  ASSERT_EQ(outcome.exit_code, 3) << outcome.err;
+  const std::size_t error = outcome.err.find("edgescout: error: ");
+  ASSERT_NE(error, std::string::npos) << outcome.err;
+  EXPECT_TRUE(is_one_line_error(outcome.err.substr(error))) << outcome.err;
+  for (const char* word : {"VK_ERROR_DEVICE_LOST", "dcd_"}) EXPECT_NE(outcome.err.find(word, error), std::string::npos) << outcome.err;
+  EXPECT_NO_THROW(load_image_result(scene.out / "a.json"));
+  EXPECT_FALSE(fs::exists(scene.out / "b.json"));
+  const std::vector<BopResult> rows = load_bop_results(scene.out / "results.csv");
+  EXPECT_FALSE(rows.empty());
+  for (const BopResult& row : rows) EXPECT_EQ(row.image_id, 0);
+
+  const Outcome resumed = run_program(detect({"--resume"}));
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(nlohmann::json::parse(content_of(scene.out / "summary.json")).at("skipped"), 1);
+  EXPECT_NO_THROW(load_image_result(scene.out / "b.json"));
+}
+
+}  // namespace
+}  // namespace edgescout::test
