@@ -117,13 +117,20 @@ std::vector<D2coRound> D2coOptions::default_rounds() {
 }
 
 void D2coOptions::validate() const {
+  const auto in = [](const char* field, double found, double low, double high) {
+    if (!(found >= low && found <= high))
+      throw InputError("options", std::string("register.") + field, std::to_string(found), std::to_string(low) + " to " + std::to_string(high));
+  };
   if (rounds.empty()) throw InputError("options", "register.rounds", "none", "at least one round");
   for (const D2coRound& round : rounds) {
-    if (!(round.scale_px > 0 && round.scale_px <= 1000))
-      throw InputError("options", "register.scale", std::to_string(round.scale_px), "a loss scale in (0, 1000] px");
-    if (round.iterations < 1 || round.iterations > 1000)
-      throw InputError("options", "register.iterations", std::to_string(round.iterations), "a number in [1, 1000]");
+    if (round.loss != LOSS_HUBER && round.loss != LOSS_GEMAN_MCCLURE)
+      throw InputError("options", "register.loss", std::to_string(round.loss), "Huber's or Geman and McClure's");
+    in("scale", round.scale_px, 1e-3, 1000);
+    in("iterations", round.iterations, 1, 1000);
+    in("max_points", round.max_points, 0, 1e6);
   }
+  in("min_step_m", min_step_m, 0, 1e9);
+  in("min_step_rad", min_step_rad, 0, 1e9);
 }
 
 std::string to_string(Convergence reason) {

@@ -143,6 +143,18 @@ TEST_P(D2co, RefusesOptionsOutOfRange) {
     EXPECT_THROW(solve(scene, one_round(LOSS_HUBER, scale, 10)), InputError) << scale;
   for (const int iterations : {0, -3, 1001})
     EXPECT_THROW(solve(scene, one_round(LOSS_HUBER, 4, iterations)), InputError) << iterations;
+  EXPECT_THROW(solve(scene, one_round(2, 4, 10)), InputError) << "a loss that is none";
+  D2coOptions options = one_round(LOSS_HUBER, 4, 10);
+  options.rounds[0].max_points = -1;
+  EXPECT_THROW(solve(scene, options), InputError);
+  for (const double step : {-1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    options = one_round(LOSS_HUBER, 4, 10);
+    options.min_step_m = step;
+    EXPECT_THROW(solve(scene, options), InputError) << step;
+    options = one_round(LOSS_HUBER, 4, 10);
+    options.min_step_rad = step;
+    EXPECT_THROW(solve(scene, options), InputError) << step;
+  }
 }
 
 TEST_P(D2co, WantsAView) {
