@@ -87,14 +87,14 @@ std::vector<InputImage> list_images(const std::vector<std::string>& arguments) {
   return images;
 }
 
-std::vector<Object> load_objects(const ModelArguments& arguments) {
+std::vector<Object> load_objects(const ModelArguments& arguments, int continuous_steps) {
   if (arguments.unit.empty()) throw InputError("command line", "--unit", "none", "mm, cm, m or in: mesh files carry no unit");
   if (!arguments.object_ids.empty() && arguments.object_ids.size() != arguments.models.size())
     throw InputError("command line", "--object-id", std::to_string(arguments.object_ids.size()) + " ids",
                      "one for each of " + std::to_string(arguments.models.size()) + " models");
   const LengthUnit unit = length_unit(arguments.unit);
   std::map<int, Symmetries> symmetries;
-  if (!arguments.models_info.empty()) symmetries = load_symmetries(arguments.models_info);
+  if (!arguments.models_info.empty()) symmetries = load_symmetries(arguments.models_info, continuous_steps);
   std::vector<Object> objects;
   std::set<int> ids;
   for (std::size_t i = 0; i < arguments.models.size(); ++i) {

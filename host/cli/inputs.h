@@ -32,6 +32,7 @@ struct ModelArguments {
   std::vector<int> object_ids;         // of the models; empty: the number at the end of the file's name, else 1, 2 ..
   std::vector<std::string> templates;  // template files, in place of models
 };
-std::vector<Object> load_objects(const ModelArguments& arguments);
+// Surfaces of revolution are sampled in `continuous_steps` turns.
+std::vector<Object> load_objects(const ModelArguments& arguments, int continuous_steps = DETECTION_SYMMETRY_STEPS);
 
 }  // namespace edgescout
