@@ -1,8 +1,5 @@
 #include "host/detect/detect.h"
 
-#include <algorithm>
-#include <numeric>
-
 #include "host/detect/suppression.h"
 #include "kernels/error.h"
 
@@ -10,26 +7,11 @@ namespace edgescout {
 
 namespace {
 
-std::vector<std::size_t> sorted_by(std::size_t count, const auto& key) {
-  std::vector<std::size_t> order(count);
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
-  return order;
-}
-
-template <typename T>
-std::vector<T> picked(const std::vector<T>& from, std::span<const std::size_t> order) {
-  std::vector<T> out;
-  for (std::size_t i : order) out.push_back(from[i]);
-  return out;
-}
-
-// The best different poses, by a key that is lower for better ones.
-std::vector<std::size_t> best_different(std::span<const Se3> poses, const TemplateSet& set, double radius_m, std::size_t most, const auto& key) {
-  const std::vector<std::size_t> order = sorted_by(poses.size(), key);
-  std::vector<Se3> ordered;
-  for (std::size_t i : order) ordered.push_back(poses[i]);
-  return picked(order, suppress_duplicates(ordered, set.model.mesh, set.symmetries, radius_m, most));
+// Of one object, in metres and modulo its symmetry; `key` of an index is lower for better ones.
+std::vector<std::size_t> best_of(std::span<const Se3> poses, const TemplateSet& set, std::size_t most, const auto& key) {
+  std::vector<double> keys;
+  for (std::size_t i = 0; i < poses.size(); ++i) keys.push_back(key(i));
+  return best_different(poses, keys, set.model.mesh, set.symmetries, 0.1 * set.model.mesh.diameter_m, most);
 }
 
 std::vector<Hypothesis> hypotheses_at(std::span<const Se3> poses, std::span<const std::size_t> chosen) {
@@ -86,7 +68,6 @@ Detection to_detection(int object, const Registration& registration, const PoseF
 }
 
 std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation, Backend& backend, const DetectOptions& options) {
-  const double diameter = set.model.mesh.diameter_m;
   const std::span<const EdgeModel> models(&set.model, 1);
   // One view: the world is its camera frame.
   std::vector<RegisterView> full{observation.view};
@@ -97,8 +78,7 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
   const std::vector<ScanHit> hits = coarse_scan(set, observation, backend, options.scan);
   std::vector<Se3> poses;
   for (const ScanHit& hit : hits) poses.push_back(hit.camera_from_object);
-  const std::vector<std::size_t> starts =
-      best_different(poses, set, 0.1 * diameter, options.aligned, [&](std::size_t i) { return hits[i].mean_px; });
+  const std::vector<std::size_t> starts = best_of(poses, set, options.aligned, [&](std::size_t i) { return hits[i].mean_px; });
 
   std::vector<Hypothesis> hypotheses = hypotheses_at(poses, starts);
   hypotheses = as_hypotheses(hypotheses, register_poses(models, hypotheses, coarse, backend, options.refine.search.coarse));
@@ -107,15 +87,15 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
   for (const Hypothesis& h : hypotheses) poses.push_back(h.world_from_object);
   const std::vector<PoseFeatures> aligned =
       pose_features(models, hypotheses, full, backend, options.refine.score, options.touch_up.visibility);
-  const std::vector<std::size_t> chosen = best_different(poses, set, 0.1 * diameter, options.candidates, [&](std::size_t i) {
-    return -log_odds(aligned[i]);
-  });
+  const std::vector<std::size_t> chosen = best_of(poses, set, options.candidates, [&](std::size_t i) { return -log_odds(aligned[i]); });
 
   const std::vector<Refined> refined = refine_poses(models, hypotheses_at(poses, chosen), full, backend, options.refine);
   std::vector<Se3> final_poses;
   for (const Refined& r : refined) final_poses.push_back(r.registration.world_from_object);
-  return picked(refined, best_different(final_poses, set, 0.1 * diameter, refined.size(),
-                                        [&](std::size_t i) { return -log_odds(refined[i].features); }));
+  std::vector<Refined> different;
+  for (std::size_t i : best_of(final_poses, set, refined.size(), [&](std::size_t i) { return -log_odds(refined[i].features); }))
+    different.push_back(refined[i]);
+  return different;
 }
 
 }  // namespace edgescout

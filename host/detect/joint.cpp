@@ -1,7 +1,5 @@
 #include "host/detect/joint.h"
 
-#include <algorithm>
-
 #include "host/detect/suppression.h"
 
 namespace edgescout {
@@ -11,19 +9,15 @@ namespace {
 // All views' candidates of one object in the world, best probability first, without duplicates.
 std::vector<Hypothesis> gather(int object, const TemplateSet& set, std::span<const std::vector<std::vector<Refined>>> candidates,
                                std::span<const Observation> observations) {
-  struct Entry {
-    Se3 world_from_object;
-    double probability;
-  };
-  std::vector<Entry> entries;
-  for (std::size_t v = 0; v < candidates.size(); ++v)
-    for (const Refined& refined : candidates[v][object])
-      entries.push_back({inverse(observations[v].view.camera_from_world) * refined.registration.world_from_object, pose_probability(refined.features)});
-  std::ranges::stable_sort(entries, [](const Entry& a, const Entry& b) { return a.probability > b.probability; });
   std::vector<Se3> poses;
-  for (const Entry& entry : entries) poses.push_back(entry.world_from_object);
+  std::vector<double> keys;
+  for (std::size_t v = 0; v < candidates.size(); ++v)
+    for (const Refined& refined : candidates[v][static_cast<std::size_t>(object)]) {
+      poses.push_back(inverse(observations[v].view.camera_from_world) * refined.registration.world_from_object);
+      keys.push_back(-pose_probability(refined.features));
+    }
   std::vector<Hypothesis> gathered;
-  for (std::size_t i : suppress_duplicates(poses, set.model.mesh, set.symmetries, 0.05 * set.model.mesh.diameter_m, poses.size()))
+  for (std::size_t i : best_different(poses, keys, set.model.mesh, set.symmetries, 0.05 * set.model.mesh.diameter_m, poses.size()))
     gathered.push_back({object, poses[i]});
   return gathered;
 }

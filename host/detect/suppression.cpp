@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
+
+#include "kernels/error.h"
 
 namespace edgescout {
 
@@ -56,6 +59,19 @@ std::vector<std::size_t> suppress_duplicates(std::span<const Se3> poses_best_fir
     centers.push_back(here);
   }
   return kept;
+}
+
+std::vector<std::size_t> best_different(std::span<const Se3> poses, std::span<const double> keys, const Mesh& mesh, const Symmetries& symmetries,
+                                        double radius_m, std::size_t most) {
+  check(poses.size() == keys.size(), "best_different: one key a pose");
+  std::vector<std::size_t> order(poses.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return keys[i]; });
+  std::vector<Se3> ordered;
+  for (std::size_t i : order) ordered.push_back(poses[i]);
+  std::vector<std::size_t> best;
+  for (std::size_t i : suppress_duplicates(ordered, mesh, symmetries, radius_m, most)) best.push_back(order[i]);
+  return best;
 }
 
 }  // namespace edgescout

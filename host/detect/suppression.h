@@ -16,4 +16,8 @@ double pose_distance_m(const Se3& a, const Se3& b, const Mesh& mesh, const Symme
 std::vector<std::size_t> suppress_duplicates(std::span<const Se3> poses_best_first, const Mesh& mesh, const Symmetries& symmetries,
                                              double radius_m, std::size_t most);
 
+// The same of poses in any order: the lower its key, the better a pose; ties in the order given. Indices best first.
+std::vector<std::size_t> best_different(std::span<const Se3> poses, std::span<const double> keys, const Mesh& mesh, const Symmetries& symmetries,
+                                        double radius_m, std::size_t most);
+
 }  // namespace edgescout
