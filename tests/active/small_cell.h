@@ -6,6 +6,7 @@
 #include "host/eval/metrics.h"
 #include "host/render/parts.h"
 #include "kernels/thread_pool.h"
+#include "tests/bare_board.h"
 
 namespace edgescout::test {
 
@@ -18,21 +19,10 @@ struct SmallCell {
   std::vector<TemplateSet> sets;
 
   explicit SmallCell(int objects = 1) {
-    RenderOptions options;
-    options.width = 320;
-    options.height = 240;
-    options.focal_px = 400;
-    options.objects = objects;
+    RenderOptions options = bare_board(objects);
     options.pile = 0;
-    options.clutter = 0;
-    options.min_distance_m = options.max_distance_m = 0.3;
     scene = make_scene(std::span(&part, 1), options);
-    TemplateOptions templates;
-    templates.frequency = 3;
-    templates.in_plane_steps = 12;
-    templates.distance_min_m = 0.26;
-    templates.distance_max_m = 0.34;
-    sets.push_back(build_templates(part, templates, *backend));
+    sets.push_back(build_templates(part, near_templates(0.04), *backend));
   }
 
   Camera camera() const { return scene.views[0].camera; }

@@ -9,6 +9,7 @@
 #include "host/render/write_bop.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
+#include "tests/bare_board.h"
 #include "tests/io/expect_input_error.h"
 #include "tests/io/temporary_folder.h"
 
@@ -18,16 +19,12 @@ namespace {
 namespace fs = std::filesystem;
 
 RenderOptions small_options(int views = 1) {
-  RenderOptions options;
+  RenderOptions options = bare_board(1, views);
   options.width = 160;
   options.height = 120;
   options.focal_px = 200;
-  options.objects = 1;
-  options.views = views;
-  options.clutter = 0;
   options.supersampling = 1;
   options.shadows = false;
-  options.min_distance_m = options.max_distance_m = 0.3;
   return options;
 }
 

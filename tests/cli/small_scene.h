@@ -5,6 +5,7 @@
 #include "host/render/parts.h"
 #include "host/render/write_bop.h"
 #include "kernels/thread_pool.h"
+#include "tests/bare_board.h"
 #include "tests/cli/example_scene.h"
 
 namespace edgescout::test {
@@ -16,15 +17,7 @@ struct SmallScene {
 
   explicit SmallScene(int views = 1) {
     const std::vector<Object> parts{make_part("l_bracket")};
-    RenderOptions options;
-    options.width = 320;
-    options.height = 240;
-    options.focal_px = 400;
-    options.objects = 1;
-    options.views = views;
-    options.clutter = 0;
-    options.min_distance_m = options.max_distance_m = 0.3;
-    const Scene made = make_scene(parts, options);
+    const Scene made = make_scene(parts, bare_board(1, views));
     ThreadPool pool(2);
     write_bop_scene(made, render(made, pool), scene);
   }

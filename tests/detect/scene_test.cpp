@@ -7,6 +7,7 @@
 #include "host/render/parts.h"
 #include "host/render/renderer.h"
 #include "kernels/thread_pool.h"
+#include "tests/bare_board.h"
 
 namespace edgescout::test {
 namespace {
@@ -19,23 +20,10 @@ struct RenderedPart {
   std::vector<TemplateSet> sets;
 
   explicit RenderedPart(const std::string& name, int views = 1) : part(make_part(name)) {
-    RenderOptions options;
-    options.width = 320;
-    options.height = 240;
-    options.focal_px = 400;
-    options.objects = 1;
-    options.views = views;
-    options.clutter = 0;
-    options.min_distance_m = options.max_distance_m = 0.3;
-    scene = make_scene(std::span(&part, 1), options);
+    scene = make_scene(std::span(&part, 1), bare_board(1, views));
     ThreadPool pool(2);
     renderings = render(scene, pool);
-    TemplateOptions templates;
-    templates.frequency = 3;
-    templates.in_plane_steps = 12;
-    templates.distance_min_m = 0.27;
-    templates.distance_max_m = 0.33;
-    sets.push_back(build_templates(part, templates, *make_cpu_backend(2)));
+    sets.push_back(build_templates(part, near_templates(0.03), *make_cpu_backend(2)));
   }
   // What is probable enough to be reported is fitted elsewhere; here the best one counts.
   static PipelineOptions options() {
