@@ -105,17 +105,19 @@ std::vector<Refined> refine_poses(std::span<const EdgeModel> models, std::span<c
     for (std::size_t h = 0; h < hypotheses.size(); ++h) found.owner.push_back(h);
   }
   D2coOptions d2co = options.d2co;
-  if (options.search.rotation_rad == 0) d2co.rounds.insert(d2co.rounds.begin(), {LOSS_GEMAN_MCCLURE, 30, 10, 300});
+  if (options.search.rotation_rad == 0) d2co.rounds.insert(d2co.rounds.begin(), options.unsearched);
   std::vector<Registration> registrations = register_poses(models, found.poses, views, backend, d2co);
   if (options.polish) polish_poses(models, found.poses, views, backend, options.polish_options, registrations);
-  const std::vector<PoseFeatures> features =
-      pose_features(models, as_hypotheses(found.poses, registrations), views, backend, options.score, options.d2co.visibility);
+  const std::vector<PoseFeatures> by_view =
+      pose_features_by_view(models, as_hypotheses(found.poses, registrations), views, backend, options.score, options.d2co.visibility);
   std::vector<Refined> results(hypotheses.size());
   std::vector<bool> filled(hypotheses.size(), false);
   for (std::size_t i = 0; i < found.poses.size(); ++i) {
     const std::size_t h = found.owner[i];
-    if (filled[h] && log_odds(results[h].features) >= log_odds(features[i])) continue;
-    results[h] = {registrations[i], features[i]};
+    const std::span<const PoseFeatures> of_pose(by_view.data() + i * views.size(), views.size());
+    const PoseFeatures features = together(of_pose);
+    if (filled[h] && log_odds(results[h].features) >= log_odds(features)) continue;
+    results[h] = {registrations[i], features, {of_pose.begin(), of_pose.end()}};
     filled[h] = true;
   }
   return results;

@@ -23,6 +23,7 @@ struct SearchOptions {
 struct RefineOptions {
   SearchOptions search;
   D2coOptions d2co = full_defaults();
+  D2coRound unsearched{LOSS_GEMAN_MCCLURE, 30, 10, 300};  // goes before d2co's rounds where no search brought the start near
   bool polish = true;
   PolishOptions polish_options;
   PoseScoreOptions score{1.0f, 4.0f, 60.0f};
@@ -32,7 +33,8 @@ struct RefineOptions {
 
 struct Refined {
   Registration registration;
-  PoseFeatures features;
+  PoseFeatures features;               // over all views
+  std::vector<PoseFeatures> by_view;   // in the order of the views
 };
 
 // Results in the order of the hypotheses.
