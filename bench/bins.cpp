@@ -19,6 +19,7 @@
 
 #include "bench/bins_judge.h"
 #include "bench/bins_settings.h"
+#include "host/active/candidates.h"
 #include "host/io/image.h"
 #include "host/render/renderer.h"
 #include "kernels/error.h"
@@ -61,6 +62,22 @@ class Cell : public ViewSource {
   std::string folder_;
   std::map<int, Shot> shots_;
   double seconds_ = 0;
+};
+
+// What is found in the image of a view, once for all strategies that look there.
+class Detector {
+ public:
+  Detector(std::span<const TemplateSet> sets, Backend& backend, const DetectOptions& options) : sets_(sets), backend_(backend), options_(options) {}
+  std::vector<Detection> operator()(int view, const Observation& observation) {
+    if (const auto known = found_.find(view); known != found_.end()) return known->second;
+    return found_[view] = candidates_in_image(sets_, observation, backend_, options_);
+  }
+
+ private:
+  std::span<const TemplateSet> sets_;
+  Backend& backend_;
+  DetectOptions options_;
+  std::map<int, std::vector<Detection>> found_;
 };
 
 struct Bin {
@@ -114,8 +131,9 @@ Search make_search(const Bin& bin, int count, std::span<const TemplateSet> sets,
   return search;
 }
 
-ScoutOptions options_for(const BinsSettings& s, const Bin& bin, const std::string& strategy) {
+ScoutOptions options_for(const BinsSettings& s, const Bin& bin, Detector& detector, const std::string& strategy) {
   ScoutOptions options = s.scout;
+  options.detect = [&](int view, const Observation& observation) { return detector(view, observation); };
   options.first_view = bin.first_view;
   options.next_view.strategy = strategy_from(strategy);
   options.next_view.seed = options.combinations.seed = options.particles.seed = static_cast<std::uint64_t>(bin.number) + 1;
@@ -199,11 +217,12 @@ void run_search(const BinsSettings& s, const Bin& bin, const Search& search, Tab
   for (const std::string& strategy : s.strategies)
     if (!table.has(bin.number, search.count, strategy)) missing.push_back(strategy);
   if (missing.empty()) return;
-  Scout first(search.sets, bin.cell->camera(), bin.cell->views(), options_for(s, bin, missing[0]), backend);
+  Detector detector(search.sets, backend, s.scout.pipeline.detect);
+  Scout first(search.sets, bin.cell->camera(), bin.cell->views(), options_for(s, bin, detector, missing[0]), backend);
   first.give(bin.first_view, bin.cell->acquire(bin.first_view).image);
   print_times("first", first.state(), 0);
   for (const std::string& strategy : missing) {
-    Scout scout(search.sets, bin.cell->camera(), bin.cell->views(), options_for(s, bin, strategy), backend);
+    Scout scout(search.sets, bin.cell->camera(), bin.cell->views(), options_for(s, bin, detector, strategy), backend);
     scout.resume(first.state(), "first image");
     run_scout(scout, *bin.cell);
     table.add(rows_of(bin, search, strategy, scout.state()));

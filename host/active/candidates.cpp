@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/active/mode_probability.h"
 #include "host/detect/suppression.h"
 
 namespace edgescout {
@@ -12,19 +13,21 @@ void sort_by_probability(std::vector<Detection>& detections) {
   std::ranges::stable_sort(detections, [](const Detection& a, const Detection& b) { return a.probability > b.probability; });
 }
 
-// `detections` sorted; duplicates exist within one object only.
+// Best first. Duplicates exist within one object only.
 std::vector<Detection> different_ones(const std::vector<Detection>& detections, std::span<const TemplateSet> sets) {
   std::vector<Detection> kept;
   for (std::size_t object = 0; object < sets.size(); ++object) {
     std::vector<Detection> same;
     std::vector<Se3> poses;
+    std::vector<double> keys;
     for (const Detection& d : detections)
       if (d.object == static_cast<int>(object)) {
         same.push_back(d);
         poses.push_back(d.world_from_object);
+        keys.push_back(-d.probability);
       }
     const Mesh& mesh = sets[object].model.mesh;
-    for (std::size_t i : suppress_duplicates(poses, mesh, sets[object].symmetries, 0.1 * mesh.diameter_m, poses.size())) kept.push_back(same[i]);
+    for (std::size_t i : best_different(poses, keys, mesh, sets[object].symmetries, 0.1 * mesh.diameter_m, poses.size())) kept.push_back(same[i]);
   }
   sort_by_probability(kept);
   return kept;
@@ -49,9 +52,11 @@ std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets, std
   refine.search.rotation_rad = 0;  // the search around them was made in their own images
   const std::vector<Refined> refined = refine_poses(models, starts, views, backend, refine);
   std::vector<Detection> detections;
-  for (std::size_t i = 0; i < refined.size(); ++i)
-    if (refined[i].features.matched > 0) detections.push_back(to_detection(starts[i].object, refined[i].registration, refined[i].features));
-  sort_by_probability(detections);
+  for (std::size_t i = 0; i < refined.size(); ++i) {
+    if (refined[i].features.matched == 0) continue;
+    detections.push_back(to_detection(starts[i].object, refined[i].registration, refined[i].features));
+    detections.back().probability = probability_over_views(refined[i].by_view);
+  }
   detections = different_ones(detections, sets);
   if (detections.size() > most) detections.resize(most);
   return detections;

@@ -113,7 +113,8 @@ void Scout::look(const Image& image, ScoutStep& step, ScoutState& next, std::vec
   views.push_back(observation.view);
   done(watch, "tensors");
   if (next.steps.empty() || options_.detect_in_every_image) {
-    const std::vector<Detection> found = candidates_in_image(sets_, observation, backend_, options_.pipeline.detect);
+    const std::vector<Detection> found = options_.detect ? options_.detect(step.decision.view, observation)
+                                                         : candidates_in_image(sets_, observation, backend_, options_.pipeline.detect);
     next.candidates.insert(next.candidates.end(), found.begin(), found.end());
     done(watch, "detection");
   }
@@ -148,11 +149,7 @@ std::size_t Scout::add_particles(ScoutState& next) const {
       first ? next.candidates : without_particles(next.candidates, next.particles, sets_, o.mode_radius, o.min_mode_probability);
   if (unknown.empty()) return 0;
   const std::size_t share = static_cast<std::size_t>(o.count) * unknown.size() / next.candidates.size();
-  std::vector<Particle> drawn = draw_particles(models_, unknown, std::max(1, static_cast<int>(share)), o.drawn, Random(o.seed).split("new").split(next.steps.size()));
-  // Where the others' earlier images have been spent on their number, the new ones are weighed as if they had stood them like the best of the others.
-  double spent_px2 = first ? 0 : INFINITY;
-  for (const Particle& particle : next.particles) spent_px2 = std::min(spent_px2, particle.spent_px2);
-  for (Particle& particle : drawn) particle.spent_px2 = spent_px2;
+  const std::vector<Particle> drawn = draw_particles(models_, unknown, std::max(1, static_cast<int>(share)), o.drawn, Random(o.seed).split("new").split(next.steps.size()));
   next.particles.insert(next.particles.end(), drawn.begin(), drawn.end());
   return unknown.size();
 }

@@ -31,6 +31,8 @@ struct ScoutOptions {
   PipelineOptions pipeline;
   int max_candidates = 40;            // kept of all objects together (the paper's N_obj)
   bool detect_in_every_image = true;  // else in the first alone, as in the paper
+  // A detector of one's own in place of candidates_in_image (candidates.h): what may be in the image of this view, in the world.
+  std::function<std::vector<Detection>(int view, const Observation& observation)> detect;
   double penetration_m = DEFAULT_PENETRATION_M;
   CombinationOptions combinations;
   ParticleOptions particles;

@@ -74,6 +74,28 @@ TEST(Scout, EndsWithTheRightPoses) {
   }
 }
 
+TEST(Scout, TakesCandidatesFromADetectorOfOnesOwn) {
+  SmallCell t;
+  ScoutOptions options = SmallCell::options();
+  std::vector<int> asked;
+  Detection near_truth;
+  Vector6d off;
+  off << 0.002, -0.001, 0.001, 0.02, 0.03, -0.02;
+  near_truth.world_from_object = retract(t.scene.placed[0].world_from_object, off);
+  near_truth.psi = 0.9;
+  options.detect = [&](int view, const Observation& observation) {
+    EXPECT_EQ(observation.view.camera.width, t.camera().width);
+    asked.push_back(view);
+    return std::vector{near_truth};
+  };
+  Scout scout = t.scout(options);
+  SimulatedCell cell = t.source();
+  run_scout(scout, cell);
+  EXPECT_EQ(asked, views_of(scout.state()));
+  EXPECT_EQ(scout.state().candidates.size(), 1u) << "the same instance in every image";
+  EXPECT_EQ(t.found(scout.state()), 1);
+}
+
 TEST(Scout, EveryStrategyLooksAround) {
   SmallCell t;
   SimulatedCell cell = t.source();
