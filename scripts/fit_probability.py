@@ -133,6 +133,7 @@ def main():
     w = fit_monotone(x, y)
     p = 1 / (1 + np.exp(-x @ w))
     print(f"{len(y)} candidates, {int(y.sum())} right")
+    print(f"log loss {-np.mean(np.where(y > 0, np.log(p), np.log(1 - p))):.3f}")
     print("bias %.3f  log evidence %.3f  mean_px %.4f  unexplained grey %.3f" % tuple(w))
     print("predicted    candidates  right")
     for low in np.arange(0, 1, 0.1):
