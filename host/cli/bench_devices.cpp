@@ -7,6 +7,7 @@
 #include "host/cli/bench_verbs.h"
 #include "host/cli/config.h"
 #include "host/cli/exit_codes.h"
+#include "host/cli/pipeline_options.h"
 #include "host/cli/progress.h"
 #include "host/core/log.h"
 #include "host/experiments/devices.h"
@@ -17,11 +18,12 @@ namespace edgescout {
 namespace {
 
 struct DevicesRequest {
-  std::string out;
+  std::string out, edge_method = "gradient";
   DevicesOptions options;
 };
 
-void run(const DevicesRequest& request) {
+void run(DevicesRequest& request) {
+  request.options.pipeline.edges.method = edge_method_from_name(request.edge_method);
   require_writable_folder(request.out);
   DevicesReport report;
   {
@@ -54,6 +56,9 @@ void add_bench_devices(CLI::App& bench, int& exit_code) {
       .bounded("seed", o.seed, 0u, 4000000000u, "Of the image")
       .flag("kernels,!--no-kernels", o.kernels,
             "Also every kernel, against the device's copying speed (default)");
+  add_template_options(*verb, o.templates);
+  add_edge_and_tensor_options(*verb, o.pipeline, request->edge_method);
+  add_detection_options(*verb, o.pipeline);
   verb->callback([request, &exit_code] {
     run(*request);
     exit_code = exit_done;

@@ -37,11 +37,12 @@ struct Work {
   std::vector<TemplateSet> sets;
   std::vector<EdgeModel> models;
   std::vector<Hypothesis> starts, truths;  // of registration and of scoring, camera frame
-  PipelineOptions options;
+  PipelineOptions options;                 // of the whole pipeline
 };
 
 Work make_work(const DevicesOptions& o, Backend& cpu) {
   Work work;
+  work.options = o.pipeline;
   ExperimentSettings settings;
   settings.image_scale = o.image_scale;
   RenderOptions render = single_image_options(settings, 0);
@@ -52,7 +53,7 @@ Work make_work(const DevicesOptions& o, Backend& cpu) {
   work.scene = rendered_scene("devices", {make_part("bearing_block")}, render, cpu.threads());
   if (work.scene.instances.empty())
     throw InputError("bench devices", "seed", std::to_string(o.seed), "one whose parts can be seen");
-  TemplateOptions templates;
+  TemplateOptions templates = o.templates;
   double nearest_m = 1e9, farthest_m = 0;
   for (const KnownInstance& instance : work.scene.instances) {
     const double distance_m =
@@ -60,8 +61,8 @@ Work make_work(const DevicesOptions& o, Backend& cpu) {
     nearest_m = std::min(nearest_m, distance_m);
     farthest_m = std::max(farthest_m, distance_m);
   }
-  templates.distance_min_m = 0.85 * nearest_m;
-  templates.distance_max_m = 1.15 * farthest_m;
+  if (templates.distance_min_m == 0) templates.distance_min_m = 0.85 * nearest_m;
+  if (templates.distance_max_m == 0) templates.distance_max_m = 1.15 * farthest_m;
   work.sets.push_back(build_templates(work.scene.objects[0], templates, cpu));
   work.models = models_of(work.sets);
   const int each = (POSES + static_cast<int>(work.scene.instances.size()) - 1) /
@@ -168,6 +169,8 @@ void DevicesOptions::validate() const {
     if (!holds) throw InputError("bench devices", field, number_text(found), expected);
   };
   require(repetitions >= LEAST_REPETITIONS && repetitions <= 1000, "repetitions", repetitions, "3 to 1000");
+  templates.validate();
+  pipeline.validate();
   require(image_scale >= 0.1 && image_scale <= 4, "image_scale", image_scale, "0.1 to 4");
 }
 
@@ -186,6 +189,9 @@ DevicesReport time_devices(const DevicesOptions& options,
   report.height = work.scene.images[0].camera.height;
   report.instances = static_cast<int>(work.scene.instances.size());
   report.poses = static_cast<int>(work.starts.size());
+  const TemplateSet& set = work.sets[0];
+  report.templates = set.views.size() * static_cast<std::size_t>(set.options.in_plane_steps) *
+                     template_distances_m(set.options).size();
   for (Runner& runner : runners) {
     if (runner.times.is_software)
       report.warnings.push_back(runner.times.name +

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/experiments/machine.h"
+#include "host/pipeline.h"
 #include "kernels/cases/measure.h"
 
 namespace edgescout {
@@ -15,9 +16,11 @@ struct DevicesOptions {
                                      // is always among them, first
   int repetitions = 7;               // of every stage; a slow device gets fewer, but three
   double image_scale = 1;            // of 1024 x 768
-  unsigned seed = 1;                 // of the image
-  bool kernels = true;               // also every kernel on its own, against the device's copying speed
-  void validate() const;             // InputError naming the field and the violated bound
+  TemplateOptions templates;         // distances of 0: from those of the parts in the image
+  PipelineOptions pipeline;
+  unsigned seed = 1;      // of the image
+  bool kernels = true;    // also every kernel on its own, against the device's copying speed
+  void validate() const;  // InputError naming the field and the violated bound
 };
 
 // One stage on one device.
@@ -42,6 +45,7 @@ struct DevicesReport {
   MachineLoad load;                                     // before
   std::vector<std::string> warnings;                    // a busy machine, software devices
   int width = 0, height = 0, instances = 0, poses = 0;  // of the image; poses registered and scored
+  std::size_t templates = 0;                            // that are searched for
   DevicesOptions options;
   std::string commit;
   std::vector<DeviceTimes> devices;  // the CPU first

@@ -105,6 +105,7 @@ std::string devices_json(const DevicesReport& report) {
                               {"height", report.height},
                               {"instances", report.instances},
                               {"poses", report.poses},
+                              {"templates", report.templates},
                               {"threads", report.load.threads},
                               {"load_average", report.load.load_average},
                               {"processor_share", report.load.share},
@@ -116,13 +117,14 @@ std::string devices_json(const DevicesReport& report) {
 
 std::string devices_markdown(const DevicesReport& report) {
   std::string text = fmt::format(
-      "# Devices\n\nOne rendered image of {} x {} with {} instances of one part; {} poses registered and "
-      "scored. Medians of {} repetitions (fewer where a device is slow), "
+      "# Devices\n\nOne rendered image of {} x {} with {} instances of one part; {} templates; {} poses "
+      "registered "
+      "and scored. Medians of {} repetitions (fewer where a device is slow), "
       "devices in turn within one run. {} threads, load average {:.2f}, {:.0f} % of the processors to be had "
       "before. Seed {}, commit {}.\n\n",
-      report.width, report.height, report.instances, report.poses, report.options.repetitions,
-      report.load.threads, report.load.load_average, 100 * report.load.share, report.options.seed,
-      report.commit);
+      report.width, report.height, report.instances, report.templates, report.poses,
+      report.options.repetitions, report.load.threads, report.load.load_average, 100 * report.load.share,
+      report.options.seed, report.commit);
   for (const std::string& warning : report.warnings) text += "**Warning:** " + warning + "\n\n";
   text += stage_table(report) + "\n" + device_table(report);
   for (const DeviceTimes& device : report.devices)
