@@ -77,7 +77,7 @@ Eigen::Quaterniond random_rest(const Mesh& mesh, Random& random) {
 }
 
 // Lowest and highest surface over each cell of a window of the table, relative to the object's origin.
-struct Table::Footprint {
+struct PileTable::Footprint {
   int x0 = 0, y0 = 0, width = 0, height = 0;
   std::vector<float> low_m, high_m;
 
@@ -89,7 +89,7 @@ struct Table::Footprint {
   }
 };
 
-Table::Table(double side_m, double cell_m)
+PileTable::PileTable(double side_m, double cell_m)
     : cells_(static_cast<int>(std::ceil(side_m / cell_m))),
       cell_m_(cell_m),
       heights_m_(static_cast<std::size_t>(cells_) * cells_, 0.0f) {}
@@ -114,7 +114,7 @@ void scan_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eig
 
 }  // namespace
 
-Table::Footprint Table::footprint(const Mesh& mesh, const Eigen::Quaterniond& rotation,
+PileTable::Footprint PileTable::footprint(const Mesh& mesh, const Eigen::Quaterniond& rotation,
                                   const Eigen::Vector2d& at) const {
   const Eigen::Matrix3d turned = rotation.toRotationMatrix();
   std::vector<Eigen::Vector3d> vertices;  // x and y in cells, z in metres
@@ -141,7 +141,7 @@ Table::Footprint Table::footprint(const Mesh& mesh, const Eigen::Quaterniond& ro
   return f;
 }
 
-double Table::rest_height(const Footprint& f) const {
+double PileTable::rest_height(const Footprint& f) const {
   double height = -std::numeric_limits<double>::infinity();
   for (int y = 0; y < f.height; ++y)
     for (int x = 0; x < f.width; ++x) {
@@ -153,7 +153,7 @@ double Table::rest_height(const Footprint& f) const {
   return height;
 }
 
-void Table::occupy(const Footprint& f, double height_m) {
+void PileTable::occupy(const Footprint& f, double height_m) {
   // One cell wider than the part: what a cell's centre misses must not be run into.
   for (int y = -1; y <= f.height; ++y)
     for (int x = -1; x <= f.width; ++x) {
@@ -167,7 +167,7 @@ void Table::occupy(const Footprint& f, double height_m) {
     }
 }
 
-Se3 Table::settle(const Mesh& mesh, Se3 pose, double radius_m, Random& random) const {
+Se3 PileTable::settle(const Mesh& mesh, Se3 pose, double radius_m, Random& random) const {
   constexpr int TRIALS = 150;
   const Eigen::Vector3d centre = surface_centre(mesh);
   const auto energy = [&](const Se3& at) { return (at * centre).z(); };
@@ -185,7 +185,7 @@ Se3 Table::settle(const Mesh& mesh, Se3 pose, double radius_m, Random& random) c
   return pose;
 }
 
-Se3 Table::place(const Mesh& mesh, double radius_m, bool alone, Random& random) {
+Se3 PileTable::place(const Mesh& mesh, double radius_m, bool alone, Random& random) {
   constexpr int TRIALS = 200;
   Se3 pose;
   pose.rotation = random_rest(mesh, random);

@@ -18,10 +18,10 @@ Eigen::Quaterniond random_rest(const Mesh& mesh, Random& random);
 // Centre of mass of the surface.
 Eigen::Vector3d surface_centre(const Mesh& mesh);
 
-class Table {
+class PileTable {
  public:
   // A square of `side_m` about the origin, its heights sampled every `cell_m`: the accuracy of contact.
-  Table(double side_m, double cell_m);
+  PileTable(double side_m, double cell_m);
 
   // Drops the mesh somewhere within `radius_m` of the origin. `alone`: on the bare table, apart from
   // everything else, outside the radius where there is no room left.

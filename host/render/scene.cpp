@@ -88,7 +88,7 @@ std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
 void lay_out(Scene& scene, double diameter_m, Random random) {
   const double crowd = std::sqrt(static_cast<double>(scene.placed.size()));
   const double radius = diameter_m * crowd * (0.65 - 0.35 * scene.options.pile);
-  Table table(8 * diameter_m * crowd, diameter_m / 80);
+  PileTable table(8 * diameter_m * crowd, diameter_m / 80);
   for (const std::size_t i : shuffled(scene.placed.size(), random)) {
     PlacedObject& part = scene.placed[i];
     const bool alone = random.uniform() >= scene.options.pile;

@@ -75,9 +75,9 @@ TEST(SurfaceCentre, OfAShiftedBoxIsItsMiddle) {
   EXPECT_LT((surface_centre(box) - Eigen::Vector3d(1, 2, 3)).norm(), 1e-12);
 }
 
-TEST(Table, LaysPartsApartOnTheBareTable) {
+TEST(PileTable, LaysPartsApartOnTheBareTable) {
   Random random(13);
-  Table table(1.0, 0.001);
+  PileTable table(1.0, 0.001);
   std::vector<std::pair<Mesh, Se3>> placed;
   for (int i = 0; i < 12; ++i) {
     const Mesh mesh = make_part(part_names()[i % 6]).mesh;
@@ -96,10 +96,10 @@ TEST(Table, LaysPartsApartOnTheBareTable) {
     }
 }
 
-TEST(Table, PilesPartsWithoutRunningThemIntoEachOther) {
+TEST(PileTable, PilesPartsWithoutRunningThemIntoEachOther) {
   constexpr double CELL_M = 0.001;
   Random random(14);
-  Table table(0.6, CELL_M);
+  PileTable table(0.6, CELL_M);
   std::vector<std::pair<Mesh, Se3>> placed;
   double highest = 0;
   for (int i = 0; i < 10; ++i) {
@@ -119,9 +119,9 @@ TEST(Table, PilesPartsWithoutRunningThemIntoEachOther) {
 }
 
 // On others, too, a part rests on something: a little lower and it would run into them.
-TEST(Table, LetsPartsDownUntilTheyTouch) {
+TEST(PileTable, LetsPartsDownUntilTheyTouch) {
   Random random(15);
-  Table table(0.6, 0.001);
+  PileTable table(0.6, 0.001);
   const Mesh block = make_box({0.2, 0.2, 0.03}), cube = make_box({0.02, 0.02, 0.02});
   const Se3 under = table.place(block, 0.0, false, random);
   const double top = 2 * under.translation_m.z();  // its origin is its middle
