@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <numeric>
+#include <utility>
 
 #include "kernels/error.h"
 #include "kernels/simd.h"
@@ -18,37 +20,52 @@ std::uint32_t six_bit(std::uint16_t value) {
                   (std::uint32_t(value) + (1u << (TEMPLATE_SCORE_SHIFT - 1))) >> TEMPLATE_SCORE_SHIFT);
 }
 
-// The tensor as planes with a margin of `outside` values, so that a template may hang over the border.
+// A part of the tensor as planes, `outside` where it reaches beyond the image, so that a template may hang over the border.
 // Columns are sorted by their remainder, [bin][y][x % step][x / step]: anchors `step` apart lie side by side.
 struct Planes {
   int left, top, step, stride, rows, bins;
-  std::vector<std::uint8_t> values;  // after the bins' planes, one of zeros
-  const std::uint8_t* at(int x, int y, int bin) const {
-    const int column = x + left;
-    return values.data() + ((std::size_t(bin) * rows + (y + top)) * step + column % step) * stride +
-           column / step;
+  std::vector<std::uint32_t> column;  // where a column lies in its row
+  std::vector<std::uint8_t> values;   // after the bins' planes, one of zeros
+  std::size_t at(int x, int y, int bin) const {
+    return (std::size_t(bin) * rows + (y + top)) * step * stride + column[x + left];
   }
   std::size_t next_row() const { return std::size_t(step) * step * stride; }  // of anchors
 };
 
 constexpr int block_columns = 32, block_rows = 8;
 
+// What templates read: pixels and bins.
 struct Bounds {
-  int x_min = 0, x_max = 0, y_min = 0, y_max = 0;
+  int x_min = 0, x_max = 0, y_min = 0, y_max = 0, bin_max = 0;
 };
 
-Bounds touched(const TensorShape& shape, std::span<const TemplatePoint> points,
-               std::span<const TemplateJob> jobs, int step) {
-  Bounds b{0, shape.width - 1, 0, shape.height - 1};
-  for (const TemplateJob& job : jobs)
-    for (std::uint32_t p = 0; p < job.point_count; ++p) {
-      const TemplatePoint& point = points[job.first_point + p];
-      b.x_min = std::min(b.x_min, job.x0 + point.dx_px);
-      b.y_min = std::min(b.y_min, job.y0 + point.dy_px);
-      b.x_max = std::max(b.x_max, job.x0 + point.dx_px + step * (int(job.columns) + block_columns));
-      b.y_max = std::max(b.y_max, job.y0 + point.dy_px + step * (int(job.rows) + block_rows));
-    }
-  return b;
+constexpr std::size_t chunk_jobs = 64;
+
+Bounds joined(const Bounds& a, const Bounds& b) {
+  return {std::min(a.x_min, b.x_min), std::max(a.x_max, b.x_max), std::min(a.y_min, b.y_min), std::max(a.y_max, b.y_max),
+          std::max(a.bin_max, b.bin_max)};
+}
+
+Bounds touched_by(const TemplateJob& job, const TemplatePoint* points, int step) {
+  int left = 0, right = 0, top = 0, bottom = 0, bin = 0;
+  for (std::uint32_t p = 0; p < job.point_count; ++p) {
+    left = std::min<int>(left, points[p].dx_px), right = std::max<int>(right, points[p].dx_px);
+    top = std::min<int>(top, points[p].dy_px), bottom = std::max<int>(bottom, points[p].dy_px);
+    bin = std::max<int>(bin, points[p].bin);
+  }
+  return {job.x0 + left, job.x0 + right + step * (int(job.columns) + block_columns),
+          job.y0 + top, job.y0 + bottom + step * (int(job.rows) + block_rows), bin};
+}
+
+// What all jobs read.
+Bounds touched(std::span<const TemplatePoint> points, std::span<const TemplateJob> jobs, int step, ThreadPool& pool) {
+  std::vector<Bounds> of_chunks((jobs.size() + chunk_jobs - 1) / chunk_jobs);
+  pool.for_each(of_chunks.size(), [&](std::size_t c) {
+    const auto chunk = jobs.subspan(c * chunk_jobs, std::min(chunk_jobs, jobs.size() - c * chunk_jobs));
+    of_chunks[c] = touched_by(chunk[0], points.data() + chunk[0].first_point, step);
+    for (const TemplateJob& job : chunk) of_chunks[c] = joined(of_chunks[c], touched_by(job, points.data() + job.first_point, step));
+  });
+  return std::accumulate(of_chunks.begin(), of_chunks.end(), of_chunks[0], joined);
 }
 
 Planes make_planes(std::span<const std::uint16_t> tensor, const TensorShape& shape, const Bounds& b, int step,
@@ -60,14 +77,23 @@ Planes make_planes(std::span<const std::uint16_t> tensor, const TensorShape& sha
   planes.top = -b.y_min;
   planes.stride = (b.x_max - b.x_min) / step + 1;
   planes.rows = b.y_max - b.y_min + 1;
+  for (int c = 0; c < b.x_max - b.x_min + 1; ++c) planes.column.push_back(static_cast<std::uint32_t>(c % step * planes.stride + c / step));
   const std::size_t plane = std::size_t(planes.rows) * step * planes.stride;
   planes.values.assign((shape.bins + 1) * plane, outside);
   std::fill(planes.values.end() - plane, planes.values.end(), std::uint8_t{0});
+  const int tile = int(DCD_TILE), right = std::min(shape.width, b.x_max + 1), left = std::clamp(b.x_min, 0, shape.width);
   pool.for_each(shape.bins, [&](std::size_t bin) {
-    for (int y = 0; y < shape.height; ++y)
-      for (int x = 0; x < shape.width; ++x)
-        planes.values[planes.at(x, y, int(bin)) - planes.values.data()] =
-            static_cast<std::uint8_t>(six_bit(tensor[shape.index(x, y, int(bin))]));
+    std::uint8_t values[DCD_TILE];
+    for (int y = std::max(0, b.y_min); y < std::min(shape.height, b.y_max + 1); ++y)
+      for (int x0 = left / tile * tile; x0 < right; x0 += tile) {
+        const std::uint16_t* from = tensor.data() + shape.index(x0, y, int(bin));
+        for (int i = 0; i < tile; ++i) values[i] = static_cast<std::uint8_t>(six_bit(from[i]));
+        const int begin = std::max(0, left - x0), end = std::min(tile, right - x0);
+        for (int first = begin; first < std::min(begin + step, end); ++first) {
+          std::uint8_t* to = planes.values.data() + planes.at(x0 + first, y, int(bin));
+          for (int i = first; i < end; i += step) *to++ = values[i];
+        }
+      }
   });
   return planes;
 }
@@ -75,19 +101,36 @@ Planes make_planes(std::span<const std::uint16_t> tensor, const TensorShape& sha
 using Values = std::uint8_t __attribute__((vector_size(block_columns)));
 using Sums = std::uint16_t __attribute__((vector_size(block_columns)));
 
-// Sums of a template at block_rows x block_columns anchors. The block stays in registers while the points go
-// by; four values add up in a byte before even and odd columns are widened apart.
+// Sums of a template at block_rows x block_columns anchors, even and odd columns apart.
+struct BlockSums {
+  Sums even[block_rows], odd[block_rows];
+  std::uint16_t at(std::uint32_t row, std::uint32_t column) const { return column % 2 == 0 ? even[row][column / 2] : odd[row][column / 2]; }
+};
+
+// Lanes of the columns that do not count, all ones.
+struct LaneMask {
+  Sums even = {}, odd = {};
+  explicit LaneMask(std::uint32_t columns) {
+    for (std::uint32_t i = 0; i < block_columns / 2; ++i) {
+      even[i] = 2 * i < columns ? 0 : 0xffff;
+      odd[i] = 2 * i + 1 < columns ? 0 : 0xffff;
+    }
+  }
+};
+
+// Returns the lowest of the first `rows`. The block stays in registers while the points go by; four values add up in a byte before even
+// and odd columns are widened apart.
 EDGESCOUT_SIMD_CLONES
-void sum_block(const std::uint8_t* const* sources, std::uint32_t count, std::size_t offset,
-               std::size_t stride, std::uint16_t* sums) {
+std::uint32_t sum_block(const std::uint8_t* planes, const std::size_t* sources, std::uint32_t count, std::size_t offset, std::size_t stride,
+                        std::uint32_t rows, const LaneMask& mask, BlockSums& out) {
   Sums even[block_rows] = {}, odd[block_rows] = {};
   for (std::uint32_t p = 0; p < count; p += 4) {
     // A group cut short is filled up from the plane of zeros.
     for (int r = 0; r < block_rows; ++r) {
       Values four, next;
-      std::memcpy(&four, sources[p] + offset + r * stride, sizeof four);
+      std::memcpy(&four, planes + sources[p] + offset + r * stride, sizeof four);
       for (int q = 1; q < 4; ++q) {
-        std::memcpy(&next, sources[p + q] + offset + r * stride, sizeof next);
+        std::memcpy(&next, planes + sources[p + q] + offset + r * stride, sizeof next);
         four += next;
       }
       Sums pairs;
@@ -96,53 +139,69 @@ void sum_block(const std::uint8_t* const* sources, std::uint32_t count, std::siz
       odd[r] += pairs >> 8;
     }
   }
+  Sums lowest = mask.even | 0xffff;
+  for (std::uint32_t r = 0; r < block_rows; ++r) {
+    out.even[r] = even[r] | mask.even, out.odd[r] = odd[r] | mask.odd;
+    const Sums both = out.even[r] < out.odd[r] ? out.even[r] : out.odd[r];
+    const Sums lower = both < lowest ? both : lowest;
+    lowest = r < rows ? lower : lowest;
+  }
+  std::uint16_t least = 0xffff;
+  for (int i = 0; i < block_columns / 2; ++i) least = std::min<std::uint16_t>(least, lowest[i]);
+  return least;
+}
+
+// Row and column of the first of these sums, row by row.
+std::pair<int, int> first_in_block(const BlockSums& sums, std::uint32_t wanted) {
   for (int r = 0; r < block_rows; ++r)
-    for (int i = 0; i < block_columns / 2; ++i) {
-      sums[r * block_columns + 2 * i] = even[r][i];
-      sums[r * block_columns + 2 * i + 1] = odd[r][i];
-    }
+    for (int c = 0; c < block_columns; ++c)
+      if (sums.at(r, c) == wanted) return {r, c};
+  throw LogicError("template_score: a lowest sum that is nowhere");
 }
 
 TemplateHit best_of_job(const Planes& planes, std::span<const TemplatePoint> points, const TemplateJob& job) {
-  const std::uint8_t* sources[TEMPLATE_SCORE_MAX_POINTS + 3];
+  std::size_t sources[TEMPLATE_SCORE_MAX_POINTS + 3];
   for (std::uint32_t p = 0; p < job.point_count; ++p) {
     const TemplatePoint& point = points[job.first_point + p];
     sources[p] = planes.at(job.x0 + point.dx_px, job.y0 + point.dy_px, point.bin);
   }
-  for (std::uint32_t p = job.point_count; p % 4 != 0; ++p)
-    sources[p] = planes.at(job.x0, job.y0, planes.bins);
+  for (std::uint32_t p = job.point_count; p % 4 != 0; ++p) sources[p] = planes.at(job.x0, job.y0, planes.bins);
   TemplateHit hit{~0u, job.x0, job.y0};
-  std::uint16_t sums[block_rows * block_columns];
-  for (std::uint32_t y = 0; y < job.rows; y += block_rows)
-    for (std::uint32_t x = 0; x < job.columns; x += block_columns) {
-      sum_block(sources, job.point_count, y * planes.next_row() + x, planes.next_row(), sums);
-      for (std::uint32_t r = 0; r < std::min<std::uint32_t>(block_rows, job.rows - y); ++r)
-        for (std::uint32_t c = 0; c < std::min<std::uint32_t>(block_columns, job.columns - x); ++c) {
-          const TemplateHit here{sums[r * block_columns + c], job.x0 + planes.step * int(x + c),
-                                 job.y0 + planes.step * int(y + r)};
-          // Blocks are visited column by column, so equal sums are decided by position, not by order.
-          if (here.sum < hit.sum ||
-              (here.sum == hit.sum && (here.y < hit.y || (here.y == hit.y && here.x < hit.x))))
-            hit = here;
-        }
+  BlockSums sums;
+  for (std::uint32_t x = 0; x < job.columns; x += block_columns) {
+    const LaneMask mask(job.columns - x);
+    for (std::uint32_t y = 0; y < job.rows; y += block_rows) {
+      const std::uint32_t sum =
+          sum_block(planes.values.data(), sources, job.point_count, y * planes.next_row() + x, planes.next_row(), job.rows - y, mask, sums);
+      if (sum > hit.sum) continue;
+      const auto [row, column] = first_in_block(sums, sum);
+      const TemplateHit here{sum, job.x0 + planes.step * (int(x) + column), job.y0 + planes.step * (int(y) + row)};
+      // Blocks are visited column by column, so equal sums are decided by position, not by order.
+      if (here.sum < hit.sum || here.y < hit.y || (here.y == hit.y && here.x < hit.x)) hit = here;
     }
+  }
   return hit;
 }
+
+// All but what points hold.
+void check_jobs(std::size_t points, std::span<const TemplateJob> jobs, int anchor_step, std::size_t hits) {
+  check(anchor_step >= 1 && anchor_step <= 16, "template_score: anchor step in [1, 16]");
+  check(hits == jobs.size(), "template_score: as many hits as jobs");
+  for (const TemplateJob& job : jobs) {
+    check(job.point_count >= 1 && job.point_count <= TEMPLATE_SCORE_MAX_POINTS, "template_score: points of a template");
+    check(std::size_t(job.first_point) + job.point_count <= points, "template_score: points beyond the list");
+    check(job.columns >= 1 && job.rows >= 1, "template_score: a job without anchors");
+  }
+}
+
+constexpr const char* BIN_OUT_OF_RANGE = "template_score: bin out of range";
 
 }  // namespace
 
 void check_template_jobs(const TensorShape& shape, std::span<const TemplatePoint> points,
                          std::span<const TemplateJob> jobs, int anchor_step, std::size_t hits) {
-  check(anchor_step >= 1 && anchor_step <= 16, "template_score: anchor step in [1, 16]");
-  check(hits == jobs.size(), "template_score: as many hits as jobs");
-  for (const TemplatePoint& point : points) check(point.bin < shape.bins, "template_score: bin out of range");
-  for (const TemplateJob& job : jobs) {
-    check(job.point_count >= 1 && job.point_count <= TEMPLATE_SCORE_MAX_POINTS,
-          "template_score: points of a template");
-    check(std::size_t(job.first_point) + job.point_count <= points.size(),
-          "template_score: points beyond the list");
-    check(job.columns >= 1 && job.rows >= 1, "template_score: a job without anchors");
-  }
+  check_jobs(points.size(), jobs, anchor_step, hits);
+  for (const TemplatePoint& point : points) check(point.bin < shape.bins, BIN_OUT_OF_RANGE);
 }
 
 void template_score_reference(std::span<const std::uint16_t> tensor, const TensorShape& shape,
@@ -169,13 +228,13 @@ void template_score_reference(std::span<const std::uint16_t> tensor, const Tenso
 void template_score_fast(std::span<const std::uint16_t> tensor, const TensorShape& shape,
                          std::span<const TemplatePoint> points, std::span<const TemplateJob> jobs,
                          int anchor_step, std::span<TemplateHit> hits, ThreadPool& pool) {
-  check_template_jobs(shape, points, jobs, anchor_step, hits.size());
+  check_jobs(points.size(), jobs, anchor_step, hits.size());
   if (jobs.empty()) return;
-  const Planes planes =
-      make_planes(tensor, shape, touched(shape, points, jobs, anchor_step), anchor_step, pool);
-  constexpr std::size_t chunk = 64;
-  pool.for_each((jobs.size() + chunk - 1) / chunk, [&](std::size_t c) {
-    for (std::size_t j = c * chunk; j < std::min(jobs.size(), (c + 1) * chunk); ++j)
+  const Bounds bounds = touched(points, jobs, anchor_step, pool);
+  check(bounds.bin_max < shape.bins, BIN_OUT_OF_RANGE);
+  const Planes planes = make_planes(tensor, shape, bounds, anchor_step, pool);
+  pool.for_each((jobs.size() + chunk_jobs - 1) / chunk_jobs, [&](std::size_t c) {
+    for (std::size_t j = c * chunk_jobs; j < std::min(jobs.size(), (c + 1) * chunk_jobs); ++j)
       hits[j] = best_of_job(planes, points, jobs[j]);
   });
 }

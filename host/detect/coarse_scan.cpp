@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/detect/template_projection.h"
 #include "kernels/error.h"
-#include "kernels/pose_geometry.h"
 #include "kernels/thread_pool.h"
 
 namespace edgescout {
@@ -38,25 +38,9 @@ std::vector<Region> cut_into_regions(const Camera& camera, const ScanOptions& op
   return regions;
 }
 
-// Image points of one template about the region's middle; none where a point lies behind the camera.
-int project_template(const TemplateSet& set, const TemplateView& view, const Se3& pose, const Region& region, const Observation& observation,
-                     int most, TemplatePoint* points) {
-  const Pose transform = to_pose(pose);
-  const Intrinsics& k = observation.salient->intrinsics;
-  const int bins = observation.salient->shape.bins, count = std::min<int>(most, int(view.points.size()));
-  for (int i = 0; i < count; ++i) {
-    const PosedPoint<float> posed = pose_point<float>(transform, view.points[std::size_t(i) * view.points.size() / count]);
-    if (posed.point.z < 0.1 * set.model.radius_m) return 0;
-    const ProjectedEdge<float> edge = project_edge(posed, k);
-    const int bin = int(std::lround(orientation(edge.dx, edge.dy) * float(bins) / std::numbers::pi_v<float>)) % bins;
-    points[i] = {static_cast<std::int16_t>(std::lround(edge.u - float(region.middle.x()))),
-                 static_cast<std::int16_t>(std::lround(edge.v - float(region.middle.y()))), static_cast<std::uint16_t>(bin)};
-  }
-  return count;
-}
-
-// Shared by all regions of a scan, so that nothing is allocated anew.
+// Shared by all regions of a scan, so that nothing is made anew.
 struct Workspace {
+  std::vector<ThinnedView> views;
   std::vector<TemplatePoint> points;
   std::vector<TemplateJob> jobs;
   std::vector<TemplateHit> hits;
@@ -68,15 +52,20 @@ void scan_region(const TemplateSet& set, const Numbering& numbering, const Regio
   work.points.resize(templates * options.points);
   work.jobs.resize(templates);
   work.hits.resize(templates);
+  const auto& salient = *observation.salient;
+  const float nearest_m = float(0.1 * set.model.radius_m);
   constexpr std::size_t chunk = 256;
   backend.threads().for_each((templates + chunk - 1) / chunk, [&](std::size_t c) {
     for (std::size_t t = c * chunk; t < std::min(templates, (c + 1) * chunk); ++t) {
-      const TemplateView& view = set.views[numbering.view(t)];
-      const Se3 pose = place_template(set, view, numbering.in_plane_rad(t), numbering.distance_m(t), region.middle, observation.coarse_camera);
+      const Se3 pose = place_template(set, set.views[numbering.view(t)], numbering.in_plane_rad(t), numbering.distance_m(t), region.middle,
+                                      observation.coarse_camera);
+      const ThinnedView& view = work.views[numbering.view(t)];
       TemplatePoint* points = work.points.data() + t * options.points;
-      int count = project_template(set, view, pose, region, observation, options.points, points);
+      int count = view.count();
       // A template that cannot be drawn scores as if all its points lay outside.
-      if (count == 0) points[count++] = {-32000, 0, 0};
+      if (count == 0 || !view.project(to_pose(pose), salient.intrinsics, float(region.middle.x()), float(region.middle.y()), salient.shape.bins,
+                                      nearest_m, points))
+        points[0] = {-16000, 0, 0}, count = 1;
       work.jobs[t] = {static_cast<std::uint32_t>(t * options.points), static_cast<std::uint32_t>(count), region.x0, region.y0,
                       static_cast<std::uint32_t>(region.columns), static_cast<std::uint32_t>(region.rows)};
     }
@@ -114,6 +103,7 @@ std::vector<ScanHit> coarse_scan(const TemplateSet& set, const Observation& obse
   const Numbering numbering{set.options.in_plane_steps, template_distances_m(set.options)};
   std::vector<ScanHit> found;
   Workspace work;
+  for (const TemplateView& view : set.views) work.views.emplace_back(view, options.points);
   const std::vector<Region> regions = cut_into_regions(observation.coarse_camera, options);
   const std::size_t share = (options.kept + regions.size() - 1) / regions.size();
   for (const Region& region : regions) scan_region(set, numbering, region, observation, backend, options, share, work, found);

@@ -91,7 +91,7 @@ TEST_P(TemplateScorePaths, BrokenJobsAreOurBugs) {
   const auto score = [&](std::size_t count, TemplateJob job) {
     tested->template_score(*view, std::span(points).first(count), {&job, 1}, 1, hits);
   };
-  EXPECT_THROW(score(2, {0, 1, 0, 0, 1, 1}), LogicError);  // a bin that is not there
+  EXPECT_THROW(score(2, {0, 2, 0, 0, 1, 1}), LogicError);  // a bin that is not there
   EXPECT_THROW(score(1, {0, 2, 0, 0, 1, 1}), LogicError);  // points beyond the list
   EXPECT_THROW(score(1, {0, 0, 0, 0, 1, 1}), LogicError);  // no points
   EXPECT_THROW(score(1, {0, 1, 0, 0, 0, 1}), LogicError);  // no anchors
