@@ -8,6 +8,7 @@
 #include "host/cli/bench_verbs.h"
 #include "host/cli/config.h"
 #include "host/cli/exit_codes.h"
+#include "host/cli/pipeline_options.h"
 #include "host/cli/progress.h"
 #include "host/experiments/experiment.h"
 #include "kernels/error.h"
@@ -28,7 +29,7 @@ constexpr std::pair<const char*, int ExperimentSettings::*> SIZES[] = {
     {"scenes", &ExperimentSettings::scenes},         {"groups", &ExperimentSettings::groups},
     {"starts", &ExperimentSettings::starts},         {"group-starts", &ExperimentSettings::group_starts},
     {"every", &ExperimentSettings::every},           {"frames-every", &ExperimentSettings::frames_every},
-    {"candidates", &ExperimentSettings::candidates},
+    {"candidates", &ExperimentSettings::candidates}, {"bins", &ExperimentSettings::bins},
 };
 
 ExperimentSettings settings_of(const ExperimentsRequest& request, const CLI::App& verb) {
@@ -81,6 +82,14 @@ std::string names_text() {
   return text;
 }
 
+void add_bin_options(CLI::App& verb, ScoutOptions& o) {
+  OptionTable(verb, "Bins")
+      .bounded("max-views", o.max_views, 1, 32, "Images")
+      .bounded("aligned", o.pipeline.detect.aligned, 1, 1000000, "Hits of an image and type that are aligned")
+      .bounded("registered", o.pipeline.detect.candidates, 1, 100000, "Candidates of an image and type that are registered");
+  add_belief_options(verb, o);
+}
+
 void add_sizes(CLI::App& verb, ExperimentsRequest& r) {
   ExperimentSettings& s = r.settings;
   OptionTable(verb, "Sizes (default: those of the form)")
@@ -93,6 +102,7 @@ void add_sizes(CLI::App& verb, ExperimentsRequest& r) {
       .bounded("every", s.every, 1, 10000, "Of the recorded starts those whose number this divides")
       .bounded("frames-every", s.frames_every, 1, 100, "Of the cat's photographs one in so many")
       .bounded("candidates", s.candidates, 1, 100000, "Of the detection, in every image and for every type")
+      .bounded("bins", s.bins, 1, 10000, "Of piled parts, for the next best view")
       .bounded("image-scale", s.image_scale, 0.1, 2.0, "Of the paper's image sizes")
       .bounded("supersampling", s.supersampling, 1, 7, "Samples a pixel and axis of rendered images; odd");
 }
@@ -117,6 +127,7 @@ void add_bench_experiments(CLI::App& bench, int& exit_code) {
       .flag("times,!--no-times", request->settings.times,
             "Measured times among the rows (default); without, two runs give the same bytes");
   add_sizes(*verb, *request);
+  add_bin_options(*verb, request->settings.scout);
   verb->callback([request, verb, &exit_code] {
     run(*request, *verb);
     exit_code = exit_done;

@@ -31,6 +31,21 @@ void add_detection_options(CLI::App& verb, PipelineOptions& o) {
       .bounded("max-detections", d.max_detections, 1, 100000, "Reported an image");
 }
 
+void add_belief_options(CLI::App& verb, ScoutOptions& o) {
+  OptionTable(verb, "Information")
+      .bounded("map-reduction", o.next_view.reduction, 1.0, 16.0, "Image px a px of the distance maps")
+      .bounded("chamfer-cap", o.next_view.cap_px, 0.1, 255.0, "Of distances, image px")
+      .bounded("sigma", o.next_view.sigma_px, 0.001, 1000.0, "Of the mean distance of a right pose, image px")
+      .flag("literal", o.next_view.literal, "The paper's own formula for the information")
+      .bounded("combinations", o.combinations.count, 1, 1000000, "Scenes imagined for a decision")
+      .bounded("sharpness", o.combinations.sharpness, 0.0, 1000.0, "Of the preference for likely candidates in them; 1: the paper's")
+      .bounded("penetration", o.penetration_m, 0.0, 1.0, "How far parts may reach into each other, m");
+  OptionTable(verb, "Belief")
+      .bounded("particles", o.particles.count, 1, 100000, "Poses that are followed")
+      .bounded("max-candidates", o.max_candidates, 1, 10000, "Of all objects together, kept from image to image")
+      .flag("every-image,!--first-image-only", o.detect_in_every_image, "Detect in every image (default), or in the first only, as in the paper");
+}
+
 void add_template_options(CLI::App& verb, TemplateOptions& o) {
   OptionTable(verb, "Templates")
       .bounded("distance-min", o.distance_min_m, 0.0, 1000.0, "Camera to object, m; 0: from its size and the camera")

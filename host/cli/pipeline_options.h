@@ -1,6 +1,7 @@
-// The pipeline's options as rows of the table: one place for `detect` and `register`.
+// The options of pipeline and active detection as rows of the table: one place for all verbs that have them.
 #pragma once
 
+#include "host/active/scout.h"
 #include "host/cli/config.h"
 #include "host/pipeline.h"
 
@@ -10,5 +11,7 @@ namespace edgescout {
 void add_edge_and_tensor_options(CLI::App& verb, PipelineOptions& options, std::string& edge_method);
 void add_detection_options(CLI::App& verb, PipelineOptions& options);
 void add_template_options(CLI::App& verb, TemplateOptions& options);
+// What is imagined of a next view, and what is followed from image to image.
+void add_belief_options(CLI::App& verb, ScoutOptions& options);
 
 }  // namespace edgescout

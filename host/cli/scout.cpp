@@ -26,7 +26,7 @@ struct ScoutRequest {
   ScoutOptions options;
   std::string strategy = to_string(Strategy::Information), device = "auto", edge_method = "gradient", out;
   std::vector<int> sequence;
-  bool first_image_only = false, resume = false, watch = false;
+  bool resume = false, watch = false;
 };
 
 std::vector<Object> objects_of(const KnownModels& known) {
@@ -57,7 +57,6 @@ void settle_options(ScoutRequest& request) {
   o.pipeline.edges.method = edge_method_from_name(request.edge_method);
   o.next_view.strategy = strategy_from(request.strategy);
   o.next_view.sequence = request.sequence;
-  o.detect_in_every_image = !request.first_image_only;
   o.detections.min_probability = o.pipeline.detect.min_probability;
   o.validate();
   request.templates.validate();
@@ -114,20 +113,10 @@ void add_loop_options(CLI::App& verb, ScoutRequest& r) {
   OptionTable(verb, "Next view")
       .choice("strategy", r.strategy, {"mi-max", "dis", "random", "fixed"}, "Most information, most disoccluded points, any view, or in the order of --sequence")
       .bounded("first-view", o.first_view, 0, 1000000, "The first image's")
-      .bounded("map-reduction", o.next_view.reduction, 1.0, 16.0, "Image px a px of the distance maps")
-      .bounded("chamfer-cap", o.next_view.cap_px, 0.1, 255.0, "Of distances, image px")
-      .bounded("sigma", o.next_view.sigma_px, 0.001, 1000.0, "Of the mean distance of a right pose, image px")
-      .flag("literal", o.next_view.literal, "The paper's own formula for the information")
       .bounded("metre-cost", o.next_view.motion_cost_per_m, 0.0, 1e6, "Taken off for a metre of the camera's way, nats")
-      .bounded("radian-cost", o.next_view.motion_cost_per_rad, 0.0, 1e6, "And for a radian of its turn, nats")
-      .bounded("combinations", o.combinations.count, 1, 1000000, "Scenes imagined for a decision")
-      .bounded("sharpness", o.combinations.sharpness, 0.0, 1000.0, "Of the preference for likely candidates in them; 1: the paper's")
-      .bounded("penetration", o.penetration_m, 0.0, 1.0, "How far parts may reach into each other, m");
+      .bounded("radian-cost", o.next_view.motion_cost_per_rad, 0.0, 1e6, "And for a radian of its turn, nats");
   verb.add_option("--sequence", r.sequence, "Views of strategy fixed; default: all in order")->group("Next view");
-  OptionTable(verb, "Belief")
-      .bounded("particles", o.particles.count, 1, 100000, "Poses that are followed")
-      .bounded("max-candidates", o.max_candidates, 1, 10000, "Of all objects together, kept from image to image")
-      .flag("first-image-only", r.first_image_only, "Detect in the first image only, as in the paper");
+  add_belief_options(verb, o);
 }
 
 }  // namespace

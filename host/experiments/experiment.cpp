@@ -7,6 +7,7 @@
 
 #include "host/experiments/detection.h"
 #include "host/experiments/multiview.h"
+#include "host/experiments/nbv.h"
 #include "host/experiments/registration.h"
 #include "host/io/files.h"
 #include "kernels/error.h"
@@ -46,7 +47,7 @@ void write_report(const Experiment& experiment, const ExperimentSettings& settin
   const Report report = experiment.report(settings, table);
   const std::string& name = experiment.name;
   write_file_atomically(out / (name + ".csv"), to_csv(table));
-  write_file_atomically(out / (name + ".svg"), svg_of(report.panels));
+  write_file_atomically(out / (name + ".svg"), svg_of(report.panels, report.columns));
   write_file_atomically(out / (name + ".md"),
                         fmt::format("# {0}\n\n{1}\n![{0}]({2}.svg)\n\nRows: [{2}.csv]({2}.csv). {3}",
                                     experiment.title, report.markdown, name, provenance(table)));
@@ -82,7 +83,7 @@ Table run_cells_of(const Experiment& experiment, const ExperimentSettings& setti
 
 const std::vector<Experiment>& experiments() {
   static const std::vector<Experiment> all{detection_experiment(), registration_experiment(),
-                                           multiview_experiment()};
+                                           multiview_experiment(), nbv_experiment()};
   return all;
 }
 

@@ -14,6 +14,7 @@ namespace edgescout {
 struct Report {
   std::string markdown;  // tables and what they count, in the form of docs/evaluation.md
   std::vector<Panel> panels;
+  int columns = 3;  // of panels
 };
 
 struct Experiment {

@@ -37,6 +37,8 @@ struct KnownScene {
 
 // Less than this is visible: an instance takes no part.
 inline constexpr double LEAST_VISIBLE = 0.1;
+// More than this is visible: lightly occluded; else highly (the paper's 30 %).
+inline constexpr double LIGHTLY_OCCLUDED = 0.7;
 
 // The five types of the rendered scenes: (a) to (e), as in the paper's figures.
 std::vector<Object> rendered_types();

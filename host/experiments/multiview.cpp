@@ -87,13 +87,11 @@ Report report(const ExperimentSettings&, const Table& table) {
                                    rate_table(rows, series(), criterion));
     result.panels.push_back(rate_panel(title, rows, series(), criterion));
   };
-  constexpr double LIGHTLY =
-      0.7;  // more than this is visible: lightly occluded, as in the paper's last experiment
   const auto is_rendered = [](const Table& t, std::size_t row) {
     return text_in(t, row, "set") == "rendered";
   };
   const auto is_light = [](const Table& t, std::size_t row) {
-    return number_in(t, row, "visible") > LIGHTLY;
+    return number_in(t, row, "visible") > LIGHTLY_OCCLUDED;
   };
   add("Rendered groups", rows_of(is_rendered), pose_criterion());
   add("Rendered groups, lightly occluded",

@@ -37,6 +37,10 @@ void set_camera(RenderOptions& options, int width, int height, double focal_px, 
 
 }  // namespace
 
+ExperimentSettings::ExperimentSettings() {
+  scout.min_entropy_nats = 0;  // all strategies use up their views
+}
+
 ExperimentSettings ExperimentSettings::short_form() { return {}; }
 
 ExperimentSettings ExperimentSettings::full_form() {
@@ -47,6 +51,7 @@ ExperimentSettings ExperimentSettings::full_form() {
   settings.group_starts = 20;
   settings.every = 9;
   settings.frames_every = 1;
+  settings.bins = 30;
   return settings;
 }
 
@@ -58,9 +63,19 @@ void ExperimentSettings::validate() const {
   require(every >= 1, "every", every, "at least 1");
   require(frames_every >= 1, "frames_every", frames_every, "at least 1");
   require(candidates >= 1 && candidates <= 100000, "candidates", candidates, "1 to 100000");
+  require(bins >= 1 && bins <= 10000, "bins", bins, "1 to 10000");
+  scout.validate();
   require(image_scale >= 0.1 && image_scale <= 2, "image_scale", image_scale, "0.1 to 2");
   require(supersampling % 2 == 1 && supersampling >= 1 && supersampling <= 7, "supersampling", supersampling,
           "1, 3, 5 or 7");
+}
+
+RenderOptions bin_image_options(const ExperimentSettings& settings) {
+  RenderOptions options;
+  options.pile = 0.7;
+  options.supersampling = settings.supersampling;
+  set_camera(options, 640, 480, 760, settings.image_scale);
+  return options;
 }
 
 RenderOptions single_image_options(const ExperimentSettings& settings, int scene) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 
+#include "host/active/scout.h"
 #include "host/experiments/table.h"
 #include "host/render/scene.h"
 
@@ -19,13 +20,19 @@ struct ExperimentSettings {
   int every = 54;          // of the recorded starts (d2co-starts) those whose number this divides
   int frames_every = 4;    // of the cat's photographs one in so many is used
   int candidates = 1260;   // of the detection, in every image and for every type
-  double image_scale = 1;  // of the paper's image sizes
+  int bins = 1;            // of the next best view: piled parts, looked at from a hemisphere
+  ScoutOptions scout;      // in the bins; strategy, sequence, seeds and first view are the experiment's
+  double image_scale = 1;  // of the paper's image sizes; the bins' are 640x480
   int supersampling = 3;   // of the renderer; odd
   bool times = true;       // off: columns of times stay empty, so that two runs give the same bytes
+  ExperimentSettings();
   static ExperimentSettings short_form();  // minutes on two cores
   static ExperimentSettings full_form();   // the paper's numbers of images; about an hour on two cores
   void validate() const;                   // InputError naming the field and the violated bound
 };
+
+// Of a bin's camera and light; how many parts there are and where differs from bin to bin (bin.h).
+RenderOptions bin_image_options(const ExperimentSettings& settings);
 
 // Dataset 1: up to five parts in an image; Dataset 2: up to twenty in three (paper, Sec. 6). At the paper's
 // sizes times `image_scale`.

@@ -18,14 +18,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Images of a quarter of the paper's size, two starts, few candidates.
+// Images of a quarter of the paper's size, two starts, few candidates, one bin looked at twice.
 std::vector<std::string> experiments(const fs::path& out, const std::vector<std::string>& more = {},
                                      int scenes = 3, int starts = 2) {
   std::vector<std::string> arguments{
       "bench",    "experiments",          "--out",    out,        "--image-scale",
       "0.25",     "--supersampling",      "1",        "--scenes", std::to_string(scenes),
       "--starts", std::to_string(starts), "--groups", "1",        "--group-starts",
-      "1",        "--candidates",         "60"};
+      "1",        "--candidates",         "60",       "--bins",   "1",
+      "--max-views", "2",                 "--aligned", "20",      "--registered",
+      "3",        "--particles",          "20",       "--combinations", "50"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
@@ -54,7 +56,7 @@ TEST(BenchExperiments, WritesRowsTablesAndPlots) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.err.find("registration: 3/3"), std::string::npos) << outcome.err;
   const std::string index = content_of(out / "index.md");
-  for (const std::string name : {"detection", "registration", "multiview"}) {
+  for (const std::string name : {"detection", "registration", "multiview", "nbv"}) {
     const Table rows = load_table(out / (name + ".csv"));
     EXPECT_GT(rows.rows.size(), 10u) << name;
     EXPECT_EQ(rows.notes[1], (std::pair<std::string, std::string>{"seed", "5"}));
@@ -103,7 +105,7 @@ TEST(BenchExperiments, KilledAndResumedGiveTheSameBytes) {
 TEST(BenchExperiments, OfAnUnknownNameListTheKnownOnes) {
   const TemporaryFolder folder;
   expect_one_line(run_program(experiments(folder.path() / "out", {"registratoin"})),
-                  {"found registratoin", "detection, registration, multiview"});
+                  {"found registratoin", "detection, registration, multiview, nbv"});
   EXPECT_FALSE(fs::exists(folder.path() / "out"));
 }
 

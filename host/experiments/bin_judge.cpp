@@ -1,4 +1,4 @@
-#include "bench/bins_judge.h"
+#include "host/experiments/bin_judge.h"
 
 #include <algorithm>
 #include <functional>
@@ -9,15 +9,15 @@ namespace edgescout {
 
 namespace {
 
-Tally& group_of(Judgement& judgement, const Instance& instance) { return instance.visible > LIGHTLY_OCCLUDED ? judgement.light : judgement.heavy; }
+Tally& group_of(Judgement& judgement, const BinInstance& instance) { return instance.visible > LIGHTLY_OCCLUDED ? judgement.light : judgement.heavy; }
 
-const Instance& nearest(std::span<const Instance> instances, const Se3& pose) {
-  return *std::ranges::min_element(instances, {}, [&](const Instance& instance) { return distance_between_m(instance.world_from_object, pose); });
+const BinInstance& nearest(std::span<const BinInstance> instances, const Se3& pose) {
+  return *std::ranges::min_element(instances, {}, [&](const BinInstance& instance) { return distance_between_m(instance.world_from_object, pose); });
 }
 
 // `error`: of a detection at an instance of its object, 1 or more where it is not right.
-void match(std::span<const Instance> instances, std::span<const ModeDetection> detections, Judgement& judgement, int Tally::*correct, int Tally::*wrong,
-           const std::function<double(const Detection&, const Instance&)>& error) {
+void match(std::span<const BinInstance> instances, std::span<const ModeDetection> detections, Judgement& judgement, int Tally::*correct, int Tally::*wrong,
+           const std::function<double(const Detection&, const BinInstance&)>& error) {
   std::vector<char> taken(instances.size(), 0);
   for (const ModeDetection& mode : detections) {
     const Detection& found = mode.detection;
@@ -32,17 +32,17 @@ void match(std::span<const Instance> instances, std::span<const ModeDetection> d
       continue;
     }
     taken[best] = 1;
-    if (instances[best].visible >= IGNORED) ++(group_of(judgement, instances[best]).*correct);
+    if (instances[best].visible >= LEAST_VISIBLE) ++(group_of(judgement, instances[best]).*correct);
   }
 }
 
 // Of a pose at an instance of its object: below 1 where it is right.
-double error_of(const Se3& pose, const Instance& instance, const Object& object) {
+double error_of(const Se3& pose, const BinInstance& instance, const Object& object) {
   const PoseError e = pose_error(pose, instance.world_from_object, object.symmetries);
   return std::max(e.angle_rad / 0.1, e.distance_m / 0.005);
 }
 
-bool is_followed(const Instance& instance, std::span<const Particle> particles, const Object& object) {
+bool is_followed(const BinInstance& instance, std::span<const Particle> particles, const Object& object) {
   return std::ranges::any_of(particles, [&](const Particle& particle) {
     return particle.object == instance.object && distance_between_m(particle.world_from_object, instance.world_from_object) < object.mesh.diameter_m &&
            error_of(particle.world_from_object, instance, object) < 1;
@@ -51,20 +51,20 @@ bool is_followed(const Instance& instance, std::span<const Particle> particles, 
 
 }  // namespace
 
-Judgement judge(std::span<const Instance> instances, const ScoutStep& step, std::span<const Object> objects, const Camera& camera, const Se3& camera_from_world) {
+Judgement judge(std::span<const BinInstance> instances, const ScoutStep& step, std::span<const Object> objects, const Camera& camera, const Se3& camera_from_world) {
   const auto object_of = [&](int index) -> const Object& { return objects[static_cast<std::size_t>(index)]; };
   Judgement judgement;
-  for (const Instance& instance : instances) {
-    if (instance.visible < IGNORED) continue;
+  for (const BinInstance& instance : instances) {
+    if (instance.visible < LEAST_VISIBLE) continue;
     Tally& tally = group_of(judgement, instance);
     ++tally.instances;
     tally.followed += is_followed(instance, step.after, object_of(instance.object));
   }
   if (instances.empty()) return judgement;
-  match(instances, step.detections, judgement, &Tally::correct, &Tally::wrong, [&](const Detection& found, const Instance& instance) {
+  match(instances, step.detections, judgement, &Tally::correct, &Tally::wrong, [&](const Detection& found, const BinInstance& instance) {
     return error_of(found.world_from_object, instance, object_of(found.object));
   });
-  match(instances, step.detections, judgement, &Tally::correct_px, &Tally::wrong_px, [&](const Detection& found, const Instance& instance) {
+  match(instances, step.detections, judgement, &Tally::correct_px, &Tally::wrong_px, [&](const Detection& found, const BinInstance& instance) {
     return mspd_px(camera_from_world * found.world_from_object, camera_from_world * instance.world_from_object, object_of(found.object), camera) / 10;
   });
   return judgement;

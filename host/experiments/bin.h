@@ -1,0 +1,49 @@
+// A rendered bin of piled parts and the hemisphere of views around it: what the strategies of the next view are
+// compared on (paper, Sec. 6.4).
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "host/active/source.h"
+#include "host/active/views.h"
+#include "host/experiments/settings.h"
+
+namespace edgescout {
+
+struct BinInstance {
+  int object = 0;  // index into the types
+  Se3 world_from_object;
+  double visible = 0;  // fraction of its silhouette, in the first view
+};
+
+// A simulated cell whose images are rendered once, however many strategies ask for them.
+class BinCell : public ViewSource {
+ public:
+  BinCell(const Scene& scene, std::vector<Se3> views, ThreadPool& pool) : cell_(scene, scene.views[0].camera, std::move(views), {}, pool) {}
+  Camera camera() const override { return cell_.camera(); }
+  std::vector<Se3> views() const override { return cell_.views(); }
+  Shot acquire(int view) override;
+
+ private:
+  SimulatedCell cell_;
+  std::map<int, Shot> shots_;
+};
+
+struct Bin {
+  int number = 0, first_view = 0;
+  int parts = 0;
+  std::unique_ptr<BinCell> cell;
+  std::vector<BinInstance> instances;
+};
+
+inline constexpr int FEWEST_PARTS_OF_BIN = 5, MOST_PARTS_OF_BIN = 20;
+HemisphereOptions bin_views();
+// The parts' distances from every view lie in this range.
+inline constexpr double BIN_DEPTH_MARGIN_M = 0.16;  // on either side of the hemisphere's radius
+
+Bin make_bin(std::span<const Object> types, const ExperimentSettings& settings, int number, ThreadPool& pool);
+
+}  // namespace edgescout

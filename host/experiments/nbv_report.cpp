@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "host/experiments/nbv.h"
+#include "host/experiments/rates.h"
+
+namespace edgescout {
+
+namespace {
+
+struct Searched {
+  std::string sought, group, title;
+};
+
+struct Outcome {
+  std::vector<Cluster> correct, wrong;  // by bin; `wrong` counts bins as trials
+};
+
+std::string name_of(const std::string& strategy) {
+  if (strategy == "mi-max") return "MI-MAX";
+  if (strategy == "dis") return "DIS";
+  return strategy == "random" ? "Random" : "Fixed";
+}
+
+Table rows_of(const Table& table, const Searched& searched, const std::string& strategy) {
+  return rows_where(table, [&](const Table& t, std::size_t row) {
+    return text_in(t, row, "sought") == searched.sought && text_in(t, row, "group") == searched.group && text_in(t, row, "strategy") == strategy;
+  });
+}
+
+// Those of which there are instances.
+std::vector<Searched> searches_in(const Table& table) {
+  std::vector<Searched> list;
+  for (const std::string& sought : values_of(table, "sought"))
+    for (const auto& [group, text] : {std::pair{"light", "lightly occluded"}, {"heavy", "highly occluded"}}) {
+      const Table rows = rows_where(table, [&, g = group](const Table& t, std::size_t row) {
+        return text_in(t, row, "sought") == sought && text_in(t, row, "group") == g && number_in(t, row, "instances") > 0;
+      });
+      if (!rows.rows.empty()) list.push_back({sought, group, fmt::format("{}, {}", sought == "1" ? "one type" : sought + " types", text)});
+    }
+  return list;
+}
+
+// After so many views.
+Outcome outcome_of(const Table& rows, const std::string& views) {
+  Outcome outcome;
+  for (std::size_t row = 0; row < rows.rows.size(); ++row) {
+    if (text_in(rows, row, "views") != views) continue;
+    outcome.correct.push_back({number_in(rows, row, "correct"), number_in(rows, row, "instances")});
+    outcome.wrong.push_back({number_in(rows, row, "wrong"), 1});
+  }
+  return outcome;
+}
+
+PlotPoint point_of(double x, const std::vector<Cluster>& clusters) {
+  PlotPoint point{x, rate(clusters), {}, {}};
+  if (clusters.size() < 2) return point;
+  const Interval interval = bootstrap_interval(clusters);
+  point.low = interval.low, point.high = interval.high;
+  return point;
+}
+
+std::string cell_of(const Outcome& outcome) {
+  return fmt::format("{}; {:.2f}", percent(rate(outcome.correct), bootstrap_interval(outcome.correct)), rate(outcome.wrong));
+}
+
+std::string table_of(const Table& table, const Searched& searched, const std::vector<std::string>& strategies, const std::vector<std::string>& views) {
+  std::string text = "| strategy |", line = "|---|";
+  for (const std::string& count : views) text += fmt::format(" {} {} |", count, count == "1" ? "view" : "views"), line += "---|";
+  text += fmt::format("\n{}\n", line);
+  double instances = 0;
+  for (const std::string& strategy : strategies) {
+    const Table rows = rows_of(table, searched, strategy);
+    text += fmt::format("| {} |", name_of(strategy));
+    instances = 0;
+    for (const Cluster& bin : outcome_of(rows, views[0]).correct) instances += bin.trials;
+    for (const std::string& count : views) text += fmt::format(" {} |", cell_of(outcome_of(rows, count)));
+    text += "\n";
+  }
+  return fmt::format("## {}\n\n{:.0f} instances.\n\n{}\n", searched.title, instances, text);
+}
+
+enum class Measure { Correct, Wrong };
+
+Panel panel_of(const Table& table, const Searched& searched, const std::vector<std::string>& strategies, const std::vector<std::string>& views, Measure measure) {
+  Panel panel{searched.title, "views", measure == Measure::Correct ? "correct localisations" : "false positives a bin", {}, 0, 1, false};
+  for (const std::string& strategy : strategies) {
+    const Table rows = rows_of(table, searched, strategy);
+    PlotLine line{name_of(strategy), {}};
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const Outcome outcome = outcome_of(rows, views[i]);
+      line.points.push_back(point_of(static_cast<double>(i + 1), measure == Measure::Correct ? outcome.correct : outcome.wrong));
+    }
+    panel.lines.push_back(std::move(line));
+  }
+  return panel;
+}
+
+}  // namespace
+
+// Figure 15's order: (a) to (d) rates, (e) to (h) false positives.
+Report nbv_report(const ExperimentSettings&, const Table& table) {
+  const std::vector<Searched> searches = searches_in(table);
+  const std::vector<std::string> strategies = values_of(table, "strategy"), views = values_of(table, "views");
+  Report report;
+  report.columns = std::max(1, static_cast<int>(searches.size()));
+  report.markdown = fmt::format("Bins: {}. Instances correctly localised (below 0.1 rad and 5 mm) after so many views, and false positives a bin.\n\n", values_of(table, "bin").size());
+  for (const Searched& searched : searches) report.markdown += table_of(table, searched, strategies, views);
+  for (const Measure measure : {Measure::Correct, Measure::Wrong})
+    for (const Searched& searched : searches) report.panels.push_back(panel_of(table, searched, strategies, views, measure));
+  std::vector<double> seconds;
+  for (std::size_t row = 0; row < table.rows.size(); ++row)
+    if (text_in(table, row, "group") == "light" && text_in(table, row, "views") != "1" && !text_in(table, row, "seconds").empty()) seconds.push_back(number_in(table, row, "seconds"));
+  if (!seconds.empty())
+    report.markdown += fmt::format("A step took {:.1f} s (median): the decision, and what its image brings; images that another strategy had looked at before are not searched again.\n", median(seconds));
+  return report;
+}
+
+}  // namespace edgescout

@@ -1,0 +1,85 @@
+#include "host/experiments/nbv.h"
+
+#include <gtest/gtest.h>
+
+#include "host/experiments/bin.h"
+#include "host/experiments/known_scene.h"
+#include "host/render/parts.h"
+#include "kernels/thread_pool.h"
+
+namespace edgescout::test {
+namespace {
+
+ExperimentSettings small() {
+  ExperimentSettings settings;
+  settings.image_scale = 0.25;
+  settings.supersampling = 1;
+  return settings;
+}
+
+TEST(MakeBin, IsTheSameBinEveryTimeAndAnotherForEveryNumber) {
+  ThreadPool pool(2);
+  const std::vector<Object> types{make_part("l_bracket"), make_part("bearing_block"), make_part("u_channel")};
+  Bin a = make_bin(types, small(), 3, pool), b = make_bin(types, small(), 3, pool), c = make_bin(types, small(), 4, pool);
+  EXPECT_EQ(a.first_view, b.first_view);
+  ASSERT_EQ(a.instances.size(), b.instances.size());
+  for (std::size_t i = 0; i < a.instances.size(); ++i) {
+    EXPECT_EQ(a.instances[i].object, b.instances[i].object);
+    EXPECT_EQ(distance_between_m(a.instances[i].world_from_object, b.instances[i].world_from_object), 0);
+    EXPECT_EQ(a.instances[i].visible, b.instances[i].visible);
+  }
+  EXPECT_EQ(a.cell->acquire(7).image.pixels, b.cell->acquire(7).image.pixels);
+  EXPECT_NE(a.cell->acquire(7).image.pixels, c.cell->acquire(7).image.pixels);
+}
+
+// Five to twenty parts, each of a type, in front of every view at the distances the templates are made for.
+TEST(MakeBin, HoldsItsPromises) {
+  ThreadPool pool(2);
+  const std::vector<Object> types{make_part("l_bracket"), make_part("bearing_block"), make_part("u_channel")};
+  for (int number = 0; number < 6; ++number) {
+    const Bin bin = make_bin(types, small(), number, pool);
+    EXPECT_GE(bin.parts, FEWEST_PARTS_OF_BIN);
+    EXPECT_LE(bin.parts, MOST_PARTS_OF_BIN);
+    EXPECT_EQ(static_cast<int>(bin.instances.size()), bin.parts);
+    EXPECT_EQ(static_cast<int>(bin.cell->views().size()), bin_views().count);
+    double most_visible = 0;
+    for (const BinInstance& instance : bin.instances) {
+      most_visible = std::max(most_visible, instance.visible);
+      EXPECT_GE(instance.visible, 0);
+      EXPECT_LE(instance.visible, 1);
+      const Eigen::Vector3d center = types[static_cast<std::size_t>(instance.object)].mesh.box_min_m / 2 + types[static_cast<std::size_t>(instance.object)].mesh.box_max_m / 2;
+      for (const Se3& view : bin.cell->views())
+        EXPECT_NEAR((view * (instance.world_from_object * center)).norm(), bin_views().radius_m, BIN_DEPTH_MARGIN_M);
+    }
+    EXPECT_GT(most_visible, LIGHTLY_OCCLUDED);
+  }
+}
+
+// Two bins of two views, counted by hand.
+TEST(NbvReport, CountsInstancesAndFalseOnesByViews) {
+  Table table;
+  table.columns = {"bin", "sought", "strategy", "views", "group", "instances", "correct", "wrong", "seconds"};
+  const auto add = [&](const char* bin, const char* strategy, const char* views, const char* instances, const char* correct, const char* wrong) {
+    table.rows.push_back({bin, "1", strategy, views, "light", instances, correct, wrong, "1.5"});
+    table.rows.push_back({bin, "1", strategy, views, "heavy", "0", "0", "0", "1.5"});
+  };
+  add("0", "mi-max", "1", "4", "1", "2"), add("0", "mi-max", "2", "4", "4", "0");
+  add("1", "mi-max", "1", "6", "2", "1"), add("1", "mi-max", "2", "6", "5", "1");
+  add("0", "random", "1", "4", "1", "2"), add("0", "random", "2", "4", "2", "4");
+  add("1", "random", "1", "6", "2", "1"), add("1", "random", "2", "6", "2", "3");
+  const Report report = nbv_report({}, table);
+  EXPECT_NE(report.markdown.find("Bins: 2."), std::string::npos);
+  EXPECT_NE(report.markdown.find("10 instances."), std::string::npos) << report.markdown;
+  EXPECT_EQ(report.markdown.find("highly"), std::string::npos) << "no instances: no table";
+  EXPECT_NE(report.markdown.find("| MI-MAX | 30 % [25, 33]; 1.50 | 90 % [83, 100]; 0.50 |"), std::string::npos) << report.markdown;
+  EXPECT_NE(report.markdown.find("| Random | 30 % [25, 33]; 1.50 | 40 % [33, 50]; 3.50 |"), std::string::npos) << report.markdown;
+  EXPECT_NE(report.markdown.find("1.5 s (median)"), std::string::npos);
+  ASSERT_EQ(report.panels.size(), 2u);
+  EXPECT_EQ(report.panels[0].lines[0].name, "MI-MAX");
+  EXPECT_DOUBLE_EQ(report.panels[0].lines[0].points[1].y, 0.9);
+  EXPECT_DOUBLE_EQ(report.panels[1].lines[1].points[1].y, 3.5);
+  EXPECT_DOUBLE_EQ(*report.panels[1].lines[1].points[1].high, 4);
+}
+
+}  // namespace
+}  // namespace edgescout::test
