@@ -13,11 +13,10 @@ namespace edgescout {
 
 namespace {
 
-constexpr std::uint32_t outside = TEMPLATE_SCORE_OUTSIDE;
+constexpr std::uint8_t outside = TEMPLATE_SCORE_OUTSIDE;
 
 std::uint32_t six_bit(std::uint16_t value) {
-  return std::min(outside,
-                  (std::uint32_t(value) + (1u << (TEMPLATE_SCORE_SHIFT - 1))) >> TEMPLATE_SCORE_SHIFT);
+  return std::min<std::uint32_t>(TEMPLATE_SCORE_CAP, (std::uint32_t(value) + (1u << (TEMPLATE_SCORE_SHIFT - 1))) >> TEMPLATE_SCORE_SHIFT);
 }
 
 // A part of the tensor as planes, `outside` where it reaches beyond the image, so that a template may hang over the border.

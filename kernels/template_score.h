@@ -6,7 +6,8 @@
 //
 // Values are read with 6 bits, v6 = min(63, (v16 + 2^(s-1)) >> s) with s = TEMPLATE_SCORE_SHIFT, so in units of 1/4 px and with a cap
 // of 15.75 px: this kernel runs on a coarse tensor (the image reduced by 2 to 6), where that is 30 to 100 px of the image, and four
-// such values add up in one byte. Points that fall outside the image count as 63.
+// such values add up in one byte. Points that fall outside the image count as TEMPLATE_SCORE_OUTSIDE, 6 px: about what chance gives.
+// Counted as far from every edge, an object that reaches over the image's border by a tenth could never be found.
 //
 // Agreement: the sums are integers and equal on every path, bit for bit; mean_px = sum / (4 * points).
 #ifndef EDGESCOUT_TEMPLATE_SCORE_H
@@ -18,7 +19,8 @@
 namespace edgescout {
 #endif
 EDGESCOUT_CONST(TEMPLATE_SCORE_SHIFT, 6);
-EDGESCOUT_CONST(TEMPLATE_SCORE_OUTSIDE, 63);
+EDGESCOUT_CONST(TEMPLATE_SCORE_CAP, 63);
+EDGESCOUT_CONST(TEMPLATE_SCORE_OUTSIDE, 24);
 EDGESCOUT_CONST(TEMPLATE_SCORE_MAX_POINTS, 256);
 #ifdef __cplusplus
 }  // namespace edgescout

@@ -37,7 +37,7 @@ uint value_at(ivec2 p, uint bin) {
   // Negative coordinates are large ones.
   if (uint(p.x) >= push.grid.width || uint(p.y) >= push.grid.height) return TEMPLATE_SCORE_OUTSIDE;
   const uint v16 = tensor_at(push.grid, uint(p.x), uint(p.y), bin);
-  return min(TEMPLATE_SCORE_OUTSIDE, (v16 + (1u << (TEMPLATE_SCORE_SHIFT - 1u))) >> TEMPLATE_SCORE_SHIFT);
+  return min(TEMPLATE_SCORE_CAP, (v16 + (1u << (TEMPLATE_SCORE_SHIFT - 1u))) >> TEMPLATE_SCORE_SHIFT);
 }
 
 // Every `step`-th point of the template from `first` on, at one anchor.

@@ -12,6 +12,8 @@ namespace edgescout {
 
 namespace {
 
+constexpr double SIZE_WEIGHT = 0.25;  // of ScanHit::rank; 0.5 finds one more of 54 rendered parts and loses four of 16 cats
+
 // A template's parameters by its number: viewpoints, in-plane steps and distances, the last fastest.
 struct Numbering {
   int steps;
@@ -72,18 +74,19 @@ void scan_region(const TemplateSet& set, const Numbering& numbering, const Regio
   });
   backend.template_score(*observation.salient, work.points, work.jobs, options.anchor_step, work.hits);
   const auto mean = [&](std::size_t t) { return double(work.hits[t].sum) / (4.0 * work.jobs[t].point_count); };
+  const auto rank = [&](std::size_t t) { return mean(t) * std::pow(numbering.distance_m(t), SIZE_WEIGHT); };
   std::vector<std::size_t> order(templates);
   for (std::size_t t = 0; t < templates; ++t) order[t] = t;
   const std::size_t kept = std::min(most, templates);
   std::partial_sort(order.begin(), order.begin() + kept, order.end(), [&](std::size_t a, std::size_t b) {
-    const double ma = mean(a), mb = mean(b);
-    return ma != mb ? ma < mb : a < b;
+    const double ra = rank(a), rb = rank(b);
+    return ra != rb ? ra < rb : a < b;
   });
   for (std::size_t i = 0; i < kept; ++i) {
     const std::size_t t = order[i];
     const Eigen::Vector2d anchor(work.hits[t].x, work.hits[t].y);
     found.push_back({numbering.view(t), place_template(set, set.views[numbering.view(t)], numbering.in_plane_rad(t), numbering.distance_m(t),
-                                                       anchor, observation.coarse_camera), mean(t)});
+                                                       anchor, observation.coarse_camera), mean(t), rank(t)});
   }
 }
 

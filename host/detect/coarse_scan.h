@@ -21,14 +21,17 @@ struct ScanOptions {
 struct ScanHit {
   int view = 0;              // of the template set
   Se3 camera_from_object;
-  double mean_px = 0;        // Eq. 7, in coarse pixels, values capped at 15.75
+  double mean_px = 0;        // Eq. 7, in coarse pixels, values capped at 15.75, those outside the image 6
+  double rank = 0;           // mean_px times the fourth root of the distance in metres; lower is better
 };
 
 // Pose of a template turned by `in_plane_rad` about its line of sight whose centre is seen at `pixel`, `distance_m` away along the ray.
 Se3 place_template(const TemplateSet& set, const TemplateView& view, double in_plane_rad, double distance_m, const Eigen::Vector2d& pixel,
                    const Camera& camera);
 
-// The best hits of every region of the image, best first within a region. In each region templates are projected exactly at its middle and
+// The best hits of every region of the image, best first within a region. Templates stand some 0.2 rad apart, so the best of them lies off by an angle: by the more pixels, the
+// nearer and larger the object. Ranked by the mean alone, small templates on clutter win over large ones on their object; multiplied with the distance itself it is the other way
+// round. `rank` lies between. In each region templates are projected exactly at its middle and
 // then shifted: perspective across the image is respected.
 std::vector<ScanHit> coarse_scan(const TemplateSet& set, const Observation& observation, Backend& backend, const ScanOptions& options);
 

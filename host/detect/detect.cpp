@@ -78,7 +78,7 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
   const std::vector<ScanHit> hits = coarse_scan(set, observation, backend, options.scan);
   std::vector<Se3> poses;
   for (const ScanHit& hit : hits) poses.push_back(hit.camera_from_object);
-  const std::vector<std::size_t> starts = best_of(poses, set, options.aligned, [&](std::size_t i) { return hits[i].mean_px; });
+  const std::vector<std::size_t> starts = best_of(poses, set, options.aligned, [&](std::size_t i) { return hits[i].rank; });
 
   std::vector<Hypothesis> hypotheses = hypotheses_at(poses, starts);
   hypotheses = as_hypotheses(hypotheses, register_poses(models, hypotheses, coarse, backend, options.refine.search.coarse));

@@ -140,8 +140,8 @@ Table run_bin(const ExperimentSettings& s, int number, Backend& backend) {
 
 Notes options(const ExperimentSettings& s) {
   const ScoutOptions& o = s.scout;
-  return {{"bins", std::to_string(s.bins)},
-          {"image_scale", number_text(s.image_scale)},
+  // Not the number of bins: more of them may be added to a finished run.
+  return {{"image_scale", number_text(s.image_scale)},
           {"supersampling", std::to_string(s.supersampling)},
           {"images", std::to_string(o.max_views)},
           {"detection", o.detect_in_every_image ? "every image" : "first image"},

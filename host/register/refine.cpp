@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "kernels/error.h"
 
@@ -46,13 +47,17 @@ Searched search(std::span<const EdgeModel> models, std::span<const Hypothesis> h
   std::vector<Hypothesis> starts;
   for (const Hypothesis& hypothesis : hypotheses)
     for (const Hypothesis& start : spread(hypothesis, views[0].camera_from_world, options.search.rotation_rad)) starts.push_back(start);
-  const std::size_t per_hypothesis = hypotheses.empty() ? 0 : starts.size() / hypotheses.size();
-  const std::vector<Hypothesis> poses = as_hypotheses(starts, register_poses(models, starts, coarse_views(views), backend, options.search.coarse));
+  const std::size_t turned = starts.size();
+  std::vector<Hypothesis> poses = as_hypotheses(starts, register_poses(models, starts, coarse_views(views), backend, options.search.coarse));
+  // Each start as it was, too: what fits already may be led away by the coarse look.
+  poses.insert(poses.end(), hypotheses.begin(), hypotheses.end());
   const std::vector<PoseFeatures> features = pose_features(models, poses, views, backend, options.score, options.search.coarse.visibility);
   Searched found;
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
-    std::vector<std::size_t> order(per_hypothesis);
-    for (std::size_t i = 0; i < per_hypothesis; ++i) order[i] = h * per_hypothesis + i;
+    const std::size_t of_one = turned / hypotheses.size();
+    std::vector<std::size_t> order(of_one);
+    std::iota(order.begin(), order.end(), h * of_one);
+    order.push_back(turned + h);
     std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return log_odds(features[a]) > log_odds(features[b]); });
     const std::size_t first = found.poses.size();
     for (std::size_t i : order) {

@@ -89,6 +89,30 @@ TEST(CoarseScan, FindsTheTemplateThatMadeTheEdges) {
   }
 }
 
+// Some of the object lies outside: no reason to prefer another template somewhere else.
+TEST(CoarseScan, FindsAnObjectThatReachesOverTheBorder) {
+  const auto backend = make_cpu_backend(2);
+  const TemplateSet set = part_templates("l_bracket", 2, 0.27, 0.33, *backend);
+  const EdgeModel dense = part_model("l_bracket", 7.5e-4);
+  const double distance = template_distances_m(set.options)[0];
+  for (int view : {3, 11, 29}) {
+    const Eigen::Vector2d place(22, 120);
+    const Se3 truth = place_template(set, set.views[std::size_t(view)], 2 * pi / 12 * 5, distance, place, small_camera());
+    const std::vector<EdgePoint> edges = ideal_edges(dense, small_camera(), truth, *backend);
+    std::vector<EdgePoint> seen;
+    for (const EdgePoint& edge : edges)
+      if (edge.x_px >= 0 && edge.x_px < float(small_camera().width)) seen.push_back(edge);
+    const Observation observation = observe_edges(seen, small_camera(), 1, *backend);
+    const ScanHit best = best_of(coarse_scan(set, observation, *backend, {}));
+    const double outside = 1 - double(seen.size()) / double(edges.size());
+    EXPECT_GT(outside, 0.1);
+    EXPECT_LT(best.mean_px, 1.6 + 6.5 * outside);  // 1.6: as above
+    EXPECT_EQ(best.view, view);
+    EXPECT_LT(angle_between_rad(best.camera_from_object, truth), 1e-3);
+    EXPECT_LT((project(small_camera(), best.camera_from_object * set.model.center_m) - place).norm(), 1e-6);
+  }
+}
+
 // The scan as its header says it, in double and one value at a time.
 struct BruteForce {
   const TemplateSet& set;
@@ -98,7 +122,7 @@ struct BruteForce {
 
   double value(int x, int y, int bin) const {
     const TensorShape& shape = observation.view.coarse->shape;
-    if (x < 0 || y < 0 || x >= shape.width || y >= shape.height) return 15.75;
+    if (x < 0 || y < 0 || x >= shape.width || y >= shape.height) return 6;
     return std::min(63, (tensor[shape.index(x, y, bin)] + 32) / 64) / 4.0;
   }
   // Mean of a template drawn at `middle` and shifted to an anchor.
@@ -157,14 +181,15 @@ TEST(CoarseScan, EqualsBruteForceOverAllPlaces) {
   std::size_t hit = 0;
   for (const auto& [y0, rows] : {std::pair{0, 9}, {27, 6}})
     for (const auto& [x0, columns] : {std::pair{0, 12}, {36, 9}}) {
-      std::vector<double> means;
+      std::vector<double> ranks;
       for (const TemplateView& view : set.views)
         for (int turn = 0; turn < 5; ++turn)
           for (double distance : template_distances_m(set.options))
-            means.push_back(brute.best(view, 2 * pi / 5 * turn, distance, x0, y0, columns, rows));
-      std::ranges::sort(means);
+            ranks.push_back(brute.best(view, 2 * pi / 5 * turn, distance, x0, y0, columns, rows) *
+                            std::pow(distance, 0.25));
+      std::ranges::sort(ranks);
       for (int kept = 0; kept < 7; ++kept, ++hit) {
-        EXPECT_NEAR(hits[hit].mean_px, means[kept], 0.026)
+        EXPECT_NEAR(hits[hit].rank, ranks[kept], 0.026)
             << "one point that rounds the other way is 0.25 / 20";
         const Eigen::Vector2d at = project(camera, hits[hit].camera_from_object * set.model.center_m);
         EXPECT_GE(at.x(), x0 - 1e-6);
