@@ -16,11 +16,14 @@ namespace {
 constexpr std::uint8_t outside = TEMPLATE_SCORE_OUTSIDE;
 
 std::uint32_t six_bit(std::uint16_t value) {
-  return std::min<std::uint32_t>(TEMPLATE_SCORE_CAP, (std::uint32_t(value) + (1u << (TEMPLATE_SCORE_SHIFT - 1))) >> TEMPLATE_SCORE_SHIFT);
+  return std::min<std::uint32_t>(
+      TEMPLATE_SCORE_CAP,
+      (std::uint32_t(value) + (1u << (TEMPLATE_SCORE_SHIFT - 1))) >> TEMPLATE_SCORE_SHIFT);
 }
 
-// A part of the tensor as planes, `outside` where it reaches beyond the image, so that a template may hang over the border.
-// Columns are sorted by their remainder, [bin][y][x % step][x / step]: anchors `step` apart lie side by side.
+// A part of the tensor as planes, `outside` where it reaches beyond the image, so that a template may hang
+// over the border. Columns are sorted by their remainder, [bin][y][x % step][x / step]: anchors `step` apart
+// lie side by side.
 struct Planes {
   int left, top, step, stride, rows, bins;
   std::vector<std::uint32_t> column;  // where a column lies in its row
@@ -41,8 +44,8 @@ struct Bounds {
 constexpr std::size_t chunk_jobs = 64;
 
 Bounds joined(const Bounds& a, const Bounds& b) {
-  return {std::min(a.x_min, b.x_min), std::max(a.x_max, b.x_max), std::min(a.y_min, b.y_min), std::max(a.y_max, b.y_max),
-          std::max(a.bin_max, b.bin_max)};
+  return {std::min(a.x_min, b.x_min), std::max(a.x_max, b.x_max), std::min(a.y_min, b.y_min),
+          std::max(a.y_max, b.y_max), std::max(a.bin_max, b.bin_max)};
 }
 
 Bounds touched_by(const TemplateJob& job, const TemplatePoint* points, int step) {
@@ -52,17 +55,19 @@ Bounds touched_by(const TemplateJob& job, const TemplatePoint* points, int step)
     top = std::min<int>(top, points[p].dy_px), bottom = std::max<int>(bottom, points[p].dy_px);
     bin = std::max<int>(bin, points[p].bin);
   }
-  return {job.x0 + left, job.x0 + right + step * (int(job.columns) + block_columns),
-          job.y0 + top, job.y0 + bottom + step * (int(job.rows) + block_rows), bin};
+  return {job.x0 + left, job.x0 + right + step * (int(job.columns) + block_columns), job.y0 + top,
+          job.y0 + bottom + step * (int(job.rows) + block_rows), bin};
 }
 
 // What all jobs read.
-Bounds touched(std::span<const TemplatePoint> points, std::span<const TemplateJob> jobs, int step, ThreadPool& pool) {
+Bounds touched(std::span<const TemplatePoint> points, std::span<const TemplateJob> jobs, int step,
+               ThreadPool& pool) {
   std::vector<Bounds> of_chunks((jobs.size() + chunk_jobs - 1) / chunk_jobs);
   pool.for_each(of_chunks.size(), [&](std::size_t c) {
     const auto chunk = jobs.subspan(c * chunk_jobs, std::min(chunk_jobs, jobs.size() - c * chunk_jobs));
     of_chunks[c] = touched_by(chunk[0], points.data() + chunk[0].first_point, step);
-    for (const TemplateJob& job : chunk) of_chunks[c] = joined(of_chunks[c], touched_by(job, points.data() + job.first_point, step));
+    for (const TemplateJob& job : chunk)
+      of_chunks[c] = joined(of_chunks[c], touched_by(job, points.data() + job.first_point, step));
   });
   return std::accumulate(of_chunks.begin(), of_chunks.end(), of_chunks[0], joined);
 }
@@ -76,11 +81,13 @@ Planes make_planes(std::span<const std::uint16_t> tensor, const TensorShape& sha
   planes.top = -b.y_min;
   planes.stride = (b.x_max - b.x_min) / step + 1;
   planes.rows = b.y_max - b.y_min + 1;
-  for (int c = 0; c < b.x_max - b.x_min + 1; ++c) planes.column.push_back(static_cast<std::uint32_t>(c % step * planes.stride + c / step));
+  for (int c = 0; c < b.x_max - b.x_min + 1; ++c)
+    planes.column.push_back(static_cast<std::uint32_t>(c % step * planes.stride + c / step));
   const std::size_t plane = std::size_t(planes.rows) * step * planes.stride;
   planes.values.assign((shape.bins + 1) * plane, outside);
   std::fill(planes.values.end() - plane, planes.values.end(), std::uint8_t{0});
-  const int tile = int(DCD_TILE), right = std::min(shape.width, b.x_max + 1), left = std::clamp(b.x_min, 0, shape.width);
+  const int tile = int(DCD_TILE), right = std::min(shape.width, b.x_max + 1),
+            left = std::clamp(b.x_min, 0, shape.width);
   pool.for_each(shape.bins, [&](std::size_t bin) {
     std::uint8_t values[DCD_TILE];
     for (int y = std::max(0, b.y_min); y < std::min(shape.height, b.y_max + 1); ++y)
@@ -103,7 +110,9 @@ using Sums = std::uint16_t __attribute__((vector_size(block_columns)));
 // Sums of a template at block_rows x block_columns anchors, even and odd columns apart.
 struct BlockSums {
   Sums even[block_rows], odd[block_rows];
-  std::uint16_t at(std::uint32_t row, std::uint32_t column) const { return column % 2 == 0 ? even[row][column / 2] : odd[row][column / 2]; }
+  std::uint16_t at(std::uint32_t row, std::uint32_t column) const {
+    return column % 2 == 0 ? even[row][column / 2] : odd[row][column / 2];
+  }
 };
 
 // Lanes of the columns that do not count, all ones.
@@ -117,11 +126,12 @@ struct LaneMask {
   }
 };
 
-// Returns the lowest of the first `rows`. The block stays in registers while the points go by; four values add up in a byte before even
-// and odd columns are widened apart.
+// Returns the lowest of the first `rows`. The block stays in registers while the points go by; four values
+// add up in a byte before even and odd columns are widened apart.
 EDGESCOUT_SIMD_CLONES
-std::uint32_t sum_block(const std::uint8_t* planes, const std::size_t* sources, std::uint32_t count, std::size_t offset, std::size_t stride,
-                        std::uint32_t rows, const LaneMask& mask, BlockSums& out) {
+std::uint32_t sum_block(const std::uint8_t* planes, const std::size_t* sources, std::uint32_t count,
+                        std::size_t offset, std::size_t stride, std::uint32_t rows, const LaneMask& mask,
+                        BlockSums& out) {
   Sums even[block_rows] = {}, odd[block_rows] = {};
   for (std::uint32_t p = 0; p < count; p += 4) {
     // A group cut short is filled up from the plane of zeros.
@@ -164,17 +174,20 @@ TemplateHit best_of_job(const Planes& planes, std::span<const TemplatePoint> poi
     const TemplatePoint& point = points[job.first_point + p];
     sources[p] = planes.at(job.x0 + point.dx_px, job.y0 + point.dy_px, point.bin);
   }
-  for (std::uint32_t p = job.point_count; p % 4 != 0; ++p) sources[p] = planes.at(job.x0, job.y0, planes.bins);
+  for (std::uint32_t p = job.point_count; p % 4 != 0; ++p)
+    sources[p] = planes.at(job.x0, job.y0, planes.bins);
   TemplateHit hit{~0u, job.x0, job.y0};
   BlockSums sums;
   for (std::uint32_t x = 0; x < job.columns; x += block_columns) {
     const LaneMask mask(job.columns - x);
     for (std::uint32_t y = 0; y < job.rows; y += block_rows) {
       const std::uint32_t sum =
-          sum_block(planes.values.data(), sources, job.point_count, y * planes.next_row() + x, planes.next_row(), job.rows - y, mask, sums);
+          sum_block(planes.values.data(), sources, job.point_count, y * planes.next_row() + x,
+                    planes.next_row(), job.rows - y, mask, sums);
       if (sum > hit.sum) continue;
       const auto [row, column] = first_in_block(sums, sum);
-      const TemplateHit here{sum, job.x0 + planes.step * (int(x) + column), job.y0 + planes.step * (int(y) + row)};
+      const TemplateHit here{sum, job.x0 + planes.step * (int(x) + column),
+                             job.y0 + planes.step * (int(y) + row)};
       // Blocks are visited column by column, so equal sums are decided by position, not by order.
       if (here.sum < hit.sum || here.y < hit.y || (here.y == hit.y && here.x < hit.x)) hit = here;
     }
@@ -187,7 +200,8 @@ void check_jobs(std::size_t points, std::span<const TemplateJob> jobs, int ancho
   check(anchor_step >= 1 && anchor_step <= 16, "template_score: anchor step in [1, 16]");
   check(hits == jobs.size(), "template_score: as many hits as jobs");
   for (const TemplateJob& job : jobs) {
-    check(job.point_count >= 1 && job.point_count <= TEMPLATE_SCORE_MAX_POINTS, "template_score: points of a template");
+    check(job.point_count >= 1 && job.point_count <= TEMPLATE_SCORE_MAX_POINTS,
+          "template_score: points of a template");
     check(std::size_t(job.first_point) + job.point_count <= points, "template_score: points beyond the list");
     check(job.columns >= 1 && job.rows >= 1, "template_score: a job without anchors");
   }

@@ -1,4 +1,5 @@
-// The direction of a line, which has no sense: an angle in [0, pi), by arithmetic that the compiler turns into vectors.
+// The direction of a line, which has no sense: an angle in [0, pi), by arithmetic that the compiler turns
+// into vectors.
 #pragma once
 
 #include <algorithm>

@@ -8,16 +8,19 @@
 
 namespace edgescout {
 
-// The points of one viewpoint, evenly thinned, coordinate by coordinate: projecting them is a loop the compiler turns into vectors.
+// The points of one viewpoint, evenly thinned, coordinate by coordinate: projecting them is a loop the
+// compiler turns into vectors.
 class ThinnedView {
  public:
   // At most `most` points, 1 to TEMPLATE_SCORE_MAX_POINTS.
   ThinnedView(const TemplateView& view, int most);
   int count() const { return count_; }
 
-  // Pixels relative to (x_px, y_px), rounded; bins of the orientation, of `bins` over pi. Writes count() points to `out`; returns false,
-  // and what it wrote means nothing, where a point is nearer than `nearest_m`.
-  bool project(const Pose& camera_from_object, const Intrinsics& intrinsics, float x_px, float y_px, int bins, float nearest_m, TemplatePoint* out) const;
+  // Pixels relative to (x_px, y_px), rounded; bins of the orientation, of `bins` over pi. Writes count()
+  // points to `out`; returns false, and what it wrote means nothing, where a point is nearer than
+  // `nearest_m`.
+  bool project(const Pose& camera_from_object, const Intrinsics& intrinsics, float x_px, float y_px, int bins,
+               float nearest_m, TemplatePoint* out) const;
 
  private:
   int count_;

@@ -16,7 +16,8 @@ RenderOptions options_of(const ExperimentSettings& settings, int number, Random&
 }
 
 // How much of every placed object shows from a view.
-std::vector<double> visible_from(Scene scene, const Camera& camera, const Se3& camera_from_world, ThreadPool& pool) {
+std::vector<double> visible_from(Scene scene, const Camera& camera, const Se3& camera_from_world,
+                                 ThreadPool& pool) {
   scene.views = {{camera, camera_from_world}};
   scene.options.supersampling = 1;  // the truth at the pixels' centres alone
   return render(scene, pool)[0].visible_fraction;
@@ -32,7 +33,8 @@ Shot BinCell::acquire(int view) {
 
 HemisphereOptions bin_views() { return {}; }
 
-Bin make_bin(std::span<const Object> types, const ExperimentSettings& settings, int number, ThreadPool& pool) {
+Bin make_bin(std::span<const Object> types, const ExperimentSettings& settings, int number,
+             ThreadPool& pool) {
   Random random = Random(settings.seed).split("bin").split(static_cast<std::uint64_t>(number));
   const RenderOptions options = options_of(settings, number, random);
   const std::vector<Se3> views = hemisphere_views(bin_views());
@@ -42,9 +44,11 @@ Bin make_bin(std::span<const Object> types, const ExperimentSettings& settings, 
   bin.first_view = random.below(static_cast<int>(views.size()));
   const Scene scene = make_scene(types, options);
   bin.cell = std::make_unique<BinCell>(scene, views, pool);
-  const std::vector<double> visible = visible_from(scene, bin.cell->camera(), views[static_cast<std::size_t>(bin.first_view)], pool);
+  const std::vector<double> visible =
+      visible_from(scene, bin.cell->camera(), views[static_cast<std::size_t>(bin.first_view)], pool);
   for (std::size_t i = 0; i < scene.placed.size(); ++i)
-    if (const PlacedObject& placed = scene.placed[i]; placed.target) bin.instances.push_back({placed.object, placed.world_from_object, visible[i]});
+    if (const PlacedObject& placed = scene.placed[i]; placed.target)
+      bin.instances.push_back({placed.object, placed.world_from_object, visible[i]});
   return bin;
 }
 

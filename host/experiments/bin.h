@@ -1,5 +1,5 @@
-// A rendered bin of piled parts and the hemisphere of views around it: what the strategies of the next view are
-// compared on (paper, Sec. 6.4).
+// A rendered bin of piled parts and the hemisphere of views around it: what the strategies of the next view
+// are compared on (paper, Sec. 6.4).
 #pragma once
 
 #include <map>
@@ -22,7 +22,8 @@ struct BinInstance {
 // A simulated cell whose images are rendered once, however many strategies ask for them.
 class BinCell : public ViewSource {
  public:
-  BinCell(const Scene& scene, std::vector<Se3> views, ThreadPool& pool) : cell_(scene, scene.views[0].camera, std::move(views), {}, pool) {}
+  BinCell(const Scene& scene, std::vector<Se3> views, ThreadPool& pool)
+      : cell_(scene, scene.views[0].camera, std::move(views), {}, pool) {}
   Camera camera() const override { return cell_.camera(); }
   std::vector<Se3> views() const override { return cell_.views(); }
   Shot acquire(int view) override;

@@ -9,14 +9,19 @@ namespace edgescout {
 
 namespace {
 
-Tally& group_of(Judgement& judgement, const BinInstance& instance) { return instance.visible > LIGHTLY_OCCLUDED ? judgement.light : judgement.heavy; }
+Tally& group_of(Judgement& judgement, const BinInstance& instance) {
+  return instance.visible > LIGHTLY_OCCLUDED ? judgement.light : judgement.heavy;
+}
 
 const BinInstance& nearest(std::span<const BinInstance> instances, const Se3& pose) {
-  return *std::ranges::min_element(instances, {}, [&](const BinInstance& instance) { return distance_between_m(instance.world_from_object, pose); });
+  return *std::ranges::min_element(instances, {}, [&](const BinInstance& instance) {
+    return distance_between_m(instance.world_from_object, pose);
+  });
 }
 
 // `error`: of a detection at an instance of its object, 1 or more where it is not right.
-void match(std::span<const BinInstance> instances, std::span<const ModeDetection> detections, Judgement& judgement, int Tally::*correct, int Tally::*wrong,
+void match(std::span<const BinInstance> instances, std::span<const ModeDetection> detections,
+           Judgement& judgement, int Tally::*correct, int Tally::*wrong,
            const std::function<double(const Detection&, const BinInstance&)>& error) {
   std::vector<char> taken(instances.size(), 0);
   for (const ModeDetection& mode : detections) {
@@ -44,14 +49,17 @@ double error_of(const Se3& pose, const BinInstance& instance, const Object& obje
 
 bool is_followed(const BinInstance& instance, std::span<const Particle> particles, const Object& object) {
   return std::ranges::any_of(particles, [&](const Particle& particle) {
-    return particle.object == instance.object && distance_between_m(particle.world_from_object, instance.world_from_object) < object.mesh.diameter_m &&
+    return particle.object == instance.object &&
+           distance_between_m(particle.world_from_object, instance.world_from_object) <
+               object.mesh.diameter_m &&
            error_of(particle.world_from_object, instance, object) < 1;
   });
 }
 
 }  // namespace
 
-Judgement judge(std::span<const BinInstance> instances, const ScoutStep& step, std::span<const Object> objects, const Camera& camera, const Se3& camera_from_world) {
+Judgement judge(std::span<const BinInstance> instances, const ScoutStep& step,
+                std::span<const Object> objects, const Camera& camera, const Se3& camera_from_world) {
   const auto object_of = [&](int index) -> const Object& { return objects[static_cast<std::size_t>(index)]; };
   Judgement judgement;
   for (const BinInstance& instance : instances) {
@@ -61,12 +69,16 @@ Judgement judge(std::span<const BinInstance> instances, const ScoutStep& step, s
     tally.followed += is_followed(instance, step.after, object_of(instance.object));
   }
   if (instances.empty()) return judgement;
-  match(instances, step.detections, judgement, &Tally::correct, &Tally::wrong, [&](const Detection& found, const BinInstance& instance) {
-    return error_of(found.world_from_object, instance, object_of(found.object));
-  });
-  match(instances, step.detections, judgement, &Tally::correct_px, &Tally::wrong_px, [&](const Detection& found, const BinInstance& instance) {
-    return mspd_px(camera_from_world * found.world_from_object, camera_from_world * instance.world_from_object, object_of(found.object), camera) / 10;
-  });
+  match(instances, step.detections, judgement, &Tally::correct, &Tally::wrong,
+        [&](const Detection& found, const BinInstance& instance) {
+          return error_of(found.world_from_object, instance, object_of(found.object));
+        });
+  match(instances, step.detections, judgement, &Tally::correct_px, &Tally::wrong_px,
+        [&](const Detection& found, const BinInstance& instance) {
+          return mspd_px(camera_from_world * found.world_from_object,
+                         camera_from_world * instance.world_from_object, object_of(found.object), camera) /
+                 10;
+        });
   return judgement;
 }
 

@@ -14,10 +14,12 @@ namespace edgescout {
 namespace {
 
 constexpr const char* STRATEGIES[] = {"mi-max", "random", "dis", "fixed"};
-constexpr int FIXED_STRIDE = 13;  // the fixed sequence goes around and through the rings, as somebody would lay it out
+constexpr int FIXED_STRIDE =
+    13;  // the fixed sequence goes around and through the rings, as somebody would lay it out
 
 const std::vector<Object>& types() {
-  static const std::vector<Object> parts{make_part("l_bracket"), make_part("bearing_block"), make_part("u_channel")};
+  static const std::vector<Object> parts{make_part("l_bracket"), make_part("bearing_block"),
+                                         make_part("u_channel")};
   return parts;
 }
 
@@ -33,7 +35,8 @@ std::vector<TemplateSet> templates(Backend& backend) {
 // What is found in the images of a bin, once for all searches and strategies that look there.
 class Detector {
  public:
-  Detector(const std::vector<TemplateSet>& sets, const DetectOptions& options, Backend& backend) : sets_(sets), options_(options), backend_(backend) {}
+  Detector(const std::vector<TemplateSet>& sets, const DetectOptions& options, Backend& backend)
+      : sets_(sets), options_(options), backend_(backend) {}
   // Objects are counted from `first_type`.
   std::vector<Detection> find(int view, const Observation& observation, int first_type, int count) {
     std::vector<Detection> all;
@@ -47,10 +50,14 @@ class Detector {
 
  private:
   const std::vector<Detection>& of_type(int view, const Observation& observation, int type) {
-    const auto key = std::tuple(view, type, observation.reduction);  // coarser tensors where only large types are sought
+    const auto key =
+        std::tuple(view, type, observation.reduction);  // coarser tensors where only large types are sought
     auto known = found_.find(key);
     if (known == found_.end())
-      known = found_.emplace(key, candidates_in_image(std::span(&sets_[static_cast<std::size_t>(type)], 1), observation, backend_, options_)).first;
+      known = found_
+                  .emplace(key, candidates_in_image(std::span(&sets_[static_cast<std::size_t>(type)], 1),
+                                                    observation, backend_, options_))
+                  .first;
     return known->second;
   }
 
@@ -74,7 +81,8 @@ Search make_search(const Bin& bin, int count, std::span<const TemplateSet> sets)
   const int all = static_cast<int>(sets.size());
   search.first_type = count == all ? 0 : bin.number % all;
   search.sets = sets.subspan(static_cast<std::size_t>(search.first_type), static_cast<std::size_t>(count));
-  search.objects = std::span(types()).subspan(static_cast<std::size_t>(search.first_type), static_cast<std::size_t>(count));
+  search.objects = std::span(types()).subspan(static_cast<std::size_t>(search.first_type),
+                                              static_cast<std::size_t>(count));
   for (BinInstance instance : bin.instances) {
     instance.object -= search.first_type;
     if (instance.object >= 0 && instance.object < count) search.instances.push_back(instance);
@@ -82,15 +90,20 @@ Search make_search(const Bin& bin, int count, std::span<const TemplateSet> sets)
   return search;
 }
 
-ScoutOptions options_for(const ExperimentSettings& s, const Bin& bin, const Search& search, Detector& detector, const std::string& strategy) {
+ScoutOptions options_for(const ExperimentSettings& s, const Bin& bin, const Search& search,
+                         Detector& detector, const std::string& strategy) {
   ScoutOptions options = s.scout;
-  options.detect = [&](int view, const Observation& observation) { return detector.find(view, observation, search.first_type, search.count); };
+  options.detect = [&](int view, const Observation& observation) {
+    return detector.find(view, observation, search.first_type, search.count);
+  };
   options.first_view = bin.first_view;
   options.next_view.strategy = strategy_from(strategy);
-  options.next_view.seed = options.combinations.seed = options.particles.seed = static_cast<std::uint64_t>(bin.number) + 1;
+  options.next_view.seed = options.combinations.seed = options.particles.seed =
+      static_cast<std::uint64_t>(bin.number) + 1;
   const int views = bin_views().count;
   options.next_view.sequence.clear();
-  for (int i = 0; i < views; ++i) options.next_view.sequence.push_back((bin.first_view + i * FIXED_STRIDE) % views);
+  for (int i = 0; i < views; ++i)
+    options.next_view.sequence.push_back((bin.first_view + i * FIXED_STRIDE) % views);
   return options;
 }
 
@@ -102,22 +115,28 @@ double seconds_of(const ScoutStep& step) {
 }
 
 // Of the step that chose and used the `views`th image.
-void add_rows(Table& table, const ExperimentSettings& s, const Bin& bin, const Search& search, const std::string& strategy, const ScoutState& state) {
+void add_rows(Table& table, const ExperimentSettings& s, const Bin& bin, const Search& search,
+              const std::string& strategy, const ScoutState& state) {
   for (std::size_t i = 0; i < state.steps.size(); ++i) {
     const ScoutStep& step = state.steps[i];
-    const Judgement judgement = judge(search.instances, step, search.objects, bin.cell->camera(), state.steps[0].camera_from_world);
+    const Judgement judgement =
+        judge(search.instances, step, search.objects, bin.cell->camera(), state.steps[0].camera_from_world);
     for (const auto& [group, tally] : {std::pair{"light", judgement.light}, {"heavy", judgement.heavy}})
-      table.rows.push_back({std::to_string(bin.number), std::to_string(bin.parts), std::to_string(search.count), strategy, std::to_string(i + 1),
-                            std::to_string(step.decision.view), group, std::to_string(tally.instances), std::to_string(tally.correct),
-                            std::to_string(tally.correct_px), std::to_string(tally.wrong), std::to_string(tally.wrong_px), std::to_string(tally.followed),
-                            number_text(step.entropy_nats), s.times ? number_text(seconds_of(step)) : ""});
+      table.rows.push_back(
+          {std::to_string(bin.number), std::to_string(bin.parts), std::to_string(search.count), strategy,
+           std::to_string(i + 1), std::to_string(step.decision.view), group, std::to_string(tally.instances),
+           std::to_string(tally.correct), std::to_string(tally.correct_px), std::to_string(tally.wrong),
+           std::to_string(tally.wrong_px), std::to_string(tally.followed), number_text(step.entropy_nats),
+           s.times ? number_text(seconds_of(step)) : ""});
   }
 }
 
 // The first image once, then every strategy from what was known after it.
-void run_search(Table& table, const ExperimentSettings& s, const Bin& bin, const Search& search, Detector& detector, Backend& backend) {
+void run_search(Table& table, const ExperimentSettings& s, const Bin& bin, const Search& search,
+                Detector& detector, Backend& backend) {
   const auto scout_for = [&](const std::string& strategy) {
-    return Scout(search.sets, bin.cell->camera(), bin.cell->views(), options_for(s, bin, search, detector, strategy), backend);
+    return Scout(search.sets, bin.cell->camera(), bin.cell->views(),
+                 options_for(s, bin, search, detector, strategy), backend);
   };
   Scout first = scout_for(STRATEGIES[0]);
   first.give(bin.first_view, bin.cell->acquire(bin.first_view).image);
@@ -130,11 +149,15 @@ void run_search(Table& table, const ExperimentSettings& s, const Bin& bin, const
 }
 
 Table run_bin(const ExperimentSettings& s, int number, Backend& backend) {
-  Table table{{}, {"bin", "parts", "sought", "strategy", "views", "view", "group", "instances", "correct", "correct_px", "wrong", "wrong_px", "followed", "entropy_nats", "seconds"}, {}};
+  Table table{{},
+              {"bin", "parts", "sought", "strategy", "views", "view", "group", "instances", "correct",
+               "correct_px", "wrong", "wrong_px", "followed", "entropy_nats", "seconds"},
+              {}};
   const std::vector<TemplateSet> sets = templates(backend);
   const Bin bin = make_bin(types(), s, number, backend.threads());
   Detector detector(sets, s.scout.pipeline.detect, backend);
-  for (const int count : {1, static_cast<int>(sets.size())}) run_search(table, s, bin, make_search(bin, count, sets), detector, backend);
+  for (const int count : {1, static_cast<int>(sets.size())})
+    run_search(table, s, bin, make_search(bin, count, sets), detector, backend);
   return table;
 }
 
@@ -161,12 +184,15 @@ Notes options(const ExperimentSettings& s) {
 std::vector<Cell> cells(const ExperimentSettings& s) {
   std::vector<Cell> list;
   for (int number = 0; number < s.bins; ++number)
-    list.push_back({fmt::format("bin_{:03}", number), [s, number](Backend& backend) { return run_bin(s, number, backend); }});
+    list.push_back({fmt::format("bin_{:03}", number),
+                    [s, number](Backend& backend) { return run_bin(s, number, backend); }});
   return list;
 }
 
 }  // namespace
 
-Experiment nbv_experiment() { return {"nbv", "The next best view in bins of parts", options, cells, nbv_report}; }
+Experiment nbv_experiment() {
+  return {"nbv", "The next best view in bins of parts", options, cells, nbv_report};
+}
 
 }  // namespace edgescout

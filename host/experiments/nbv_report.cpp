@@ -25,7 +25,8 @@ std::string name_of(const std::string& strategy) {
 
 Table rows_of(const Table& table, const Searched& searched, const std::string& strategy) {
   return rows_where(table, [&](const Table& t, std::size_t row) {
-    return text_in(t, row, "sought") == searched.sought && text_in(t, row, "group") == searched.group && text_in(t, row, "strategy") == strategy;
+    return text_in(t, row, "sought") == searched.sought && text_in(t, row, "group") == searched.group &&
+           text_in(t, row, "strategy") == strategy;
   });
 }
 
@@ -35,9 +36,12 @@ std::vector<Searched> searches_in(const Table& table) {
   for (const std::string& sought : values_of(table, "sought"))
     for (const auto& [group, text] : {std::pair{"light", "lightly occluded"}, {"heavy", "highly occluded"}}) {
       const Table rows = rows_where(table, [&, g = group](const Table& t, std::size_t row) {
-        return text_in(t, row, "sought") == sought && text_in(t, row, "group") == g && number_in(t, row, "instances") > 0;
+        return text_in(t, row, "sought") == sought && text_in(t, row, "group") == g &&
+               number_in(t, row, "instances") > 0;
       });
-      if (!rows.rows.empty()) list.push_back({sought, group, fmt::format("{}, {}", sought == "1" ? "one type" : sought + " types", text)});
+      if (!rows.rows.empty())
+        list.push_back(
+            {sought, group, fmt::format("{}, {}", sought == "1" ? "one type" : sought + " types", text)});
     }
   return list;
 }
@@ -62,12 +66,15 @@ PlotPoint point_of(double x, const std::vector<Cluster>& clusters) {
 }
 
 std::string cell_of(const Outcome& outcome) {
-  return fmt::format("{}; {:.2f}", percent(rate(outcome.correct), bootstrap_interval(outcome.correct)), rate(outcome.wrong));
+  return fmt::format("{}; {:.2f}", percent(rate(outcome.correct), bootstrap_interval(outcome.correct)),
+                     rate(outcome.wrong));
 }
 
-std::string table_of(const Table& table, const Searched& searched, const std::vector<std::string>& strategies, const std::vector<std::string>& views) {
+std::string table_of(const Table& table, const Searched& searched, const std::vector<std::string>& strategies,
+                     const std::vector<std::string>& views) {
   std::string text = "| strategy |", line = "|---|";
-  for (const std::string& count : views) text += fmt::format(" {} {} |", count, count == "1" ? "view" : "views"), line += "---|";
+  for (const std::string& count : views)
+    text += fmt::format(" {} {} |", count, count == "1" ? "view" : "views"), line += "---|";
   text += fmt::format("\n{}\n", line);
   double instances = 0;
   for (const std::string& strategy : strategies) {
@@ -83,14 +90,22 @@ std::string table_of(const Table& table, const Searched& searched, const std::ve
 
 enum class Measure { Correct, Wrong };
 
-Panel panel_of(const Table& table, const Searched& searched, const std::vector<std::string>& strategies, const std::vector<std::string>& views, Measure measure) {
-  Panel panel{searched.title, "views", measure == Measure::Correct ? "correct localisations" : "false positives a bin", {}, 0, 1, false};
+Panel panel_of(const Table& table, const Searched& searched, const std::vector<std::string>& strategies,
+               const std::vector<std::string>& views, Measure measure) {
+  Panel panel{searched.title,
+              "views",
+              measure == Measure::Correct ? "correct localisations" : "false positives a bin",
+              {},
+              0,
+              1,
+              false};
   for (const std::string& strategy : strategies) {
     const Table rows = rows_of(table, searched, strategy);
     PlotLine line{name_of(strategy), {}};
     for (std::size_t i = 0; i < views.size(); ++i) {
       const Outcome outcome = outcome_of(rows, views[i]);
-      line.points.push_back(point_of(static_cast<double>(i + 1), measure == Measure::Correct ? outcome.correct : outcome.wrong));
+      line.points.push_back(point_of(static_cast<double>(i + 1),
+                                     measure == Measure::Correct ? outcome.correct : outcome.wrong));
     }
     panel.lines.push_back(std::move(line));
   }
@@ -105,15 +120,24 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
   const std::vector<std::string> strategies = values_of(table, "strategy"), views = values_of(table, "views");
   Report report;
   report.columns = std::max(1, static_cast<int>(searches.size()));
-  report.markdown = fmt::format("Bins: {}. Instances correctly localised (below 0.1 rad and 5 mm) after so many views, and false positives a bin.\n\n", values_of(table, "bin").size());
+  report.markdown = fmt::format(
+      "Bins: {}. Instances correctly localised (below 0.1 rad and 5 mm) after so many views, and false "
+      "positives a bin.\n\n",
+      values_of(table, "bin").size());
   for (const Searched& searched : searches) report.markdown += table_of(table, searched, strategies, views);
   for (const Measure measure : {Measure::Correct, Measure::Wrong})
-    for (const Searched& searched : searches) report.panels.push_back(panel_of(table, searched, strategies, views, measure));
+    for (const Searched& searched : searches)
+      report.panels.push_back(panel_of(table, searched, strategies, views, measure));
   std::vector<double> seconds;
   for (std::size_t row = 0; row < table.rows.size(); ++row)
-    if (text_in(table, row, "group") == "light" && text_in(table, row, "views") != "1" && !text_in(table, row, "seconds").empty()) seconds.push_back(number_in(table, row, "seconds"));
+    if (text_in(table, row, "group") == "light" && text_in(table, row, "views") != "1" &&
+        !text_in(table, row, "seconds").empty())
+      seconds.push_back(number_in(table, row, "seconds"));
   if (!seconds.empty())
-    report.markdown += fmt::format("A step took {:.1f} s (median): the decision, and what its image brings; images that another strategy had looked at before are not searched again.\n", median(seconds));
+    report.markdown += fmt::format(
+        "A step took {:.1f} s (median): the decision, and what its image brings; images that another "
+        "strategy had looked at before are not searched again.\n",
+        median(seconds));
   return report;
 }
 

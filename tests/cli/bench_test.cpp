@@ -21,13 +21,21 @@ namespace fs = std::filesystem;
 // Images of a quarter of the paper's size, two starts, few candidates, one bin looked at twice.
 std::vector<std::string> experiments(const fs::path& out, const std::vector<std::string>& more = {},
                                      int scenes = 3, int starts = 2) {
-  std::vector<std::string> arguments{
-      "bench",    "experiments",          "--out",    out,        "--image-scale",
-      "0.25",     "--supersampling",      "1",        "--scenes", std::to_string(scenes),
-      "--starts", std::to_string(starts), "--groups", "1",        "--group-starts",
-      "1",        "--candidates",         "60",       "--bins",   "1",
-      "--max-views", "2",                 "--aligned", "20",      "--registered",
-      "3",        "--particles",          "20",       "--combinations", "50"};
+  std::vector<std::string> arguments{"bench",           "experiments",
+                                     "--out",           out,
+                                     "--image-scale",   "0.25",
+                                     "--supersampling", "1",
+                                     "--scenes",        std::to_string(scenes),
+                                     "--starts",        std::to_string(starts),
+                                     "--groups",        "1",
+                                     "--group-starts",  "1",
+                                     "--candidates",    "60",
+                                     "--bins",          "1",
+                                     "--max-views",     "2",
+                                     "--aligned",       "20",
+                                     "--registered",    "3",
+                                     "--particles",     "20",
+                                     "--combinations",  "50"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }

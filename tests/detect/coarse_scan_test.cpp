@@ -97,7 +97,8 @@ TEST(CoarseScan, FindsAnObjectThatReachesOverTheBorder) {
   const double distance = template_distances_m(set.options)[0];
   for (int view : {3, 11, 29}) {
     const Eigen::Vector2d place(22, 120);
-    const Se3 truth = place_template(set, set.views[std::size_t(view)], 2 * pi / 12 * 5, distance, place, small_camera());
+    const Se3 truth =
+        place_template(set, set.views[std::size_t(view)], 2 * pi / 12 * 5, distance, place, small_camera());
     const std::vector<EdgePoint> edges = ideal_edges(dense, small_camera(), truth, *backend);
     std::vector<EdgePoint> seen;
     for (const EdgePoint& edge : edges)
@@ -189,8 +190,7 @@ TEST(CoarseScan, EqualsBruteForceOverAllPlaces) {
                             std::pow(distance, 0.25));
       std::ranges::sort(ranks);
       for (int kept = 0; kept < 7; ++kept, ++hit) {
-        EXPECT_NEAR(hits[hit].rank, ranks[kept], 0.026)
-            << "one point that rounds the other way is 0.25 / 20";
+        EXPECT_NEAR(hits[hit].rank, ranks[kept], 0.026) << "one point that rounds the other way is 0.25 / 20";
         const Eigen::Vector2d at = project(camera, hits[hit].camera_from_object * set.model.center_m);
         EXPECT_GE(at.x(), x0 - 1e-6);
         EXPECT_LE(at.x(), x0 + 3 * (columns - 1) + 1e-6);

@@ -33,8 +33,10 @@ Judgement judged(const std::vector<BinInstance>& instances, const ScoutStep& ste
 }
 
 TEST(BinJudge, SplitsByWhatShows) {
-  const std::vector<BinInstance> instances{{0, at(0, 0), 0.9}, {0, at(0.1, 0), 0.3}, {1, at(0, 0.1), 0.71}, {1, at(0.1, 0.1), 0.05}};
-  const Judgement judgement = judged(instances, reporting({{0, at(0, 0)}, {0, at(0.1, 0)}, {1, at(0.1, 0.1)}}));
+  const std::vector<BinInstance> instances{
+      {0, at(0, 0), 0.9}, {0, at(0.1, 0), 0.3}, {1, at(0, 0.1), 0.71}, {1, at(0.1, 0.1), 0.05}};
+  const Judgement judgement =
+      judged(instances, reporting({{0, at(0, 0)}, {0, at(0.1, 0)}, {1, at(0.1, 0.1)}}));
   EXPECT_EQ(judgement.light.instances, 2);
   EXPECT_EQ(judgement.heavy.instances, 1) << "what hardly shows does not count";
   EXPECT_EQ(judgement.light.correct, 1);
@@ -49,7 +51,9 @@ TEST(BinJudge, RightIsBelowFiveMillimetresAndATenthOfARadian) {
   EXPECT_EQ(judged(instances, reporting({{0, at(0.0051, 0)}})).light.wrong, 1);
   // 5.1 mm at 0.5 m are 7.8 px: right in the image.
   EXPECT_EQ(judged(instances, reporting({{0, at(0.0051, 0)}})).light.correct_px, 1);
-  const auto turned = [](double rad) { return Se3{Eigen::Quaterniond(Eigen::AngleAxisd(rad, Eigen::Vector3d::UnitZ())), {0, 0, 0}}; };
+  const auto turned = [](double rad) {
+    return Se3{Eigen::Quaterniond(Eigen::AngleAxisd(rad, Eigen::Vector3d::UnitZ())), {0, 0, 0}};
+  };
   EXPECT_EQ(judged(instances, reporting({{0, turned(0.099)}})).light.correct, 1);
   EXPECT_EQ(judged(instances, reporting({{0, turned(0.101)}})).light.correct, 0);
 }

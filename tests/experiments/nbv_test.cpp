@@ -20,7 +20,8 @@ ExperimentSettings small() {
 TEST(MakeBin, IsTheSameBinEveryTimeAndAnotherForEveryNumber) {
   ThreadPool pool(2);
   const std::vector<Object> types{make_part("l_bracket"), make_part("bearing_block"), make_part("u_channel")};
-  Bin a = make_bin(types, small(), 3, pool), b = make_bin(types, small(), 3, pool), c = make_bin(types, small(), 4, pool);
+  Bin a = make_bin(types, small(), 3, pool), b = make_bin(types, small(), 3, pool),
+      c = make_bin(types, small(), 4, pool);
   EXPECT_EQ(a.first_view, b.first_view);
   ASSERT_EQ(a.instances.size(), b.instances.size());
   for (std::size_t i = 0; i < a.instances.size(); ++i) {
@@ -47,9 +48,11 @@ TEST(MakeBin, HoldsItsPromises) {
       most_visible = std::max(most_visible, instance.visible);
       EXPECT_GE(instance.visible, 0);
       EXPECT_LE(instance.visible, 1);
-      const Eigen::Vector3d center = types[static_cast<std::size_t>(instance.object)].mesh.box_min_m / 2 + types[static_cast<std::size_t>(instance.object)].mesh.box_max_m / 2;
+      const Eigen::Vector3d center = types[static_cast<std::size_t>(instance.object)].mesh.box_min_m / 2 +
+                                     types[static_cast<std::size_t>(instance.object)].mesh.box_max_m / 2;
       for (const Se3& view : bin.cell->views())
-        EXPECT_NEAR((view * (instance.world_from_object * center)).norm(), bin_views().radius_m, BIN_DEPTH_MARGIN_M);
+        EXPECT_NEAR((view * (instance.world_from_object * center)).norm(), bin_views().radius_m,
+                    BIN_DEPTH_MARGIN_M);
     }
     EXPECT_GT(most_visible, LIGHTLY_OCCLUDED);
   }
@@ -59,7 +62,8 @@ TEST(MakeBin, HoldsItsPromises) {
 TEST(NbvReport, CountsInstancesAndFalseOnesByViews) {
   Table table;
   table.columns = {"bin", "sought", "strategy", "views", "group", "instances", "correct", "wrong", "seconds"};
-  const auto add = [&](const char* bin, const char* strategy, const char* views, const char* instances, const char* correct, const char* wrong) {
+  const auto add = [&](const char* bin, const char* strategy, const char* views, const char* instances,
+                       const char* correct, const char* wrong) {
     table.rows.push_back({bin, "1", strategy, views, "light", instances, correct, wrong, "1.5"});
     table.rows.push_back({bin, "1", strategy, views, "heavy", "0", "0", "0", "1.5"});
   };
@@ -71,8 +75,11 @@ TEST(NbvReport, CountsInstancesAndFalseOnesByViews) {
   EXPECT_NE(report.markdown.find("Bins: 2."), std::string::npos);
   EXPECT_NE(report.markdown.find("10 instances."), std::string::npos) << report.markdown;
   EXPECT_EQ(report.markdown.find("highly"), std::string::npos) << "no instances: no table";
-  EXPECT_NE(report.markdown.find("| MI-MAX | 30 % [25, 33]; 1.50 | 90 % [83, 100]; 0.50 |"), std::string::npos) << report.markdown;
-  EXPECT_NE(report.markdown.find("| Random | 30 % [25, 33]; 1.50 | 40 % [33, 50]; 3.50 |"), std::string::npos) << report.markdown;
+  EXPECT_NE(report.markdown.find("| MI-MAX | 30 % [25, 33]; 1.50 | 90 % [83, 100]; 0.50 |"),
+            std::string::npos)
+      << report.markdown;
+  EXPECT_NE(report.markdown.find("| Random | 30 % [25, 33]; 1.50 | 40 % [33, 50]; 3.50 |"), std::string::npos)
+      << report.markdown;
   EXPECT_NE(report.markdown.find("1.5 s (median)"), std::string::npos);
   ASSERT_EQ(report.panels.size(), 2u);
   EXPECT_EQ(report.panels[0].lines[0].name, "MI-MAX");
