@@ -239,6 +239,13 @@ void Scout::resume(ScoutState state, const std::string& source) {
   proposal_.reset();
 }
 
+PipelineOptions ScoutOptions::quick_looks() {
+  PipelineOptions options;
+  options.detect.aligned = 600;
+  options.detect.candidates = 25;
+  return options;
+}
+
 void ScoutOptions::validate() const {
   const auto in = [](const char* field, double found, double low, double high) {
     if (!(found >= low && found <= high))
