@@ -21,47 +21,55 @@ std::uint32_t six_bit(std::uint16_t value) {
       (std::uint32_t(value) + (1u << (TEMPLATE_SCORE_SHIFT - 1))) >> TEMPLATE_SCORE_SHIFT);
 }
 
-// A part of the tensor as planes, `outside` where it reaches beyond the image, so that a template may hang
-// over the border. Columns are sorted by their remainder, [bin][y][x % step][x / step]: anchors `step` apart
-// lie side by side.
+// A part of the tensor as planes, `outside` around the image, so that a template may hang over the border.
+// Columns are sorted by their remainder, [bin][y][x % step][x / step]: anchors `step` apart lie side by side.
+// After the bins' planes come one of zeros and one of `outside`.
 struct Planes {
   int left, top, step, stride, rows, bins;
   std::vector<std::uint32_t> column;  // where a column lies in its row
-  std::vector<std::uint8_t> values;   // after the bins' planes, one of zeros
+  std::vector<std::uint8_t> values;
+  std::size_t plane() const { return std::size_t(rows) * step * stride; }
   std::size_t at(int x, int y, int bin) const {
     return (std::size_t(bin) * rows + (y + top)) * step * stride + column[x + left];
   }
+  std::size_t zeros() const { return bins * plane(); }
+  std::size_t nothing() const { return (bins + 1) * plane(); }
   std::size_t next_row() const { return std::size_t(step) * step * stride; }  // of anchors
 };
 
 constexpr int block_columns = 32, block_rows = 8;
 
-// What templates read: pixels and bins.
+// What jobs read: pixels, bins, and how far one point is moved over all anchors of a job, in whole blocks.
 struct Bounds {
-  int x_min = 0, x_max = 0, y_min = 0, y_max = 0, bin_max = 0;
+  int x_min = 0, x_max = 0, y_min = 0, y_max = 0, bin_max = 0, reach_x = 0, reach_y = 0;
 };
 
 constexpr std::size_t chunk_jobs = 64;
 
 Bounds joined(const Bounds& a, const Bounds& b) {
-  return {std::min(a.x_min, b.x_min), std::max(a.x_max, b.x_max), std::min(a.y_min, b.y_min),
-          std::max(a.y_max, b.y_max), std::max(a.bin_max, b.bin_max)};
+  return {std::min(a.x_min, b.x_min),    std::max(a.x_max, b.x_max),     std::min(a.y_min, b.y_min),
+          std::max(a.y_max, b.y_max),    std::max(a.bin_max, b.bin_max), std::max(a.reach_x, b.reach_x),
+          std::max(a.reach_y, b.reach_y)};
 }
 
+int reach_x(const TemplateJob& job, int step) { return step * (int(job.columns) + block_columns); }
+int reach_y(const TemplateJob& job, int step) { return step * (int(job.rows) + block_rows); }
+
 Bounds touched_by(const TemplateJob& job, const TemplatePoint* points, int step) {
-  int left = 0, right = 0, top = 0, bottom = 0, bin = 0;
+  int left = 32767, right = -32768, top = 32767, bottom = -32768, bin = 0;
   for (std::uint32_t p = 0; p < job.point_count; ++p) {
     left = std::min<int>(left, points[p].dx_px), right = std::max<int>(right, points[p].dx_px);
     top = std::min<int>(top, points[p].dy_px), bottom = std::max<int>(bottom, points[p].dy_px);
     bin = std::max<int>(bin, points[p].bin);
   }
-  return {job.x0 + left, job.x0 + right + step * (int(job.columns) + block_columns), job.y0 + top,
-          job.y0 + bottom + step * (int(job.rows) + block_rows), bin};
+  const int x = reach_x(job, step), y = reach_y(job, step);
+  return {job.x0 + left, job.x0 + right + x, job.y0 + top, job.y0 + bottom + y, bin, x, y};
 }
 
-// What all jobs read.
-Bounds touched(std::span<const TemplatePoint> points, std::span<const TemplateJob> jobs, int step,
-               ThreadPool& pool) {
+// What all jobs read. Points that never reach the image are not read: the bounds do not go beyond its
+// neighbourhood, however far away they lie.
+Bounds touched(const TensorShape& shape, std::span<const TemplatePoint> points,
+               std::span<const TemplateJob> jobs, int step, ThreadPool& pool) {
   std::vector<Bounds> of_chunks((jobs.size() + chunk_jobs - 1) / chunk_jobs);
   pool.for_each(of_chunks.size(), [&](std::size_t c) {
     const auto chunk = jobs.subspan(c * chunk_jobs, std::min(chunk_jobs, jobs.size() - c * chunk_jobs));
@@ -69,7 +77,12 @@ Bounds touched(std::span<const TemplatePoint> points, std::span<const TemplateJo
     for (const TemplateJob& job : chunk)
       of_chunks[c] = joined(of_chunks[c], touched_by(job, points.data() + job.first_point, step));
   });
-  return std::accumulate(of_chunks.begin(), of_chunks.end(), of_chunks[0], joined);
+  Bounds b = std::accumulate(of_chunks.begin(), of_chunks.end(), of_chunks[0], joined);
+  b.x_min = std::clamp(b.x_min, -b.reach_x, shape.width),
+  b.y_min = std::clamp(b.y_min, -b.reach_y, shape.height);
+  b.x_max = std::clamp(b.x_max, b.x_min + b.reach_x, std::max(b.x_min, shape.width) + b.reach_x);
+  b.y_max = std::clamp(b.y_max, b.y_min + b.reach_y, std::max(b.y_min, shape.height) + b.reach_y);
+  return b;
 }
 
 Planes make_planes(std::span<const std::uint16_t> tensor, const TensorShape& shape, const Bounds& b, int step,
@@ -83,9 +96,9 @@ Planes make_planes(std::span<const std::uint16_t> tensor, const TensorShape& sha
   planes.rows = b.y_max - b.y_min + 1;
   for (int c = 0; c < b.x_max - b.x_min + 1; ++c)
     planes.column.push_back(static_cast<std::uint32_t>(c % step * planes.stride + c / step));
-  const std::size_t plane = std::size_t(planes.rows) * step * planes.stride;
-  planes.values.assign((shape.bins + 1) * plane, outside);
-  std::fill(planes.values.end() - plane, planes.values.end(), std::uint8_t{0});
+  planes.values.assign((shape.bins + 2) * planes.plane(), outside);
+  std::fill_n(planes.values.begin() + static_cast<std::ptrdiff_t>(planes.zeros()), planes.plane(),
+              std::uint8_t{0});
   const int tile = int(DCD_TILE), right = std::min(shape.width, b.x_max + 1),
             left = std::clamp(b.x_min, 0, shape.width);
   pool.for_each(shape.bins, [&](std::size_t bin) {
@@ -168,14 +181,17 @@ std::pair<int, int> first_in_block(const BlockSums& sums, std::uint32_t wanted) 
   throw LogicError("template_score: a lowest sum that is nowhere");
 }
 
-TemplateHit best_of_job(const Planes& planes, std::span<const TemplatePoint> points, const TemplateJob& job) {
+TemplateHit best_of_job(const Planes& planes, const TensorShape& shape, std::span<const TemplatePoint> points,
+                        const TemplateJob& job) {
   std::size_t sources[TEMPLATE_SCORE_MAX_POINTS + 3];
+  const int right = reach_x(job, planes.step), down = reach_y(job, planes.step);
   for (std::uint32_t p = 0; p < job.point_count; ++p) {
     const TemplatePoint& point = points[job.first_point + p];
-    sources[p] = planes.at(job.x0 + point.dx_px, job.y0 + point.dy_px, point.bin);
+    const int x = job.x0 + point.dx_px, y = job.y0 + point.dy_px;
+    const bool is_near = x > -right && x < shape.width && y > -down && y < shape.height;
+    sources[p] = is_near ? planes.at(x, y, point.bin) : planes.nothing();
   }
-  for (std::uint32_t p = job.point_count; p % 4 != 0; ++p)
-    sources[p] = planes.at(job.x0, job.y0, planes.bins);
+  for (std::uint32_t p = job.point_count; p % 4 != 0; ++p) sources[p] = planes.zeros();
   TemplateHit hit{~0u, job.x0, job.y0};
   BlockSums sums;
   for (std::uint32_t x = 0; x < job.columns; x += block_columns) {
@@ -243,12 +259,12 @@ void template_score_fast(std::span<const std::uint16_t> tensor, const TensorShap
                          int anchor_step, std::span<TemplateHit> hits, ThreadPool& pool) {
   check_jobs(points.size(), jobs, anchor_step, hits.size());
   if (jobs.empty()) return;
-  const Bounds bounds = touched(points, jobs, anchor_step, pool);
+  const Bounds bounds = touched(shape, points, jobs, anchor_step, pool);
   check(bounds.bin_max < shape.bins, BIN_OUT_OF_RANGE);
   const Planes planes = make_planes(tensor, shape, bounds, anchor_step, pool);
   pool.for_each((jobs.size() + chunk_jobs - 1) / chunk_jobs, [&](std::size_t c) {
     for (std::size_t j = c * chunk_jobs; j < std::min(jobs.size(), (c + 1) * chunk_jobs); ++j)
-      hits[j] = best_of_job(planes, points, jobs[j]);
+      hits[j] = best_of_job(planes, shape, points, jobs[j]);
   });
 }
 

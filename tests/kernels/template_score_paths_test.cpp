@@ -84,6 +84,18 @@ TEST_P(TemplateScorePaths, ManyJobs) {
   EXPECT_EQ(hits, expected);
 }
 
+// A point just before the camera lands anywhere: it is outside, and costs no memory for the way there.
+TEST_P(TemplateScorePaths, PointsFarAwayAreOutside) {
+  const ViewHandle view = tested->make_view({}, 64, 48, {}, {}, {});
+  const std::vector<TemplatePoint> points{
+      {-16000, -16000, 3}, {16000, 16000, 5}, {0, 16000, 7}, {-16000, 2, 9}};
+  std::vector<TemplateHit> hits(2);
+  tested->template_score(*view, points,
+                         std::vector<TemplateJob>{{0, 4, 8, 4, 3, 2}, {2, 1, -20000, 30000, 40, 9}}, 2, hits);
+  EXPECT_EQ(hits[0], (TemplateHit{4 * TEMPLATE_SCORE_OUTSIDE, 8, 4}));
+  EXPECT_EQ(hits[1], (TemplateHit{TEMPLATE_SCORE_OUTSIDE, -20000, 30000}));
+}
+
 TEST_P(TemplateScorePaths, BrokenJobsAreOurBugs) {
   const ViewHandle view = tested->make_view({}, 8, 8, {}, {}, {});
   const std::vector<TemplatePoint> points{{0, 0, 3}, {0, 0, 60}};
