@@ -47,8 +47,8 @@ ExperimentSettings ExperimentSettings::full_form() {
   ExperimentSettings settings;
   settings.scenes = 60;
   settings.groups = 30;
-  settings.starts = 100;
-  settings.group_starts = 20;
+  settings.starts = 20;
+  settings.group_starts = 4;
   settings.every = 9;
   settings.frames_every = 1;
   settings.bins = 30;
