@@ -6,6 +6,7 @@
 #include <ceres/ceres.h>
 
 #include "host/register/point_cost.h"
+#include "host/register/pose_track.h"
 #include "host/register/se3_manifold.h"
 #include "host/register/world_system.h"
 #include "kernels/error.h"
@@ -139,11 +140,10 @@ std::vector<Registration> register_poses_ceres(std::span<const EdgeModel> models
                                                const D2coOptions& options) {
   options.validate();
   check(!views.empty(), "register_poses_ceres: at least one view");
+  check_starts(hypotheses, models.size());
   const std::vector<HostView> host = download(views);
   std::vector<Registration> results(hypotheses.size());
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
-    check(hypotheses[h].object >= 0 && hypotheses[h].object < int(models.size()),
-          "register_poses_ceres: no such model");
     results[h].world_from_object = hypotheses[h].world_from_object;
     for (const D2coRound& round : options.rounds)
       solve_round(results[h], models[hypotheses[h].object], host, backend, round, options);

@@ -121,7 +121,7 @@ TEST_P(D2co, RegistersEveryHypothesisOnItsOwn) {
   Random random = test_random();
   PartScene scene("bearing_block", 2, random, *backend);
   const std::vector<EdgeModel> models{part_model("hex_nut"), scene.model};
-  Hypothesis behind{1, inverse(scene.views[0].camera_from_world) * Se3{{}, {0, 0, -3}}};
+  Hypothesis behind{1, inverse(scene.views[0].camera_from_world) * Se3{Eigen::Quaterniond::Identity(), {0, 0, -3}}};
   const std::vector<Hypothesis> all{
       {0, scene.start.world_from_object}, {1, scene.start.world_from_object}, behind};
   const std::vector<Registration> found = GetParam().solve(models, all, scene.views, *backend, {});
@@ -131,6 +131,20 @@ TEST_P(D2co, RegistersEveryHypothesisOnItsOwn) {
   EXPECT_EQ(found[1].points, alone.points);
   EXPECT_GT(distance_between_m(found[0].world_from_object, alone.world_from_object), 1e-4);
   EXPECT_TRUE(GetParam().solve(models, {}, scene.views, *backend, {}).empty());
+}
+
+TEST_P(D2co, RefusesPosesThatAreNone) {
+  Random random = test_random();
+  PartScene scene("l_bracket", 1, random, *backend);
+  const Hypothesis start = scene.start;
+  scene.start.world_from_object.rotation.coeffs().setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_THROW(solve(scene), LogicError);
+  scene.start = start;
+  scene.start.world_from_object.translation_m.z() = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(solve(scene), LogicError);
+  scene.start = start;
+  scene.start.object = 1;
+  EXPECT_THROW(solve(scene), LogicError);
 }
 
 TEST_P(D2co, RefusesOptionsOutOfRange) {
