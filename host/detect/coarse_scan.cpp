@@ -46,6 +46,7 @@ struct Workspace {
   std::vector<TemplatePoint> points;
   std::vector<TemplateJob> jobs;
   std::vector<TemplateHit> hits;
+  std::vector<char> drawn;  // not where a point would lie behind the camera
 };
 
 void scan_region(const TemplateSet& set, const Numbering& numbering, const Region& region, const Observation& observation, Backend& backend,
@@ -54,6 +55,7 @@ void scan_region(const TemplateSet& set, const Numbering& numbering, const Regio
   work.points.resize(templates * options.points);
   work.jobs.resize(templates);
   work.hits.resize(templates);
+  work.drawn.resize(templates);
   const auto& salient = *observation.salient;
   const float nearest_m = float(0.1 * set.model.radius_m);
   constexpr std::size_t chunk = 256;
@@ -64,10 +66,9 @@ void scan_region(const TemplateSet& set, const Numbering& numbering, const Regio
       const ThinnedView& view = work.views[numbering.view(t)];
       TemplatePoint* points = work.points.data() + t * options.points;
       int count = view.count();
-      // A template that cannot be drawn scores as if all its points lay outside.
-      if (count == 0 || !view.project(to_pose(pose), salient.intrinsics, float(region.middle.x()), float(region.middle.y()), salient.shape.bins,
-                                      nearest_m, points))
-        points[0] = {-16000, 0, 0}, count = 1;
+      work.drawn[t] = count > 0 && view.project(to_pose(pose), salient.intrinsics, float(region.middle.x()), float(region.middle.y()),
+                                                salient.shape.bins, nearest_m, points);
+      if (!work.drawn[t]) points[0] = {}, count = 1;  // a job needs a point; its answer is not read
       work.jobs[t] = {static_cast<std::uint32_t>(t * options.points), static_cast<std::uint32_t>(count), region.x0, region.y0,
                       static_cast<std::uint32_t>(region.columns), static_cast<std::uint32_t>(region.rows)};
     }
@@ -75,9 +76,10 @@ void scan_region(const TemplateSet& set, const Numbering& numbering, const Regio
   backend.template_score(*observation.salient, work.points, work.jobs, options.anchor_step, work.hits);
   const auto mean = [&](std::size_t t) { return double(work.hits[t].sum) / (4.0 * work.jobs[t].point_count); };
   const auto rank = [&](std::size_t t) { return mean(t) * std::pow(numbering.distance_m(t), SIZE_WEIGHT); };
-  std::vector<std::size_t> order(templates);
-  for (std::size_t t = 0; t < templates; ++t) order[t] = t;
-  const std::size_t kept = std::min(most, templates);
+  std::vector<std::size_t> order;
+  for (std::size_t t = 0; t < templates; ++t)
+    if (work.drawn[t]) order.push_back(t);
+  const std::size_t kept = std::min(most, order.size());
   std::partial_sort(order.begin(), order.begin() + kept, order.end(), [&](std::size_t a, std::size_t b) {
     const double ra = rank(a), rb = rank(b);
     return ra != rb ? ra < rb : a < b;
