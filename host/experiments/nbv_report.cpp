@@ -76,15 +76,15 @@ std::string table_of(const Table& table, const Searched& searched, const std::ve
   for (const std::string& count : views)
     text += fmt::format(" {} {} |", count, count == "1" ? "view" : "views"), line += "---|";
   text += fmt::format("\n{}\n", line);
-  double instances = 0;
   for (const std::string& strategy : strategies) {
     const Table rows = rows_of(table, searched, strategy);
     text += fmt::format("| {} |", name_of(strategy));
-    instances = 0;
-    for (const Cluster& bin : outcome_of(rows, views[0]).correct) instances += bin.trials;
     for (const std::string& count : views) text += fmt::format(" {} |", cell_of(outcome_of(rows, count)));
     text += "\n";
   }
+  double instances = 0;  // the same for every strategy
+  for (const Cluster& bin : outcome_of(rows_of(table, searched, strategies[0]), views[0]).correct)
+    instances += bin.trials;
   return fmt::format("## {}\n\n{:.0f} instances.\n\n{}\n", searched.title, instances, text);
 }
 
