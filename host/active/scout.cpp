@@ -6,6 +6,7 @@
 #include "host/active/candidates.h"
 #include "host/active/views.h"
 #include "host/core/log.h"
+#include "host/register/occluders.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -118,9 +119,22 @@ void Scout::look(const Image& image, ScoutStep& step, ScoutState& next, std::vec
     next.candidates.insert(next.candidates.end(), found.begin(), found.end());
     done(watch, "detection");
   }
+  hide_behind(known_objects(next.detections), views);
   next.candidates =
       refined_candidates(sets_, models_, next.candidates, views, static_cast<std::size_t>(options_.max_candidates), backend_, options_.pipeline.detect);
   done(watch, "candidates");
+}
+
+// What hides others: nothing before the second image.
+std::vector<Hypothesis> Scout::known_objects(std::span<const ModeDetection> detections) const {
+  std::vector<Hypothesis> known;
+  for (const ModeDetection& mode : detections)
+    if (mode.detection.probability >= options_.known_probability) known.push_back({mode.detection.object, mode.detection.world_from_object});
+  return known;
+}
+
+void Scout::hide_behind(std::span<const Hypothesis> known, std::span<RegisterView> views) const {
+  for (RegisterView& view : views) view.occluders = make_occluders(models_, known, view, backend_);
 }
 
 // Lines 11 and 15 to 19: the particles after this image, and the instances they amount to.
@@ -234,6 +248,7 @@ void Scout::resume(ScoutState state, const std::string& source) {
     const PreparedImage prepared = prepare_image(step.image, undistorted(camera_), step.camera_from_world, backend_, options_.pipeline);
     views.push_back(observe_prepared(prepared, sets_, backend_, options_.pipeline).view);
   }
+  if (state.steps.size() >= 2) hide_behind(known_objects(state.steps[state.steps.size() - 2].detections), views);
   state_ = std::move(state);
   views_ = std::move(views);
   proposal_.reset();
@@ -252,6 +267,7 @@ void ScoutOptions::validate() const {
       throw InputError("options", std::string("scout.") + field, std::to_string(found), std::to_string(low) + " to " + std::to_string(high));
   };
   in("max_candidates", max_candidates, 1, 10000);
+  in("known_probability", known_probability, 0, 2);
   in("penetration_m", penetration_m, 0, 1);
   in("first_view", first_view, 0, 1e6);
   in("max_views", max_views, 1, 1e6);

@@ -33,6 +33,8 @@ struct ScoutOptions {
   bool detect_in_every_image = true;  // else in the first alone, as in the paper
   // A detector of one's own in place of candidates_in_image (candidates.h): what may be in the image of this view, in the world.
   std::function<std::vector<Detection>(int view, const Observation& observation)> detect;
+  // Instances as probable as this hide what is behind them (register/occluders.h): what they cover counts neither for nor against other poses. Above 1: none do.
+  double known_probability = 0.9;
   double penetration_m = DEFAULT_PENETRATION_M;
   CombinationOptions combinations;
   ParticleOptions particles;
@@ -80,6 +82,8 @@ class Scout {
   void look(const Image& image, ScoutStep& step, ScoutState& next, std::vector<RegisterView>& views) const;
   void believe(ScoutStep& step, ScoutState& next, std::span<const RegisterView> views) const;
   std::size_t add_particles(ScoutState& next) const;
+  std::vector<Hypothesis> known_objects(std::span<const ModeDetection> detections) const;
+  void hide_behind(std::span<const Hypothesis> known, std::span<RegisterView> views) const;
   void done(Stopwatch& watch, const char* stage) const;
 
   std::span<const TemplateSet> sets_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "host/register/occluders.h"
 #include "kernels/pose_geometry.h"
 
 namespace edgescout {
@@ -77,7 +78,9 @@ std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::sp
     std::vector<Se3> in_camera;
     for (const RegisterView& view : views) in_camera.push_back(view.camera_from_world * poses[p].world_from_object);
     const EdgeModel& model = models[poses[p].object];
-    explained[p] = explained_edges(model, poses[p], views, visible_edges(model, in_camera, backend), options);
+    std::vector<std::vector<ModelPoint>> visible = visible_edges(model, in_camera, backend);
+    remove_hidden(model, in_camera, views, visible);
+    explained[p] = explained_edges(model, poses[p], views, visible, options);
   }
   SpentEdges spent(views);
   std::vector<ChosenPose> chosen;

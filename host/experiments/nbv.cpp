@@ -175,6 +175,7 @@ Notes options(const ExperimentSettings& s) {
           {"combinations", std::to_string(o.combinations.count)},
           {"sharpness", number_text(o.combinations.sharpness)},
           {"penetration_m", number_text(o.penetration_m)},
+          {"known_probability", number_text(o.known_probability)},
           {"map_reduction", number_text(o.next_view.reduction)},
           {"chamfer_cap_px", number_text(o.next_view.cap_px)},
           {"sigma_px", number_text(o.next_view.sigma_px)},

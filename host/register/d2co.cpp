@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "host/register/occluders.h"
 #include "host/register/pose_track.h"
 #include "kernels/error.h"
 
@@ -31,6 +32,7 @@ PointSets collect_points(std::span<const EdgeModel> models, std::span<const Hypo
         slots.push_back(h * views.size() + v);
       }
     std::vector<std::vector<ModelPoint>> visible = visible_edges(models[object], poses, backend, options.visibility);
+    remove_hidden(models[object], poses, views, visible);
     for (std::size_t i = 0; i < slots.size(); ++i) lists[slots[i]] = std::move(visible[i]);
   }
   PointSets sets;

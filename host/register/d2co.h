@@ -33,6 +33,8 @@ struct D2coOptions {
   void validate() const;
 };
 
+struct Occluders;  // occluders.h
+
 // One calibrated view: the camera must be the one its tensor was made with.
 struct RegisterView {
   ViewHandle view;
@@ -41,6 +43,7 @@ struct RegisterView {
   std::shared_ptr<const EdgeIndex> edges;  // the edge points themselves; needed by polish_poses only
   ViewHandle coarse;                       // the same edges on a reduced tensor: a wider basin for the search (refine.h)
   std::shared_ptr<const Image> image;      // undistorted; needed by shading (shading.h) only
+  std::shared_ptr<const Occluders> occluders;  // what known objects hide here; none: nothing
 };
 
 struct Hypothesis {

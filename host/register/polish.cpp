@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 
 #include "host/register/image_motion.h"
+#include "host/register/occluders.h"
 #include "host/register/world_system.h"
 #include "kernels/thread_pool.h"
 
@@ -97,6 +98,7 @@ void polish_poses(std::span<const EdgeModel> models, std::span<const Hypothesis>
         for (const RegisterView& view : views) poses.push_back(view.camera_from_world * registrations[h].world_from_object);
       }
     std::vector<std::vector<ModelPoint>> points = visible_edges(models[object], poses, backend, options.visibility);
+    remove_hidden(models[object], poses, views, points);
     for (std::vector<ModelPoint>& list : points) list = thinned(list, options.max_points);
     backend.threads().for_each(members.size(), [&](std::size_t m) {
       polish_one(registrations[members[m]], views, std::span(points).subspan(m * views.size(), views.size()), options);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/register/occluders.h"
 #include "host/register/odds_weights.h"
 #include "kernels/error.h"
 #include "kernels/pose_geometry.h"
@@ -55,12 +56,13 @@ std::vector<PoseFeatures> pose_features_by_view(std::span<const EdgeModel> model
         problems.push_back({to_pose(in_camera.back()), 0, 0, static_cast<std::uint32_t>(v)});
         slots.push_back(p * views.size() + v);
       }
-    const std::vector<std::vector<ModelPoint>> visible = visible_edges(models[object], in_camera, backend, visibility);
+    std::vector<std::vector<ModelPoint>> visible = visible_edges(models[object], in_camera, backend, visibility);
+    for (std::size_t i = 0; i < visible.size(); ++i) features[slots[first + i]].visible = double(visible[i].size());
+    remove_hidden(models[object], in_camera, views, visible);
     for (std::size_t i = 0; i < visible.size(); ++i) {
       problems[first + i].first_point = static_cast<std::uint32_t>(points.size());
       problems[first + i].point_count = static_cast<std::uint32_t>(visible[i].size());
       PoseFeatures& f = features[slots[first + i]];
-      f.visible = double(visible[i].size());
       f.length_px = projected_length_px(models[object], in_camera[i], views[problems[first + i].view].view->intrinsics, visible[i]);
       points.insert(points.end(), visible[i].begin(), visible[i].end());
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/register/occluders.h"
 #include "kernels/thread_pool.h"
 
 namespace edgescout {
@@ -64,8 +65,15 @@ bool normal_at(const float* depth, int i, int j, const Intrinsics& k, Eigen::Vec
   return true;
 }
 
+// A pixel of the depth map as a point in the camera frame.
+Eigen::Vector3d point_at(const float* depth, int i, int j, const Intrinsics& k) {
+  const double z = depth[std::size_t(j) * WINDOW_PX + i];
+  return {(i - k.cx) / k.fx * z, (j - k.cy) / k.fy * z, z};
+}
+
 // Least squares of grey on the harmonics, by its normal equations.
-Shading explain(const Image& image, const Window& window, const float* depth, const Intrinsics& k) {
+Shading explain(const RegisterView& view, const Window& window, const float* depth, const Intrinsics& k, double tolerance_m) {
+  const Image& image = *view.image;
   Eigen::Matrix<double, HARMONICS, HARMONICS> system = Eigen::Matrix<double, HARMONICS, HARMONICS>::Zero();
   Harmonics right = Harmonics::Zero();
   double count = 0, sum = 0, squares = 0;
@@ -75,6 +83,7 @@ Shading explain(const Image& image, const Window& window, const float* depth, co
       const int x = window.x + window.stride * i, y = window.y + window.stride * j;
       Eigen::Vector3d normal;
       if (x < 0 || y < 0 || x >= image.width || y >= image.height || !normal_at(depth, i, j, k, normal)) continue;
+      if (view.occluders && view.occluders->may_hide(point_at(depth, i, j, k), tolerance_m)) continue;
       const double grey = image.at(x, y);
       const Harmonics h = harmonics(normal);
       system.selfadjointView<Eigen::Lower>().rankUpdate(h);
@@ -113,6 +122,7 @@ std::vector<Shading> shading(std::span<const EdgeModel> models, std::span<const 
   constexpr std::size_t chunk = 256, map = std::size_t(WINDOW_PX) * WINDOW_PX;  // bounded memory however many poses there are
   std::vector<float> depth;
   for (std::size_t object = 0; object < models.size(); ++object) {
+    const double tolerance_m = occlusion_tolerance_m(models[object]);
     std::vector<Task> tasks;
     std::vector<DepthJob> jobs;
     for (std::size_t p = 0; p < poses.size(); ++p)
@@ -129,7 +139,7 @@ std::vector<Shading> shading(std::span<const EdgeModel> models, std::span<const 
       backend.depth_raster(models[object].triangle_mesh(), std::span<const DepthJob>(jobs).subspan(first, count), WINDOW_PX, WINDOW_PX, depth);
       backend.threads().for_each(count, [&](std::size_t i) {
         const Task& task = tasks[first + i];
-        result[task.slot] = explain(*views[task.view].image, task.window, depth.data() + i * map, jobs[first + i].intrinsics);
+        result[task.slot] = explain(views[task.view], task.window, depth.data() + i * map, jobs[first + i].intrinsics, tolerance_m);
       });
     }
   }

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "host/register/occluders.h"
 #include "host/render/parts.h"
 #include "tests/register/scene.h"
 #include "tests/test_random.h"
@@ -104,6 +105,28 @@ TEST(Shading, AddsUpOverViews) {
   add(both, one);
   EXPECT_EQ(both.pixels, 2 * one.pixels);
   EXPECT_NEAR(unexplained_grey(both), unexplained_grey(one), 1e-12);
+}
+
+// Noise where another, known part stands before it: without knowing of it the surface explains little.
+TEST(Shading, LeavesOutWhatKnownPartsHide) {
+  ShadedPart part("l_bracket");
+  Se3 nearer = part.truth;
+  nearer.translation_m += Eigen::Vector3d(0.012, 0, -0.08);
+  const EdgeModel cover = make_edge_model(make_part("bearing_block").mesh);
+  Random random = test_random();
+  Image image = shaded(part.model.mesh, part.truth, [](int, int) { return 10.0; });
+  const Image before = shaded(cover.mesh, nearer, [](int, int) { return 0.0; });
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    if (before.pixels[i] > 0) image.pixels[i] = std::uint8_t(random.below(256));
+  part.show(image);
+  const Shading blind = part.at(part.truth);
+  const Hypothesis known{0, nearer};
+  part.view.occluders = make_occluders({&cover, 1}, {&known, 1}, part.view, *part.backend);
+  const Shading knowing = part.at(part.truth);
+  EXPECT_GT(unexplained_grey(blind), 0.5);
+  EXPECT_LT(unexplained_grey(knowing), 0.2);
+  EXPECT_LT(knowing.pixels, 0.9 * blind.pixels);
+  EXPECT_GT(knowing.pixels, 60);
 }
 
 // Poses of several objects in several views keep their places in the answer.
