@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint8_t outside = TEMPLATE_SCORE_OUTSIDE;
 
-std::uint32_t six_bit(std::uint16_t value) {
+std::uint32_t capped(std::uint16_t value) {
   return std::min<std::uint32_t>(
       TEMPLATE_SCORE_CAP,
       (std::uint32_t(value) + (1u << (TEMPLATE_SCORE_SHIFT - 1))) >> TEMPLATE_SCORE_SHIFT);
@@ -106,7 +106,7 @@ Planes make_planes(std::span<const std::uint16_t> tensor, const TensorShape& sha
     for (int y = std::max(0, b.y_min); y < std::min(shape.height, b.y_max + 1); ++y)
       for (int x0 = left / tile * tile; x0 < right; x0 += tile) {
         const std::uint16_t* from = tensor.data() + shape.index(x0, y, int(bin));
-        for (int i = 0; i < tile; ++i) values[i] = static_cast<std::uint8_t>(six_bit(from[i]));
+        for (int i = 0; i < tile; ++i) values[i] = static_cast<std::uint8_t>(capped(from[i]));
         const int begin = std::max(0, left - x0), end = std::min(tile, right - x0);
         for (int first = begin; first < std::min(begin + step, end); ++first) {
           std::uint8_t* to = planes.values.data() + planes.at(x0 + first, y, int(bin));
@@ -247,7 +247,7 @@ void template_score_reference(std::span<const std::uint16_t> tensor, const Tenso
         for (const TemplatePoint& point : points.subspan(job.first_point, job.point_count)) {
           const int px = x + point.dx_px, py = y + point.dy_px;
           const bool inside = px >= 0 && px < shape.width && py >= 0 && py < shape.height;
-          sum += inside ? six_bit(tensor[shape.index(px, py, point.bin)]) : outside;
+          sum += inside ? capped(tensor[shape.index(px, py, point.bin)]) : outside;
         }
         if (sum < hits[j].sum) hits[j] = {sum, x, y};
       }

@@ -4,10 +4,11 @@
 // on a rectangle of anchors, `anchor_step` px apart: (x0 + step * column, y0 + step * row). Its answer is the anchor with the
 // lowest sum (ties: lowest y, then lowest x). A job of one anchor is the plain Eq. 7.
 //
-// Values are read with 6 bits, v6 = min(63, (v16 + 2^(s-1)) >> s) with s = TEMPLATE_SCORE_SHIFT, so in units of 1/4 px and with a cap
-// of 15.75 px: this kernel runs on a coarse tensor (the image reduced by 2 to 6), where that is 30 to 100 px of the image, and four
-// such values add up in one byte. Points that fall outside the image count as TEMPLATE_SCORE_OUTSIDE, 6 px: about what chance gives.
-// Counted as far from every edge, an object that reaches over the image's border by a tenth could never be found.
+// Values are read as v = min(TEMPLATE_SCORE_CAP, (v16 + 2^(s-1)) >> s) with s = TEMPLATE_SCORE_SHIFT, so in units of 1/4 px and with a cap
+// of 4 px. This kernel runs on a coarse tensor (the image reduced by 2 to 6), where that is 8 to 24 px of the image: a point that is hidden
+// costs no more than one a little off, or a half-hidden object would lose to clutter that fits everywhere a little. Points that fall outside
+// the image count as TEMPLATE_SCORE_OUTSIDE, 3.25 px: about what chance gives. Counted as far from every edge, an object that reaches over the
+// image's border by a tenth could never be found.
 //
 // Agreement: the sums are integers and equal on every path, bit for bit; mean_px = sum / (4 * points).
 #ifndef EDGESCOUT_TEMPLATE_SCORE_H
@@ -19,8 +20,8 @@
 namespace edgescout {
 #endif
 EDGESCOUT_CONST(TEMPLATE_SCORE_SHIFT, 6);
-EDGESCOUT_CONST(TEMPLATE_SCORE_CAP, 63);
-EDGESCOUT_CONST(TEMPLATE_SCORE_OUTSIDE, 24);
+EDGESCOUT_CONST(TEMPLATE_SCORE_CAP, 16);
+EDGESCOUT_CONST(TEMPLATE_SCORE_OUTSIDE, 13);
 EDGESCOUT_CONST(TEMPLATE_SCORE_MAX_POINTS, 256);
 #ifdef __cplusplus
 }  // namespace edgescout
@@ -48,7 +49,7 @@ struct TemplateJob {
 };
 
 struct TemplateHit {
-  std::uint32_t sum;  // of v6 over the template's points, at the best anchor
+  std::uint32_t sum;  // of v over the template's points, at the best anchor
   std::int32_t x, y;
 };
 

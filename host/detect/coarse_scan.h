@@ -21,7 +21,7 @@ struct ScanOptions {
 struct ScanHit {
   int view = 0;              // of the template set
   Se3 camera_from_object;
-  double mean_px = 0;        // Eq. 7, in coarse pixels, values capped at 15.75, those outside the image 6
+  double mean_px = 0;        // Eq. 7, in coarse pixels, values capped at 4, those outside the image 3.25
   double rank = 0;           // mean_px times the fourth root of the distance in metres; lower is better
 };
 
