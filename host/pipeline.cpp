@@ -84,8 +84,11 @@ Detections detect_jointly(std::span<const PreparedImage> views, std::span<const 
   for (const PreparedImage& view : views) observations.push_back(observe_prepared(view, sets, backend, options));
   watch.lap("tensors");
   std::vector<std::vector<std::vector<Refined>>> candidates(observations.size());  // [view][object]
-  for (std::size_t v = 0; v < observations.size(); ++v)
-    for (const TemplateSet& set : sets) candidates[v].push_back(find_candidates(set, observations[v], backend, options.detect));
+  for (std::size_t v = 0; v < observations.size(); ++v) {
+    std::vector<Observation> others = observations;
+    others.erase(others.begin() + std::ptrdiff_t(v));
+    for (const TemplateSet& set : sets) candidates[v].push_back(find_candidates(set, observations[v], others, backend, options.detect));
+  }
   watch.lap("candidates");
   result.detections = join_views(sets, models_of(sets), candidates, observations, backend, options.detect);
   watch.lap("joint refinement");

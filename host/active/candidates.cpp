@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/active/mode_probability.h"
+#include "host/detect/probability_over_views.h"
 #include "host/detect/suppression.h"
 
 namespace edgescout {
@@ -35,11 +35,14 @@ std::vector<Detection> different_ones(const std::vector<Detection>& detections, 
 
 }  // namespace
 
-std::vector<Detection> candidates_in_image(std::span<const TemplateSet> sets, const Observation& observation, Backend& backend, const DetectOptions& options) {
+std::vector<Detection> candidates_in_image(std::span<const TemplateSet> sets, const Observation& observation, std::span<const Observation> earlier,
+                                           Backend& backend, const DetectOptions& options) {
   std::vector<Detection> found;
   for (std::size_t object = 0; object < sets.size(); ++object)
-    for (const Refined& candidate : find_candidates(sets[object], observation, backend, options))
+    for (const Refined& candidate : find_candidates(sets[object], observation, earlier, backend, options)) {
       found.push_back(candidate_in_world(to_detection(static_cast<int>(object), candidate.registration, candidate.features), observation.view.camera_from_world));
+      found.back().probability = probability_over_views(candidate.by_view);
+    }
   sort_by_probability(found);
   return found;
 }

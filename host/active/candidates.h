@@ -9,10 +9,11 @@
 
 namespace edgescout {
 
-// Of all objects in one image, in the world.
-std::vector<Detection> candidates_in_image(std::span<const TemplateSet> sets, const Observation& observation, Backend& backend, const DetectOptions& options);
+// Of all objects in one image, with the help of the images before it (none: alone), in the world; the most probable first.
+std::vector<Detection> candidates_in_image(std::span<const TemplateSet> sets, const Observation& observation, std::span<const Observation> earlier,
+                                           Backend& backend, const DetectOptions& options);
 
-// Registers candidates over all views (Eq. 11), gives them the probability that the views' features together amount to (mode_probability.h), drops those that lie on no edge
+// Registers candidates over all views (Eq. 11), gives them the probability that the views' features together amount to (detect/probability_over_views.h), drops those that lie on no edge
 // at all and duplicates; the `most` most probable, best first.
 std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets, std::span<const EdgeModel> models, std::span<const Detection> candidates,
                                           std::span<const RegisterView> views, std::size_t most, Backend& backend, const DetectOptions& options);

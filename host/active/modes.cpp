@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "host/active/mode_probability.h"
+#include "host/detect/probability_over_views.h"
 #include "host/detect/detect.h"
 #include "host/detect/suppression.h"
 #include "kernels/error.h"

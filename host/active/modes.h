@@ -13,7 +13,7 @@ struct Mode {
   int object = 0;
   std::vector<std::size_t> particles;  // the best one, by evidence over all views, first
   double weight = 0;                   // sum of its particles', over that of all
-  double probability = 0;              // of the best particle, from all views (mode_probability.h); 0 before particles are weighed
+  double probability = 0;              // of the best particle, from all views (detect/probability_over_views.h); 0 before particles are weighed
 };
 
 // Heaviest first. Every particle of weight above 0 belongs to one mode.

@@ -38,6 +38,12 @@ std::vector<TemplateTable> tables_of(std::span<const TemplateSet> sets, Backend&
   return tables;
 }
 
+std::vector<RegisterView> views_of(std::span<const Observation> observations) {
+  std::vector<RegisterView> views;
+  for (const Observation& observation : observations) views.push_back(observation.view);
+  return views;
+}
+
 ScoutDecision without_expectations(int view) {
   ScoutDecision decision;
   decision.view = view;
@@ -85,15 +91,15 @@ void Scout::give(int view, const Image& image, const Se3& camera_from_world) {
   require_open(view);
   require_fitting(image, camera_from_world);
   ScoutState next = state_;
-  std::vector<RegisterView> views = views_;
+  std::vector<Observation> observations = observations_;
   ScoutStep step;
   step.decision = proposal_ && proposal_->view == view ? *proposal_ : without_expectations(view);
   step.camera_from_world = camera_from_world;
-  look(image, step, next, views);
-  believe(step, next, views);
+  look(image, step, next, observations);
+  believe(step, next, views_of(observations));
   next.steps.push_back(std::move(step));
   state_ = std::move(next);
-  views_ = std::move(views);
+  observations_ = std::move(observations);
   proposal_.reset();
 }
 
@@ -105,23 +111,24 @@ void Scout::unreachable(int view, const std::string& reason) {
 }
 
 // Lines 1 to 3: the image's edges and tensors, and what may be in it, refined over all images.
-void Scout::look(const Image& image, ScoutStep& step, ScoutState& next, std::vector<RegisterView>& views) const {
+void Scout::look(const Image& image, ScoutStep& step, ScoutState& next, std::vector<Observation>& observations) const {
   const PreparedImage prepared = prepare_image(image, camera_, step.camera_from_world, backend_, options_.pipeline);
   step.image = prepared.image;
   step.stages = prepared.stages;
   Stopwatch watch(step.stages);
-  const Observation observation = observe_prepared(prepared, sets_, backend_, options_.pipeline);
-  views.push_back(observation.view);
+  observations.push_back(observe_prepared(prepared, sets_, backend_, options_.pipeline));
+  hide_behind(known_objects(next.detections), observations);
   done(watch, "tensors");
   if (next.steps.empty() || options_.detect_in_every_image) {
-    const std::vector<Detection> found = options_.detect ? options_.detect(step.decision.view, observation)
-                                                         : candidates_in_image(sets_, observation, backend_, options_.pipeline.detect);
+    const Observation& newest = observations.back();
+    const std::span<const Observation> earlier(observations.data(), options_.detect_jointly ? observations.size() - 1 : 0);
+    const std::vector<Detection> found = options_.detect ? options_.detect(step.decision.view, newest, earlier)
+                                                         : candidates_in_image(sets_, newest, earlier, backend_, options_.pipeline.detect);
     next.candidates.insert(next.candidates.end(), found.begin(), found.end());
     done(watch, "detection");
   }
-  hide_behind(known_objects(next.detections), views);
   next.candidates =
-      refined_candidates(sets_, models_, next.candidates, views, static_cast<std::size_t>(options_.max_candidates), backend_, options_.pipeline.detect);
+      refined_candidates(sets_, models_, next.candidates, views_of(observations), static_cast<std::size_t>(options_.max_candidates), backend_, options_.pipeline.detect);
   done(watch, "candidates");
 }
 
@@ -133,8 +140,8 @@ std::vector<Hypothesis> Scout::known_objects(std::span<const ModeDetection> dete
   return known;
 }
 
-void Scout::hide_behind(std::span<const Hypothesis> known, std::span<RegisterView> views) const {
-  for (RegisterView& view : views) view.occluders = make_occluders(models_, known, view, backend_);
+void Scout::hide_behind(std::span<const Hypothesis> known, std::span<Observation> observations) const {
+  for (Observation& observation : observations) observation.view.occluders = make_occluders(models_, known, observation.view, backend_);
 }
 
 // Lines 11 and 15 to 19: the particles after this image, and the instances they amount to.
@@ -181,7 +188,8 @@ ScoutDecision Scout::decide() const {
     done(watch, "combinations");
   }
   const std::vector<char> closed = state_.closed();
-  decision.views = view_information({models_, tables_, undistorted(camera_), state_.views, closed, views_, state_.candidates, &combinations, state_.particles},
+  const std::vector<RegisterView> views = views_of(observations_);
+  decision.views = view_information({models_, tables_, undistorted(camera_), state_.views, closed, views, state_.candidates, &combinations, state_.particles},
                                     backend_, options_.next_view);
   decision.view = best_view(decision.views).value_or(-1);
   done(watch, "information");
@@ -242,15 +250,15 @@ void Scout::resume(ScoutState state, const std::string& source) {
   if (!std::ranges::equal(state.views, state_.views, same)) throw InputError(source, "views", "others", "those of this run");
   for (const Detection& candidate : state.candidates)
     if (candidate.object >= static_cast<int>(sets_.size())) throw InputError(source, "objects", "more", "the " + std::to_string(sets_.size()) + " of this run");
-  std::vector<RegisterView> views;
+  std::vector<Observation> observations;
   for (const ScoutStep& step : state.steps) {
     require_fitting(step.image, step.camera_from_world);
     const PreparedImage prepared = prepare_image(step.image, undistorted(camera_), step.camera_from_world, backend_, options_.pipeline);
-    views.push_back(observe_prepared(prepared, sets_, backend_, options_.pipeline).view);
+    observations.push_back(observe_prepared(prepared, sets_, backend_, options_.pipeline));
   }
-  if (state.steps.size() >= 2) hide_behind(known_objects(state.steps[state.steps.size() - 2].detections), views);
+  if (state.steps.size() >= 2) hide_behind(known_objects(state.steps[state.steps.size() - 2].detections), observations);
   state_ = std::move(state);
-  views_ = std::move(views);
+  observations_ = std::move(observations);
   proposal_.reset();
 }
 

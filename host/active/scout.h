@@ -32,7 +32,9 @@ struct ScoutOptions {
   int max_candidates = 40;            // kept of all objects together (the paper's N_obj)
   bool detect_in_every_image = true;  // else in the first alone, as in the paper
   // A detector of one's own in place of candidates_in_image (candidates.h): what may be in the image of this view, in the world.
-  std::function<std::vector<Detection>(int view, const Observation& observation)> detect;
+  // `earlier` are the images before it, as far as detection may use them.
+  std::function<std::vector<Detection>(int view, const Observation& observation, std::span<const Observation> earlier)> detect;
+  bool detect_jointly = true;         // later images are searched with the help of those before (detect/joint_scan.h); else each alone
   // Instances as probable as this hide what is behind them (register/occluders.h): what they cover counts neither for nor against other poses. Above 1: none do.
   double known_probability = 0.9;
   double penetration_m = DEFAULT_PENETRATION_M;
@@ -79,11 +81,11 @@ class Scout {
   int first_open_view() const;
   ScoutDecision decide() const;
   BitMatrix sampled_combinations() const;
-  void look(const Image& image, ScoutStep& step, ScoutState& next, std::vector<RegisterView>& views) const;
+  void look(const Image& image, ScoutStep& step, ScoutState& next, std::vector<Observation>& observations) const;
   void believe(ScoutStep& step, ScoutState& next, std::span<const RegisterView> views) const;
   std::size_t add_particles(ScoutState& next) const;
   std::vector<Hypothesis> known_objects(std::span<const ModeDetection> detections) const;
-  void hide_behind(std::span<const Hypothesis> known, std::span<RegisterView> views) const;
+  void hide_behind(std::span<const Hypothesis> known, std::span<Observation> observations) const;
   void done(Stopwatch& watch, const char* stage) const;
 
   std::span<const TemplateSet> sets_;
@@ -93,7 +95,7 @@ class Scout {
   std::vector<EdgeModel> models_;
   std::vector<TemplateTable> tables_;
   ScoutState state_;
-  std::vector<RegisterView> views_;        // of the images so far
+  std::vector<Observation> observations_;  // of the images so far
   std::optional<ScoutDecision> proposal_;  // until there is news
 };
 

@@ -44,6 +44,7 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
       .bounded("particles", o.particles.count, 1, 100000, "Poses that are followed")
       .bounded("max-candidates", o.max_candidates, 1, 10000, "Of all objects together, kept from image to image")
       .bounded("known-probability", o.known_probability, 0.0, 2.0, "As probable instances hide what is behind them; above 1: none do")
+      .flag("jointly,!--alone", o.detect_jointly, "Detect in later images with the help of those before (default), or in each alone")
       .flag("every-image,!--first-image-only", o.detect_in_every_image, "Detect in every image (default), or in the first only, as in the paper");
 }
 

@@ -1,5 +1,7 @@
 #include "host/detect/detect.h"
 
+#include "host/detect/joint_scan.h"
+#include "host/detect/probability_over_views.h"
 #include "host/detect/suppression.h"
 #include "kernels/error.h"
 
@@ -19,6 +21,23 @@ std::vector<Hypothesis> hypotheses_at(std::span<const Se3> poses, std::span<cons
   for (std::size_t i : chosen) out.push_back({0, poses[i]});
   return out;
 }
+
+// The image's camera frame is the world.
+std::vector<RegisterView> views_around(const Observation& observation, std::span<const Observation> others) {
+  std::vector<RegisterView> views{observation.view};
+  for (const Observation& other : others) views.push_back(other.view);
+  const Se3 world_from_first = inverse(observation.view.camera_from_world);
+  for (RegisterView& view : views) view.camera_from_world = view.camera_from_world * world_from_first;
+  views[0].camera_from_world = Se3{};
+  return views;
+}
+
+std::vector<RegisterView> coarse_of(std::vector<RegisterView> views) {
+  for (RegisterView& view : views) view.view = view.coarse;
+  return views;
+}
+
+double merit(std::span<const PoseFeatures> by_view) { return by_view.size() == 1 ? log_odds(by_view[0]) : probability_over_views(by_view); }
 
 }  // namespace
 
@@ -44,6 +63,7 @@ void DetectOptions::validate() const {
   in("anchor_step", scan.anchor_step, 1, 16);
   in("scan_hits", scan.kept, 1, 1e7);
   in("aligned", aligned, 1, 1e6);
+  in("aligned_jointly", aligned_jointly, 1, 1e6);
   in("candidates", candidates, 1, 1e5);
   in("min_probability", min_probability, 0, 1);
   in("second_look", second_look_rad, 0, 1);
@@ -68,33 +88,36 @@ Detection to_detection(int object, const Registration& registration, const PoseF
 }
 
 std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation, Backend& backend, const DetectOptions& options) {
-  const std::span<const EdgeModel> models(&set.model, 1);
-  // One view: the world is its camera frame.
-  std::vector<RegisterView> full{observation.view};
-  full[0].camera_from_world = Se3{};
-  std::vector<RegisterView> coarse = full;
-  coarse[0].view = observation.view.coarse;
+  return find_candidates(set, observation, {}, backend, options);
+}
 
-  const std::vector<ScanHit> hits = coarse_scan(set, observation, backend, options.scan);
+std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation, std::span<const Observation> others, Backend& backend,
+                                     const DetectOptions& options) {
+  const std::span<const EdgeModel> models(&set.model, 1);
+  const std::vector<RegisterView> full = views_around(observation, others), coarse = coarse_of(full);
+  const std::vector<ScanHit> hits = judged_by_all(set, coarse_scan(set, observation, backend, options.scan), observation, others, backend, options.scan);
   std::vector<Se3> poses;
   for (const ScanHit& hit : hits) poses.push_back(hit.camera_from_object);
-  const std::vector<std::size_t> starts = best_of(poses, set, options.aligned, [&](std::size_t i) { return hits[i].rank; });
+  const int aligned = others.empty() ? options.aligned : std::min(options.aligned, options.aligned_jointly);
+  const std::vector<std::size_t> starts = best_of(poses, set, std::size_t(aligned), [&](std::size_t i) { return hits[i].rank; });
 
   std::vector<Hypothesis> hypotheses = hypotheses_at(poses, starts);
   hypotheses = as_hypotheses(hypotheses, register_poses(models, hypotheses, coarse, backend, options.refine.search.coarse));
   hypotheses = as_hypotheses(hypotheses, register_poses(models, hypotheses, full, backend, options.touch_up));
   poses.clear();
   for (const Hypothesis& h : hypotheses) poses.push_back(h.world_from_object);
-  const std::vector<PoseFeatures> aligned =
-      pose_features(models, hypotheses, full, backend, options.refine.score, options.touch_up.visibility);
-  const std::vector<std::size_t> chosen = best_of(poses, set, options.candidates, [&](std::size_t i) { return -log_odds(aligned[i]); });
+  const std::vector<PoseFeatures> features =
+      pose_features_by_view(models, hypotheses, full, backend, options.refine.score, options.touch_up.visibility);
+  const auto of_pose = [&](std::size_t i) { return std::span(features).subspan(i * full.size(), full.size()); };
+  const std::vector<std::size_t> chosen = best_of(poses, set, std::size_t(options.candidates), [&](std::size_t i) { return -merit(of_pose(i)); });
 
-  const std::vector<Refined> refined = refine_poses(models, hypotheses_at(poses, chosen), full, backend, options.refine);
+  RefineOptions refine = options.refine;
+  if (!others.empty()) refine.search.rotation_rad = 0;  // several views leave no doubt that a search could settle
+  const std::vector<Refined> refined = refine_poses(models, hypotheses_at(poses, chosen), full, backend, refine);
   std::vector<Se3> final_poses;
   for (const Refined& r : refined) final_poses.push_back(r.registration.world_from_object);
   std::vector<Refined> different;
-  for (std::size_t i : best_of(final_poses, set, refined.size(), [&](std::size_t i) { return -log_odds(refined[i].features); }))
-    different.push_back(refined[i]);
+  for (std::size_t i : best_of(final_poses, set, refined.size(), [&](std::size_t i) { return -merit(refined[i].by_view); })) different.push_back(refined[i]);
   return different;
 }
 

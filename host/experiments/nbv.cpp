@@ -32,16 +32,16 @@ std::vector<TemplateSet> templates(Backend& backend) {
   return sets;
 }
 
-// What is found in the images of a bin, once for all searches and strategies that look there.
+// What is found in the images of a bin: where no earlier image helps, once for all searches and strategies that look there.
 class Detector {
  public:
   Detector(const std::vector<TemplateSet>& sets, const DetectOptions& options, Backend& backend)
       : sets_(sets), options_(options), backend_(backend) {}
   // Objects are counted from `first_type`.
-  std::vector<Detection> find(int view, const Observation& observation, int first_type, int count) {
+  std::vector<Detection> find(int view, const Observation& observation, std::span<const Observation> earlier, int first_type, int count) {
     std::vector<Detection> all;
     for (int i = 0; i < count; ++i)
-      for (Detection detection : of_type(view, observation, first_type + i)) {
+      for (Detection detection : of_type(view, observation, earlier, first_type + i)) {
         detection.object = i;
         all.push_back(std::move(detection));
       }
@@ -49,15 +49,14 @@ class Detector {
   }
 
  private:
-  const std::vector<Detection>& of_type(int view, const Observation& observation, int type) {
-    const auto key =
-        std::tuple(view, type, observation.reduction);  // coarser tensors where only large types are sought
+  std::vector<Detection> of_type(int view, const Observation& observation, std::span<const Observation> earlier, int type) {
+    const auto search = [&] {
+      return candidates_in_image(std::span(&sets_[static_cast<std::size_t>(type)], 1), observation, earlier, backend_, options_);
+    };
+    if (!earlier.empty()) return search();  // what was seen before differs from strategy to strategy
+    const auto key = std::tuple(view, type, observation.reduction);  // coarser tensors where only large types are sought
     auto known = found_.find(key);
-    if (known == found_.end())
-      known = found_
-                  .emplace(key, candidates_in_image(std::span(&sets_[static_cast<std::size_t>(type)], 1),
-                                                    observation, backend_, options_))
-                  .first;
+    if (known == found_.end()) known = found_.emplace(key, search()).first;
     return known->second;
   }
 
@@ -93,8 +92,8 @@ Search make_search(const Bin& bin, int count, std::span<const TemplateSet> sets)
 ScoutOptions options_for(const ExperimentSettings& s, const Bin& bin, const Search& search,
                          Detector& detector, const std::string& strategy) {
   ScoutOptions options = s.scout;
-  options.detect = [&](int view, const Observation& observation) {
-    return detector.find(view, observation, search.first_type, search.count);
+  options.detect = [&](int view, const Observation& observation, std::span<const Observation> earlier) {
+    return detector.find(view, observation, earlier, search.first_type, search.count);
   };
   options.first_view = bin.first_view;
   options.next_view.strategy = strategy_from(strategy);
@@ -168,6 +167,7 @@ Notes options(const ExperimentSettings& s) {
           {"supersampling", std::to_string(s.supersampling)},
           {"images", std::to_string(o.max_views)},
           {"detection", o.detect_in_every_image ? "every image" : "first image"},
+          {"jointly", o.detect_jointly ? "yes" : "no"},
           {"aligned", std::to_string(o.pipeline.detect.aligned)},
           {"registered", std::to_string(o.pipeline.detect.candidates)},
           {"max_candidates", std::to_string(o.max_candidates)},

@@ -83,7 +83,7 @@ TEST(Scout, TakesCandidatesFromADetectorOfOnesOwn) {
   off << 0.002, -0.001, 0.001, 0.02, 0.03, -0.02;
   near_truth.world_from_object = retract(t.scene.placed[0].world_from_object, off);
   near_truth.psi = 0.9;
-  options.detect = [&](int view, const Observation& observation) {
+  options.detect = [&](int view, const Observation& observation, std::span<const Observation>) {
     EXPECT_EQ(observation.view.camera.width, t.camera().width);
     asked.push_back(view);
     return std::vector{near_truth};

@@ -123,8 +123,8 @@ struct BruteForce {
 
   double value(int x, int y, int bin) const {
     const TensorShape& shape = observation.view.coarse->shape;
-    if (x < 0 || y < 0 || x >= shape.width || y >= shape.height) return 6;
-    return std::min(63, (tensor[shape.index(x, y, bin)] + 32) / 64) / 4.0;
+    if (x < 0 || y < 0 || x >= shape.width || y >= shape.height) return 3.25;
+    return std::min(16, (tensor[shape.index(x, y, bin)] + 32) / 64) / 4.0;
   }
   // Mean of a template drawn at `middle` and shifted to an anchor.
   double mean(const TemplateView& view, const Se3& at_middle, const Eigen::Vector2d& shift) const {

@@ -1,4 +1,4 @@
-#include "host/active/mode_probability.h"
+#include "host/detect/probability_over_views.h"
 
 #include <algorithm>
 #include <cmath>

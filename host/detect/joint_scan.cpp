@@ -1,0 +1,98 @@
+#include "host/detect/joint_scan.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "host/detect/template_projection.h"
+#include "kernels/thread_pool.h"
+
+namespace edgescout {
+
+namespace {
+
+constexpr int STEPS = 5;  // distances tried, evenly over the gap between templates
+constexpr double CHANCE_PX = TEMPLATE_SCORE_OUTSIDE / 4.0;
+
+// A template set as other views see it: the points of the viewpoint nearest to theirs.
+class NearestViews {
+ public:
+  NearestViews(const TemplateSet& set, int points) {
+    for (const TemplateView& view : set.views) {
+      views_.emplace_back(view, points);
+      towards_camera_.push_back(view.camera_from_object.inverse() * -Eigen::Vector3d::UnitZ());
+    }
+  }
+  const ThinnedView& seen_from(const Eigen::Vector3d& direction) const {
+    std::size_t best = 0;
+    for (std::size_t v = 1; v < views_.size(); ++v)
+      if (towards_camera_[v].dot(direction) > towards_camera_[best].dot(direction)) best = v;
+    return views_[best];
+  }
+
+ private:
+  std::vector<ThinnedView> views_;
+  std::vector<Eigen::Vector3d> towards_camera_;
+};
+
+double rank_of(double mean_px, double distance_m) { return mean_px * std::pow(distance_m, SCAN_SIZE_WEIGHT); }
+
+// What the poses, in the frame of this view's camera, are worth in it.
+std::vector<double> ranks_in(const Observation& view, const TemplateSet& set, const NearestViews& templates, std::span<const Se3> camera_from_object,
+                             Backend& backend, const ScanOptions& options) {
+  const auto& salient = *view.salient;
+  const std::size_t width = std::size_t(options.points);
+  std::vector<TemplatePoint> points(camera_from_object.size() * width);
+  std::vector<TemplateJob> jobs(camera_from_object.size());
+  std::vector<char> drawn(jobs.size());
+  constexpr std::size_t chunk = 256;
+  backend.threads().for_each((jobs.size() + chunk - 1) / chunk, [&](std::size_t c) {
+    for (std::size_t j = c * chunk; j < std::min(jobs.size(), (c + 1) * chunk); ++j) {
+      const Se3& pose = camera_from_object[j];
+      const ThinnedView& seen = templates.seen_from((inverse(pose).translation_m - set.model.center_m).normalized());
+      TemplatePoint* to = points.data() + j * width;
+      drawn[j] = seen.count() > 0 && seen.project(to_pose(pose), salient.intrinsics, 0, 0, salient.shape.bins, float(0.1 * set.model.radius_m), to);
+      if (!drawn[j]) to[0] = {};  // a job needs a point; its answer is not read
+      jobs[j] = {std::uint32_t(j * width), std::uint32_t(drawn[j] ? seen.count() : 1), 0, 0, 1, 1};
+    }
+  });
+  std::vector<TemplateHit> hits(jobs.size());
+  backend.template_score(salient, points, jobs, 1, hits);
+  std::vector<double> ranks;
+  for (std::size_t j = 0; j < jobs.size(); ++j) {
+    const double mean_px = drawn[j] ? hits[j].sum / (4.0 * jobs[j].point_count) : CHANCE_PX;
+    ranks.push_back(rank_of(mean_px, (camera_from_object[j] * set.model.center_m).norm()));
+  }
+  return ranks;
+}
+
+}  // namespace
+
+std::vector<ScanHit> judged_by_all(const TemplateSet& set, std::span<const ScanHit> hits, const Observation& own, std::span<const Observation> others,
+                                   Backend& backend, const ScanOptions& options) {
+  std::vector<ScanHit> judged(hits.begin(), hits.end());
+  if (others.empty()) return judged;
+  const NearestViews templates(set, options.points);
+  std::vector<Se3> moved;
+  for (const ScanHit& hit : hits)
+    for (int step = 0; step < STEPS; ++step) {
+      const double further = (set.options.distance_ratio - 1) * (step / double(STEPS - 1) - 0.5);
+      moved.push_back({hit.camera_from_object.rotation, hit.camera_from_object.translation_m + further * (hit.camera_from_object * set.model.center_m)});
+    }
+  std::vector<double> sums(moved.size());
+  std::vector<Se3> poses(moved.size());
+  for (const Observation& other : others) {
+    const Se3 other_from_own = other.view.camera_from_world * inverse(own.view.camera_from_world);
+    std::ranges::transform(moved, poses.begin(), [&](const Se3& pose) { return other_from_own * pose; });
+    const std::vector<double> ranks = ranks_in(other, set, templates, poses, backend, options);
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += ranks[i];
+  }
+  for (std::size_t h = 0; h < judged.size(); ++h) {
+    const std::size_t best = std::size_t(std::min_element(sums.begin() + std::ptrdiff_t(h * STEPS), sums.begin() + std::ptrdiff_t((h + 1) * STEPS)) - sums.begin());
+    judged[h].camera_from_object = moved[best];
+    judged[h].rank = (judged[h].rank + sums[best]) / double(others.size() + 1);
+  }
+  return judged;
+}
+
+}  // namespace edgescout

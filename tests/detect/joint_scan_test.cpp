@@ -1,0 +1,155 @@
+// Hits judged by several views: against sums over projected points, and what it is worth to a hit that is right.
+#include "host/detect/joint_scan.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/detect/part_image.h"
+#include "tests/test_random.h"
+
+namespace edgescout::test {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+Se3 looking_at_origin(const Eigen::Vector3d& eye_m) {
+  const Eigen::Vector3d z = -eye_m.normalized(), x = z.unitOrthogonal(), y = z.cross(x);
+  Eigen::Matrix3d camera_from_world;
+  camera_from_world << x.transpose(), y.transpose(), z.transpose();
+  return se3_from_matrix(camera_from_world, -camera_from_world * eye_m);
+}
+
+// A part at the world's origin, seen by several cameras 0.31 m away, among scattered edges.
+struct SeenPart {
+  std::unique_ptr<Backend> backend = make_cpu_backend(2);
+  TemplateSet set = part_templates("bearing_block", 3, 0.28, 0.34, *backend);
+  Se3 truth;
+  std::vector<Observation> views;
+
+  SeenPart(int count, int scattered, Random& random) {
+    truth.rotation = random.rotation();
+    truth.translation_m = -(truth.rotation * set.model.center_m);
+    for (int v = 0; v < count; ++v) {
+      const Se3 camera_from_world = looking_at_origin(0.31 * random.direction());
+      const Se3 pose = camera_from_world * truth;
+      std::vector<EdgePoint> edges;
+      for (int i = 0; i < scattered; ++i)
+        edges.push_back({float(random.uniform(0, 319)), float(random.uniform(0, 239)), float(random.uniform(0, pi)), 1});
+      const std::vector<ModelPoint> visible = visible_edges(set.model, {&pose, 1}, *backend)[0];
+      for (const ModelPoint& p : visible) {
+        const Eigen::Vector3d at = pose * Eigen::Vector3d(p.x_m, p.y_m, p.z_m);
+        const Eigen::Vector3d ahead = at + 1e-6 * (pose.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz));
+        const Eigen::Vector2d pixel = project(small_camera(), at), along = project(small_camera(), ahead) - pixel;
+        edges.push_back({float(pixel.x()), float(pixel.y()), float(std::fmod(std::atan2(along.y(), along.x()) + 2 * pi, pi)), 1});
+      }
+      views.push_back(observe_edges(edges, small_camera(), 1, *backend));
+      views.back().view.camera_from_world = camera_from_world;
+    }
+  }
+  std::span<const Observation> others() const { return std::span(views).subspan(1); }
+  std::vector<ScanHit> judged(std::span<const ScanHit> hits) const { return judged_by_all(set, hits, views[0], others(), *backend, ScanOptions{}); }
+
+  // Mean of a pose's points, as seen from the viewpoint nearest to the camera's, in this view, weighted as ScanHit::rank.
+  double rank_in(const Observation& view, const Se3& pose) const {
+    const Eigen::Vector3d eye = (inverse(pose).translation_m - set.model.center_m).normalized();
+    const TemplateView* nearest = nullptr;
+    double largest = -2;
+    for (const TemplateView& candidate : set.views) {
+      const double cosine = (candidate.camera_from_object.inverse() * -Eigen::Vector3d::UnitZ()).dot(eye);
+      if (cosine > largest) largest = cosine, nearest = &candidate;
+    }
+    const TensorShape& shape = view.salient->shape;
+    const std::vector<std::uint16_t> tensor = view.salient->tensor();
+    const int count = std::min<int>(ScanOptions{}.points, int(nearest->points.size()));
+    double sum = 0;
+    for (int i = 0; i < count; ++i) {
+      const ModelPoint& p = nearest->points[std::size_t(i) * nearest->points.size() / std::size_t(count)];
+      const Eigen::Vector3d at = pose * Eigen::Vector3d(p.x_m, p.y_m, p.z_m);
+      const Eigen::Vector3d ahead = at + 1e-6 * (pose.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz));
+      const Eigen::Vector2d pixel = project(view.coarse_camera, at), along = project(view.coarse_camera, ahead) - pixel;
+      const int x = int(std::lround(pixel.x())), y = int(std::lround(pixel.y()));
+      const int bin = int(std::lround(std::fmod(std::atan2(along.y(), along.x()) + 2 * pi, pi) * shape.bins / pi)) % shape.bins;
+      const bool inside = x >= 0 && y >= 0 && x < shape.width && y < shape.height;
+      sum += inside ? std::min(16, (tensor[shape.index(x, y, bin)] + 32) / 64) / 4.0 : 3.25;
+    }
+    return sum / count * std::pow((pose * set.model.center_m).norm(), 0.25);
+  }
+};
+
+ScanHit hit_at(const Se3& pose, double rank) {
+  ScanHit hit;
+  hit.camera_from_object = pose;
+  hit.rank = rank;
+  return hit;
+}
+
+TEST(JointScan, EqualsTheBestSumOverDistances) {
+  Random random = test_random();
+  const SeenPart t(3, 300, random);
+  std::vector<ScanHit> hits;
+  for (int i = 0; i < 40; ++i) {
+    Vector6d off;
+    off << 0.03 * random.direction(), 0.5 * random.direction();
+    hits.push_back(hit_at(retract(t.views[0].view.camera_from_world * t.truth, off), random.uniform(1, 3)));
+  }
+  const std::vector<ScanHit> judged = t.judged(hits);
+  ASSERT_EQ(judged.size(), hits.size());
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    double lowest = INFINITY;
+    for (const double further : {-0.05, -0.025, 0.0, 0.025, 0.05}) {
+      Se3 pose = hits[i].camera_from_object;
+      pose.translation_m += further * (pose * t.set.model.center_m);
+      double sum = hits[i].rank;
+      for (const Observation& other : t.others())
+        sum += t.rank_in(other, other.view.camera_from_world * inverse(t.views[0].view.camera_from_world) * pose);
+      lowest = std::min(lowest, sum / 3);
+    }
+    EXPECT_NEAR(judged[i].rank, lowest, 0.02) << "a point or two of sixty round the other way";
+    const Eigen::Vector3d before = hits[i].camera_from_object * t.set.model.center_m, after = judged[i].camera_from_object * t.set.model.center_m;
+    EXPECT_LT(before.normalized().cross(after.normalized()).norm(), 1e-9) << "along its ray";
+    EXPECT_TRUE(judged[i].camera_from_object.rotation.coeffs() == hits[i].camera_from_object.rotation.coeffs());
+  }
+}
+
+// Another view sees the distance that the own one does not.
+TEST(JointScan, PutsARightHitAtItsDistanceAndBeforeWrongOnes) {
+  Random random = test_random();
+  for (int i = 0; i < 5; ++i) {
+    const SeenPart t(3, 300, random);
+    const Se3 truth = t.views[0].view.camera_from_world * t.truth;
+    Se3 too_far = truth;
+    too_far.translation_m += 0.05 * (truth * t.set.model.center_m);
+    std::vector<ScanHit> hits{hit_at(too_far, 1)};
+    for (int wrong = 0; wrong < 200; ++wrong)
+      hits.push_back(hit_at({random.rotation(), truth.translation_m + 0.05 * random.direction()}, 1));
+    const std::vector<ScanHit> judged = t.judged(hits);
+    EXPECT_LT((judged[0].camera_from_object.translation_m - truth.translation_m).norm(), 0.001);
+    for (std::size_t h = 1; h < judged.size(); ++h) EXPECT_LT(judged[0].rank, judged[h].rank);
+  }
+}
+
+TEST(JointScan, AloneItChangesNothing) {
+  Random random = test_random();
+  const SeenPart t(1, 0, random);
+  const std::vector<ScanHit> hits{hit_at(t.views[0].view.camera_from_world * t.truth, 2)};
+  const std::vector<ScanHit> judged = t.judged(hits);
+  ASSERT_EQ(judged.size(), 1u);
+  EXPECT_EQ(judged[0].rank, 2);
+  EXPECT_TRUE(judged[0].camera_from_object.translation_m == hits[0].camera_from_object.translation_m);
+}
+
+// A view that looks the other way knows nothing, for or against.
+TEST(JointScan, BehindAnotherCameraItCountsAsChance) {
+  Random random = test_random();
+  SeenPart t(2, 0, random);
+  t.views[1].view.camera_from_world = looking_at_origin({0, 0, 0.3});
+  t.views[1].view.camera_from_world.translation_m.z() = -0.5;
+  const std::vector<ScanHit> judged = t.judged(std::vector{hit_at(t.views[0].view.camera_from_world * t.truth, 2)});
+  const Se3 in_other = t.views[1].view.camera_from_world * t.truth;
+  EXPECT_LT((in_other * t.set.model.center_m).z(), 0);
+  EXPECT_NEAR(judged[0].rank, (2 + 3.25 * std::pow(0.5, 0.25)) / 2, 0.05);
+}
+
+}  // namespace
+}  // namespace edgescout::test
