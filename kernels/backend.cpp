@@ -21,8 +21,9 @@ void Backend::add_time(const std::string& name, double seconds) {
 #ifndef EDGESCOUT_VULKAN
 std::vector<DeviceInfo> vulkan_devices() { return {}; }
 
-std::unique_ptr<Backend> make_vulkan_backend(int, bool) {
-  throw InputError("options", "device", "vulkan", "cpu or cpu-reference: edgescout was built without Vulkan");
+std::unique_ptr<Backend> make_vulkan_backend(int index, bool) {
+  throw InputError("options", "device", "vulkan:" + std::to_string(index),
+                   "cpu or cpu-reference: edgescout was built without Vulkan");
 }
 #endif
 
