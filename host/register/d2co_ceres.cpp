@@ -5,6 +5,7 @@
 
 #include <ceres/ceres.h>
 
+#include "host/register/occluders.h"
 #include "host/register/point_cost.h"
 #include "host/register/pose_track.h"
 #include "host/register/se3_manifold.h"
@@ -15,19 +16,17 @@ namespace edgescout {
 
 namespace {
 
-// A view's tensor on the host.
+// A view with its tensor on the host.
 struct HostView {
-  std::vector<std::uint16_t> tensor;
-  TensorShape shape;
-  Intrinsics intrinsics;
-  Se3 camera_from_world;
-  TensorView tensor_view() const { return {tensor, shape, intrinsics}; }
+  RegisterView view;
+  std::vector<std::uint16_t> tensor = view.view->tensor();
+  TensorView tensor_view() const { return {tensor, view.view->shape, view.view->intrinsics}; }
 };
 
 std::vector<HostView> download(std::span<const RegisterView> views) {
   std::vector<HostView> host;
   for (const RegisterView& view : views)
-    host.push_back({view.view->tensor(), view.view->shape, view.view->intrinsics, view.camera_from_world});
+    host.push_back({view});
   return host;
 }
 
@@ -50,12 +49,15 @@ struct RoundProblem {
 
 void add_visible_points(RoundProblem& round, const EdgeModel& model, const HostView& view, Backend& backend,
                         const VisibilityOptions& visibility, int most) {
-  const Se3 pose = view.camera_from_world * from_parameters(round.pose.data());
-  const std::vector<ModelPoint> visible = visible_edges(model, std::span(&pose, 1), backend, visibility)[0];
+  const Se3& camera_from_world = view.view.camera_from_world;
+  const Se3 pose = camera_from_world * from_parameters(round.pose.data());
+  std::vector<std::vector<ModelPoint>> lists = visible_edges(model, std::span(&pose, 1), backend, visibility);
+  remove_hidden(model, std::span(&pose, 1), std::span(&view.view, 1), lists);
+  const std::vector<ModelPoint>& visible = lists[0];
   const std::size_t kept = most > 0 ? std::min(visible.size(), std::size_t(most)) : visible.size();
   for (std::size_t i = 0; i < kept; ++i)
     round.problem.AddResidualBlock(
-        new PointCost(view.tensor_view(), view.camera_from_world, visible[i * visible.size() / kept]),
+        new PointCost(view.tensor_view(), camera_from_world, visible[i * visible.size() / kept]),
         round.loss.get(), round.pose.data());
 }
 

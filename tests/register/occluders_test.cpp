@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "host/register/d2co_ceres.h"
 #include "host/register/pose_features.h"
 #include "tests/register/scene.h"
 #include "tests/test_random.h"
@@ -156,6 +157,17 @@ TEST(Occluders, RegistrationLeavesOutWhatTheyHide) {
     const Registration knowing = t.registered();
     EXPECT_LT(knowing.points, 0.85 * blind.points);
     EXPECT_LT(knowing.mean_px, blind.mean_px);
+  }
+}
+
+// The judge of the batched solver judges with the same points.
+TEST(Occluders, CeresLeavesOutTheSame) {
+  Random random = test_random();
+  for (CoveredPart& t : half_covered_parts(random)) {
+    t.know_the_cover();
+    const Registration batched = t.registered(), ceres = register_poses_ceres(t.models, {&t.covered, 1}, {&t.view, 1}, *t.backend)[0];
+    EXPECT_NEAR(ceres.points, batched.points, 0.02 * batched.points);
+    EXPECT_NEAR(ceres.mean_px, batched.mean_px, 0.05);
   }
 }
 
