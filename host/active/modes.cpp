@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "host/detect/probability_over_views.h"
 #include "host/detect/detect.h"
+#include "host/detect/probability_over_views.h"
 #include "host/detect/suppression.h"
 #include "kernels/error.h"
 

@@ -38,12 +38,6 @@ std::vector<TemplateTable> tables_of(std::span<const TemplateSet> sets, Backend&
   return tables;
 }
 
-std::vector<RegisterView> views_of(std::span<const Observation> observations) {
-  std::vector<RegisterView> views;
-  for (const Observation& observation : observations) views.push_back(observation.view);
-  return views;
-}
-
 ScoutDecision without_expectations(int view) {
   ScoutDecision decision;
   decision.view = view;

@@ -24,8 +24,8 @@ std::vector<Hypothesis> hypotheses_at(std::span<const Se3> poses, std::span<cons
 
 // The image's camera frame is the world.
 std::vector<RegisterView> views_around(const Observation& observation, std::span<const Observation> others) {
-  std::vector<RegisterView> views{observation.view};
-  for (const Observation& other : others) views.push_back(other.view);
+  std::vector<RegisterView> views = views_of(others);
+  views.insert(views.begin(), observation.view);
   const Se3 world_from_first = inverse(observation.view.camera_from_world);
   for (RegisterView& view : views) view.camera_from_world = view.camera_from_world * world_from_first;
   views[0].camera_from_world = Se3{};

@@ -27,8 +27,7 @@ std::vector<Hypothesis> gather(int object, const TemplateSet& set, std::span<con
 std::vector<Detection> join_views(std::span<const TemplateSet> sets, std::span<const EdgeModel> models,
                                   std::span<const std::vector<std::vector<Refined>>> candidates, std::span<const Observation> observations,
                                   Backend& backend, const DetectOptions& options) {
-  std::vector<RegisterView> views;
-  for (const Observation& observation : observations) views.push_back(observation.view);
+  const std::vector<RegisterView> views = views_of(observations);
   std::vector<Hypothesis> poses;
   for (std::size_t object = 0; object < sets.size(); ++object) {
     const std::vector<Hypothesis> gathered = gather(int(object), sets[object], candidates, observations);

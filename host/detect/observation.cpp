@@ -37,4 +37,10 @@ Observation observe(const Image& image, const Camera& camera, const Se3& camera_
   return o;
 }
 
+std::vector<RegisterView> views_of(std::span<const Observation> observations) {
+  std::vector<RegisterView> views;
+  for (const Observation& observation : observations) views.push_back(observation.view);
+  return views;
+}
+
 }  // namespace edgescout

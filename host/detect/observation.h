@@ -22,4 +22,6 @@ double reduction_for(double size_px);
 Observation observe(const Image& image, const Camera& camera, const Se3& camera_from_world, std::span<const EdgePoint> edges,
                     double reduction, const TensorOptions& tensor, Backend& backend);
 
+std::vector<RegisterView> views_of(std::span<const Observation> observations);
+
 }  // namespace edgescout
