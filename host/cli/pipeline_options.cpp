@@ -24,6 +24,8 @@ void add_detection_options(CLI::App& verb, PipelineOptions& o) {
       .bounded("anchor-step", d.scan.anchor_step, 1, 16, "Between places of the scan, coarse px")
       .bounded("scan-hits", d.scan.kept, 1, 10000000, "Looked at in full resolution")
       .bounded("aligned", d.aligned, 1, 1000000, "Hits aligned on the coarse tensor")
+      .bounded("aligned-jointly", d.aligned_jointly, 1, 1000000, "Of several images of one scene: hits that are aligned in them")
+      .bounded("helping-views", d.helping_views, 1, 10000, "Other images of the scene that help to search one")
       .bounded("candidates", d.candidates, 1, 100000, "Candidates registered in full")
       .bounded("second-look", d.second_look_rad, 0.0, 1.0, "Turned starts around what was chosen, rad; 0: none")
       .bounded("max-spent", d.evidence.max_spent, 0.0, 1.0, "Of a pose's edges: more explained by better poses, and it goes")

@@ -1,5 +1,6 @@
 #include "host/detect/detect.h"
 
+#include "host/detect/helping_views.h"
 #include "host/detect/joint_scan.h"
 #include "host/detect/probability_over_views.h"
 #include "host/detect/suppression.h"
@@ -64,6 +65,7 @@ void DetectOptions::validate() const {
   in("scan_hits", scan.kept, 1, 1e7);
   in("aligned", aligned, 1, 1e6);
   in("aligned_jointly", aligned_jointly, 1, 1e6);
+  in("helping_views", helping_views, 1, 1e4);
   in("candidates", candidates, 1, 1e5);
   in("min_probability", min_probability, 0, 1);
   in("second_look", second_look_rad, 0, 1);
@@ -91,8 +93,9 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
   return find_candidates(set, observation, {}, backend, options);
 }
 
-std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation, std::span<const Observation> others, Backend& backend,
+std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation, std::span<const Observation> all_others, Backend& backend,
                                      const DetectOptions& options) {
+  const std::vector<Observation> others = helping_views(observation, all_others, std::size_t(options.helping_views));
   const std::span<const EdgeModel> models(&set.model, 1);
   const std::vector<RegisterView> full = views_around(observation, others), coarse = coarse_of(full);
   const std::vector<ScanHit> hits = judged_by_all(set, coarse_scan(set, observation, backend, options.scan), observation, others, backend, options.scan);
