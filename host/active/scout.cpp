@@ -250,7 +250,6 @@ void Scout::resume(ScoutState state, const std::string& source) {
     const PreparedImage prepared = prepare_image(step.image, undistorted(camera_), step.camera_from_world, backend_, options_.pipeline);
     observations.push_back(observe_prepared(prepared, sets_, backend_, options_.pipeline));
   }
-  if (state.steps.size() >= 2) hide_behind(known_objects(state.steps[state.steps.size() - 2].detections), observations);
   state_ = std::move(state);
   observations_ = std::move(observations);
   proposal_.reset();

@@ -113,16 +113,15 @@ TEST(Scout, EveryStrategyLooksAround) {
   }
 }
 
-TEST(Scout, GoesOnFromASavedStateAsIfNothingHadHappened) {
-  SmallCell t;
+// Stopped after so many images, saved, loaded and gone on with: the same to the end as without a stop.
+void expect_goes_on(SmallCell& t, const ScoutOptions& options, SimulatedCell cell, std::initializer_list<int> stops) {
   const TemporaryFolder folder;
-  SimulatedCell cell = t.source({0.0005, 0.001, true, 3});
-  Scout whole = t.scout();
+  const auto file = folder.path() / "state";
+  Scout whole = t.scout(options);
   run_scout(whole, cell);
-  for (const int steps : {1, 2}) {
-    const auto file = folder.path() / "state";
+  for (const int steps : stops) {
     {
-      Scout killed = t.scout();
+      Scout killed = t.scout(options);
       for (int i = 0; i < steps; ++i) {
         const auto proposal = killed.propose();
         ASSERT_TRUE(proposal);
@@ -131,12 +130,25 @@ TEST(Scout, GoesOnFromASavedStateAsIfNothingHadHappened) {
       }
       save_scout_state(killed.state(), file);
     }
-    Scout resumed = t.scout();
+    Scout resumed = t.scout(options);
     resumed.resume(load_scout_state(file), file.string());
     EXPECT_EQ(resumed.state().steps.size(), std::size_t(steps));
     run_scout(resumed, cell);
     expect_same(whole.state(), resumed.state());
   }
+}
+
+TEST(Scout, GoesOnFromASavedStateAsIfNothingHadHappened) {
+  SmallCell t;
+  expect_goes_on(t, SmallCell::options(), t.source({0.0005, 0.001, true, 3}), {1, 2});
+}
+
+// Parts on a heap, of which every reported one hides what is behind it: what the next view is worth depends on that.
+TEST(Scout, GoesOnWithWhatHidesOthers) {
+  SmallCell t(4, 1);
+  ScoutOptions options = SmallCell::options();
+  options.known_probability = 0;
+  expect_goes_on(t, options, t.source(), {2});
 }
 
 TEST(Scout, GoesOnPastAFailedAcquisition) {

@@ -18,9 +18,9 @@ struct SmallCell {
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
   std::vector<TemplateSet> sets;
 
-  explicit SmallCell(int objects = 1) {
+  explicit SmallCell(int objects = 1, double pile = 0) {
     RenderOptions options = bare_board(objects);
-    options.pile = 0;
+    options.pile = pile;
     scene = make_scene(std::span(&part, 1), options);
     sets.push_back(build_templates(part, near_templates(0.04), *backend));
   }
