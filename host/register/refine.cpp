@@ -74,34 +74,8 @@ Searched search(std::span<const EdgeModel> models, std::span<const Hypothesis> h
   return found;
 }
 
-}  // namespace
-
-D2coOptions SearchOptions::coarse_defaults() {
-  D2coOptions options;
-  options.rounds = {{LOSS_GEMAN_MCCLURE, 20, 8, 200}, {LOSS_GEMAN_MCCLURE, 6, 8, 250}};
-  options.visibility.depth_map_size_px = 96;
-  return options;
-}
-
-D2coOptions RefineOptions::full_defaults() {
-  D2coOptions options;
-  options.rounds = {{LOSS_GEMAN_MCCLURE, 12, 8, 300}, {LOSS_GEMAN_MCCLURE, 5, 8, 500}, {LOSS_GEMAN_MCCLURE, 2, 8, 0}};
-  return options;
-}
-
-void RefineOptions::validate() const {
-  search.coarse.validate();
-  d2co.validate();
-  if (!(search.rotation_rad >= 0 && search.rotation_rad <= 1))
-    throw InputError("options", "register.search_rotation", std::to_string(search.rotation_rad), "an angle in [0, 1] rad");
-  if (search.survivors < 1 || search.survivors > 15)
-    throw InputError("options", "register.survivors", std::to_string(search.survivors), "a number in [1, 15]");
-}
-
-std::vector<Refined> refine_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
-                                  std::span<const RegisterView> views, Backend& backend, const RefineOptions& options) {
-  options.validate();
-  check(!views.empty(), "refine_poses: at least one view");
+std::vector<Refined> refine_together(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
+                                     std::span<const RegisterView> views, Backend& backend, const RefineOptions& options) {
   Searched found;
   if (options.search.rotation_rad > 0) {
     found = search(models, hypotheses, views, backend, options);
@@ -124,6 +98,44 @@ std::vector<Refined> refine_poses(std::span<const EdgeModel> models, std::span<c
     if (filled[h] && log_odds(results[h].features) >= log_odds(features)) continue;
     results[h] = {registrations[i], features, {of_pose.begin(), of_pose.end()}};
     filled[h] = true;
+  }
+  return results;
+}
+
+}  // namespace
+
+D2coOptions SearchOptions::coarse_defaults() {
+  D2coOptions options;
+  options.rounds = {{LOSS_GEMAN_MCCLURE, 20, 8, 200}, {LOSS_GEMAN_MCCLURE, 6, 8, 250}};
+  options.visibility.depth_map_size_px = 96;
+  return options;
+}
+
+D2coOptions RefineOptions::full_defaults() {
+  D2coOptions options;
+  options.rounds = {{LOSS_GEMAN_MCCLURE, 12, 8, 300}, {LOSS_GEMAN_MCCLURE, 5, 8, 500}, {LOSS_GEMAN_MCCLURE, 2, 8, 0}};
+  return options;
+}
+
+void RefineOptions::validate() const {
+  search.coarse.validate();
+  d2co.validate();
+  if (!(search.rotation_rad >= 0 && search.rotation_rad <= 1))
+    throw InputError("options", "register.search_rotation", std::to_string(search.rotation_rad), "an angle in [0, 1] rad");
+  if (at_once < 1) throw InputError("options", "register.at_once", std::to_string(at_once), "at least 1");
+  if (search.survivors < 1 || search.survivors > 15)
+    throw InputError("options", "register.survivors", std::to_string(search.survivors), "a number in [1, 15]");
+}
+
+std::vector<Refined> refine_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
+                                  std::span<const RegisterView> views, Backend& backend, const RefineOptions& options) {
+  options.validate();
+  check(!views.empty(), "refine_poses: at least one view");
+  const std::size_t at_once = std::max<std::size_t>(1, std::size_t(options.at_once) / views.size());
+  std::vector<Refined> results;
+  for (std::size_t first = 0; first < hypotheses.size(); first += at_once) {
+    std::vector<Refined> block = refine_together(models, hypotheses.subspan(first, std::min(at_once, hypotheses.size() - first)), views, backend, options);
+    std::ranges::move(block, std::back_inserter(results));
   }
   return results;
 }

@@ -27,6 +27,7 @@ struct RefineOptions {
   bool polish = true;
   PolishOptions polish_options;
   PoseScoreOptions score{1.0f, 4.0f, 60.0f};
+  int at_once = 256;  // pairs of a hypothesis and a view, with a search up to 2 MB of points each; results do not depend on it
   static D2coOptions full_defaults();
   void validate() const;
 };

@@ -1,0 +1,59 @@
+// Refinement of many starts: each by itself, whatever the others are, and from as far as the search reaches.
+#include "host/register/refine.h"
+
+#include <gtest/gtest.h>
+
+#include "host/eval/metrics.h"
+#include "tests/register/scene.h"
+#include "kernels/error.h"
+#include "tests/test_random.h"
+
+namespace edgescout::test {
+namespace {
+
+std::vector<Hypothesis> starts_around(const Se3& truth, int count, double offset_m, double angle_rad, Random& random) {
+  std::vector<Hypothesis> starts;
+  for (int i = 0; i < count; ++i) {
+    Vector6d off;
+    off << offset_m * random.direction(), angle_rad * random.direction();
+    starts.push_back({0, retract(truth, off)});
+  }
+  return starts;
+}
+
+TEST(Refine, DoesNotDependOnHowManyAreRefinedTogether) {
+  Random random = test_random();
+  const auto backend = make_cpu_backend(2);
+  const PartScene scene("l_bracket", 2, random, *backend);
+  const std::vector<EdgeModel> models{scene.model};
+  const std::vector<Hypothesis> starts = starts_around(scene.truth, 5, 0.01, 0.2, random);
+  for (const double search_rad : {0.0, 0.25}) {
+    RefineOptions options;
+    options.polish = false;  // these views have no edge index
+    options.search.rotation_rad = search_rad;
+    const std::vector<Refined> together = refine_poses(models, starts, scene.views, *backend, options);
+    ASSERT_EQ(together.size(), starts.size());
+    for (const int at_once : {1, 4}) {  // one start of two views a time, two
+      options.at_once = at_once;
+      const std::vector<Refined> apart = refine_poses(models, starts, scene.views, *backend, options);
+      ASSERT_EQ(apart.size(), starts.size());
+      for (std::size_t i = 0; i < starts.size(); ++i) {
+        const Se3 &a = apart[i].registration.world_from_object, &b = together[i].registration.world_from_object;
+        EXPECT_EQ(a.translation_m, b.translation_m) << i;
+        EXPECT_EQ(a.rotation.coeffs(), b.rotation.coeffs()) << i;
+        EXPECT_EQ(apart[i].registration.cost_px2, together[i].registration.cost_px2);
+        EXPECT_EQ(log_odds(apart[i].features), log_odds(together[i].features));
+        EXPECT_EQ(apart[i].by_view.size(), 2u);
+      }
+    }
+  }
+}
+
+TEST(Refine, RefusesBlocksOfNothing) {
+  RefineOptions options;
+  options.at_once = 0;
+  EXPECT_THROW(options.validate(), InputError);
+}
+
+}  // namespace
+}  // namespace edgescout::test
