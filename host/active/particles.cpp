@@ -31,8 +31,6 @@ std::vector<Hypothesis> poses_of(std::span<const Particle> particles) {
   return poses;
 }
 
-bool is_finite(const Se3& pose) { return pose.translation_m.allFinite() && pose.rotation.coeffs().allFinite(); }
-
 bool lives(const Particle& particle, const ParticleOptions& options) {
   const bool seen = std::ranges::any_of(particle.by_view, [&](const PoseFeatures& f) { return f.points >= options.min_points; });
   return seen && is_finite(particle.world_from_object) && together(particle.by_view).mean_px <= options.dead_px;

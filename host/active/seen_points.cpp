@@ -12,8 +12,6 @@ constexpr float MAX_TURN_RAD = 0.35f;  // between a template's edge and the imag
 
 bool in_image(double x, double y, const Camera& camera) { return x >= -0.5 && y >= -0.5 && x < camera.width - 0.5 && y < camera.height - 0.5; }
 
-Intrinsics intrinsics_of(const Camera& c) { return {float(c.fx), float(c.fy), float(c.cx), float(c.cy)}; }
-
 }  // namespace
 
 SeenPoints seen_in(const TemplateTable& table, const Se3& world_from_object, std::span<const RegisterView> real_views, double edge_px) {

@@ -97,7 +97,7 @@ void validate_views(std::span<const Se3> camera_from_world, const std::string& s
   for (std::size_t i = 0; i < camera_from_world.size(); ++i) {
     const Se3& view = camera_from_world[i];
     const std::string field = "/" + std::to_string(i) + "/camera_from_world";
-    if (!view.translation_m.allFinite() || !view.rotation.coeffs().allFinite()) throw InputError(source, field, "a value that is not finite", "a rigid transform");
+    if (!is_finite(view)) throw InputError(source, field, "a value that is not finite", "a rigid transform");
     if (std::abs(view.rotation.norm() - 1) > 1e-3)
       throw InputError(source, field, "a quaternion of length " + std::to_string(view.rotation.norm()), "a rigid transform");
     for (std::size_t j = 0; j < i; ++j)

@@ -15,6 +15,8 @@ Eigen::Vector3d operator*(const Se3& b_from_a, const Eigen::Vector3d& x_in_a) {
   return b_from_a.rotation * x_in_a + b_from_a.translation_m;
 }
 
+bool is_finite(const Se3& transform) { return transform.translation_m.allFinite() && transform.rotation.coeffs().allFinite(); }
+
 Se3 inverse(const Se3& b_from_a) {
   const Eigen::Quaterniond back = b_from_a.rotation.conjugate();
   return {back, -(back * b_from_a.translation_m)};

@@ -34,6 +34,8 @@ Se3 retract(const Se3& b_from_a, const Vector6d& delta);
 // The d with retract(from, d) == to.
 Vector6d local_coordinates(const Se3& from, const Se3& to);
 
+bool is_finite(const Se3& transform);
+
 double angle_between_rad(const Se3& a, const Se3& b);
 double distance_between_m(const Se3& a, const Se3& b);
 

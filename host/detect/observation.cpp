@@ -7,10 +7,6 @@
 
 namespace edgescout {
 
-namespace {
-Intrinsics intrinsics_of(const Camera& c) { return {float(c.fx), float(c.fy), float(c.cx), float(c.cy)}; }
-}  // namespace
-
 double reduction_for(double size_px) { return std::clamp(std::round(size_px / 48), 1.0, 8.0); }
 
 Observation observe(const Image& image, const Camera& camera, const Se3& camera_from_world, std::span<const EdgePoint> edges,

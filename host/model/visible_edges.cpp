@@ -85,6 +85,8 @@ std::vector<ModelPoint> points_of_pose(const EdgeModel& model, const Se3& pose, 
 
 }  // namespace
 
+Intrinsics intrinsics_of(const Camera& c) { return {float(c.fx), float(c.fy), float(c.cx), float(c.cy)}; }
+
 Pose to_pose(const Se3& b_from_a) {
   const Eigen::Matrix3d r = b_from_a.rotation.toRotationMatrix();
   Pose pose;

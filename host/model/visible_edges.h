@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "host/core/camera.h"
 #include "host/model/edge_model.h"
 #include "kernels/backend.h"
 
@@ -21,7 +22,8 @@ struct VisibilityOptions {
 std::vector<std::vector<ModelPoint>> visible_edges(const EdgeModel& model, std::span<const Se3> camera_from_object, Backend& backend,
                                                    const VisibilityOptions& options = {});
 
-// The kernels' transform.
+// The kernels' transform and camera.
 Pose to_pose(const Se3& b_from_a);
+Intrinsics intrinsics_of(const Camera& camera);
 
 }  // namespace edgescout

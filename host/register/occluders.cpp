@@ -14,11 +14,10 @@ constexpr double TOLERANCE = 0.05;  // of the hidden object's diameter
 
 void draw(const EdgeModel& model, std::span<const Se3> camera_from_object, Occluders& occluders, Backend& backend) {
   const Camera& c = occluders.camera;
-  const Intrinsics intrinsics{float(c.fx), float(c.fy), float(c.cx), float(c.cy)};
   std::vector<float> own(occluders.depth_m.size());
   for (const Se3& pose : camera_from_object) {
     if ((pose * model.center_m).z() <= model.radius_m) continue;
-    const DepthJob job{to_pose(pose), intrinsics};
+    const DepthJob job{to_pose(pose), intrinsics_of(c)};
     backend.depth_raster(model.triangle_mesh(), {&job, 1}, c.width, c.height, own);
     std::ranges::transform(own, occluders.depth_m, occluders.depth_m.begin(), [](float a, float b) { return std::min(a, b); });
   }

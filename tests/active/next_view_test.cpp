@@ -81,7 +81,7 @@ TEST(CandidateScene, HoldsEdgesAndSurfacesOfEveryView) {
       const Se3 pose = t.views[v] * t.candidates[c].world_from_object;
       const EdgeModel& model = t.models[t.candidates[c].object];
       const std::vector<ModelPoint> points = visible_edges(model, std::span(&pose, 1), *t.backend, t.options.visibility)[0];
-      const DepthJob whole{to_pose(pose), {float(camera.fx), float(camera.fy), float(camera.cx), float(camera.cy)}};
+      const DepthJob whole{to_pose(pose), intrinsics_of(camera)};
       std::vector<float> depth(std::size_t(camera.width) * camera.height);
       t.backend->depth_raster(model.triangle_mesh(), std::span(&whole, 1), camera.width, camera.height, depth);
       const CandidateMap& map = seen.candidates[c];

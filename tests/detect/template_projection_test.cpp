@@ -20,7 +20,7 @@ TEST(ThinnedView, ProjectsAndRoundsEveryPoint) {
   const TemplateSet set = part_templates("bearing_block", 2, 0.3, 0.3, *backend);
   Random random = test_random();
   const Camera camera = small_camera();
-  const Intrinsics k{float(camera.fx), float(camera.fy), float(camera.cx), float(camera.cy)};
+  const Intrinsics k = intrinsics_of(camera);
   int apart = 0, all = 0;
   for (int i = 0; i < 200; ++i) {
     const TemplateView& view = set.views[std::size_t(random.below(int(set.views.size())))];

@@ -103,7 +103,7 @@ struct CoveredPart {
     std::vector<EdgePoint> edges = ideal_edges(part_model("bearing_block", 2e-4), scene_camera(), cover.world_from_object, *backend);
     const std::vector<ModelPoint> own = visible_edges(dense, {&covered.world_from_object, 1}, *backend)[0];
     const Camera camera = scene_camera();
-    const Intrinsics k{float(camera.fx), float(camera.fy), float(camera.cx), float(camera.cy)};
+    const Intrinsics k = intrinsics_of(camera);
     std::size_t hidden = 0;
     for (const ModelPoint& point : own) {
       const Eigen::Vector3d x = covered.world_from_object * Eigen::Vector3d(point.x_m, point.y_m, point.z_m);

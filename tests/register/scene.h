@@ -24,7 +24,7 @@ inline EdgeModel part_model(const std::string& part, double raster_step_m = 0) {
 inline std::vector<EdgePoint> ideal_edges(const EdgeModel& dense, const Camera& camera,
                                           const Se3& camera_from_object, Backend& backend) {
   std::vector<EdgePoint> edges;
-  const Intrinsics k{float(camera.fx), float(camera.fy), float(camera.cx), float(camera.cy)};
+  const Intrinsics k = intrinsics_of(camera);
   const std::vector<ModelPoint> visible = visible_edges(dense, std::span(&camera_from_object, 1), backend)[0];
   for (const ModelPoint& point : visible) {
     const Landing at = land(k, camera_from_object, point);
@@ -44,7 +44,7 @@ inline RegisterView view_of(const EdgeModel& dense, const Se3& world_from_object
   view.camera_from_world = camera_from_world;
   view.view =
       backend.make_view(edges, camera.width, camera.height, {},
-                        {float(camera.fx), float(camera.fy), float(camera.cx), float(camera.cy)}, options);
+                        intrinsics_of(camera), options);
   return view;
 }
 
