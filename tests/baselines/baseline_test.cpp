@@ -40,6 +40,7 @@ struct Accuracy {
   double one_view_px;                     // median of the largest displacement of a vertex
   double three_views_m, three_views_rad;  // of the worst
 };
+void PrintTo(const Accuracy& accuracy, std::ostream* out) { *out << to_string(accuracy.method); }
 
 class Baseline : public ::testing::TestWithParam<Accuracy> {
  protected:

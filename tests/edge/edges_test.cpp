@@ -11,6 +11,9 @@
 #include "kernels/error.h"
 
 namespace edgescout {
+
+static void PrintTo(EdgeMethod method, std::ostream* out) { *out << name_of(method); }
+
 namespace {
 
 constexpr double pi = std::numbers::pi;

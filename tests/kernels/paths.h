@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <memory>
 #include <numbers>
+#include <ostream>
 #include <random>
 #include <string>
 
@@ -36,6 +37,8 @@ inline std::string path_name(Path path) {
   }
   return "unknown";
 }
+
+inline void PrintTo(Path path, std::ostream* out) { *out << path_name(path); }
 
 inline const auto all_paths =
     ::testing::Values(Path::cpu, Path::vulkan, Path::vulkan_staging, Path::vulkan_bands);

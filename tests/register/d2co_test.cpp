@@ -23,6 +23,7 @@ struct NamedSolver {
   const char* name;
   Solver solve;
 };
+void PrintTo(const NamedSolver& solver, std::ostream* out) { *out << solver.name; }
 
 class D2co : public ::testing::TestWithParam<NamedSolver> {
  protected:
