@@ -1,10 +1,12 @@
 #include "host/active/next_view.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "host/active/candidate_scene.h"
 #include "host/active/seen_points.h"
+#include "host/active/views.h"
 #include "host/core/log.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
@@ -128,9 +130,28 @@ std::vector<double> along_sequence(std::size_t views, std::span<const std::size_
   return values;
 }
 
+// The probability that nothing unknown stands before a camera, one a view.
+std::vector<double> free_sights(std::span<const Se3> views, double exponent) {
+  const Eigen::Vector3d center_m = looked_at_m(views);
+  std::vector<Eigen::Vector3d> directions;
+  Eigen::Vector3d above = Eigen::Vector3d::Zero();
+  for (const Se3& view : views) {
+    directions.push_back((inverse(view).translation_m - center_m).normalized());
+    above += directions.back();
+  }
+  std::vector<double> free;
+  for (const Eigen::Vector3d& direction : directions) free.push_back(std::pow(std::max(0.0, direction.dot(above.normalized())), exponent));
+  return free;
+}
+
 std::vector<double> information_of(const Planning& planning, std::span<const std::size_t> open, Backend& backend, const NextViewOptions& options) {
   switch (options.strategy) {
-    case Strategy::Information: return mutual_information(planning, open, backend, options);
+    case Strategy::Information: {
+      std::vector<double> information = mutual_information(planning, open, backend, options);
+      const std::vector<double> free = free_sights(planning.views, options.free_sight);
+      for (std::size_t i = 0; i < open.size(); ++i) information[i] *= free[open[i]];
+      return information;
+    }
     case Strategy::Disocclusion: return disocclusion(planning, open, backend.threads(), options);
     case Strategy::Random: return random_values(planning.views.size(), open, planning.real_views.size(), options.seed);
     case Strategy::Fixed: return along_sequence(planning.views.size(), open, options.sequence);
@@ -173,6 +194,7 @@ void NextViewOptions::validate() const {
   in("sigma", sigma_px, 1e-3, 1e3);
   in("tolerance", tolerance, 0, 10);
   in("seen", seen_px, 0, EdgeIndex::CELL_PX);
+  in("free_sight", free_sight, 0, 100);
   in("motion_cost_per_m", motion_cost_per_m, 0, 1e9);
   in("motion_cost_per_rad", motion_cost_per_rad, 0, 1e9);
 }

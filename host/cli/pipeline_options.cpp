@@ -38,6 +38,7 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
       .bounded("map-reduction", o.next_view.reduction, 1.0, 16.0, "Image px a px of the distance maps")
       .bounded("chamfer-cap", o.next_view.cap_px, 0.1, 255.0, "Of distances, image px")
       .bounded("sigma", o.next_view.sigma_px, 0.001, 1000.0, "Of the mean distance of a right pose, image px")
+      .bounded("free-sight", o.next_view.free_sight, 0.0, 100.0, "How much lower cameras are hidden by what is unknown; 0: not at all")
       .flag("literal", o.next_view.literal, "The paper's own formula for the information")
       .bounded("combinations", o.combinations.count, 1, 1000000, "Scenes imagined for a decision")
       .bounded("sharpness", o.combinations.sharpness, 0.0, 1000.0, "Of the preference for likely candidates in them; 1: the paper's")

@@ -179,6 +179,7 @@ Notes options(const ExperimentSettings& s) {
           {"map_reduction", number_text(o.next_view.reduction)},
           {"chamfer_cap_px", number_text(o.next_view.cap_px)},
           {"sigma_px", number_text(o.next_view.sigma_px)},
+          {"free_sight", number_text(o.next_view.free_sight)},
           {"formula", o.next_view.literal ? "literal" : "mutual information"},
           {"min_probability", number_text(o.detections.min_probability)}};
 }

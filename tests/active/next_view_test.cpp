@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "host/active/candidate_scene.h"
 #include "host/active/combinations.h"
@@ -41,6 +42,7 @@ struct Plan {
   NextViewOptions options;
 
   explicit Plan(int count = 6) {
+    options.free_sight = 0;
     for (const char* part : {"l_bracket", "bearing_block"}) models.push_back(make_edge_model(make_part(part).mesh));
     for (const EdgeModel& model : models) tables.push_back(make_template_table(model, 0.5, *backend, {3, 300}));
     views = hemisphere_views({{0, 0, 0.02}, 0.5, {35, 70}, 10});
@@ -265,6 +267,36 @@ TEST(ViewInformation, PrefersTheViewThatTellsHypothesesApart) {
   const std::vector<ViewInformation> views = t.information();
   std::printf("front %.4f, side %.4f nats\n", views[0].information, views[1].information);
   EXPECT_GT(views[1].information, 2 * views[0].information);
+}
+
+// Cameras on rings of 35 and 70 degrees: what is unknown leaves a line of sight free with the sine's power, whatever the strategy knows besides.
+TEST(ViewInformation, IsWorthLessWhereTheUnknownMayHideMore) {
+  Plan t;
+  const std::vector<ViewInformation> free = t.information();
+  t.options.free_sight = 2;
+  const std::vector<ViewInformation> views = t.information();
+  std::set<double> shares;
+  for (std::size_t v = 1; v < views.size(); ++v) {
+    const Eigen::Vector3d eye = (inverse(t.views[v]).translation_m - Eigen::Vector3d(0, 0, 0.02)).normalized();
+    ASSERT_GT(free[v].information, 0);
+    EXPECT_NEAR(views[v].information, free[v].information * eye.z() * eye.z(), 1e-9) << v;
+    shares.insert(std::round(1e6 * eye.z()));
+  }
+  EXPECT_EQ(shares.size(), 2u);
+  // A turned world changes nothing: what is above follows from the views.
+  const Se3 turned_from_world{Eigen::Quaterniond(0.3, 0.5, -0.2, 0.7).normalized(), {1, -2, 3}};
+  for (Se3& view : t.views) view = view * inverse(turned_from_world);
+  for (RegisterView& view : t.real) view.camera_from_world = view.camera_from_world * inverse(turned_from_world);
+  for (Detection& c : t.candidates) c.world_from_object = turned_from_world * c.world_from_object;
+  for (Particle& p : t.particles) p.world_from_object = turned_from_world * p.world_from_object;
+  const std::vector<ViewInformation> turned = t.information();
+  for (std::size_t v = 1; v < views.size(); ++v) EXPECT_NEAR(turned[v].information, views[v].information, 0.02 * views[v].information) << v;
+  // Other strategies do not imagine what they would see.
+  t.options.strategy = Strategy::Disocclusion;
+  const std::vector<ViewInformation> some = t.information();
+  t.options.free_sight = 0;
+  const std::vector<ViewInformation> all = t.information();
+  for (std::size_t v = 1; v < views.size(); ++v) EXPECT_EQ(some[v].information, all[v].information);
 }
 
 TEST(ViewInformation, TakesMotionAndReachIntoAccount) {
