@@ -148,6 +148,7 @@ std::vector<double> information_of(const Planning& planning, std::span<const std
   switch (options.strategy) {
     case Strategy::Information: {
       std::vector<double> information = mutual_information(planning, open, backend, options);
+      if (options.literal) return information;
       const std::vector<double> free = free_sights(planning.views, options.free_sight);
       for (std::size_t i = 0; i < open.size(); ++i) information[i] *= free[open[i]];
       return information;
