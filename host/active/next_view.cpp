@@ -139,6 +139,7 @@ std::vector<double> free_sights(std::span<const Se3> views, double exponent) {
     directions.push_back((inverse(view).translation_m - center_m).normalized());
     above += directions.back();
   }
+  if (above.norm() < 0.1 * double(views.size())) return std::vector<double>(views.size(), 1);
   std::vector<double> free;
   for (const Eigen::Vector3d& direction : directions) free.push_back(std::pow(std::max(0.0, direction.dot(above.normalized())), exponent));
   return free;

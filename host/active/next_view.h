@@ -28,7 +28,8 @@ struct NextViewOptions {
   double seen_px = 4;             // a template point was seen in a real view if an edge of its image lies so near, along it; 0: if it lies inside the image. At most 8
   VisibilityOptions visibility{96, 0.01};
   // What nobody knows of (undetected parts, clutter, the heap itself) hides more the lower a camera stands. A line of sight is free of it with probability cos^free_sight of its angle to straight
-  // above, and a view that is not tells nothing: an erasure, which leaves that share of the information. Straight above is the mean direction from what the views look at to their cameras. 0: all are free, as in the paper's own formula always.
+  // above, and a view that is not tells nothing: an erasure, which leaves that share of the information. Straight above is the mean direction from what the views look at to their cameras;
+  // where they stand all around there is none, and all are free. 0: all are free, as in the paper's own formula always.
   double free_sight = 1;
   double motion_cost_per_m = 0;   // taken off the information: for the way from the last view's camera
   double motion_cost_per_rad = 0;

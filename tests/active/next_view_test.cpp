@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 
 #include "host/active/candidate_scene.h"
@@ -303,6 +304,17 @@ TEST(ViewInformation, IsWorthLessWhereTheUnknownMayHideMore) {
   does_not_matter();
   t.options.strategy = Strategy::Disocclusion;
   does_not_matter();
+}
+
+TEST(ViewInformation, KnowsNoAboveWhereCamerasStandAllAround) {
+  Plan t(2);
+  const Se3 upside_down{Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX())), {0, 0, 0.04}};
+  for (std::size_t v = 0, n = t.views.size(); v < n; ++v) t.views.push_back(t.views[v] * upside_down);
+  t.closed.resize(t.views.size(), 0);
+  const std::vector<ViewInformation> free = t.information();
+  t.options.free_sight = 1;
+  const std::vector<ViewInformation> views = t.information();
+  for (std::size_t v = 1; v < views.size(); ++v) EXPECT_EQ(views[v].information, free[v].information) << v;
 }
 
 TEST(ViewInformation, TakesMotionAndReachIntoAccount) {
