@@ -211,9 +211,10 @@ std::vector<ViewInformation> view_information(const Planning& planning, Backend&
     const bool closed = (!planning.closed.empty() && planning.closed[v]) || (options.reachable && !options.reachable(int(v)));
     if (!closed) open.push_back(v);
   }
+  if (open.empty()) return views;
   const std::vector<double> information = information_of(planning, open, backend, options);
   for (std::size_t i = 0; i < open.size(); ++i) views[open[i]] = {true, information[i], motion_cost(planning, planning.views[open[i]], options)};
-  if (!open.empty() && std::ranges::none_of(information, [](double x) { return x > 0; }))
+  if (std::ranges::none_of(information, [](double x) { return x > 0; }))
     log(LogLevel::Warning, "no view promises any information: nothing is known that it could be about, or no view sees it");
   return views;
 }

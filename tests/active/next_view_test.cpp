@@ -306,6 +306,14 @@ TEST(ViewInformation, IsWorthLessWhereTheUnknownMayHideMore) {
   does_not_matter();
 }
 
+TEST(ViewInformation, OfNoViewsIsNone) {
+  Plan t(2);
+  t.options.free_sight = 1;
+  t.views.clear();
+  t.closed.clear();
+  EXPECT_TRUE(t.information().empty());
+}
+
 TEST(ViewInformation, KnowsNoAboveWhereCamerasStandAllAround) {
   Plan t(2);
   const Se3 upside_down{Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX())), {0, 0, 0.04}};
