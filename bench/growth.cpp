@@ -1,6 +1,7 @@
 // edgescout_bench_growth [--device WORD] [--repetitions N]
 //
-// How the time to choose the next view grows: the paper's size, then each of its four numbers three and ten times as large.
+// How the time to choose the next view grows: the paper's size, then each of its four numbers three and ten
+// times as large.
 #include <chrono>
 #include <cstdio>
 #include <cstring>
@@ -8,8 +9,8 @@
 #include <exception>
 #include <string>
 
-#include "kernels/cases/hypotheses.h"
 #include "kernels/backend.h"
+#include "kernels/cases/hypotheses.h"
 #include "kernels/thread_pool.h"
 
 namespace edgescout::bench {
@@ -34,9 +35,11 @@ Times choose(Backend& backend, const HypothesesSize& size) {
   };
   for (int v = 0; v < size.views; ++v) {
     test::ChamferScene scene = hypotheses.view(v);
-    time(times.maps_s, [&] { backend.candidate_map(scene.edges, scene.maps, size.width, size.height, scene.nearest); });
+    time(times.maps_s,
+         [&] { backend.candidate_map(scene.edges, scene.maps, size.width, size.height, scene.nearest); });
     ChamferHandle chamfer;
-    time(times.chamfer_s, [&] { chamfer = backend.combination_chamfer(scene.view(), scene.combinations(), {}); });
+    time(times.chamfer_s,
+         [&] { chamfer = backend.combination_chamfer(scene.view(), scene.combinations(), {}); });
     time(times.information_s, [&] { backend.mutual_information(*chamfer, hypotheses.beliefs(), {}); });
   }
   return times;
@@ -47,25 +50,29 @@ void report(Backend& backend, const HypothesesSize& size, int repetitions) {
   for (int r = 0; r < repetitions; ++r) runs.push_back(choose(backend, size));
   std::ranges::sort(runs, {}, &Times::total);
   const Times& median = runs[runs.size() / 2];
-  std::printf("%5d %10d %9d %12u %9.1f %9.1f %11.1f %9.1f %9.1f\n", size.views, size.candidates, size.particles, size.realizations,
-              1e3 * median.maps_s, 1e3 * median.chamfer_s, 1e3 * median.information_s, 1e3 * median.total(), 1e3 * median.processor_s);
+  std::printf("%5d %10d %9d %12u %9.1f %9.1f %11.1f %9.1f %9.1f\n", size.views, size.candidates,
+              size.particles, size.realizations, 1e3 * median.maps_s, 1e3 * median.chamfer_s,
+              1e3 * median.information_s, 1e3 * median.total(), 1e3 * median.processor_s);
   std::fflush(stdout);
 }
 
 void run(const std::string& device, int repetitions) {
   const std::unique_ptr<Backend> backend = make_backend(device);
-  std::printf("%s, %d threads, median of %d, ms\n", backend->name().c_str(), backend->threads().threads(), repetitions);
-  std::printf("%5s %10s %9s %12s %9s %9s %11s %9s %9s\n", "views", "candidates", "particles", "realizations", "maps", "chamfer", "information",
-              "all", "processor");
+  std::printf("%s, %d threads, median of %d, ms\n", backend->name().c_str(), backend->threads().threads(),
+              repetitions);
+  std::printf("%5s %10s %9s %12s %9s %9s %11s %9s %9s\n", "views", "candidates", "particles", "realizations",
+              "maps", "chamfer", "information", "all", "processor");
   choose(*backend, {2, 4, 4, 50, 64, 48, 64});  // the driver's compiler, the first pages
   report(*backend, paper_hypotheses, repetitions);
   for (const int by : {3, 10}) {
-    HypothesesSize candidates = paper_hypotheses, particles = paper_hypotheses, realizations = paper_hypotheses, views = paper_hypotheses;
+    HypothesesSize candidates = paper_hypotheses, particles = paper_hypotheses,
+                   realizations = paper_hypotheses, views = paper_hypotheses;
     candidates.candidates *= by;
     particles.particles *= by;
     realizations.realizations *= std::uint32_t(by);
     views.views *= by;
-    for (const HypothesesSize& size : {candidates, particles, realizations, views}) report(*backend, size, repetitions);
+    for (const HypothesesSize& size : {candidates, particles, realizations, views})
+      report(*backend, size, repetitions);
   }
 }
 

@@ -1,9 +1,11 @@
 // Registration from given starts, against the original D2CO implementation's results on the same ones.
 //
-//   edgescout_bench_registration FOLDER [--device D] [--every N] [--search RAD] [--views 1|3] [--truth] [--lambda L]
+//   edgescout_bench_registration FOLDER [--device D] [--every N] [--search RAD] [--views 1|3] [--truth]
+//   [--lambda L]
 //
-// FOLDER holds ground_truth.json, starts.csv, starts_gt.csv, cad/ and images/ (docs/evaluation.md describes the set). Prints the rate of
-// correct registrations (below 0.1 rad and 5 mm) by level, quantiles of the errors and the time of one registration.
+// FOLDER holds ground_truth.json, starts.csv, starts_gt.csv, cad/ and images/ (docs/evaluation.md describes
+// the set). Prints the rate of correct registrations (below 0.1 rad and 5 mm) by level, quantiles of the
+// errors and the time of one registration.
 #include <Eigen/SVD>
 #include <algorithm>
 #include <chrono>
@@ -26,7 +28,9 @@ namespace {
 
 using namespace edgescout;
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 struct Arguments {
   std::string folder, device = "cpu";
@@ -43,19 +47,27 @@ Arguments parse(int argc, char** argv) {
       if (i + 1 >= argc) throw InputError("command line", word, "nothing", "a value");
       return std::string(argv[++i]);
     };
-    if (word == "--device") a.device = next();
-    else if (word == "--every") a.every = std::max(1, std::stoi(next()));
-    else if (word == "--views") a.views = std::stoi(next());
-    else if (word == "--search") a.search_rad = std::stod(next());
-    else if (word == "--lambda") a.lambda = std::stod(next());
-    else if (word == "--truth") a.truth = true;
-    else a.folder = word;
+    if (word == "--device")
+      a.device = next();
+    else if (word == "--every")
+      a.every = std::max(1, std::stoi(next()));
+    else if (word == "--views")
+      a.views = std::stoi(next());
+    else if (word == "--search")
+      a.search_rad = std::stod(next());
+    else if (word == "--lambda")
+      a.lambda = std::stod(next());
+    else if (word == "--truth")
+      a.truth = true;
+    else
+      a.folder = word;
   }
   if (a.folder.empty()) throw InputError("command line", "FOLDER", "nothing", "the folder of the starts");
   return a;
 }
 
-// Files give rotations to 12 digits in places, to 6 in others: the nearest rotation is taken. Millimetres become metres.
+// Files give rotations to 12 digits in places, to 6 in others: the nearest rotation is taken. Millimetres
+// become metres.
 Se3 pose_of(const std::vector<double>& rotation, const std::vector<double>& translation_mm) {
   Eigen::Matrix3d r;
   for (int i = 0; i < 9; ++i) r(i / 3, i % 3) = rotation[i];
@@ -74,7 +86,8 @@ std::map<std::string, Scene> load_scenes(const Arguments& a, double diameter_m, 
   std::map<std::string, Scene> scenes;
   for (const auto& entry : json["images"]) {
     const Image image = load_image(a.folder + "/" + entry["file"].get<std::string>());
-    const Camera camera{entry["width"], entry["height"], entry["fx"], entry["fy"], entry["cx"], entry["cy"], {}};
+    const Camera camera{entry["width"], entry["height"], entry["fx"], entry["fy"],
+                        entry["cx"],    entry["cy"],     {}};
     const std::vector<EdgePoint> edges = find_edges(image, {}, backend);
     TensorOptions tensor;
     tensor.lambda_px_per_rad = float(a.lambda);
@@ -85,7 +98,8 @@ std::map<std::string, Scene> load_scenes(const Arguments& a, double diameter_m, 
       nearest = std::min(nearest, scene.truth[object["id"]].translation_m.z());
     }
     scene.view = observe(image, camera, pose_of(entry["R_cam_world"], entry["t_cam_world"]), edges,
-                         reduction_for(camera.fx * diameter_m / nearest), tensor, backend).view;
+                         reduction_for(camera.fx * diameter_m / nearest), tensor, backend)
+                     .view;
   }
   return scenes;
 }
@@ -107,14 +121,18 @@ std::map<std::string, std::vector<Start>> load_starts(const Arguments& a) {
     for (std::istringstream stream(line); std::getline(stream, cell, ',');) cells.push_back(cell);
     std::vector<double> numbers;
     for (std::size_t i = 7; i < cells.size(); ++i) numbers.push_back(std::stod(cells[i]));
-    starts[cells[1]].push_back({cells[2], std::stoi(cells[4]),
-                                {cells[3] == "AX-01" ? 0 : 1, pose_of({numbers.begin(), numbers.begin() + 9}, {numbers.begin() + 9, numbers.end()})}});
+    starts[cells[1]].push_back(
+        {cells[2],
+         std::stoi(cells[4]),
+         {cells[3] == "AX-01" ? 0 : 1,
+          pose_of({numbers.begin(), numbers.begin() + 9}, {numbers.begin() + 9, numbers.end()})}});
   }
   return starts;
 }
 
 // The image's own view first; with three views, the scene's others after it.
-std::vector<RegisterView> views_of(const std::string& image, const std::map<std::string, Scene>& scenes, int views) {
+std::vector<RegisterView> views_of(const std::string& image, const std::map<std::string, Scene>& scenes,
+                                   int views) {
   std::vector<RegisterView> list{scenes.at(image).view};
   if (views == 1) return list;
   for (const auto& [name, scene] : scenes)
@@ -128,24 +146,27 @@ double quantile(std::vector<double> values, double q) {
   return values[std::min(values.size() - 1, std::size_t(q * values.size()))];
 }
 
-void print(const Arguments& a, const std::map<int, std::pair<int, int>>& levels, const std::vector<double>& mm, const std::vector<double>& rad,
-           double seconds, int count) {
+void print(const Arguments& a, const std::map<int, std::pair<int, int>>& levels,
+           const std::vector<double>& mm, const std::vector<double>& rad, double seconds, int count) {
   int right = 0;
   for (const auto& [level, tally] : levels) {
     std::printf("level %d: %.1f %% of %d   ", level, 100.0 * tally.first / tally.second, tally.second);
     right += tally.first;
   }
   std::printf("all: %.1f %% of %d\n", 100.0 * right / count, count);
-  std::printf("%s: median %.2f mm %.4f rad, 95 %% %.2f mm %.4f rad, largest %.2f mm %.4f rad; %.2f ms a registration\n",
-              a.truth ? "errors of all" : "errors of the correct ones", quantile(mm, 0.5), quantile(rad, 0.5), quantile(mm, 0.95),
-              quantile(rad, 0.95), quantile(mm, 1), quantile(rad, 1), 1000 * seconds / count);
+  std::printf(
+      "%s: median %.2f mm %.4f rad, 95 %% %.2f mm %.4f rad, largest %.2f mm %.4f rad; %.2f ms a "
+      "registration\n",
+      a.truth ? "errors of all" : "errors of the correct ones", quantile(mm, 0.5), quantile(rad, 0.5),
+      quantile(mm, 0.95), quantile(rad, 0.95), quantile(mm, 1), quantile(rad, 1), 1000 * seconds / count);
 }
 
 int run(int argc, char** argv) {
   const Arguments a = parse(argc, argv);
   const std::unique_ptr<Backend> backend = make_backend(a.device);
-  const std::vector<EdgeModel> models{make_edge_model(load_mesh(a.folder + "/cad/AX-01.stl", LengthUnit::Millimetre)),
-                                      make_edge_model(load_mesh(a.folder + "/cad/AX-01b.stl", LengthUnit::Millimetre))};
+  const std::vector<EdgeModel> models{
+      make_edge_model(load_mesh(a.folder + "/cad/AX-01.stl", LengthUnit::Millimetre)),
+      make_edge_model(load_mesh(a.folder + "/cad/AX-01b.stl", LengthUnit::Millimetre))};
   const std::map<std::string, Scene> scenes = load_scenes(a, models[0].mesh.diameter_m, *backend);
   RefineOptions options;
   options.search.rotation_rad = a.search_rad;
@@ -159,7 +180,8 @@ int run(int argc, char** argv) {
     const Se3 camera_from_world = views[0].camera_from_world;
     std::vector<Hypothesis> hypotheses;
     for (const Start& start : starts)
-      hypotheses.push_back({start.camera_from_object.object, inverse(camera_from_world) * start.camera_from_object.world_from_object});
+      hypotheses.push_back({start.camera_from_object.object,
+                            inverse(camera_from_world) * start.camera_from_object.world_from_object});
     const auto begin = Clock::now();
     const std::vector<Refined> refined = refine_poses(models, hypotheses, views, *backend, options);
     seconds += seconds_since(begin);

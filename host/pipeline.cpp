@@ -13,7 +13,8 @@ namespace {
 
 // Typical size of an object in the image: at the geometric middle of its distances.
 double size_px(const TemplateSet& set, const Camera& camera) {
-  return set.model.mesh.diameter_m / std::sqrt(set.options.distance_min_m * set.options.distance_max_m) * camera.fx;
+  return set.model.mesh.diameter_m / std::sqrt(set.options.distance_min_m * set.options.distance_max_m) *
+         camera.fx;
 }
 
 double smallest_size_px(std::span<const TemplateSet> sets, const Camera& camera) {
@@ -30,7 +31,8 @@ void PipelineOptions::validate() const {
   detect.validate();
 }
 
-PreparedImage prepare_image(const Image& image, const Camera& camera, const Se3& camera_from_world, Backend& backend, const PipelineOptions& options) {
+PreparedImage prepare_image(const Image& image, const Camera& camera, const Se3& camera_from_world,
+                            Backend& backend, const PipelineOptions& options) {
   PreparedImage prepared;
   Stopwatch watch(prepared.stages);
   prepared.image = undistort(image, camera);
@@ -48,12 +50,14 @@ std::vector<EdgeModel> models_of(std::span<const TemplateSet> sets) {
   return models;
 }
 
-Observation observe_prepared(const PreparedImage& prepared, std::span<const TemplateSet> sets, Backend& backend, const PipelineOptions& options) {
+Observation observe_prepared(const PreparedImage& prepared, std::span<const TemplateSet> sets,
+                             Backend& backend, const PipelineOptions& options) {
   return observe(prepared.image, prepared.camera, prepared.camera_from_world, prepared.edges,
                  reduction_for(smallest_size_px(sets, prepared.camera)), options.tensor, backend);
 }
 
-Detections detect_objects(const PreparedImage& prepared, std::span<const TemplateSet> sets, Backend& backend, const PipelineOptions& options) {
+Detections detect_objects(const PreparedImage& prepared, std::span<const TemplateSet> sets, Backend& backend,
+                          const PipelineOptions& options) {
   options.validate();
   Detections result;
   result.stages = prepared.stages;
@@ -70,24 +74,29 @@ Detections detect_objects(const PreparedImage& prepared, std::span<const Templat
   watch.lap("candidates");
   RegisterView view = observation.view;
   view.camera_from_world = Se3{};  // one view: its camera frame is the world
-  result.detections = settle(models_of(sets), poses, candidates, std::vector<RegisterView>{view}, backend, options.detect);
+  result.detections =
+      settle(models_of(sets), poses, candidates, std::vector<RegisterView>{view}, backend, options.detect);
   watch.lap("settle");
   return result;
 }
 
-Detections detect_jointly(std::span<const PreparedImage> views, std::span<const TemplateSet> sets, Backend& backend, const PipelineOptions& options) {
+Detections detect_jointly(std::span<const PreparedImage> views, std::span<const TemplateSet> sets,
+                          Backend& backend, const PipelineOptions& options) {
   options.validate();
   Detections result;
-  for (const PreparedImage& view : views) result.stages.insert(result.stages.end(), view.stages.begin(), view.stages.end());
+  for (const PreparedImage& view : views)
+    result.stages.insert(result.stages.end(), view.stages.begin(), view.stages.end());
   Stopwatch watch(result.stages);
   std::vector<Observation> observations;
-  for (const PreparedImage& view : views) observations.push_back(observe_prepared(view, sets, backend, options));
+  for (const PreparedImage& view : views)
+    observations.push_back(observe_prepared(view, sets, backend, options));
   watch.lap("tensors");
   std::vector<std::vector<std::vector<Refined>>> candidates(observations.size());  // [view][object]
   for (std::size_t v = 0; v < observations.size(); ++v) {
     std::vector<Observation> others = observations;
     others.erase(others.begin() + std::ptrdiff_t(v));
-    for (const TemplateSet& set : sets) candidates[v].push_back(find_candidates(set, observations[v], others, backend, options.detect));
+    for (const TemplateSet& set : sets)
+      candidates[v].push_back(find_candidates(set, observations[v], others, backend, options.detect));
   }
   watch.lap("candidates");
   result.detections = join_views(sets, models_of(sets), candidates, observations, backend, options.detect);

@@ -1,9 +1,10 @@
-// The one run-time choice: where the kernels run. Host code talks to a Backend and never asks which one it is.
+// The one run-time choice: where the kernels run. Host code talks to a Backend and never asks which one it
+// is.
 //
-// Three kinds: the plain CPU reference (single-threaded, the judge of the others), the fast CPU path (SIMD and threads) and a
-// Vulkan device. All answer alike, within the agreement each kernel's header promises.
-// A backend may be used by one thread at a time. Tensors, views and cells outlive the call that made them and must be
-// handed back to the same backend.
+// Three kinds: the plain CPU reference (single-threaded, the judge of the others), the fast CPU path (SIMD
+// and threads) and a Vulkan device. All answer alike, within the agreement each kernel's header promises. A
+// backend may be used by one thread at a time. Tensors, views and cells outlive the call that made them and
+// must be handed back to the same backend.
 #pragma once
 
 #include <chrono>
@@ -35,8 +36,8 @@ class BackendView {
 };
 using ViewHandle = std::shared_ptr<const BackendView>;
 
-// The cells of one view's combination_chamfer, in the backend's own memory: particles * realizations of them, too many to keep
-// those of all views.
+// The cells of one view's combination_chamfer, in the backend's own memory: particles * realizations of them,
+// too many to keep those of all views.
 class BackendChamfer {
  public:
   virtual ~BackendChamfer() = default;
@@ -57,15 +58,18 @@ struct StageTime {
 class Backend {
  public:
   virtual ~Backend() = default;
-  virtual std::string name() const = 0;   // "cpu", "cpu-reference", "vulkan:0 llvmpipe (LLVM 15.0.6, 256 bits)"
+  virtual std::string name()
+      const = 0;  // "cpu", "cpu-reference", "vulkan:0 llvmpipe (LLVM 15.0.6, 256 bits)"
   virtual bool is_gpu() const = 0;
 
   virtual std::vector<EdgePoint> detect_edges(const ImageView& image, const EdgeOptions& options) = 0;
   // `image` may be empty (width 0): then the view cannot be asked for Psi.
-  virtual ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height, const ImageView& image,
-                               const Intrinsics& intrinsics, const TensorOptions& options) = 0;
+  virtual ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height,
+                               const ImageView& image, const Intrinsics& intrinsics,
+                               const TensorOptions& options) = 0;
   virtual void template_score(const BackendView& view, std::span<const TemplatePoint> points,
-                              std::span<const TemplateJob> jobs, int anchor_step, std::span<TemplateHit> hits) = 0;
+                              std::span<const TemplateJob> jobs, int anchor_step,
+                              std::span<TemplateHit> hits) = 0;
   virtual void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
                                      std::span<const PoseProblem> problems, const PoseLoss& loss,
                                      std::span<NormalEquations> out) = 0;
@@ -74,8 +78,8 @@ class Backend {
                           std::span<PoseScore> out) = 0;
   virtual void depth_raster(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
                             std::span<float> depth) = 0;
-  virtual void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width, int height,
-                             std::span<std::uint32_t> nearest) = 0;
+  virtual void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width,
+                             int height, std::span<std::uint32_t> nearest) = 0;
   virtual ChamferHandle combination_chamfer(const ChamferView& view, const CombinationBits& combinations,
                                             const ChamferOptions& options) = 0;
   // Of one view, nats.
@@ -94,11 +98,11 @@ class Backend {
 };
 
 struct DeviceInfo {
-  int index = 0;            // as in "vulkan:INDEX"
+  int index = 0;  // as in "vulkan:INDEX"
   std::string name;
-  std::string driver;       // name and version
+  std::string driver;  // name and version
   std::string api_version;
-  bool hardware = false;    // false: a software rasteriser such as lavapipe
+  bool hardware = false;  // false: a software rasteriser such as lavapipe
   std::uint64_t memory_bytes = 0;
   std::uint64_t max_storage_buffer_bytes = 0;
 };
@@ -111,8 +115,8 @@ std::unique_ptr<Backend> make_reference_backend();
 // Throws GpuError where the device is missing or lacks a feature the kernels need.
 std::unique_ptr<Backend> make_vulkan_backend(int device_index, bool validation = false);
 
-// "auto", "cpu", "cpu-reference", "vulkan" or "vulkan:INDEX"; auto takes the first hardware Vulkan device, else the fast CPU path. Throws
-// InputError on another word and where the device asked for does not exist.
+// "auto", "cpu", "cpu-reference", "vulkan" or "vulkan:INDEX"; auto takes the first hardware Vulkan device,
+// else the fast CPU path. Throws InputError on another word and where the device asked for does not exist.
 std::unique_ptr<Backend> make_backend(const std::string& choice);
 
 }  // namespace edgescout

@@ -20,10 +20,13 @@ template <class T>
 struct PixelLists {
   std::vector<std::uint32_t> first;  // pixels + 1
   std::vector<T> entries;
-  std::span<const T> at(std::size_t pixel) const { return std::span(entries).subspan(first[pixel], first[pixel + 1] - first[pixel]); }
+  std::span<const T> at(std::size_t pixel) const {
+    return std::span(entries).subspan(first[pixel], first[pixel + 1] - first[pixel]);
+  }
 };
 
-// Calls `visit(c, i, pixel)` for the pixels of all candidates' windows in rows [y0, y1) of the image; i is the place in `nearest`.
+// Calls `visit(c, i, pixel)` for the pixels of all candidates' windows in rows [y0, y1) of the image; i is
+// the place in `nearest`.
 template <class Visit>
 void visit_windows(const ChamferView& view, int y0, int y1, const Visit& visit) {
   for (std::uint32_t c = 0; c < view.candidates.size(); ++c) {
@@ -42,7 +45,9 @@ PixelLists<T> gather(const ChamferView& view, ThreadPool& pool, const EntryOf& e
   const int band_rows = std::max(1, view.height / (4 * pool.threads()));
   const auto bands = std::size_t((view.height + band_rows - 1) / band_rows);
   const auto for_bands = [&](const auto& body) {
-    pool.for_each(bands, [&](std::size_t b) { body(int(b) * band_rows, std::min(view.height, int(b + 1) * band_rows)); });
+    pool.for_each(bands, [&](std::size_t b) {
+      body(int(b) * band_rows, std::min(view.height, int(b + 1) * band_rows));
+    });
   };
   PixelLists<T> lists;
   lists.first.resize(std::size_t(view.width) * view.height + 1, 0);
@@ -51,7 +56,8 @@ PixelLists<T> gather(const ChamferView& view, ThreadPool& pool, const EntryOf& e
       lists.first[pixel + 1] += entry_of(c, i, pixel).has_value();
     });
   });
-  for (std::size_t pixel = 0; pixel + 1 < lists.first.size(); ++pixel) lists.first[pixel + 1] += lists.first[pixel];
+  for (std::size_t pixel = 0; pixel + 1 < lists.first.size(); ++pixel)
+    lists.first[pixel + 1] += lists.first[pixel];
   lists.entries.resize(lists.first.back());
   for_bands([&](int y0, int y1) {
     const std::size_t begin = std::size_t(y0) * view.width, end = std::size_t(y1) * view.width;
@@ -155,19 +161,24 @@ class Planner {
     std::ranges::sort(front);
   }
   std::uint32_t add_mask(std::uint32_t member, std::span<const std::uint32_t> hiders) {
-    plan_.masks.push_back({member, static_cast<std::uint32_t>(plan_.hiders.size()), static_cast<std::uint32_t>(hiders.size())});
+    plan_.masks.push_back(
+        {member, static_cast<std::uint32_t>(plan_.hiders.size()), static_cast<std::uint32_t>(hiders.size())});
     plan_.hiders.insert(plan_.hiders.end(), hiders.begin(), hiders.end());
     return static_cast<std::uint32_t>(plan_.masks.size() - 1);
   }
 
   void make_rows() {
-    const std::uint32_t farthest = plan_.cap - 1, farthest_d2 = farthest * farthest + farthest;  // that rounds below the cap
-    PixelLists<std::uint32_t> reach = gather<std::uint32_t>(view_, pool_, [&](std::uint32_t c, std::size_t i, std::size_t pixel) {
-      const std::uint32_t word = pixel_used_[pixel].load(std::memory_order_relaxed) ? view_.nearest[i] : CANDIDATE_MAP_EMPTY;
-      if (word >> 16 > farthest_d2) return std::optional<std::uint32_t>();
-      check((word & 0xffffu) < view_.candidates[c].edge_count, "combination_chamfer: a nearest edge point that is none");
-      return std::optional(chamfer_steps(word) << 24 | edge_mask_[first_edge_[c] + (word & 0xffffu)]);
-    });
+    const std::uint32_t farthest = plan_.cap - 1,
+                        farthest_d2 = farthest * farthest + farthest;  // that rounds below the cap
+    PixelLists<std::uint32_t> reach =
+        gather<std::uint32_t>(view_, pool_, [&](std::uint32_t c, std::size_t i, std::size_t pixel) {
+          const std::uint32_t word =
+              pixel_used_[pixel].load(std::memory_order_relaxed) ? view_.nearest[i] : CANDIDATE_MAP_EMPTY;
+          if (word >> 16 > farthest_d2) return std::optional<std::uint32_t>();
+          check((word & 0xffffu) < view_.candidates[c].edge_count,
+                "combination_chamfer: a nearest edge point that is none");
+          return std::optional(chamfer_steps(word) << 24 | edge_mask_[first_edge_[c] + (word & 0xffffu)]);
+        });
     row_of_slot_.assign(slots(), nowhere);
     for (std::size_t pixel = 0; pixel + 1 < surfaces_.first.size(); ++pixel) {
       if (!pixel_used_[pixel].load(std::memory_order_relaxed)) continue;
@@ -182,7 +193,8 @@ class Planner {
         plan_.rows.push_back({reach.first[pixel], reach.first[pixel + 1] - reach.first[pixel], visible});
       }
     }
-    check(plan_.masks.size() <= max_masks && plan_.rows.size() < (1u << 31), "combination_chamfer: too many surfaces in front of points");
+    check(plan_.masks.size() <= max_masks && plan_.rows.size() < (1u << 31),
+          "combination_chamfer: too many surfaces in front of points");
     plan_.reach = std::move(reach.entries);
   }
 
@@ -246,7 +258,7 @@ class Planner {
   PixelLists<Surface> surfaces_;
   std::vector<std::uint32_t> slot_, row_of_slot_;
   std::vector<std::atomic<bool>> slot_used_, pixel_used_;
-  std::vector<std::size_t> first_edge_;    // of a candidate's, in:
+  std::vector<std::size_t> first_edge_;  // of a candidate's, in:
   std::vector<std::uint32_t> edge_mask_;
 };
 

@@ -1,21 +1,25 @@
-// Mean chamfer distance of every particle to every scene realization, seen from one view, without drawing one of them (paper,
-// Sec. 5.2 and Eq. 16): the realization's distance at a pixel is the least of its members'.
+// Mean chamfer distance of every particle to every scene realization, seen from one view, without drawing one
+// of them (paper, Sec. 5.2 and Eq. 16): the realization's distance at a pixel is the least of its members'.
 //
-// A *realization* is a combination of candidates, a *particle* a hypothetical pose with the edge points that show from the view.
-// For particle i and combination C, over the particle's points whose nearest pixel p lies in the image:
+// A *realization* is a combination of candidates, a *particle* a hypothetical pose with the edge points that
+// show from the view. For particle i and combination C, over the particle's points whose nearest pixel p lies
+// in the image:
 //   hidden point:   a member's surface depth at p is less than z - tolerance. It leaves the mean.
-//   hidden edge:    the edge point of member c nearest to p, where another member's surface depth at *that edge point's* own
-//                   nearest pixel is less than its depth - tolerance. Then c gives no distance at p, although a farther edge
-//                   point of c might show: the mean is never too small for that, and rarely too large.
+//   hidden edge:    the edge point of member c nearest to p, where another member's surface depth at *that
+//   edge point's* own
+//                   nearest pixel is less than its depth - tolerance. Then c gives no distance at p, although
+//                   a farther edge point of c might show: the mean is never too small for that, and rarely
+//                   too large.
 //   distance at p = min(cap, least chamfer_steps of the members' maps at p whose edge is not hidden);
-//   seen = points not hidden, fresh = those of them flagged so, sum = sum of their distances in 1/16 px of the map.
+//   seen = points not hidden, fresh = those of them flagged so, sum = sum of their distances in 1/16 px of
+//   the map.
 // mean_px = sum / (16 seen); the cap where nothing is seen.
 //
-// The tolerance keeps the member that stands for the particle's own object from hiding it: of the order of the positions'
-// uncertainty plus what depth changes over half a pixel of the map.
+// The tolerance keeps the member that stands for the particle's own object from hiding it: of the order of
+// the positions' uncertainty plus what depth changes over half a pixel of the map.
 //
-// Agreement: integers, equal on every path bit for bit. LogicError: lists of other sizes than the counts say, what candidate_map
-// throws for, more than CHAMFER_MAX_POINTS points in a particle.
+// Agreement: integers, equal on every path bit for bit. LogicError: lists of other sizes than the counts say,
+// what candidate_map throws for, more than CHAMFER_MAX_POINTS points in a particle.
 #pragma once
 
 #include <cstdint>
@@ -26,7 +30,8 @@
 
 namespace edgescout {
 
-inline constexpr std::uint32_t CHAMFER_MAX_POINTS = 16384;  // lavapipe ends a shader's loops after 65535 turns in all
+inline constexpr std::uint32_t CHAMFER_MAX_POINTS =
+    16384;  // lavapipe ends a shader's loops after 65535 turns in all
 
 struct ParticlePoint {
   float x_px, y_px;     // on the map
@@ -36,17 +41,20 @@ struct ParticlePoint {
 
 // Everything seen from one view.
 struct ChamferView {
-  int width = 0, height = 0;                         // of the map
-  std::span<const CandidateMap> candidates;          // in the order of the combinations' bits
-  std::span<const MapEdge> edges;                    // of all candidates
-  std::span<const std::uint32_t> nearest;            // as candidate_map() gives it
-  std::span<const float> surface_m;                  // depths with the layout of `nearest`, DEPTH_EMPTY where there is no object
-  std::span<const ParticlePoint> points;             // of all particles
-  std::span<const std::uint32_t> first_point;        // particles + 1: particle i has points [first_point[i], first_point[i + 1])
+  int width = 0, height = 0;                 // of the map
+  std::span<const CandidateMap> candidates;  // in the order of the combinations' bits
+  std::span<const MapEdge> edges;            // of all candidates
+  std::span<const std::uint32_t> nearest;    // as candidate_map() gives it
+  std::span<const float>
+      surface_m;  // depths with the layout of `nearest`, DEPTH_EMPTY where there is no object
+  std::span<const ParticlePoint> points;  // of all particles
+  std::span<const std::uint32_t>
+      first_point;  // particles + 1: particle i has points [first_point[i], first_point[i + 1])
   std::size_t particles() const { return first_point.empty() ? 0 : first_point.size() - 1; }
 };
 
-// One row of words a combination; candidate c is bit c % 32 of word c / 32. Bits beyond the candidates mean nothing.
+// One row of words a combination; candidate c is bit c % 32 of word c / 32. Bits beyond the candidates mean
+// nothing.
 struct CombinationBits {
   std::uint32_t count = 0, candidates = 0;
   std::span<const std::uint32_t> words;  // count * row_words()
@@ -57,8 +65,9 @@ struct CombinationBits {
 };
 
 struct ChamferOptions {
-  float tolerance_m = 0.01f;                                           // >= 0
-  float cap_px = float(CHAMFER_CAP) / float(CHAMFER_STEPS_PER_PX);     // px of the map, 1/16 to 255/16; rounded to 1/16
+  float tolerance_m = 0.01f;  // >= 0
+  float cap_px =
+      float(CHAMFER_CAP) / float(CHAMFER_STEPS_PER_PX);  // px of the map, 1/16 to 255/16; rounded to 1/16
   std::uint32_t cap_steps() const { return std::uint32_t(cap_px * float(CHAMFER_STEPS_PER_PX) + 0.5f); }
   void validate() const;  // throws InputError
 };
@@ -72,12 +81,15 @@ inline double mean_px(const ChamferCell& cell, double cap_px) {
 }
 
 // What every path asks of its input; throws LogicError, and InputError for the options.
-void check_chamfer(const ChamferView& view, const CombinationBits& combinations, const ChamferOptions& options);
+void check_chamfer(const ChamferView& view, const CombinationBits& combinations,
+                   const ChamferOptions& options);
 
 // Cells [particle][combination].
-std::vector<ChamferCell> combination_chamfer_reference(const ChamferView& view, const CombinationBits& combinations,
+std::vector<ChamferCell> combination_chamfer_reference(const ChamferView& view,
+                                                       const CombinationBits& combinations,
                                                        const ChamferOptions& options);
-std::vector<ChamferCell> combination_chamfer_fast(const ChamferView& view, const CombinationBits& combinations,
+std::vector<ChamferCell> combination_chamfer_fast(const ChamferView& view,
+                                                  const CombinationBits& combinations,
                                                   const ChamferOptions& options, ThreadPool& pool);
 
 }  // namespace edgescout

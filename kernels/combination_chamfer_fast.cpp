@@ -1,4 +1,5 @@
-// Realizations in blocks of 64, one byte each: a block's masks and rows stay in the second-level cache, its sums in registers.
+// Realizations in blocks of 64, one byte each: a block's masks and rows stay in the second-level cache, its
+// sums in registers.
 #include <algorithm>
 #include <array>
 #include <span>
@@ -25,7 +26,8 @@ std::vector<Lanes> absent_members(const CombinationBits& combinations, std::size
   std::vector<Lanes> absent(combinations.candidates);
   for (std::size_t lane = 0; lane < block; ++lane)
     for (std::uint32_t c = 0; c < combinations.candidates; ++c)
-      absent[c].bytes[lane] = first + lane < combinations.count && combinations.has(first + lane, c) ? 0 : 0xff;
+      absent[c].bytes[lane] =
+          first + lane < combinations.count && combinations.has(first + lane, c) ? 0 : 0xff;
   return absent;
 }
 
@@ -35,7 +37,8 @@ void fill_masks(const ChamferPlan& plan, const Lanes* absent, Lanes* masks) {
   for (std::size_t m = 0; m < plan.masks.size(); ++m) {
     const ChamferMask& mask = plan.masks[m];
     Bytes out = mask.member == CHAMFER_NO_MEMBER ? Bytes{} : absent[mask.member].bytes;
-    for (std::uint32_t h = 0; h < mask.hider_count; ++h) out |= ~absent[plan.hiders[mask.first_hider + h]].bytes;
+    for (std::uint32_t h = 0; h < mask.hider_count; ++h)
+      out |= ~absent[plan.hiders[mask.first_hider + h]].bytes;
     masks[m].bytes = out;
   }
 }
@@ -51,7 +54,8 @@ void fill_rows(const ChamferPlan& plan, const Lanes* masks, Lanes* rows) {
     while (reach != end) {
       const std::uint32_t* stop = std::min(reach + stride, end);
       for (; reach != stop; ++reach) {
-        const Bytes distance = (Bytes{} + static_cast<std::uint8_t>(*reach >> 24)) | masks[*reach & 0xffffffu].bytes;
+        const Bytes distance =
+            (Bytes{} + static_cast<std::uint8_t>(*reach >> 24)) | masks[*reach & 0xffffffu].bytes;
         least = distance < least ? distance : least;
       }
       if (reach == end) break;
@@ -76,7 +80,8 @@ void flush(const Bytes& bytes, std::array<std::uint32_t, block>& sums) {
 
 using Visits = std::span<const ChamferVisit>;
 
-// As many visits, from the first, as have at most CHAMFER_POINTS_AT_ONCE points: sums of distances fit 16 bits, counts a byte.
+// As many visits, from the first, as have at most CHAMFER_POINTS_AT_ONCE points: sums of distances fit 16
+// bits, counts a byte.
 Visits take(Visits visits) {
   std::size_t count = 0;
   for (std::uint32_t points = 0; count < visits.size(); ++count) {
@@ -119,7 +124,8 @@ Sums sums_of(const ChamferPlan& plan, const ChamferRun& run, const Lanes* masks,
     now = take(rest);
     add_distances(now, rows, sums);
   }
-  for (Visits rest = all.subspan(run.first_hideable - run.first), now; !rest.empty(); rest = rest.subspan(now.size())) {
+  for (Visits rest = all.subspan(run.first_hideable - run.first), now; !rest.empty();
+       rest = rest.subspan(now.size())) {
     now = take(rest);
     count_hidden(now, plan, masks, sums);
   }
@@ -128,7 +134,8 @@ Sums sums_of(const ChamferPlan& plan, const ChamferRun& run, const Lanes* masks,
 
 }  // namespace
 
-std::vector<ChamferCell> combination_chamfer_fast(const ChamferView& view, const CombinationBits& combinations,
+std::vector<ChamferCell> combination_chamfer_fast(const ChamferView& view,
+                                                  const CombinationBits& combinations,
                                                   const ChamferOptions& options, ThreadPool& pool) {
   check_chamfer(view, combinations, options);
   const ChamferPlan plan = plan_chamfer(view, options, pool);
@@ -143,7 +150,8 @@ std::vector<ChamferCell> combination_chamfer_fast(const ChamferView& view, const
       const ChamferRun& run = plan.particles[i];
       const Sums sums = sums_of(plan, run, masks.data(), rows.data());
       for (std::size_t lane = 0; lane < lanes; ++lane)
-        cells[i * combinations.count + first + lane] = {sums.distance[lane], std::uint16_t(run.points - sums.hidden[lane]),
+        cells[i * combinations.count + first + lane] = {sums.distance[lane],
+                                                        std::uint16_t(run.points - sums.hidden[lane]),
                                                         std::uint16_t(run.fresh - sums.hidden_fresh[lane])};
     }
   });

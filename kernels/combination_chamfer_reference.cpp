@@ -13,7 +13,8 @@ namespace {
 
 class Realization {
  public:
-  Realization(const ChamferView& view, const CombinationBits& combinations, std::size_t j, const ChamferOptions& options)
+  Realization(const ChamferView& view, const CombinationBits& combinations, std::size_t j,
+              const ChamferOptions& options)
       : view_(view), tolerance_m_(options.tolerance_m), cap_(options.cap_steps()) {
     for (std::uint32_t c = 0; c < combinations.candidates; ++c)
       if (combinations.has(j, c)) members_.push_back(c);
@@ -34,7 +35,8 @@ class Realization {
       const CandidateMap& map = view_.candidates[c];
       if (!map.window.contains(x, y)) continue;
       const std::uint32_t word = view_.nearest[map.first_pixel + map.window.index(x, y)];
-      if (word == CANDIDATE_MAP_EMPTY || edge_hidden(c, view_.edges[map.first_edge + (word & 0xffffu)])) continue;
+      if (word == CANDIDATE_MAP_EMPTY || edge_hidden(c, view_.edges[map.first_edge + (word & 0xffffu)]))
+        continue;
       least = std::min(least, chamfer_steps(word));
     }
     return least;
@@ -43,7 +45,8 @@ class Realization {
  private:
   bool edge_hidden(std::uint32_t c, const MapEdge& edge) const {
     int x = 0, y = 0;
-    check(nearest_pixel(edge.x_px, edge.y_px, view_.width, view_.height, x, y), "combination_chamfer: a nearest edge point outside");
+    check(nearest_pixel(edge.x_px, edge.y_px, view_.width, view_.height, x, y),
+          "combination_chamfer: a nearest edge point outside");
     return hides(x, y, edge.z_m, c);
   }
 
@@ -72,19 +75,26 @@ ChamferCell cell_of(const ChamferView& view, const Realization& realization, std
 }  // namespace
 
 void ChamferOptions::validate() const {
-  if (!(tolerance_m >= 0)) throw InputError("chamfer options", "tolerance_m", std::to_string(tolerance_m), "a length from 0");
+  if (!(tolerance_m >= 0))
+    throw InputError("chamfer options", "tolerance_m", std::to_string(tolerance_m), "a length from 0");
   const float most = float(CHAMFER_CAP) / float(CHAMFER_STEPS_PER_PX);
   if (!(cap_px >= 1 / float(CHAMFER_STEPS_PER_PX) && cap_px <= most))
-    throw InputError("chamfer options", "cap_px", std::to_string(cap_px), "0.0625 to " + std::to_string(most));
+    throw InputError("chamfer options", "cap_px", std::to_string(cap_px),
+                     "0.0625 to " + std::to_string(most));
 }
 
-void check_chamfer(const ChamferView& view, const CombinationBits& combinations, const ChamferOptions& options) {
+void check_chamfer(const ChamferView& view, const CombinationBits& combinations,
+                   const ChamferOptions& options) {
   options.validate();
   check_candidate_maps(view.edges.size(), view.candidates, view.width, view.height, view.nearest.size());
-  check(view.surface_m.size() == view.nearest.size(), "combination_chamfer: as many surface depths as pixels");
-  check(combinations.candidates == view.candidates.size(), "combination_chamfer: combinations of other candidates");
-  check(combinations.words.size() == combinations.count * combinations.row_words(), "combination_chamfer: words of the combinations");
-  check(!view.first_point.empty() && view.first_point.back() <= view.points.size(), "combination_chamfer: points beyond the list");
+  check(view.surface_m.size() == view.nearest.size(),
+        "combination_chamfer: as many surface depths as pixels");
+  check(combinations.candidates == view.candidates.size(),
+        "combination_chamfer: combinations of other candidates");
+  check(combinations.words.size() == combinations.count * combinations.row_words(),
+        "combination_chamfer: words of the combinations");
+  check(!view.first_point.empty() && view.first_point.back() <= view.points.size(),
+        "combination_chamfer: points beyond the list");
   for (std::size_t i = 0; i < view.particles(); ++i) {
     const std::uint32_t first = view.first_point[i], end = view.first_point[i + 1];
     check(first <= end && end - first <= CHAMFER_MAX_POINTS, "combination_chamfer: points of a particle");
@@ -93,13 +103,15 @@ void check_chamfer(const ChamferView& view, const CombinationBits& combinations,
     check(view.points[p].fresh <= 1, "combination_chamfer: fresh is 0 or 1");
 }
 
-std::vector<ChamferCell> combination_chamfer_reference(const ChamferView& view, const CombinationBits& combinations,
+std::vector<ChamferCell> combination_chamfer_reference(const ChamferView& view,
+                                                       const CombinationBits& combinations,
                                                        const ChamferOptions& options) {
   check_chamfer(view, combinations, options);
   std::vector<ChamferCell> cells(view.particles() * combinations.count);
   for (std::size_t j = 0; j < combinations.count; ++j) {
     const Realization realization(view, combinations, j, options);
-    for (std::size_t i = 0; i < view.particles(); ++i) cells[i * combinations.count + j] = cell_of(view, realization, i);
+    for (std::size_t i = 0; i < view.particles(); ++i)
+      cells[i * combinations.count + j] = cell_of(view, realization, i);
   }
   return cells;
 }

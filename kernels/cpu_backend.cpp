@@ -150,8 +150,8 @@ class CpuBackend : public Backend {
       depth_raster_reference(mesh, jobs, width, height, depth);
   }
 
-  void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width, int height,
-                     std::span<std::uint32_t> nearest) override {
+  void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width,
+                     int height, std::span<std::uint32_t> nearest) override {
     const Timer timer(*this, "candidate_map");
     if (fast_)
       candidate_map_fast(edges, maps, width, height, nearest, pool_);

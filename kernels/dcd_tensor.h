@@ -38,9 +38,9 @@ Seed seed_of(const EdgePoint& point, const TensorShape& shape);
 // Plain and single-threaded: a two-pass exact distance transform a bin, then the recursion as printed.
 std::vector<std::uint16_t> dcd_tensor_reference(std::span<const EdgePoint> edges, int width, int height,
                                                 const TensorOptions& options);
-// The same values, SIMD and threads, into `out` (TensorShape::size() values). Bands of rows are finished one by one
-// while they sit in the second-level cache: every edge point stamps its disc of distances (radius: the cap) into the
-// band, then the recursion runs over it.
+// The same values, SIMD and threads, into `out` (TensorShape::size() values). Bands of rows are finished one
+// by one while they sit in the second-level cache: every edge point stamps its disc of distances (radius: the
+// cap) into the band, then the recursion runs over it.
 void dcd_tensor_fast(std::span<const EdgePoint> edges, int width, int height, const TensorOptions& options,
                      ThreadPool& pool, std::span<std::uint16_t> out);
 

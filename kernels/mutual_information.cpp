@@ -23,7 +23,8 @@ double log_sum_exp(std::span<const double> logs) {
 }
 
 // log l_ij, with Upsilon where the paper's own form is asked for.
-double log_likelihood(const ChamferCell& cell, double cap_px, const ParticleBelief& belief, const InformationOptions& options) {
+double log_likelihood(const ChamferCell& cell, double cap_px, const ParticleBelief& belief,
+                      const InformationOptions& options) {
   const double seen = std::max(0.5, double(belief.already_seen) + cell.fresh), mu = mean_px(cell, cap_px);
   const double upsilon = options.literal ? belief.upsilon_px2 : 0;
   return std::log(seen / belief.total) - (mu * mu + upsilon) / options.scale_px2;
@@ -33,16 +34,19 @@ std::vector<double> log_likelihoods(const ChamferTable& table, std::uint32_t i, 
                                     const InformationOptions& options) {
   std::vector<double> logs;
   for (std::uint32_t j = 0; j < table.realizations; ++j)
-    logs.push_back(log_likelihood(table.cells[std::size_t(i) * table.realizations + j], table.cap_px, belief, options));
+    logs.push_back(
+        log_likelihood(table.cells[std::size_t(i) * table.realizations + j], table.cap_px, belief, options));
   if (options.literal) return logs;
   const double total = log_sum_exp(logs);
   for (double& v : logs) v -= total;
   return logs;
 }
 
-void check_table(const ChamferTable& table, std::span<const ParticleBelief> beliefs, const InformationOptions& options) {
+void check_table(const ChamferTable& table, std::span<const ParticleBelief> beliefs,
+                 const InformationOptions& options) {
   check_information(table.particles, table.realizations, beliefs, options);
-  check(table.cells.size() == std::size_t(table.particles) * table.realizations, "mutual_information: cells of the table");
+  check(table.cells.size() == std::size_t(table.particles) * table.realizations,
+        "mutual_information: cells of the table");
 }
 
 }  // namespace
@@ -60,15 +64,16 @@ void InformationOptions::validate() const {
     throw InputError("information options", "scale_px2", std::to_string(scale_px2), "a number above 0");
 }
 
-void check_information(std::uint32_t particles, std::uint32_t realizations, std::span<const ParticleBelief> beliefs,
-                       const InformationOptions& options) {
+void check_information(std::uint32_t particles, std::uint32_t realizations,
+                       std::span<const ParticleBelief> beliefs, const InformationOptions& options) {
   options.validate();
   check(particles > 0 && realizations > 0, "mutual_information: no particles or no realizations");
   check(particles <= INFORMATION_MAX_PARTICLES, "mutual_information: too many particles");
   check(beliefs.size() == particles, "mutual_information: as many beliefs as particles");
   bool any = false;
   for (const ParticleBelief& belief : beliefs) {
-    check(belief.log_weight < std::numeric_limits<double>::infinity(), "mutual_information: a log weight that is none");
+    check(belief.log_weight < std::numeric_limits<double>::infinity(),
+          "mutual_information: a log weight that is none");
     check(belief.total > 0, "mutual_information: a template without points");
     any = any || std::isfinite(belief.log_weight);
   }
@@ -80,7 +85,8 @@ double mutual_information_reference(const ChamferTable& table, std::span<const P
   check_table(table, beliefs, options);
   const std::vector<double> log_weight = normalised_log_weights(beliefs);
   std::vector<std::vector<double>> log_rows;
-  for (std::uint32_t i = 0; i < table.particles; ++i) log_rows.push_back(log_likelihoods(table, i, beliefs[i], options));
+  for (std::uint32_t i = 0; i < table.particles; ++i)
+    log_rows.push_back(log_likelihoods(table, i, beliefs[i], options));
   double information = 0;
   for (std::uint32_t j = 0; j < table.realizations; ++j) {
     std::vector<double> joint;
@@ -103,13 +109,15 @@ struct Share {
 
 class FastInformation {
  public:
-  FastInformation(const ChamferTable& table, std::span<const ParticleBelief> beliefs, const InformationOptions& options)
+  FastInformation(const ChamferTable& table, std::span<const ParticleBelief> beliefs,
+                  const InformationOptions& options)
       : table_(table), beliefs_(beliefs), options_(options), log_weight_(normalised_log_weights(beliefs)) {
     std::size_t fresh = 0, seen = 0;
     for (const ChamferCell& cell : table.cells) fresh = std::max<std::size_t>(fresh, cell.fresh);
     for (const ParticleBelief& belief : beliefs) seen = std::max<std::size_t>(seen, belief.already_seen);
     log_count_.push_back(std::log(0.5));
-    for (std::size_t k = 1; k <= std::min(fresh + seen, most_tabled); ++k) log_count_.push_back(std::log(double(k)));
+    for (std::size_t k = 1; k <= std::min(fresh + seen, most_tabled); ++k)
+      log_count_.push_back(std::log(double(k)));
   }
 
   Share share(std::size_t begin, std::size_t end) const {
@@ -136,14 +144,18 @@ class FastInformation {
 
   void fill_logs(std::size_t i, std::span<double> logs) const {
     const ParticleBelief& belief = beliefs_[i];
-    const double offset = std::log(double(belief.total)) + (options_.literal ? belief.upsilon_px2 / options_.scale_px2 : 0);
+    const double offset =
+        std::log(double(belief.total)) + (options_.literal ? belief.upsilon_px2 / options_.scale_px2 : 0);
     const std::span cells = table_.cells.subspan(i * table_.realizations, table_.realizations);
     for (std::size_t j = 0; j < logs.size(); ++j) {
       const double mu = mean_px(cells[j], table_.cap_px);
-      logs[j] = log_count(std::size_t(belief.already_seen) + cells[j].fresh) - mu * mu / options_.scale_px2 - offset;
+      logs[j] = log_count(std::size_t(belief.already_seen) + cells[j].fresh) - mu * mu / options_.scale_px2 -
+                offset;
     }
   }
-  double log_count(std::size_t k) const { return k < log_count_.size() ? log_count_[k] : std::log(double(k)); }
+  double log_count(std::size_t k) const {
+    return k < log_count_.size() ? log_count_[k] : std::log(double(k));
+  }
 
   const ChamferTable& table_;
   std::span<const ParticleBelief> beliefs_;
@@ -155,8 +167,8 @@ class FastInformation {
 }  // namespace
 
 // I = sum_i w_i sum_j L log L - sum_j p log p: one look at every particle, and no table beside the cells.
-double mutual_information_fast(const ChamferTable& table, std::span<const ParticleBelief> beliefs, const InformationOptions& options,
-                               ThreadPool& pool) {
+double mutual_information_fast(const ChamferTable& table, std::span<const ParticleBelief> beliefs,
+                               const InformationOptions& options, ThreadPool& pool) {
   check_table(table, beliefs, options);
   const FastInformation information(table, beliefs, options);
   constexpr std::size_t chunk = 16;  // sums are of the same order whatever the number of threads

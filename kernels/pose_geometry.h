@@ -1,4 +1,5 @@
-// One model point under one pose: where it lands, how its edge is oriented there, and how both move with the pose.
+// One model point under one pose: where it lands, how its edge is oriented there, and how both move with the
+// pose.
 #pragma once
 
 #include <cmath>
@@ -29,7 +30,9 @@ struct PosedPoint {
 template <typename T>
 PosedPoint<T> pose_point(const Pose& pose, const ModelPoint& model) {
   const Vec3<T> arm = rotate<T>(pose, model.x_m, model.y_m, model.z_m);
-  return {arm, {arm.x + pose.m[3], arm.y + pose.m[7], arm.z + pose.m[11]}, rotate<T>(pose, model.tx, model.ty, model.tz)};
+  return {arm,
+          {arm.x + pose.m[3], arm.y + pose.m[7], arm.z + pose.m[11]},
+          rotate<T>(pose, model.tx, model.ty, model.tz)};
 }
 
 // Projection of the point, and of its tangent up to a positive factor: d = z^2 * d(projection)(tangent).

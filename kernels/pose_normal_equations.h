@@ -1,9 +1,9 @@
 // Residuals and 6x6 systems of many poses on DCD tensors (paper, Eqs. 8 and 11).
 //
 // One problem is one pose in one view: its model points are projected, the tensor is read by trilinear
-// interpolation in x, y and (circularly) orientation, and value and derivative come from the same interpolant.
-// With r_i the value in px at point i and J_i its derivative by the tangent of core/se3.h in the camera
-// frame ([translation m, rotation rad], rotation about the object's origin):
+// interpolation in x, y and (circularly) orientation, and value and derivative come from the same
+// interpolant. With r_i the value in px at point i and J_i its derivative by the tangent of core/se3.h in the
+// camera frame ([translation m, rotation rad], rotation about the object's origin):
 //   hessian  = sum w_i J_i J_i'   (upper triangle, row by row: 21 numbers)
 //   gradient = sum w_i r_i J_i
 //   cost     = sum rho(r_i),  w_i = rho'(r_i) / r_i
@@ -13,11 +13,12 @@
 // Outside the image the value is that of the nearest border pixel plus the distance to it in px: smooth,
 // growing, pulling back. A point at or behind z = POSE_MIN_DEPTH_M counts in `behind` and nowhere else.
 //
-// Orientation: xi = atan2(dy, dx) mod pi of the projected tangent, d = d(projection) * (R tangent). An edge seen end on has none
-// that could be trusted: where |d| < POSE_MIN_FORESHORTENING * fx * z the derivative by orientation counts as zero.
+// Orientation: xi = atan2(dy, dx) mod pi of the projected tangent, d = d(projection) * (R tangent). An edge
+// seen end on has none that could be trusted: where |d| < POSE_MIN_FORESHORTENING * fx * z the derivative by
+// orientation counts as zero.
 //
-// Agreement: reference accumulates in double; the fast path and Vulkan in float by groups of points; sums agree to
-// 1e-3 relative to the largest entry of the same system (order of summation and the device's atan2).
+// Agreement: reference accumulates in double; the fast path and Vulkan in float by groups of points; sums
+// agree to 1e-3 relative to the largest entry of the same system (order of summation and the device's atan2).
 #ifndef EDGESCOUT_POSE_NORMAL_EQUATIONS_H
 #define EDGESCOUT_POSE_NORMAL_EQUATIONS_H
 
@@ -65,11 +66,11 @@ struct PoseLoss {
 struct NormalEquations {
   float hessian[21];
   float gradient[6];
-  float cost;            // sum of rho, px^2
-  float residual_sum;    // sum of r, px
-  float weight_sum;      // sum of w
-  float points;          // points in front of the camera
-  float behind;          // points that were not
+  float cost;          // sum of rho, px^2
+  float residual_sum;  // sum of r, px
+  float weight_sum;    // sum of w
+  float points;        // points in front of the camera
+  float behind;        // points that were not
 };
 
 // Value in px at (x, y, theta) and, where `derivative` is not null, its derivatives by x, y (px/px) and

@@ -1,10 +1,11 @@
-// How well many poses fit many views: mean tensor value (Eq. 7), gradient-direction score Psi (Eq. 10) and the
-// fraction of points that find an edge.
+// How well many poses fit many views: mean tensor value (Eq. 7), gradient-direction score Psi (Eq. 10) and
+// the fraction of points that find an edge.
 //
 // Per problem, over the points in front of the camera and inside the image:
 //   mean_px = mean of the trilinear tensor value (pose_normal_equations.h);
 //   psi     = mean of |n . g| / |g|, n the unit normal of the projected edge, g the image gradient at the
-//             nearest pixel; a gradient weaker than `min_gradient` counts 0, not as chance (which would give 0.64);
+//             nearest pixel; a gradient weaker than `min_gradient` counts 0, not as chance (which would give
+//             0.64);
 //   matched = fraction with a tensor value below match_px.
 // No point inside: mean_px = cap of the tensor, psi = matched = 0.
 //
@@ -18,7 +19,8 @@
 
 namespace edgescout {
 
-// Central differences (I(x+1) - I(x-1)) / 2, grey levels a pixel, as pairs [gx, gy]; zero on the border rows and columns.
+// Central differences (I(x+1) - I(x-1)) / 2, grey levels a pixel, as pairs [gx, gy]; zero on the border rows
+// and columns.
 std::vector<std::int16_t> image_gradient_x2(const ImageView& image);  // twice the gradient, exact integers
 
 struct ScoreView {
@@ -29,7 +31,7 @@ struct ScoreView {
 struct PoseScoreOptions {
   float min_gradient = 2.0f;  // grey levels a pixel
   float match_px = 6.0f;
-  float cap_px = 60.0f;       // reported where nothing is inside
+  float cap_px = 60.0f;  // reported where nothing is inside
 };
 
 struct PoseScore {

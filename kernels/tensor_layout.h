@@ -29,10 +29,10 @@ namespace edgescout {
 
 // Sampling of the tensor and the parameters of its metric (paper, Eqs. 4-6).
 struct TensorOptions {
-  int bins = 60;                     // orientations over pi; even, in [4, 128]
-  float lambda_px_per_rad = 30.0f;   // weight of orientation against location (paper: 100; docs/evaluation.md)
-  float smoothing_variance = 1.0f;   // of the circular Gaussian over orientation, bins^2; 0: none
-  float cap_px = 60.0f;              // no value is larger, in (0, 255]
+  int bins = 60;                    // orientations over pi; even, in [4, 128]
+  float lambda_px_per_rad = 30.0f;  // weight of orientation against location (paper: 100; docs/evaluation.md)
+  float smoothing_variance = 1.0f;  // of the circular Gaussian over orientation, bins^2; 0: none
+  float cap_px = 60.0f;             // no value is larger, in (0, 255]
   // Throws InputError naming the field and the violated bound.
   void validate() const;
 };

@@ -13,10 +13,16 @@ struct BitMatrix {
 
   BitMatrix() = default;
   BitMatrix(std::size_t row_count, std::size_t column_count)
-      : rows(std::uint32_t(row_count)), columns(std::uint32_t(column_count)), words(row_count * row_words()) {}
+      : rows(std::uint32_t(row_count)),
+        columns(std::uint32_t(column_count)),
+        words(row_count * row_words()) {}
   std::size_t row_words() const { return (std::size_t(columns) + 31) / 32; }
-  bool has(std::size_t row, std::size_t column) const { return words[row * row_words() + column / 32] >> (column % 32) & 1u; }
-  void set(std::size_t row, std::size_t column) { words[row * row_words() + column / 32] |= 1u << (column % 32); }
+  bool has(std::size_t row, std::size_t column) const {
+    return words[row * row_words() + column / 32] >> (column % 32) & 1u;
+  }
+  void set(std::size_t row, std::size_t column) {
+    words[row * row_words() + column / 32] |= 1u << (column % 32);
+  }
 };
 
 }  // namespace edgescout

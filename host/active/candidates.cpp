@@ -10,11 +10,13 @@ namespace edgescout {
 namespace {
 
 void sort_by_probability(std::vector<Detection>& detections) {
-  std::ranges::stable_sort(detections, [](const Detection& a, const Detection& b) { return a.probability > b.probability; });
+  std::ranges::stable_sort(
+      detections, [](const Detection& a, const Detection& b) { return a.probability > b.probability; });
 }
 
 // Best first. Duplicates exist within one object only.
-std::vector<Detection> different_ones(const std::vector<Detection>& detections, std::span<const TemplateSet> sets) {
+std::vector<Detection> different_ones(const std::vector<Detection>& detections,
+                                      std::span<const TemplateSet> sets) {
   std::vector<Detection> kept;
   for (std::size_t object = 0; object < sets.size(); ++object) {
     std::vector<Detection> same;
@@ -27,7 +29,9 @@ std::vector<Detection> different_ones(const std::vector<Detection>& detections, 
         keys.push_back(-d.probability);
       }
     const Mesh& mesh = sets[object].model.mesh;
-    for (std::size_t i : best_different(poses, keys, mesh, sets[object].symmetries, 0.1 * mesh.diameter_m, poses.size())) kept.push_back(same[i]);
+    for (std::size_t i :
+         best_different(poses, keys, mesh, sets[object].symmetries, 0.1 * mesh.diameter_m, poses.size()))
+      kept.push_back(same[i]);
   }
   sort_by_probability(kept);
   return kept;
@@ -35,22 +39,29 @@ std::vector<Detection> different_ones(const std::vector<Detection>& detections, 
 
 }  // namespace
 
-std::vector<Detection> candidates_in_image(std::span<const TemplateSet> sets, const Observation& observation, std::span<const Observation> earlier,
-                                           Backend& backend, const DetectOptions& options) {
+std::vector<Detection> candidates_in_image(std::span<const TemplateSet> sets, const Observation& observation,
+                                           std::span<const Observation> earlier, Backend& backend,
+                                           const DetectOptions& options) {
   std::vector<Detection> found;
   for (std::size_t object = 0; object < sets.size(); ++object)
     for (const Refined& candidate : find_candidates(sets[object], observation, earlier, backend, options)) {
-      found.push_back(candidate_in_world(to_detection(static_cast<int>(object), candidate.registration, candidate.features), observation.view.camera_from_world));
+      found.push_back(candidate_in_world(
+          to_detection(static_cast<int>(object), candidate.registration, candidate.features),
+          observation.view.camera_from_world));
       found.back().probability = probability_over_views(candidate.by_view);
     }
   sort_by_probability(found);
   return found;
 }
 
-std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets, std::span<const EdgeModel> models, std::span<const Detection> candidates,
-                                          std::span<const RegisterView> views, std::size_t most, Backend& backend, const DetectOptions& options) {
+std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets,
+                                          std::span<const EdgeModel> models,
+                                          std::span<const Detection> candidates,
+                                          std::span<const RegisterView> views, std::size_t most,
+                                          Backend& backend, const DetectOptions& options) {
   std::vector<Hypothesis> starts;
-  for (const Detection& candidate : candidates) starts.push_back({candidate.object, candidate.world_from_object});
+  for (const Detection& candidate : candidates)
+    starts.push_back({candidate.object, candidate.world_from_object});
   RefineOptions refine = options.refine;
   refine.search.rotation_rad = 0;  // the search around them was made in their own images
   const std::vector<Refined> refined = refine_poses(models, starts, views, backend, refine);
@@ -65,16 +76,20 @@ std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets, std
   return detections;
 }
 
-std::vector<Detection> without_particles(std::span<const Detection> candidates, std::span<const Particle> particles, std::span<const TemplateSet> sets,
-                                         double radius, double min_probability) {
+std::vector<Detection> without_particles(std::span<const Detection> candidates,
+                                         std::span<const Particle> particles,
+                                         std::span<const TemplateSet> sets, double radius,
+                                         double min_probability) {
   std::vector<Detection> unknown;
   for (const Detection& candidate : candidates) {
     const TemplateSet& set = sets[static_cast<std::size_t>(candidate.object)];
     const auto is_near = [&](const Particle& particle) {
       return particle.object == candidate.object &&
-             pose_distance_m(particle.world_from_object, candidate.world_from_object, set.model.mesh, set.symmetries) < radius * set.model.mesh.diameter_m;
+             pose_distance_m(particle.world_from_object, candidate.world_from_object, set.model.mesh,
+                             set.symmetries) < radius * set.model.mesh.diameter_m;
     };
-    if (candidate.probability >= min_probability && std::ranges::none_of(particles, is_near)) unknown.push_back(candidate);
+    if (candidate.probability >= min_probability && std::ranges::none_of(particles, is_near))
+      unknown.push_back(candidate);
   }
   return unknown;
 }

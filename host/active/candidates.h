@@ -1,4 +1,5 @@
-// The object candidates of an active detection: found in single images, refined over all of them (paper, Algorithm 2, lines 2 and 3).
+// The object candidates of an active detection: found in single images, refined over all of them (paper,
+// Algorithm 2, lines 2 and 3).
 #pragma once
 
 #include <span>
@@ -9,17 +10,26 @@
 
 namespace edgescout {
 
-// Of all objects in one image, with the help of the images before it (none: alone), in the world; the most probable first.
-std::vector<Detection> candidates_in_image(std::span<const TemplateSet> sets, const Observation& observation, std::span<const Observation> earlier,
-                                           Backend& backend, const DetectOptions& options);
+// Of all objects in one image, with the help of the images before it (none: alone), in the world; the most
+// probable first.
+std::vector<Detection> candidates_in_image(std::span<const TemplateSet> sets, const Observation& observation,
+                                           std::span<const Observation> earlier, Backend& backend,
+                                           const DetectOptions& options);
 
-// Registers candidates over all views (Eq. 11), gives them the probability that the views' features together amount to (detect/probability_over_views.h), drops those that lie on no edge
-// at all and duplicates; the `most` most probable, best first.
-std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets, std::span<const EdgeModel> models, std::span<const Detection> candidates,
-                                          std::span<const RegisterView> views, std::size_t most, Backend& backend, const DetectOptions& options);
+// Registers candidates over all views (Eq. 11), gives them the probability that the views' features together
+// amount to (detect/probability_over_views.h), drops those that lie on no edge at all and duplicates; the
+// `most` most probable, best first.
+std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets,
+                                          std::span<const EdgeModel> models,
+                                          std::span<const Detection> candidates,
+                                          std::span<const RegisterView> views, std::size_t most,
+                                          Backend& backend, const DetectOptions& options);
 
-// Those that may be instances of which no particle knows: at least `min_probability`, and no particle within `radius` of the object's diameter (modulo symmetry).
-std::vector<Detection> without_particles(std::span<const Detection> candidates, std::span<const Particle> particles, std::span<const TemplateSet> sets,
-                                         double radius, double min_probability);
+// Those that may be instances of which no particle knows: at least `min_probability`, and no particle within
+// `radius` of the object's diameter (modulo symmetry).
+std::vector<Detection> without_particles(std::span<const Detection> candidates,
+                                         std::span<const Particle> particles,
+                                         std::span<const TemplateSet> sets, double radius,
+                                         double min_probability);
 
 }  // namespace edgescout

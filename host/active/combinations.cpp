@@ -20,15 +20,18 @@ int coins(std::size_t n, Random& random) {
   return n == 0 ? ones : ones + std::popcount(random.bits() >> (64 - n));
 }
 
-// Candidates in an order in which each next one is drawn with probability proportional to its weight among those left: that of exponential waiting times, one a
-// candidate, with the weights as rates (Efraimidis & Spirakis 2006).
-void draw_order(std::span<const double> weights, Random& random, std::vector<double>& waits, std::vector<std::size_t>& order) {
+// Candidates in an order in which each next one is drawn with probability proportional to its weight among
+// those left: that of exponential waiting times, one a candidate, with the weights as rates (Efraimidis &
+// Spirakis 2006).
+void draw_order(std::span<const double> weights, Random& random, std::vector<double>& waits,
+                std::vector<std::size_t>& order) {
   for (std::size_t i = 0; i < weights.size(); ++i) waits[i] = -std::log(1 - random.uniform()) / weights[i];
   std::iota(order.begin(), order.end(), 0);
   std::ranges::sort(order, {}, [&](std::size_t i) { return waits[i]; });
 }
 
-bool stands_with_all(std::size_t candidate, const BitMatrix& plausible, std::span<const std::uint32_t> members) {
+bool stands_with_all(std::size_t candidate, const BitMatrix& plausible,
+                     std::span<const std::uint32_t> members) {
   const std::uint32_t* beside = plausible.words.data() + candidate * plausible.row_words();
   for (std::size_t w = 0; w < members.size(); ++w)
     if (members[w] & ~beside[w]) return false;
@@ -38,15 +41,20 @@ bool stands_with_all(std::size_t candidate, const BitMatrix& plausible, std::spa
 }  // namespace
 
 void CombinationOptions::validate() const {
-  if (count < 1 || count > 1000000) throw InputError("options", "combinations.count", std::to_string(count), "a number in [1, 1000000]");
-  if (!(sharpness >= 0 && sharpness <= 500)) throw InputError("options", "combinations.sharpness", std::to_string(sharpness), "a number in [0, 500]");
+  if (count < 1 || count > 1000000)
+    throw InputError("options", "combinations.count", std::to_string(count), "a number in [1, 1000000]");
+  if (!(sharpness >= 0 && sharpness <= 500))
+    throw InputError("options", "combinations.sharpness", std::to_string(sharpness), "a number in [0, 500]");
 }
 
-BitMatrix sample_combinations(std::span<const double> psi, const BitMatrix& plausible, const CombinationOptions& options) {
+BitMatrix sample_combinations(std::span<const double> psi, const BitMatrix& plausible,
+                              const CombinationOptions& options) {
   options.validate();
   const std::size_t candidates = psi.size();
-  if (candidates == 0) throw InputError("combinations", "candidates", "none", "at least one object candidate");
-  check(plausible.rows == candidates && plausible.columns == candidates, "sample_combinations: plausible pairs of as many candidates");
+  if (candidates == 0)
+    throw InputError("combinations", "candidates", "none", "at least one object candidate");
+  check(plausible.rows == candidates && plausible.columns == candidates,
+        "sample_combinations: plausible pairs of as many candidates");
   std::vector<double> weights;
   for (const double score : psi) {
     check(score >= 0 && score <= 1, "sample_combinations: psi in [0, 1]");
@@ -59,7 +67,8 @@ BitMatrix sample_combinations(std::span<const double> psi, const BitMatrix& plau
   for (int j = 0; j < options.count; ++j) {
     const int draws = coins(candidates, random);
     draw_order(weights, random, waits, order);
-    const std::span<const std::uint32_t> members(combinations.words.data() + j * combinations.row_words(), combinations.row_words());
+    const std::span<const std::uint32_t> members(combinations.words.data() + j * combinations.row_words(),
+                                                 combinations.row_words());
     for (int k = 0; k < draws; ++k)
       if (stands_with_all(order[k], plausible, members)) combinations.set(j, order[k]);
   }

@@ -18,7 +18,8 @@ double weight_of(const Particle& particle) { return std::exp(particle.log_weight
 // Best first: by evidence where particles have been weighed, else by weight.
 std::vector<std::size_t> best_first(std::span<const Particle> particles) {
   std::vector<double> merit;
-  for (const Particle& particle : particles) merit.push_back(particle.by_view.empty() ? particle.log_weight : evidence(together(particle.by_view)));
+  for (const Particle& particle : particles)
+    merit.push_back(particle.by_view.empty() ? particle.log_weight : evidence(together(particle.by_view)));
   std::vector<std::size_t> order(particles.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return merit[a] > merit[b]; });
@@ -61,7 +62,8 @@ Detection to_detection(const Particle& particle, const PoseFeatures& features, d
 
 }  // namespace
 
-std::vector<Mode> find_modes(std::span<const Particle> particles, std::span<const TemplateSet> sets, const ParticleOptions& options) {
+std::vector<Mode> find_modes(std::span<const Particle> particles, std::span<const TemplateSet> sets,
+                             const ParticleOptions& options) {
   std::vector<Mode> modes;
   double total = 0;
   for (const std::size_t i : best_first(particles)) {
@@ -72,7 +74,8 @@ std::vector<Mode> find_modes(std::span<const Particle> particles, std::span<cons
     const double radius_m = options.mode_radius * set.model.mesh.diameter_m;
     auto home = std::ranges::find_if(modes, [&](const Mode& mode) {
       return mode.object == particle.object &&
-             pose_distance_m(particles[mode.particles[0]].world_from_object, particle.world_from_object, set.model.mesh, set.symmetries) < radius_m;
+             pose_distance_m(particles[mode.particles[0]].world_from_object, particle.world_from_object,
+                             set.model.mesh, set.symmetries) < radius_m;
     });
     if (home == modes.end()) {
       const double probability = probability_over_views(particle.by_view);
@@ -86,8 +89,10 @@ std::vector<Mode> find_modes(std::span<const Particle> particles, std::span<cons
   return modes;
 }
 
-std::vector<ModeDetection> mode_detections(std::span<const Particle> particles, std::span<const Mode> modes, std::span<const TemplateSet> sets,
-                                           std::span<const EdgeModel> models, std::span<const RegisterView> views, Backend& backend,
+std::vector<ModeDetection> mode_detections(std::span<const Particle> particles, std::span<const Mode> modes,
+                                           std::span<const TemplateSet> sets,
+                                           std::span<const EdgeModel> models,
+                                           std::span<const RegisterView> views, Backend& backend,
                                            const ModeDetectionOptions& options) {
   std::vector<const Mode*> probable;
   std::vector<Hypothesis> poses;
@@ -107,10 +112,13 @@ std::vector<ModeDetection> mode_detections(std::span<const Particle> particles, 
     ModeDetection detection{to_detection(best, features[chosen.index], mode.probability), mode.weight, {}};
     detection.detection.covariance += scatter(particles, mode, sets[mode.object]);
     for (std::size_t v = 0; v < views.size(); ++v)
-      if (pose_probability(best.by_view[v]) >= options.support_probability) detection.supporting_views.push_back(int(v));
+      if (pose_probability(best.by_view[v]) >= options.support_probability)
+        detection.supporting_views.push_back(int(v));
     found.push_back(std::move(detection));
   }
-  std::ranges::stable_sort(found, [](const ModeDetection& a, const ModeDetection& b) { return a.detection.probability > b.detection.probability; });
+  std::ranges::stable_sort(found, [](const ModeDetection& a, const ModeDetection& b) {
+    return a.detection.probability > b.detection.probability;
+  });
   return found;
 }
 

@@ -28,15 +28,18 @@ struct Watched {
 Watched watch(const Planning& planning, ThreadPool& pool, const NextViewOptions& options) {
   Watched watched;
   for (const Particle& particle : planning.particles)
-    if (particle.log_weight > -std::numeric_limits<double>::infinity()) watched.particles.push_back(&particle);
+    if (particle.log_weight > -std::numeric_limits<double>::infinity())
+      watched.particles.push_back(&particle);
   watched.seen.resize(watched.particles.size());
   pool.for_each(watched.particles.size(), [&](std::size_t i) {
     const Particle& particle = *watched.particles[i];
-    watched.seen[i] = seen_in(planning.tables[particle.object], particle.world_from_object, planning.real_views, options.seen_px);
+    watched.seen[i] = seen_in(planning.tables[particle.object], particle.world_from_object,
+                              planning.real_views, options.seen_px);
   });
   for (std::size_t i = 0; i < watched.particles.size(); ++i) {
     const Particle& particle = *watched.particles[i];
-    watched.beliefs.push_back({particle.log_weight, watched.seen[i].count, planning.tables[particle.object].total,
+    watched.beliefs.push_back({particle.log_weight, watched.seen[i].count,
+                               planning.tables[particle.object].total,
                                particle.upsilon_px2 / (options.reduction * options.reduction)});
   }
   return watched;
@@ -48,11 +51,13 @@ struct ShowingPoints {
   std::vector<std::uint32_t> first{0};
 };
 
-ShowingPoints showing(const Planning& planning, const Watched& watched, const Se3& camera_from_world, const Camera& map_camera, ThreadPool& pool) {
+ShowingPoints showing(const Planning& planning, const Watched& watched, const Se3& camera_from_world,
+                      const Camera& map_camera, ThreadPool& pool) {
   std::vector<std::vector<ParticlePoint>> lists(watched.particles.size());
   pool.for_each(lists.size(), [&](std::size_t i) {
     const Particle& particle = *watched.particles[i];
-    lists[i] = showing_points(planning.tables[particle.object], camera_from_world * particle.world_from_object, map_camera, watched.seen[i]);
+    lists[i] = showing_points(planning.tables[particle.object],
+                              camera_from_world * particle.world_from_object, map_camera, watched.seen[i]);
   });
   ShowingPoints all;
   for (const std::vector<ParticlePoint>& list : lists) {
@@ -69,48 +74,60 @@ double largest_diameter_m(std::span<const EdgeModel> models) {
 }
 
 // Eq. 15 with the likelihood of Eq. 20, of every view in `open`.
-std::vector<double> mutual_information(const Planning& planning, std::span<const std::size_t> open, Backend& backend, const NextViewOptions& options) {
+std::vector<double> mutual_information(const Planning& planning, std::span<const std::size_t> open,
+                                       Backend& backend, const NextViewOptions& options) {
   std::vector<double> information(open.size(), 0);
   const Watched watched = watch(planning, backend.threads(), options);
-  if (planning.candidates.empty() || !planning.combinations || planning.combinations->rows == 0 || watched.particles.empty()) return information;
-  check(planning.combinations->columns == planning.candidates.size(), "view_information: combinations of other candidates");
-  const CombinationBits bits{planning.combinations->rows, planning.combinations->columns, planning.combinations->words};
+  if (planning.candidates.empty() || !planning.combinations || planning.combinations->rows == 0 ||
+      watched.particles.empty())
+    return information;
+  check(planning.combinations->columns == planning.candidates.size(),
+        "view_information: combinations of other candidates");
+  const CombinationBits bits{planning.combinations->rows, planning.combinations->columns,
+                             planning.combinations->words};
   const Camera map_camera = scaled(planning.camera, 1 / options.reduction);
-  const ChamferOptions chamfer{float(options.tolerance * largest_diameter_m(planning.models)), float(options.cap_px / options.reduction)};
+  const ChamferOptions chamfer{float(options.tolerance * largest_diameter_m(planning.models)),
+                               float(options.cap_px / options.reduction)};
   const double sigma_px = options.sigma_px / options.reduction;
   const InformationOptions likelihood{2 * sigma_px * sigma_px, options.literal};
   const std::size_t block = std::max<std::size_t>(1, MAPS_AT_ONCE / planning.candidates.size());
   for (std::size_t first = 0; first < open.size(); first += block) {
     std::vector<Se3> cameras;
-    for (std::size_t i = first; i < std::min(first + block, open.size()); ++i) cameras.push_back(planning.views[open[i]]);
-    const CandidateScene scene = draw_candidates(planning.models, planning.candidates, map_camera, cameras, backend, options.visibility);
+    for (std::size_t i = first; i < std::min(first + block, open.size()); ++i)
+      cameras.push_back(planning.views[open[i]]);
+    const CandidateScene scene = draw_candidates(planning.models, planning.candidates, map_camera, cameras,
+                                                 backend, options.visibility);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       const ShowingPoints points = showing(planning, watched, cameras[i], map_camera, backend.threads());
       if (points.points.empty()) continue;
       ChamferView view = scene.seen_from(i);
       view.points = points.points;
       view.first_point = points.first;
-      information[first + i] = backend.mutual_information(*backend.combination_chamfer(view, bits, chamfer), watched.beliefs, likelihood);
+      information[first + i] = backend.mutual_information(*backend.combination_chamfer(view, bits, chamfer),
+                                                          watched.beliefs, likelihood);
     }
   }
   return information;
 }
 
 // Sec. 6.4: sum over the candidates of psi times the number of points that no real view has seen.
-std::vector<double> disocclusion(const Planning& planning, std::span<const std::size_t> open, ThreadPool& pool, const NextViewOptions& options) {
+std::vector<double> disocclusion(const Planning& planning, std::span<const std::size_t> open,
+                                 ThreadPool& pool, const NextViewOptions& options) {
   std::vector<double> gain(open.size(), 0);
   for (const Detection& candidate : planning.candidates) {
     const TemplateTable& table = planning.tables[candidate.object];
     const SeenPoints seen = seen_in(table, candidate.world_from_object, planning.real_views, options.seen_px);
     pool.for_each(open.size(), [&](std::size_t i) {
-      for (const ParticlePoint& point : showing_points(table, planning.views[open[i]] * candidate.world_from_object, planning.camera, seen))
+      for (const ParticlePoint& point : showing_points(
+               table, planning.views[open[i]] * candidate.world_from_object, planning.camera, seen))
         gain[i] += candidate.psi * point.fresh;
     });
   }
   return gain;
 }
 
-std::vector<double> random_values(std::size_t views, std::span<const std::size_t> open, std::size_t step, std::uint64_t seed) {
+std::vector<double> random_values(std::size_t views, std::span<const std::size_t> open, std::size_t step,
+                                  std::uint64_t seed) {
   // Every view draws, open or not: which one is taken at a step does not depend on what failed before.
   Random random = Random(seed).split("next view").split(step);
   std::vector<double> all(views);
@@ -120,7 +137,8 @@ std::vector<double> random_values(std::size_t views, std::span<const std::size_t
   return values;
 }
 
-std::vector<double> along_sequence(std::size_t views, std::span<const std::size_t> open, std::span<const int> sequence) {
+std::vector<double> along_sequence(std::size_t views, std::span<const std::size_t> open,
+                                   std::span<const int> sequence) {
   std::vector<double> values;
   for (const std::size_t v : open) {
     const auto place = std::ranges::find(sequence, int(v));
@@ -141,11 +159,13 @@ std::vector<double> free_sights(std::span<const Se3> views, double exponent) {
   }
   if (above.norm() < 0.1 * double(views.size())) return std::vector<double>(views.size(), 1);
   std::vector<double> free;
-  for (const Eigen::Vector3d& direction : directions) free.push_back(std::pow(std::max(0.0, direction.dot(above.normalized())), exponent));
+  for (const Eigen::Vector3d& direction : directions)
+    free.push_back(std::pow(std::max(0.0, direction.dot(above.normalized())), exponent));
   return free;
 }
 
-std::vector<double> information_of(const Planning& planning, std::span<const std::size_t> open, Backend& backend, const NextViewOptions& options) {
+std::vector<double> information_of(const Planning& planning, std::span<const std::size_t> open,
+                                   Backend& backend, const NextViewOptions& options) {
   switch (options.strategy) {
     case Strategy::Information: {
       std::vector<double> information = mutual_information(planning, open, backend, options);
@@ -154,9 +174,12 @@ std::vector<double> information_of(const Planning& planning, std::span<const std
       for (std::size_t i = 0; i < open.size(); ++i) information[i] *= free[open[i]];
       return information;
     }
-    case Strategy::Disocclusion: return disocclusion(planning, open, backend.threads(), options);
-    case Strategy::Random: return random_values(planning.views.size(), open, planning.real_views.size(), options.seed);
-    case Strategy::Fixed: return along_sequence(planning.views.size(), open, options.sequence);
+    case Strategy::Disocclusion:
+      return disocclusion(planning, open, backend.threads(), options);
+    case Strategy::Random:
+      return random_values(planning.views.size(), open, planning.real_views.size(), options.seed);
+    case Strategy::Fixed:
+      return along_sequence(planning.views.size(), open, options.sequence);
   }
   throw LogicError("unknown strategy");
 }
@@ -172,16 +195,21 @@ double motion_cost(const Planning& planning, const Se3& view, const NextViewOpti
 
 std::string to_string(Strategy strategy) {
   switch (strategy) {
-    case Strategy::Information: return "mi-max";
-    case Strategy::Disocclusion: return "dis";
-    case Strategy::Random: return "random";
-    case Strategy::Fixed: return "fixed";
+    case Strategy::Information:
+      return "mi-max";
+    case Strategy::Disocclusion:
+      return "dis";
+    case Strategy::Random:
+      return "random";
+    case Strategy::Fixed:
+      return "fixed";
   }
   throw LogicError("unknown strategy");
 }
 
 Strategy strategy_from(const std::string& word) {
-  for (const Strategy strategy : {Strategy::Information, Strategy::Disocclusion, Strategy::Random, Strategy::Fixed})
+  for (const Strategy strategy :
+       {Strategy::Information, Strategy::Disocclusion, Strategy::Random, Strategy::Fixed})
     if (word == to_string(strategy)) return strategy;
   throw InputError("options", "next_view.strategy", word, "mi-max, dis, random or fixed");
 }
@@ -189,7 +217,8 @@ Strategy strategy_from(const std::string& word) {
 void NextViewOptions::validate() const {
   const auto in = [](const char* field, double found, double low, double high) {
     if (!(found >= low && found <= high))
-      throw InputError("options", std::string("next_view.") + field, std::to_string(found), std::to_string(low) + " to " + std::to_string(high));
+      throw InputError("options", std::string("next_view.") + field, std::to_string(found),
+                       std::to_string(low) + " to " + std::to_string(high));
   };
   in("reduction", reduction, 1, 16);
   in("cap", cap_px, reduction / CHAMFER_STEPS_PER_PX, reduction * CHAMFER_CAP / CHAMFER_STEPS_PER_PX);
@@ -201,21 +230,26 @@ void NextViewOptions::validate() const {
   in("motion_cost_per_rad", motion_cost_per_rad, 0, 1e9);
 }
 
-std::vector<ViewInformation> view_information(const Planning& planning, Backend& backend, const NextViewOptions& options) {
+std::vector<ViewInformation> view_information(const Planning& planning, Backend& backend,
+                                              const NextViewOptions& options) {
   options.validate();
   check(planning.tables.size() == planning.models.size(), "view_information: one table an object");
-  check(planning.closed.empty() || planning.closed.size() == planning.views.size(), "view_information: one mark a view");
+  check(planning.closed.empty() || planning.closed.size() == planning.views.size(),
+        "view_information: one mark a view");
   std::vector<ViewInformation> views(planning.views.size());
   std::vector<std::size_t> open;
   for (std::size_t v = 0; v < views.size(); ++v) {
-    const bool closed = (!planning.closed.empty() && planning.closed[v]) || (options.reachable && !options.reachable(int(v)));
+    const bool closed =
+        (!planning.closed.empty() && planning.closed[v]) || (options.reachable && !options.reachable(int(v)));
     if (!closed) open.push_back(v);
   }
   if (open.empty()) return views;
   const std::vector<double> information = information_of(planning, open, backend, options);
-  for (std::size_t i = 0; i < open.size(); ++i) views[open[i]] = {true, information[i], motion_cost(planning, planning.views[open[i]], options)};
+  for (std::size_t i = 0; i < open.size(); ++i)
+    views[open[i]] = {true, information[i], motion_cost(planning, planning.views[open[i]], options)};
   if (std::ranges::none_of(information, [](double x) { return x > 0; }))
-    log(LogLevel::Warning, "no view promises any information: nothing is known that it could be about, or no view sees it");
+    log(LogLevel::Warning,
+        "no view promises any information: nothing is known that it could be about, or no view sees it");
   return views;
 }
 

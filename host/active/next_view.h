@@ -1,4 +1,5 @@
-// Where to look next: the information every possible view is expected to give about the particles (paper, Sec. 5.3, Eqs. 15-20), and the baselines of Sec. 6.4.
+// Where to look next: the information every possible view is expected to give about the particles (paper,
+// Sec. 5.3, Eqs. 15-20), and the baselines of Sec. 6.4.
 #pragma once
 
 #include <cstdint>
@@ -15,53 +16,59 @@
 namespace edgescout {
 
 enum class Strategy { Information, Disocclusion, Random, Fixed };
-std::string to_string(Strategy strategy);            // "mi-max", "dis", "random", "fixed"
-Strategy strategy_from(const std::string& word);     // InputError on another word
+std::string to_string(Strategy strategy);         // "mi-max", "dis", "random", "fixed"
+Strategy strategy_from(const std::string& word);  // InputError on another word
 
 struct NextViewOptions {
   Strategy strategy = Strategy::Information;
-  double reduction = 4;           // image px a map px, [1, 16]
-  double cap_px = 40;             // of distances, image px; at most 15.9 map px
-  double sigma_px = 4;            // of the mean distance, image px
-  double tolerance = 0.1;         // of the largest object's diameter: nearer than that a surface hides nothing
-  bool literal = false;           // the paper's own formula (kernels/mutual_information.h)
-  double seen_px = 4;             // a template point was seen in a real view if an edge of its image lies so near, along it; 0: if it lies inside the image. At most 8
+  double reduction = 4;    // image px a map px, [1, 16]
+  double cap_px = 40;      // of distances, image px; at most 15.9 map px
+  double sigma_px = 4;     // of the mean distance, image px
+  double tolerance = 0.1;  // of the largest object's diameter: nearer than that a surface hides nothing
+  bool literal = false;    // the paper's own formula (kernels/mutual_information.h)
+  double seen_px = 4;  // a template point was seen in a real view if an edge of its image lies so near, along
+                       // it; 0: if it lies inside the image. At most 8
   VisibilityOptions visibility{96, 0.01};
-  // What nobody knows of (undetected parts, clutter, the heap itself) hides more the lower a camera stands. A line of sight is free of it with probability cos^free_sight of its angle to straight
-  // above, and a view that is not tells nothing: an erasure, which leaves that share of the information. Straight above is the mean direction from what the views look at to their cameras;
-  // where they stand all around there is none, and all are free. 0: all are free, as in the paper's own formula always.
+  // What nobody knows of (undetected parts, clutter, the heap itself) hides more the lower a camera stands. A
+  // line of sight is free of it with probability cos^free_sight of its angle to straight above, and a view
+  // that is not tells nothing: an erasure, which leaves that share of the information. Straight above is the
+  // mean direction from what the views look at to their cameras; where they stand all around there is none,
+  // and all are free. 0: all are free, as in the paper's own formula always.
   double free_sight = 1;
-  double motion_cost_per_m = 0;   // taken off the information: for the way from the last view's camera
+  double motion_cost_per_m = 0;  // taken off the information: for the way from the last view's camera
   double motion_cost_per_rad = 0;
   std::function<bool(int view)> reachable;  // empty: all are
-  std::vector<int> sequence;      // of Strategy::Fixed; empty: in the order of the views
-  std::uint64_t seed = 1;         // of Strategy::Random
-  void validate() const;          // throws InputError naming the field and the violated bound
+  std::vector<int> sequence;                // of Strategy::Fixed; empty: in the order of the views
+  std::uint64_t seed = 1;                   // of Strategy::Random
+  void validate() const;                    // throws InputError naming the field and the violated bound
 };
 
 // All that a decision depends on. Spans must outlive the call.
 struct Planning {
   std::span<const EdgeModel> models;
-  std::span<const TemplateTable> tables;      // one an object
-  Camera camera;                              // ideal, full resolution
-  std::span<const Se3> views;                 // camera_from_world of all possible views
-  std::span<const char> closed;               // one a view: nonzero where it was taken or cannot be reached; empty: all are open
-  std::span<const RegisterView> real_views;   // the images so far, in order; of the tensors nothing is read
-  std::span<const Detection> candidates;      // in the world
-  const BitMatrix* combinations = nullptr;    // over the candidates; needed by Strategy::Information
+  std::span<const TemplateTable> tables;  // one an object
+  Camera camera;                          // ideal, full resolution
+  std::span<const Se3> views;             // camera_from_world of all possible views
+  std::span<const char>
+      closed;  // one a view: nonzero where it was taken or cannot be reached; empty: all are open
+  std::span<const RegisterView> real_views;  // the images so far, in order; of the tensors nothing is read
+  std::span<const Detection> candidates;     // in the world
+  const BitMatrix* combinations = nullptr;   // over the candidates; needed by Strategy::Information
   std::span<const Particle> particles;
 };
 
 struct ViewInformation {
-  bool open = false;        // may be chosen; else the rest is 0
-  double information = 0;   // Information: nats; Disocclusion: sum of psi times new visible points; Random: a draw from [0, 1); Fixed: falls along the sequence
-  double motion_cost = 0;   // from the last real view
+  bool open = false;       // may be chosen; else the rest is 0
+  double information = 0;  // Information: nats; Disocclusion: sum of psi times new visible points; Random: a
+                           // draw from [0, 1); Fixed: falls along the sequence
+  double motion_cost = 0;  // from the last real view
   double value() const { return information - motion_cost; }
 };
 
-// One a view. Without particles, candidates or combinations, and for views that see nothing of them, the information is 0; where that is so of all open views a warning is
-// logged.
-std::vector<ViewInformation> view_information(const Planning& planning, Backend& backend, const NextViewOptions& options);
+// One a view. Without particles, candidates or combinations, and for views that see nothing of them, the
+// information is 0; where that is so of all open views a warning is logged.
+std::vector<ViewInformation> view_information(const Planning& planning, Backend& backend,
+                                              const NextViewOptions& options);
 
 // The open view of most value, the first of equals; nothing where none is open.
 std::optional<int> best_view(std::span<const ViewInformation> views);

@@ -32,16 +32,20 @@ std::vector<Hypothesis> poses_of(std::span<const Particle> particles) {
 }
 
 bool lives(const Particle& particle, const ParticleOptions& options) {
-  const bool seen = std::ranges::any_of(particle.by_view, [&](const PoseFeatures& f) { return f.points >= options.min_points; });
-  return seen && is_finite(particle.world_from_object) && together(particle.by_view).mean_px <= options.dead_px;
+  const bool seen = std::ranges::any_of(
+      particle.by_view, [&](const PoseFeatures& f) { return f.points >= options.min_points; });
+  return seen && is_finite(particle.world_from_object) &&
+         together(particle.by_view).mean_px <= options.dead_px;
 }
 
 // What a view counts for a particle that it does not see: -s log of its mean likelihood over those it does.
-double unseen_px2(std::span<const Particle> particles, std::span<const char> living, std::size_t view, const ParticleOptions& options) {
+double unseen_px2(std::span<const Particle> particles, std::span<const char> living, std::size_t view,
+                  const ParticleOptions& options) {
   std::vector<double> logs;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const PoseFeatures& f = particles[i].by_view[view];
-    if (living[i] && f.points >= options.min_points) logs.push_back(-f.mean_px * f.mean_px / options.scale_px2());
+    if (living[i] && f.points >= options.min_points)
+      logs.push_back(-f.mean_px * f.mean_px / options.scale_px2());
   }
   return logs.empty() ? 0 : -options.scale_px2() * (log_sum_exp(logs) - std::log(double(logs.size())));
 }
@@ -50,14 +54,17 @@ void normalise(std::span<Particle> particles) {
   std::vector<double> logs;
   for (const Particle& particle : particles) logs.push_back(particle.log_weight);
   const double total = log_sum_exp(logs);
-  for (Particle& particle : particles) particle.log_weight = total == NOTHING ? -std::log(double(particles.size())) : particle.log_weight - total;
+  for (Particle& particle : particles)
+    particle.log_weight =
+        total == NOTHING ? -std::log(double(particles.size())) : particle.log_weight - total;
 }
 
 // The candidates by psi, as many as there may be particles.
 std::vector<std::size_t> best_candidates(std::span<const Detection> candidates, int most) {
   std::vector<std::size_t> order(candidates.size());
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return candidates[a].psi > candidates[b].psi; });
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return candidates[a].psi > candidates[b].psi; });
   if (int(order.size()) > most) order.resize(most);
   return order;
 }
@@ -66,7 +73,8 @@ std::vector<std::size_t> best_candidates(std::span<const Detection> candidates, 
 
 D2coOptions ParticleOptions::refine_defaults() {
   D2coOptions options;
-  options.rounds = {{LOSS_GEMAN_MCCLURE, 12, 8, 250}, {LOSS_GEMAN_MCCLURE, 5, 8, 300}, {LOSS_GEMAN_MCCLURE, 2, 6, 400}};
+  options.rounds = {
+      {LOSS_GEMAN_MCCLURE, 12, 8, 250}, {LOSS_GEMAN_MCCLURE, 5, 8, 300}, {LOSS_GEMAN_MCCLURE, 2, 6, 400}};
   options.visibility.depth_map_size_px = 96;
   return options;
 }
@@ -82,7 +90,8 @@ PolishOptions ParticleOptions::polish_defaults() {
 void ParticleOptions::validate() const {
   const auto in = [](const char* field, double found, double low, double high) {
     if (!(found >= low && found <= high))
-      throw InputError("options", std::string("particles.") + field, std::to_string(found), std::to_string(low) + " to " + std::to_string(high));
+      throw InputError("options", std::string("particles.") + field, std::to_string(found),
+                       std::to_string(low) + " to " + std::to_string(high));
   };
   in("count", count, 1, 1e5);
   in("sigma", sigma_px, 1e-3, 1e3);
@@ -109,16 +118,22 @@ Detection candidate_in_world(const Detection& in_camera, const Se3& camera_from_
   return in_world;
 }
 
-Se3 perturbed(const Se3& pose, const Matrix6d& covariance, double diameter_m, const Spread& spread, Random& random) {
+Se3 perturbed(const Se3& pose, const Matrix6d& covariance, double diameter_m, const Spread& spread,
+              Random& random) {
   // Rotations as the way they move a point at half the diameter: all six in metres.
   Vector6d metres = Vector6d::Ones();
   metres.tail<3>().setConstant(0.5 * diameter_m);
   Vector6d deviations = Vector6d::Constant(spread.max * diameter_m);
   Matrix6d axes = Matrix6d::Identity();
   if (covariance.allFinite()) {
-    const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(metres.asDiagonal() * covariance * metres.asDiagonal());
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(metres.asDiagonal() * covariance *
+                                                         metres.asDiagonal());
     axes = solver.eigenvectors();
-    deviations = solver.eigenvalues().cwiseMax(0).cwiseSqrt().cwiseMax(spread.min * diameter_m).cwiseMin(spread.max * diameter_m);
+    deviations = solver.eigenvalues()
+                     .cwiseMax(0)
+                     .cwiseSqrt()
+                     .cwiseMax(spread.min * diameter_m)
+                     .cwiseMin(spread.max * diameter_m);
   }
   Vector6d step;
   for (int i = 0; i < 6; ++i) step[i] = deviations[i] * random.normal();
@@ -126,8 +141,8 @@ Se3 perturbed(const Se3& pose, const Matrix6d& covariance, double diameter_m, co
   return retract(pose, step);
 }
 
-std::vector<Particle> draw_particles(std::span<const EdgeModel> models, std::span<const Detection> candidates, int count, const Spread& spread,
-                                     Random random) {
+std::vector<Particle> draw_particles(std::span<const EdgeModel> models, std::span<const Detection> candidates,
+                                     int count, const Spread& spread, Random random) {
   std::vector<Particle> particles;
   const std::vector<std::size_t> chosen = best_candidates(candidates, count);
   for (int i = 0; !chosen.empty() && i < count; ++i) {
@@ -137,16 +152,16 @@ std::vector<Particle> draw_particles(std::span<const EdgeModel> models, std::spa
     particle.covariance = candidate.covariance;
     particle.world_from_object = candidate.world_from_object;
     if (i >= int(chosen.size()))
-      particle.world_from_object =
-          perturbed(candidate.world_from_object, candidate.covariance, models[candidate.object].mesh.diameter_m, spread, random);
+      particle.world_from_object = perturbed(candidate.world_from_object, candidate.covariance,
+                                             models[candidate.object].mesh.diameter_m, spread, random);
     particle.log_weight = -std::log(double(count));
     particles.push_back(std::move(particle));
   }
   return particles;
 }
 
-void refine_particles(std::span<const EdgeModel> models, std::span<Particle> particles, std::span<const RegisterView> views, Backend& backend,
-                      const ParticleOptions& options) {
+void refine_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
+                      std::span<const RegisterView> views, Backend& backend, const ParticleOptions& options) {
   const std::vector<Hypothesis> starts = poses_of(particles);
   std::vector<Registration> registrations = register_poses(models, starts, views, backend, options.d2co);
   if (options.polish) polish_poses(models, starts, views, backend, options.polish_options, registrations);
@@ -156,14 +171,16 @@ void refine_particles(std::span<const EdgeModel> models, std::span<Particle> par
   }
 }
 
-std::size_t weigh_particles(std::span<const EdgeModel> models, std::span<Particle> particles, std::span<const RegisterView> views, Backend& backend,
+std::size_t weigh_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
+                            std::span<const RegisterView> views, Backend& backend,
                             const ParticleOptions& options) {
   check(!views.empty(), "weigh_particles: at least one view");
   const std::vector<PoseFeatures> features =
       pose_features_by_view(models, poses_of(particles), views, backend, options.score, options.visibility);
   std::vector<char> living;
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    particles[i].by_view.assign(features.begin() + i * views.size(), features.begin() + (i + 1) * views.size());
+    particles[i].by_view.assign(features.begin() + i * views.size(),
+                                features.begin() + (i + 1) * views.size());
     particles[i].upsilon_px2 = 0;
     living.push_back(lives(particles[i], options));
   }
@@ -175,20 +192,23 @@ std::size_t weigh_particles(std::span<const EdgeModel> models, std::span<Particl
     }
   }
   for (std::size_t i = 0; i < particles.size(); ++i)
-    particles[i].log_weight = living[i] ? (particles[i].spent_px2 - particles[i].upsilon_px2) / options.scale_px2() : NOTHING;
+    particles[i].log_weight =
+        living[i] ? (particles[i].spent_px2 - particles[i].upsilon_px2) / options.scale_px2() : NOTHING;
   normalise(particles);
   return std::size_t(std::ranges::count(living, char(1)));
 }
 
 double effective_sample_size(std::span<const Particle> particles) {
   std::vector<double> logs, squares;
-  for (const Particle& particle : particles) logs.push_back(particle.log_weight), squares.push_back(2 * particle.log_weight);
+  for (const Particle& particle : particles)
+    logs.push_back(particle.log_weight), squares.push_back(2 * particle.log_weight);
   const double total = log_sum_exp(logs);
   return total == NOTHING ? 0 : std::exp(2 * total - log_sum_exp(squares));
 }
 
-ParticleUpdate update_particles(std::vector<Particle>& particles, std::span<const TemplateSet> sets, std::span<const EdgeModel> models,
-                                std::span<const Detection> candidates, std::span<const RegisterView> views, Backend& backend,
+ParticleUpdate update_particles(std::vector<Particle>& particles, std::span<const TemplateSet> sets,
+                                std::span<const EdgeModel> models, std::span<const Detection> candidates,
+                                std::span<const RegisterView> views, Backend& backend,
                                 const ParticleOptions& options) {
   options.validate();
   const Random random = Random(options.seed).split("particles").split(views.size());
@@ -198,7 +218,8 @@ ParticleUpdate update_particles(std::vector<Particle>& particles, std::span<cons
     return weigh_particles(models, particles, views, backend, options);
   };
   if (refine_and_weigh() == 0 && !candidates.empty()) {
-    log(LogLevel::Warning, "all particles died in view " + std::to_string(views.size()) + "; drawn anew around " + std::to_string(candidates.size()) + " candidates");
+    log(LogLevel::Warning, "all particles died in view " + std::to_string(views.size()) +
+                               "; drawn anew around " + std::to_string(candidates.size()) + " candidates");
     const Spread wider{options.drawn.min, 2 * options.drawn.max};
     particles = draw_particles(models, candidates, options.count, wider, random.split("anew"));
     refine_and_weigh();
@@ -206,7 +227,8 @@ ParticleUpdate update_particles(std::vector<Particle>& particles, std::span<cons
   }
   update.effective = effective_sample_size(particles);
   if (update.effective < options.min_effective * double(particles.size())) {
-    particles = resample(particles, find_modes(particles, sets, options), models, options.count, options, random.split("resample"));
+    particles = resample(particles, find_modes(particles, sets, options), models, options.count, options,
+                         random.split("resample"));
     update.resampled = true;
   }
   return update;

@@ -1,8 +1,11 @@
-// The belief about where objects are: weighted poses ("particles") of all object types (paper, Sec. 5.3 and Algorithm 2, lines 11 and 15-19).
+// The belief about where objects are: weighted poses ("particles") of all object types (paper, Sec. 5.3 and
+// Algorithm 2, lines 11 and 15-19).
 //
-// A particle is one pose one object may have. Its weight follows Bayes' rule on real images alone: w ~ exp(-Upsilon / s), Upsilon the sum over the real views of the
-// squared mean DCD at the particle's pose (Eq. 18), s = 2 sigma_px^2. Poses move when they are refined on a new image, so Upsilon is always that of all real views at the pose
-// of today; what resampling has turned from weight into number of particles is remembered in `spent_px2` and leaves the weight: no view counts twice. A particle drawn later starts with
+// A particle is one pose one object may have. Its weight follows Bayes' rule on real images alone: w ~
+// exp(-Upsilon / s), Upsilon the sum over the real views of the squared mean DCD at the particle's pose (Eq.
+// 18), s = 2 sigma_px^2. Poses move when they are refined on a new image, so Upsilon is always that of all
+// real views at the pose of today; what resampling has turned from weight into number of particles is
+// remembered in `spent_px2` and leaves the weight: no view counts twice. A particle drawn later starts with
 // nothing spent and is weighed by all views like the others.
 #pragma once
 
@@ -22,15 +25,17 @@ namespace edgescout {
 struct Particle {
   int object = 0;
   Se3 world_from_object;
-  Matrix6d covariance = Matrix6d::Zero();  // of the last refinement, or of the candidate it was drawn around; tangent of core/se3.h
+  Matrix6d covariance = Matrix6d::Zero();  // of the last refinement, or of the candidate it was drawn around;
+                                           // tangent of core/se3.h
   double log_weight = 0;                   // natural; weigh_particles makes the weights sum to 1
-  double upsilon_px2 = 0;                  // log_weight is spent_px2 - upsilon_px2, over s, up to a constant common to all
+  double upsilon_px2 = 0;  // log_weight is spent_px2 - upsilon_px2, over s, up to a constant common to all
   double spent_px2 = 0;
-  std::vector<PoseFeatures> by_view;       // at this pose, one a real view; empty until weighed
+  std::vector<PoseFeatures> by_view;  // at this pose, one a real view; empty until weighed
 };
 
-// How far drawn poses lie from where they were drawn around: a Gaussian of the covariance, its standard deviations (rotations times the object's radius) clamped to
-// these fractions of the diameter. The lower bound keeps particles of one place apart, the upper one holds them where nothing is known.
+// How far drawn poses lie from where they were drawn around: a Gaussian of the covariance, its standard
+// deviations (rotations times the object's radius) clamped to these fractions of the diameter. The lower
+// bound keeps particles of one place apart, the upper one holds them where nothing is known.
 struct Spread {
   double min = 0.005;
   double max = 0.1;
@@ -39,20 +44,20 @@ struct Spread {
 struct ParticleOptions {
   int count = 200;
   std::uint64_t seed = 1;
-  double sigma_px = 4;           // of the mean DCD of a right pose, image px
-  Spread drawn{0.02, 0.1};       // around candidates
-  Spread roughened{0.003, 0.02}; // after resampling
-  double min_effective = 0.5;    // of the particles: with a lower effective sample size they are resampled
-  int min_per_mode = 4;          // particles kept for every mode that may be an instance
+  double sigma_px = 4;            // of the mean DCD of a right pose, image px
+  Spread drawn{0.02, 0.1};        // around candidates
+  Spread roughened{0.003, 0.02};  // after resampling
+  double min_effective = 0.5;     // of the particles: with a lower effective sample size they are resampled
+  int min_per_mode = 4;           // particles kept for every mode that may be an instance
   double min_mode_probability = 0.05;  // below it a mode lives by its weight alone
-  double mode_radius = 0.1;      // of the diameter: particles closer than that (modulo symmetry) are one mode
-  double dead_px = 20;           // mean DCD above which a particle is no hypothesis any more
-  double min_points = 12;        // in an image, for it to say something about a particle
+  double mode_radius = 0.1;  // of the diameter: particles closer than that (modulo symmetry) are one mode
+  double dead_px = 20;       // mean DCD above which a particle is no hypothesis any more
+  double min_points = 12;    // in an image, for it to say something about a particle
   D2coOptions d2co = refine_defaults();
   bool polish = true;
   PolishOptions polish_options = polish_defaults();
   PoseScoreOptions score{1.0f, 4.0f, 60.0f};
-  VisibilityOptions visibility;      // of the points that are scored; probabilities are fitted with the finest
+  VisibilityOptions visibility;  // of the points that are scored; probabilities are fitted with the finest
   static D2coOptions refine_defaults();
   static PolishOptions polish_defaults();
   double scale_px2() const { return 2 * sigma_px * sigma_px; }
@@ -62,22 +67,26 @@ struct ParticleOptions {
 // A candidate of one view, found in its camera frame, carried to the world with its covariance.
 Detection candidate_in_world(const Detection& in_camera, const Se3& camera_from_world);
 
-// `count` particles, as many around each candidate, the first of each exactly there; with more candidates than particles those with the highest psi. Equal weights. None where there is
-// no candidate.
-std::vector<Particle> draw_particles(std::span<const EdgeModel> models, std::span<const Detection> candidates, int count, const Spread& spread,
-                                     Random random);
+// `count` particles, as many around each candidate, the first of each exactly there; with more candidates
+// than particles those with the highest psi. Equal weights. None where there is no candidate.
+std::vector<Particle> draw_particles(std::span<const EdgeModel> models, std::span<const Detection> candidates,
+                                     int count, const Spread& spread, Random random);
 
 // A pose near another, from a Gaussian in its tangent.
-Se3 perturbed(const Se3& pose, const Matrix6d& covariance, double diameter_m, const Spread& spread, Random& random);
+Se3 perturbed(const Se3& pose, const Matrix6d& covariance, double diameter_m, const Spread& spread,
+              Random& random);
 
 // Multi-view D2CO (Eq. 11) of all particles over all real views side by side: poses and covariances.
-void refine_particles(std::span<const EdgeModel> models, std::span<Particle> particles, std::span<const RegisterView> views, Backend& backend,
-                      const ParticleOptions& options);
+void refine_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
+                      std::span<const RegisterView> views, Backend& backend, const ParticleOptions& options);
 
-// Features in every real view, Upsilon and normalised weights. A view that does not see a particle tells nothing about it: it counts for it like that view's mean likelihood over
-// the particles it does see, which leaves the particle's share as it was. A particle that is dead (no view sees it, mean DCD above dead_px, pose not finite) has weight 0
-// (log weight -infinity). Returns how many live; where none does, all weights are equal.
-std::size_t weigh_particles(std::span<const EdgeModel> models, std::span<Particle> particles, std::span<const RegisterView> views, Backend& backend,
+// Features in every real view, Upsilon and normalised weights. A view that does not see a particle tells
+// nothing about it: it counts for it like that view's mean likelihood over the particles it does see, which
+// leaves the particle's share as it was. A particle that is dead (no view sees it, mean DCD above dead_px,
+// pose not finite) has weight 0 (log weight -infinity). Returns how many live; where none does, all weights
+// are equal.
+std::size_t weigh_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
+                            std::span<const RegisterView> views, Backend& backend,
                             const ParticleOptions& options);
 
 // 1 / sum w^2, between 1 and the number of particles; 0 without particles. Weights need not be normalised.
@@ -85,15 +94,17 @@ double effective_sample_size(std::span<const Particle> particles);
 
 // What one real image did to the particles.
 struct ParticleUpdate {
-  double effective = 0;    // sample size before resampling
+  double effective = 0;  // sample size before resampling
   bool resampled = false;
-  bool reseeded = false;   // all had died and were drawn anew around the candidates
+  bool reseeded = false;  // all had died and were drawn anew around the candidates
 };
 
-// Lines 15-19 of Algorithm 2, after the last of `views` was added: refine, weigh, resample with roughening where the effective sample size is low. Where every particle
-// died they are drawn anew around the candidates, once, and a warning is logged. Deterministic from options.seed and the number of views.
-ParticleUpdate update_particles(std::vector<Particle>& particles, std::span<const TemplateSet> sets, std::span<const EdgeModel> models,
-                                std::span<const Detection> candidates, std::span<const RegisterView> views, Backend& backend,
+// Lines 15-19 of Algorithm 2, after the last of `views` was added: refine, weigh, resample with roughening
+// where the effective sample size is low. Where every particle died they are drawn anew around the
+// candidates, once, and a warning is logged. Deterministic from options.seed and the number of views.
+ParticleUpdate update_particles(std::vector<Particle>& particles, std::span<const TemplateSet> sets,
+                                std::span<const EdgeModel> models, std::span<const Detection> candidates,
+                                std::span<const RegisterView> views, Backend& backend,
                                 const ParticleOptions& options);
 
 }  // namespace edgescout

@@ -18,7 +18,8 @@ namespace {
 
 using Tree = fcl::BVHModel<fcl::OBBRSSd>;
 
-// A mesh made ready: its triangles in a tree and one vertex of every connected piece, enough to know whether the piece lies inside something it does not cut.
+// A mesh made ready: its triangles in a tree and one vertex of every connected piece, enough to know whether
+// the piece lies inside something it does not cut.
 struct Solid {
   const EdgeModel* model;
   std::shared_ptr<Tree> tree;
@@ -50,13 +51,16 @@ Solid make_solid(const EdgeModel& model) {
   return {&model, std::move(tree), a_vertex_of_each_piece(model.mesh)};
 }
 
-// By the winding number: the solid angle of all triangles seen from the point, over 4 pi (Van Oosterom & Strackee 1983). Meshes with small holes have an inside, too.
+// By the winding number: the solid angle of all triangles seen from the point, over 4 pi (Van Oosterom &
+// Strackee 1983). Meshes with small holes have an inside, too.
 bool inside(const Mesh& mesh, const Eigen::Vector3d& point) {
   double half_angles = 0;
   for (const std::array<int, 3>& t : mesh.triangles) {
-    const Eigen::Vector3d a = mesh.vertices_m[t[0]] - point, b = mesh.vertices_m[t[1]] - point, c = mesh.vertices_m[t[2]] - point;
+    const Eigen::Vector3d a = mesh.vertices_m[t[0]] - point, b = mesh.vertices_m[t[1]] - point,
+                          c = mesh.vertices_m[t[2]] - point;
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
-    half_angles += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+    half_angles +=
+        std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
   }
   return std::abs(half_angles) > std::numbers::pi;
 }
@@ -64,7 +68,8 @@ bool inside(const Mesh& mesh, const Eigen::Vector3d& point) {
 bool holds_a_piece(const Solid& outer, const Solid& inner, const Se3& outer_from_inner) {
   for (const Eigen::Vector3d& vertex : inner.pieces) {
     const Eigen::Vector3d in_outer = outer_from_inner * vertex;
-    const bool in_box = (in_outer.array() >= outer.model->mesh.box_min_m.array()).all() && (in_outer.array() <= outer.model->mesh.box_max_m.array()).all();
+    const bool in_box = (in_outer.array() >= outer.model->mesh.box_min_m.array()).all() &&
+                        (in_outer.array() <= outer.model->mesh.box_max_m.array()).all();
     if (in_box && inside(outer.model->mesh, in_outer)) return true;
   }
   return false;
@@ -84,7 +89,8 @@ class Pair {
 
   bool overlap(const Eigen::Vector3d& push_m) const {
     const Se3 pushed{a_from_b_.rotation, a_from_b_.translation_m + push_m};
-    return !contacts(pushed, 1).empty() || holds_a_piece(a_, b_, pushed) || holds_a_piece(b_, a_, inverse(pushed));
+    return !contacts(pushed, 1).empty() || holds_a_piece(a_, b_, pushed) ||
+           holds_a_piece(b_, a_, inverse(pushed));
   }
 
   // Normals of the faces that cut each other, both ways.
@@ -108,7 +114,8 @@ class Pair {
   std::vector<fcl::Contactd> contacts(const Se3& a_from_b, std::size_t most) const {
     const fcl::CollisionRequestd request(most);
     fcl::CollisionResultd result;
-    fcl::collide(a_.tree.get(), fcl::Transform3d::Identity(), b_.tree.get(), transform(a_from_b), request, result);
+    fcl::collide(a_.tree.get(), fcl::Transform3d::Identity(), b_.tree.get(), transform(a_from_b), request,
+                 result);
     std::vector<fcl::Contactd> found;
     result.getContacts(found);
     return found;
@@ -122,7 +129,9 @@ bool can_exist_together(const Pair& pair, double penetration_m) {
   if (!pair.overlap(Eigen::Vector3d::Zero())) return true;
   if (penetration_m == 0) return false;
   for (const Eigen::Vector3d& direction : pair.contact_normals())
-    for (const double length_m : {penetration_m, 0.5 * penetration_m})  // the shorter one where there is something on the other side, too
+    for (const double length_m :
+         {penetration_m,
+          0.5 * penetration_m})  // the shorter one where there is something on the other side, too
       if (!pair.overlap(length_m * direction)) return true;
   static const std::vector<Eigen::Vector3d> around = icosphere(2);
   for (const Eigen::Vector3d& direction : around)
@@ -132,8 +141,11 @@ bool can_exist_together(const Pair& pair, double penetration_m) {
 
 }  // namespace
 
-BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Hypothesis> candidates, double penetration_m, ThreadPool& pool) {
-  if (!(penetration_m >= 0 && penetration_m <= 1)) throw InputError("options", "combinations.penetration", std::to_string(penetration_m), "a length in [0, 1] m");
+BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Hypothesis> candidates,
+                          double penetration_m, ThreadPool& pool) {
+  if (!(penetration_m >= 0 && penetration_m <= 1))
+    throw InputError("options", "combinations.penetration", std::to_string(penetration_m),
+                     "a length in [0, 1] m");
   std::vector<Solid> solids;
   for (const EdgeModel& model : models) solids.push_back(make_solid(model));
   const std::size_t count = candidates.size();
@@ -144,9 +156,11 @@ BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Hyp
     const Hypothesis &a = candidates[i], &b = candidates[j];
     const Solid &solid_a = solids[a.object], &solid_b = solids[b.object];
     const double reach_m = solid_a.model->radius_m + solid_b.model->radius_m;
-    if (((a.world_from_object * solid_a.model->center_m) - (b.world_from_object * solid_b.model->center_m)).norm() > reach_m) return;
-    together[cell] = together[j * count + i] =
-        can_exist_together(Pair(solid_a, solid_b, inverse(a.world_from_object) * b.world_from_object), penetration_m);
+    if (((a.world_from_object * solid_a.model->center_m) - (b.world_from_object * solid_b.model->center_m))
+            .norm() > reach_m)
+      return;
+    together[cell] = together[j * count + i] = can_exist_together(
+        Pair(solid_a, solid_b, inverse(a.world_from_object) * b.world_from_object), penetration_m);
   });
   BitMatrix plausible(count, count);
   for (std::size_t i = 0; i < count; ++i)

@@ -13,8 +13,10 @@ namespace edgescout {
 
 namespace {
 
-// The most and the least probable of the combinations, each candidate being there or not by its own probability.
-void keep_extremes(const BitMatrix& combinations, std::span<const Detection> candidates, ScoutDecision& decision) {
+// The most and the least probable of the combinations, each candidate being there or not by its own
+// probability.
+void keep_extremes(const BitMatrix& combinations, std::span<const Detection> candidates,
+                   ScoutDecision& decision) {
   double best = -INFINITY, worst = INFINITY;
   for (std::size_t row = 0; row < combinations.rows; ++row) {
     std::vector<int> members;
@@ -34,7 +36,8 @@ void keep_extremes(const BitMatrix& combinations, std::span<const Detection> can
 std::vector<TemplateTable> tables_of(std::span<const TemplateSet> sets, Backend& backend) {
   std::vector<TemplateTable> tables;
   for (const TemplateSet& set : sets)
-    tables.push_back(make_template_table(set.model, std::sqrt(set.options.distance_min_m * set.options.distance_max_m), backend));
+    tables.push_back(make_template_table(
+        set.model, std::sqrt(set.options.distance_min_m * set.options.distance_max_m), backend));
   return tables;
 }
 
@@ -46,14 +49,16 @@ ScoutDecision without_expectations(int view) {
 
 }  // namespace
 
-Scout::Scout(std::span<const TemplateSet> sets, const Camera& camera, std::vector<Se3> camera_from_world_views, const ScoutOptions& options, Backend& backend)
+Scout::Scout(std::span<const TemplateSet> sets, const Camera& camera,
+             std::vector<Se3> camera_from_world_views, const ScoutOptions& options, Backend& backend)
     : sets_(sets), camera_(camera), options_(options), backend_(backend), models_(models_of(sets)) {
   options_.validate();
   if (sets.empty()) throw InputError("scout: found no object, expected at least one");
   validate(camera, "scout: camera");
   validate_views(camera_from_world_views, "scout: views");
   if (options_.first_view >= static_cast<int>(camera_from_world_views.size()))
-    throw InputError("options", "scout.first_view", std::to_string(options_.first_view), "one of " + std::to_string(camera_from_world_views.size()) + " views");
+    throw InputError("options", "scout.first_view", std::to_string(options_.first_view),
+                     "one of " + std::to_string(camera_from_world_views.size()) + " views");
   tables_ = tables_of(sets, backend);
   state_.views = std::move(camera_from_world_views);
 }
@@ -105,8 +110,10 @@ void Scout::unreachable(int view, const std::string& reason) {
 }
 
 // Lines 1 to 3: the image's edges and tensors, and what may be in it, refined over all images.
-void Scout::look(const Image& image, ScoutStep& step, ScoutState& next, std::vector<Observation>& observations) const {
-  const PreparedImage prepared = prepare_image(image, camera_, step.camera_from_world, backend_, options_.pipeline);
+void Scout::look(const Image& image, ScoutStep& step, ScoutState& next,
+                 std::vector<Observation>& observations) const {
+  const PreparedImage prepared =
+      prepare_image(image, camera_, step.camera_from_world, backend_, options_.pipeline);
   step.image = prepared.image;
   step.stages = prepared.stages;
   Stopwatch watch(step.stages);
@@ -115,14 +122,17 @@ void Scout::look(const Image& image, ScoutStep& step, ScoutState& next, std::vec
   done(watch, "tensors");
   if (next.steps.empty() || options_.detect_in_every_image) {
     const Observation& newest = observations.back();
-    const std::span<const Observation> earlier(observations.data(), options_.detect_jointly ? observations.size() - 1 : 0);
-    const std::vector<Detection> found = options_.detect ? options_.detect(step.decision.view, newest, earlier)
-                                                         : candidates_in_image(sets_, newest, earlier, backend_, options_.pipeline.detect);
+    const std::span<const Observation> earlier(observations.data(),
+                                               options_.detect_jointly ? observations.size() - 1 : 0);
+    const std::vector<Detection> found =
+        options_.detect ? options_.detect(step.decision.view, newest, earlier)
+                        : candidates_in_image(sets_, newest, earlier, backend_, options_.pipeline.detect);
     next.candidates.insert(next.candidates.end(), found.begin(), found.end());
     done(watch, "detection");
   }
-  next.candidates =
-      refined_candidates(sets_, models_, next.candidates, views_of(observations), static_cast<std::size_t>(options_.max_candidates), backend_, options_.pipeline.detect);
+  next.candidates = refined_candidates(sets_, models_, next.candidates, views_of(observations),
+                                       static_cast<std::size_t>(options_.max_candidates), backend_,
+                                       options_.pipeline.detect);
   done(watch, "candidates");
 }
 
@@ -130,12 +140,14 @@ void Scout::look(const Image& image, ScoutStep& step, ScoutState& next, std::vec
 std::vector<Hypothesis> Scout::known_objects(std::span<const ModeDetection> detections) const {
   std::vector<Hypothesis> known;
   for (const ModeDetection& mode : detections)
-    if (mode.detection.probability >= options_.known_probability) known.push_back({mode.detection.object, mode.detection.world_from_object});
+    if (mode.detection.probability >= options_.known_probability)
+      known.push_back({mode.detection.object, mode.detection.world_from_object});
   return known;
 }
 
 void Scout::hide_behind(std::span<const Hypothesis> known, std::span<Observation> observations) const {
-  for (Observation& observation : observations) observation.view.occluders = make_occluders(models_, known, observation.view, backend_);
+  for (Observation& observation : observations)
+    observation.view.occluders = make_occluders(models_, known, observation.view, backend_);
 }
 
 // Lines 11 and 15 to 19: the particles after this image, and the instances they amount to.
@@ -143,28 +155,35 @@ void Scout::believe(ScoutStep& step, ScoutState& next, std::span<const RegisterV
   Stopwatch watch(step.stages);
   step.new_candidates = add_particles(next);
   step.before = next.particles;
-  step.update = update_particles(next.particles, sets_, models_, next.candidates, views, backend_, options_.particles);
+  step.update =
+      update_particles(next.particles, sets_, models_, next.candidates, views, backend_, options_.particles);
   step.after = next.particles;
   done(watch, "particles");
   next.modes = find_modes(next.particles, sets_, options_.particles);
   next.entropy_nats = step.entropy_nats = belief_entropy(next.modes);
-  next.detections = step.detections = mode_detections(next.particles, next.modes, sets_, models_, views, backend_, options_.detections);
+  next.detections = step.detections =
+      mode_detections(next.particles, next.modes, sets_, models_, views, backend_, options_.detections);
   done(watch, "modes");
   std::vector<Hypothesis> objects;
-  for (const ModeDetection& mode : next.detections) objects.push_back({mode.detection.object, mode.detection.world_from_object});
+  for (const ModeDetection& mode : next.detections)
+    objects.push_back({mode.detection.object, mode.detection.world_from_object});
   step.agreement = view_agreement(models_, objects, views, backend_, options_.agreement);
   done(watch, "agreement");
 }
 
-// Around the first image's candidates all of them; later a share around each candidate that no particle is near.
+// Around the first image's candidates all of them; later a share around each candidate that no particle is
+// near.
 std::size_t Scout::add_particles(ScoutState& next) const {
   const ParticleOptions& o = options_.particles;
   const bool first = next.particles.empty();
-  const std::vector<Detection> unknown =
-      first ? next.candidates : without_particles(next.candidates, next.particles, sets_, o.mode_radius, o.min_mode_probability);
+  const std::vector<Detection> unknown = first ? next.candidates
+                                               : without_particles(next.candidates, next.particles, sets_,
+                                                                   o.mode_radius, o.min_mode_probability);
   if (unknown.empty()) return 0;
   const std::size_t share = static_cast<std::size_t>(o.count) * unknown.size() / next.candidates.size();
-  const std::vector<Particle> drawn = draw_particles(models_, unknown, std::max(1, static_cast<int>(share)), o.drawn, Random(o.seed).split("new").split(next.steps.size()));
+  const std::vector<Particle> drawn =
+      draw_particles(models_, unknown, std::max(1, static_cast<int>(share)), o.drawn,
+                     Random(o.seed).split("new").split(next.steps.size()));
   next.particles.insert(next.particles.end(), drawn.begin(), drawn.end());
   return unknown.size();
 }
@@ -183,7 +202,8 @@ ScoutDecision Scout::decide() const {
   }
   const std::vector<char> closed = state_.closed();
   const std::vector<RegisterView> views = views_of(observations_);
-  decision.views = view_information({models_, tables_, undistorted(camera_), state_.views, closed, views, state_.candidates, &combinations, state_.particles},
+  decision.views = view_information({models_, tables_, undistorted(camera_), state_.views, closed, views,
+                                     state_.candidates, &combinations, state_.particles},
                                     backend_, options_.next_view);
   decision.view = best_view(decision.views).value_or(-1);
   done(watch, "information");
@@ -199,7 +219,8 @@ BitMatrix Scout::sampled_combinations() const {
   }
   CombinationOptions options = options_.combinations;
   options.seed += state_.steps.size();
-  return sample_combinations(psi, plausible_pairs(models_, poses, options_.penetration_m, backend_.threads()), options);
+  return sample_combinations(psi, plausible_pairs(models_, poses, options_.penetration_m, backend_.threads()),
+                             options);
 }
 
 ScoutEnd Scout::end_before_planning() const {
@@ -216,7 +237,9 @@ int Scout::first_open_view() const {
   const int count = static_cast<int>(closed.size());
   for (int i = 0; i < count; ++i) {
     const int view = (options_.first_view + i) % count;
-    if (!closed[static_cast<std::size_t>(view)] && (!options_.next_view.reachable || options_.next_view.reachable(view))) return view;
+    if (!closed[static_cast<std::size_t>(view)] &&
+        (!options_.next_view.reachable || options_.next_view.reachable(view)))
+      return view;
   }
   return -1;
 }
@@ -240,14 +263,19 @@ void Scout::require_fitting(const Image& image, const Se3& camera_from_world) co
 }
 
 void Scout::resume(ScoutState state, const std::string& source) {
-  const auto same = [](const Se3& a, const Se3& b) { return distance_between_m(a, b) < 1e-6 && angle_between_rad(a, b) < 1e-6; };
-  if (!std::ranges::equal(state.views, state_.views, same)) throw InputError(source, "views", "others", "those of this run");
+  const auto same = [](const Se3& a, const Se3& b) {
+    return distance_between_m(a, b) < 1e-6 && angle_between_rad(a, b) < 1e-6;
+  };
+  if (!std::ranges::equal(state.views, state_.views, same))
+    throw InputError(source, "views", "others", "those of this run");
   for (const Detection& candidate : state.candidates)
-    if (candidate.object >= static_cast<int>(sets_.size())) throw InputError(source, "objects", "more", "the " + std::to_string(sets_.size()) + " of this run");
+    if (candidate.object >= static_cast<int>(sets_.size()))
+      throw InputError(source, "objects", "more", "the " + std::to_string(sets_.size()) + " of this run");
   std::vector<Observation> observations;
   for (const ScoutStep& step : state.steps) {
     require_fitting(step.image, step.camera_from_world);
-    const PreparedImage prepared = prepare_image(step.image, undistorted(camera_), step.camera_from_world, backend_, options_.pipeline);
+    const PreparedImage prepared =
+        prepare_image(step.image, undistorted(camera_), step.camera_from_world, backend_, options_.pipeline);
     observations.push_back(observe_prepared(prepared, sets_, backend_, options_.pipeline));
   }
   state_ = std::move(state);
@@ -265,7 +293,8 @@ PipelineOptions ScoutOptions::quick_looks() {
 void ScoutOptions::validate() const {
   const auto in = [](const char* field, double found, double low, double high) {
     if (!(found >= low && found <= high))
-      throw InputError("options", std::string("scout.") + field, std::to_string(found), std::to_string(low) + " to " + std::to_string(high));
+      throw InputError("options", std::string("scout.") + field, std::to_string(found),
+                       std::to_string(low) + " to " + std::to_string(high));
   };
   in("max_candidates", max_candidates, 1, 10000);
   in("known_probability", known_probability, 0, 2);

@@ -1,4 +1,5 @@
-// Active detection (paper, Sec. 5.4, Algorithm 2) as a state machine that a robot's control thread drives: propose a view, move there, give the image, read the state.
+// Active detection (paper, Sec. 5.4, Algorithm 2) as a state machine that a robot's control thread drives:
+// propose a view, move there, give the image, read the state.
 //
 //   Scout scout(sets, camera, views, options, backend);
 //   while (const auto proposal = scout.propose()) {
@@ -7,7 +8,8 @@
 //   }
 //   scout.state().detections;
 //
-// No thread of its own, no global state, no clock but for timings: the same images in the same order give the same result. Each call leaves the state as it was where it throws.
+// No thread of its own, no global state, no clock but for timings: the same images in the same order give the
+// same result. Each call leaves the state as it was where it throws.
 #pragma once
 
 #include <functional>
@@ -31,11 +33,15 @@ struct ScoutOptions {
   PipelineOptions pipeline = quick_looks();
   int max_candidates = 40;            // kept of all objects together (the paper's N_obj)
   bool detect_in_every_image = true;  // else in the first alone, as in the paper
-  // A detector of one's own in place of candidates_in_image (candidates.h): what may be in the image of this view, in the world.
-  // `earlier` are the images before it, as far as detection may use them.
-  std::function<std::vector<Detection>(int view, const Observation& observation, std::span<const Observation> earlier)> detect;
-  bool detect_jointly = true;         // later images are searched with the help of those before (detect/joint_scan.h); else each alone
-  // Instances as probable as this hide what is behind them (register/occluders.h): what they cover counts neither for nor against other poses. Above 1: none do.
+  // A detector of one's own in place of candidates_in_image (candidates.h): what may be in the image of this
+  // view, in the world. `earlier` are the images before it, as far as detection may use them.
+  std::function<std::vector<Detection>(int view, const Observation& observation,
+                                       std::span<const Observation> earlier)>
+      detect;
+  bool detect_jointly =
+      true;  // later images are searched with the help of those before (detect/joint_scan.h); else each alone
+  // Instances as probable as this hide what is behind them (register/occluders.h): what they cover counts
+  // neither for nor against other poses. Above 1: none do.
   double known_probability = 0.9;
   double penetration_m = DEFAULT_PENETRATION_M;
   CombinationOptions combinations;
@@ -45,33 +51,39 @@ struct ScoutOptions {
   AgreementOptions agreement;
   int first_view = 0;
   // The end, whichever comes first. A limit of 0 is none.
-  int max_views = 5;                // images
-  double min_entropy_nats = 0.01;   // less: the modes are certain
-  double min_information_nats = 0;  // less expected of the best view (Strategy::Information): not worth the way
-  double max_seconds = 0;           // of computing
+  int max_views = 5;               // images
+  double min_entropy_nats = 0.01;  // less: the modes are certain
+  double min_information_nats =
+      0;                   // less expected of the best view (Strategy::Information): not worth the way
+  double max_seconds = 0;  // of computing
   std::function<bool()> cancelled;  // asked between stages, from the calling thread
-  // Fewer hits and candidates an image than a detection that has but one: what an image misses, the next one shows, in half the time (docs/evaluation.md).
+  // Fewer hits and candidates an image than a detection that has but one: what an image misses, the next one
+  // shows, in half the time (docs/evaluation.md).
   static PipelineOptions quick_looks();
-  void validate() const;            // InputError naming the field and the violated bound
+  void validate() const;  // InputError naming the field and the violated bound
 };
 
 class Scout {
  public:
-  // `camera` takes every image; `sets` and `backend` must outlive this. InputError: options out of bounds, no or doubled or non-rigid views, no object.
-  Scout(std::span<const TemplateSet> sets, const Camera& camera, std::vector<Se3> camera_from_world_views, const ScoutOptions& options, Backend& backend);
+  // `camera` takes every image; `sets` and `backend` must outlive this. InputError: options out of bounds, no
+  // or doubled or non-rigid views, no object.
+  Scout(std::span<const TemplateSet> sets, const Camera& camera, std::vector<Se3> camera_from_world_views,
+        const ScoutOptions& options, Backend& backend);
 
-  // The next view and what is expected of each; nothing where an end is reached: state().end says which. Asked again without news it answers the same.
+  // The next view and what is expected of each; nothing where an end is reached: state().end says which.
+  // Asked again without news it answers the same.
   std::optional<ScoutDecision> propose();
 
-  // The image from a view, taken where it was planned or where the camera truly was. It need not be the proposed one. InputError: another size than the camera's, a view
-  // taken before, a pose that is not rigid.
+  // The image from a view, taken where it was planned or where the camera truly was. It need not be the
+  // proposed one. InputError: another size than the camera's, a view taken before, a pose that is not rigid.
   void give(int view, const Image& image);
   void give(int view, const Image& image, const Se3& camera_from_world);
   // The view failed; it is never proposed again.
   void unreachable(int view, const std::string& reason);
 
   const ScoutState& state() const { return state_; }
-  // Goes on from a saved state, as if these steps had been made here. InputError naming `source`: other views than this scout's, objects it does not know, images of another size.
+  // Goes on from a saved state, as if these steps had been made here. InputError naming `source`: other views
+  // than this scout's, objects it does not know, images of another size.
   void resume(ScoutState state, const std::string& source);
 
  private:
@@ -81,7 +93,8 @@ class Scout {
   int first_open_view() const;
   ScoutDecision decide() const;
   BitMatrix sampled_combinations() const;
-  void look(const Image& image, ScoutStep& step, ScoutState& next, std::vector<Observation>& observations) const;
+  void look(const Image& image, ScoutStep& step, ScoutState& next,
+            std::vector<Observation>& observations) const;
   void believe(ScoutStep& step, ScoutState& next, std::span<const RegisterView> views) const;
   std::size_t add_particles(ScoutState& next) const;
   std::vector<Hypothesis> known_objects(std::span<const ModeDetection> detections) const;
@@ -99,7 +112,8 @@ class Scout {
   std::optional<ScoutDecision> proposal_;  // until there is news
 };
 
-// Drives the loop to its end: views that cannot be acquired are marked and it goes on. `on_step` is called after every image or failure.
+// Drives the loop to its end: views that cannot be acquired are marked and it goes on. `on_step` is called
+// after every image or failure.
 void run_scout(Scout& scout, ViewSource& source, const std::function<void(const ScoutState&)>& on_step = {});
 
 }  // namespace edgescout

@@ -33,8 +33,7 @@ class Put {
     for (const T& element : list) put(element);
   }
   template <typename T>
-    requires(!Number<T>)
-  void put(const T& value) { fields(*this, value); }
+  requires(!Number<T>) void put(const T& value) { fields(*this, value); }
 
   BinaryWriter& out_;
 };
@@ -57,8 +56,7 @@ class Get {
     for (T& element : list) get(element);
   }
   template <typename T>
-    requires(!Number<T>)
-  void get(T& value) { fields(*this, value); }
+  requires(!Number<T>) void get(T& value) { fields(*this, value); }
 
   BinaryReader& in_;
 };
@@ -70,21 +68,28 @@ concept A = std::same_as<std::remove_const_t<T>, Struct>;
 void fields(auto& io, A<StageSeconds> auto& x) { io(x.name, x.seconds); }
 void fields(auto& io, A<ViewInformation> auto& x) { io(x.open, x.information, x.motion_cost); }
 void fields(auto& io, A<ViewAgreement> auto& x) { io(x.residual_px, x.objects, x.disagrees); }
-void fields(auto& io, A<PoseFeatures> auto& x) { io(x.psi, x.mean_px, x.matched, x.points, x.length_px, x.in_image, x.visible, x.shading.pixels, x.shading.squares, x.shading.unexplained); }
+void fields(auto& io, A<PoseFeatures> auto& x) {
+  io(x.psi, x.mean_px, x.matched, x.points, x.length_px, x.in_image, x.visible, x.shading.pixels,
+     x.shading.squares, x.shading.unexplained);
+}
 void fields(auto& io, A<ParticleUpdate> auto& x) { io(x.effective, x.resampled, x.reseeded); }
 void fields(auto& io, A<FailedView> auto& x) { io(x.view, x.reason, x.after_step); }
 void fields(auto& io, A<Image> auto& x) { io(x.width, x.height, x.pixels); }
 void fields(auto& io, A<Mode> auto& x) { io(x.object, x.particles, x.weight, x.probability); }
 void fields(auto& io, A<ModeDetection> auto& x) { io(x.detection, x.weight, x.supporting_views); }
 void fields(auto& io, A<Detection> auto& x) {
-  io(x.object, x.world_from_object, x.covariance, x.probability, x.psi, x.cost_px, x.visible_fraction, x.evidence, x.unexplained_grey, x.convergence);
+  io(x.object, x.world_from_object, x.covariance, x.probability, x.psi, x.cost_px, x.visible_fraction,
+     x.evidence, x.unexplained_grey, x.convergence);
 }
 void fields(auto& io, A<Particle> auto& x) {
   io(x.object, x.world_from_object, x.covariance, x.log_weight, x.upsilon_px2, x.spent_px2, x.by_view);
 }
-void fields(auto& io, A<ScoutDecision> auto& x) { io(x.view, x.views, x.candidates, x.likeliest, x.unlikeliest, x.stages); }
+void fields(auto& io, A<ScoutDecision> auto& x) {
+  io(x.view, x.views, x.candidates, x.likeliest, x.unlikeliest, x.stages);
+}
 void fields(auto& io, A<ScoutStep> auto& x) {
-  io(x.decision, x.camera_from_world, x.image, x.new_candidates, x.before, x.after, x.update, x.detections, x.agreement, x.entropy_nats, x.stages);
+  io(x.decision, x.camera_from_world, x.image, x.new_candidates, x.before, x.after, x.update, x.detections,
+     x.agreement, x.entropy_nats, x.stages);
 }
 void fields(auto& io, A<ScoutState> auto& x) {
   io(x.views, x.steps, x.failed, x.candidates, x.particles, x.modes, x.detections, x.entropy_nats, x.end);

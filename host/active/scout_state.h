@@ -1,4 +1,5 @@
-// Everything an active detection knows, step by step: what a log, a page or a robot's program reads, and what is saved after every step.
+// Everything an active detection knows, step by step: what a log, a page or a robot's program reads, and what
+// is saved after every step.
 #pragma once
 
 #include <filesystem>
@@ -18,25 +19,29 @@ namespace edgescout {
 // Why a view, and what was thought when it was chosen.
 struct ScoutDecision {
   int view = 0;
-  std::vector<ViewInformation> views;  // one a view; empty for the first image, of which nothing can be expected
-  std::vector<Detection> candidates;   // world, at that time
-  std::vector<int> likeliest, unlikeliest;  // of the sampled combinations: indices into the candidates. Empty where none were sampled
+  std::vector<ViewInformation>
+      views;  // one a view; empty for the first image, of which nothing can be expected
+  std::vector<Detection> candidates;  // world, at that time
+  std::vector<int> likeliest,
+      unlikeliest;  // of the sampled combinations: indices into the candidates. Empty where none were sampled
   std::vector<StageSeconds> stages;
 };
 
 // One image and what it changed.
 struct ScoutStep {
   ScoutDecision decision;
-  Se3 camera_from_world;          // as given
-  Image image;                    // undistorted
-  std::size_t new_candidates = 0; // that no particle had been near
-  std::vector<Particle> before;   // as they were before this image, or as drawn around the first image's candidates
+  Se3 camera_from_world;           // as given
+  Image image;                     // undistorted
+  std::size_t new_candidates = 0;  // that no particle had been near
+  std::vector<Particle>
+      before;  // as they were before this image, or as drawn around the first image's candidates
   std::vector<Particle> after;
   ParticleUpdate update;
   std::vector<ModeDetection> detections;
-  std::vector<ViewAgreement> agreement;  // one a step so far: the later images' say on this and the earlier ones
-  double entropy_nats = 0;               // belief_entropy of the modes after
-  std::vector<StageSeconds> stages;      // in the order they ran
+  std::vector<ViewAgreement>
+      agreement;                     // one a step so far: the later images' say on this and the earlier ones
+  double entropy_nats = 0;           // belief_entropy of the modes after
+  std::vector<StageSeconds> stages;  // in the order they ran
 };
 
 struct FailedView {
@@ -49,9 +54,9 @@ enum class ScoutEnd { No, ViewBudget, NoViewLeft, Certain, LittleToLearn, TimeSp
 std::string to_string(ScoutEnd end);  // "", "view budget", ..
 
 struct ScoutState {
-  std::vector<Se3> views;           // camera_from_world of all possible views
+  std::vector<Se3> views;  // camera_from_world of all possible views
   std::vector<ScoutStep> steps;
-  std::vector<FailedView> failed;   // never proposed again
+  std::vector<FailedView> failed;     // never proposed again
   std::vector<Detection> candidates;  // world, best probability first
   std::vector<Particle> particles;
   std::vector<Mode> modes;
@@ -65,7 +70,8 @@ struct ScoutState {
   double seconds() const;
 };
 
-// A versioned binary file (io/binary_file.h), atomically. Loading throws InputError naming the file: of another kind or version, cut short, a wrong checksum.
+// A versioned binary file (io/binary_file.h), atomically. Loading throws InputError naming the file: of
+// another kind or version, cut short, a wrong checksum.
 void save_scout_state(const ScoutState& state, const std::filesystem::path& file);
 ScoutState load_scout_state(const std::filesystem::path& file);
 

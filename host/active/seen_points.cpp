@@ -10,11 +10,14 @@ namespace {
 
 constexpr float MAX_TURN_RAD = 0.35f;  // between a template's edge and the image's that shows it
 
-bool in_image(double x, double y, const Camera& camera) { return x >= -0.5 && y >= -0.5 && x < camera.width - 0.5 && y < camera.height - 0.5; }
+bool in_image(double x, double y, const Camera& camera) {
+  return x >= -0.5 && y >= -0.5 && x < camera.width - 0.5 && y < camera.height - 0.5;
+}
 
 }  // namespace
 
-SeenPoints seen_in(const TemplateTable& table, const Se3& world_from_object, std::span<const RegisterView> real_views, double edge_px) {
+SeenPoints seen_in(const TemplateTable& table, const Se3& world_from_object,
+                   std::span<const RegisterView> real_views, double edge_px) {
   SeenPoints seen{std::vector<char>(table.total, 0), 0};
   for (const RegisterView& view : real_views) {
     const Se3 camera_from_object = view.camera_from_world * world_from_object;
@@ -25,7 +28,9 @@ SeenPoints seen_in(const TemplateTable& table, const Se3& world_from_object, std
       if (seen.by_id[p.id] || posed.point.z <= POSE_MIN_DEPTH_M) continue;
       const ProjectedEdge<float> edge = project_edge(posed, k);
       if (!in_image(edge.u, edge.v, view.camera)) continue;
-      if (edge_px > 0 && view.edges && !view.edges->nearest(edge.u, edge.v, orientation(edge.dx, edge.dy), float(edge_px), MAX_TURN_RAD)) continue;
+      if (edge_px > 0 && view.edges &&
+          !view.edges->nearest(edge.u, edge.v, orientation(edge.dx, edge.dy), float(edge_px), MAX_TURN_RAD))
+        continue;
       seen.by_id[p.id] = 1;
       ++seen.count;
     }
@@ -33,7 +38,8 @@ SeenPoints seen_in(const TemplateTable& table, const Se3& world_from_object, std
   return seen;
 }
 
-std::vector<ParticlePoint> showing_points(const TemplateTable& table, const Se3& camera_from_object, const Camera& camera, const SeenPoints& seen) {
+std::vector<ParticlePoint> showing_points(const TemplateTable& table, const Se3& camera_from_object,
+                                          const Camera& camera, const SeenPoints& seen) {
   std::vector<ParticlePoint> points;
   const Pose pose = to_pose(camera_from_object);
   const Intrinsics k = intrinsics_of(camera);
@@ -41,7 +47,8 @@ std::vector<ParticlePoint> showing_points(const TemplateTable& table, const Se3&
     const PosedPoint<float> posed = pose_point<float>(pose, p.point);
     if (posed.point.z <= POSE_MIN_DEPTH_M || points.size() == CHAMFER_MAX_POINTS) continue;
     const ProjectedEdge<float> edge = project_edge(posed, k);
-    if (in_image(edge.u, edge.v, camera)) points.push_back({edge.u, edge.v, posed.point.z, seen.by_id[p.id] ? 0u : 1u});
+    if (in_image(edge.u, edge.v, camera))
+      points.push_back({edge.u, edge.v, posed.point.z, seen.by_id[p.id] ? 0u : 1u});
   }
   return points;
 }

@@ -24,7 +24,9 @@ const Se3& pose_of(const std::vector<Se3>& poses, int view) {
 
 // The camera moved about itself: what an arm does not do exactly.
 Se3 missed(const Se3& camera_from_world, const ArmNoise& noise, Random random) {
-  const auto error = [&](double sigma) { return Eigen::Vector3d(sigma * random.normal(), sigma * random.normal(), sigma * random.normal()); };
+  const auto error = [&](double sigma) {
+    return Eigen::Vector3d(sigma * random.normal(), sigma * random.normal(), sigma * random.normal());
+  };
   const Eigen::Vector3d shift_m = error(noise.translation_m), turn_rad = error(noise.rotation_rad);
   return Se3{so3_exp(turn_rad), shift_m} * camera_from_world;
 }
@@ -37,8 +39,10 @@ std::vector<RecordedViews::Recording> bop_recordings(const BopScene& scene, Came
       throw InputError(image.file.string(), "world pose", "none", "cam_R_w2c and cam_t_w2c of every view");
     const Camera& c = image.camera;
     if (!given && recordings.empty()) camera = c;
-    if (!given && (c.fx != camera.fx || c.fy != camera.fy || c.cx != camera.cx || c.cy != camera.cy || c.distortion != camera.distortion))
-      throw InputError(image.file.string(), "camera", "another one than the images' before", "one camera for all views");
+    if (!given && (c.fx != camera.fx || c.fy != camera.fy || c.cx != camera.cx || c.cy != camera.cy ||
+                   c.distortion != camera.distortion))
+      throw InputError(image.file.string(), "camera", "another one than the images' before",
+                       "one camera for all views");
     recordings.push_back({image.file, *image.camera_from_world});
   }
   return recordings;
@@ -50,11 +54,13 @@ Se3 read_matrix(const fs::path& file) {
   Eigen::Matrix4d matrix;
   for (int i = 0; i < 16; ++i) matrix(i / 4, i % 4) = tokens.number("a 4 x 4 matrix");
   if (!matrix.allFinite() || matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
-    throw InputError(file.string(), "camera pose", "a matrix with another last row than 0 0 0 1 or not finite", "a rigid transform");
+    throw InputError(file.string(), "camera pose",
+                     "a matrix with another last row than 0 0 0 1 or not finite", "a rigid transform");
   try {
     return se3_from_matrix(matrix.topLeftCorner<3, 3>(), matrix.topRightCorner<3, 1>());
   } catch (const InputError&) {
-    throw InputError(file.string(), "camera pose", "a matrix that is no rotation", "R'R = I and det R = +1 to 1e-3");
+    throw InputError(file.string(), "camera pose", "a matrix that is no rotation",
+                     "R'R = I and det R = +1 to 1e-3");
   }
 }
 
@@ -77,14 +83,21 @@ std::vector<RecordedViews::Recording> visp_recordings(const fs::path& folder) {
 
 void ArmNoise::validate() const {
   const auto in = [](const char* field, double found, double high) {
-    if (!(found >= 0 && found <= high)) throw InputError("options", std::string("arm_noise.") + field, std::to_string(found), "0 to " + std::to_string(high));
+    if (!(found >= 0 && found <= high))
+      throw InputError("options", std::string("arm_noise.") + field, std::to_string(found),
+                       "0 to " + std::to_string(high));
   };
   in("translation_m", translation_m, 1);
   in("rotation_rad", rotation_rad, 1);
 }
 
-SimulatedCell::SimulatedCell(Scene scene, const Camera& camera, std::vector<Se3> camera_from_world, const ArmNoise& noise, ThreadPool& pool)
-    : scene_(std::move(scene)), camera_(camera), camera_from_world_(std::move(camera_from_world)), noise_(noise), pool_(pool) {
+SimulatedCell::SimulatedCell(Scene scene, const Camera& camera, std::vector<Se3> camera_from_world,
+                             const ArmNoise& noise, ThreadPool& pool)
+    : scene_(std::move(scene)),
+      camera_(camera),
+      camera_from_world_(std::move(camera_from_world)),
+      noise_(noise),
+      pool_(pool) {
   noise_.validate();
   check(!camera_.has_distortion(), "SimulatedCell: rendered images have no distortion");
 }
@@ -98,7 +111,8 @@ Shot SimulatedCell::acquire(int view) {
   return {render(seen, pool_)[0].image, noise_.known ? reached : planned};
 }
 
-RecordedViews::RecordedViews(const Camera& camera, std::vector<Recording> recordings) : camera_(camera), recordings_(std::move(recordings)) {
+RecordedViews::RecordedViews(const Camera& camera, std::vector<Recording> recordings)
+    : camera_(camera), recordings_(std::move(recordings)) {
   if (recordings_.empty()) throw InputError("recorded views: found none, expected at least one");
   for (std::size_t i = 0; camera_.width == 0; ++i) {
     try {
@@ -135,8 +149,10 @@ RecordedViews load_recorded_views(const fs::path& folder, const std::optional<Ca
     return {camera, recordings};
   }
   if (!fs::is_directory(folder / "CameraPose"))
-    throw InputError(folder.string(), "folder", "neither scene_camera.json nor CameraPose", "a BOP scene or a folder with CameraPose and Images");
-  if (!given) throw InputError(folder.string(), "camera", "none", "one: these recordings bring none of their own");
+    throw InputError(folder.string(), "folder", "neither scene_camera.json nor CameraPose",
+                     "a BOP scene or a folder with CameraPose and Images");
+  if (!given)
+    throw InputError(folder.string(), "camera", "none", "one: these recordings bring none of their own");
   return {camera, visp_recordings(folder)};
 }
 

@@ -15,8 +15,10 @@ class Cells {
  public:
   Cells(const Mesh& mesh, double size_m) : low_m_(mesh.box_min_m), size_m_(size_m) {}
   std::uint32_t number(const ModelPoint& point) {
-    const Eigen::Vector3d cell = ((Eigen::Vector3d(point.x_m, point.y_m, point.z_m) - low_m_) / size_m_).array().floor();
-    const std::int64_t key = (std::int64_t(cell.x()) << 42) ^ (std::int64_t(cell.y()) << 21) ^ std::int64_t(cell.z());
+    const Eigen::Vector3d cell =
+        ((Eigen::Vector3d(point.x_m, point.y_m, point.z_m) - low_m_) / size_m_).array().floor();
+    const std::int64_t key =
+        (std::int64_t(cell.x()) << 42) ^ (std::int64_t(cell.y()) << 21) ^ std::int64_t(cell.z());
     return numbers_.try_emplace(key, std::uint32_t(numbers_.size())).first->second;
   }
   std::uint32_t count() const { return std::uint32_t(numbers_.size()); }
@@ -55,7 +57,8 @@ const std::vector<TemplateTablePoint>& TemplateTable::seen_from(const Se3& camer
   return points[nearest];
 }
 
-TemplateTable make_template_table(const EdgeModel& model, double distance_m, Backend& backend, const TemplateTableOptions& options) {
+TemplateTable make_template_table(const EdgeModel& model, double distance_m, Backend& backend,
+                                  const TemplateTableOptions& options) {
   check(options.most_points >= 1, "make_template_table: at least one point");
   TemplateTable table;
   table.center_m = model.center_m;
@@ -63,12 +66,14 @@ TemplateTable make_template_table(const EdgeModel& model, double distance_m, Bac
   std::vector<Se3> poses;
   for (const Eigen::Vector3d& direction : table.directions) {
     const Eigen::Quaterniond rotation = looking_from(direction);
-    poses.push_back({rotation, Eigen::Vector3d(0, 0, std::max(distance_m, 1.2 * model.radius_m)) - rotation * model.center_m});
+    poses.push_back({rotation, Eigen::Vector3d(0, 0, std::max(distance_m, 1.2 * model.radius_m)) -
+                                   rotation * model.center_m});
   }
   const std::vector<std::vector<ModelPoint>> visible = visible_edges(model, poses, backend);
   double cell_m = model.raster_step_m;
   while (!fill(table, visible, Cells(model.mesh, cell_m), options.most_points)) cell_m *= 1.25;
-  if (table.total == 0) throw InputError(model.mesh.name, "templates", "no viewpoint that shows an edge", "a mesh with edges");
+  if (table.total == 0)
+    throw InputError(model.mesh.name, "templates", "no viewpoint that shows an edge", "a mesh with edges");
   return table;
 }
 

@@ -1,4 +1,5 @@
-// Which points of an object's edges show from where, prepared once: for particles visible points are looked up, not computed.
+// Which points of an object's edges show from where, prepared once: for particles visible points are looked
+// up, not computed.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +30,9 @@ struct TemplateTableOptions {
   int most_points = 500;  // from any one viewpoint; places are cells of space, as large as that takes
 };
 
-// `distance_m` from the object's centre: the visible points hardly depend on it. InputError where the mesh shows no edge from anywhere.
-TemplateTable make_template_table(const EdgeModel& model, double distance_m, Backend& backend, const TemplateTableOptions& options = {});
+// `distance_m` from the object's centre: the visible points hardly depend on it. InputError where the mesh
+// shows no edge from anywhere.
+TemplateTable make_template_table(const EdgeModel& model, double distance_m, Backend& backend,
+                                  const TemplateTableOptions& options = {});
 
 }  // namespace edgescout

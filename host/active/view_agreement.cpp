@@ -12,7 +12,8 @@ namespace edgescout {
 namespace {
 
 // Mean way of the object's visible points in the image from one pose to the other, px.
-double moved_px(std::span<const ModelPoint> points, const Camera& camera, const Se3& camera_from_a, const Se3& camera_from_b) {
+double moved_px(std::span<const ModelPoint> points, const Camera& camera, const Se3& camera_from_a,
+                const Se3& camera_from_b) {
   double sum = 0;
   int count = 0;
   for (const ModelPoint& point : points) {
@@ -31,23 +32,28 @@ double median(std::vector<double> values) {
 }
 
 // How the objects, registered over all views, sit in one of them.
-ViewAgreement judge(std::span<const EdgeModel> models, std::span<const Hypothesis> joint, const RegisterView& view, Backend& backend,
-                    const AgreementOptions& options) {
+ViewAgreement judge(std::span<const EdgeModel> models, std::span<const Hypothesis> joint,
+                    const RegisterView& view, Backend& backend, const AgreementOptions& options) {
   const std::span<const RegisterView> alone(&view, 1);
-  const std::vector<Hypothesis> poses = as_hypotheses(joint, register_poses(models, joint, alone, backend, options.single));
-  const std::vector<PoseFeatures> features = pose_features(models, poses, alone, backend, options.score, options.single.visibility);
+  const std::vector<Hypothesis> poses =
+      as_hypotheses(joint, register_poses(models, joint, alone, backend, options.single));
+  const std::vector<PoseFeatures> features =
+      pose_features(models, poses, alone, backend, options.score, options.single.visibility);
   std::vector<double> moved;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (pose_probability(features[i]) < options.min_probability) continue;
     const Se3 camera_from_object = view.camera_from_world * poses[i].world_from_object;
-    const std::vector<ModelPoint> points = visible_edges(models[poses[i].object], std::span(&camera_from_object, 1), backend, options.single.visibility)[0];
-    moved.push_back(moved_px(points, view.camera, camera_from_object, view.camera_from_world * joint[i].world_from_object));
+    const std::vector<ModelPoint> points = visible_edges(
+        models[poses[i].object], std::span(&camera_from_object, 1), backend, options.single.visibility)[0];
+    moved.push_back(moved_px(points, view.camera, camera_from_object,
+                             view.camera_from_world * joint[i].world_from_object));
   }
   return {moved.empty() ? 0 : median(moved), int(moved.size()), false};
 }
 
 // The view to distrust among `open`; views.size() where all are within the limit.
-std::size_t worst_of(std::span<const std::size_t> open, std::span<const ViewAgreement> views, const AgreementOptions& options) {
+std::size_t worst_of(std::span<const std::size_t> open, std::span<const ViewAgreement> views,
+                     const AgreementOptions& options) {
   std::size_t worst = open[0];
   for (const std::size_t v : open)
     if (views[v].residual_px > views[worst].residual_px) worst = v;
@@ -60,29 +66,35 @@ std::size_t worst_of(std::span<const std::size_t> open, std::span<const ViewAgre
 
 D2coOptions AgreementOptions::joint_defaults() {
   D2coOptions options;
-  options.rounds = {{LOSS_GEMAN_MCCLURE, 30, 10, 300}, {LOSS_GEMAN_MCCLURE, 12, 8, 300}, {LOSS_GEMAN_MCCLURE, 5, 8, 400}};
+  options.rounds = {
+      {LOSS_GEMAN_MCCLURE, 30, 10, 300}, {LOSS_GEMAN_MCCLURE, 12, 8, 300}, {LOSS_GEMAN_MCCLURE, 5, 8, 400}};
   return options;
 }
 
 D2coOptions AgreementOptions::single_defaults() { return joint_defaults(); }
 
-std::vector<ViewAgreement> view_agreement(std::span<const EdgeModel> models, std::span<const Hypothesis> objects, std::span<const RegisterView> views,
-                                          Backend& backend, const AgreementOptions& options) {
+std::vector<ViewAgreement> view_agreement(std::span<const EdgeModel> models,
+                                          std::span<const Hypothesis> objects,
+                                          std::span<const RegisterView> views, Backend& backend,
+                                          const AgreementOptions& options) {
   std::vector<ViewAgreement> agreement(views.size());
   std::vector<std::size_t> open;
   for (std::size_t v = 0; v < views.size(); ++v) open.push_back(v);
   while (open.size() >= 2 && !objects.empty()) {
     std::vector<RegisterView> trusted;
     for (const std::size_t v : open) trusted.push_back(views[v]);
-    const std::vector<Hypothesis> joint = as_hypotheses(objects, register_poses(models, objects, trusted, backend, options.joint));
+    const std::vector<Hypothesis> joint =
+        as_hypotheses(objects, register_poses(models, objects, trusted, backend, options.joint));
     for (const std::size_t v : open) agreement[v] = judge(models, joint, views[v], backend, options);
     const std::size_t worst = worst_of(open, agreement, options);
     if (worst == views.size()) break;
     agreement[worst].disagrees = true;
     std::erase(open, worst);
     char text[160];
-    std::snprintf(text, sizeof text, "the camera pose of view %zu disagrees with its image: %.1f px between what all views say and what it shows", worst + 1,
-                  agreement[worst].residual_px);
+    std::snprintf(text, sizeof text,
+                  "the camera pose of view %zu disagrees with its image: %.1f px between what all views say "
+                  "and what it shows",
+                  worst + 1, agreement[worst].residual_px);
     log(LogLevel::Warning, text);
   }
   return agreement;

@@ -1,4 +1,5 @@
-// Whether the views' camera poses agree with their images: objects registered over all views must also lie where each single image has them.
+// Whether the views' camera poses agree with their images: objects registered over all views must also lie
+// where each single image has them.
 #pragma once
 
 #include <span>
@@ -9,7 +10,8 @@
 namespace edgescout {
 
 struct ViewAgreement {
-  double residual_px = 0;  // median over the objects of how far their points move in this image when only it has a say; 0 where `objects` is 0
+  double residual_px = 0;  // median over the objects of how far their points move in this image when only it
+                           // has a say; 0 where `objects` is 0
   int objects = 0;         // that could be judged in it
   bool disagrees = false;
 };
@@ -23,9 +25,13 @@ struct AgreementOptions {
   static D2coOptions single_defaults();
 };
 
-// One a view. The worst view above max_residual_px is flagged and left out, then the rest are judged again: one wrong pose spoils the joint registration for all others. Of two views that
-// disagree with each other the later is flagged. Each flag is logged as a warning. Fewer than two views or no objects: nothing can disagree.
-std::vector<ViewAgreement> view_agreement(std::span<const EdgeModel> models, std::span<const Hypothesis> objects, std::span<const RegisterView> views,
-                                          Backend& backend, const AgreementOptions& options = {});
+// One a view. The worst view above max_residual_px is flagged and left out, then the rest are judged again:
+// one wrong pose spoils the joint registration for all others. Of two views that disagree with each other the
+// later is flagged. Each flag is logged as a warning. Fewer than two views or no objects: nothing can
+// disagree.
+std::vector<ViewAgreement> view_agreement(std::span<const EdgeModel> models,
+                                          std::span<const Hypothesis> objects,
+                                          std::span<const RegisterView> views, Backend& backend,
+                                          const AgreementOptions& options = {});
 
 }  // namespace edgescout

@@ -18,7 +18,8 @@ constexpr double RADIANS = std::numbers::pi / 180;
 std::vector<int> share_among_rings(const HemisphereOptions& options) {
   std::vector<double> weight;
   double total = 0;
-  for (const double elevation : options.elevations_deg) total += weight.emplace_back(std::max(1e-6, std::cos(elevation * RADIANS)));
+  for (const double elevation : options.elevations_deg)
+    total += weight.emplace_back(std::max(1e-6, std::cos(elevation * RADIANS)));
   std::vector<int> share(weight.size(), 1);
   for (int given = int(share.size()); given < options.count; ++given) {
     std::size_t poorest = 0;
@@ -55,11 +56,14 @@ void HemisphereOptions::validate() const {
     throw InputError("options", std::string("views.") + field, found, expected);
   };
   if (!center_m.allFinite()) fail("center", "a number that is not finite", "a point");
-  if (!(radius_m > 0 && radius_m <= 1000)) fail("radius", std::to_string(radius_m), "a length in (0, 1000] m");
+  if (!(radius_m > 0 && radius_m <= 1000))
+    fail("radius", std::to_string(radius_m), "a length in (0, 1000] m");
   if (elevations_deg.empty()) fail("elevations", "none", "at least one angle");
   for (const double elevation : elevations_deg)
-    if (!(elevation > 0 && elevation <= 90)) fail("elevations", std::to_string(elevation), "angles in (0, 90] degrees");
-  if (count < int(elevations_deg.size()) || count > 10000) fail("count", std::to_string(count), "at least one view an elevation, at most 10000");
+    if (!(elevation > 0 && elevation <= 90))
+      fail("elevations", std::to_string(elevation), "angles in (0, 90] degrees");
+  if (count < int(elevations_deg.size()) || count > 10000)
+    fail("count", std::to_string(count), "at least one view an elevation, at most 10000");
 }
 
 std::vector<Se3> hemisphere_views(const HemisphereOptions& options) {
@@ -70,7 +74,8 @@ std::vector<Se3> hemisphere_views(const HemisphereOptions& options) {
     const double elevation = options.elevations_deg[ring] * RADIANS;
     for (int i = 0; i < share[ring]; ++i) {
       const double azimuth = 2 * std::numbers::pi * (i + (ring % 2 ? 0.5 : 0.0)) / share[ring];
-      const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+      const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
+                                      std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
       views.push_back(look_at(options.center_m + options.radius_m * direction, options.center_m));
     }
   }
@@ -89,7 +94,8 @@ Eigen::Vector3d looked_at_m(std::span<const Se3> camera_from_world) {
     b += across * world_from_camera.translation_m;
   }
   const Eigen::FullPivLU<Eigen::Matrix3d> lu = Eigen::FullPivLU<Eigen::Matrix3d>(a).setThreshold(1e-6);
-  return lu.isInvertible() ? Eigen::Vector3d(lu.solve(b)) : inverse(camera_from_world[0]) * Eigen::Vector3d::UnitZ();
+  return lu.isInvertible() ? Eigen::Vector3d(lu.solve(b))
+                           : inverse(camera_from_world[0]) * Eigen::Vector3d::UnitZ();
 }
 
 void validate_views(std::span<const Se3> camera_from_world, const std::string& source) {
@@ -99,16 +105,19 @@ void validate_views(std::span<const Se3> camera_from_world, const std::string& s
     const std::string field = "/" + std::to_string(i) + "/camera_from_world";
     if (!is_finite(view)) throw InputError(source, field, "a value that is not finite", "a rigid transform");
     if (std::abs(view.rotation.norm() - 1) > 1e-3)
-      throw InputError(source, field, "a quaternion of length " + std::to_string(view.rotation.norm()), "a rigid transform");
+      throw InputError(source, field, "a quaternion of length " + std::to_string(view.rotation.norm()),
+                       "a rigid transform");
     for (std::size_t j = 0; j < i; ++j)
-      if (alike(view, camera_from_world[j])) throw InputError(source, field, "the same pose as view " + std::to_string(j), "views that differ");
+      if (alike(view, camera_from_world[j]))
+        throw InputError(source, field, "the same pose as view " + std::to_string(j), "views that differ");
   }
 }
 
 void save_views(std::span<const Se3> camera_from_world, const std::filesystem::path& file) {
   nlohmann::json list = nlohmann::json::array();
   for (const Se3& view : camera_from_world)
-    list.push_back({{"camera_from_world", {{"R", rotation_numbers(view)}, {"t", translation_numbers(view, 1.0)}}}});
+    list.push_back(
+        {{"camera_from_world", {{"R", rotation_numbers(view)}, {"t", translation_numbers(view, 1.0)}}}});
   write_file_atomically(file, list.dump(1) + "\n");
 }
 

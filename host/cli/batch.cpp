@@ -20,7 +20,9 @@ namespace edgescout {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 // The images that are detected together: one, or all views of a scene.
 struct Group {
@@ -38,8 +40,8 @@ std::vector<Group> group_images(std::span<const InputImage> images, bool joint) 
   return groups;
 }
 
-// What an image is before its device work: decoding and edges run on a thread and a CPU backend of their own, beside the device's work on
-// the group before.
+// What an image is before its device work: decoding and edges run on a thread and a CPU backend of their own,
+// beside the device's work on the group before.
 struct Prepared {
   std::vector<PreparedImage> images;
   std::vector<std::string> failures;  // empty where the image is good
@@ -69,9 +71,13 @@ class Preparer {
     const auto start = Clock::now();
     const Image image = load_image(input.file);
     const double decode_seconds = seconds_since(start);
-    const Camera calibration = camera_ ? *camera_ : input.camera ? *input.camera : throw InputError(input.file.string(), "camera", "none", "--camera FILE");
+    const Camera calibration = camera_ ? *camera_
+                               : input.camera
+                                   ? *input.camera
+                                   : throw InputError(input.file.string(), "camera", "none", "--camera FILE");
     const std::string source = camera_ ? options_.camera_file : input.file.string();
-    const Camera camera = camera_for_image(calibration, image.width, image.height, options_.scale_camera, source);
+    const Camera camera =
+        camera_for_image(calibration, image.width, image.height, options_.scale_camera, source);
     const Se3 from_world = options_.joint ? *input.camera_from_world : Se3{};
     PreparedImage prepared = prepare_image(image, camera, from_world, *backend_, options_.pipeline);
     prepared.stages.insert(prepared.stages.begin(), {"decode", decode_seconds});
@@ -83,8 +89,8 @@ class Preparer {
   std::unique_ptr<Backend> backend_;
 };
 
-ImageResult result_of(const InputImage& input, const PreparedImage& prepared, const Detections& detections, std::span<const TemplateSet> sets,
-                      const Backend& backend, bool joint) {
+ImageResult result_of(const InputImage& input, const PreparedImage& prepared, const Detections& detections,
+                      std::span<const TemplateSet> sets, const Backend& backend, bool joint) {
   ImageResult result;
   result.image = input.file;
   result.scene_id = input.scene_id;
@@ -98,23 +104,27 @@ ImageResult result_of(const InputImage& input, const PreparedImage& prepared, co
   return result;
 }
 
-void write_overlay(const InputImage& input, const PreparedImage& prepared, const Detections& found, std::span<const EdgeModel> models, Backend& backend,
-                   const BatchOptions& options) {
+void write_overlay(const InputImage& input, const PreparedImage& prepared, const Detections& found,
+                   std::span<const EdgeModel> models, Backend& backend, const BatchOptions& options) {
   std::vector<OverlayPose> poses;
   for (const Detection& d : found.detections)
-    poses.push_back({d.object, prepared.camera_from_world * d.world_from_object, d.probability, models[d.object].mesh.name});
+    poses.push_back({d.object, prepared.camera_from_world * d.world_from_object, d.probability,
+                     models[d.object].mesh.name});
   const EdgeIndex edges(prepared.edges, prepared.camera.width, prepared.camera.height);
-  save_png(draw_overlay(prepared.image, prepared.camera, poses, models, &edges, backend), options.out / (input.name + "_overlay.png"));
+  save_png(draw_overlay(prepared.image, prepared.camera, poses, models, &edges, backend),
+           options.out / (input.name + "_overlay.png"));
 }
 
 bool is_done(const Group& group, const BatchOptions& options) {
-  return std::ranges::all_of(group.images, [&](const InputImage* input) { return is_done(options.out, *input); });
+  return std::ranges::all_of(group.images,
+                             [&](const InputImage* input) { return is_done(options.out, *input); });
 }
 
 // The batch behind the preparation: device work group by group.
 class Detector {
  public:
-  Detector(std::span<const TemplateSet> sets, Backend& backend, const BatchOptions& options) : sets_(sets), backend_(backend), options_(options) {
+  Detector(std::span<const TemplateSet> sets, Backend& backend, const BatchOptions& options)
+      : sets_(sets), backend_(backend), options_(options) {
     for (const TemplateSet& set : sets) models_.push_back(set.model);
   }
   void work_on(const Group& group, Prepared prepared) {
@@ -131,15 +141,18 @@ class Detector {
     if (usable.empty()) return;
     Detections found;
     try {
-      found = options_.joint ? detect_jointly(usable, sets_, backend_, options_.pipeline) : detect_objects(usable[0], sets_, backend_, options_.pipeline);
+      found = options_.joint ? detect_jointly(usable, sets_, backend_, options_.pipeline)
+                             : detect_objects(usable[0], sets_, backend_, options_.pipeline);
     } catch (const InputError& error) {  // an image too large for the device
-      for (const InputImage* input : good.images) list_failure(*input, input->file.string() + ": " + error.what());
+      for (const InputImage* input : good.images)
+        list_failure(*input, input->file.string() + ": " + error.what());
       return;
     }
     for (const StageSeconds& stage : found.stages) summary.stage_seconds[stage.name] += stage.seconds;
     for (std::size_t i = 0; i < usable.size(); ++i) {
       if (options_.overlays) write_overlay(*good.images[i], usable[i], found, models_, backend_, options_);
-      save_image_result(result_of(*good.images[i], usable[i], found, sets_, backend_, options_.joint), json_of(options_.out, *good.images[i]));
+      save_image_result(result_of(*good.images[i], usable[i], found, sets_, backend_, options_.joint),
+                        json_of(options_.out, *good.images[i]));
       ++summary.done;
     }
   }
@@ -164,7 +177,8 @@ void work_through(const std::vector<Group>& open, Preparer& preparer, Detector& 
   if (!open.empty()) next = std::async(std::launch::async, [&] { return preparer.prepare(open[0]); });
   for (std::size_t g = 0; g < open.size(); ++g) {
     Prepared prepared = next.get();
-    if (g + 1 < open.size()) next = std::async(std::launch::async, [&, g] { return preparer.prepare(open[g + 1]); });
+    if (g + 1 < open.size())
+      next = std::async(std::launch::async, [&, g] { return preparer.prepare(open[g + 1]); });
     detector.work_on(open[g], std::move(prepared));
     progress.step();
   }
@@ -174,10 +188,13 @@ void work_through(const std::vector<Group>& open, Preparer& preparer, Detector& 
 
 void require_world_poses(std::span<const InputImage> images) {
   for (const InputImage& image : images)
-    if (!image.camera_from_world) throw InputError(image.file.string(), "world pose", "none", "cam_R_w2c and cam_t_w2c of every view with --joint");
+    if (!image.camera_from_world)
+      throw InputError(image.file.string(), "world pose", "none",
+                       "cam_R_w2c and cam_t_w2c of every view with --joint");
 }
 
-BatchSummary run_batch(std::span<const InputImage> images, std::span<const TemplateSet> sets, Backend& backend, const BatchOptions& options) {
+BatchSummary run_batch(std::span<const InputImage> images, std::span<const TemplateSet> sets,
+                       Backend& backend, const BatchOptions& options) {
   const auto start = Clock::now();
   if (options.joint) require_world_poses(images);
   std::vector<Group> groups = group_images(images, options.joint);

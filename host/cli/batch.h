@@ -1,4 +1,5 @@
-// A batch of images on its way through the detector: results on disk as soon as they exist, failures listed, nothing done twice.
+// A batch of images on its way through the detector: results on disk as soon as they exist, failures listed,
+// nothing done twice.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +13,10 @@ namespace edgescout {
 
 struct BatchOptions {
   std::filesystem::path out;
-  std::string camera_file;     // empty: BOP scenes bring their own
+  std::string camera_file;  // empty: BOP scenes bring their own
   bool scale_camera = false;
   bool resume = false;
-  bool joint = false;          // all views of a BOP scene at once
+  bool joint = false;  // all views of a BOP scene at once
   bool overlays = true;
   PipelineOptions pipeline;
 };
@@ -23,8 +24,9 @@ struct BatchOptions {
 // InputError naming the first image without a world pose: what `joint` asks for.
 void require_world_poses(std::span<const InputImage> images);
 
-// Writes into `out`: NAME.json and NAME_overlay.png an image, results.csv (BOP) and summary.json. A bad image is listed and the batch goes on;
-// a GpuError ends it, and results.csv holds what was finished.
-BatchSummary run_batch(std::span<const InputImage> images, std::span<const TemplateSet> sets, Backend& backend, const BatchOptions& options);
+// Writes into `out`: NAME.json and NAME_overlay.png an image, results.csv (BOP) and summary.json. A bad image
+// is listed and the batch goes on; a GpuError ends it, and results.csv holds what was finished.
+BatchSummary run_batch(std::span<const InputImage> images, std::span<const TemplateSet> sets,
+                       Backend& backend, const BatchOptions& options);
 
 }  // namespace edgescout

@@ -9,7 +9,9 @@
 
 namespace edgescout {
 
-std::filesystem::path json_of(const std::filesystem::path& out, const InputImage& input) { return out / (input.name + ".json"); }
+std::filesystem::path json_of(const std::filesystem::path& out, const InputImage& input) {
+  return out / (input.name + ".json");
+}
 
 bool is_done(const std::filesystem::path& out, const InputImage& input) {
   const std::filesystem::path file = json_of(out, input);
@@ -22,27 +24,37 @@ bool is_done(const std::filesystem::path& out, const InputImage& input) {
   return true;
 }
 
-void write_csv(std::span<const InputImage> images, const BatchSummary& summary, const std::filesystem::path& out) {
+void write_csv(std::span<const InputImage> images, const BatchSummary& summary,
+               const std::filesystem::path& out) {
   std::vector<BopResult> rows;
   for (const InputImage& input : images) {
-    if (summary.failures.contains(input.file.string()) || !std::filesystem::exists(json_of(out, input))) continue;
+    if (summary.failures.contains(input.file.string()) || !std::filesystem::exists(json_of(out, input)))
+      continue;
     const ImageResult result = load_image_result(json_of(out, input));
     double seconds = 0;
     for (const StageSeconds& stage : result.stages) seconds += stage.seconds;
     for (const Detection& d : result.detections)
-      rows.push_back({result.scene_id, result.image_id, result.objects[static_cast<std::size_t>(d.object)].id, d.probability,
-                      result.camera_from_world.value_or(Se3{}) * d.world_from_object, seconds});
+      rows.push_back({result.scene_id, result.image_id, result.objects[static_cast<std::size_t>(d.object)].id,
+                      d.probability, result.camera_from_world.value_or(Se3{}) * d.world_from_object,
+                      seconds});
   }
   save_bop_results(rows, out / "results.csv");
 }
 
 void write_summary(const BatchSummary& summary, const std::string& device, const std::filesystem::path& out) {
-  nlohmann::ordered_json json{{"images", summary.images}, {"done", summary.done}, {"skipped", summary.skipped}, {"failed", summary.failures.size()},
-                              {"device", device}, {"seconds", summary.seconds},
-                              {"images_per_second", summary.seconds > 0 ? summary.done / summary.seconds : 0.0}};
-  for (const auto& [stage, seconds] : summary.stage_seconds) json["mean_ms_per_image"][stage] = 1000 * seconds / std::max(1, summary.done);
+  nlohmann::ordered_json json{
+      {"images", summary.images},
+      {"done", summary.done},
+      {"skipped", summary.skipped},
+      {"failed", summary.failures.size()},
+      {"device", device},
+      {"seconds", summary.seconds},
+      {"images_per_second", summary.seconds > 0 ? summary.done / summary.seconds : 0.0}};
+  for (const auto& [stage, seconds] : summary.stage_seconds)
+    json["mean_ms_per_image"][stage] = 1000 * seconds / std::max(1, summary.done);
   json["failures"] = nlohmann::ordered_json::array();
-  for (const auto& [file, message] : summary.failures) json["failures"].push_back({{"file", file}, {"error", message}});
+  for (const auto& [file, message] : summary.failures)
+    json["failures"].push_back({{"file", file}, {"error", message}});
   write_file_atomically(out / "summary.json", json.dump(2) + "\n");
 }
 

@@ -1,5 +1,5 @@
-// What a batch leaves in its folder beside the pictures: NAME.json an image, results.csv over all and summary.json. The JSON files are the memory of
-// a batch that was interrupted.
+// What a batch leaves in its folder beside the pictures: NAME.json an image, results.csv over all and
+// summary.json. The JSON files are the memory of a batch that was interrupted.
 #pragma once
 
 #include <filesystem>
@@ -25,8 +25,10 @@ std::filesystem::path json_of(const std::filesystem::path& out, const InputImage
 // Whether a whole result in today's format is there.
 bool is_done(const std::filesystem::path& out, const InputImage& input);
 
-// results.csv, from the JSON files of this run and, after a resume, of those before it. Of an image that failed now an older result is not listed.
-void write_csv(std::span<const InputImage> images, const BatchSummary& summary, const std::filesystem::path& out);
+// results.csv, from the JSON files of this run and, after a resume, of those before it. Of an image that
+// failed now an older result is not listed.
+void write_csv(std::span<const InputImage> images, const BatchSummary& summary,
+               const std::filesystem::path& out);
 
 // summary.json: counts, throughput, mean time of every stage, failures.
 void write_summary(const BatchSummary& summary, const std::string& device, const std::filesystem::path& out);

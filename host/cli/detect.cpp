@@ -27,7 +27,8 @@ struct DetectRequest {
   BatchOptions batch;
 };
 
-// The camera that default distances are taken from: that of the first image that can be used. Where none can, the last one's error.
+// The camera that default distances are taken from: that of the first image that can be used. Where none can,
+// the last one's error.
 Camera first_camera(const DetectRequest& request, std::span<const InputImage> images) {
   std::optional<Camera> given;
   if (!request.batch.camera_file.empty()) given = load_camera(request.batch.camera_file);
@@ -36,7 +37,8 @@ Camera first_camera(const DetectRequest& request, std::span<const InputImage> im
     try {
       const Image image = load_image(input.file);
       const std::string source = given ? request.batch.camera_file : input.file.string();
-      return camera_for_image(given ? *given : *input.camera, image.width, image.height, request.batch.scale_camera, source);
+      return camera_for_image(given ? *given : *input.camera, image.width, image.height,
+                              request.batch.scale_camera, source);
     } catch (const InputError&) {
       if (&input == &images.back()) throw;
     }
@@ -48,12 +50,14 @@ Camera first_camera(const DetectRequest& request, std::span<const InputImage> im
 void require_other_folder(const DetectRequest& request) {
   std::error_code not_there;
   for (const std::string& input : request.inputs)
-    if (std::filesystem::is_directory(input) && std::filesystem::equivalent(input, request.batch.out, not_there))
+    if (std::filesystem::is_directory(input) &&
+        std::filesystem::equivalent(input, request.batch.out, not_there))
       throw InputError("command line", "--out", "the folder of the images", "another one");
 }
 
 // What can be judged without work is judged first: nothing is written for a request that cannot be met.
-std::vector<TemplateSet> template_sets(const DetectRequest& request, std::span<const InputImage> images, Backend& backend) {
+std::vector<TemplateSet> template_sets(const DetectRequest& request, std::span<const InputImage> images,
+                                       Backend& backend) {
   const KnownModels known = load_models(request.models);
   const Camera camera = first_camera(request, images);
   if (request.batch.joint) require_world_poses(images);
@@ -71,25 +75,34 @@ int detect(DetectRequest& request) {
   const std::unique_ptr<Backend> backend = make_backend(request.device);
   const std::vector<InputImage> images = list_images(request.inputs);
   const std::vector<TemplateSet> sets = template_sets(request, images, *backend);
-  log(LogLevel::Info, fmt::format("{} images, {} models, on {}", images.size(), sets.size(), backend->name()));
+  log(LogLevel::Info,
+      fmt::format("{} images, {} models, on {}", images.size(), sets.size(), backend->name()));
   const BatchSummary summary = run_batch(images, sets, *backend, request.batch);
-  std::cout << fmt::format("{} images: {} done, {} skipped, {} failed in {:.1f} s ({:.2f} images/s); results in {}\n", summary.images, summary.done,
-                           summary.skipped, summary.failures.size(), summary.seconds, summary.done / std::max(1e-9, summary.seconds), request.out);
+  std::cout << fmt::format(
+      "{} images: {} done, {} skipped, {} failed in {:.1f} s ({:.2f} images/s); results in {}\n",
+      summary.images, summary.done, summary.skipped, summary.failures.size(), summary.seconds,
+      summary.done / std::max(1e-9, summary.seconds), request.out);
   return summary.failures.empty() ? exit_done : exit_some_failed;
 }
 
 }  // namespace
 
 void add_detect(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("detect", "Find objects of known CAD models and their 6-DoF poses in images");
+  CLI::App* verb =
+      app.add_subcommand("detect", "Find objects of known CAD models and their 6-DoF poses in images");
   auto request = std::make_shared<DetectRequest>();
-  verb->add_option("inputs", request->inputs, "Images, folders of images, BOP scenes or folders of them")->required();
+  verb->add_option("inputs", request->inputs, "Images, folders of images, BOP scenes or folders of them")
+      ->required();
   add_model_arguments(*verb, request->models);
-  verb->add_option("--camera", request->batch.camera_file, "ROS or OpenCV YAML, or BOP camera JSON; BOP scenes bring their own")->type_name("FILE");
+  verb->add_option("--camera", request->batch.camera_file,
+                   "ROS or OpenCV YAML, or BOP camera JSON; BOP scenes bring their own")
+      ->type_name("FILE");
   verb->add_option("--out", request->out, "Folder of the results")->required()->type_name("DIR");
-  verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")->capture_default_str();
+  verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
+      ->capture_default_str();
   OptionTable(*verb, "Batch")
-      .flag("scale-camera", request->batch.scale_camera, "Accept images whose size is a pure scale of the calibration's")
+      .flag("scale-camera", request->batch.scale_camera,
+            "Accept images whose size is a pure scale of the calibration's")
       .flag("resume", request->batch.resume, "Skip images whose result is there already")
       .flag("joint", request->batch.joint, "Detect in all views of a BOP scene at once (needs world poses)")
       .flag("no-overlays", request->no_overlays, "Write no overlay pictures");

@@ -27,7 +27,8 @@ constexpr double PLOT_RADIUS = 150, PLOT_MIDDLE = 180;  // 90 degrees from the t
 
 Place place_of(const Se3& camera_from_world, const Eigen::Vector3d& center_m) {
   const Eigen::Vector3d d = (inverse(camera_from_world).translation_m - center_m).normalized();
-  const double r = PLOT_RADIUS * std::acos(std::clamp(d.z(), -1.0, 1.0)) / (PI / 2), azimuth = std::atan2(d.y(), d.x());
+  const double r = PLOT_RADIUS * std::acos(std::clamp(d.z(), -1.0, 1.0)) / (PI / 2),
+               azimuth = std::atan2(d.y(), d.x());
   return {PLOT_MIDDLE + r * std::cos(azimuth), PLOT_MIDDLE - r * std::sin(azimuth)};
 }
 
@@ -35,11 +36,14 @@ std::string rings_svg() {
   std::string svg;
   for (int ring : {30, 60, 90}) {
     const double r = PLOT_RADIUS * ring / 90;
-    svg += fmt::format("<circle class=ring cx={0} cy={0} r={1:.1f} /><text class=tick x={0} y={2:.1f}>{3}°</text>", PLOT_MIDDLE, r, PLOT_MIDDLE - r - 3, 90 - ring);
+    svg += fmt::format(
+        "<circle class=ring cx={0} cy={0} r={1:.1f} /><text class=tick x={0} y={2:.1f}>{3}°</text>",
+        PLOT_MIDDLE, r, PLOT_MIDDLE - r - 3, 90 - ring);
   }
   for (int spoke = 0; spoke < 4; ++spoke) {
     const double x = PLOT_RADIUS * std::cos(spoke * PI / 4), y = PLOT_RADIUS * std::sin(spoke * PI / 4);
-    svg += fmt::format("<path class=ring d='M{:.1f} {:.1f}L{:.1f} {:.1f}'/>", PLOT_MIDDLE - x, PLOT_MIDDLE - y, PLOT_MIDDLE + x, PLOT_MIDDLE + y);
+    svg += fmt::format("<path class=ring d='M{:.1f} {:.1f}L{:.1f} {:.1f}'/>", PLOT_MIDDLE - x,
+                       PLOT_MIDDLE - y, PLOT_MIDDLE + x, PLOT_MIDDLE + y);
   }
   return svg;
 }
@@ -51,34 +55,47 @@ std::string path_svg(std::span<const DrawnView> views, const std::vector<Place>&
     if (views[v].taken > 0) stops.emplace_back(views[v].taken, places[v]);
   std::ranges::sort(stops, {}, [](const auto& stop) { return stop.first; });
   std::string line;
-  for (const auto& [number, place] : stops) line += fmt::format("{}{:.1f} {:.1f}", line.empty() ? 'M' : 'L', place.x, place.y);
+  for (const auto& [number, place] : stops)
+    line += fmt::format("{}{:.1f} {:.1f}", line.empty() ? 'M' : 'L', place.x, place.y);
   return "<path class=way d='" + line + "'/>";
 }
 
-std::string view_svg(const DrawnView& view, std::size_t number, const Place& p, double low, double high, const std::string& unit) {
-  const std::string title = fmt::format("<title>view {}{}</title>", number, view.information ? fmt::format(": {:.4f} {}", *view.information, unit) : "");
+std::string view_svg(const DrawnView& view, std::size_t number, const Place& p, double low, double high,
+                     const std::string& unit) {
+  const std::string title =
+      fmt::format("<title>view {}{}</title>", number,
+                  view.information ? fmt::format(": {:.4f} {}", *view.information, unit) : "");
   std::string svg;
   if (view.unreachable)
-    return fmt::format("<g><path class=cross d='M{:.1f} {:.1f}l10 10m0 -10l-10 10'/>{}</g>", p.x - 5, p.y - 5, title);
+    return fmt::format("<g><path class=cross d='M{:.1f} {:.1f}l10 10m0 -10l-10 10'/>{}</g>", p.x - 5, p.y - 5,
+                       title);
   if (view.chosen) svg += fmt::format("<circle class=chosen cx={:.1f} cy={:.1f} r=14 />", p.x, p.y);
   if (view.taken > 0)
-    return svg + fmt::format("<g><circle class=taken cx={0:.1f} cy={1:.1f} r=9 /><text class=number x={0:.1f} y={2:.1f}>{3}</text>{4}</g>", p.x, p.y, p.y + 4,
-                             view.taken, title);
-  const std::string fill = view.information ? heat_colour(high > low ? (*view.information - low) / (high - low) : 0.5) : "none";
-  return svg + fmt::format("<circle class=view fill='{}' cx={:.1f} cy={:.1f} r=9>{}</circle>", fill, p.x, p.y, title);
+    return svg + fmt::format(
+                     "<g><circle class=taken cx={0:.1f} cy={1:.1f} r=9 /><text class=number x={0:.1f} "
+                     "y={2:.1f}>{3}</text>{4}</g>",
+                     p.x, p.y, p.y + 4, view.taken, title);
+  const std::string fill =
+      view.information ? heat_colour(high > low ? (*view.information - low) / (high - low) : 0.5) : "none";
+  return svg + fmt::format("<circle class=view fill='{}' cx={:.1f} cy={:.1f} r=9>{}</circle>", fill, p.x, p.y,
+                           title);
 }
 
 std::string colour_bar_svg(double low, double high, const std::string& unit) {
   std::string svg;
   constexpr int steps = 32;
   for (int i = 0; i < steps; ++i)
-    svg += fmt::format("<rect x=372 y={:.1f} width=14 height=6.5 fill='{}'/>", 275.0 - 6 * i, heat_colour(i / (steps - 1.0)));
-  return svg + fmt::format("<text class=label x=391 y=285>{:.3f}</text><text class=label x=391 y=97>{:.3f}</text><text class=label x=372 y=78>{}</text>", low, high, unit);
+    svg += fmt::format("<rect x=372 y={:.1f} width=14 height=6.5 fill='{}'/>", 275.0 - 6 * i,
+                       heat_colour(i / (steps - 1.0)));
+  return svg + fmt::format(
+                   "<text class=label x=391 y=285>{:.3f}</text><text class=label x=391 "
+                   "y=97>{:.3f}</text><text class=label x=372 y=78>{}</text>",
+                   low, high, unit);
 }
 
 // Depth of the nearest surface of all members at every pixel.
-std::vector<float> surface_of(std::span<const EdgeModel> models, std::span<const Hypothesis> members, const Camera& camera, const Se3& camera_from_world,
-                              ThreadPool& pool) {
+std::vector<float> surface_of(std::span<const EdgeModel> models, std::span<const Hypothesis> members,
+                              const Camera& camera, const Se3& camera_from_world, ThreadPool& pool) {
   std::vector<TriangleCorners> triangles;
   for (const Hypothesis& member : members) {
     const Mesh& mesh = models[static_cast<std::size_t>(member.object)].mesh;
@@ -91,12 +108,15 @@ std::vector<float> surface_of(std::span<const EdgeModel> models, std::span<const
   return rasterize(triangles, camera, camera_from_world, pool).depth_m;
 }
 
-// Whether a point lies in the image with no surface clearly before it in any of the 3 x 3 pixels around; on a contour the background is among them.
-bool shows(const Eigen::Vector2d& pixel, double z_m, double tolerance_m, const Camera& camera, const std::vector<float>& depth_m) {
+// Whether a point lies in the image with no surface clearly before it in any of the 3 x 3 pixels around; on a
+// contour the background is among them.
+bool shows(const Eigen::Vector2d& pixel, double z_m, double tolerance_m, const Camera& camera,
+           const std::vector<float>& depth_m) {
   const int x = static_cast<int>(std::lround(pixel.x())), y = static_cast<int>(std::lround(pixel.y()));
   if (x < 1 || y < 1 || x >= camera.width - 1 || y >= camera.height - 1) return false;
   for (int i = 0; i < 9; ++i)
-    if (depth_m[static_cast<std::size_t>(y + i / 3 - 1) * camera.width + x + i % 3 - 1] >= z_m - tolerance_m) return true;
+    if (depth_m[static_cast<std::size_t>(y + i / 3 - 1) * camera.width + x + i % 3 - 1] >= z_m - tolerance_m)
+      return true;
   return false;
 }
 
@@ -108,7 +128,8 @@ std::string inline_png(const std::string& png) {
   for (std::size_t i = 0; i < png.size(); i += 3) {
     const std::size_t bytes = std::min<std::size_t>(3, png.size() - i);
     std::uint32_t word = 0;
-    for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (k < bytes ? static_cast<unsigned char>(png[i + k]) : 0u);
+    for (std::size_t k = 0; k < 3; ++k)
+      word = word << 8 | (k < bytes ? static_cast<unsigned char>(png[i + k]) : 0u);
     for (std::size_t k = 0; k < 4; ++k) text += k <= bytes ? letters[word >> (18 - 6 * k) & 63] : '=';
   }
   return text;
@@ -116,12 +137,14 @@ std::string inline_png(const std::string& png) {
 
 std::string heat_colour(double fraction) {
   // Viridis, at nine places.
-  constexpr double stops[9][3] = {{68, 1, 84},   {71, 44, 122},   {59, 81, 139},  {44, 113, 142}, {33, 144, 141},
-                                  {39, 173, 129}, {92, 200, 99}, {170, 220, 50}, {253, 231, 37}};
+  constexpr double stops[9][3] = {{68, 1, 84},    {71, 44, 122},  {59, 81, 139},
+                                  {44, 113, 142}, {33, 144, 141}, {39, 173, 129},
+                                  {92, 200, 99},  {170, 220, 50}, {253, 231, 37}};
   const double at = 8 * std::clamp(fraction, 0.0, 1.0);
   const int i = std::min(7, static_cast<int>(at));
   std::array<int, 3> rgb;
-  for (int k = 0; k < 3; ++k) rgb[k] = static_cast<int>(std::lround(stops[i][k] + (at - i) * (stops[i + 1][k] - stops[i][k])));
+  for (int k = 0; k < 3; ++k)
+    rgb[k] = static_cast<int>(std::lround(stops[i][k] + (at - i) * (stops[i + 1][k] - stops[i][k])));
   return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
 }
 
@@ -130,7 +153,8 @@ std::array<std::uint8_t, 3> distinct_colour(int number) {
   const double hue = std::fmod(210 + 137.508 * number, 360) / 60;
   const auto channel = [&](double offset) {
     const double k = std::fmod(offset + hue, 6);
-    return static_cast<std::uint8_t>(std::lround(255 * (0.82 - 0.74 * std::clamp(std::min(k, 4 - k), 0.0, 1.0))));
+    return static_cast<std::uint8_t>(
+        std::lround(255 * (0.82 - 0.74 * std::clamp(std::min(k, 4 - k), 0.0, 1.0))));
   };
   return {channel(5), channel(3), channel(1)};
 }
@@ -147,26 +171,31 @@ std::string hemisphere_svg(std::span<const DrawnView> views, const std::string& 
   const Eigen::Vector3d center_m = looked_at_m(poses);
   std::vector<Place> places;
   for (const Se3& pose : poses) places.push_back(place_of(pose, center_m));
-  std::string svg = "<svg class=hemisphere viewBox='0 0 440 360' role=img>" + rings_svg() + path_svg(views, places);
+  std::string svg =
+      "<svg class=hemisphere viewBox='0 0 440 360' role=img>" + rings_svg() + path_svg(views, places);
   for (std::size_t v = 0; v < views.size(); ++v) svg += view_svg(views[v], v, places[v], low, high, unit);
   if (high >= low) svg += colour_bar_svg(low, high, unit);
   return svg + "</svg>";
 }
 
-std::string particles_svg(const std::string& image_id, const Camera& camera, std::span<const DrawnParticle> particles, std::span<const EdgeModel> models) {
+std::string particles_svg(const std::string& image_id, const Camera& camera,
+                          std::span<const DrawnParticle> particles, std::span<const EdgeModel> models) {
   double heaviest = 0;
   for (const DrawnParticle& particle : particles) heaviest = std::max(heaviest, particle.weight);
-  std::string svg = fmt::format("<svg class=picture viewBox='0 0 {} {}' role=img><use href='#{}'/>", camera.width, camera.height, image_id);
+  std::string svg = fmt::format("<svg class=picture viewBox='0 0 {} {}' role=img><use href='#{}'/>",
+                                camera.width, camera.height, image_id);
   for (const DrawnParticle& particle : particles) {
     const EdgeModel& model = models[static_cast<std::size_t>(particle.object)];
     const Eigen::Vector3d center = particle.camera_from_object * model.center_m;
     if (center.z() <= 0) continue;
     const Eigen::Vector2d p = project(camera, center);
     const auto [r, g, b] = distinct_colour(particle.object);
-    svg += fmt::format("<g opacity={:.2f} stroke='#{:02x}{:02x}{:02x}'><circle cx={:.1f} cy={:.1f} r=2.5 />", 0.15 + 0.75 * particle.weight / heaviest, r, g, b,
-                       p.x(), p.y());
+    svg += fmt::format("<g opacity={:.2f} stroke='#{:02x}{:02x}{:02x}'><circle cx={:.1f} cy={:.1f} r=2.5 />",
+                       0.15 + 0.75 * particle.weight / heaviest, r, g, b, p.x(), p.y());
     for (int axis : {0, 1}) {
-      const Eigen::Vector3d end = particle.camera_from_object * (model.center_m + 0.2 * model.mesh.diameter_m * Eigen::Vector3d::Unit(axis));
+      const Eigen::Vector3d end =
+          particle.camera_from_object *
+          (model.center_m + 0.2 * model.mesh.diameter_m * Eigen::Vector3d::Unit(axis));
       if (end.z() <= 0) continue;
       const Eigen::Vector2d q = project(camera, end);
       svg += fmt::format("<path d='M{:.1f} {:.1f}L{:.1f} {:.1f}'/>", p.x(), p.y(), q.x(), q.y());
@@ -176,8 +205,9 @@ std::string particles_svg(const std::string& image_id, const Camera& camera, std
   return svg + "</svg>";
 }
 
-RgbImage edge_map(std::span<const EdgeModel> models, std::span<const Hypothesis> members, std::span<const int> colours, const Camera& camera,
-                  const Se3& camera_from_world, int width_px, Backend& backend) {
+RgbImage edge_map(std::span<const EdgeModel> models, std::span<const Hypothesis> members,
+                  std::span<const int> colours, const Camera& camera, const Se3& camera_from_world,
+                  int width_px, Backend& backend) {
   const Camera small = scaled(camera, std::min(1.0, static_cast<double>(width_px) / camera.width));
   const std::vector<float> depth_m = surface_of(models, members, small, camera_from_world, backend.threads());
   cv::Mat canvas(small.height, small.width, CV_8UC3, cv::Scalar(255, 255, 255));
@@ -191,7 +221,8 @@ RgbImage edge_map(std::span<const EdgeModel> models, std::span<const Hypothesis>
       const Eigen::Vector2d pixel = project(small, x);
       if (!shows(pixel, x.z(), 0.02 * model.mesh.diameter_m, small, depth_m)) continue;
       constexpr int bits = 4;
-      cv::circle(canvas, cv::Point(int(std::lround(16 * pixel.x())), int(std::lround(16 * pixel.y()))), 16, cv::Scalar(r, g, b), cv::FILLED, cv::LINE_AA, bits);
+      cv::circle(canvas, cv::Point(int(std::lround(16 * pixel.x())), int(std::lround(16 * pixel.y()))), 16,
+                 cv::Scalar(r, g, b), cv::FILLED, cv::LINE_AA, bits);
     }
   }
   return {small.width, small.height, {canvas.data, canvas.data + canvas.total() * 3}};

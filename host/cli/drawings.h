@@ -29,9 +29,10 @@ struct DrawnView {
   std::optional<double> information;  // absent: not judged
   int taken = 0;                      // 1, 2 ..: the image taken from there; 0: none
   bool unreachable = false;
-  bool chosen = false;                // now
+  bool chosen = false;  // now
 };
-// The views' directions from what they look at, seen from above: the middle is straight up (+z), each ring 30 degrees lower. Coloured by information, which is in `unit`.
+// The views' directions from what they look at, seen from above: the middle is straight up (+z), each ring 30
+// degrees lower. Coloured by information, which is in `unit`.
 std::string hemisphere_svg(std::span<const DrawnView> views, const std::string& unit);
 
 struct DrawnParticle {
@@ -39,11 +40,15 @@ struct DrawnParticle {
   Se3 camera_from_object;
   double weight = 0;  // of all particles: sums to 1
 };
-// Over the image with this id in the page: each particle a place and the object's x and y axes, darker the heavier.
-std::string particles_svg(const std::string& image_id, const Camera& camera, std::span<const DrawnParticle> particles, std::span<const EdgeModel> models);
+// Over the image with this id in the page: each particle a place and the object's x and y axes, darker the
+// heavier.
+std::string particles_svg(const std::string& image_id, const Camera& camera,
+                          std::span<const DrawnParticle> particles, std::span<const EdgeModel> models);
 
-// The edges a scene made of these objects would show, hidden ones removed, each object in its colour; at most `width_px` wide.
-RgbImage edge_map(std::span<const EdgeModel> models, std::span<const Hypothesis> members, std::span<const int> colours, const Camera& camera,
-                  const Se3& camera_from_world, int width_px, Backend& backend);
+// The edges a scene made of these objects would show, hidden ones removed, each object in its colour; at most
+// `width_px` wide.
+RgbImage edge_map(std::span<const EdgeModel> models, std::span<const Hypothesis> members,
+                  std::span<const int> colours, const Camera& camera, const Se3& camera_from_world,
+                  int width_px, Backend& backend);
 
 }  // namespace edgescout

@@ -93,7 +93,8 @@ using Row = std::pair<std::string, Recalls>;
 std::vector<Row> evaluate_rows(const EvalRequest& request) {
   request.recall.validate();
   std::map<int, Object> objects;
-  for (Object& object : load_objects(request.models, EVALUATION_SYMMETRY_STEPS)) objects[object.id] = std::move(object);
+  for (Object& object : load_objects(request.models, EVALUATION_SYMMETRY_STEPS))
+    objects[object.id] = std::move(object);
   const std::vector<BopResult> results = load_bop_results(request.results);
   const std::vector<EvaluationImage> images = load_images(request, results);
   std::vector<Row> rows;

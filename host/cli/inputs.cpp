@@ -52,14 +52,16 @@ void add_folder(const fs::path& folder, std::vector<InputImage>& images) {
   if (images.size() > before) return;
   for (const fs::path& entry : sorted_entries(folder))
     if (has_image_extension(entry)) add_file(entry, images);
-  if (images.size() == before) throw InputError(folder.string(), "folder", "no image and no BOP scene", "at least one");
+  if (images.size() == before)
+    throw InputError(folder.string(), "folder", "no image and no BOP scene", "at least one");
 }
 
 void make_names_unique(std::vector<InputImage>& images) {
   std::set<std::string> taken{"summary"};  // the batch's own file
   for (InputImage& image : images) {
     const std::string name = image.name;
-    for (int times = 2; !taken.insert(image.name).second; ++times) image.name = fmt::format("{}_{}", name, times);
+    for (int times = 2; !taken.insert(image.name).second; ++times)
+      image.name = fmt::format("{}_{}", name, times);
   }
 }
 
@@ -81,14 +83,16 @@ std::vector<InputImage> list_images(const std::vector<std::string>& arguments) {
     else if (fs::exists(path))
       add_file(path, images);
     else
-      throw InputError(argument, "input", "nothing of that name", "an image, a folder of images or a BOP scene");
+      throw InputError(argument, "input", "nothing of that name",
+                       "an image, a folder of images or a BOP scene");
   }
   make_names_unique(images);
   return images;
 }
 
 std::vector<Object> load_objects(const ModelArguments& arguments, int continuous_steps) {
-  if (arguments.unit.empty()) throw InputError("command line", "--unit", "none", "mm, cm, m or in: mesh files carry no unit");
+  if (arguments.unit.empty())
+    throw InputError("command line", "--unit", "none", "mm, cm, m or in: mesh files carry no unit");
   if (!arguments.object_ids.empty() && arguments.object_ids.size() != arguments.models.size())
     throw InputError("command line", "--object-id", std::to_string(arguments.object_ids.size()) + " ids",
                      "one for each of " + std::to_string(arguments.models.size()) + " models");
@@ -99,9 +103,11 @@ std::vector<Object> load_objects(const ModelArguments& arguments, int continuous
   std::set<int> ids;
   for (std::size_t i = 0; i < arguments.models.size(); ++i) {
     Object object;
-    object.id = arguments.object_ids.empty() ? id_in_name(arguments.models[i], int(i) + 1) : arguments.object_ids[i];
+    object.id =
+        arguments.object_ids.empty() ? id_in_name(arguments.models[i], int(i) + 1) : arguments.object_ids[i];
     if (!ids.insert(object.id).second)
-      throw InputError(arguments.models[i], "object id", std::to_string(object.id) + " twice", "ids that differ: give --object-id");
+      throw InputError(arguments.models[i], "object id", std::to_string(object.id) + " twice",
+                       "ids that differ: give --object-id");
     object.mesh = load_mesh(arguments.models[i], unit);
     if (symmetries.contains(object.id)) object.symmetries = symmetries.at(object.id);
     objects.push_back(std::move(object));

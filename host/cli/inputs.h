@@ -15,24 +15,28 @@ struct InputImage {
   std::filesystem::path file;
   int scene_id = 0;
   int image_id = 0;
-  std::optional<Camera> camera;           // of a BOP scene; size 0 x 0 until the image is read
+  std::optional<Camera> camera;  // of a BOP scene; size 0 x 0 until the image is read
   std::optional<Se3> camera_from_world;
-  // A name no other image of the batch has, for its result files: "000001_000012" in a BOP scene, else the file's stem (made unique by a number).
+  // A name no other image of the batch has, for its result files: "000001_000012" in a BOP scene, else the
+  // file's stem (made unique by a number).
   std::string name;
 };
 
-// Each argument is an image, a BOP scene folder (has scene_camera.json), a folder of such scenes, or a folder of images (png, jpg, jpeg, pgm, ppm, bmp, tif, tiff; sorted by
-// name). InputError where one is none of these or holds no image.
+// Each argument is an image, a BOP scene folder (has scene_camera.json), a folder of such scenes, or a folder
+// of images (png, jpg, jpeg, pgm, ppm, bmp, tif, tiff; sorted by name). InputError where one is none of these
+// or holds no image.
 std::vector<InputImage> list_images(const std::vector<std::string>& arguments);
 
 struct ModelArguments {
-  std::vector<std::string> models;     // mesh files
+  std::vector<std::string> models;  // mesh files
   std::string unit;
-  std::string models_info;             // BOP models_info.json; empty: no symmetries
-  std::vector<int> object_ids;         // of the models; empty: the number at the end of the file's name, else 1, 2 ..
+  std::string models_info;  // BOP models_info.json; empty: no symmetries
+  std::vector<int>
+      object_ids;  // of the models; empty: the number at the end of the file's name, else 1, 2 ..
   std::vector<std::string> templates;  // template files, in place of models
 };
 // Surfaces of revolution are sampled in `continuous_steps` turns.
-std::vector<Object> load_objects(const ModelArguments& arguments, int continuous_steps = DETECTION_SYMMETRY_STEPS);
+std::vector<Object> load_objects(const ModelArguments& arguments,
+                                 int continuous_steps = DETECTION_SYMMETRY_STEPS);
 
 }  // namespace edgescout

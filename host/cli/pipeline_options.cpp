@@ -6,13 +6,17 @@ void add_edge_and_tensor_options(CLI::App& verb, PipelineOptions& o, std::string
   OptionTable(verb, "Edges")
       .choice("edges", edge_method, {"gradient", "lsd"}, "Edge detector")
       .bounded("edge-sigma", o.edges.gradient.sigma_px, 0.3f, 8.0f, "Blur before differentiation, px")
-      .bounded("edge-low", o.edges.gradient.low_threshold, 0.1f, 127.0f, "Weaker pixels are no edge, grey levels a pixel")
-      .bounded("edge-high", o.edges.gradient.high_threshold, 0.1f, 127.0f, "A chain needs one pixel of this strength")
+      .bounded("edge-low", o.edges.gradient.low_threshold, 0.1f, 127.0f,
+               "Weaker pixels are no edge, grey levels a pixel")
+      .bounded("edge-high", o.edges.gradient.high_threshold, 0.1f, 127.0f,
+               "A chain needs one pixel of this strength")
       .bounded("edge-min-length", o.edges.gradient.min_length_px, 1, 10000, "Of a chain, px")
-      .flag("faint-edges,!--no-faint-edges", o.edges.faint_edges, "Also long faint edges at a coarser scale (default)");
+      .flag("faint-edges,!--no-faint-edges", o.edges.faint_edges,
+            "Also long faint edges at a coarser scale (default)");
   OptionTable(verb, "Tensor")
       .bounded("bins", o.tensor.bins, 4, 128, "Orientations over pi; even")
-      .bounded("lambda", o.tensor.lambda_px_per_rad, 0.0f, 10000.0f, "Weight of orientation against location, px/rad")
+      .bounded("lambda", o.tensor.lambda_px_per_rad, 0.0f, 10000.0f,
+               "Weight of orientation against location, px/rad")
       .bounded("smoothing-variance", o.tensor.smoothing_variance, 0.0f, 16.0f, "Over orientation, bins^2")
       .bounded("cap", o.tensor.cap_px, 1.0f, 255.0f, "Largest distance, px");
 }
@@ -24,11 +28,15 @@ void add_detection_options(CLI::App& verb, PipelineOptions& o) {
       .bounded("anchor-step", d.scan.anchor_step, 1, 16, "Between places of the scan, coarse px")
       .bounded("scan-hits", d.scan.kept, 1, 10000000, "Looked at in full resolution")
       .bounded("aligned", d.aligned, 1, 1000000, "Hits aligned on the coarse tensor")
-      .bounded("aligned-jointly", d.aligned_jointly, 1, 1000000, "Of several images of one scene: hits that are aligned in them")
-      .bounded("helping-views", d.helping_views, 1, 10000, "Other images of the scene that help to search one")
+      .bounded("aligned-jointly", d.aligned_jointly, 1, 1000000,
+               "Of several images of one scene: hits that are aligned in them")
+      .bounded("helping-views", d.helping_views, 1, 10000,
+               "Other images of the scene that help to search one")
       .bounded("candidates", d.candidates, 1, 100000, "Candidates registered in full")
-      .bounded("second-look", d.second_look_rad, 0.0, 1.0, "Turned starts around what was chosen, rad; 0: none")
-      .bounded("max-spent", d.evidence.max_spent, 0.0, 1.0, "Of a pose's edges: more explained by better poses, and it goes")
+      .bounded("second-look", d.second_look_rad, 0.0, 1.0,
+               "Turned starts around what was chosen, rad; 0: none")
+      .bounded("max-spent", d.evidence.max_spent, 0.0, 1.0,
+               "Of a pose's edges: more explained by better poses, and it goes")
       .bounded("min-probability", d.min_probability, 0.0, 1.0, "Less probable poses are not reported")
       .bounded("max-detections", d.max_detections, 1, 100000, "Reported an image");
 }
@@ -38,27 +46,35 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
       .bounded("map-reduction", o.next_view.reduction, 1.0, 16.0, "Image px a px of the distance maps")
       .bounded("chamfer-cap", o.next_view.cap_px, 0.1, 255.0, "Of distances, image px")
       .bounded("sigma", o.next_view.sigma_px, 0.001, 1000.0, "Of the mean distance of a right pose, image px")
-      .bounded("free-sight", o.next_view.free_sight, 0.0, 100.0, "How much lower cameras are hidden by what is unknown; 0: not at all")
+      .bounded("free-sight", o.next_view.free_sight, 0.0, 100.0,
+               "How much lower cameras are hidden by what is unknown; 0: not at all")
       .flag("literal", o.next_view.literal, "The paper's own formula for the information")
       .bounded("combinations", o.combinations.count, 1, 1000000, "Scenes imagined for a decision")
-      .bounded("sharpness", o.combinations.sharpness, 0.0, 1000.0, "Of the preference for likely candidates in them; 1: the paper's")
+      .bounded("sharpness", o.combinations.sharpness, 0.0, 1000.0,
+               "Of the preference for likely candidates in them; 1: the paper's")
       .bounded("penetration", o.penetration_m, 0.0, 1.0, "How far parts may reach into each other, m");
   OptionTable(verb, "Belief")
       .bounded("particles", o.particles.count, 1, 100000, "Poses that are followed")
-      .bounded("max-candidates", o.max_candidates, 1, 10000, "Of all objects together, kept from image to image")
-      .bounded("known-probability", o.known_probability, 0.0, 2.0, "As probable instances hide what is behind them; above 1: none do")
-      .flag("jointly,!--alone", o.detect_jointly, "Detect in later images with the help of those before (default), or in each alone")
-      .flag("every-image,!--first-image-only", o.detect_in_every_image, "Detect in every image (default), or in the first only, as in the paper");
+      .bounded("max-candidates", o.max_candidates, 1, 10000,
+               "Of all objects together, kept from image to image")
+      .bounded("known-probability", o.known_probability, 0.0, 2.0,
+               "As probable instances hide what is behind them; above 1: none do")
+      .flag("jointly,!--alone", o.detect_jointly,
+            "Detect in later images with the help of those before (default), or in each alone")
+      .flag("every-image,!--first-image-only", o.detect_in_every_image,
+            "Detect in every image (default), or in the first only, as in the paper");
 }
 
 void add_template_options(CLI::App& verb, TemplateOptions& o) {
   OptionTable(verb, "Templates")
-      .bounded("distance-min", o.distance_min_m, 0.0, 1000.0, "Camera to object, m; 0: from its size and the camera")
+      .bounded("distance-min", o.distance_min_m, 0.0, 1000.0,
+               "Camera to object, m; 0: from its size and the camera")
       .bounded("distance-max", o.distance_max_m, 0.0, 1000.0, "m")
       .bounded("distance-ratio", o.distance_ratio, 1.001, 2.0, "Between neighbouring distances")
       .bounded("viewpoints", o.frequency, 1, 16, "Frequency f of the icosphere: 10 f^2 + 2 viewpoints")
       .bounded("in-plane-steps", o.in_plane_steps, 1, 360, "Rotations about the line of sight")
-      .bounded("latitude-min", o.range.latitude_min_deg, -90.0, 90.0, "Of viewpoints over the object's x-y plane, degrees")
+      .bounded("latitude-min", o.range.latitude_min_deg, -90.0, 90.0,
+               "Of viewpoints over the object's x-y plane, degrees")
       .bounded("latitude-max", o.range.latitude_max_deg, -90.0, 90.0, "degrees")
       .bounded("longitude-min", o.range.longitude_min_deg, -360.0, 360.0, "degrees")
       .bounded("longitude-max", o.range.longitude_max_deg, -360.0, 720.0, "degrees")

@@ -123,12 +123,14 @@ void save_overlay(const ReadyJob& ready, std::size_t view, const Detections& fou
 std::vector<std::size_t> views_with_starts(const RegisterJob& job) {
   std::vector<std::size_t> views;
   for (std::size_t view = 0; view < job.views.size(); ++view)
-    if (std::ranges::any_of(job.starts, [&](const RegisterJob::Start& start) { return start.view == view; })) views.push_back(view);
+    if (std::ranges::any_of(job.starts, [&](const RegisterJob::Start& start) { return start.view == view; }))
+      views.push_back(view);
   return views;
 }
 
 bool is_done(const RegisterJob& job, const RegisterOptions& options) {
-  return std::ranges::all_of(views_with_starts(job), [&](std::size_t view) { return is_done(options.out, job.views[view]); });
+  return std::ranges::all_of(views_with_starts(job),
+                             [&](std::size_t view) { return is_done(options.out, job.views[view]); });
 }
 
 // The batch job by job.
@@ -146,7 +148,8 @@ class Registrar {
     const Detections found = refine_job(ready, models_, edge_models_, backend_, options_);
     for (std::size_t view = 0; options_.overlays && view < job.views.size(); ++view)
       save_overlay(ready, view, found, edge_models_, backend_, options_);
-    for (std::size_t view : views_with_starts(job)) save_json(ready, view, found, models_, backend_, options_);
+    for (std::size_t view : views_with_starts(job))
+      save_json(ready, view, found, models_, backend_, options_);
     for (const StageSeconds& stage : found.stages) summary.stage_seconds[stage.name] += stage.seconds;
     summary.done += static_cast<int>(views_with_starts(job).size());
     summary.poses += static_cast<int>(found.detections.size());
@@ -179,7 +182,8 @@ void work_through(std::span<const RegisterJob> jobs, Registrar& registrar, const
         registrar.work_on(job);
       } catch (const InputError& error) {
         if (++failed == jobs.size()) throw;
-        for (std::size_t view : views_with_starts(job)) registrar.summary.failures[job.views[view].file.string()] = error.what();
+        for (std::size_t view : views_with_starts(job))
+          registrar.summary.failures[job.views[view].file.string()] = error.what();
         log(LogLevel::Warning, error.what());
       }
     }
@@ -189,8 +193,8 @@ void work_through(std::span<const RegisterJob> jobs, Registrar& registrar, const
 
 }  // namespace
 
-RegisterSummary run_register(std::span<const RegisterJob> jobs, std::span<const RegisterModel> models, Backend& backend,
-                             const RegisterOptions& options) {
+RegisterSummary run_register(std::span<const RegisterJob> jobs, std::span<const RegisterModel> models,
+                             Backend& backend, const RegisterOptions& options) {
   const auto start = Clock::now();
   const std::vector<InputImage> images = images_of(jobs);
   Registrar registrar(models, backend, options);

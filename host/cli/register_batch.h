@@ -51,13 +51,13 @@ std::vector<RegisterJob> make_jobs(std::span<const InputImage> images, std::span
                                    const std::string& poses_file);
 
 struct RegisterSummary : BatchSummary {  // images: those with starts
-  int poses = 0;  // refined now
+  int poses = 0;                         // refined now
 };
 
 // Writes into `out`: NAME.json for every image with starts, its detections in the order of the starts;
-// NAME_overlay.png of every view; and at the end, also that by a GpuError, results.csv with one row a start and
-// summary.json. A job with a bad image is listed and the batch goes on. Where all jobs fail the last one's error is
-// thrown and nothing is written. With `resume`, jobs whose results are there are skipped.
+// NAME_overlay.png of every view; and at the end, also that by a GpuError, results.csv with one row a start
+// and summary.json. A job with a bad image is listed and the batch goes on. Where all jobs fail the last
+// one's error is thrown and nothing is written. With `resume`, jobs whose results are there are skipped.
 RegisterSummary run_register(std::span<const RegisterJob> jobs, std::span<const RegisterModel> models,
                              Backend& backend, const RegisterOptions& options);
 

@@ -31,7 +31,8 @@ struct ScoutRequest {
 
 std::vector<Object> objects_of(const KnownModels& known) {
   std::vector<Object> objects = known.objects;
-  for (const TemplateSet& set : known.sets) objects.push_back({set.object_id, set.model.mesh, set.symmetries});
+  for (const TemplateSet& set : known.sets)
+    objects.push_back({set.object_id, set.model.mesh, set.symmetries});
   return objects;
 }
 
@@ -50,7 +51,9 @@ TemplateOptions with_distances_of(TemplateOptions options, const std::vector<Se3
   return options;
 }
 
-const char* unit_of(Strategy strategy) { return strategy == Strategy::Information ? "nats" : strategy == Strategy::Disocclusion ? "points" : ""; }
+const char* unit_of(Strategy strategy) {
+  return strategy == Strategy::Information ? "nats" : strategy == Strategy::Disocclusion ? "points" : "";
+}
 
 void settle_options(ScoutRequest& request) {
   ScoutOptions& o = request.options;
@@ -66,15 +69,19 @@ void settle_options(ScoutRequest& request) {
 void tell(const ScoutState& state) {
   if (state.steps.empty()) return;
   const ScoutStep& step = state.steps.back();
-  log(LogLevel::Info, fmt::format("image {} from view {}: {} objects, entropy {:.3f} nats", state.steps.size(), step.decision.view, state.detections.size(), state.entropy_nats));
+  log(LogLevel::Info,
+      fmt::format("image {} from view {}: {} objects, entropy {:.3f} nats", state.steps.size(),
+                  step.decision.view, state.detections.size(), state.entropy_nats));
 }
 
-void write_all(const ScoutState& state, const ScoutReport& report, const ScoutRequest& request, bool last, Backend& backend) {
+void write_all(const ScoutState& state, const ScoutReport& report, const ScoutRequest& request, bool last,
+               Backend& backend) {
   const fs::path out = request.out;
   save_scout_state(state, out / "scout.state");
   save_scout_log(state, report, out);
   if (last) save_scout_results(state, report, out);
-  if (last || request.watch) write_file_atomically(out / "scout.html", scout_page(state, report, !last, backend));
+  if (last || request.watch)
+    write_file_atomically(out / "scout.html", scout_page(state, report, !last, backend));
 }
 
 int scout(ScoutRequest& request) {
@@ -84,22 +91,34 @@ int scout(ScoutRequest& request) {
   const ScoutSource source = make_source(request.source, objects_of(known), backend->threads());
   const std::vector<Se3> views = source.source->views();
   if (request.options.first_view >= static_cast<int>(views.size()))
-    throw InputError("command line", "--first-view", std::to_string(request.options.first_view), fmt::format("one of {} views", views.size()));
+    throw InputError("command line", "--first-view", std::to_string(request.options.first_view),
+                     fmt::format("one of {} views", views.size()));
   require_writable_folder(request.out);
-  const std::vector<TemplateSet> sets = template_sets_of(known, with_distances_of(request.templates, views), source.source->camera(), *backend);
+  const std::vector<TemplateSet> sets =
+      template_sets_of(known, with_distances_of(request.templates, views), source.source->camera(), *backend);
   Scout scout(sets, source.source->camera(), views, request.options, *backend);
   const fs::path saved = fs::path(request.out) / "scout.state";
   if (request.resume && fs::exists(saved)) scout.resume(load_scout_state(saved), saved.string());
-  const ScoutReport report{sets, undistorted(source.source->camera()), request.options.pipeline.edges, backend->name(), source.name, request.strategy,
-                           unit_of(request.options.next_view.strategy), source.truth, source.image_ids, source.scene_id};
+  const ScoutReport report{sets,
+                           undistorted(source.source->camera()),
+                           request.options.pipeline.edges,
+                           backend->name(),
+                           source.name,
+                           request.strategy,
+                           unit_of(request.options.next_view.strategy),
+                           source.truth,
+                           source.image_ids,
+                           source.scene_id};
   run_scout(scout, *source.source, [&](const ScoutState& state) {
     tell(state);
     write_all(state, report, request, false, *backend);
   });
   const ScoutState& state = scout.state();
   write_all(state, report, request, true, *backend);
-  std::cout << fmt::format("{} objects in {} images, {} views failed, {:.1f} s, ended by: {}; results in {}\n", state.detections.size(), state.steps.size(),
-                           state.failed.size(), state.seconds(), to_string(state.end), request.out);
+  std::cout << fmt::format(
+      "{} objects in {} images, {} views failed, {:.1f} s, ended by: {}; results in {}\n",
+      state.detections.size(), state.steps.size(), state.failed.size(), state.seconds(), to_string(state.end),
+      request.out);
   return state.steps.empty() || !state.failed.empty() ? exit_some_failed : exit_done;
 }
 
@@ -107,29 +126,37 @@ void add_loop_options(CLI::App& verb, ScoutRequest& r) {
   ScoutOptions& o = r.options;
   OptionTable(verb, "Budget")
       .bounded("max-views", o.max_views, 1, 1000000, "Images at most")
-      .bounded("min-entropy", o.min_entropy_nats, 0.0, 1e6, "Ends where the modes are as certain as that, nats; 0: never")
-      .bounded("min-information", o.min_information_nats, 0.0, 1e6, "Ends where no view is expected to tell as much, nats; 0: never")
+      .bounded("min-entropy", o.min_entropy_nats, 0.0, 1e6,
+               "Ends where the modes are as certain as that, nats; 0: never")
+      .bounded("min-information", o.min_information_nats, 0.0, 1e6,
+               "Ends where no view is expected to tell as much, nats; 0: never")
       .bounded("max-seconds", o.max_seconds, 0.0, 1e9, "Of computing; 0: no limit");
   OptionTable(verb, "Next view")
-      .choice("strategy", r.strategy, {"mi-max", "dis", "random", "fixed"}, "Most information, most disoccluded points, any view, or in the order of --sequence")
+      .choice("strategy", r.strategy, {"mi-max", "dis", "random", "fixed"},
+              "Most information, most disoccluded points, any view, or in the order of --sequence")
       .bounded("first-view", o.first_view, 0, 1000000, "The first image's")
-      .bounded("metre-cost", o.next_view.motion_cost_per_m, 0.0, 1e6, "Taken off for a metre of the camera's way, nats")
-      .bounded("radian-cost", o.next_view.motion_cost_per_rad, 0.0, 1e6, "And for a radian of its turn, nats");
-  verb.add_option("--sequence", r.sequence, "Views of strategy fixed; default: all in order")->group("Next view");
+      .bounded("metre-cost", o.next_view.motion_cost_per_m, 0.0, 1e6,
+               "Taken off for a metre of the camera's way, nats")
+      .bounded("radian-cost", o.next_view.motion_cost_per_rad, 0.0, 1e6,
+               "And for a radian of its turn, nats");
+  verb.add_option("--sequence", r.sequence, "Views of strategy fixed; default: all in order")
+      ->group("Next view");
   add_belief_options(verb, o);
 }
 
 }  // namespace
 
 void add_scout(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("scout", "Look again from the best place: detection with a next best view");
+  CLI::App* verb =
+      app.add_subcommand("scout", "Look again from the best place: detection with a next best view");
   auto request = std::make_shared<ScoutRequest>();
   // --min-probability is of what the belief over all views reports, which has its own default.
   request->options.pipeline.detect.min_probability = request->options.detections.min_probability;
   add_source_options(*verb, request->source);
   add_model_arguments(*verb, request->models);
   verb->add_option("--out", request->out, "Folder of the results")->required()->type_name("DIR");
-  verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")->capture_default_str();
+  verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
+      ->capture_default_str();
   OptionTable(*verb, "Run")
       .flag("watch", request->watch, "Write the page after every step, so that a browser follows it")
       .flag("resume", request->resume, "Go on from DIR/scout.state where there is one");

@@ -16,11 +16,14 @@ using json = nlohmann::ordered_json;
 
 namespace {
 
-json pose_json(const Se3& pose) { return {{"R", rotation_numbers(pose)}, {"t", translation_numbers(pose, 1.0)}}; }
+json pose_json(const Se3& pose) {
+  return {{"R", rotation_numbers(pose)}, {"t", translation_numbers(pose, 1.0)}};
+}
 
 json stages_json(const std::vector<StageSeconds>& stages) {
   json list = json::array();
-  for (const StageSeconds& stage : stages) list.push_back({{"stage", stage.name}, {"ms", 1000 * stage.seconds}});
+  for (const StageSeconds& stage : stages)
+    list.push_back({{"stage", stage.name}, {"ms", 1000 * stage.seconds}});
   return list;
 }
 
@@ -36,7 +39,9 @@ json modes_json(const std::vector<ModeDetection>& modes, const ScoutReport& repo
                {"world_from_object", pose_json(d.world_from_object)},
                {"covariance", std::vector<double>(transposed.data(), transposed.data() + transposed.size())},
                {"supporting_views", mode.supporting_views}};
-    if (const auto off = distance_to_truth(d, report)) entry["off_truth"] = {{"angle_rad", off->angle_rad}, {"distance_m", off->distance_m}, {"right", off->right}};
+    if (const auto off = distance_to_truth(d, report))
+      entry["off_truth"] = {
+          {"angle_rad", off->angle_rad}, {"distance_m", off->distance_m}, {"right", off->right}};
     list.push_back(entry);
   }
   return list;
@@ -50,7 +55,9 @@ json information_json(const std::vector<ViewInformation>& views) {
 
 json step_json(const ScoutStep& step, const ScoutReport& report) {
   json agreement = json::array();
-  for (const ViewAgreement& view : step.agreement) agreement.push_back({{"residual_px", view.residual_px}, {"objects", view.objects}, {"disagrees", view.disagrees}});
+  for (const ViewAgreement& view : step.agreement)
+    agreement.push_back(
+        {{"residual_px", view.residual_px}, {"objects", view.objects}, {"disagrees", view.disagrees}});
   return {{"view", step.decision.view},
           {"information", information_json(step.decision.views)},
           {"decision_ms", stages_json(step.decision.stages)},
@@ -58,7 +65,12 @@ json step_json(const ScoutStep& step, const ScoutReport& report) {
           {"timings_ms", stages_json(step.stages)},
           {"candidates", step.decision.candidates.size()},
           {"new_candidates", step.new_candidates},
-          {"particles", {{"before", step.before.size()}, {"after", step.after.size()}, {"effective", step.update.effective}, {"resampled", step.update.resampled}, {"reseeded", step.update.reseeded}}},
+          {"particles",
+           {{"before", step.before.size()},
+            {"after", step.after.size()},
+            {"effective", step.update.effective},
+            {"resampled", step.update.resampled},
+            {"reseeded", step.update.reseeded}}},
           {"entropy_nats", step.entropy_nats},
           {"agreement", agreement},
           {"modes", modes_json(step.detections, report)}};
@@ -84,36 +96,47 @@ std::optional<DistanceToTruth> distance_to_truth(const Detection& detection, con
   std::optional<DistanceToTruth> nearest;
   for (const TrueObject& there : report.truth) {
     if (there.object != detection.object) continue;
-    const PoseError error = pose_error(detection.world_from_object, there.world_from_object, report.sets[static_cast<std::size_t>(there.object)].symmetries);
-    if (!nearest || error.distance_m < nearest->distance_m) nearest = {error.angle_rad, error.distance_m, error.passes()};
+    const PoseError error = pose_error(detection.world_from_object, there.world_from_object,
+                                       report.sets[static_cast<std::size_t>(there.object)].symmetries);
+    if (!nearest || error.distance_m < nearest->distance_m)
+      nearest = {error.angle_rad, error.distance_m, error.passes()};
   }
   return nearest;
 }
 
 void save_scout_log(const ScoutState& state, const ScoutReport& report, const std::filesystem::path& folder) {
-  json log{{"edgescout_scout", 1}, {"device", report.device}, {"source", report.source}, {"strategy", report.strategy}, {"information_unit", report.unit}};
+  json log{{"edgescout_scout", 1},
+           {"device", report.device},
+           {"source", report.source},
+           {"strategy", report.strategy},
+           {"information_unit", report.unit}};
   log["views"] = json::array();
   for (const Se3& view : state.views) log["views"].push_back(pose_json(view));
   log["steps"] = json::array();
   for (const ScoutStep& step : state.steps) log["steps"].push_back(step_json(step, report));
   log["failed"] = json::array();
-  for (const FailedView& failed : state.failed) log["failed"].push_back({{"view", failed.view}, {"reason", failed.reason}, {"after_step", failed.after_step}});
+  for (const FailedView& failed : state.failed)
+    log["failed"].push_back(
+        {{"view", failed.view}, {"reason", failed.reason}, {"after_step", failed.after_step}});
   log["detections"] = modes_json(state.detections, report);
   for (const TrueObject& there : report.truth)
-    log["truth"].push_back({{"object_id", report.sets[static_cast<std::size_t>(there.object)].object_id}, {"world_from_object", pose_json(there.world_from_object)}});
+    log["truth"].push_back({{"object_id", report.sets[static_cast<std::size_t>(there.object)].object_id},
+                            {"world_from_object", pose_json(there.world_from_object)}});
   log["seconds"] = state.seconds();
   log["end"] = to_string(state.end);
-  write_file_atomically(folder / "scout.json", log.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+  write_file_atomically(folder / "scout.json",
+                        log.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
 }
 
-void save_scout_results(const ScoutState& state, const ScoutReport& report, const std::filesystem::path& folder) {
+void save_scout_results(const ScoutState& state, const ScoutReport& report,
+                        const std::filesystem::path& folder) {
   std::vector<BopResult> rows;
   for (const ScoutStep& step : state.steps) {
     const ImageResult result = result_of(state, step, report);
     save_image_result(result, folder / fmt::format("view_{:03}.json", step.decision.view));
     for (const Detection& d : result.detections)
-      rows.push_back({result.scene_id, result.image_id, result.objects[static_cast<std::size_t>(d.object)].id, d.probability,
-                      step.camera_from_world * d.world_from_object, state.seconds()});
+      rows.push_back({result.scene_id, result.image_id, result.objects[static_cast<std::size_t>(d.object)].id,
+                      d.probability, step.camera_from_world * d.world_from_object, state.seconds()});
   }
   save_bop_results(rows, folder / "results.csv");
 }

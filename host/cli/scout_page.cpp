@@ -15,7 +15,12 @@ namespace {
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) out += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : c == '"' ? "&quot;" : std::string(1, c);
+  for (const char c : text)
+    out += c == '<'   ? "&lt;"
+           : c == '>' ? "&gt;"
+           : c == '&' ? "&amp;"
+           : c == '"' ? "&quot;"
+                      : std::string(1, c);
   return out;
 }
 
@@ -27,7 +32,9 @@ std::string png_figure(const RgbImage& image, const std::string& caption) {
   return figure(fmt::format("<img class=picture alt='' src='{}'>", inline_png(encode_png(image))), caption);
 }
 
-std::string tile(const std::string& value, const std::string& label) { return "<div class=tile><b>" + value + "</b><span>" + label + "</span></div>"; }
+std::string tile(const std::string& value, const std::string& label) {
+  return "<div class=tile><b>" + value + "</b><span>" + label + "</span></div>";
+}
 
 std::string seconds_of(const std::vector<StageSeconds>& stages) {
   double sum = 0;
@@ -37,13 +44,17 @@ std::string seconds_of(const std::vector<StageSeconds>& stages) {
 
 class Page {
  public:
-  Page(const ScoutState& state, const ScoutReport& report, Backend& backend) : state_(state), report_(report), backend_(backend), models_(models_of(report.sets)) {
-    for (const ScoutStep& step : state.steps) edges_.emplace_back(find_edges(step.image, report.edges, backend), step.image.width, step.image.height);
+  Page(const ScoutState& state, const ScoutReport& report, Backend& backend)
+      : state_(state), report_(report), backend_(backend), models_(models_of(report.sets)) {
+    for (const ScoutStep& step : state.steps)
+      edges_.emplace_back(find_edges(step.image, report.edges, backend), step.image.width, step.image.height);
   }
 
   std::string body() const {
     std::string html = header();
-    if (!state_.steps.empty()) html += first_image() + "<section><h2>Found</h2>" + found_table() + "<div class=row>" + final_overlays() + "</div></section>";
+    if (!state_.steps.empty())
+      html += first_image() + "<section><h2>Found</h2>" + found_table() + "<div class=row>" +
+              final_overlays() + "</div></section>";
     for (std::size_t i = 0; i < state_.steps.size(); ++i) html += failures_after(i) + step(i);
     return html + failures_after(state_.steps.size());
   }
@@ -51,12 +62,18 @@ class Page {
  private:
   std::string header() const {
     const std::vector<ScoutStep>& steps = state_.steps;
-    std::string html = fmt::format("<header><h1>edgescout <em>scout</em></h1><p>{} · {} · strategy <b>{}</b></p></header><div class=tiles>", escaped(report_.source),
-                                   escaped(report_.device), report_.strategy);
+    std::string html = fmt::format(
+        "<header><h1>edgescout <em>scout</em></h1><p>{} · {} · strategy <b>{}</b></p></header><div "
+        "class=tiles>",
+        escaped(report_.source), escaped(report_.device), report_.strategy);
     html += tile(fmt::format("{} of {}", steps.size(), state_.views.size()), "views taken");
     html += tile(std::to_string(state_.detections.size()), "objects found");
-    if (!report_.truth.empty()) html += tile(fmt::format("{} of {}", right_ones(), report_.truth.size()), "right, of those that are there");
-    if (!steps.empty()) html += tile(fmt::format("{:.2f} → {:.2f}", steps.front().entropy_nats, state_.entropy_nats), "entropy after the first and last image, nats");
+    if (!report_.truth.empty())
+      html +=
+          tile(fmt::format("{} of {}", right_ones(), report_.truth.size()), "right, of those that are there");
+    if (!steps.empty())
+      html += tile(fmt::format("{:.2f} → {:.2f}", steps.front().entropy_nats, state_.entropy_nats),
+                   "entropy after the first and last image, nats");
     html += tile(fmt::format("{:.1f} s", state_.seconds()), "computing");
     return html + tile(state_.end == ScoutEnd::No ? "looking …" : to_string(state_.end), "state") + "</div>";
   }
@@ -71,28 +88,35 @@ class Page {
   // Referred to by every picture of particles.
   std::string first_image() const {
     const Image& image = state_.steps[0].image;
-    return fmt::format("<svg class=hidden><defs><image id=first width={} height={} href='{}'/></defs></svg>", image.width, image.height, inline_png(encode_png(image)));
+    return fmt::format("<svg class=hidden><defs><image id=first width={} height={} href='{}'/></defs></svg>",
+                       image.width, image.height, inline_png(encode_png(image)));
   }
 
   std::string found_table() const {
-    std::string html = "<table><tr><th>object<th>probability<th>ψ<th>edges<th>σ place<th>σ direction<th>images that support it";
+    std::string html =
+        "<table><tr><th>object<th>probability<th>ψ<th>edges<th>σ place<th>σ direction<th>images that support "
+        "it";
     if (!report_.truth.empty()) html += "<th>off the truth";
     for (const ModeDetection& mode : state_.detections) {
       const Detection& d = mode.detection;
-      const double place_m = std::sqrt(d.covariance.topLeftCorner<3, 3>().trace() / 3), turn_rad = std::sqrt(d.covariance.bottomRightCorner<3, 3>().trace() / 3);
+      const double place_m = std::sqrt(d.covariance.topLeftCorner<3, 3>().trace() / 3),
+                   turn_rad = std::sqrt(d.covariance.bottomRightCorner<3, 3>().trace() / 3);
       std::string support;
       for (const int view : mode.supporting_views) support += fmt::format(" {}", view + 1);
-      html += fmt::format("<tr><td>{}<td>{:.2f}<td>{:.2f}<td>{:.0f} %<td>{:.2f} mm<td>{:.2f}°<td>{}", escaped(name_of(d)), d.probability, d.psi, 100 * d.visible_fraction,
-                          1000 * place_m, turn_rad * 57.29578, support.empty() ? "none alone" : support);
+      html += fmt::format("<tr><td>{}<td>{:.2f}<td>{:.2f}<td>{:.0f} %<td>{:.2f} mm<td>{:.2f}°<td>{}",
+                          escaped(name_of(d)), d.probability, d.psi, 100 * d.visible_fraction, 1000 * place_m,
+                          turn_rad * 57.29578, support.empty() ? "none alone" : support);
       if (const auto off = distance_to_truth(d, report_))
-        html += fmt::format("<td class={}>{:.1f} mm, {:.1f}°", off->right ? "right" : "wrong", 1000 * off->distance_m, off->angle_rad * 57.29578);
+        html += fmt::format("<td class={}>{:.1f} mm, {:.1f}°", off->right ? "right" : "wrong",
+                            1000 * off->distance_m, off->angle_rad * 57.29578);
     }
     return html + "</table>";
   }
 
   std::string final_overlays() const {
     std::string html;
-    for (std::size_t i = 0; i < state_.steps.size(); ++i) html += png_figure(overlay(i, state_.detections), fmt::format("image {}", i + 1));
+    for (std::size_t i = 0; i < state_.steps.size(); ++i)
+      html += png_figure(overlay(i, state_.detections), fmt::format("image {}", i + 1));
     return html;
   }
 
@@ -100,20 +124,34 @@ class Page {
     const ScoutStep& step = state_.steps[image];
     std::vector<OverlayPose> poses;
     for (const ModeDetection& mode : detections)
-      poses.push_back({mode.detection.object, step.camera_from_world * mode.detection.world_from_object, mode.detection.probability, ""});
+      poses.push_back({mode.detection.object, step.camera_from_world * mode.detection.world_from_object,
+                       mode.detection.probability, ""});
     return draw_overlay(step.image, report_.camera, poses, models_, &edges_[image], backend_);
   }
 
   std::string step(std::size_t i) const {
     const ScoutStep& s = state_.steps[i];
     const ScoutDecision& why = s.decision;
-    std::string html = fmt::format("<section><h2>Image {} <small>view {}{}</small></h2>{}<div class=row>", i + 1, why.view,
-                                   why.views.empty() ? "" : fmt::format(", {:.3f} {} expected", why.views[why.view].information, report_.unit), warning(s));
-    html += figure(hemisphere(i), i == 0 ? "The views, from above. Nothing is known before the first image." : "Every view by the information expected of it, from above. Ringed: the one chosen.");
-    html += png_figure(overlay(i, s.detections), fmt::format("{} objects after this image", s.detections.size()));
-    html += "</div><div class=row>" + figure(particles(s.before), fmt::format("{} particles before, seen from image 1", s.before.size()));
-    html += figure(particles(s.after), fmt::format("and after: {}, effective sample size {:.0f}{}", s.after.size(), s.update.effective,
-                                                   s.update.reseeded ? ", all had died and were drawn anew" : s.update.resampled ? ", resampled" : ""));
+    std::string html =
+        fmt::format("<section><h2>Image {} <small>view {}{}</small></h2>{}<div class=row>", i + 1, why.view,
+                    why.views.empty()
+                        ? ""
+                        : fmt::format(", {:.3f} {} expected", why.views[why.view].information, report_.unit),
+                    warning(s));
+    html +=
+        figure(hemisphere(i),
+               i == 0 ? "The views, from above. Nothing is known before the first image."
+                      : "Every view by the information expected of it, from above. Ringed: the one chosen.");
+    html +=
+        png_figure(overlay(i, s.detections), fmt::format("{} objects after this image", s.detections.size()));
+    html +=
+        "</div><div class=row>" +
+        figure(particles(s.before), fmt::format("{} particles before, seen from image 1", s.before.size()));
+    html += figure(particles(s.after), fmt::format("and after: {}, effective sample size {:.0f}{}",
+                                                   s.after.size(), s.update.effective,
+                                                   s.update.reseeded    ? ", all had died and were drawn anew"
+                                                   : s.update.resampled ? ", resampled"
+                                                                        : ""));
     html += "</div>";
     if (!why.likeliest.empty()) html += "<div class=row>" + scenes(why) + "</div>";
     return html + numbers(s) + "</section>";
@@ -121,7 +159,10 @@ class Page {
 
   std::string warning(const ScoutStep& s) const {
     if (s.agreement.empty() || !s.agreement.back().disagrees) return "";
-    return fmt::format("<p class=warning>This image's camera pose disagrees with the others: the objects lie {:.1f} px off.</p>", s.agreement.back().residual_px);
+    return fmt::format(
+        "<p class=warning>This image's camera pose disagrees with the others: the objects lie {:.1f} px "
+        "off.</p>",
+        s.agreement.back().residual_px);
   }
 
   std::string hemisphere(std::size_t step) const {
@@ -130,7 +171,8 @@ class Page {
     for (const Se3& view : state_.views) drawn.push_back({view, {}, 0, false, false});
     for (std::size_t v = 0; v < why.views.size(); ++v)
       if (why.views[v].open) drawn[v].information = why.views[v].information;
-    for (std::size_t k = 0; k < step; ++k) drawn[state_.steps[k].decision.view].taken = static_cast<int>(k) + 1;
+    for (std::size_t k = 0; k < step; ++k)
+      drawn[state_.steps[k].decision.view].taken = static_cast<int>(k) + 1;
     for (const FailedView& failed : state_.failed)
       if (failed.after_step <= step) drawn[failed.view].unreachable = true;
     drawn[why.view].chosen = true;
@@ -142,16 +184,20 @@ class Page {
     for (const Particle& particle : particles) total += std::exp(particle.log_weight);
     std::vector<DrawnParticle> drawn;
     for (const Particle& p : particles)
-      drawn.push_back({p.object, state_.steps[0].camera_from_world * p.world_from_object, total > 0 ? std::exp(p.log_weight) / total : 0});
+      drawn.push_back({p.object, state_.steps[0].camera_from_world * p.world_from_object,
+                       total > 0 ? std::exp(p.log_weight) / total : 0});
     return particles_svg("first", report_.camera, drawn, models_);
   }
 
   std::string scenes(const ScoutDecision& why) const {
     const auto drawn = [&](const std::vector<int>& members, const char* caption) {
       std::vector<Hypothesis> poses;
-      for (const int c : members) poses.push_back({why.candidates[c].object, why.candidates[c].world_from_object});
-      const RgbImage map = edge_map(models_, poses, members, report_.camera, state_.views[why.view], 560, backend_);
-      return png_figure(map, fmt::format("{} scene imagined from this view: {} of {} candidates", caption, members.size(), why.candidates.size()));
+      for (const int c : members)
+        poses.push_back({why.candidates[c].object, why.candidates[c].world_from_object});
+      const RgbImage map =
+          edge_map(models_, poses, members, report_.camera, state_.views[why.view], 560, backend_);
+      return png_figure(map, fmt::format("{} scene imagined from this view: {} of {} candidates", caption,
+                                         members.size(), why.candidates.size()));
     };
     return drawn(why.likeliest, "Likeliest") + drawn(why.unlikeliest, "Unlikeliest");
   }
@@ -159,17 +205,23 @@ class Page {
   std::string numbers(const ScoutStep& s) const {
     const auto row = [](const std::vector<StageSeconds>& stages) {
       std::string cells;
-      for (const StageSeconds& stage : stages) cells += fmt::format("<span class=stage>{} <b>{:.0f} ms</b></span>", stage.name, 1000 * stage.seconds);
+      for (const StageSeconds& stage : stages)
+        cells +=
+            fmt::format("<span class=stage>{} <b>{:.0f} ms</b></span>", stage.name, 1000 * stage.seconds);
       return cells;
     };
-    return fmt::format("<p class=numbers>entropy <b>{:.3f} nats</b> · {} new candidates · decision {} {}· image {} {}</p>", s.entropy_nats, s.new_candidates,
-                       seconds_of(s.decision.stages), row(s.decision.stages), seconds_of(s.stages), row(s.stages));
+    return fmt::format(
+        "<p class=numbers>entropy <b>{:.3f} nats</b> · {} new candidates · decision {} {}· image {} {}</p>",
+        s.entropy_nats, s.new_candidates, seconds_of(s.decision.stages), row(s.decision.stages),
+        seconds_of(s.stages), row(s.stages));
   }
 
   std::string failures_after(std::size_t step) const {
     std::string html;
     for (const FailedView& failed : state_.failed)
-      if (failed.after_step == step) html += fmt::format("<p class=warning>View {} could not be had: {}</p>", failed.view, escaped(failed.reason));
+      if (failed.after_step == step)
+        html += fmt::format("<p class=warning>View {} could not be had: {}</p>", failed.view,
+                            escaped(failed.reason));
     return html;
   }
 
@@ -187,10 +239,13 @@ class Page {
 
 }  // namespace
 
-std::string scout_page(const ScoutState& state, const ScoutReport& report, bool refreshing, Backend& backend) {
-  return std::string("<!doctype html>\n<html lang=en><head><meta charset=utf-8><meta name=viewport content='width=device-width'>") +
-         (refreshing ? "<meta http-equiv=refresh content=2>" : "") + "<title>edgescout scout</title><style>" + PAGE_STYLE + "</style></head><body>" +
-         Page(state, report, backend).body() + "</body></html>\n";
+std::string scout_page(const ScoutState& state, const ScoutReport& report, bool refreshing,
+                       Backend& backend) {
+  return std::string(
+             "<!doctype html>\n<html lang=en><head><meta charset=utf-8><meta name=viewport "
+             "content='width=device-width'>") +
+         (refreshing ? "<meta http-equiv=refresh content=2>" : "") + "<title>edgescout scout</title><style>" +
+         PAGE_STYLE + "</style></head><body>" + Page(state, report, backend).body() + "</body></html>\n";
 }
 
 }  // namespace edgescout

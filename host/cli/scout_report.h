@@ -35,13 +35,17 @@ struct DistanceToTruth {
 };
 std::optional<DistanceToTruth> distance_to_truth(const Detection& detection, const ScoutReport& report);
 
-// FOLDER/scout.json: {edgescout_scout: 1, device, source, strategy, camera, views, steps [..], failed [..], detections [..], truth [..], end}; poses as in io/results.h. Atomically.
+// FOLDER/scout.json: {edgescout_scout: 1, device, source, strategy, camera, views, steps [..], failed [..],
+// detections [..], truth [..], end}; poses as in io/results.h. Atomically.
 void save_scout_log(const ScoutState& state, const ScoutReport& report, const std::filesystem::path& folder);
 
-// FOLDER/view_NNN.json (io/results.h) of every image taken, with all that was found in the world, and FOLDER/results.csv (BOP).
-void save_scout_results(const ScoutState& state, const ScoutReport& report, const std::filesystem::path& folder);
+// FOLDER/view_NNN.json (io/results.h) of every image taken, with all that was found in the world, and
+// FOLDER/results.csv (BOP).
+void save_scout_results(const ScoutState& state, const ScoutReport& report,
+                        const std::filesystem::path& folder);
 
-// One HTML page that needs nothing beside itself: no network, no script, no other file. `refreshing`: the browser reads it again every two seconds.
+// One HTML page that needs nothing beside itself: no network, no script, no other file. `refreshing`: the
+// browser reads it again every two seconds.
 std::string scout_page(const ScoutState& state, const ScoutReport& report, bool refreshing, Backend& backend);
 
 }  // namespace edgescout

@@ -13,29 +13,36 @@ namespace {
 
 std::vector<Se3> cell_views(const SourceRequest& request, const Scene& scene) {
   if (!request.views_file.empty()) return load_views(request.views_file);
-  if (request.center_m.size() != 3) throw InputError("command line", "--center", std::to_string(request.center_m.size()) + " numbers", "3");
+  if (request.center_m.size() != 3)
+    throw InputError("command line", "--center", std::to_string(request.center_m.size()) + " numbers", "3");
   HemisphereOptions hemisphere = request.hemisphere;
   hemisphere.center_m = {request.center_m[0], request.center_m[1], request.center_m[2]};
-  if (hemisphere.radius_m == 0) hemisphere.radius_m = inverse(scene.views[0].camera_from_world).translation_m.norm();
+  if (hemisphere.radius_m == 0)
+    hemisphere.radius_m = inverse(scene.views[0].camera_from_world).translation_m.norm();
   return hemisphere_views(hemisphere);
 }
 
 ScoutSource make_cell(const SourceRequest& request, std::span<const Object> objects, ThreadPool& pool) {
-  if (!request.camera_file.empty()) throw InputError("command line", "--camera", "one for a cell", "--width, --height and --focal");
+  if (!request.camera_file.empty())
+    throw InputError("command line", "--camera", "one for a cell", "--width, --height and --focal");
   RenderOptions options = request.scene;
   options.min_distance_m = options.max_distance_m = request.hemisphere.radius_m;
   const Scene scene = make_scene(objects, options);
   ScoutSource made;
-  made.name = "a rendered cell of " + std::to_string(options.objects) + " parts, seed " + std::to_string(options.seed);
+  made.name = "a rendered cell of " + std::to_string(options.objects) + " parts, seed " +
+              std::to_string(options.seed);
   for (const PlacedObject& placed : scene.placed)
     if (placed.target) made.truth.push_back({placed.object, placed.world_from_object});
-  made.source = std::make_unique<SimulatedCell>(scene, scene.views[0].camera, cell_views(request, scene), request.arm, pool);
+  made.source = std::make_unique<SimulatedCell>(scene, scene.views[0].camera, cell_views(request, scene),
+                                                request.arm, pool);
   return made;
 }
 
 ScoutSource make_recorded(const SourceRequest& request) {
-  if (!request.views_file.empty()) throw InputError("command line", "--views", "a list for recorded views", "their own poses");
-  if (!std::filesystem::is_directory(request.source)) throw InputError(request.source, "source", "no folder", "\"cell\" or a folder of recorded views");
+  if (!request.views_file.empty())
+    throw InputError("command line", "--views", "a list for recorded views", "their own poses");
+  if (!std::filesystem::is_directory(request.source))
+    throw InputError(request.source, "source", "no folder", "\"cell\" or a folder of recorded views");
   std::optional<Camera> camera;
   if (!request.camera_file.empty()) camera = load_camera(request.camera_file);
   ScoutSource made;
@@ -51,17 +58,29 @@ ScoutSource make_recorded(const SourceRequest& request) {
 }  // namespace
 
 void add_source_options(CLI::App& verb, SourceRequest& r) {
-  verb.add_option("source", r.source, "\"cell\": a rendered scene of the models; or a folder of recorded views: a BOP scene, or one with CameraPose and Images")->required();
-  verb.add_option("--camera", r.camera_file, "Of recorded views: ROS or OpenCV YAML, or BOP camera JSON; BOP scenes bring their own")->type_name("FILE");
-  verb.add_option("--views", r.views_file, "Views of a cell, in place of the hemisphere: [{camera_from_world: {R, t}} ..]")->type_name("FILE")->group("Views");
+  verb.add_option("source", r.source,
+                  "\"cell\": a rendered scene of the models; or a folder of recorded views: a BOP scene, or "
+                  "one with CameraPose and Images")
+      ->required();
+  verb.add_option("--camera", r.camera_file,
+                  "Of recorded views: ROS or OpenCV YAML, or BOP camera JSON; BOP scenes bring their own")
+      ->type_name("FILE");
+  verb.add_option("--views", r.views_file,
+                  "Views of a cell, in place of the hemisphere: [{camera_from_world: {R, t}} ..]")
+      ->type_name("FILE")
+      ->group("Views");
   OptionTable(verb, "Views")
-      .bounded("radius", r.hemisphere.radius_m, 0.0, 100.0, "Of the hemisphere of views, m; 0: so that the parts fill the image")
+      .bounded("radius", r.hemisphere.radius_m, 0.0, 100.0,
+               "Of the hemisphere of views, m; 0: so that the parts fill the image")
       .bounded("view-count", r.hemisphere.count, 1, 100000, "On it");
-  verb.add_option("--elevations", r.hemisphere.elevations_deg, "Of its rings, degrees above the board")->capture_default_str()->group("Views");
+  verb.add_option("--elevations", r.hemisphere.elevations_deg, "Of its rings, degrees above the board")
+      ->capture_default_str()
+      ->group("Views");
   verb.add_option("--center", r.center_m, "Of it, m: x y z")->expected(3)->group("Views");
   add_scene_options(verb, r.scene);
   OptionTable(verb, "Arm")
-      .bounded("arm-shift", r.arm.translation_m, 0.0, 1.0, "By which a cell's arm misses its place, standard deviation of each axis, m")
+      .bounded("arm-shift", r.arm.translation_m, 0.0, 1.0,
+               "By which a cell's arm misses its place, standard deviation of each axis, m")
       .bounded("arm-turn", r.arm.rotation_rad, 0.0, 1.0, "And its direction, rad")
       .flag("arm-tells", r.arm.known, "Its encoders tell where it is");
 }

@@ -28,7 +28,8 @@ struct ScoutSource {
   int scene_id = 0;
 };
 
-// `objects` lie in a cell. InputError: neither "cell" nor a folder of recorded views, options of the one with the other.
+// `objects` lie in a cell. InputError: neither "cell" nor a folder of recorded views, options of the one with
+// the other.
 ScoutSource make_source(const SourceRequest& request, std::span<const Object> objects, ThreadPool& pool);
 
 }  // namespace edgescout

@@ -13,31 +13,38 @@ namespace edgescout {
 void add_model_arguments(CLI::App& verb, ModelArguments& arguments) {
   verb.add_option("--model", arguments.models, "STL, PLY, OBJ or CAO files")->type_name("FILE");
   verb.add_option("--unit", arguments.unit, "Length unit of the model files: mm, cm, m or in");
-  verb.add_option("--models-info", arguments.models_info, "BOP models_info.json with symmetries")->type_name("FILE");
-  verb.add_option("--object-id", arguments.object_ids, "BOP ids of the models; default: the number their names end in");
-  verb.add_option("--templates", arguments.templates, "Template files of `edgescout model build`, in place of --model")->type_name("FILE");
+  verb.add_option("--models-info", arguments.models_info, "BOP models_info.json with symmetries")
+      ->type_name("FILE");
+  verb.add_option("--object-id", arguments.object_ids,
+                  "BOP ids of the models; default: the number their names end in");
+  verb.add_option("--templates", arguments.templates,
+                  "Template files of `edgescout model build`, in place of --model")
+      ->type_name("FILE");
 }
 
 KnownModels load_models(const ModelArguments& arguments) {
   if (arguments.models.empty() == arguments.templates.empty())
-    throw InputError("command line", "--model, --templates", arguments.models.empty() ? "neither" : "both", "one of the two");
+    throw InputError("command line", "--model, --templates", arguments.models.empty() ? "neither" : "both",
+                     "one of the two");
   KnownModels known;
   for (const std::string& file : arguments.templates) {
     known.sets.push_back(load_templates(file));
     for (std::size_t i = 0; i + 1 < known.sets.size(); ++i)
       if (known.sets[i].object_id == known.sets.back().object_id)
-        throw InputError(file, "object id", fmt::format("{} twice", known.sets[i].object_id), "ids that differ: give model build --object-id");
+        throw InputError(file, "object id", fmt::format("{} twice", known.sets[i].object_id),
+                         "ids that differ: give model build --object-id");
   }
   if (known.sets.empty()) known.objects = load_objects(arguments);
   return known;
 }
 
-std::vector<TemplateSet> template_sets_of(const KnownModels& known, const TemplateOptions& options, const Camera& camera, Backend& backend) {
+std::vector<TemplateSet> template_sets_of(const KnownModels& known, const TemplateOptions& options,
+                                          const Camera& camera, Backend& backend) {
   std::vector<TemplateSet> sets = known.sets;
   for (const Object& object : known.objects) {
     Progress progress("templates of " + object.mesh.name, 100, std::cerr, stderr_is_terminal());
-    sets.push_back(build_templates(object, with_default_distances(options, object.mesh.diameter_m, camera), backend,
-                                   [&](int done, int all) { progress.move_to(100 * done / all); }));
+    sets.push_back(build_templates(object, with_default_distances(options, object.mesh.diameter_m, camera),
+                                   backend, [&](int done, int all) { progress.move_to(100 * done / all); }));
   }
   return sets;
 }

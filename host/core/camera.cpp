@@ -17,8 +17,10 @@ void validate(const Camera& camera, const std::string& source) {
   if (camera.width < 1) throw InputError(source, "width", std::to_string(camera.width), "at least 1");
   if (camera.height < 1) throw InputError(source, "height", std::to_string(camera.height), "at least 1");
   for (auto [name, value] : {std::pair{"fx", camera.fx}, {"fy", camera.fy}})
-    if (!std::isfinite(value) || value <= 0) throw InputError(source, name, number(value), "a positive focal length in px");
-  for (auto [name, value, size] : {std::tuple{"cx", camera.cx, camera.width}, {"cy", camera.cy, camera.height}})
+    if (!std::isfinite(value) || value <= 0)
+      throw InputError(source, name, number(value), "a positive focal length in px");
+  for (auto [name, value, size] :
+       {std::tuple{"cx", camera.cx, camera.width}, {"cy", camera.cy, camera.height}})
     if (!std::isfinite(value) || value < -size || value > 2.0 * size)
       throw InputError(source, name, number(value), "a principal point in px near the image");
   for (double k : camera.distortion)

@@ -15,8 +15,8 @@ namespace edgescout {
 struct Camera {
   int width = 0;
   int height = 0;
-  double fx = 0, fy = 0, cx = 0, cy = 0;                 // px
-  std::array<double, 8> distortion{};                    // k1 k2 p1 p2 k3 k4 k5 k6, OpenCV's order
+  double fx = 0, fy = 0, cx = 0, cy = 0;  // px
+  std::array<double, 8> distortion{};     // k1 k2 p1 p2 k3 k4 k5 k6, OpenCV's order
   bool has_distortion() const;
 };
 

@@ -15,7 +15,9 @@ Eigen::Vector3d operator*(const Se3& b_from_a, const Eigen::Vector3d& x_in_a) {
   return b_from_a.rotation * x_in_a + b_from_a.translation_m;
 }
 
-bool is_finite(const Se3& transform) { return transform.translation_m.allFinite() && transform.rotation.coeffs().allFinite(); }
+bool is_finite(const Se3& transform) {
+  return transform.translation_m.allFinite() && transform.rotation.coeffs().allFinite();
+}
 
 Se3 inverse(const Se3& b_from_a) {
   const Eigen::Quaterniond back = b_from_a.rotation.conjugate();
@@ -48,7 +50,8 @@ Eigen::Vector3d so3_log(const Eigen::Quaterniond& rotation) {
 }
 
 Se3 retract(const Se3& b_from_a, const Vector6d& delta) {
-  return {(so3_exp(delta.tail<3>()) * b_from_a.rotation).normalized(), b_from_a.translation_m + delta.head<3>()};
+  return {(so3_exp(delta.tail<3>()) * b_from_a.rotation).normalized(),
+          b_from_a.translation_m + delta.head<3>()};
 }
 
 Vector6d local_coordinates(const Se3& from, const Se3& to) {
@@ -57,7 +60,9 @@ Vector6d local_coordinates(const Se3& from, const Se3& to) {
   return delta;
 }
 
-double angle_between_rad(const Se3& a, const Se3& b) { return so3_log(a.rotation * b.rotation.conjugate()).norm(); }
+double angle_between_rad(const Se3& a, const Se3& b) {
+  return so3_log(a.rotation * b.rotation.conjugate()).norm();
+}
 
 double distance_between_m(const Se3& a, const Se3& b) { return (a.translation_m - b.translation_m).norm(); }
 

@@ -17,7 +17,9 @@ struct Numbering {
   int steps;
   std::vector<double> distances;
   int view(std::size_t t) const { return int(t / (steps * distances.size())); }
-  double in_plane_rad(std::size_t t) const { return 2 * std::numbers::pi / steps * double(t / distances.size() % steps); }
+  double in_plane_rad(std::size_t t) const {
+    return 2 * std::numbers::pi / steps * double(t / distances.size() % steps);
+  }
   double distance_m(std::size_t t) const { return distances[t % distances.size()]; }
 };
 
@@ -28,11 +30,17 @@ struct Region {
 
 std::vector<Region> cut_into_regions(const Camera& camera, const ScanOptions& options) {
   std::vector<Region> regions;
-  const int step = options.anchor_step, across = (camera.width + step - 1) / step, down = (camera.height + step - 1) / step;
+  const int step = options.anchor_step, across = (camera.width + step - 1) / step,
+            down = (camera.height + step - 1) / step;
   for (int r = 0; r < down; r += options.region_rows)
     for (int c = 0; c < across; c += options.region_columns) {
-      Region region{c * step, r * step, std::min(options.region_columns, across - c), std::min(options.region_rows, down - r), {}};
-      region.middle = {std::round(region.x0 + 0.5 * step * (region.columns - 1)), std::round(region.y0 + 0.5 * step * (region.rows - 1))};
+      Region region{c * step,
+                    r * step,
+                    std::min(options.region_columns, across - c),
+                    std::min(options.region_rows, down - r),
+                    {}};
+      region.middle = {std::round(region.x0 + 0.5 * step * (region.columns - 1)),
+                       std::round(region.y0 + 0.5 * step * (region.rows - 1))};
       regions.push_back(region);
     }
   return regions;
@@ -47,8 +55,9 @@ struct Workspace {
   std::vector<char> drawn;  // not where a point would lie behind the camera
 };
 
-void scan_region(const TemplateSet& set, const Numbering& numbering, const Region& region, const Observation& observation, Backend& backend,
-                 const ScanOptions& options, std::size_t most, Workspace& work, std::vector<ScanHit>& found) {
+void scan_region(const TemplateSet& set, const Numbering& numbering, const Region& region,
+                 const Observation& observation, Backend& backend, const ScanOptions& options,
+                 std::size_t most, Workspace& work, std::vector<ScanHit>& found) {
   const std::size_t templates = set.views.size() * numbering.steps * numbering.distances.size();
   work.points.resize(templates * options.points);
   work.jobs.resize(templates);
@@ -59,22 +68,30 @@ void scan_region(const TemplateSet& set, const Numbering& numbering, const Regio
   constexpr std::size_t chunk = 256;
   backend.threads().for_each((templates + chunk - 1) / chunk, [&](std::size_t c) {
     for (std::size_t t = c * chunk; t < std::min(templates, (c + 1) * chunk); ++t) {
-      const Se3 pose = place_template(set, set.views[numbering.view(t)], numbering.in_plane_rad(t), numbering.distance_m(t), region.middle,
-                                      observation.coarse_camera);
+      const Se3 pose = place_template(set, set.views[numbering.view(t)], numbering.in_plane_rad(t),
+                                      numbering.distance_m(t), region.middle, observation.coarse_camera);
       const ThinnedView& view = work.views[numbering.view(t)];
       TemplatePoint* points = work.points.data() + t * options.points;
       int count = view.count();
-      work.drawn[t] = count > 0 && view.project(to_pose(pose), salient.intrinsics, float(region.middle.x()), float(region.middle.y()),
-                                                salient.shape.bins, nearest_m, points);
+      work.drawn[t] =
+          count > 0 && view.project(to_pose(pose), salient.intrinsics, float(region.middle.x()),
+                                    float(region.middle.y()), salient.shape.bins, nearest_m, points);
       if (!work.drawn[t]) points[0] = {}, count = 1;  // a job needs a point; its answer is not read
-      work.jobs[t] = {static_cast<std::uint32_t>(t * options.points), static_cast<std::uint32_t>(count), region.x0, region.y0,
-                      static_cast<std::uint32_t>(region.columns), static_cast<std::uint32_t>(region.rows)};
+      work.jobs[t] = {static_cast<std::uint32_t>(t * options.points),
+                      static_cast<std::uint32_t>(count),
+                      region.x0,
+                      region.y0,
+                      static_cast<std::uint32_t>(region.columns),
+                      static_cast<std::uint32_t>(region.rows)};
     }
   });
   backend.template_score(*observation.salient, work.points, work.jobs, options.anchor_step, work.hits);
-  const auto mean = [&](std::size_t t) { return double(work.hits[t].sum) / (4.0 * work.jobs[t].point_count); };
+  const auto mean = [&](std::size_t t) {
+    return double(work.hits[t].sum) / (4.0 * work.jobs[t].point_count);
+  };
   std::vector<double> weights;  // by distance
-  for (const double distance_m : numbering.distances) weights.push_back(std::pow(distance_m, SCAN_SIZE_WEIGHT));
+  for (const double distance_m : numbering.distances)
+    weights.push_back(std::pow(distance_m, SCAN_SIZE_WEIGHT));
   const auto rank = [&](std::size_t t) { return mean(t) * weights[t % weights.size()]; };
   std::vector<std::size_t> order;
   for (std::size_t t = 0; t < templates; ++t)
@@ -87,15 +104,17 @@ void scan_region(const TemplateSet& set, const Numbering& numbering, const Regio
   for (std::size_t i = 0; i < kept; ++i) {
     const std::size_t t = order[i];
     const Eigen::Vector2d anchor(work.hits[t].x, work.hits[t].y);
-    found.push_back({numbering.view(t), place_template(set, set.views[numbering.view(t)], numbering.in_plane_rad(t), numbering.distance_m(t),
-                                                       anchor, observation.coarse_camera), mean(t), rank(t)});
+    found.push_back({numbering.view(t),
+                     place_template(set, set.views[numbering.view(t)], numbering.in_plane_rad(t),
+                                    numbering.distance_m(t), anchor, observation.coarse_camera),
+                     mean(t), rank(t)});
   }
 }
 
 }  // namespace
 
-Se3 place_template(const TemplateSet& set, const TemplateView& view, double in_plane_rad, double distance_m, const Eigen::Vector2d& pixel,
-                   const Camera& camera) {
+Se3 place_template(const TemplateSet& set, const TemplateView& view, double in_plane_rad, double distance_m,
+                   const Eigen::Vector2d& pixel, const Camera& camera) {
   const Eigen::Vector3d ray = ray_through(camera, pixel).normalized();
   const Eigen::Quaterniond towards_ray = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ray);
   const Eigen::Quaterniond rotation =
@@ -103,15 +122,18 @@ Se3 place_template(const TemplateSet& set, const TemplateView& view, double in_p
   return {rotation.normalized(), distance_m * ray - rotation * set.model.center_m};
 }
 
-std::vector<ScanHit> coarse_scan(const TemplateSet& set, const Observation& observation, Backend& backend, const ScanOptions& options) {
-  check(options.points >= 4 && options.points <= int(TEMPLATE_SCORE_MAX_POINTS), "coarse_scan: points of a template");
+std::vector<ScanHit> coarse_scan(const TemplateSet& set, const Observation& observation, Backend& backend,
+                                 const ScanOptions& options) {
+  check(options.points >= 4 && options.points <= int(TEMPLATE_SCORE_MAX_POINTS),
+        "coarse_scan: points of a template");
   const Numbering numbering{set.options.in_plane_steps, template_distances_m(set.options)};
   std::vector<ScanHit> found;
   Workspace work;
   for (const TemplateView& view : set.views) work.views.emplace_back(view, options.points);
   const std::vector<Region> regions = cut_into_regions(observation.coarse_camera, options);
   const std::size_t share = (options.kept + regions.size() - 1) / regions.size();
-  for (const Region& region : regions) scan_region(set, numbering, region, observation, backend, options, share, work, found);
+  for (const Region& region : regions)
+    scan_region(set, numbering, region, observation, backend, options, share, work, found);
   return found;
 }
 

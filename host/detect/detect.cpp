@@ -11,7 +11,8 @@ namespace edgescout {
 namespace {
 
 // Of one object, in metres and modulo its symmetry; `key` of an index is lower for better ones.
-std::vector<std::size_t> best_of(std::span<const Se3> poses, const TemplateSet& set, std::size_t most, const auto& key) {
+std::vector<std::size_t> best_of(std::span<const Se3> poses, const TemplateSet& set, std::size_t most,
+                                 const auto& key) {
   std::vector<double> keys;
   for (std::size_t i = 0; i < poses.size(); ++i) keys.push_back(key(i));
   return best_different(poses, keys, set.model.mesh, set.symmetries, 0.1 * set.model.mesh.diameter_m, most);
@@ -38,7 +39,9 @@ std::vector<RegisterView> coarse_of(std::vector<RegisterView> views) {
   return views;
 }
 
-double merit(std::span<const PoseFeatures> by_view) { return by_view.size() == 1 ? log_odds(by_view[0]) : probability_over_views(by_view); }
+double merit(std::span<const PoseFeatures> by_view) {
+  return by_view.size() == 1 ? log_odds(by_view[0]) : probability_over_views(by_view);
+}
 
 }  // namespace
 
@@ -58,7 +61,8 @@ RefineOptions DetectOptions::refine_defaults() {
 void DetectOptions::validate() const {
   const auto in = [](const char* field, double found, double low, double high) {
     if (!(found >= low && found <= high))
-      throw InputError("options", std::string("detect.") + field, std::to_string(found), std::to_string(low) + " to " + std::to_string(high));
+      throw InputError("options", std::string("detect.") + field, std::to_string(found),
+                       std::to_string(low) + " to " + std::to_string(high));
   };
   in("template_points", scan.points, 4, TEMPLATE_SCORE_MAX_POINTS);
   in("anchor_step", scan.anchor_step, 1, 16);
@@ -89,38 +93,51 @@ Detection to_detection(int object, const Registration& registration, const PoseF
   return d;
 }
 
-std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation, Backend& backend, const DetectOptions& options) {
+std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation, Backend& backend,
+                                     const DetectOptions& options) {
   return find_candidates(set, observation, {}, backend, options);
 }
 
-std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation, std::span<const Observation> all_others, Backend& backend,
+std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation,
+                                     std::span<const Observation> all_others, Backend& backend,
                                      const DetectOptions& options) {
-  const std::vector<Observation> others = helping_views(observation, all_others, std::size_t(options.helping_views));
+  const std::vector<Observation> others =
+      helping_views(observation, all_others, std::size_t(options.helping_views));
   const std::span<const EdgeModel> models(&set.model, 1);
   const std::vector<RegisterView> full = views_around(observation, others), coarse = coarse_of(full);
-  const std::vector<ScanHit> hits = judged_by_all(set, coarse_scan(set, observation, backend, options.scan), observation, others, backend, options.scan);
+  const std::vector<ScanHit> hits = judged_by_all(set, coarse_scan(set, observation, backend, options.scan),
+                                                  observation, others, backend, options.scan);
   std::vector<Se3> poses;
   for (const ScanHit& hit : hits) poses.push_back(hit.camera_from_object);
   const int aligned = others.empty() ? options.aligned : std::min(options.aligned, options.aligned_jointly);
-  const std::vector<std::size_t> starts = best_of(poses, set, std::size_t(aligned), [&](std::size_t i) { return hits[i].rank; });
+  const std::vector<std::size_t> starts =
+      best_of(poses, set, std::size_t(aligned), [&](std::size_t i) { return hits[i].rank; });
 
   std::vector<Hypothesis> hypotheses = hypotheses_at(poses, starts);
-  hypotheses = as_hypotheses(hypotheses, register_poses(models, hypotheses, coarse, backend, options.refine.search.coarse));
+  hypotheses = as_hypotheses(
+      hypotheses, register_poses(models, hypotheses, coarse, backend, options.refine.search.coarse));
   hypotheses = as_hypotheses(hypotheses, register_poses(models, hypotheses, full, backend, options.touch_up));
   poses.clear();
   for (const Hypothesis& h : hypotheses) poses.push_back(h.world_from_object);
-  const std::vector<PoseFeatures> features =
-      pose_features_by_view(models, hypotheses, full, backend, options.refine.score, options.touch_up.visibility);
-  const auto of_pose = [&](std::size_t i) { return std::span(features).subspan(i * full.size(), full.size()); };
-  const std::vector<std::size_t> chosen = best_of(poses, set, std::size_t(options.candidates), [&](std::size_t i) { return -merit(of_pose(i)); });
+  const std::vector<PoseFeatures> features = pose_features_by_view(
+      models, hypotheses, full, backend, options.refine.score, options.touch_up.visibility);
+  const auto of_pose = [&](std::size_t i) {
+    return std::span(features).subspan(i * full.size(), full.size());
+  };
+  const std::vector<std::size_t> chosen =
+      best_of(poses, set, std::size_t(options.candidates), [&](std::size_t i) { return -merit(of_pose(i)); });
 
   RefineOptions refine = options.refine;
-  if (!others.empty()) refine.search.rotation_rad = 0;  // several views leave no doubt that a search could settle
-  const std::vector<Refined> refined = refine_poses(models, hypotheses_at(poses, chosen), full, backend, refine);
+  if (!others.empty())
+    refine.search.rotation_rad = 0;  // several views leave no doubt that a search could settle
+  const std::vector<Refined> refined =
+      refine_poses(models, hypotheses_at(poses, chosen), full, backend, refine);
   std::vector<Se3> final_poses;
   for (const Refined& r : refined) final_poses.push_back(r.registration.world_from_object);
   std::vector<Refined> different;
-  for (std::size_t i : best_of(final_poses, set, refined.size(), [&](std::size_t i) { return -merit(refined[i].by_view); })) different.push_back(refined[i]);
+  for (std::size_t i :
+       best_of(final_poses, set, refined.size(), [&](std::size_t i) { return -merit(refined[i].by_view); }))
+    different.push_back(refined[i]);
   return different;
 }
 

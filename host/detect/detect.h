@@ -14,12 +14,14 @@ struct DetectOptions {
   ScanOptions scan;
   int aligned_jointly = 150;  // where other images helped to rank the hits (joint_scan.h)
   int helping_views = 4;      // of other images that help to search one (helping_views.h)
-  int aligned = 2500;       // different ones among the scan's hits that are aligned, roughly and cheaply
-  int candidates = 60;      // different ones among those that are registered in full (the paper's object candidates)
-  D2coOptions touch_up = touch_up_defaults();  // on the full tensor after the coarse one, before Psi can judge: it means nothing 3 px off
+  int aligned = 2500;         // different ones among the scan's hits that are aligned, roughly and cheaply
+  int candidates =
+      60;  // different ones among those that are registered in full (the paper's object candidates)
+  D2coOptions touch_up = touch_up_defaults();  // on the full tensor after the coarse one, before Psi can
+                                               // judge: it means nothing 3 px off
   RefineOptions refine = refine_defaults();
   EvidenceOptions evidence;
-  double second_look_rad = 0.3;  // turned starts around what was chosen (settle.h); 0: none
+  double second_look_rad = 0.3;   // turned starts around what was chosen (settle.h); 0: none
   double min_probability = 0.05;  // of what is reported; docs/evaluation.md has the reliability
   int max_detections = 100;
   static RefineOptions refine_defaults();
@@ -27,15 +29,19 @@ struct DetectOptions {
   void validate() const;
 };
 
-
 Detection to_detection(int object, const Registration& registration, const PoseFeatures& features);
 
-// The registered candidates of one object in one view (world: its camera frame), highest log-odds first, duplicates merged.
-std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation, Backend& backend, const DetectOptions& options);
+// The registered candidates of one object in one view (world: its camera frame), highest log-odds first,
+// duplicates merged.
+std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation, Backend& backend,
+                                     const DetectOptions& options);
 
-// The same with the help of other images of the same static scene: hits are judged by all of them (joint_scan.h), registered in all of them, and ranked by what all of them say
-// (probability_over_views.h). Of many others some are taken (helping_views.h). Refined::by_view has the given view first, then those that helped.
-std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation, std::span<const Observation> others, Backend& backend,
+// The same with the help of other images of the same static scene: hits are judged by all of them
+// (joint_scan.h), registered in all of them, and ranked by what all of them say (probability_over_views.h).
+// Of many others some are taken (helping_views.h). Refined::by_view has the given view first, then those that
+// helped.
+std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation,
+                                     std::span<const Observation> others, Backend& backend,
                                      const DetectOptions& options);
 
 }  // namespace edgescout

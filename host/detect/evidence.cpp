@@ -27,8 +27,10 @@ struct Explained {
 };
 
 // The image edges a pose explains, one entry a visible model point.
-std::vector<Explained> explained_edges(const EdgeModel& model, const Hypothesis& pose, std::span<const RegisterView> views,
-                                       std::span<const std::vector<ModelPoint>> points, const EvidenceOptions& options) {
+std::vector<Explained> explained_edges(const EdgeModel& model, const Hypothesis& pose,
+                                       std::span<const RegisterView> views,
+                                       std::span<const std::vector<ModelPoint>> points,
+                                       const EvidenceOptions& options) {
   std::vector<Explained> explained;
   for (std::size_t v = 0; v < views.size(); ++v) {
     if (!views[v].edges) continue;
@@ -37,7 +39,8 @@ std::vector<Explained> explained_edges(const EdgeModel& model, const Hypothesis&
       const PosedPoint<float> posed = pose_point<float>(transform, point);
       if (posed.point.z <= POSE_MIN_DEPTH_M) continue;
       const ProjectedEdge<float> edge = project_edge(posed, views[v].view->intrinsics);
-      const EdgePoint* match = views[v].edges->nearest(edge.u, edge.v, orientation(edge.dx, edge.dy), options.match_px, options.max_turn_rad);
+      const EdgePoint* match = views[v].edges->nearest(edge.u, edge.v, orientation(edge.dx, edge.dy),
+                                                       options.match_px, options.max_turn_rad);
       const double px_per_m = std::hypot(edge.dx, edge.dy) / (posed.point.z * posed.point.z);
       if (match) explained.push_back({{v, match}, model.raster_step_m * px_per_m});
     }
@@ -52,7 +55,9 @@ class SpentEdges {
   void spend(const std::vector<Explained>& explained, const EvidenceOptions& options) {
     for (const Explained& e : explained)
       views_[e.key.view].edges->for_each_near(e.key.edge->x_px, e.key.edge->y_px, options.match_px,
-                                              [&](const EdgePoint& edge) { spent_.insert({e.key.view, &edge}); });
+                                              [&](const EdgePoint& edge) {
+                                                spent_.insert({e.key.view, &edge});
+                                              });
   }
 
  private:
@@ -71,12 +76,15 @@ double fresh_fraction(const std::vector<Explained>& explained, const SpentEdges&
 
 }  // namespace
 
-std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::span<const Hypothesis> poses, std::span<const PoseFeatures> features,
-                                      std::span<const RegisterView> views, Backend& backend, const EvidenceOptions& options) {
+std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
+                                      std::span<const PoseFeatures> features,
+                                      std::span<const RegisterView> views, Backend& backend,
+                                      const EvidenceOptions& options) {
   std::vector<std::vector<Explained>> explained(poses.size());
   for (std::size_t p = 0; p < poses.size(); ++p) {
     std::vector<Se3> in_camera;
-    for (const RegisterView& view : views) in_camera.push_back(view.camera_from_world * poses[p].world_from_object);
+    for (const RegisterView& view : views)
+      in_camera.push_back(view.camera_from_world * poses[p].world_from_object);
     const EdgeModel& model = models[poses[p].object];
     std::vector<std::vector<ModelPoint>> visible = visible_edges(model, in_camera, backend);
     remove_hidden(model, in_camera, views, visible);

@@ -1,6 +1,8 @@
-// How much of the image a pose explains, and which poses remain when every edge of the image may be explained only once.
+// How much of the image a pose explains, and which poses remain when every edge of the image may be explained
+// only once.
 //
-// Of poses that compete for the same edges the likeliest (log_odds, pose_features.h) is taken first; the image edges it explains are spent.
+// Of poses that compete for the same edges the likeliest (log_odds, pose_features.h) is taken first; the
+// image edges it explains are spent.
 #pragma once
 
 #include <span>
@@ -11,18 +13,21 @@
 namespace edgescout {
 
 struct EvidenceOptions {
-  float match_px = 3;         // from a projected point to the edge it explains
+  float match_px = 3;  // from a projected point to the edge it explains
   float max_turn_rad = 0.35f;
-  double max_spent = 0.5;     // of the length a pose explains: more spent by better poses, and it goes
+  double max_spent = 0.5;  // of the length a pose explains: more spent by better poses, and it goes
 };
 
 struct ChosenPose {
-  std::size_t index = 0;    // into the candidates
-  double fresh = 1;         // fraction of its explained edge length no better pose had claimed
+  std::size_t index = 0;  // into the candidates
+  double fresh = 1;       // fraction of its explained edge length no better pose had claimed
 };
 
-// Greedy choice among candidates (poses with their features), the likeliest first, those without evidence never; all views count together. Views without an edge index do not take part.
-std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::span<const Hypothesis> poses, std::span<const PoseFeatures> features,
-                                      std::span<const RegisterView> views, Backend& backend, const EvidenceOptions& options = {});
+// Greedy choice among candidates (poses with their features), the likeliest first, those without evidence
+// never; all views count together. Views without an edge index do not take part.
+std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
+                                      std::span<const PoseFeatures> features,
+                                      std::span<const RegisterView> views, Backend& backend,
+                                      const EvidenceOptions& options = {});
 
 }  // namespace edgescout

@@ -7,20 +7,24 @@ namespace edgescout {
 
 namespace {
 
-constexpr std::size_t VIEWS_WORTH = 4;  // the best of all views, as many as these have: what is right is found in several
+constexpr std::size_t VIEWS_WORTH =
+    4;  // the best of all views, as many as these have: what is right is found in several
 
 // All views' candidates of one object in the world, best probability first, without duplicates.
-std::vector<Hypothesis> gather(int object, const TemplateSet& set, std::span<const std::vector<std::vector<Refined>>> candidates,
+std::vector<Hypothesis> gather(int object, const TemplateSet& set,
+                               std::span<const std::vector<std::vector<Refined>>> candidates,
                                std::span<const Observation> observations, std::size_t most) {
   std::vector<Se3> poses;
   std::vector<double> keys;
   for (std::size_t v = 0; v < candidates.size(); ++v)
     for (const Refined& refined : candidates[v][static_cast<std::size_t>(object)]) {
-      poses.push_back(inverse(observations[v].view.camera_from_world) * refined.registration.world_from_object);
+      poses.push_back(inverse(observations[v].view.camera_from_world) *
+                      refined.registration.world_from_object);
       keys.push_back(-probability_over_views(refined.by_view));
     }
   std::vector<Hypothesis> gathered;
-  for (std::size_t i : best_different(poses, keys, set.model.mesh, set.symmetries, 0.05 * set.model.mesh.diameter_m, most))
+  for (std::size_t i :
+       best_different(poses, keys, set.model.mesh, set.symmetries, 0.05 * set.model.mesh.diameter_m, most))
     gathered.push_back({object, poses[i]});
   return gathered;
 }
@@ -28,12 +32,14 @@ std::vector<Hypothesis> gather(int object, const TemplateSet& set, std::span<con
 }  // namespace
 
 std::vector<Detection> join_views(std::span<const TemplateSet> sets, std::span<const EdgeModel> models,
-                                  std::span<const std::vector<std::vector<Refined>>> candidates, std::span<const Observation> observations,
-                                  Backend& backend, const DetectOptions& options) {
+                                  std::span<const std::vector<std::vector<Refined>>> candidates,
+                                  std::span<const Observation> observations, Backend& backend,
+                                  const DetectOptions& options) {
   const std::vector<RegisterView> views = views_of(observations);
   std::vector<Hypothesis> poses;
   for (std::size_t object = 0; object < sets.size(); ++object) {
-    const std::vector<Hypothesis> gathered = gather(int(object), sets[object], candidates, observations, VIEWS_WORTH * std::size_t(options.candidates));
+    const std::vector<Hypothesis> gathered = gather(int(object), sets[object], candidates, observations,
+                                                    VIEWS_WORTH * std::size_t(options.candidates));
     poses.insert(poses.end(), gathered.begin(), gathered.end());
   }
   const std::vector<Refined> refined = refine_poses(models, poses, views, backend, options.refine);

@@ -38,8 +38,9 @@ class NearestViews {
 double rank_of(double mean_px, double distance_m) { return mean_px * std::pow(distance_m, SCAN_SIZE_WEIGHT); }
 
 // What the poses, in the frame of this view's camera, are worth in it.
-std::vector<double> ranks_in(const Observation& view, const TemplateSet& set, const NearestViews& templates, std::span<const Se3> camera_from_object,
-                             Backend& backend, const ScanOptions& options) {
+std::vector<double> ranks_in(const Observation& view, const TemplateSet& set, const NearestViews& templates,
+                             std::span<const Se3> camera_from_object, Backend& backend,
+                             const ScanOptions& options) {
   const auto& salient = *view.salient;
   const std::size_t width = std::size_t(options.points);
   std::vector<TemplatePoint> points(camera_from_object.size() * width);
@@ -49,9 +50,11 @@ std::vector<double> ranks_in(const Observation& view, const TemplateSet& set, co
   backend.threads().for_each((jobs.size() + chunk - 1) / chunk, [&](std::size_t c) {
     for (std::size_t j = c * chunk; j < std::min(jobs.size(), (c + 1) * chunk); ++j) {
       const Se3& pose = camera_from_object[j];
-      const ThinnedView& seen = templates.seen_from((inverse(pose).translation_m - set.model.center_m).normalized());
+      const ThinnedView& seen =
+          templates.seen_from((inverse(pose).translation_m - set.model.center_m).normalized());
       TemplatePoint* to = points.data() + j * width;
-      drawn[j] = seen.count() > 0 && seen.project(to_pose(pose), salient.intrinsics, 0, 0, salient.shape.bins, float(0.1 * set.model.radius_m), to);
+      drawn[j] = seen.count() > 0 && seen.project(to_pose(pose), salient.intrinsics, 0, 0, salient.shape.bins,
+                                                  float(0.1 * set.model.radius_m), to);
       if (!drawn[j]) to[0] = {};  // a job needs a point; its answer is not read
       jobs[j] = {std::uint32_t(j * width), std::uint32_t(drawn[j] ? seen.count() : 1), 0, 0, 1, 1};
     }
@@ -68,7 +71,8 @@ std::vector<double> ranks_in(const Observation& view, const TemplateSet& set, co
 
 }  // namespace
 
-std::vector<ScanHit> judged_by_all(const TemplateSet& set, std::span<const ScanHit> hits, const Observation& own, std::span<const Observation> others,
+std::vector<ScanHit> judged_by_all(const TemplateSet& set, std::span<const ScanHit> hits,
+                                   const Observation& own, std::span<const Observation> others,
                                    Backend& backend, const ScanOptions& options) {
   std::vector<ScanHit> judged(hits.begin(), hits.end());
   if (others.empty()) return judged;
@@ -77,7 +81,9 @@ std::vector<ScanHit> judged_by_all(const TemplateSet& set, std::span<const ScanH
   for (const ScanHit& hit : hits)
     for (int step = 0; step < STEPS; ++step) {
       const double further = (set.options.distance_ratio - 1) * (step / double(STEPS - 1) - 0.5);
-      moved.push_back({hit.camera_from_object.rotation, hit.camera_from_object.translation_m + further * (hit.camera_from_object * set.model.center_m)});
+      moved.push_back(
+          {hit.camera_from_object.rotation,
+           hit.camera_from_object.translation_m + further * (hit.camera_from_object * set.model.center_m)});
     }
   std::vector<double> sums(moved.size());
   std::vector<Se3> poses(moved.size());
@@ -88,7 +94,9 @@ std::vector<ScanHit> judged_by_all(const TemplateSet& set, std::span<const ScanH
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += ranks[i];
   }
   for (std::size_t h = 0; h < judged.size(); ++h) {
-    const std::size_t best = std::size_t(std::min_element(sums.begin() + std::ptrdiff_t(h * STEPS), sums.begin() + std::ptrdiff_t((h + 1) * STEPS)) - sums.begin());
+    const std::size_t best = std::size_t(std::min_element(sums.begin() + std::ptrdiff_t(h * STEPS),
+                                                          sums.begin() + std::ptrdiff_t((h + 1) * STEPS)) -
+                                         sums.begin());
     judged[h].camera_from_object = moved[best];
     judged[h].rank = (judged[h].rank + sums[best]) / double(others.size() + 1);
   }

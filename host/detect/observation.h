@@ -1,4 +1,5 @@
-// What detection and registration need of one image: its edge points, the DCD tensor at full resolution and one reduced.
+// What detection and registration need of one image: its edge points, the DCD tensor at full resolution and
+// one reduced.
 #pragma once
 
 #include "host/core/types.h"
@@ -8,19 +9,21 @@
 namespace edgescout {
 
 struct Observation {
-  RegisterView view;    // full and coarse tensors, camera, edge index
-  ViewHandle salient;   // the coarse tensor of the salient edges alone, for the scan (edge/salient_edges.h)
+  RegisterView view;   // full and coarse tensors, camera, edge index
+  ViewHandle salient;  // the coarse tensor of the salient edges alone, for the scan (edge/salient_edges.h)
   Camera coarse_camera;
-  double reduction = 1; // image pixels to a coarse pixel
+  double reduction = 1;  // image pixels to a coarse pixel
 };
 
-// Reduction at which something of `size_px` in the image spans about 48 coarse pixels: in [1, 8], whole numbers.
+// Reduction at which something of `size_px` in the image spans about 48 coarse pixels: in [1, 8], whole
+// numbers.
 double reduction_for(double size_px);
 
-// `image` must be undistorted and `camera` its ideal camera. The coarse tensor's orientation weight is lambda / reduction, so that both weigh
-// direction against image distance alike.
-Observation observe(const Image& image, const Camera& camera, const Se3& camera_from_world, std::span<const EdgePoint> edges,
-                    double reduction, const TensorOptions& tensor, Backend& backend);
+// `image` must be undistorted and `camera` its ideal camera. The coarse tensor's orientation weight is lambda
+// / reduction, so that both weigh direction against image distance alike.
+Observation observe(const Image& image, const Camera& camera, const Se3& camera_from_world,
+                    std::span<const EdgePoint> edges, double reduction, const TensorOptions& tensor,
+                    Backend& backend);
 
 std::vector<RegisterView> views_of(std::span<const Observation> observations);
 

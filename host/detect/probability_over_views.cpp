@@ -8,8 +8,9 @@
 namespace edgescout {
 
 double probability_over_views(std::span<const PoseFeatures> by_view) {
-  // Modes of particles in seven rendered piles, refined over two to five views: base rates of 0.002 to 0.02 and hidden rates of 0.1 to 0.3 explain about equally well which
-  // are right, with a log loss of 0.06 to 0.3 where the features of all views taken together give 0.6 to 1.
+  // Modes of particles in seven rendered piles, refined over two to five views: base rates of 0.002 to 0.02
+  // and hidden rates of 0.1 to 0.3 explain about equally well which are right, with a log loss of 0.06 to 0.3
+  // where the features of all views taken together give 0.6 to 1.
   constexpr double base_rate = 0.01, hidden_rate = 0.2;
   constexpr double base_odds = base_rate / (1 - base_rate);
   constexpr double min_points = 12, min_in_image = 0.2;

@@ -11,7 +11,8 @@ struct Pool {
   std::vector<Refined> refined;
 };
 
-void add_probable(Pool& pool, std::span<const Hypothesis> starts, std::span<const Refined> refined, double min_probability) {
+void add_probable(Pool& pool, std::span<const Hypothesis> starts, std::span<const Refined> refined,
+                  double min_probability) {
   for (std::size_t i = 0; i < refined.size(); ++i) {
     if (pose_probability(refined[i].features) < min_probability) continue;
     pool.poses.push_back({starts[i].object, refined[i].registration.world_from_object});
@@ -19,7 +20,8 @@ void add_probable(Pool& pool, std::span<const Hypothesis> starts, std::span<cons
   }
 }
 
-std::vector<ChosenPose> compete(const Pool& pool, std::span<const EdgeModel> models, std::span<const RegisterView> views, Backend& backend,
+std::vector<ChosenPose> compete(const Pool& pool, std::span<const EdgeModel> models,
+                                std::span<const RegisterView> views, Backend& backend,
                                 const DetectOptions& options) {
   std::vector<PoseFeatures> features;
   for (const Refined& r : pool.refined) features.push_back(r.features);
@@ -28,8 +30,9 @@ std::vector<ChosenPose> compete(const Pool& pool, std::span<const EdgeModel> mod
 
 }  // namespace
 
-std::vector<Detection> settle(std::span<const EdgeModel> models, std::span<const Hypothesis> poses, std::span<const Refined> refined,
-                              std::span<const RegisterView> views, Backend& backend, const DetectOptions& options) {
+std::vector<Detection> settle(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
+                              std::span<const Refined> refined, std::span<const RegisterView> views,
+                              Backend& backend, const DetectOptions& options) {
   Pool pool;
   add_probable(pool, poses, refined, options.min_probability);
   std::vector<ChosenPose> chosen = compete(pool, models, views, backend, options);
@@ -38,12 +41,16 @@ std::vector<Detection> settle(std::span<const EdgeModel> models, std::span<const
     refine.search.rotation_rad = options.second_look_rad;
     std::vector<Hypothesis> winners;
     for (const ChosenPose& winner : chosen) winners.push_back(pool.poses[winner.index]);
-    add_probable(pool, winners, refine_poses(models, winners, views, backend, refine), options.min_probability);
+    add_probable(pool, winners, refine_poses(models, winners, views, backend, refine),
+                 options.min_probability);
     chosen = compete(pool, models, views, backend, options);
   }
   std::vector<Detection> detections;
-  for (const ChosenPose& c : chosen) detections.push_back(to_detection(pool.poses[c.index].object, pool.refined[c.index].registration, pool.refined[c.index].features));
-  std::ranges::stable_sort(detections, [](const Detection& a, const Detection& b) { return a.probability > b.probability; });
+  for (const ChosenPose& c : chosen)
+    detections.push_back(to_detection(pool.poses[c.index].object, pool.refined[c.index].registration,
+                                      pool.refined[c.index].features));
+  std::ranges::stable_sort(
+      detections, [](const Detection& a, const Detection& b) { return a.probability > b.probability; });
   if (int(detections.size()) > options.max_detections) detections.resize(options.max_detections);
   return detections;
 }

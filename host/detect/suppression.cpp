@@ -15,12 +15,14 @@ namespace {
 std::array<Eigen::Vector3d, 8> box_corners(const Mesh& mesh) {
   std::array<Eigen::Vector3d, 8> corners;
   for (int i = 0; i < 8; ++i)
-    for (int axis = 0; axis < 3; ++axis) corners[i][axis] = (i >> axis & 1) ? mesh.box_max_m[axis] : mesh.box_min_m[axis];
+    for (int axis = 0; axis < 3; ++axis)
+      corners[i][axis] = (i >> axis & 1) ? mesh.box_max_m[axis] : mesh.box_min_m[axis];
   return corners;
 }
 
 // Under the identity alone, given up as soon as it exceeds `limit`.
-double corner_distance_m(const Se3& a, const Se3& b, const std::array<Eigen::Vector3d, 8>& corners, double limit) {
+double corner_distance_m(const Se3& a, const Se3& b, const std::array<Eigen::Vector3d, 8>& corners,
+                         double limit) {
   const Eigen::Matrix3d turn = a.rotation.toRotationMatrix() - b.rotation.toRotationMatrix();
   const Eigen::Vector3d shift = a.translation_m - b.translation_m;
   double worst2 = 0;
@@ -36,12 +38,14 @@ double corner_distance_m(const Se3& a, const Se3& b, const std::array<Eigen::Vec
 double pose_distance_m(const Se3& a, const Se3& b, const Mesh& mesh, const Symmetries& symmetries) {
   const std::array<Eigen::Vector3d, 8> corners = box_corners(mesh);
   double best = std::numeric_limits<double>::infinity();
-  for (const Se3& symmetry : symmetries.discrete) best = std::min(best, corner_distance_m(a, b * symmetry, corners, best));
+  for (const Se3& symmetry : symmetries.discrete)
+    best = std::min(best, corner_distance_m(a, b * symmetry, corners, best));
   return best;
 }
 
-std::vector<std::size_t> suppress_duplicates(std::span<const Se3> poses_best_first, const Mesh& mesh, const Symmetries& symmetries,
-                                             double radius_m, std::size_t most) {
+std::vector<std::size_t> suppress_duplicates(std::span<const Se3> poses_best_first, const Mesh& mesh,
+                                             const Symmetries& symmetries, double radius_m,
+                                             std::size_t most) {
   const std::array<Eigen::Vector3d, 8> corners = box_corners(mesh);
   const Eigen::Vector3d center = 0.5 * (mesh.box_min_m + mesh.box_max_m);
   std::vector<std::size_t> kept;
@@ -50,9 +54,11 @@ std::vector<std::size_t> suppress_duplicates(std::span<const Se3> poses_best_fir
     const Eigen::Vector3d here = poses_best_first[i] * center;
     bool known = false;
     for (std::size_t k = 0; !known && k < kept.size(); ++k) {
-      if ((centers[k] - here).squaredNorm() > radius_m * radius_m && symmetries.discrete.size() == 1) continue;
+      if ((centers[k] - here).squaredNorm() > radius_m * radius_m && symmetries.discrete.size() == 1)
+        continue;
       for (const Se3& symmetry : symmetries.discrete)
-        known |= corner_distance_m(poses_best_first[i], poses_best_first[kept[k]] * symmetry, corners, radius_m) < radius_m;
+        known |= corner_distance_m(poses_best_first[i], poses_best_first[kept[k]] * symmetry, corners,
+                                   radius_m) < radius_m;
     }
     if (known) continue;
     kept.push_back(i);
@@ -61,8 +67,9 @@ std::vector<std::size_t> suppress_duplicates(std::span<const Se3> poses_best_fir
   return kept;
 }
 
-std::vector<std::size_t> best_different(std::span<const Se3> poses, std::span<const double> keys, const Mesh& mesh, const Symmetries& symmetries,
-                                        double radius_m, std::size_t most) {
+std::vector<std::size_t> best_different(std::span<const Se3> poses, std::span<const double> keys,
+                                        const Mesh& mesh, const Symmetries& symmetries, double radius_m,
+                                        std::size_t most) {
   check(poses.size() == keys.size(), "best_different: one key a pose");
   std::vector<std::size_t> order(poses.size());
   std::iota(order.begin(), order.end(), 0);
@@ -70,7 +77,8 @@ std::vector<std::size_t> best_different(std::span<const Se3> poses, std::span<co
   std::vector<Se3> ordered;
   for (std::size_t i : order) ordered.push_back(poses[i]);
   std::vector<std::size_t> best;
-  for (std::size_t i : suppress_duplicates(ordered, mesh, symmetries, radius_m, most)) best.push_back(order[i]);
+  for (std::size_t i : suppress_duplicates(ordered, mesh, symmetries, radius_m, most))
+    best.push_back(order[i]);
   return best;
 }
 

@@ -29,12 +29,15 @@ EdgeIndex::EdgeIndex(std::span<const EdgePoint> edges, int width, int height)
 
 EdgeIndex::Cells EdgeIndex::cells_around(float x_px, float y_px, float radius_px) const {
   check(radius_px <= CELL_PX, "EdgeIndex: radius larger than a cell");
-  if (!(x_px > -CELL_PX && y_px > -CELL_PX && x_px < CELL_PX * (columns_ + 1) && y_px < CELL_PX * (rows_ + 1))) return {0, -1, 0, -1};
-  return {cell_of(x_px - radius_px, columns_), cell_of(x_px + radius_px, columns_), cell_of(y_px - radius_px, rows_),
-          cell_of(y_px + radius_px, rows_)};
+  if (!(x_px > -CELL_PX && y_px > -CELL_PX && x_px < CELL_PX * (columns_ + 1) &&
+        y_px < CELL_PX * (rows_ + 1)))
+    return {0, -1, 0, -1};
+  return {cell_of(x_px - radius_px, columns_), cell_of(x_px + radius_px, columns_),
+          cell_of(y_px - radius_px, rows_), cell_of(y_px + radius_px, rows_)};
 }
 
-const EdgePoint* EdgeIndex::nearest(float x_px, float y_px, float theta_rad, float radius_px, float max_turn_rad) const {
+const EdgePoint* EdgeIndex::nearest(float x_px, float y_px, float theta_rad, float radius_px,
+                                    float max_turn_rad) const {
   constexpr float pi = 3.14159265f;
   const EdgePoint* best = nullptr;
   float best2 = radius_px * radius_px;

@@ -10,7 +10,8 @@ void EdgesOptions::validate() const {
   gradient.validate();
   faint.validate();
   if (!(faint_clearance_px >= 0 && faint_clearance_px <= EdgeIndex::CELL_PX))
-    throw InputError("options", "edge.faint_clearance", std::to_string(faint_clearance_px), "0 to " + std::to_string(EdgeIndex::CELL_PX) + " px");
+    throw InputError("options", "edge.faint_clearance", std::to_string(faint_clearance_px),
+                     "0 to " + std::to_string(EdgeIndex::CELL_PX) + " px");
   lsd.validate();
 }
 
@@ -31,7 +32,8 @@ std::vector<EdgePoint> find_edges(const Image& image, const EdgesOptions& option
   constexpr float any_direction = 4;
   const EdgeIndex fine(edges, image.width, image.height);
   for (const EdgePoint& edge : backend.detect_edges(view, options.faint))
-    if (!fine.nearest(edge.x_px, edge.y_px, edge.theta_rad, options.faint_clearance_px, any_direction)) edges.push_back(edge);
+    if (!fine.nearest(edge.x_px, edge.y_px, edge.theta_rad, options.faint_clearance_px, any_direction))
+      edges.push_back(edge);
   return edges;
 }
 

@@ -17,8 +17,9 @@ enum class EdgeMethod {
   Lsd,       // straight segments, always on the CPU
 };
 
-// The gradient detector runs twice: once fine, once on a stronger blur with lower thresholds, where only long chains count. The second
-// pass finds faint edges of a grey level or two; its points are taken only where the first pass has none near, since blur displaces edges.
+// The gradient detector runs twice: once fine, once on a stronger blur with lower thresholds, where only long
+// chains count. The second pass finds faint edges of a grey level or two; its points are taken only where the
+// first pass has none near, since blur displaces edges.
 struct EdgesOptions {
   EdgeMethod method = EdgeMethod::Gradient;
   EdgeOptions gradient;

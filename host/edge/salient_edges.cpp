@@ -15,7 +15,8 @@ float strong_quantile(std::span<const EdgePoint> edges) {
   return *at;
 }
 
-// A number in [0, 1) by place. Edges of one strength (line segments have none) are thinned by it: evenly, and alike in every run.
+// A number in [0, 1) by place. Edges of one strength (line segments have none) are thinned by it: evenly, and
+// alike in every run.
 double scattered(const EdgePoint& edge) { return std::fmod(12.9898 * edge.x_px + 78.233 * edge.y_px, 1.0); }
 
 bool stronger(const EdgePoint& a, const EdgePoint& b) {
@@ -24,13 +25,16 @@ bool stronger(const EdgePoint& a, const EdgePoint& b) {
 
 }  // namespace
 
-std::vector<EdgePoint> salient_edges(std::span<const EdgePoint> edges, int width, int height, const SalientOptions& options) {
+std::vector<EdgePoint> salient_edges(std::span<const EdgePoint> edges, int width, int height,
+                                     const SalientOptions& options) {
   if (edges.empty()) return {};
-  const int block = options.block_px, columns = (width + block - 1) / block, rows = (height + block - 1) / block;
+  const int block = options.block_px, columns = (width + block - 1) / block,
+            rows = (height + block - 1) / block;
   const float least = float(options.min_strength) * strong_quantile(edges);
   std::vector<std::vector<EdgePoint>> blocks(std::size_t(columns) * rows);
   for (const EdgePoint& edge : edges) {
-    const int column = std::clamp(int(edge.x_px) / block, 0, columns - 1), row = std::clamp(int(edge.y_px) / block, 0, rows - 1);
+    const int column = std::clamp(int(edge.x_px) / block, 0, columns - 1),
+              row = std::clamp(int(edge.y_px) / block, 0, rows - 1);
     if (edge.strength >= least) blocks[std::size_t(row) * columns + column].push_back(edge);
   }
   std::vector<EdgePoint> salient;

@@ -12,7 +12,8 @@ namespace edgescout {
 double mssd_m(const Se3& estimate, const Se3& truth, const Object& object);
 // The same in the image, px (both poses camera_from_object).
 double mspd_px(const Se3& estimate, const Se3& truth, const Object& object, const Camera& camera);
-// Rotation and translation error, at the symmetry where the pair passes most easily (smallest max of angle / 0.1 rad and distance / 5 mm).
+// Rotation and translation error, at the symmetry where the pair passes most easily (smallest max of angle /
+// 0.1 rad and distance / 5 mm).
 struct PoseError {
   double angle_rad = 0;
   double distance_m = 0;

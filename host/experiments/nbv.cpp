@@ -32,13 +32,15 @@ std::vector<TemplateSet> templates(Backend& backend) {
   return sets;
 }
 
-// What is found in the images of a bin: where no earlier image helps, once for all searches and strategies that look there.
+// What is found in the images of a bin: where no earlier image helps, once for all searches and strategies
+// that look there.
 class Detector {
  public:
   Detector(const std::vector<TemplateSet>& sets, const DetectOptions& options, Backend& backend)
       : sets_(sets), options_(options), backend_(backend) {}
   // Objects are counted from `first_type`.
-  std::vector<Detection> find(int view, const Observation& observation, std::span<const Observation> earlier, int first_type, int count) {
+  std::vector<Detection> find(int view, const Observation& observation, std::span<const Observation> earlier,
+                              int first_type, int count) {
     std::vector<Detection> all;
     for (int i = 0; i < count; ++i)
       for (Detection detection : of_type(view, observation, earlier, first_type + i)) {
@@ -49,12 +51,15 @@ class Detector {
   }
 
  private:
-  std::vector<Detection> of_type(int view, const Observation& observation, std::span<const Observation> earlier, int type) {
+  std::vector<Detection> of_type(int view, const Observation& observation,
+                                 std::span<const Observation> earlier, int type) {
     const auto search = [&] {
-      return candidates_in_image(std::span(&sets_[static_cast<std::size_t>(type)], 1), observation, earlier, backend_, options_);
+      return candidates_in_image(std::span(&sets_[static_cast<std::size_t>(type)], 1), observation, earlier,
+                                 backend_, options_);
     };
     if (!earlier.empty()) return search();  // what was seen before differs from strategy to strategy
-    const auto key = std::tuple(view, type, observation.reduction);  // coarser tensors where only large types are sought
+    const auto key =
+        std::tuple(view, type, observation.reduction);  // coarser tensors where only large types are sought
     auto known = found_.find(key);
     if (known == found_.end()) known = found_.emplace(key, search()).first;
     return known->second;

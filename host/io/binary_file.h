@@ -1,5 +1,5 @@
-// Internal to host: the project's own binary files. A header that can be checked before anything is believed (magic, version, length, checksum), then plain
-// little-endian numbers.
+// Internal to host: the project's own binary files. A header that can be checked before anything is believed
+// (magic, version, length, checksum), then plain little-endian numbers.
 #pragma once
 
 #include <array>
@@ -52,7 +52,8 @@ class BinaryWriter {
 // InputError naming the file where a list is longer than what is left of it.
 class BinaryReader {
  public:
-  BinaryReader(std::string_view bytes, std::string source, const char* name) : bytes_(bytes), source_(std::move(source)), name_(name) {}
+  BinaryReader(std::string_view bytes, std::string source, const char* name)
+      : bytes_(bytes), source_(std::move(source)), name_(name) {}
   template <typename T>
   T get() {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -85,8 +86,10 @@ class BinaryReader {
 };
 
 // Header and payload, atomically.
-void write_binary_file(const std::filesystem::path& file, const BinaryFormat& format, std::string_view payload);
-// The payload. InputError naming the file for a file cut short, of another version, with a wrong checksum or of another kind.
+void write_binary_file(const std::filesystem::path& file, const BinaryFormat& format,
+                       std::string_view payload);
+// The payload. InputError naming the file for a file cut short, of another version, with a wrong checksum or
+// of another kind.
 std::string read_binary_file(const std::filesystem::path& file, const BinaryFormat& format);
 
 }  // namespace edgescout

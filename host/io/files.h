@@ -10,8 +10,8 @@ namespace edgescout {
 // InputError naming the file where it is missing or unreadable.
 std::string read_file(const std::filesystem::path& file);
 
-// Writes beside the target, flushes and renames: a reader sees the old file or the whole new one. InputError naming the file and the system's reason (full
-// disk, no permission); nothing is left behind then.
+// Writes beside the target, flushes and renames: a reader sees the old file or the whole new one. InputError
+// naming the file and the system's reason (full disk, no permission); nothing is left behind then.
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);
 
 // Creates the folder (and parents) and proves that a file can be written in it; InputError otherwise.

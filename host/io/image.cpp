@@ -106,8 +106,12 @@ std::string encode_png(const Image& image) {
   return png_of(cv::Mat(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data())));
 }
 
-void save_png(const RgbImage& image, const std::filesystem::path& file) { write_file_atomically(file, encode_png(image)); }
+void save_png(const RgbImage& image, const std::filesystem::path& file) {
+  write_file_atomically(file, encode_png(image));
+}
 
-void save_png(const Image& image, const std::filesystem::path& file) { write_file_atomically(file, encode_png(image)); }
+void save_png(const Image& image, const std::filesystem::path& file) {
+  write_file_atomically(file, encode_png(image));
+}
 
 }  // namespace edgescout

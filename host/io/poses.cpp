@@ -55,7 +55,8 @@ std::vector<StartPose> load_start_poses(const std::filesystem::path& file) {
   return poses;
 }
 
-bool belongs_to(const StartPose& pose, const std::filesystem::path& image, std::optional<int> scene_id, int image_id) {
+bool belongs_to(const StartPose& pose, const std::filesystem::path& image, std::optional<int> scene_id,
+                int image_id) {
   if (pose.scene_id && scene_id && *pose.scene_id != *scene_id) return false;
   return pose.image.empty() ? pose.image_id == image_id : pose.image == image.filename().string();
 }

@@ -1,7 +1,8 @@
 // Poses to start a registration from, of any origin.
 //
 // Three forms: a BOP results CSV (.csv); a result of this tool (results.h); or a JSON list
-//   [{"image": 12 or "000012.png", "object": 1, "R": 9 numbers by row, "t": 3 in metres, "scene": 48 (optional), "score": 0.7 (optional)}, ...]
+//   [{"image": 12 or "000012.png", "object": 1, "R": 9 numbers by row, "t": 3 in metres, "scene": 48
+//   (optional), "score": 0.7 (optional)}, ...]
 // where R and t map the object frame to the camera frame.
 #pragma once
 
@@ -27,6 +28,7 @@ struct StartPose {
 std::vector<StartPose> load_start_poses(const std::filesystem::path& file);
 
 // Whether the pose is meant for this image. No scene on either side fits every scene.
-bool belongs_to(const StartPose& pose, const std::filesystem::path& image, std::optional<int> scene_id, int image_id);
+bool belongs_to(const StartPose& pose, const std::filesystem::path& image, std::optional<int> scene_id,
+                int image_id);
 
 }  // namespace edgescout

@@ -1,7 +1,7 @@
 // What is found in one image, as JSON: the tool's own result file.
 //
-// Poses are `{"R": 9 numbers by row, "t": 3 in metres, "quaternion_wxyz": 4}`; covariances 36 numbers by row in the tangent
-// of core/se3.h.
+// Poses are `{"R": 9 numbers by row, "t": 3 in metres, "quaternion_wxyz": 4}`; covariances 36 numbers by row
+// in the tangent of core/se3.h.
 #pragma once
 
 #include <filesystem>
@@ -24,16 +24,17 @@ struct ImageResult {
   int scene_id = 0;
   int image_id = 0;
   Camera camera;
-  std::string device;                     // Backend::name()
-  std::vector<StageSeconds> stages;       // in the order they ran
-  std::optional<Se3> camera_from_world;   // where absent, the world is the camera frame
-  std::vector<ObjectName> objects;        // what Detection::object indexes
+  std::string device;                    // Backend::name()
+  std::vector<StageSeconds> stages;      // in the order they ran
+  std::optional<Se3> camera_from_world;  // where absent, the world is the camera frame
+  std::vector<ObjectName> objects;       // what Detection::object indexes
   std::vector<Detection> detections;
 };
 
-// Atomically. The fields: edgescout_result (version of the format, 1), image, scene_id, image_id, device, camera, camera_from_world (optional),
-// timings_ms [{stage, ms}], objects [{id, name}], detections [{object_id, object, world_from_object, camera_from_object, covariance,
-// probability, psi, cost_px, visible_fraction, convergence}]. A number that is not finite becomes null.
+// Atomically. The fields: edgescout_result (version of the format, 1), image, scene_id, image_id, device,
+// camera, camera_from_world (optional), timings_ms [{stage, ms}], objects [{id, name}], detections
+// [{object_id, object, world_from_object, camera_from_object, covariance, probability, psi, cost_px,
+// visible_fraction, convergence}]. A number that is not finite becomes null.
 void save_image_result(const ImageResult& result, const std::filesystem::path& file);
 
 // InputError naming file and field: missing, no JSON, another version, a field missing or of another type.

@@ -29,10 +29,13 @@ bool is_smooth(const Mesh& mesh, const std::vector<int>& faces, double cos_creas
   return faces.size() == 2 && mesh.face_normals[faces[0]].dot(mesh.face_normals[faces[1]]) > cos_crease;
 }
 
-// Corners (3 * triangle + corner) that share a vertex and a smooth edge at it belong to one piece of surface: union-find.
+// Corners (3 * triangle + corner) that share a vertex and a smooth edge at it belong to one piece of surface:
+// union-find.
 class CornerGroups {
  public:
-  explicit CornerGroups(std::size_t corners) : parent_(corners) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit CornerGroups(std::size_t corners) : parent_(corners) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
   int root(int corner) {
     while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
     return corner;
@@ -48,15 +51,18 @@ int corner_at(const Mesh& mesh, int triangle, int vertex) {
   return 3 * triangle + int(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
 }
 
-std::vector<std::array<Eigen::Vector3d, 3>> average_normals(const Mesh& mesh, const FacesByEdge& faces, double cos_crease) {
+std::vector<std::array<Eigen::Vector3d, 3>> average_normals(const Mesh& mesh, const FacesByEdge& faces,
+                                                            double cos_crease) {
   CornerGroups groups(3 * mesh.triangles.size());
   for (const auto& [edge, sides] : faces)
     if (is_smooth(mesh, sides, cos_crease))
-      for (int vertex : {edge.first, edge.second}) groups.join(corner_at(mesh, sides[0], vertex), corner_at(mesh, sides[1], vertex));
+      for (int vertex : {edge.first, edge.second})
+        groups.join(corner_at(mesh, sides[0], vertex), corner_at(mesh, sides[1], vertex));
   std::vector<Eigen::Vector3d> sum(3 * mesh.triangles.size(), Eigen::Vector3d::Zero());
   for (int t = 0; t < int(mesh.triangles.size()); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
-    const Eigen::Vector3d twice_area = (mesh.vertices_m[b] - mesh.vertices_m[a]).cross(mesh.vertices_m[c] - mesh.vertices_m[a]);
+    const Eigen::Vector3d twice_area =
+        (mesh.vertices_m[b] - mesh.vertices_m[a]).cross(mesh.vertices_m[c] - mesh.vertices_m[a]);
     for (int corner = 0; corner < 3; ++corner) sum[groups.root(3 * t + corner)] += twice_area;
   }
   std::vector<std::array<Eigen::Vector3d, 3>> normals(mesh.triangles.size());
@@ -77,9 +83,11 @@ bool is_curved(const std::array<Eigen::Vector3d, 3>& normals) {
 
 void EdgeModelOptions::validate() const {
   if (!(crease_angle_deg > 0 && crease_angle_deg < 180))
-    throw InputError("options", "model.crease_angle", std::to_string(crease_angle_deg), "an angle in (0, 180) degrees");
+    throw InputError("options", "model.crease_angle", std::to_string(crease_angle_deg),
+                     "an angle in (0, 180) degrees");
   if (!(raster_step_m >= 0 && raster_step_m < 1))
-    throw InputError("options", "model.raster_step", std::to_string(raster_step_m), "a length in [0, 1) m, 0 for automatic");
+    throw InputError("options", "model.raster_step", std::to_string(raster_step_m),
+                     "a length in [0, 1) m, 0 for automatic");
 }
 
 EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options) {
@@ -90,9 +98,11 @@ EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options) {
   model.mesh = mesh;
   model.raster_step_m = options.raster_step_m > 0 ? options.raster_step_m : mesh.diameter_m / 80;
   model.center_m = 0.5 * (mesh.box_min_m + mesh.box_max_m);
-  for (const Eigen::Vector3d& vertex : mesh.vertices_m) model.radius_m = std::max(model.radius_m, (vertex - model.center_m).norm());
+  for (const Eigen::Vector3d& vertex : mesh.vertices_m)
+    model.radius_m = std::max(model.radius_m, (vertex - model.center_m).norm());
   for (const auto& [edge, sides] : faces)
-    if (!is_smooth(mesh, sides, cos_crease)) model.creases.push_back({mesh.vertices_m[edge.first], mesh.vertices_m[edge.second]});
+    if (!is_smooth(mesh, sides, cos_crease))
+      model.creases.push_back({mesh.vertices_m[edge.first], mesh.vertices_m[edge.second]});
   model.corner_normals = average_normals(mesh, faces, cos_crease);
   for (int t = 0; t < int(mesh.triangles.size()); ++t)
     if (is_curved(model.corner_normals[t])) model.curved.push_back(t);

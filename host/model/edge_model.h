@@ -1,5 +1,5 @@
-// The edges a mesh can show, prepared once: sharp creases, open borders and the fields from which the silhouette of a
-// curved surface is drawn for each viewpoint (paper, Sec. 3.1).
+// The edges a mesh can show, prepared once: sharp creases, open borders and the fields from which the
+// silhouette of a curved surface is drawn for each viewpoint (paper, Sec. 3.1).
 #pragma once
 
 #include <vector>
@@ -10,9 +10,10 @@
 namespace edgescout {
 
 struct EdgeModelOptions {
-  double crease_angle_deg = 25;  // between face normals: a sharper edge is drawn, a flatter one is smooth surface; (0, 180)
-  double raster_step_m = 0;      // between raster points along an edge; 0: diameter / 80
-  void validate() const;         // throws InputError naming the field and the violated bound
+  double crease_angle_deg =
+      25;  // between face normals: a sharper edge is drawn, a flatter one is smooth surface; (0, 180)
+  double raster_step_m = 0;  // between raster points along an edge; 0: diameter / 80
+  void validate() const;     // throws InputError naming the field and the violated bound
 };
 
 struct EdgeModel {
@@ -21,15 +22,16 @@ struct EdgeModel {
     Eigen::Vector3d from_m, to_m;
   };
   std::vector<Segment> creases;
-  // Normals at the corners of every triangle, averaged by area over the smooth surface around the vertex: they stay apart across a
-  // crease. Only triangles whose corner normals differ can carry a contour; `curved` lists them.
+  // Normals at the corners of every triangle, averaged by area over the smooth surface around the vertex:
+  // they stay apart across a crease. Only triangles whose corner normals differ can carry a contour; `curved`
+  // lists them.
   std::vector<std::array<Eigen::Vector3d, 3>> corner_normals;
   std::vector<int> curved;
 
   Mesh mesh;
   double raster_step_m = 0;
   Eigen::Vector3d center_m = Eigen::Vector3d::Zero();  // of the bounding box
-  double radius_m = 0;                                 // of the smallest sphere about the centre that holds the mesh
+  double radius_m = 0;  // of the smallest sphere about the centre that holds the mesh
 
   // The mesh once more as the kernels take it.
   std::vector<float> vertices;

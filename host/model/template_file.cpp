@@ -11,17 +11,25 @@ constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'T', 'S'}, 1, "temp
 
 void put_options(BinaryWriter& out, const TemplateOptions& o) {
   out.put(o.frequency);
-  for (double v : {o.range.latitude_min_deg, o.range.latitude_max_deg, o.range.longitude_min_deg, o.range.longitude_max_deg}) out.put(v);
+  for (double v : {o.range.latitude_min_deg, o.range.latitude_max_deg, o.range.longitude_min_deg,
+                   o.range.longitude_max_deg})
+    out.put(v);
   out.put(o.in_plane_steps);
-  for (double v : {o.distance_min_m, o.distance_max_m, o.distance_ratio, o.edges.crease_angle_deg, o.edges.raster_step_m}) out.put(v);
+  for (double v : {o.distance_min_m, o.distance_max_m, o.distance_ratio, o.edges.crease_angle_deg,
+                   o.edges.raster_step_m})
+    out.put(v);
 }
 
 TemplateOptions get_options(BinaryReader& in) {
   TemplateOptions o;
   o.frequency = in.get<int>();
-  for (double* v : {&o.range.latitude_min_deg, &o.range.latitude_max_deg, &o.range.longitude_min_deg, &o.range.longitude_max_deg}) *v = in.get<double>();
+  for (double* v : {&o.range.latitude_min_deg, &o.range.latitude_max_deg, &o.range.longitude_min_deg,
+                    &o.range.longitude_max_deg})
+    *v = in.get<double>();
   o.in_plane_steps = in.get<int>();
-  for (double* v : {&o.distance_min_m, &o.distance_max_m, &o.distance_ratio, &o.edges.crease_angle_deg, &o.edges.raster_step_m}) *v = in.get<double>();
+  for (double* v : {&o.distance_min_m, &o.distance_max_m, &o.distance_ratio, &o.edges.crease_angle_deg,
+                    &o.edges.raster_step_m})
+    *v = in.get<double>();
   o.validate();
   return o;
 }
@@ -52,7 +60,8 @@ TemplateSet set_from(std::string_view payload, const std::string& source) {
   const std::string name = in.get_text();
   set.options = get_options(in);
   set.symmetries.discrete.clear();
-  for (std::size_t i = in.count(7 * sizeof(double)); i > 0; --i) set.symmetries.discrete.push_back(in.get_pose());
+  for (std::size_t i = in.count(7 * sizeof(double)); i > 0; --i)
+    set.symmetries.discrete.push_back(in.get_pose());
   std::vector<Eigen::Vector3d> vertices;
   for (const auto& v : in.get_list<std::array<double, 3>>()) vertices.emplace_back(v[0], v[1], v[2]);
   const Mesh mesh = make_mesh(name, std::move(vertices), in.get_list<std::array<int, 3>>());
@@ -67,8 +76,12 @@ TemplateSet set_from(std::string_view payload, const std::string& source) {
 
 }  // namespace
 
-void save_templates(const TemplateSet& set, const std::filesystem::path& file) { write_binary_file(file, format, payload_of(set)); }
+void save_templates(const TemplateSet& set, const std::filesystem::path& file) {
+  write_binary_file(file, format, payload_of(set));
+}
 
-TemplateSet load_templates(const std::filesystem::path& file) { return set_from(read_binary_file(file, format), file.string()); }
+TemplateSet load_templates(const std::filesystem::path& file) {
+  return set_from(read_binary_file(file, format), file.string());
+}
 
 }  // namespace edgescout

@@ -12,12 +12,18 @@ void TemplateOptions::validate() const {
     throw InputError("options", std::string("templates.") + field, std::to_string(found), bound);
   };
   if (frequency < 1 || frequency > 16) fail("frequency", frequency, "a number in [1, 16]");
-  if (in_plane_steps < 1 || in_plane_steps > 360) fail("in_plane_steps", in_plane_steps, "a number in [1, 360]");
-  if (!(distance_min_m >= 0 && distance_min_m <= 1000)) fail("distance_min", distance_min_m, "a length in [0, 1000] m, 0 for automatic");
-  if (!(distance_max_m >= distance_min_m && distance_max_m <= 1000)) fail("distance_max", distance_max_m, "at least distance_min, at most 1000 m");
-  if ((distance_min_m == 0) != (distance_max_m == 0)) fail("distance_min", distance_min_m, "both distances, or neither");
-  if (!(distance_ratio > 1 && distance_ratio <= 2)) fail("distance_ratio", distance_ratio, "a ratio in (1, 2]");
-  if (!(range.latitude_min_deg <= range.latitude_max_deg)) fail("latitude_min", range.latitude_min_deg, "at most latitude_max");
+  if (in_plane_steps < 1 || in_plane_steps > 360)
+    fail("in_plane_steps", in_plane_steps, "a number in [1, 360]");
+  if (!(distance_min_m >= 0 && distance_min_m <= 1000))
+    fail("distance_min", distance_min_m, "a length in [0, 1000] m, 0 for automatic");
+  if (!(distance_max_m >= distance_min_m && distance_max_m <= 1000))
+    fail("distance_max", distance_max_m, "at least distance_min, at most 1000 m");
+  if ((distance_min_m == 0) != (distance_max_m == 0))
+    fail("distance_min", distance_min_m, "both distances, or neither");
+  if (!(distance_ratio > 1 && distance_ratio <= 2))
+    fail("distance_ratio", distance_ratio, "a ratio in (1, 2]");
+  if (!(range.latitude_min_deg <= range.latitude_max_deg))
+    fail("latitude_min", range.latitude_min_deg, "at most latitude_max");
   edges.validate();
 }
 
@@ -34,7 +40,8 @@ std::vector<double> template_distances_m(const TemplateOptions& options) {
   const double span = std::log(options.distance_max_m / options.distance_min_m);
   const int steps = std::max(0, static_cast<int>(std::ceil(span / std::log(options.distance_ratio) - 1e-9)));
   std::vector<double> distances;
-  for (int i = 0; i <= steps; ++i) distances.push_back(options.distance_min_m * std::exp(steps ? span * i / steps : 0));
+  for (int i = 0; i <= steps; ++i)
+    distances.push_back(options.distance_min_m * std::exp(steps ? span * i / steps : 0));
   return distances;
 }
 
@@ -52,7 +59,8 @@ TemplateSet build_templates(const Object& object, const TemplateOptions& options
     if (options.range.contains(d)) directions.push_back(d);
   directions = modulo_symmetry(directions, object.symmetries, ICOSPHERE_GAP_RAD / options.frequency);
   // The visible set hardly depends on the distance within 2 : 1; take the geometric middle.
-  const double distance = std::max(std::sqrt(options.distance_min_m * options.distance_max_m), 1.2 * set.model.radius_m);
+  const double distance =
+      std::max(std::sqrt(options.distance_min_m * options.distance_max_m), 1.2 * set.model.radius_m);
   constexpr std::size_t chunk = 32;
   for (std::size_t first = 0; first < directions.size(); first += chunk) {
     std::vector<Se3> poses;
@@ -65,7 +73,9 @@ TemplateSet build_templates(const Object& object, const TemplateOptions& options
       if (!points[i].empty()) set.views.push_back({poses[i].rotation, std::move(points[i])});
     if (progress) progress(int(std::min(directions.size(), first + chunk)), int(directions.size()));
   }
-  if (set.views.empty()) throw InputError(object.mesh.name, "templates", "no viewpoint that shows an edge", "a wider range of viewpoints or a mesh with edges");
+  if (set.views.empty())
+    throw InputError(object.mesh.name, "templates", "no viewpoint that shows an edge",
+                     "a wider range of viewpoints or a mesh with edges");
   return set;
 }
 

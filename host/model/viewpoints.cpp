@@ -11,20 +11,25 @@ namespace edgescout {
 std::vector<Eigen::Vector3d> icosphere(int frequency) {
   check(frequency >= 1 && frequency <= 64, "icosphere: frequency in [1, 64]");
   const double phi = std::numbers::phi;
-  const Eigen::Vector3d corners[12] = {{-1, phi, 0}, {1, phi, 0}, {-1, -phi, 0}, {1, -phi, 0}, {0, -1, phi}, {0, 1, phi},
-                                       {0, -1, -phi}, {0, 1, -phi}, {phi, 0, -1}, {phi, 0, 1}, {-phi, 0, -1}, {-phi, 0, 1}};
-  const int faces[20][3] = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                            {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+  const Eigen::Vector3d corners[12] = {{-1, phi, 0}, {1, phi, 0}, {-1, -phi, 0}, {1, -phi, 0},
+                                       {0, -1, phi}, {0, 1, phi}, {0, -1, -phi}, {0, 1, -phi},
+                                       {phi, 0, -1}, {phi, 0, 1}, {-phi, 0, -1}, {-phi, 0, 1}};
+  const int faces[20][3] = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                            {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                            {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                            {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
   std::vector<Eigen::Vector3d> directions;
   const double same = 0.2 / frequency;
   for (const auto& face : faces)
     for (int i = 0; i <= frequency; ++i)
       for (int j = 0; i + j <= frequency; ++j) {
         const Eigen::Vector3d d =
-            ((frequency - i - j) * corners[face[0]] + i * corners[face[1]] + j * corners[face[2]]).normalized();
+            ((frequency - i - j) * corners[face[0]] + i * corners[face[1]] + j * corners[face[2]])
+                .normalized();
         const bool inner = i > 0 && j > 0 && i + j < frequency;
         bool known = false;
-        for (std::size_t k = 0; !inner && !known && k < directions.size(); ++k) known = (directions[k] - d).norm() < same;
+        for (std::size_t k = 0; !inner && !known && k < directions.size(); ++k)
+          known = (directions[k] - d).norm() < same;
         if (!known) directions.push_back(d);
       }
   return directions;
@@ -36,17 +41,20 @@ bool SphereRange::contains(const Eigen::Vector3d& direction) const {
   if (latitude < latitude_min_deg - slack || latitude > latitude_max_deg + slack) return false;
   if (longitude_max_deg - longitude_min_deg >= 360) return true;
   const double span = std::fmod(longitude_max_deg - longitude_min_deg + 720, 360);
-  const double from_start = std::fmod(std::atan2(direction.y(), direction.x()) * degrees - longitude_min_deg + 720, 360);
+  const double from_start =
+      std::fmod(std::atan2(direction.y(), direction.x()) * degrees - longitude_min_deg + 720, 360);
   return from_start <= span + slack;
 }
 
-std::vector<Eigen::Vector3d> modulo_symmetry(const std::vector<Eigen::Vector3d>& directions, const Symmetries& symmetries, double margin_rad) {
+std::vector<Eigen::Vector3d> modulo_symmetry(const std::vector<Eigen::Vector3d>& directions,
+                                             const Symmetries& symmetries, double margin_rad) {
   const Eigen::Vector3d generic = Eigen::Vector3d(0.3141, 0.5772, 0.7548).normalized();
   std::vector<Eigen::Vector3d> kept;
   for (const Eigen::Vector3d& d : directions) {
     bool canonical = true;
     for (const Se3& symmetry : symmetries.discrete) {
-      // d may stand this far beyond the plane that halves w and its image under the symmetry, times |S w - w|.
+      // d may stand this far beyond the plane that halves w and its image under the symmetry, times |S w -
+      // w|.
       const double margin = std::sin(margin_rad) * (symmetry.rotation * generic - generic).norm();
       canonical &= d.dot(generic) >= (symmetry.rotation * d).dot(generic) - margin;
     }

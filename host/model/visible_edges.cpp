@@ -27,7 +27,8 @@ struct Window {
   Intrinsics k;
   // Farthest surface in the 3 x 3 pixels around the projection.
   double farthest_around(const Eigen::Vector3d& p) const {
-    const int u = int(std::lround(k.fx * p.x() / p.z() + k.cx)), v = int(std::lround(k.fy * p.y() / p.z() + k.cy));
+    const int u = int(std::lround(k.fx * p.x() / p.z() + k.cx)),
+              v = int(std::lround(k.fy * p.y() / p.z() + k.cy));
     float farthest = 0;
     for (int y = v - 1; y <= v + 1; ++y)
       for (int x = u - 1; x <= u + 1; ++x) {
@@ -38,47 +39,57 @@ struct Window {
   }
 };
 
-void sample_segment(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const EdgeModel& model, const Se3& pose, const Window& window,
-                    double tolerance_m, std::vector<ModelPoint>& points) {
+void sample_segment(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const EdgeModel& model,
+                    const Se3& pose, const Window& window, double tolerance_m,
+                    std::vector<ModelPoint>& points) {
   const Eigen::Vector3d along = to - from;
   const double length = along.norm();
   if (length <= 0) return;
   const Eigen::Vector3d tangent = along / length;
-  // Short segments (a finely tessellated curve) get a point with the probability of their length, decided by where they
-  // lie, so that curves are sampled as densely as straight edges and equally in every run.
+  // Short segments (a finely tessellated curve) get a point with the probability of their length, decided by
+  // where they lie, so that curves are sampled as densely as straight edges and equally in every run.
   const double exact = length / model.raster_step_m;
-  const double dither = std::fmod(std::abs(from.dot(Eigen::Vector3d(12.9898, 78.233, 37.719)) / model.raster_step_m) * 43.7585453, 1.0);
+  const double dither = std::fmod(
+      std::abs(from.dot(Eigen::Vector3d(12.9898, 78.233, 37.719)) / model.raster_step_m) * 43.7585453, 1.0);
   const int count = static_cast<int>(std::floor(exact + dither));
   for (int i = 0; i < count; ++i) {
     const Eigen::Vector3d x = from + along * ((i + 0.5) / count);
     const Eigen::Vector3d in_camera = pose * x;
     if (in_camera.z() <= 0 || in_camera.z() > window.farthest_around(in_camera) + tolerance_m) continue;
-    points.push_back({float(x.x()), float(x.y()), float(x.z()), float(tangent.x()), float(tangent.y()), float(tangent.z())});
+    points.push_back({float(x.x()), float(x.y()), float(x.z()), float(tangent.x()), float(tangent.y()),
+                      float(tangent.z())});
   }
 }
 
-// The contour of a curved surface inside one triangle: where the interpolated normal is perpendicular to the line of sight.
-bool contour_in_triangle(const EdgeModel& model, int triangle, const Eigen::Vector3d& eye, Eigen::Vector3d ends[2]) {
+// The contour of a curved surface inside one triangle: where the interpolated normal is perpendicular to the
+// line of sight.
+bool contour_in_triangle(const EdgeModel& model, int triangle, const Eigen::Vector3d& eye,
+                         Eigen::Vector3d ends[2]) {
   double facing[3];
   const auto& corners = model.mesh.triangles[triangle];
-  for (int c = 0; c < 3; ++c) facing[c] = model.corner_normals[triangle][c].dot(eye - model.mesh.vertices_m[corners[c]]);
+  for (int c = 0; c < 3; ++c)
+    facing[c] = model.corner_normals[triangle][c].dot(eye - model.mesh.vertices_m[corners[c]]);
   int found = 0;
   for (int c = 0; c < 3 && found < 2; ++c) {
     const double a = facing[c], b = facing[(c + 1) % 3];
     if ((a < 0) == (b < 0)) continue;
     const double s = a / (a - b);
-    ends[found++] = (1 - s) * model.mesh.vertices_m[corners[c]] + s * model.mesh.vertices_m[corners[(c + 1) % 3]];
+    ends[found++] =
+        (1 - s) * model.mesh.vertices_m[corners[c]] + s * model.mesh.vertices_m[corners[(c + 1) % 3]];
   }
   return found == 2;
 }
 
-std::vector<ModelPoint> points_of_pose(const EdgeModel& model, const Se3& pose, const Window& window, double tolerance_m) {
+std::vector<ModelPoint> points_of_pose(const EdgeModel& model, const Se3& pose, const Window& window,
+                                       double tolerance_m) {
   std::vector<ModelPoint> points;
-  for (const EdgeModel::Segment& crease : model.creases) sample_segment(crease.from_m, crease.to_m, model, pose, window, tolerance_m, points);
+  for (const EdgeModel::Segment& crease : model.creases)
+    sample_segment(crease.from_m, crease.to_m, model, pose, window, tolerance_m, points);
   const Eigen::Vector3d eye = inverse(pose).translation_m;
   for (int triangle : model.curved) {
     Eigen::Vector3d ends[2];
-    if (contour_in_triangle(model, triangle, eye, ends)) sample_segment(ends[0], ends[1], model, pose, window, tolerance_m, points);
+    if (contour_in_triangle(model, triangle, eye, ends))
+      sample_segment(ends[0], ends[1], model, pose, window, tolerance_m, points);
   }
   return points;
 }
@@ -97,7 +108,8 @@ Pose to_pose(const Se3& b_from_a) {
   return pose;
 }
 
-std::vector<std::vector<ModelPoint>> visible_edges(const EdgeModel& model, std::span<const Se3> camera_from_object, Backend& backend,
+std::vector<std::vector<ModelPoint>> visible_edges(const EdgeModel& model,
+                                                   std::span<const Se3> camera_from_object, Backend& backend,
                                                    const VisibilityOptions& options) {
   const int size = options.depth_map_size_px;
   check(size >= 8 && size <= 4096, "visible_edges: depth map size");
@@ -110,7 +122,8 @@ std::vector<std::vector<ModelPoint>> visible_edges(const EdgeModel& model, std::
     const std::size_t count = std::min(chunk, camera_from_object.size() - first);
     jobs.clear();
     for (std::size_t i = 0; i < count; ++i)
-      jobs.push_back({to_pose(camera_from_object[first + i]), frame_object(model, camera_from_object[first + i], size)});
+      jobs.push_back(
+          {to_pose(camera_from_object[first + i]), frame_object(model, camera_from_object[first + i], size)});
     depth.resize(count * size * size);
     backend.depth_raster(model.triangle_mesh(), jobs, size, size, depth);
     backend.threads().for_each(count, [&](std::size_t i) {

@@ -20,8 +20,9 @@ struct PointSets {
   std::vector<std::uint32_t> first, count;  // [hypothesis * views + view]
 };
 
-PointSets collect_points(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses, std::span<const PoseTrack> tracks,
-                         std::span<const RegisterView> views, Backend& backend, const D2coOptions& options, int most) {
+PointSets collect_points(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
+                         std::span<const PoseTrack> tracks, std::span<const RegisterView> views,
+                         Backend& backend, const D2coOptions& options, int most) {
   std::vector<std::vector<ModelPoint>> lists(hypotheses.size() * views.size());
   for (int object = 0; object < int(models.size()); ++object) {
     std::vector<Se3> poses;
@@ -31,7 +32,8 @@ PointSets collect_points(std::span<const EdgeModel> models, std::span<const Hypo
         poses.push_back(views[v].camera_from_world * tracks[h].pose);
         slots.push_back(h * views.size() + v);
       }
-    std::vector<std::vector<ModelPoint>> visible = visible_edges(models[object], poses, backend, options.visibility);
+    std::vector<std::vector<ModelPoint>> visible =
+        visible_edges(models[object], poses, backend, options.visibility);
     remove_hidden(models[object], poses, views, visible);
     for (std::size_t i = 0; i < slots.size(); ++i) lists[slots[i]] = std::move(visible[i]);
   }
@@ -47,7 +49,8 @@ PointSets collect_points(std::span<const EdgeModel> models, std::span<const Hypo
 
 class Evaluator {
  public:
-  Evaluator(const PointSets& sets, std::span<const RegisterView> views, Backend& backend, const PoseLoss& loss)
+  Evaluator(const PointSets& sets, std::span<const RegisterView> views, Backend& backend,
+            const PoseLoss& loss)
       : sets_(sets), views_(views), backend_(backend), loss_(loss) {
     for (const RegisterView& view : views) handles_.push_back(view.view);
   }
@@ -58,15 +61,16 @@ class Evaluator {
     for (std::size_t h = 0; h < tracks.size(); ++h)
       for (std::size_t v = 0; tracks[h].active && v < views_.size(); ++v) {
         const std::size_t slot = h * views_.size() + v;
-        problems_.push_back({to_pose(views_[v].camera_from_world * tracks[h].trial), sets_.first[slot], sets_.count[slot],
-                             static_cast<std::uint32_t>(v)});
+        problems_.push_back({to_pose(views_[v].camera_from_world * tracks[h].trial), sets_.first[slot],
+                             sets_.count[slot], static_cast<std::uint32_t>(v)});
       }
     results_.resize(problems_.size());
     backend_.pose_normal_equations(handles_, sets_.points, problems_, loss_, results_);
     std::vector<WorldSystem> systems(tracks.size());
     std::size_t next = 0;
     for (std::size_t h = 0; h < tracks.size(); ++h)
-      for (std::size_t v = 0; tracks[h].active && v < views_.size(); ++v) add_view(systems[h], results_[next++], views_[v].camera_from_world);
+      for (std::size_t v = 0; tracks[h].active && v < views_.size(); ++v)
+        add_view(systems[h], results_[next++], views_[v].camera_from_world);
     return systems;
   }
 
@@ -80,7 +84,8 @@ class Evaluator {
   std::vector<NormalEquations> results_;
 };
 
-void run_round(std::span<PoseTrack> tracks, Evaluator& evaluator, const D2coRound& round, const D2coOptions& options) {
+void run_round(std::span<PoseTrack> tracks, Evaluator& evaluator, const D2coRound& round,
+               const D2coOptions& options) {
   for (PoseTrack& track : tracks) restart(track);
   std::vector<WorldSystem> systems = evaluator.at_trials(tracks);
   for (std::size_t h = 0; h < tracks.size(); ++h) begin_at(tracks[h], systems[h]);
@@ -114,19 +119,24 @@ Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance) {
 }
 
 std::vector<D2coRound> D2coOptions::default_rounds() {
-  return {{LOSS_GEMAN_MCCLURE, 30, 12, 400}, {LOSS_GEMAN_MCCLURE, 15, 12, 500}, {LOSS_GEMAN_MCCLURE, 8, 12, 700},
-          {LOSS_GEMAN_MCCLURE, 4, 12, 0},    {LOSS_GEMAN_MCCLURE, 2, 12, 0}};
+  return {{LOSS_GEMAN_MCCLURE, 30, 12, 400},
+          {LOSS_GEMAN_MCCLURE, 15, 12, 500},
+          {LOSS_GEMAN_MCCLURE, 8, 12, 700},
+          {LOSS_GEMAN_MCCLURE, 4, 12, 0},
+          {LOSS_GEMAN_MCCLURE, 2, 12, 0}};
 }
 
 void D2coOptions::validate() const {
   const auto in = [](const char* field, double found, double low, double high) {
     if (!(found >= low && found <= high))
-      throw InputError("options", std::string("register.") + field, std::to_string(found), std::to_string(low) + " to " + std::to_string(high));
+      throw InputError("options", std::string("register.") + field, std::to_string(found),
+                       std::to_string(low) + " to " + std::to_string(high));
   };
   if (rounds.empty()) throw InputError("options", "register.rounds", "none", "at least one round");
   for (const D2coRound& round : rounds) {
     if (round.loss != LOSS_HUBER && round.loss != LOSS_GEMAN_MCCLURE)
-      throw InputError("options", "register.loss", std::to_string(round.loss), "Huber's or Geman and McClure's");
+      throw InputError("options", "register.loss", std::to_string(round.loss),
+                       "Huber's or Geman and McClure's");
     in("scale", round.scale_px, 1e-3, 1000);
     in("iterations", round.iterations, 1, 1000);
     in("max_points", round.max_points, 0, 1e6);
@@ -137,29 +147,38 @@ void D2coOptions::validate() const {
 
 std::string to_string(Convergence reason) {
   switch (reason) {
-    case Convergence::SmallStep: return "small step";
-    case Convergence::NoDecrease: return "no decrease";
-    case Convergence::IterationLimit: return "iteration limit";
-    case Convergence::NoPoints: return "no visible points";
+    case Convergence::SmallStep:
+      return "small step";
+    case Convergence::NoDecrease:
+      return "no decrease";
+    case Convergence::IterationLimit:
+      return "iteration limit";
+    case Convergence::NoPoints:
+      return "no visible points";
   }
   throw LogicError("unknown convergence reason");
 }
 
-std::vector<Hypothesis> as_hypotheses(std::span<const Hypothesis> starts, std::span<const Registration> registrations) {
+std::vector<Hypothesis> as_hypotheses(std::span<const Hypothesis> starts,
+                                      std::span<const Registration> registrations) {
   std::vector<Hypothesis> poses;
-  for (std::size_t i = 0; i < starts.size(); ++i) poses.push_back({starts[i].object, registrations[i].world_from_object});
+  for (std::size_t i = 0; i < starts.size(); ++i)
+    poses.push_back({starts[i].object, registrations[i].world_from_object});
   return poses;
 }
 
-std::vector<Registration> register_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
-                                         std::span<const RegisterView> views, Backend& backend, const D2coOptions& options) {
+std::vector<Registration> register_poses(std::span<const EdgeModel> models,
+                                         std::span<const Hypothesis> hypotheses,
+                                         std::span<const RegisterView> views, Backend& backend,
+                                         const D2coOptions& options) {
   options.validate();
   check(!views.empty(), "register_poses: at least one view");
   check_starts(hypotheses, models.size());
   std::vector<PoseTrack> tracks(hypotheses.size());
   for (std::size_t h = 0; h < hypotheses.size(); ++h) tracks[h].pose = hypotheses[h].world_from_object;
   for (const D2coRound& round : options.rounds) {
-    const PointSets sets = collect_points(models, hypotheses, tracks, views, backend, options, round.max_points);
+    const PointSets sets =
+        collect_points(models, hypotheses, tracks, views, backend, options, round.max_points);
     Evaluator evaluator(sets, views, backend, {round.loss, round.scale_px});
     run_round(tracks, evaluator, round, options);
   }

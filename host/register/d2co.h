@@ -1,8 +1,10 @@
-// D2CO: registration of object poses directly on the DCD tensors of one or several views (paper, Secs. 4.1 and 4.3).
+// D2CO: registration of object poses directly on the DCD tensors of one or several views (paper, Secs. 4.1
+// and 4.3).
 //
-// Minimises E(pose) = sum over views, points of rho(DT3_view(x_i, xi_i)) by Levenberg-Marquardt over the tangent of core/se3.h at
-// world_from_object (Eqs. 8 and 11). Projections and orientations are recomputed at every evaluation; the visible points at the start of
-// every round. All poses of a call are refined side by side: one kernel call gives the systems of all of them in all views.
+// Minimises E(pose) = sum over views, points of rho(DT3_view(x_i, xi_i)) by Levenberg-Marquardt over the
+// tangent of core/se3.h at world_from_object (Eqs. 8 and 11). Projections and orientations are recomputed at
+// every evaluation; the visible points at the start of every round. All poses of a call are refined side by
+// side: one kernel call gives the systems of all of them in all views.
 #pragma once
 
 #include <memory>
@@ -19,14 +21,14 @@ namespace edgescout {
 struct D2coRound {
   std::uint32_t loss = LOSS_HUBER;
   float scale_px = 4;
-  int iterations = 10;       // of Levenberg-Marquardt
-  int max_points = 0;        // per view, evenly thinned; 0: all
+  int iterations = 10;  // of Levenberg-Marquardt
+  int max_points = 0;   // per view, evenly thinned; 0: all
 };
 
 struct D2coOptions {
   // From a wide loss to a narrow one; visible points are recomputed before every round.
   std::vector<D2coRound> rounds = default_rounds();
-  double min_step_m = 2e-6;       // a smaller step ends the round
+  double min_step_m = 2e-6;  // a smaller step ends the round
   double min_step_rad = 2e-5;
   VisibilityOptions visibility;
   static std::vector<D2coRound> default_rounds();
@@ -39,10 +41,10 @@ struct Occluders;  // occluders.h
 struct RegisterView {
   ViewHandle view;
   Camera camera;
-  Se3 camera_from_world;  // identity where the world is the camera frame
+  Se3 camera_from_world;                   // identity where the world is the camera frame
   std::shared_ptr<const EdgeIndex> edges;  // the edge points themselves; needed by polish_poses only
-  ViewHandle coarse;                       // the same edges on a reduced tensor: a wider basin for the search (refine.h)
-  std::shared_ptr<const Image> image;      // undistorted; needed by shading (shading.h) only
+  ViewHandle coarse;  // the same edges on a reduced tensor: a wider basin for the search (refine.h)
+  std::shared_ptr<const Image> image;          // undistorted; needed by shading (shading.h) only
   std::shared_ptr<const Occluders> occluders;  // what known objects hide here; none: nothing
 };
 
@@ -56,25 +58,30 @@ std::string to_string(Convergence reason);
 
 struct Registration {
   Se3 world_from_object;
-  Matrix6d covariance = Matrix6d::Zero();  // inverse of the final J'WJ, times the residual variance; infinite where singular
-  double cost_px2 = 0;                     // final sum of rho over all points and views
-  double mean_px = 0;                      // mean residual
-  int points = 0;                          // in all views
+  Matrix6d covariance =
+      Matrix6d::Zero();  // inverse of the final J'WJ, times the residual variance; infinite where singular
+  double cost_px2 = 0;   // final sum of rho over all points and views
+  double mean_px = 0;    // mean residual
+  int points = 0;        // in all views
   int iterations = 0;
   Convergence reason = Convergence::NoPoints;
 };
 
-// Covariance of a pose from its final system: variance * hessian^-1 in the tangent of core/se3.h, infinite where singular.
+// Covariance of a pose from its final system: variance * hessian^-1 in the tangent of core/se3.h, infinite
+// where singular.
 Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance);
 
 // The same objects at their registered poses: starts for what comes next.
-std::vector<Hypothesis> as_hypotheses(std::span<const Hypothesis> starts, std::span<const Registration> registrations);
+std::vector<Hypothesis> as_hypotheses(std::span<const Hypothesis> starts,
+                                      std::span<const Registration> registrations);
 
 // Evenly; all of them where `most` is 0 or enough.
 std::vector<ModelPoint> thinned(const std::vector<ModelPoint>& points, int most);
 
 // Results in the order of the hypotheses.
-std::vector<Registration> register_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
-                                         std::span<const RegisterView> views, Backend& backend, const D2coOptions& options = {});
+std::vector<Registration> register_poses(std::span<const EdgeModel> models,
+                                         std::span<const Hypothesis> hypotheses,
+                                         std::span<const RegisterView> views, Backend& backend,
+                                         const D2coOptions& options = {});
 
 }  // namespace edgescout

@@ -25,8 +25,7 @@ struct HostView {
 
 std::vector<HostView> download(std::span<const RegisterView> views) {
   std::vector<HostView> host;
-  for (const RegisterView& view : views)
-    host.push_back({view});
+  for (const RegisterView& view : views) host.push_back({view});
   return host;
 }
 

@@ -9,17 +9,19 @@ namespace edgescout {
 
 namespace {
 
-constexpr double REDUCTION = 2;   // edges of occluders are known to a pixel or two at best
+constexpr double REDUCTION = 2;     // edges of occluders are known to a pixel or two at best
 constexpr double TOLERANCE = 0.05;  // of the hidden object's diameter
 
-void draw(const EdgeModel& model, std::span<const Se3> camera_from_object, Occluders& occluders, Backend& backend) {
+void draw(const EdgeModel& model, std::span<const Se3> camera_from_object, Occluders& occluders,
+          Backend& backend) {
   const Camera& c = occluders.camera;
   std::vector<float> own(occluders.depth_m.size());
   for (const Se3& pose : camera_from_object) {
     if ((pose * model.center_m).z() <= model.radius_m) continue;
     const DepthJob job{to_pose(pose), intrinsics_of(c)};
     backend.depth_raster(model.triangle_mesh(), {&job, 1}, c.width, c.height, own);
-    std::ranges::transform(own, occluders.depth_m, occluders.depth_m.begin(), [](float a, float b) { return std::min(a, b); });
+    std::ranges::transform(own, occluders.depth_m, occluders.depth_m.begin(),
+                           [](float a, float b) { return std::min(a, b); });
   }
 }
 
@@ -28,9 +30,11 @@ int nearer_around(const Occluders& occluders, const Eigen::Vector3d& in_camera, 
   const Camera& camera = occluders.camera;
   if (in_camera.z() <= 0) return 0;
   const Eigen::Vector2d pixel = project(camera, in_camera).array().round();
-  if (!(pixel.x() >= 1 && pixel.y() >= 1 && pixel.x() < camera.width - 1 && pixel.y() < camera.height - 1)) return 0;
+  if (!(pixel.x() >= 1 && pixel.y() >= 1 && pixel.x() < camera.width - 1 && pixel.y() < camera.height - 1))
+    return 0;
   const float limit = float(in_camera.z() - tolerance_m);
-  const std::size_t width = std::size_t(camera.width), middle = std::size_t(pixel.y()) * width + std::size_t(pixel.x());
+  const std::size_t width = std::size_t(camera.width),
+                    middle = std::size_t(pixel.y()) * width + std::size_t(pixel.x());
   int nearer = 0;
   for (const std::size_t row : {middle - width, middle, middle + width})
     for (const std::size_t i : {row - 1, row, row + 1}) nearer += occluders.depth_m[i] < limit;
@@ -39,16 +43,22 @@ int nearer_around(const Occluders& occluders, const Eigen::Vector3d& in_camera, 
 
 }  // namespace
 
-bool Occluders::hide(const Eigen::Vector3d& in_camera, double tolerance_m) const { return nearer_around(*this, in_camera, tolerance_m) == 9; }
+bool Occluders::hide(const Eigen::Vector3d& in_camera, double tolerance_m) const {
+  return nearer_around(*this, in_camera, tolerance_m) == 9;
+}
 
-bool Occluders::may_hide(const Eigen::Vector3d& in_camera, double tolerance_m) const { return nearer_around(*this, in_camera, tolerance_m) > 0; }
+bool Occluders::may_hide(const Eigen::Vector3d& in_camera, double tolerance_m) const {
+  return nearer_around(*this, in_camera, tolerance_m) > 0;
+}
 
-std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> models, std::span<const Hypothesis> known,
-                                                const RegisterView& view, Backend& backend) {
+std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> models,
+                                                std::span<const Hypothesis> known, const RegisterView& view,
+                                                Backend& backend) {
   if (known.empty()) return nullptr;
   auto occluders = std::make_shared<Occluders>();
   occluders->camera = scaled(view.camera, 1 / REDUCTION);
-  occluders->depth_m.assign(std::size_t(occluders->camera.width) * std::size_t(occluders->camera.height), DEPTH_EMPTY);
+  occluders->depth_m.assign(std::size_t(occluders->camera.width) * std::size_t(occluders->camera.height),
+                            DEPTH_EMPTY);
   for (std::size_t object = 0; object < models.size(); ++object) {
     std::vector<Se3> poses;
     for (const Hypothesis& h : known)
@@ -60,8 +70,8 @@ std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> model
 
 double occlusion_tolerance_m(const EdgeModel& model) { return TOLERANCE * model.mesh.diameter_m; }
 
-void remove_hidden(const EdgeModel& model, std::span<const Se3> camera_from_object, std::span<const RegisterView> views,
-                   std::span<std::vector<ModelPoint>> points) {
+void remove_hidden(const EdgeModel& model, std::span<const Se3> camera_from_object,
+                   std::span<const RegisterView> views, std::span<std::vector<ModelPoint>> points) {
   check(points.size() == camera_from_object.size(), "remove_hidden: as many lists as poses");
   const double tolerance_m = occlusion_tolerance_m(model);
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -11,13 +11,15 @@ namespace edgescout {
 
 namespace {
 
-// One model point against its edge point: signed distance to the edge's tangent line, px, and its derivative by the camera's tangent.
+// One model point against its edge point: signed distance to the edge's tangent line, px, and its derivative
+// by the camera's tangent.
 struct LineResidual {
   double value;
   Vector6d jacobian;
 };
 
-LineResidual residual_to(const EdgePoint& edge, const PosedPoint<double>& p, const ProjectedEdge<double>& projected, const Intrinsics& k) {
+LineResidual residual_to(const EdgePoint& edge, const PosedPoint<double>& p,
+                         const ProjectedEdge<double>& projected, const Intrinsics& k) {
   const double nx = -std::sin(edge.theta_rad), ny = std::cos(edge.theta_rad);
   return {nx * (projected.u - edge.x_px) + ny * (projected.v - edge.y_px), image_motion(nx, ny, p, k)};
 }
@@ -29,8 +31,8 @@ struct LineSystem {
   int points = 0, matched = 0;
 };
 
-void add_points(LineSystem& sum, const RegisterView& view, const Se3& world_from_object, std::span<const ModelPoint> points,
-                const PolishRound& round, float max_turn_rad) {
+void add_points(LineSystem& sum, const RegisterView& view, const Se3& world_from_object,
+                std::span<const ModelPoint> points, const PolishRound& round, float max_turn_rad) {
   const Pose pose = to_pose(view.camera_from_world * world_from_object);
   const Intrinsics& k = view.view->intrinsics;
   Matrix6d hessian = Matrix6d::Zero();  // by the camera's tangent
@@ -40,8 +42,9 @@ void add_points(LineSystem& sum, const RegisterView& view, const Se3& world_from
     if (posed.point.z <= POSE_MIN_DEPTH_M) continue;
     ++sum.points;
     const ProjectedEdge<double> projected = project_edge(posed, k);
-    const EdgePoint* edge = view.edges->nearest(float(projected.u), float(projected.v), float(orientation(projected.dx, projected.dy)),
-                                                round.radius_px, max_turn_rad);
+    const EdgePoint* edge =
+        view.edges->nearest(float(projected.u), float(projected.v),
+                            float(orientation(projected.dx, projected.dy)), round.radius_px, max_turn_rad);
     if (!edge) continue;
     ++sum.matched;
     const LineResidual r = residual_to(*edge, posed, projected, k);
@@ -52,21 +55,23 @@ void add_points(LineSystem& sum, const RegisterView& view, const Se3& world_from
     sum.weight += weight;
   }
   Matrix6d to_camera = Matrix6d::Zero();
-  to_camera.topLeftCorner<3, 3>() = to_camera.bottomRightCorner<3, 3>() = view.camera_from_world.rotation.toRotationMatrix();
+  to_camera.topLeftCorner<3, 3>() = to_camera.bottomRightCorner<3, 3>() =
+      view.camera_from_world.rotation.toRotationMatrix();
   sum.hessian += to_camera.transpose() * hessian * to_camera;
   sum.gradient += to_camera.transpose() * gradient;
 }
 
-LineSystem system_at(const Se3& pose, std::span<const RegisterView> views, std::span<const std::vector<ModelPoint>> points,
-                     const PolishRound& round, float max_turn_rad) {
+LineSystem system_at(const Se3& pose, std::span<const RegisterView> views,
+                     std::span<const std::vector<ModelPoint>> points, const PolishRound& round,
+                     float max_turn_rad) {
   LineSystem sum;
   for (std::size_t v = 0; v < views.size(); ++v)
     if (views[v].edges) add_points(sum, views[v], pose, points[v], round, max_turn_rad);
   return sum;
 }
 
-void polish_one(Registration& registration, std::span<const RegisterView> views, std::span<const std::vector<ModelPoint>> points,
-                const PolishOptions& options) {
+void polish_one(Registration& registration, std::span<const RegisterView> views,
+                std::span<const std::vector<ModelPoint>> points, const PolishOptions& options) {
   Se3 pose = registration.world_from_object;
   for (const PolishRound& round : options.rounds)
     for (int i = 0; i < round.iterations; ++i) {
@@ -81,27 +86,31 @@ void polish_one(Registration& registration, std::span<const RegisterView> views,
   const LineSystem final_system = system_at(pose, views, points, options.rounds.back(), options.max_turn_rad);
   if (final_system.matched < options.min_matched * final_system.points) return;
   registration.world_from_object = pose;
-  registration.covariance =
-      pose_covariance(final_system.hessian, final_system.weighted_square / std::max(1.0, final_system.weight - 6));
+  registration.covariance = pose_covariance(
+      final_system.hessian, final_system.weighted_square / std::max(1.0, final_system.weight - 6));
 }
 
 }  // namespace
 
-void polish_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses, std::span<const RegisterView> views,
-                  Backend& backend, const PolishOptions& options, std::span<Registration> registrations) {
+void polish_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
+                  std::span<const RegisterView> views, Backend& backend, const PolishOptions& options,
+                  std::span<Registration> registrations) {
   for (int object = 0; object < int(models.size()); ++object) {
     std::vector<std::size_t> members;
     std::vector<Se3> poses;
     for (std::size_t h = 0; h < hypotheses.size(); ++h)
       if (hypotheses[h].object == object) {
         members.push_back(h);
-        for (const RegisterView& view : views) poses.push_back(view.camera_from_world * registrations[h].world_from_object);
+        for (const RegisterView& view : views)
+          poses.push_back(view.camera_from_world * registrations[h].world_from_object);
       }
-    std::vector<std::vector<ModelPoint>> points = visible_edges(models[object], poses, backend, options.visibility);
+    std::vector<std::vector<ModelPoint>> points =
+        visible_edges(models[object], poses, backend, options.visibility);
     remove_hidden(models[object], poses, views, points);
     for (std::vector<ModelPoint>& list : points) list = thinned(list, options.max_points);
     backend.threads().for_each(members.size(), [&](std::size_t m) {
-      polish_one(registrations[members[m]], views, std::span(points).subspan(m * views.size(), views.size()), options);
+      polish_one(registrations[members[m]], views, std::span(points).subspan(m * views.size(), views.size()),
+                 options);
     });
   }
 }

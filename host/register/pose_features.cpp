@@ -13,7 +13,8 @@ namespace edgescout {
 namespace {
 
 // A raster point stands for raster_step of edge, seen at an angle; end-on edges are short in the image.
-double projected_length_px(const EdgeModel& model, const Se3& camera_from_object, const Intrinsics& k, std::span<const ModelPoint> points) {
+double projected_length_px(const EdgeModel& model, const Se3& camera_from_object, const Intrinsics& k,
+                           std::span<const ModelPoint> points) {
   const Pose pose = to_pose(camera_from_object);
   double length = 0;
   for (const ModelPoint& point : points) {
@@ -27,21 +28,25 @@ double projected_length_px(const EdgeModel& model, const Se3& camera_from_object
 }  // namespace
 
 double evidence(const PoseFeatures& features) {
-  constexpr double spread = 0.308;        // of |cos| of unrelated directions
-  constexpr double independent_px = 5;    // neighbouring edge points agree or not together
+  constexpr double spread = 0.308;      // of |cos| of unrelated directions
+  constexpr double independent_px = 5;  // neighbouring edge points agree or not together
   return (features.psi - CHANCE_PSI) / spread * std::sqrt(features.length_px / independent_px);
 }
 
 double weighted_odds(const PoseFeatures& features, const OddsWeights& w) {
   constexpr double least_evidence = 0.5;  // below that all poses are as bad
-  return w.bias + w.by_log_evidence * std::log(std::max(evidence(features), least_evidence)) + w.by_mean_px * features.mean_px +
-         w.by_unexplained_grey * unexplained_grey(features.shading);
+  return w.bias + w.by_log_evidence * std::log(std::max(evidence(features), least_evidence)) +
+         w.by_mean_px * features.mean_px + w.by_unexplained_grey * unexplained_grey(features.shading);
 }
 
-double log_odds(const PoseFeatures& features) { return weighted_odds(features, {-5.036, 4.105, -0.382, -6.012}); }
+double log_odds(const PoseFeatures& features) {
+  return weighted_odds(features, {-5.036, 4.105, -0.382, -6.012});
+}
 
-std::vector<PoseFeatures> pose_features_by_view(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
-                                                std::span<const RegisterView> views, Backend& backend, const PoseScoreOptions& options,
+std::vector<PoseFeatures> pose_features_by_view(std::span<const EdgeModel> models,
+                                                std::span<const Hypothesis> poses,
+                                                std::span<const RegisterView> views, Backend& backend,
+                                                const PoseScoreOptions& options,
                                                 const VisibilityOptions& visibility) {
   std::vector<PoseFeatures> features(poses.size() * views.size());
   std::vector<ModelPoint> points;
@@ -56,14 +61,17 @@ std::vector<PoseFeatures> pose_features_by_view(std::span<const EdgeModel> model
         problems.push_back({to_pose(in_camera.back()), 0, 0, static_cast<std::uint32_t>(v)});
         slots.push_back(p * views.size() + v);
       }
-    std::vector<std::vector<ModelPoint>> visible = visible_edges(models[object], in_camera, backend, visibility);
-    for (std::size_t i = 0; i < visible.size(); ++i) features[slots[first + i]].visible = double(visible[i].size());
+    std::vector<std::vector<ModelPoint>> visible =
+        visible_edges(models[object], in_camera, backend, visibility);
+    for (std::size_t i = 0; i < visible.size(); ++i)
+      features[slots[first + i]].visible = double(visible[i].size());
     remove_hidden(models[object], in_camera, views, visible);
     for (std::size_t i = 0; i < visible.size(); ++i) {
       problems[first + i].first_point = static_cast<std::uint32_t>(points.size());
       problems[first + i].point_count = static_cast<std::uint32_t>(visible[i].size());
       PoseFeatures& f = features[slots[first + i]];
-      f.length_px = projected_length_px(models[object], in_camera[i], views[problems[first + i].view].view->intrinsics, visible[i]);
+      f.length_px = projected_length_px(models[object], in_camera[i],
+                                        views[problems[first + i].view].view->intrinsics, visible[i]);
       points.insert(points.end(), visible[i].begin(), visible[i].end());
     }
   }
@@ -105,11 +113,14 @@ PoseFeatures together(std::span<const PoseFeatures> by_view) {
 }
 
 std::vector<PoseFeatures> pose_features(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
-                                        std::span<const RegisterView> views, Backend& backend, const PoseScoreOptions& options,
+                                        std::span<const RegisterView> views, Backend& backend,
+                                        const PoseScoreOptions& options,
                                         const VisibilityOptions& visibility) {
-  const std::vector<PoseFeatures> by_view = pose_features_by_view(models, poses, views, backend, options, visibility);
+  const std::vector<PoseFeatures> by_view =
+      pose_features_by_view(models, poses, views, backend, options, visibility);
   std::vector<PoseFeatures> features;
-  for (std::size_t p = 0; p < poses.size(); ++p) features.push_back(together(std::span(by_view).subspan(p * views.size(), views.size())));
+  for (std::size_t p = 0; p < poses.size(); ++p)
+    features.push_back(together(std::span(by_view).subspan(p * views.size(), views.size())));
   return features;
 }
 

@@ -10,7 +10,8 @@ namespace edgescout {
 
 void check_starts(std::span<const Hypothesis> starts, std::size_t models) {
   for (const Hypothesis& start : starts) {
-    check(start.object >= 0 && static_cast<std::size_t>(start.object) < models, "register_poses: no such model");
+    check(start.object >= 0 && static_cast<std::size_t>(start.object) < models,
+          "register_poses: no such model");
     check(is_finite(start.world_from_object), "register_poses: a start that is not finite");
   }
 }

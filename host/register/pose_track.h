@@ -17,7 +17,8 @@ struct PoseTrack {
   Convergence reason = Convergence::IterationLimit;
 };
 
-// LogicError for a start that is no pose or of no model: a place that is no number would be looked up in the tensor.
+// LogicError for a start that is no pose or of no model: a place that is no number would be looked up in the
+// tensor.
 void check_starts(std::span<const Hypothesis> starts, std::size_t models);
 // Before a round: the first trial is the pose itself.
 void restart(PoseTrack& track);

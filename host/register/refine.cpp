@@ -19,7 +19,8 @@ std::vector<Hypothesis> spread(const Hypothesis& start, const Se3& camera_from_w
         const int axes = std::abs(x) + std::abs(y) + std::abs(z);
         if (axes != 1 && axes != 3) continue;
         Vector6d turn = Vector6d::Zero();
-        turn.tail<3>() = camera_from_world.rotation.conjugate() * Eigen::Vector3d(x, y, z).normalized() * rotation_rad;
+        turn.tail<3>() =
+            camera_from_world.rotation.conjugate() * Eigen::Vector3d(x, y, z).normalized() * rotation_rad;
         starts.push_back({start.object, retract(start.world_from_object, turn)});
       }
   return starts;
@@ -36,36 +37,43 @@ std::vector<RegisterView> coarse_views(std::span<const RegisterView> views) {
   return coarse;
 }
 
-// For each hypothesis the different poses its search ended in, highest log-odds first; `owner` says whose they are.
+// For each hypothesis the different poses its search ended in, highest log-odds first; `owner` says whose
+// they are.
 struct Searched {
   std::vector<Hypothesis> poses;
   std::vector<std::size_t> owner;
 };
 
-Searched search(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses, std::span<const RegisterView> views,
-                Backend& backend, const RefineOptions& options) {
+Searched search(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
+                std::span<const RegisterView> views, Backend& backend, const RefineOptions& options) {
   std::vector<Hypothesis> starts;
   for (const Hypothesis& hypothesis : hypotheses)
-    for (const Hypothesis& start : spread(hypothesis, views[0].camera_from_world, options.search.rotation_rad)) starts.push_back(start);
+    for (const Hypothesis& start :
+         spread(hypothesis, views[0].camera_from_world, options.search.rotation_rad))
+      starts.push_back(start);
   const std::size_t turned = starts.size();
-  std::vector<Hypothesis> poses = as_hypotheses(starts, register_poses(models, starts, coarse_views(views), backend, options.search.coarse));
+  std::vector<Hypothesis> poses = as_hypotheses(
+      starts, register_poses(models, starts, coarse_views(views), backend, options.search.coarse));
   // Each start as it was, too: what fits already may be led away by the coarse look.
   poses.insert(poses.end(), hypotheses.begin(), hypotheses.end());
-  const std::vector<PoseFeatures> features = pose_features(models, poses, views, backend, options.score, options.search.coarse.visibility);
+  const std::vector<PoseFeatures> features =
+      pose_features(models, poses, views, backend, options.score, options.search.coarse.visibility);
   Searched found;
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {
     const std::size_t of_one = turned / hypotheses.size();
     std::vector<std::size_t> order(of_one);
     std::iota(order.begin(), order.end(), h * of_one);
     order.push_back(turned + h);
-    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return log_odds(features[a]) > log_odds(features[b]); });
+    std::ranges::stable_sort(
+        order, [&](std::size_t a, std::size_t b) { return log_odds(features[a]) > log_odds(features[b]); });
     const std::size_t first = found.poses.size();
     for (std::size_t i : order) {
       if (int(found.poses.size() - first) >= options.search.survivors) break;
       const double diameter = models[poses[i].object].mesh.diameter_m;
-      const bool known = std::any_of(found.poses.begin() + first, found.poses.end(), [&](const Hypothesis& other) {
-        return same_pose(other.world_from_object, poses[i].world_from_object, diameter);
-      });
+      const bool known =
+          std::any_of(found.poses.begin() + first, found.poses.end(), [&](const Hypothesis& other) {
+            return same_pose(other.world_from_object, poses[i].world_from_object, diameter);
+          });
       if (known) continue;
       found.poses.push_back(poses[i]);
       found.owner.push_back(h);
@@ -74,8 +82,10 @@ Searched search(std::span<const EdgeModel> models, std::span<const Hypothesis> h
   return found;
 }
 
-std::vector<Refined> refine_together(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
-                                     std::span<const RegisterView> views, Backend& backend, const RefineOptions& options) {
+std::vector<Refined> refine_together(std::span<const EdgeModel> models,
+                                     std::span<const Hypothesis> hypotheses,
+                                     std::span<const RegisterView> views, Backend& backend,
+                                     const RefineOptions& options) {
   Searched found;
   if (options.search.rotation_rad > 0) {
     found = search(models, hypotheses, views, backend, options);
@@ -86,9 +96,11 @@ std::vector<Refined> refine_together(std::span<const EdgeModel> models, std::spa
   D2coOptions d2co = options.d2co;
   if (options.search.rotation_rad == 0) d2co.rounds.insert(d2co.rounds.begin(), options.unsearched);
   std::vector<Registration> registrations = register_poses(models, found.poses, views, backend, d2co);
-  if (options.polish) polish_poses(models, found.poses, views, backend, options.polish_options, registrations);
+  if (options.polish)
+    polish_poses(models, found.poses, views, backend, options.polish_options, registrations);
   const std::vector<PoseFeatures> by_view =
-      pose_features_by_view(models, as_hypotheses(found.poses, registrations), views, backend, options.score, options.d2co.visibility);
+      pose_features_by_view(models, as_hypotheses(found.poses, registrations), views, backend, options.score,
+                            options.d2co.visibility);
   std::vector<Refined> results(hypotheses.size());
   std::vector<bool> filled(hypotheses.size(), false);
   for (std::size_t i = 0; i < found.poses.size(); ++i) {
@@ -113,7 +125,8 @@ D2coOptions SearchOptions::coarse_defaults() {
 
 D2coOptions RefineOptions::full_defaults() {
   D2coOptions options;
-  options.rounds = {{LOSS_GEMAN_MCCLURE, 12, 8, 300}, {LOSS_GEMAN_MCCLURE, 5, 8, 500}, {LOSS_GEMAN_MCCLURE, 2, 8, 0}};
+  options.rounds = {
+      {LOSS_GEMAN_MCCLURE, 12, 8, 300}, {LOSS_GEMAN_MCCLURE, 5, 8, 500}, {LOSS_GEMAN_MCCLURE, 2, 8, 0}};
   return options;
 }
 
@@ -121,20 +134,25 @@ void RefineOptions::validate() const {
   search.coarse.validate();
   d2co.validate();
   if (!(search.rotation_rad >= 0 && search.rotation_rad <= 1))
-    throw InputError("options", "register.search_rotation", std::to_string(search.rotation_rad), "an angle in [0, 1] rad");
+    throw InputError("options", "register.search_rotation", std::to_string(search.rotation_rad),
+                     "an angle in [0, 1] rad");
   if (at_once < 1) throw InputError("options", "register.at_once", std::to_string(at_once), "at least 1");
   if (search.survivors < 1 || search.survivors > 15)
-    throw InputError("options", "register.survivors", std::to_string(search.survivors), "a number in [1, 15]");
+    throw InputError("options", "register.survivors", std::to_string(search.survivors),
+                     "a number in [1, 15]");
 }
 
 std::vector<Refined> refine_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
-                                  std::span<const RegisterView> views, Backend& backend, const RefineOptions& options) {
+                                  std::span<const RegisterView> views, Backend& backend,
+                                  const RefineOptions& options) {
   options.validate();
   check(!views.empty(), "refine_poses: at least one view");
   const std::size_t at_once = std::max<std::size_t>(1, std::size_t(options.at_once) / views.size());
   std::vector<Refined> results;
   for (std::size_t first = 0; first < hypotheses.size(); first += at_once) {
-    std::vector<Refined> block = refine_together(models, hypotheses.subspan(first, std::min(at_once, hypotheses.size() - first)), views, backend, options);
+    std::vector<Refined> block =
+        refine_together(models, hypotheses.subspan(first, std::min(at_once, hypotheses.size() - first)),
+                        views, backend, options);
     std::ranges::move(block, std::back_inserter(results));
   }
   return results;

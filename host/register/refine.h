@@ -1,5 +1,5 @@
-// A pose from a rough start: search around it, D2CO, polish, features. What detection does with its candidates and what
-// `edgescout register` does with anybody's.
+// A pose from a rough start: search around it, D2CO, polish, features. What detection does with its
+// candidates and what `edgescout register` does with anybody's.
 #pragma once
 
 #include <span>
@@ -11,8 +11,9 @@
 
 namespace edgescout {
 
-// Search: besides the start itself, starts turned by `rotation_rad` about the 6 axis directions and 8 cube diagonals of the camera frame are registered
-// coarsely (few points, wide loss); those with the highest log-odds (pose_features.h) go on.
+// Search: besides the start itself, starts turned by `rotation_rad` about the 6 axis directions and 8 cube
+// diagonals of the camera frame are registered coarsely (few points, wide loss); those with the highest
+// log-odds (pose_features.h) go on.
 struct SearchOptions {
   double rotation_rad = 0.3;  // 0: no search, the start alone; in [0, 1]
   int survivors = 4;          // different poses that go on to the full registration
@@ -23,23 +24,26 @@ struct SearchOptions {
 struct RefineOptions {
   SearchOptions search;
   D2coOptions d2co = full_defaults();
-  D2coRound unsearched{LOSS_GEMAN_MCCLURE, 30, 10, 300};  // goes before d2co's rounds where no search brought the start near
+  D2coRound unsearched{LOSS_GEMAN_MCCLURE, 30, 10,
+                       300};  // goes before d2co's rounds where no search brought the start near
   bool polish = true;
   PolishOptions polish_options;
   PoseScoreOptions score{1.0f, 4.0f, 60.0f};
-  int at_once = 256;  // pairs of a hypothesis and a view, with a search up to 2 MB of points each; results do not depend on it
+  int at_once = 256;  // pairs of a hypothesis and a view, with a search up to 2 MB of points each; results do
+                      // not depend on it
   static D2coOptions full_defaults();
   void validate() const;
 };
 
 struct Refined {
   Registration registration;
-  PoseFeatures features;               // over all views
-  std::vector<PoseFeatures> by_view;   // in the order of the views
+  PoseFeatures features;              // over all views
+  std::vector<PoseFeatures> by_view;  // in the order of the views
 };
 
 // Results in the order of the hypotheses.
 std::vector<Refined> refine_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
-                                  std::span<const RegisterView> views, Backend& backend, const RefineOptions& options);
+                                  std::span<const RegisterView> views, Backend& backend,
+                                  const RefineOptions& options);
 
 }  // namespace edgescout

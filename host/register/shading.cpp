@@ -11,16 +11,19 @@ namespace edgescout {
 
 namespace {
 
-constexpr int WINDOW_PX = 96;     // square depth map of the object
-constexpr int FEWEST_STRIDE = 2;  // image pixels between its pixels: blur at a silhouette must not reach the pixels one further in
-constexpr double LARGEST_BEND = 4e-3;  // relative second difference of inverse depth: more is an edge or another surface
+constexpr int WINDOW_PX = 96;  // square depth map of the object
+constexpr int FEWEST_STRIDE =
+    2;  // image pixels between its pixels: blur at a silhouette must not reach the pixels one further in
+constexpr double LARGEST_BEND =
+    4e-3;  // relative second difference of inverse depth: more is an edge or another surface
 constexpr int HARMONICS = 9;
 constexpr double FEWEST_PIXELS = 60;  // fewer, and nine harmonics explain any grey
 constexpr double NOISE_GREY = 2;
 
 using Harmonics = Eigen::Matrix<double, HARMONICS, 1>;
 
-// Part of the image: window pixel (i, j) is image pixel (x + stride i, y + stride j), so that samples need no interpolation.
+// Part of the image: window pixel (i, j) is image pixel (x + stride i, y + stride j), so that samples need no
+// interpolation.
 struct Window {
   int x = 0, y = 0, stride = FEWEST_STRIDE;
 };
@@ -28,9 +31,11 @@ struct Window {
 Window frame_object(const EdgeModel& model, const Se3& camera_from_object, const Intrinsics& k) {
   const Eigen::Vector3d center = camera_from_object * model.center_m;
   const double reach = std::max(center.z() - model.radius_m, 0.05 * center.z());
-  const double half_px = std::max(k.fx, k.fy) * model.radius_m / reach * (1 + center.head<2>().norm() / center.z());
+  const double half_px =
+      std::max(k.fx, k.fy) * model.radius_m / reach * (1 + center.head<2>().norm() / center.z());
   const int stride = std::clamp(int(std::ceil(2 * half_px / (WINDOW_PX - 4))), FEWEST_STRIDE, 1000);
-  const double left = k.fx * center.x() / center.z() + k.cx - 0.5 * stride * WINDOW_PX, top = k.fy * center.y() / center.z() + k.cy - 0.5 * stride * WINDOW_PX;
+  const double left = k.fx * center.x() / center.z() + k.cx - 0.5 * stride * WINDOW_PX,
+               top = k.fy * center.y() / center.z() + k.cy - 0.5 * stride * WINDOW_PX;
   const auto whole = [](double v) { return int(std::clamp(std::round(v), -1e6, 1e6)); };
   return {whole(left), whole(top), stride};
 }
@@ -42,12 +47,13 @@ Intrinsics intrinsics_of(const Window& w, const Intrinsics& k) {
 
 Harmonics harmonics(const Eigen::Vector3d& n) {
   Harmonics h;
-  h << 1, n.x(), n.y(), n.z(), n.x() * n.y(), n.y() * n.z(), n.z() * n.x(), n.x() * n.x() - n.y() * n.y(), 3 * n.z() * n.z() - 1;
+  h << 1, n.x(), n.y(), n.z(), n.x() * n.y(), n.y() * n.z(), n.z() * n.x(), n.x() * n.x() - n.y() * n.y(),
+      3 * n.z() * n.z() - 1;
   return h;
 }
 
-// The normal at an inner pixel of a depth map: on a plane n . X = d inverse depth is linear in the pixel, 1 / z = n . (u, v, 1) / d.
-// False where the nine pixels around are not one smooth surface.
+// The normal at an inner pixel of a depth map: on a plane n . X = d inverse depth is linear in the pixel, 1 /
+// z = n . (u, v, 1) / d. False where the nine pixels around are not one smooth surface.
 bool normal_at(const float* depth, int i, int j, const Intrinsics& k, Eigen::Vector3d& normal) {
   double w[3][3];
   for (int y = -1; y <= 1; ++y)
@@ -57,7 +63,8 @@ bool normal_at(const float* depth, int i, int j, const Intrinsics& k, Eigen::Vec
       w[y + 1][x + 1] = 1 / double(z);
     }
   const double middle = w[1][1];
-  const double bend = std::max(std::abs(w[1][0] + w[1][2] - 2 * middle), std::abs(w[0][1] + w[2][1] - 2 * middle));
+  const double bend =
+      std::max(std::abs(w[1][0] + w[1][2] - 2 * middle), std::abs(w[0][1] + w[2][1] - 2 * middle));
   if (bend > LARGEST_BEND * middle) return false;
   const double a = 0.5 * (w[1][2] - w[1][0]) * k.fx, b = 0.5 * (w[2][1] - w[0][1]) * k.fy;
   const double c = middle - a * (i - k.cx) / k.fx - b * (j - k.cy) / k.fy;
@@ -72,7 +79,8 @@ Eigen::Vector3d point_at(const float* depth, int i, int j, const Intrinsics& k) 
 }
 
 // Least squares of grey on the harmonics, by its normal equations.
-Shading explain(const RegisterView& view, const Window& window, const float* depth, const Intrinsics& k, double tolerance_m) {
+Shading explain(const RegisterView& view, const Window& window, const float* depth, const Intrinsics& k,
+                double tolerance_m) {
   const Image& image = *view.image;
   Eigen::Matrix<double, HARMONICS, HARMONICS> system = Eigen::Matrix<double, HARMONICS, HARMONICS>::Zero();
   Harmonics right = Harmonics::Zero();
@@ -82,7 +90,8 @@ Shading explain(const RegisterView& view, const Window& window, const float* dep
       if (depth[std::size_t(j) * WINDOW_PX + i] == DEPTH_EMPTY) continue;
       const int x = window.x + window.stride * i, y = window.y + window.stride * j;
       Eigen::Vector3d normal;
-      if (x < 0 || y < 0 || x >= image.width || y >= image.height || !normal_at(depth, i, j, k, normal)) continue;
+      if (x < 0 || y < 0 || x >= image.width || y >= image.height || !normal_at(depth, i, j, k, normal))
+        continue;
       if (view.occluders && view.occluders->may_hide(point_at(depth, i, j, k), tolerance_m)) continue;
       const double grey = image.at(x, y);
       const Harmonics h = harmonics(normal);
@@ -116,10 +125,11 @@ double unexplained_grey(const Shading& shading) {
   return shading.pixels > 0 ? std::sqrt((shading.unexplained + noise) / (shading.squares + noise)) : 1;
 }
 
-std::vector<Shading> shading(std::span<const EdgeModel> models, std::span<const Hypothesis> poses, std::span<const RegisterView> views,
-                             Backend& backend) {
+std::vector<Shading> shading(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
+                             std::span<const RegisterView> views, Backend& backend) {
   std::vector<Shading> result(poses.size() * views.size());
-  constexpr std::size_t chunk = 256, map = std::size_t(WINDOW_PX) * WINDOW_PX;  // bounded memory however many poses there are
+  constexpr std::size_t chunk = 256, map = std::size_t(WINDOW_PX) *
+                                           WINDOW_PX;  // bounded memory however many poses there are
   std::vector<float> depth;
   for (std::size_t object = 0; object < models.size(); ++object) {
     const double tolerance_m = occlusion_tolerance_m(models[object]);
@@ -128,7 +138,8 @@ std::vector<Shading> shading(std::span<const EdgeModel> models, std::span<const 
     for (std::size_t p = 0; p < poses.size(); ++p)
       for (std::size_t v = 0; poses[p].object == int(object) && v < views.size(); ++v) {
         const Se3 pose = views[v].camera_from_world * poses[p].world_from_object;
-        if (!views[v].image || (pose * models[object].center_m).z() <= models[object].radius_m * 0.05) continue;
+        if (!views[v].image || (pose * models[object].center_m).z() <= models[object].radius_m * 0.05)
+          continue;
         const Window window = frame_object(models[object], pose, views[v].view->intrinsics);
         tasks.push_back({window, p * views.size() + v, v});
         jobs.push_back({to_pose(pose), intrinsics_of(window, views[v].view->intrinsics)});
@@ -136,10 +147,13 @@ std::vector<Shading> shading(std::span<const EdgeModel> models, std::span<const 
     for (std::size_t first = 0; first < tasks.size(); first += chunk) {
       const std::size_t count = std::min(chunk, tasks.size() - first);
       depth.resize(count * map);
-      backend.depth_raster(models[object].triangle_mesh(), std::span<const DepthJob>(jobs).subspan(first, count), WINDOW_PX, WINDOW_PX, depth);
+      backend.depth_raster(models[object].triangle_mesh(),
+                           std::span<const DepthJob>(jobs).subspan(first, count), WINDOW_PX, WINDOW_PX,
+                           depth);
       backend.threads().for_each(count, [&](std::size_t i) {
         const Task& task = tasks[first + i];
-        result[task.slot] = explain(views[task.view], task.window, depth.data() + i * map, jobs[first + i].intrinsics, tolerance_m);
+        result[task.slot] = explain(views[task.view], task.window, depth.data() + i * map,
+                                    jobs[first + i].intrinsics, tolerance_m);
       });
     }
   }

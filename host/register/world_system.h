@@ -15,8 +15,8 @@ struct WorldSystem {
   double points = 0;
 };
 
-// A world perturbation [dt, dw] moves the camera's tangent to [R dt, R dw] with R the rotation of camera_from_world: both parts of the
-// tangent act on the left and about the object's origin.
+// A world perturbation [dt, dw] moves the camera's tangent to [R dt, R dw] with R the rotation of
+// camera_from_world: both parts of the tangent act on the left and about the object's origin.
 void add_view(WorldSystem& sum, const NormalEquations& view, const Se3& camera_from_world);
 // The same for a system summed in double, its hessian full.
 void add_view(WorldSystem& sum, const WorldSystem& in_camera, const Se3& camera_from_world);

@@ -115,7 +115,7 @@ void scan_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eig
 }  // namespace
 
 PileTable::Footprint PileTable::footprint(const Mesh& mesh, const Eigen::Quaterniond& rotation,
-                                  const Eigen::Vector2d& at) const {
+                                          const Eigen::Vector2d& at) const {
   const Eigen::Matrix3d turned = rotation.toRotationMatrix();
   std::vector<Eigen::Vector3d> vertices;  // x and y in cells, z in metres
   Eigen::Vector2d low = Eigen::Vector2d::Constant(1e9), high = -low;

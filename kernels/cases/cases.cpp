@@ -19,7 +19,8 @@ struct Scale {
 };
 
 constexpr Scale scale_of(Size size) {
-  if (size == Size::full) return {1024, 768, 30000, 256, 192, 5000, 40, 1500, 40, 320, 240, 60, paper_hypotheses};
+  if (size == Size::full)
+    return {1024, 768, 30000, 256, 192, 5000, 40, 1500, 40, 320, 240, 60, paper_hypotheses};
   return {256, 192, 1900, 64, 48, 300, 4, 500, 4, 80, 60, 20, {2, 8, 10, 100, 64, 48, 100}};
 }
 
@@ -138,12 +139,12 @@ std::shared_ptr<NextView> next_view(Backend& backend, const HypothesesSize& size
   return made;
 }
 
-// Operations: of the maps, an edge point tried on the pixels in its reach; of the chamfer distances, a point's lookup for one
-// realization; of the information, a likelihood.
+// Operations: of the maps, an edge point tried on the pixels in its reach; of the chamfer distances, a
+// point's lookup for one realization; of the information, a likelihood.
 std::string counted(const HypothesesSize& size, double operations) {
   char text[96];
-  std::snprintf(text, sizeof text, "%d views, %d, %d, %u: %.2g operations", size.views, size.candidates, size.particles, size.realizations,
-                operations);
+  std::snprintf(text, sizeof text, "%d views, %d, %d, %u: %.2g operations", size.views, size.candidates,
+                size.particles, size.realizations, operations);
   return text;
 }
 
@@ -154,15 +155,18 @@ std::vector<Case> next_view_cases(Backend& backend, const HypothesesSize& size) 
   const std::size_t cell_bytes = work->cell_count * sizeof(ChamferCell);
   return {{"candidate_map", counted(size, reach_px * double(work->edges)), map_bytes,
            [&backend, work] {
-             for (test::ChamferScene& s : work->scenes) backend.candidate_map(s.edges, s.maps, s.width, s.height, s.nearest);
+             for (test::ChamferScene& s : work->scenes)
+               backend.candidate_map(s.edges, s.maps, s.width, s.height, s.nearest);
            }},
           {"combination_chamfer", counted(size, double(work->points) * size.realizations),
            map_bytes + work->pixels * sizeof(float) + work->points * sizeof(ParticlePoint) + cell_bytes,
            [&backend, work] {
-             for (const test::ChamferScene& s : work->scenes) backend.combination_chamfer(s.view(), s.combinations(), {});
+             for (const test::ChamferScene& s : work->scenes)
+               backend.combination_chamfer(s.view(), s.combinations(), {});
            }},
           {"mutual_information", counted(size, double(work->cell_count)), cell_bytes, [&backend, work] {
-             for (const ChamferHandle& cells : work->cells) backend.mutual_information(*cells, work->beliefs, {});
+             for (const ChamferHandle& cells : work->cells)
+               backend.mutual_information(*cells, work->beliefs, {});
            }}};
 }
 

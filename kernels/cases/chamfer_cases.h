@@ -1,5 +1,5 @@
-// Hypotheses seen from one view, for the tests of the next-best-view kernels: random ones, which need not be anything a camera
-// could see, and boxes, which a test can draw by itself.
+// Hypotheses seen from one view, for the tests of the next-best-view kernels: random ones, which need not be
+// anything a camera could see, and boxes, which a test can draw by itself.
 #pragma once
 
 #include <algorithm>
@@ -26,12 +26,14 @@ struct ChamferScene {
   std::vector<std::uint32_t> words;
 
   ChamferView view() const { return {width, height, maps, edges, nearest, surface_m, points, first_point}; }
-  CombinationBits combinations() const { return {realizations, static_cast<std::uint32_t>(maps.size()), words}; }
+  CombinationBits combinations() const {
+    return {realizations, static_cast<std::uint32_t>(maps.size()), words};
+  }
 
   // One candidate, its surface depths still empty.
   void add_candidate(const MapWindow& window, const std::vector<MapEdge>& own) {
-    maps.push_back({window, static_cast<std::uint32_t>(surface_m.size()), static_cast<std::uint32_t>(edges.size()),
-                    static_cast<std::uint32_t>(own.size())});
+    maps.push_back({window, static_cast<std::uint32_t>(surface_m.size()),
+                    static_cast<std::uint32_t>(edges.size()), static_cast<std::uint32_t>(own.size())});
     edges.insert(edges.end(), own.begin(), own.end());
     surface_m.resize(surface_m.size() + window.size(), DEPTH_EMPTY);
   }
@@ -50,7 +52,8 @@ struct ChamferScene {
     words.assign(count * row, 0);
     std::bernoulli_distribution member(density);
     for (std::uint32_t j = 1; j < count; ++j)
-      for (std::uint32_t c = 0; c < maps.size(); ++c) words[j * row + c / 32] |= std::uint32_t(member(rng)) << (c % 32);
+      for (std::uint32_t c = 0; c < maps.size(); ++c)
+        words[j * row + c / 32] |= std::uint32_t(member(rng)) << (c % 32);
   }
 };
 
@@ -59,9 +62,12 @@ struct SceneSize {
   std::uint32_t realizations;
 };
 
-// Windows, edges and points in and out of the image and of each other, surfaces full of holes, edges at equal distances.
+// Windows, edges and points in and out of the image and of each other, surfaces full of holes, edges at equal
+// distances.
 inline ChamferScene random_scene(std::mt19937& rng, const SceneSize& size) {
-  const auto in = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(rng); };
+  const auto in = [&](float low, float high) {
+    return std::uniform_real_distribution<float>(low, high)(rng);
+  };
   const auto whole = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(rng); };
   ChamferScene scene;
   scene.width = size.width;
@@ -73,7 +79,9 @@ inline ChamferScene random_scene(std::mt19937& rng, const SceneSize& size) {
       const MapEdge edge{x + in(-reach, reach), y + in(-reach, reach), in(0.3f, 0.6f)};
       own.push_back(e % 3 == 0 ? MapEdge{std::round(edge.x_px), std::round(edge.y_px), edge.z_m} : edge);
     }
-    scene.add_candidate({int(x) - whole(0, 30), int(y) - whole(0, 30), std::uint32_t(whole(0, 50)), std::uint32_t(whole(1, 50))}, own);
+    scene.add_candidate({int(x) - whole(0, 30), int(y) - whole(0, 30), std::uint32_t(whole(0, 50)),
+                         std::uint32_t(whole(1, 50))},
+                        own);
   }
   for (float& depth : scene.surface_m) depth = in(0, 1) < 0.3f ? in(0.3f, 0.6f) : DEPTH_EMPTY;
   for (int i = 0; i < size.particles; ++i) {
@@ -97,7 +105,9 @@ struct Pinhole {
   double focal, cx, cy;
 };
 
-inline double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline double dot(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 inline Box random_box(std::mt19937& rng) {
   std::normal_distribution<double> normal;
@@ -138,14 +148,18 @@ inline std::vector<MapEdge> box_edges(const Box& box, const Pinhole& camera, int
     for (const double s : {-1.0, 1.0})
       for (const double t : {-1.0, 1.0}) {
         const int a = (k + 1) % 3, b = (k + 2) % 3;
-        const auto faces_us = [&](int axis, double sign) { return sign * dot(box.axis[axis], box.centre) + box.half[axis] < 0; };
+        const auto faces_us = [&](int axis, double sign) {
+          return sign * dot(box.axis[axis], box.centre) + box.half[axis] < 0;
+        };
         if (!faces_us(a, s) && !faces_us(b, t)) continue;
         for (int i = 0; i <= points_per_edge; ++i) {
           const double along = box.half[k] * (2.0 * i / points_per_edge - 1);
           std::array<double, 3> p;
           for (int r = 0; r < 3; ++r)
-            p[r] = box.centre[r] + along * box.axis[k][r] + s * box.half[a] * box.axis[a][r] + t * box.half[b] * box.axis[b][r];
-          edges.push_back({float(camera.focal * p[0] / p[2] + camera.cx), float(camera.focal * p[1] / p[2] + camera.cy), float(p[2])});
+            p[r] = box.centre[r] + along * box.axis[k][r] + s * box.half[a] * box.axis[a][r] +
+                   t * box.half[b] * box.axis[b][r];
+          edges.push_back({float(camera.focal * p[0] / p[2] + camera.cx),
+                           float(camera.focal * p[1] / p[2] + camera.cy), float(p[2])});
         }
       }
   return edges;
@@ -155,10 +169,12 @@ inline void add_box(ChamferScene& scene, const Box& box, const Pinhole& camera, 
   const std::vector<MapEdge> edges = box_edges(box, camera, points_per_edge);
   const auto [left, right] = std::ranges::minmax(edges, {}, &MapEdge::x_px);
   const auto [top, bottom] = std::ranges::minmax(edges, {}, &MapEdge::y_px);
-  scene.add_candidate(map_window(left.x_px, top.y_px, right.x_px, bottom.y_px, scene.width, scene.height), edges);
+  scene.add_candidate(map_window(left.x_px, top.y_px, right.x_px, bottom.y_px, scene.width, scene.height),
+                      edges);
   const CandidateMap& map = scene.maps.back();
   for (std::size_t i = 0; i < map.window.size(); ++i)
-    if (const auto z = box_depth(box, camera, map.window.x0 + int(i % map.window.width), map.window.y0 + int(i / map.window.width)))
+    if (const auto z = box_depth(box, camera, map.window.x0 + int(i % map.window.width),
+                                 map.window.y0 + int(i / map.window.width)))
       scene.surface_m[map.first_pixel + i] = float(*z);
 }
 

@@ -11,7 +11,9 @@ using Vector = std::array<double, 3>;
 constexpr double table_m[2] = {0.22, 0.17};  // half its sides
 constexpr Vector half_m{0.05, 0.025, 0.015};
 
-double uniform(std::mt19937& rng, double low, double high) { return std::uniform_real_distribution<double>(low, high)(rng); }
+double uniform(std::mt19937& rng, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(rng);
+}
 
 // Turned about z, then leant about its own x.
 test::Box box_at(const Vector& centre, double turn, double lean) {
@@ -20,7 +22,8 @@ test::Box box_at(const Vector& centre, double turn, double lean) {
 }
 
 test::Box random_box(std::mt19937& rng) {
-  return box_at({uniform(rng, -table_m[0], table_m[0]), uniform(rng, -table_m[1], table_m[1]), uniform(rng, 0.015, 0.045)},
+  return box_at({uniform(rng, -table_m[0], table_m[0]), uniform(rng, -table_m[1], table_m[1]),
+                 uniform(rng, 0.015, 0.045)},
                 uniform(rng, 0, 2 * std::numbers::pi), uniform(rng, -0.5, 0.5));
 }
 
@@ -33,21 +36,27 @@ test::Box moved(std::mt19937& rng, test::Box box, double by_m) {
 struct Camera {
   std::array<Vector, 3> rows;
   Vector position;
-  Vector turned(const Vector& v) const { return {test::dot(rows[0], v), test::dot(rows[1], v), test::dot(rows[2], v)}; }
+  Vector turned(const Vector& v) const {
+    return {test::dot(rows[0], v), test::dot(rows[1], v), test::dot(rows[2], v)};
+  }
   test::Box seen(const test::Box& box) const {
     test::Box out = box;
     for (int k = 0; k < 3; ++k) out.axis[k] = turned(box.axis[k]);
-    out.centre = turned({box.centre[0] - position[0], box.centre[1] - position[1], box.centre[2] - position[2]});
+    out.centre =
+        turned({box.centre[0] - position[0], box.centre[1] - position[1], box.centre[2] - position[2]});
     return out;
   }
 };
 
 Camera camera_around(int index, int count) {
   constexpr double radius_m = 0.7, low_rad = 0.9, high_rad = 1.25;
-  const double azimuth = 4 * std::numbers::pi * index / count, elevation = 2 * index < count ? low_rad : high_rad;
-  const Vector out{std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation), std::sin(elevation)};
+  const double azimuth = 4 * std::numbers::pi * index / count,
+               elevation = 2 * index < count ? low_rad : high_rad;
+  const Vector out{std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation),
+                   std::sin(elevation)};
   const Vector right{-std::sin(azimuth), std::cos(azimuth), 0};
-  const Vector up{-std::cos(azimuth) * std::sin(elevation), -std::sin(azimuth) * std::sin(elevation), std::cos(elevation)};
+  const Vector up{-std::cos(azimuth) * std::sin(elevation), -std::sin(azimuth) * std::sin(elevation),
+                  std::cos(elevation)};
   Camera camera;
   for (int k = 0; k < 3; ++k) {
     camera.rows[0][k] = right[k];
@@ -67,7 +76,8 @@ Hypotheses::Hypotheses(const HypothesesSize& size) : size_(size) {
     candidates_.push_back(c % 3 == 2 ? moved(rng, candidates_.back(), 0.004) : random_box(rng));
   for (int i = 0; i < size.particles; ++i) {
     particles_.push_back(moved(rng, candidates_[std::size_t(i % size.candidates)], 0.006));
-    beliefs_.push_back({uniform(rng, -2, 0), std::uint32_t(uniform(rng, 0, size.points)), std::uint32_t(2 * size.points), 0});
+    beliefs_.push_back({uniform(rng, -2, 0), std::uint32_t(uniform(rng, 0, size.points)),
+                        std::uint32_t(2 * size.points), 0});
   }
   test::ChamferScene bits;
   bits.maps.resize(std::size_t(size.candidates));

@@ -1,9 +1,9 @@
-// Boxes on a table that a camera goes around: candidates, particles near them and combinations of candidates, as the choice of the
-// next view sees them.
+// Boxes on a table that a camera goes around: candidates, particles near them and combinations of candidates,
+// as the choice of the next view sees them.
 #pragma once
 
-#include "kernels/mutual_information.h"
 #include "kernels/cases/chamfer_cases.h"
+#include "kernels/mutual_information.h"
 
 namespace edgescout::bench {
 

@@ -16,10 +16,12 @@ constexpr std::size_t max_map_bytes = std::size_t{64} << 20;
 }  // namespace
 
 CandidateMaps::CandidateMaps(const Device& device)
-    : device_(device), kernel_(device, {"candidate_map", candidate_map_spv, 4, sizeof(CandidateMapPush), {}}) {}
+    : device_(device),
+      kernel_(device, {"candidate_map", candidate_map_spv, 4, sizeof(CandidateMapPush), {}}) {}
 
 std::size_t CandidateMaps::take(std::span<const CandidateMap> maps) const {
-  const std::size_t most = std::min<std::size_t>(max_map_bytes, device_.max_band_bytes()) / sizeof(std::uint32_t);
+  const std::size_t most =
+      std::min<std::size_t>(max_map_bytes, device_.max_band_bytes()) / sizeof(std::uint32_t);
   std::size_t count = 0, pixels = 0, edges = 0;
   while (count < maps.size()) {
     pixels += maps[count].window.size();
@@ -30,7 +32,8 @@ std::size_t CandidateMaps::take(std::span<const CandidateMap> maps) const {
   return count;
 }
 
-void CandidateMaps::record(Batch& batch, std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width, int height) {
+void CandidateMaps::record(Batch& batch, std::span<const MapEdge> edges, std::span<const CandidateMap> maps,
+                           int width, int height) {
   // Only what these maps name, one after the other.
   std::vector<MapEdge> own_edges;
   std::vector<CandidateMap> own_maps(maps.begin(), maps.end());
@@ -44,7 +47,8 @@ void CandidateMaps::record(Batch& batch, std::span<const MapEdge> edges, std::sp
     own_edges.insert(own_edges.end(), points.begin(), points.end());
     pixels += static_cast<std::uint32_t>(map.window.size());
     for (std::uint32_t y = 0; y < groups_for(map.window.height, CANDIDATE_TILE); ++y)
-      for (std::uint32_t x = 0; x < groups_for(map.window.width, CANDIDATE_TILE); ++x) tiles.insert(tiles.end(), {m, y << 16 | x});
+      for (std::uint32_t x = 0; x < groups_for(map.window.width, CANDIDATE_TILE); ++x)
+        tiles.insert(tiles.end(), {m, y << 16 | x});
   }
   edges_.reserve(device_, own_edges.size(), "candidates' edge points");
   maps_.reserve(device_, own_maps.size(), "candidate maps");

@@ -41,8 +41,9 @@ DeviceCells::DeviceCells(const Device& device, std::size_t particle_count, std::
       counts(device, particle_count * realization_count, "chamfer counts") {
   const std::size_t most = device.limits().maxStorageBufferRange;
   if (sums.bytes() > most)
-    throw GpuError("combination_chamfer: " + std::to_string(particles) + " particles times " + std::to_string(realizations) +
-                   " realizations, " + device.info().name + " binds at most " + std::to_string(most / sizeof(std::uint32_t)) + " cells");
+    throw GpuError("combination_chamfer: " + std::to_string(particles) + " particles times " +
+                   std::to_string(realizations) + " realizations, " + device.info().name + " binds at most " +
+                   std::to_string(most / sizeof(std::uint32_t)) + " cells");
 }
 
 CombinationChamfer::CombinationChamfer(const Device& device)
@@ -72,30 +73,37 @@ void CombinationChamfer::upload(Batch& batch, const ChamferPlan& plan, const Com
 std::uint32_t CombinationChamfer::tile_words(const ChamferPlan& plan, std::uint32_t words) const {
   const std::size_t most = std::min<std::size_t>(max_row_bytes, device_.max_band_bytes());
   const std::size_t word_bytes = std::max(plan.rows.size() * 32, plan.masks.size() * sizeof(std::uint32_t));
-  return static_cast<std::uint32_t>(std::clamp<std::size_t>(most / std::max<std::size_t>(word_bytes, 1), 1, std::max(words, 1u)));
+  return static_cast<std::uint32_t>(
+      std::clamp<std::size_t>(most / std::max<std::size_t>(word_bytes, 1), 1, std::max(words, 1u)));
 }
 
-void CombinationChamfer::record_tile(Batch& batch, const ChamferPlan& plan, const ChamferPush& tile, const DeviceCells& cells) {
+void CombinationChamfer::record_tile(Batch& batch, const ChamferPlan& plan, const ChamferPush& tile,
+                                     const DeviceCells& cells) {
   ChamferPush push = tile;
-  const auto record = [&](const Kernel& kernel, std::size_t count, std::size_t groups, std::initializer_list<Bound> bound) {
+  const auto record = [&](const Kernel& kernel, std::size_t count, std::size_t groups,
+                          std::initializer_list<Bound> bound) {
     push.count = static_cast<std::uint32_t>(count);
     batch.barrier();
     batch.dispatch(kernel, spread(static_cast<std::uint32_t>(groups)), bound, push);
   };
   const std::size_t masks = plan.masks.size(), rows = plan.rows.size(), particles = plan.particles.size();
-  record(masks_kernel_, masks, groups_for(masks * tile.words, CHAMFER_GROUP), {masks_, hiders_, columns_, bits_});
+  record(masks_kernel_, masks, groups_for(masks * tile.words, CHAMFER_GROUP),
+         {masks_, hiders_, columns_, bits_});
   record(rows_kernel_, rows, groups_for(rows * tile.words, CHAMFER_GROUP), {rows_, reach_, bits_, bytes_});
-  record(sums_kernel_, particles, particles * groups_for(std::size_t{tile.words} * CHAMFER_HALVES, CHAMFER_GROUP),
+  record(sums_kernel_, particles,
+         particles * groups_for(std::size_t{tile.words} * CHAMFER_HALVES, CHAMFER_GROUP),
          {particles_, visits_, rows_, bits_, bytes_, cells.sums, cells.counts});
 }
 
-void CombinationChamfer::record(Batch& batch, const ChamferPlan& plan, const CombinationBits& combinations, const DeviceCells& cells) {
+void CombinationChamfer::record(Batch& batch, const ChamferPlan& plan, const CombinationBits& combinations,
+                                const DeviceCells& cells) {
   upload(batch, plan, combinations);
   const std::uint32_t words = groups_for(combinations.count, 32), tile = tile_words(plan, words);
   bits_.reserve(device_, plan.masks.size() * tile, "masks of realizations");
   bytes_.reserve(device_, plan.rows.size() * tile * CHAMFER_QUADS, "rows of distances");
   for (std::uint32_t first = 0; first < words; first += tile)
-    record_tile(batch, plan, {0, std::min(tile, words - first), first, words, combinations.count, plan.cap}, cells);
+    record_tile(batch, plan, {0, std::min(tile, words - first), first, words, combinations.count, plan.cap},
+                cells);
 }
 
 }  // namespace edgescout::gpu

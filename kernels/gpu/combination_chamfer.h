@@ -1,5 +1,5 @@
-// Records combination_chamfer (kernels/combination_chamfer.h, chamfer_plan.h, chamfer_push.h): the plan is made on the processor,
-// the realizations are the device's.
+// Records combination_chamfer (kernels/combination_chamfer.h, chamfer_plan.h, chamfer_push.h): the plan is
+// made on the processor, the realizations are the device's.
 #pragma once
 
 #include "kernels/chamfer_plan.h"
@@ -19,7 +19,8 @@ class CombinationChamfer {
  public:
   explicit CombinationChamfer(const Device& device);
   // `cells` are there when the batch has run.
-  void record(Batch& batch, const ChamferPlan& plan, const CombinationBits& combinations, const DeviceCells& cells);
+  void record(Batch& batch, const ChamferPlan& plan, const CombinationBits& combinations,
+              const DeviceCells& cells);
 
  private:
   void upload(Batch& batch, const ChamferPlan& plan, const CombinationBits& combinations);

@@ -13,12 +13,14 @@ namespace {
 
 static_assert(sizeof(InformationBelief) == 4 * INFORMATION_BELIEF_WORDS);
 
-std::vector<InformationBelief> beliefs_for_device(std::span<const ParticleBelief> beliefs, const InformationOptions& options) {
+std::vector<InformationBelief> beliefs_for_device(std::span<const ParticleBelief> beliefs,
+                                                  const InformationOptions& options) {
   std::vector<InformationBelief> out;
   const std::vector<double> log_weight = normalised_log_weights(beliefs);
   for (std::size_t i = 0; i < beliefs.size(); ++i) {
     const double upsilon = options.literal ? beliefs[i].upsilon_px2 / options.scale_px2 : 0;
-    out.push_back({float(std::exp(log_weight[i])), float(beliefs[i].already_seen), float(std::log(double(beliefs[i].total)) + upsilon)});
+    out.push_back({float(std::exp(log_weight[i])), float(beliefs[i].already_seen),
+                   float(std::log(double(beliefs[i].total)) + upsilon)});
   }
   return out;
 }
@@ -28,10 +30,11 @@ std::vector<InformationBelief> beliefs_for_device(std::span<const ParticleBelief
 MutualInformation::MutualInformation(const Device& device)
     : device_(device),
       rows_kernel_(device, {"information_rows", information_rows_spv, 4, sizeof(InformationPush), {}}),
-      columns_kernel_(device, {"information_columns", information_columns_spv, 5, sizeof(InformationPush), {}}) {}
+      columns_kernel_(device,
+                      {"information_columns", information_columns_spv, 5, sizeof(InformationPush), {}}) {}
 
-void MutualInformation::record(Batch& batch, const DeviceCells& cells, double cap_px, std::span<const ParticleBelief> beliefs,
-                               const InformationOptions& options) {
+void MutualInformation::record(Batch& batch, const DeviceCells& cells, double cap_px,
+                               std::span<const ParticleBelief> beliefs, const InformationOptions& options) {
   check_information(cells.particles, cells.realizations, beliefs, options);
   const std::vector<InformationBelief> own = beliefs_for_device(beliefs, options);
   beliefs_.reserve(device_, own.size(), "beliefs");
@@ -45,9 +48,11 @@ void MutualInformation::record(Batch& batch, const DeviceCells& cells, double ca
     batch.upload<float>(shifts_, std::vector<float>(own.size(), -least));
   }
   batch.barrier();
-  const InformationPush push{cells.particles, cells.realizations, float(cap_px), float(1 / options.scale_px2)};
+  const InformationPush push{cells.particles, cells.realizations, float(cap_px),
+                             float(1 / options.scale_px2)};
   if (!options.literal) {
-    batch.dispatch(rows_kernel_, spread(cells.particles), {cells.sums, cells.counts, beliefs_, shifts_}, push);
+    batch.dispatch(rows_kernel_, spread(cells.particles), {cells.sums, cells.counts, beliefs_, shifts_},
+                   push);
     batch.barrier();
   }
   batch.dispatch(columns_kernel_, spread(groups_for(cells.realizations, INFORMATION_GROUP)),

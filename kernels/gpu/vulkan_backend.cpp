@@ -51,7 +51,8 @@ class VulkanView : public BackendView {
 
 class VulkanChamfer : public BackendChamfer {
  public:
-  VulkanChamfer(std::shared_ptr<const Device> device, std::size_t particle_count, std::uint32_t realization_count)
+  VulkanChamfer(std::shared_ptr<const Device> device, std::size_t particle_count,
+                std::uint32_t realization_count)
       : device_(std::move(device)), values(*device_, particle_count, realization_count) {
     particles = values.particles;
     realizations = values.realizations;
@@ -167,8 +168,8 @@ class VulkanBackend : public Backend {
     }
   }
 
-  void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width, int height,
-                     std::span<std::uint32_t> nearest) override {
+  void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width,
+                     int height, std::span<std::uint32_t> nearest) override {
     check_candidate_maps(edges.size(), maps, width, height, nearest.size());
     for (std::size_t first = 0, count = 0; first < maps.size(); first += count) {
       count = candidates_.take(maps.subspan(first));

@@ -32,8 +32,8 @@ std::uint32_t row_of(const BitMatrix& m, std::size_t row) {
 }
 
 // Probability of every outcome of Algorithm 1, by following every sequence of draws.
-void follow(const std::vector<double>& weights, const BitMatrix& plausible, int draws, std::uint32_t drawn, std::uint32_t set,
-            double probability, std::map<std::uint32_t, double>& outcome) {
+void follow(const std::vector<double>& weights, const BitMatrix& plausible, int draws, std::uint32_t drawn,
+            std::uint32_t set, double probability, std::map<std::uint32_t, double>& outcome) {
   if (draws == 0) {
     outcome[set] += probability;
     return;
@@ -45,14 +45,16 @@ void follow(const std::vector<double>& weights, const BitMatrix& plausible, int 
     if (drawn >> i & 1) continue;
     bool fits = true;
     for (std::size_t m = 0; m < weights.size(); ++m) fits &= !(set >> m & 1) || plausible.has(i, m);
-    follow(weights, plausible, draws - 1, drawn | 1u << i, fits ? set | 1u << i : set, probability * weights[i] / total, outcome);
+    follow(weights, plausible, draws - 1, drawn | 1u << i, fits ? set | 1u << i : set,
+           probability * weights[i] / total, outcome);
   }
 }
 
 TEST(SampleCombinations, HasTheDistributionOfAlgorithm1) {
   const std::vector<double> psi{0.95, 0.2, 0.7, 0.5, 0.85};
   BitMatrix plausible = each_alone(5);
-  for (auto [i, j] : {std::pair(0, 2), {1, 2}, {0, 4}, {2, 3}, {3, 4}, {1, 4}}) plausible.set(i, j), plausible.set(j, i);
+  for (auto [i, j] : {std::pair(0, 2), {1, 2}, {0, 4}, {2, 3}, {3, 4}, {1, 4}})
+    plausible.set(i, j), plausible.set(j, i);
   CombinationOptions options;
   options.count = 400000;
   options.sharpness = 3;
@@ -86,7 +88,8 @@ TEST(SampleCombinations, NeverJoinsWhatClashes) {
     int members = 0;
     for (std::size_t i = 0; i < count; ++i) {
       members += drawn.has(row, i);
-      for (std::size_t j = 0; j < i; ++j) ASSERT_FALSE(drawn.has(row, i) && drawn.has(row, j) && !plausible.has(i, j));
+      for (std::size_t j = 0; j < i; ++j)
+        ASSERT_FALSE(drawn.has(row, i) && drawn.has(row, j) && !plausible.has(i, j));
     }
     largest = std::max(largest, members);
   }
@@ -95,7 +98,8 @@ TEST(SampleCombinations, NeverJoinsWhatClashes) {
 
 TEST(SampleCombinations, DependsOnTheSeedAlone) {
   const std::vector<double> psi(40, 0.8);
-  const BitMatrix a = sample_combinations(psi, all_together(40), {100, 3, 1}), b = sample_combinations(psi, all_together(40), {100, 3, 1});
+  const BitMatrix a = sample_combinations(psi, all_together(40), {100, 3, 1}),
+                  b = sample_combinations(psi, all_together(40), {100, 3, 1});
   EXPECT_EQ(a.words, b.words);
   EXPECT_NE(a.words, sample_combinations(psi, all_together(40), {100, 4, 1}).words);
 }
@@ -127,8 +131,16 @@ TEST(SampleCombinations, AllImplausibleLeavesSingleObjects) {
 
 TEST(SampleCombinations, NeedsACandidate) {
   expect_input_error([] { sample_combinations({}, BitMatrix(0, 0), {}); }, {"candidates", "none"});
-  expect_input_error([] { sample_combinations(std::vector<double>{1}, all_together(1), {0, 1, 1}); }, {"combinations.count"});
-  expect_input_error([] { sample_combinations(std::vector<double>{1}, all_together(1), {1, 1, -1}); }, {"combinations.sharpness"});
+  expect_input_error(
+      [] {
+        sample_combinations(std::vector<double>{1}, all_together(1), {0, 1, 1});
+      },
+      {"combinations.count"});
+  expect_input_error(
+      [] {
+        sample_combinations(std::vector<double>{1}, all_together(1), {1, 1, -1});
+      },
+      {"combinations.sharpness"});
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ TEST(FindModes, JoinsSymmetricPosesAndNothingElse) {
   const Nuts t;
   const Se3 here{random.rotation(), {0, 0, 0.5}}, there{random.rotation(), {0.2, 0, 0.5}};
   std::vector<Particle> particles;
-  for (const Se3& symmetry : t.sets[0].symmetries.discrete) particles.push_back(particle(0, here * symmetry, 0.01, true));
+  for (const Se3& symmetry : t.sets[0].symmetries.discrete)
+    particles.push_back(particle(0, here * symmetry, 0.01, true));
   const std::size_t turns = particles.size();
   ASSERT_GT(turns, 5u);
   particles.push_back(particle(0, there, 0.5, true));
@@ -71,7 +72,8 @@ TEST(Resample, KeepsProbableModesAndLetsOthersDie) {
   for (int i = 0; i < 5; ++i) particles.push_back(particle(1, {{1, 0, 0, 0}, {1, 0, 0}}, 0.00004, true));
   for (int i = 0; i < 5; ++i) particles.push_back(particle(1, {{1, 0, 0, 0}, {2, 0, 0}}, 0.00006, false));
   for (Particle& p : particles) p.upsilon_px2 = 7;
-  const std::vector<Particle> next = resample(particles, find_modes(particles, t.sets, t.options), t.models, 100, t.options, Random(5));
+  const std::vector<Particle> next =
+      resample(particles, find_modes(particles, t.sets, t.options), t.models, 100, t.options, Random(5));
   ASSERT_EQ(next.size(), 100u);
   int count[3] = {0, 0, 0};
   double weight[3] = {0, 0, 0};
@@ -80,7 +82,8 @@ TEST(Resample, KeepsProbableModesAndLetsOthersDie) {
     ++count[mode];
     weight[mode] += std::exp(p.log_weight);
     // What weighing the same images again would make of it, up to a constant common to all.
-    EXPECT_NEAR((p.spent_px2 - p.upsilon_px2) / t.options.scale_px2() - p.log_weight, (next[0].spent_px2 - next[0].upsilon_px2) / t.options.scale_px2() - next[0].log_weight, 1e-9);
+    EXPECT_NEAR((p.spent_px2 - p.upsilon_px2) / t.options.scale_px2() - p.log_weight,
+                (next[0].spent_px2 - next[0].upsilon_px2) / t.options.scale_px2() - next[0].log_weight, 1e-9);
   }
   EXPECT_GE(count[1], t.options.min_per_mode);
   EXPECT_LE(count[1], t.options.min_per_mode + 1);
@@ -101,10 +104,13 @@ TEST(Resample, DrawsSystematicallyByWeight) {
   ParticleOptions options;
   options.roughened = {0, 0};
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const std::vector<Particle> next = resample(particles, find_modes(particles, t.sets, options), t.models, 33, options, Random(seed));
+    const std::vector<Particle> next =
+        resample(particles, find_modes(particles, t.sets, options), t.models, 33, options, Random(seed));
     ASSERT_EQ(next.size(), 33u);
     for (int i = 0; i < 5; ++i) {
-      const auto copies = std::ranges::count_if(next, [&](const Particle& p) { return std::abs(p.world_from_object.translation_m.x() - 0.001 * i) < 1e-9; });
+      const auto copies = std::ranges::count_if(next, [&](const Particle& p) {
+        return std::abs(p.world_from_object.translation_m.x() - 0.001 * i) < 1e-9;
+      });
       EXPECT_LT(std::abs(double(copies) - 33 * weights[i]), 1) << i;
     }
   }
@@ -113,7 +119,8 @@ TEST(Resample, DrawsSystematicallyByWeight) {
 TEST(Resample, RoughensCopiesButKeepsOneOfEach) {
   const Nuts t;
   const std::vector<Particle> particles{particle(1, {{1, 0, 0, 0}, {0.3, 0, 0}}, 1, true)};
-  const std::vector<Particle> next = resample(particles, find_modes(particles, t.sets, t.options), t.models, 50, t.options, Random(5));
+  const std::vector<Particle> next =
+      resample(particles, find_modes(particles, t.sets, t.options), t.models, 50, t.options, Random(5));
   int exact = 0;
   for (const Particle& p : next) {
     const double off = distance_between_m(p.world_from_object, particles[0].world_from_object);

@@ -44,8 +44,10 @@ struct Plan {
 
   explicit Plan(int count = 6) {
     options.free_sight = 0;
-    for (const char* part : {"l_bracket", "bearing_block"}) models.push_back(make_edge_model(make_part(part).mesh));
-    for (const EdgeModel& model : models) tables.push_back(make_template_table(model, 0.5, *backend, {3, 300}));
+    for (const char* part : {"l_bracket", "bearing_block"})
+      models.push_back(make_edge_model(make_part(part).mesh));
+    for (const EdgeModel& model : models)
+      tables.push_back(make_template_table(model, 0.5, *backend, {3, 300}));
     views = hemisphere_views({{0, 0, 0.02}, 0.5, {35, 70}, 10});
     real = {looked_from(views[0])};
     closed.assign(views.size(), 0);
@@ -65,34 +67,45 @@ struct Plan {
   void draw_combinations() {
     std::vector<Hypothesis> poses;
     std::vector<double> psi;
-    for (const Detection& c : candidates) poses.push_back({c.object, c.world_from_object}), psi.push_back(c.psi);
-    combinations = sample_combinations(psi, plausible_pairs(models, poses, 0.002, backend->threads()), {60, 1, 1});
+    for (const Detection& c : candidates)
+      poses.push_back({c.object, c.world_from_object}), psi.push_back(c.psi);
+    combinations =
+        sample_combinations(psi, plausible_pairs(models, poses, 0.002, backend->threads()), {60, 1, 1});
   }
-  Planning planning() const { return {models, tables, test_camera(), views, closed, real, candidates, &combinations, particles}; }
+  Planning planning() const {
+    return {models, tables, test_camera(), views, closed, real, candidates, &combinations, particles};
+  }
   std::vector<ViewInformation> information() { return view_information(planning(), *backend, options); }
 };
 
-// The maps against brute force: every pixel's distance to the candidate's visible edge points, and the surface in a picture of the whole image.
+// The maps against brute force: every pixel's distance to the candidate's visible edge points, and the
+// surface in a picture of the whole image.
 TEST(CandidateScene, HoldsEdgesAndSurfacesOfEveryView) {
   Plan t(3);
   const Camera camera = scaled(test_camera(), 0.25);
-  const CandidateScene scene = draw_candidates(t.models, t.candidates, camera, t.views, *t.backend, t.options.visibility);
+  const CandidateScene scene =
+      draw_candidates(t.models, t.candidates, camera, t.views, *t.backend, t.options.visibility);
   ASSERT_EQ(scene.maps.size(), t.views.size() * 3);
   for (std::size_t v = 0; v < t.views.size(); v += 3) {
     const ChamferView seen = scene.seen_from(v);
     for (std::size_t c = 0; c < 3; ++c) {
       const Se3 pose = t.views[v] * t.candidates[c].world_from_object;
       const EdgeModel& model = t.models[t.candidates[c].object];
-      const std::vector<ModelPoint> points = visible_edges(model, std::span(&pose, 1), *t.backend, t.options.visibility)[0];
+      const std::vector<ModelPoint> points =
+          visible_edges(model, std::span(&pose, 1), *t.backend, t.options.visibility)[0];
       const DepthJob whole{to_pose(pose), intrinsics_of(camera)};
       std::vector<float> depth(std::size_t(camera.width) * camera.height);
-      t.backend->depth_raster(model.triangle_mesh(), std::span(&whole, 1), camera.width, camera.height, depth);
+      t.backend->depth_raster(model.triangle_mesh(), std::span(&whole, 1), camera.width, camera.height,
+                              depth);
       const CandidateMap& map = seen.candidates[c];
       int covered = 0, differing = 0;
       for (int y = 0; y < camera.height; ++y)
         for (int x = 0; x < camera.width; ++x) {
           double least = 1e9;
-          for (const ModelPoint& p : points) least = std::min(least, (project(camera, pose * Eigen::Vector3d(p.x_m, p.y_m, p.z_m)) - Eigen::Vector2d(x, y)).norm());
+          for (const ModelPoint& p : points)
+            least = std::min(
+                least, (project(camera, pose * Eigen::Vector3d(p.x_m, p.y_m, p.z_m)) - Eigen::Vector2d(x, y))
+                           .norm());
           const float here = depth[std::size_t(y) * camera.width + x];
           if (!map.window.contains(x, y)) {
             EXPECT_GT(least, 15);
@@ -102,7 +115,8 @@ TEST(CandidateScene, HoldsEdgesAndSurfacesOfEveryView) {
           const std::size_t pixel = map.first_pixel + map.window.index(x, y);
           EXPECT_NEAR(chamfer_steps(seen.nearest[pixel]) / 16.0, std::min(least, 255 / 16.0), 0.16);
           covered += here != DEPTH_EMPTY;
-          differing += (here == DEPTH_EMPTY) != (seen.surface_m[pixel] == DEPTH_EMPTY) || (here != DEPTH_EMPTY && std::abs(here - seen.surface_m[pixel]) > 1e-4f);
+          differing += (here == DEPTH_EMPTY) != (seen.surface_m[pixel] == DEPTH_EMPTY) ||
+                       (here != DEPTH_EMPTY && std::abs(here - seen.surface_m[pixel]) > 1e-4f);
         }
       EXPECT_GT(covered, 100);
       EXPECT_LE(differing, covered / 50);  // pixel centres on an edge may fall on either side
@@ -117,11 +131,14 @@ TEST(SeenPoints, CountsWhatProjectsIntoTheImages) {
   const SeenPoints none = seen_in(table, world_from_object, {}, 4);
   EXPECT_EQ(none.count, 0u);
   const std::vector<RegisterView> two{looked_from(t.views[0]), looked_from(t.views[4])};
-  const SeenPoints seen = seen_in(table, world_from_object, two, 4);  // no edge index: inside the image is enough
+  const SeenPoints seen =
+      seen_in(table, world_from_object, two, 4);  // no edge index: inside the image is enough
   std::vector<char> expected(table.total, 0);
   for (const RegisterView& view : two)
     for (const TemplateTablePoint& p : table.seen_from(view.camera_from_world * world_from_object)) {
-      const Eigen::Vector2d at = project(view.camera, view.camera_from_world * world_from_object * Eigen::Vector3d(p.point.x_m, p.point.y_m, p.point.z_m));
+      const Eigen::Vector2d at =
+          project(view.camera, view.camera_from_world * world_from_object *
+                                   Eigen::Vector3d(p.point.x_m, p.point.y_m, p.point.z_m));
       if (at.x() > -0.5 && at.y() > -0.5 && at.x() < 479.5 && at.y() < 359.5) expected[p.id] = 1;
     }
   EXPECT_EQ(seen.by_id, expected);
@@ -129,7 +146,8 @@ TEST(SeenPoints, CountsWhatProjectsIntoTheImages) {
   EXPECT_GT(seen.count, 50u);
   // In a third view those are not fresh, the others are.
   const Se3 third = t.views[7] * world_from_object;
-  for (const ParticlePoint& point : showing_points(table, third, test_camera(), none)) EXPECT_EQ(point.fresh, 1u);
+  for (const ParticlePoint& point : showing_points(table, third, test_camera(), none))
+    EXPECT_EQ(point.fresh, 1u);
   std::size_t fresh = 0, new_ids = 0;
   for (const ParticlePoint& point : showing_points(table, third, test_camera(), seen)) fresh += point.fresh;
   for (const TemplateTablePoint& p : table.seen_from(third)) new_ids += !expected[p.id];
@@ -180,11 +198,16 @@ TEST(ViewInformation, IsMutualInformationOfEveryOpenView) {
 
 TEST(ViewInformation, IsTheSameOnEveryDevice) {
   Plan t;
-  const std::vector<ViewInformation> fast = t.information(), reference = view_information(t.planning(), *make_reference_backend(), t.options);
-  for (std::size_t v = 0; v < fast.size(); ++v) EXPECT_NEAR(fast[v].information, reference[v].information, 1e-3 * (1 + reference[v].information));
+  const std::vector<ViewInformation> fast = t.information(),
+                                     reference =
+                                         view_information(t.planning(), *make_reference_backend(), t.options);
+  for (std::size_t v = 0; v < fast.size(); ++v)
+    EXPECT_NEAR(fast[v].information, reference[v].information, 1e-3 * (1 + reference[v].information));
   if (vulkan_devices().empty()) GTEST_SKIP() << "no Vulkan device";
-  const std::vector<ViewInformation> device = view_information(t.planning(), *make_vulkan_backend(0), t.options);
-  for (std::size_t v = 0; v < fast.size(); ++v) EXPECT_NEAR(fast[v].information, device[v].information, 5e-3 * (1 + fast[v].information));
+  const std::vector<ViewInformation> device =
+      view_information(t.planning(), *make_vulkan_backend(0), t.options);
+  for (std::size_t v = 0; v < fast.size(); ++v)
+    EXPECT_NEAR(fast[v].information, device[v].information, 5e-3 * (1 + fast[v].information));
 }
 
 // Nothing to tell apart: one particle, or all candidates in every combination.
@@ -232,7 +255,8 @@ TEST(ViewInformation, WithoutCandidatesOrParticlesIsZero) {
   }
 }
 
-// All candidates at one place: each combination is one of them or none, and there is still something to learn.
+// All candidates at one place: each combination is one of them or none, and there is still something to
+// learn.
 TEST(ViewInformation, WorksWhereAllPairsAreImplausible) {
   Plan t;
   for (Detection& c : t.candidates) c.world_from_object.translation_m = {0, 0, 0.03};
@@ -270,7 +294,8 @@ TEST(ViewInformation, PrefersTheViewThatTellsHypothesesApart) {
   EXPECT_GT(views[1].information, 2 * views[0].information);
 }
 
-// Cameras on rings of 35 and 70 degrees: what is unknown leaves a line of sight free with the sine's power, whatever the strategy knows besides.
+// Cameras on rings of 35 and 70 degrees: what is unknown leaves a line of sight free with the sine's power,
+// whatever the strategy knows besides.
 TEST(ViewInformation, IsWorthLessWhereTheUnknownMayHideMore) {
   Plan t;
   const std::vector<ViewInformation> free = t.information();
@@ -278,7 +303,8 @@ TEST(ViewInformation, IsWorthLessWhereTheUnknownMayHideMore) {
   const std::vector<ViewInformation> views = t.information();
   std::set<double> shares;
   for (std::size_t v = 1; v < views.size(); ++v) {
-    const Eigen::Vector3d eye = (inverse(t.views[v]).translation_m - Eigen::Vector3d(0, 0, 0.02)).normalized();
+    const Eigen::Vector3d eye =
+        (inverse(t.views[v]).translation_m - Eigen::Vector3d(0, 0, 0.02)).normalized();
     ASSERT_GT(free[v].information, 0);
     EXPECT_NEAR(views[v].information, free[v].information * eye.z() * eye.z(), 1e-9) << v;
     shares.insert(std::round(1e6 * eye.z()));
@@ -287,11 +313,13 @@ TEST(ViewInformation, IsWorthLessWhereTheUnknownMayHideMore) {
   // A turned world changes nothing: what is above follows from the views.
   const Se3 turned_from_world{Eigen::Quaterniond(0.3, 0.5, -0.2, 0.7).normalized(), {1, -2, 3}};
   for (Se3& view : t.views) view = view * inverse(turned_from_world);
-  for (RegisterView& view : t.real) view.camera_from_world = view.camera_from_world * inverse(turned_from_world);
+  for (RegisterView& view : t.real)
+    view.camera_from_world = view.camera_from_world * inverse(turned_from_world);
   for (Detection& c : t.candidates) c.world_from_object = turned_from_world * c.world_from_object;
   for (Particle& p : t.particles) p.world_from_object = turned_from_world * p.world_from_object;
   const std::vector<ViewInformation> turned = t.information();
-  for (std::size_t v = 1; v < views.size(); ++v) EXPECT_NEAR(turned[v].information, views[v].information, 0.02 * views[v].information) << v;
+  for (std::size_t v = 1; v < views.size(); ++v)
+    EXPECT_NEAR(turned[v].information, views[v].information, 0.02 * views[v].information) << v;
   // The paper's own formula stays what it is, and other strategies do not imagine what they would see.
   const auto does_not_matter = [&] {
     t.options.free_sight = 2;
@@ -316,7 +344,8 @@ TEST(ViewInformation, OfNoViewsIsNone) {
 
 TEST(ViewInformation, KnowsNoAboveWhereCamerasStandAllAround) {
   Plan t(2);
-  const Se3 upside_down{Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX())), {0, 0, 0.04}};
+  const Se3 upside_down{Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX())),
+                        {0, 0, 0.04}};
   for (std::size_t v = 0, n = t.views.size(); v < n; ++v) t.views.push_back(t.views[v] * upside_down);
   t.closed.resize(t.views.size(), 0);
   const std::vector<ViewInformation> free = t.information();
@@ -334,7 +363,8 @@ TEST(ViewInformation, TakesMotionAndReachIntoAccount) {
   for (std::size_t v = 1; v < views.size(); ++v) {
     EXPECT_EQ(views[v].open, v % 2 == 1);
     if (!views[v].open) continue;
-    const double way = (inverse(t.views[v]).translation_m - inverse(t.views[0]).translation_m).norm(), turn = angle_between_rad(t.views[v], t.views[0]);
+    const double way = (inverse(t.views[v]).translation_m - inverse(t.views[0]).translation_m).norm(),
+                 turn = angle_between_rad(t.views[v], t.views[0]);
     EXPECT_NEAR(views[v].motion_cost, 2 * way + 3 * turn, 1e-9);
     EXPECT_NEAR(views[v].value(), views[v].information - views[v].motion_cost, 1e-12);
   }
@@ -356,8 +386,10 @@ TEST(Disocclusion, SumsNewPointsByPsi) {
     for (const Detection& c : t.candidates) {
       const TemplateTable& table = t.tables[c.object];
       std::vector<char> seen(table.total, 0);
-      for (const TemplateTablePoint& p : table.seen_from(t.views[0] * c.world_from_object)) seen[p.id] = 1;  // all project into the image
-      for (const TemplateTablePoint& p : table.seen_from(t.views[v] * c.world_from_object)) expected += seen[p.id] ? 0 : c.psi;
+      for (const TemplateTablePoint& p : table.seen_from(t.views[0] * c.world_from_object))
+        seen[p.id] = 1;  // all project into the image
+      for (const TemplateTablePoint& p : table.seen_from(t.views[v] * c.world_from_object))
+        expected += seen[p.id] ? 0 : c.psi;
     }
     EXPECT_NEAR(views[v].information, expected, 1e-6);
   }
@@ -373,8 +405,7 @@ TEST(Random, DrawsEveryOpenViewAlike) {
     ++chosen[*best_view(t.information())];
   }
   EXPECT_EQ(chosen[0] + chosen[5], 0);
-  for (std::size_t v = 1; v < chosen.size(); ++v)
-    EXPECT_NEAR(chosen[v], v == 5 ? 0 : 250, 75);
+  for (std::size_t v = 1; v < chosen.size(); ++v) EXPECT_NEAR(chosen[v], v == 5 ? 0 : 250, 75);
   const std::optional<int> first = best_view(t.information());
   EXPECT_EQ(first, best_view(t.information()));
 }
@@ -392,7 +423,8 @@ TEST(Fixed, FollowsItsSequence) {
 }
 
 TEST(Strategies, HaveNames) {
-  for (const Strategy s : {Strategy::Information, Strategy::Disocclusion, Strategy::Random, Strategy::Fixed}) EXPECT_EQ(strategy_from(to_string(s)), s);
+  for (const Strategy s : {Strategy::Information, Strategy::Disocclusion, Strategy::Random, Strategy::Fixed})
+    EXPECT_EQ(strategy_from(to_string(s)), s);
   expect_input_error([] { strategy_from("best"); }, {"next_view.strategy", "best", "mi-max"});
   NextViewOptions options;
   options.cap_px = 100;

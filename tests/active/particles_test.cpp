@@ -40,7 +40,8 @@ TEST(CandidateInWorld, TurnsPoseAndCovariance) {
     for (int k = 0; k < 6; ++k) step[k] = 1e-6 * random.normal();
     const Se3 moved = inverse(camera_from_world) * retract(in_camera.world_from_object, step);
     const Vector6d in_tangent = local_coordinates(in_world.world_from_object, moved);
-    const double before = step.dot(in_camera.covariance.inverse() * step), after = in_tangent.dot(in_world.covariance.inverse() * in_tangent);
+    const double before = step.dot(in_camera.covariance.inverse() * step),
+                 after = in_tangent.dot(in_world.covariance.inverse() * in_tangent);
     EXPECT_NEAR(after / before, 1, 1e-4);
   }
 }
@@ -49,7 +50,8 @@ TEST(Perturbed, HasTheCovarianceWithinItsBounds) {
   Random random = test_random();
   const double diameter = 0.1;
   Matrix6d covariance = Matrix6d::Zero();
-  covariance.diagonal() << 1e-4, 4e-6, 1e-12, 1e-3, 4e-4, 1.0;  // deviations: 10, 2, 0 mm; 1.6, 1, 50 mm at half the diameter
+  covariance.diagonal() << 1e-4, 4e-6, 1e-12, 1e-3, 4e-4,
+      1.0;  // deviations: 10, 2, 0 mm; 1.6, 1, 50 mm at half the diameter
   const Spread spread{0.005, 0.06};
   const double expected[] = {6e-3, 2e-3, 0.5e-3, std::sqrt(1e-3), 0.02, 6e-3 / 0.05};
   Matrix6d sum = Matrix6d::Zero();
@@ -62,7 +64,11 @@ TEST(Perturbed, HasTheCovarianceWithinItsBounds) {
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(std::sqrt(sum(i, i)), expected[i], 0.03 * expected[i]) << i;
   covariance.diagonal().setConstant(INFINITE);
   double unknown = 0;
-  for (int i = 0; i < 2000; ++i) unknown += local_coordinates(pose, perturbed(pose, covariance, diameter, spread, random)).head<3>().squaredNorm() / 2000;
+  for (int i = 0; i < 2000; ++i)
+    unknown += local_coordinates(pose, perturbed(pose, covariance, diameter, spread, random))
+                   .head<3>()
+                   .squaredNorm() /
+               2000;
   EXPECT_NEAR(std::sqrt(unknown / 3), 6e-3, 3e-4);
 }
 
@@ -70,7 +76,9 @@ TEST(DrawParticles, SharesThemAmongTheCandidates) {
   Random random = test_random();
   const std::vector<EdgeModel> models{part_model("l_bracket"), part_model("hex_nut")};
   std::vector<Detection> candidates(3);
-  for (int i = 0; i < 3; ++i) candidates[i].object = i % 2, candidates[i].psi = 0.5 + 0.1 * i, candidates[i].world_from_object = {random.rotation(), {0.3 * i, 0, 0}};
+  for (int i = 0; i < 3; ++i)
+    candidates[i].object = i % 2, candidates[i].psi = 0.5 + 0.1 * i,
+    candidates[i].world_from_object = {random.rotation(), {0.3 * i, 0, 0}};
   const std::vector<Particle> particles = draw_particles(models, candidates, 31, {0.02, 0.1}, random);
   ASSERT_EQ(particles.size(), 31u);
   int around[3] = {0, 0, 0}, exactly[3] = {0, 0, 0};
@@ -135,15 +143,18 @@ TEST(WeighParticles, FollowsTheSquaredMeansOfAllViews) {
     double upsilon = 0;
     for (const RegisterView& view : t.part.views) {
       const Se3 pose = view.camera_from_world * particles[i].world_from_object;
-      const std::vector<ModelPoint> points = visible_edges(t.part.model, std::span(&pose, 1), *t.backend, t.options.visibility)[0];
+      const std::vector<ModelPoint> points =
+          visible_edges(t.part.model, std::span(&pose, 1), *t.backend, t.options.visibility)[0];
       const TensorShape shape = view.view->shape;
       const std::vector<std::uint16_t> tensor = view.view->tensor();
       double sum = 0;
       int inside = 0;
       for (const ModelPoint& point : points) {
         const Landing at = land(view.view->intrinsics, pose, point);
-        if (at.u < -0.5 || at.v < -0.5 || at.u >= view.camera.width - 0.5 || at.v >= view.camera.height - 0.5) continue;
-        sum += tensor_lookup({tensor, shape, view.view->intrinsics}, float(at.u), float(at.v), float(at.theta), nullptr);
+        if (at.u < -0.5 || at.v < -0.5 || at.u >= view.camera.width - 0.5 || at.v >= view.camera.height - 0.5)
+          continue;
+        sum += tensor_lookup({tensor, shape, view.view->intrinsics}, float(at.u), float(at.v),
+                             float(at.theta), nullptr);
         ++inside;
       }
       upsilon += (sum / inside) * (sum / inside);
@@ -152,7 +163,8 @@ TEST(WeighParticles, FollowsTheSquaredMeansOfAllViews) {
     log_weight[i] = -upsilon / (2 * t.options.sigma_px * t.options.sigma_px);
     total += std::exp(log_weight[i]);
   }
-  for (int i = 0; i < 4; ++i) EXPECT_NEAR(std::exp(particles[i].log_weight), std::exp(log_weight[i]) / total, 0.02) << i;
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(std::exp(particles[i].log_weight), std::exp(log_weight[i]) / total, 0.02) << i;
   EXPECT_GT(particles[0].log_weight, particles[3].log_weight + 0.3);
 }
 
@@ -198,22 +210,26 @@ TEST(WeighParticles, CountsNoViewTwiceAfterResampling) {
   std::vector<Particle> particles;
   for (int i = 0; i < 30; ++i) particles.push_back(t.off_by(i % 3 ? 0.0005 : 0.012, random));
   for (Particle& p : particles)
-    if (distance_between_m(p.world_from_object, t.part.truth) > 0.01) p.world_from_object = particles[0].world_from_object;
+    if (distance_between_m(p.world_from_object, t.part.truth) > 0.01)
+      p.world_from_object = particles[0].world_from_object;
   weigh_particles(t.models, particles, t.part.views, *t.backend, t.options);
   const auto weight_of_truth = [&] {
     double sum = 0;
-    for (const Particle& p : particles) sum += distance_between_m(p.world_from_object, t.part.truth) < 0.005 ? std::exp(p.log_weight) : 0;
+    for (const Particle& p : particles)
+      sum += distance_between_m(p.world_from_object, t.part.truth) < 0.005 ? std::exp(p.log_weight) : 0;
     return sum;
   };
   const double before = weight_of_truth();
   EXPECT_GT(before, 0.7);
   EXPECT_LT(before, 0.9999);
   for (int round = 0; round < 3; ++round) {
-    particles = resample(particles, find_modes(particles, sets, t.options), t.models, 30, t.options, random.split(round));
+    particles = resample(particles, find_modes(particles, sets, t.options), t.models, 30, t.options,
+                         random.split(round));
     ASSERT_EQ(particles.size(), 30u);
     EXPECT_NEAR(weight_of_truth(), before, 1e-9);
     for (Particle& p : particles)
-      if (distance_between_m(p.world_from_object, t.part.truth) > 0.005) p.world_from_object = particles.back().world_from_object;
+      if (distance_between_m(p.world_from_object, t.part.truth) > 0.005)
+        p.world_from_object = particles.back().world_from_object;
     weigh_particles(t.models, particles, t.part.views, *t.backend, t.options);
     EXPECT_NEAR(weight_of_truth(), before, 0.02);
   }
@@ -254,17 +270,22 @@ TEST(UpdateParticles, FindsTheInstancesAndDropsTheRest) {
   candidates.push_back(t.false_candidate(1, {0.05, 0.03, 0.07}, random));
   ParticleOptions options;
   options.count = 40;
-  std::vector<Particle> particles = draw_particles(t.models, candidates, options.count, options.drawn, random);
+  std::vector<Particle> particles =
+      draw_particles(t.models, candidates, options.count, options.drawn, random);
   const std::vector<RegisterView> all = t.views(*backend);
   for (std::size_t seen = 1; seen <= 3; ++seen) {
     const std::span<const RegisterView> views(all.data(), seen);
-    const ParticleUpdate update = update_particles(particles, t.sets, t.models, candidates, views, *backend, options);
-    std::printf("%zu views: effective %.1f of %zu%s\n", seen, update.effective, particles.size(), update.resampled ? ", resampled" : "");
+    const ParticleUpdate update =
+        update_particles(particles, t.sets, t.models, candidates, views, *backend, options);
+    std::printf("%zu views: effective %.1f of %zu%s\n", seen, update.effective, particles.size(),
+                update.resampled ? ", resampled" : "");
     EXPECT_FALSE(update.reseeded);
     EXPECT_EQ(particles.size(), 40u);
   }
   const std::vector<Mode> modes = find_modes(particles, t.sets, options);
-  for (const Mode& m : modes) std::printf("mode of object %d: %zu particles, weight %.3f, probability %.3f\n", m.object, m.particles.size(), m.weight, m.probability);
+  for (const Mode& m : modes)
+    std::printf("mode of object %d: %zu particles, weight %.3f, probability %.3f\n", m.object,
+                m.particles.size(), m.weight, m.probability);
   const std::vector<ModeDetection> found = mode_detections(particles, modes, t.sets, t.models, all, *backend);
   ASSERT_EQ(found.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -272,7 +293,8 @@ TEST(UpdateParticles, FindsTheInstancesAndDropsTheRest) {
     double distance = 1, angle = 9;
     for (const ModeDetection& d : found) {
       if (d.detection.object != truth.object) continue;
-      const PoseError error = pose_error(d.detection.world_from_object, truth.world_from_object, t.parts[truth.object].symmetries);
+      const PoseError error = pose_error(d.detection.world_from_object, truth.world_from_object,
+                                         t.parts[truth.object].symmetries);
       if (error.distance_m < distance) distance = error.distance_m, angle = error.angle_rad;
     }
     std::printf("part %zu: %.2f mm, %.3f rad\n", i, 1000 * distance, angle);
@@ -294,16 +316,20 @@ TEST(UpdateParticles, DrawsAnewWhereAllDied) {
   const std::vector<Detection> candidates{t.candidate(0, 0.003, 0.05, random)};
   ParticleOptions options;
   options.count = 10;
-  std::vector<Particle> particles = draw_particles(t.models, candidates, options.count, options.drawn, random);
+  std::vector<Particle> particles =
+      draw_particles(t.models, candidates, options.count, options.drawn, random);
   for (Particle& p : particles) p.world_from_object.translation_m.z() += 5;  // behind the camera
   const CollectedLog log;
-  const ParticleUpdate update = update_particles(particles, t.sets, t.models, candidates, t.views(*backend), *backend, options);
+  const ParticleUpdate update =
+      update_particles(particles, t.sets, t.models, candidates, t.views(*backend), *backend, options);
   EXPECT_TRUE(update.reseeded);
   ASSERT_EQ(log.messages.size(), 1u);
   EXPECT_NE(log.messages[0].second.find("all particles died"), std::string::npos);
   const std::vector<Mode> modes = find_modes(particles, t.sets, options);
   ASSERT_FALSE(modes.empty());
-  EXPECT_LT(distance_between_m(particles[modes[0].particles[0]].world_from_object, t.scene.placed[0].world_from_object), 0.006);
+  EXPECT_LT(distance_between_m(particles[modes[0].particles[0]].world_from_object,
+                               t.scene.placed[0].world_from_object),
+            0.006);
 }
 
 TEST(UpdateParticles, IsTheSameAgain) {
@@ -317,7 +343,8 @@ TEST(UpdateParticles, IsTheSameAgain) {
   options.sigma_px = 0.1;  // one fits better than the others, and is copied
   const auto run = [&](std::uint64_t seed) {
     options.seed = seed;
-    std::vector<Particle> particles = draw_particles(t.models, candidates, options.count, options.drawn, Random(3));
+    std::vector<Particle> particles =
+        draw_particles(t.models, candidates, options.count, options.drawn, Random(3));
     update_particles(particles, t.sets, t.models, candidates, t.views(*backend), *backend, options);
     std::vector<double> numbers;
     for (const Particle& p : particles) numbers.push_back(p.world_from_object.translation_m.x());

@@ -1,4 +1,5 @@
-// Penetration of boxes is known; that of parts is judged by pushing them apart along a fine set of directions.
+// Penetration of boxes is known; that of parts is judged by pushing them apart along a fine set of
+// directions.
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -15,7 +16,8 @@
 namespace edgescout::test {
 namespace {
 
-bool together(const std::vector<EdgeModel>& models, const Hypothesis& a, const Hypothesis& b, double penetration_m) {
+bool together(const std::vector<EdgeModel>& models, const Hypothesis& a, const Hypothesis& b,
+              double penetration_m) {
   ThreadPool pool(1);
   const BitMatrix pairs = plausible_pairs(models, std::vector<Hypothesis>{a, b}, penetration_m, pool);
   EXPECT_TRUE(pairs.has(0, 0) && pairs.has(1, 1));
@@ -23,7 +25,9 @@ bool together(const std::vector<EdgeModel>& models, const Hypothesis& a, const H
   return pairs.has(0, 1);
 }
 
-Hypothesis at(int object, double x_m, double y_m, double z_m) { return {object, {Eigen::Quaterniond::Identity(), {x_m, y_m, z_m}}}; }
+Hypothesis at(int object, double x_m, double y_m, double z_m) {
+  return {object, {Eigen::Quaterniond::Identity(), {x_m, y_m, z_m}}};
+}
 
 // Boxes of 40 x 60 x 80 mm that overlap by d along an axis, both turned and shifted as one.
 TEST(PlausiblePairs, BoxesMayOverlapByTheTolerance) {
@@ -37,7 +41,8 @@ TEST(PlausiblePairs, BoxesMayOverlapByTheTolerance) {
     shift[axis] = sides[axis] - overlap;
     const Se3 world{random.rotation(), random.direction()};
     const Hypothesis a{0, world}, b{0, world * Se3{Eigen::Quaterniond::Identity(), shift}};
-    EXPECT_EQ(together(models, a, b, tolerance), i % 2 == 1) << "overlap " << overlap << " along axis " << axis;
+    EXPECT_EQ(together(models, a, b, tolerance), i % 2 == 1)
+        << "overlap " << overlap << " along axis " << axis;
   }
 }
 
@@ -61,7 +66,8 @@ TEST(PlausiblePairs, TouchingAndApartAreFine) {
 }
 
 TEST(PlausiblePairs, OneInsideTheOtherClashes) {
-  const std::vector<EdgeModel> models{make_edge_model(box_mesh(0.1, 0.1, 0.1)), make_edge_model(box_mesh(0.02, 0.02, 0.02))};
+  const std::vector<EdgeModel> models{make_edge_model(box_mesh(0.1, 0.1, 0.1)),
+                                      make_edge_model(box_mesh(0.02, 0.02, 0.02))};
   for (const bool swapped : {false, true}) {
     const Hypothesis outer = at(0, 0, 0, 0), inner = at(1, 0.01, -0.02, 0.005);
     EXPECT_FALSE(together(models, swapped ? inner : outer, swapped ? outer : inner, 0.002));
@@ -75,17 +81,21 @@ TEST(PlausiblePairs, OneInsideTheOtherClashes) {
 
 // A nut around a shaft: in each other's bounding boxes and yet apart.
 TEST(PlausiblePairs, HolesAreEmpty) {
-  const std::vector<EdgeModel> models{make_edge_model(make_ring(0.03, 0.02, 0.01)), make_edge_model(make_bar(0.019, 0.1))};
+  const std::vector<EdgeModel> models{make_edge_model(make_ring(0.03, 0.02, 0.01)),
+                                      make_edge_model(make_bar(0.019, 0.1))};
   EXPECT_TRUE(together(models, at(0, 0, 0, 0), at(1, 0, 0, 0), 0));
   EXPECT_FALSE(together(models, at(0, 0, 0, 0), at(1, 0.005, 0, 0), 0));
   EXPECT_FALSE(together(models, at(0, 0, 0, 0), at(1, 0.008, 0, 0), 0.002));  // 7 mm into the wall
-  EXPECT_TRUE(together(models, at(0, 0, 0, 0), at(1, 0.0025, 0, 0), 0.002));  // 1.5 mm; the other side is only 2.5 mm away
+  EXPECT_TRUE(together(models, at(0, 0, 0, 0), at(1, 0.0025, 0, 0),
+                       0.002));  // 1.5 mm; the other side is only 2.5 mm away
 }
 
-// What is said to clash does so wherever it is pushed; what is said to be apart is, by the verdict at zero tolerance.
+// What is said to clash does so wherever it is pushed; what is said to be apart is, by the verdict at zero
+// tolerance.
 TEST(PlausiblePairs, PartsAgreeWithPushingThemEverywhere) {
   Random random = test_random();
-  const std::vector<EdgeModel> models{make_edge_model(make_part("l_bracket").mesh), make_edge_model(make_part("bearing_block").mesh)};
+  const std::vector<EdgeModel> models{make_edge_model(make_part("l_bracket").mesh),
+                                      make_edge_model(make_part("bearing_block").mesh)};
   const double tolerance = 0.002;
   int clashing = 0, pushed_apart = 0;
   for (int i = 0; i < 25; ++i) {
@@ -97,7 +107,8 @@ TEST(PlausiblePairs, PartsAgreeWithPushingThemEverywhere) {
     bool comes_apart = free;
     for (const Eigen::Vector3d& d : icosphere(3)) {
       if (comes_apart) break;
-      const Hypothesis moved{b.object, {b.world_from_object.rotation, b.world_from_object.translation_m + 0.9 * tolerance * d}};
+      const Hypothesis moved{
+          b.object, {b.world_from_object.rotation, b.world_from_object.translation_m + 0.9 * tolerance * d}};
       comes_apart = together(models, a, moved, 0);
     }
     EXPECT_TRUE(tolerated || !comes_apart);
@@ -111,10 +122,14 @@ TEST(PlausiblePairs, PartsAgreeWithPushingThemEverywhere) {
 
 TEST(PlausiblePairs, ManyCandidatesOnSeveralThreads) {
   Random random = test_random();
-  const std::vector<EdgeModel> models{make_edge_model(make_part("l_bracket").mesh), make_edge_model(make_part("hex_nut").mesh),
+  const std::vector<EdgeModel> models{make_edge_model(make_part("l_bracket").mesh),
+                                      make_edge_model(make_part("hex_nut").mesh),
                                       make_edge_model(make_part("bearing_block").mesh)};
   std::vector<Hypothesis> candidates;
-  for (int i = 0; i < 40; ++i) candidates.push_back({i % 3, {random.rotation(), {random.uniform(0, 0.15), random.uniform(0, 0.15), random.uniform(0, 0.05)}}});
+  for (int i = 0; i < 40; ++i)
+    candidates.push_back(
+        {i % 3,
+         {random.rotation(), {random.uniform(0, 0.15), random.uniform(0, 0.15), random.uniform(0, 0.05)}}});
   ThreadPool one(1), two(2);
   const auto start = std::chrono::steady_clock::now();
   const BitMatrix pairs = plausible_pairs(models, candidates, 0.002, two);

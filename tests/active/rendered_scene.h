@@ -46,9 +46,12 @@ struct RenderedScene {
 
   // `camera_from_world` is what the arm says; absent: the truth.
   RegisterView view(std::size_t index, Backend& backend, std::optional<Se3> camera_from_world = {}) const {
-    const PreparedImage prepared = prepare_image(renderings[index].image, scene.views[index].camera,
-                                                 camera_from_world.value_or(scene.views[index].camera_from_world), backend, {});
-    return observe(prepared.image, prepared.camera, prepared.camera_from_world, prepared.edges, 1, {}, backend).view;
+    const PreparedImage prepared =
+        prepare_image(renderings[index].image, scene.views[index].camera,
+                      camera_from_world.value_or(scene.views[index].camera_from_world), backend, {});
+    return observe(prepared.image, prepared.camera, prepared.camera_from_world, prepared.edges, 1, {},
+                   backend)
+        .view;
   }
   std::vector<RegisterView> views(Backend& backend) const {
     std::vector<RegisterView> all;

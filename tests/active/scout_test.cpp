@@ -1,4 +1,5 @@
-// The loop in a small rendered cell: it ends with the right poses, whatever interrupts it; and it ends when it should.
+// The loop in a small rendered cell: it ends with the right poses, whatever interrupts it; and it ends when
+// it should.
 #include "host/active/scout.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,9 @@
 namespace edgescout::test {
 namespace {
 
-bool same(const Se3& a, const Se3& b) { return a.translation_m == b.translation_m && a.rotation.coeffs() == b.rotation.coeffs(); }
+bool same(const Se3& a, const Se3& b) {
+  return a.translation_m == b.translation_m && a.rotation.coeffs() == b.rotation.coeffs();
+}
 
 // Everything but the times.
 void expect_same(const ScoutState& a, const ScoutState& b) {
@@ -32,7 +35,8 @@ void expect_same(const ScoutState& a, const ScoutState& b) {
   }
   ASSERT_EQ(a.detections.size(), b.detections.size());
   for (std::size_t i = 0; i < a.detections.size(); ++i) {
-    EXPECT_TRUE(same(a.detections[i].detection.world_from_object, b.detections[i].detection.world_from_object));
+    EXPECT_TRUE(
+        same(a.detections[i].detection.world_from_object, b.detections[i].detection.world_from_object));
     EXPECT_EQ(a.detections[i].detection.probability, b.detections[i].detection.probability);
     EXPECT_EQ(a.detections[i].supporting_views, b.detections[i].supporting_views);
   }
@@ -114,7 +118,8 @@ TEST(Scout, EveryStrategyLooksAround) {
 }
 
 // Stopped after so many images, saved, loaded and gone on with: the same to the end as without a stop.
-void expect_goes_on(SmallCell& t, const ScoutOptions& options, SimulatedCell cell, std::initializer_list<int> stops) {
+void expect_goes_on(SmallCell& t, const ScoutOptions& options, SimulatedCell cell,
+                    std::initializer_list<int> stops) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "state";
   Scout whole = t.scout(options);
@@ -143,7 +148,8 @@ TEST(Scout, GoesOnFromASavedStateAsIfNothingHadHappened) {
   expect_goes_on(t, SmallCell::options(), t.source({0.0005, 0.001, true, 3}), {1, 2});
 }
 
-// Parts on a heap, of which every reported one hides what is behind it: what the next view is worth depends on that.
+// Parts on a heap, of which every reported one hides what is behind it: what the next view is worth depends
+// on that.
 TEST(Scout, GoesOnWithWhatHidesOthers) {
   SmallCell t(4, 1);
   ScoutOptions options = SmallCell::options();
@@ -232,7 +238,8 @@ TEST(Scout, EndsByEachOfItsLimits) {
   EXPECT_EQ(ended([](ScoutOptions& o) { o.min_entropy_nats = 1000; }), End(ScoutEnd::Certain, 1));
   EXPECT_EQ(ended([](ScoutOptions& o) { o.max_seconds = 1e-6; }), End(ScoutEnd::TimeSpent, 1));
   EXPECT_EQ(ended([](ScoutOptions& o) { o.min_information_nats = 1000; }), End(ScoutEnd::LittleToLearn, 1));
-  EXPECT_EQ(ended([](ScoutOptions& o) { o.next_view.reachable = [](int view) { return view == 3; }; }), End(ScoutEnd::NoViewLeft, 1));
+  EXPECT_EQ(ended([](ScoutOptions& o) { o.next_view.reachable = [](int view) { return view == 3; }; }),
+            End(ScoutEnd::NoViewLeft, 1));
 }
 
 TEST(Scout, ProposesTheSameUntilThereIsNews) {
@@ -253,7 +260,9 @@ TEST(Scout, ProposesTheSameUntilThereIsNews) {
 
 TEST(Scout, WithNothingToSeeItLooksOnAndFindsNothing) {
   SmallCell t;
-  CallbackSource blank(t.camera(), t.views, [&](int view) { return Shot{{320, 240, std::vector<std::uint8_t>(320 * 240, 90)}, t.views[view]}; });
+  CallbackSource blank(t.camera(), t.views, [&](int view) {
+    return Shot{{320, 240, std::vector<std::uint8_t>(320 * 240, 90)}, t.views[view]};
+  });
   Scout scout = t.scout();
   run_scout(scout, blank);
   EXPECT_EQ(scout.state().steps.size(), 3u);
@@ -266,7 +275,8 @@ TEST(Scout, FlagsACameraPoseThatDisagrees) {
   SimulatedCell cell = t.source();
   Scout scout = t.scout();
   for (const int view : {0, 2}) scout.give(view, cell.acquire(view).image);
-  for (const ViewAgreement& agreement : scout.state().steps.back().agreement) EXPECT_FALSE(agreement.disagrees) << agreement.residual_px;
+  for (const ViewAgreement& agreement : scout.state().steps.back().agreement)
+    EXPECT_FALSE(agreement.disagrees) << agreement.residual_px;
   scout.give(5, cell.acquire(5).image, Se3{so3_exp({0, 0.02, 0}), {0.004, 0, 0}} * t.views[5]);
   const std::vector<ViewAgreement>& agreement = scout.state().steps.back().agreement;
   ASSERT_EQ(agreement.size(), 3u);
@@ -279,7 +289,11 @@ TEST(Scout, RefusesWhatItCannotUse) {
   SimulatedCell cell = t.source();
   const Image image = cell.acquire(1).image;
   Scout scout = t.scout();
-  expect_input_error([&] { scout.give(1, Image{160, 120, std::vector<std::uint8_t>(160 * 120)}); }, {"160x120", "320x240"});
+  expect_input_error(
+      [&] {
+        scout.give(1, Image{160, 120, std::vector<std::uint8_t>(160 * 120)});
+      },
+      {"160x120", "320x240"});
   Se3 bent = t.views[1];
   bent.translation_m.x() = NAN;
   expect_input_error([&] { scout.give(1, image, bent); }, {"camera pose"});
@@ -310,7 +324,8 @@ TEST(ScoutState, OfAnotherRunOrDamagedIsRefused) {
   const std::string file = folder.path() / "scout.state";
   save_scout_state(scout.state(), file);
   const std::string whole = content_of(file);
-  for (const std::size_t length : {std::size_t(0), std::size_t(7), std::size_t(27), whole.size() / 2, whole.size() - 1}) {
+  for (const std::size_t length :
+       {std::size_t(0), std::size_t(7), std::size_t(27), whole.size() / 2, whole.size() - 1}) {
     const std::string cut = folder.write("cut.state", whole.substr(0, length));
     expect_input_error([&] { load_scout_state(cut); }, {"cut.state"});
   }

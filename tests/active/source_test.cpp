@@ -40,7 +40,9 @@ struct Cell {
   SimulatedCell with(const ArmNoise& noise) { return {scene, scene.views[0].camera, views, noise, pool}; }
 };
 
-bool same(const Se3& a, const Se3& b) { return distance_between_m(a, b) == 0 && a.rotation.coeffs() == b.rotation.coeffs(); }
+bool same(const Se3& a, const Se3& b) {
+  return distance_between_m(a, b) == 0 && a.rotation.coeffs() == b.rotation.coeffs();
+}
 
 TEST(SimulatedCell, RendersTheSceneFromThePlannedPlace) {
   Cell t;

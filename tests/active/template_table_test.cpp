@@ -51,11 +51,14 @@ TEST(TemplateTable, KnowsWhatShowsFromWhere) {
     const Se3 camera_from_object{random.rotation(), {0.01, -0.02, 0.5}};
     const Eigen::Vector3d eye = inverse(camera_from_object).translation_m;
     const std::vector<TemplateTablePoint>& seen = table.seen_from(camera_from_object);
-    const std::vector<ModelPoint> exact = visible_edges(model, std::span(&camera_from_object, 1), *backend)[0];
+    const std::vector<ModelPoint> exact =
+        visible_edges(model, std::span(&camera_from_object, 1), *backend)[0];
     // The viewpoint is off by some degrees, in which an edge may come or go; nearly all points are common.
     std::size_t near = 0;
     for (const TemplateTablePoint& p : seen)
-      near += std::ranges::any_of(exact, [&](const ModelPoint& e) { return (Eigen::Vector3d(e.x_m, e.y_m, e.z_m) - place(p)).norm() < 0.002; });
+      near += std::ranges::any_of(exact, [&](const ModelPoint& e) {
+        return (Eigen::Vector3d(e.x_m, e.y_m, e.z_m) - place(p)).norm() < 0.002;
+      });
     EXPECT_GT(double(near), 0.6 * double(seen.size()));
     EXPECT_GT(double(seen.size()), 0.25 * double(exact.size()));
     // Oracle: no point of the far corner.

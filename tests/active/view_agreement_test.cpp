@@ -9,7 +9,8 @@
 namespace edgescout::test {
 namespace {
 
-// A camera pose turned about the scene's middle by some degrees: the parts stay in the image, in other places.
+// A camera pose turned about the scene's middle by some degrees: the parts stay in the image, in other
+// places.
 Se3 wrong(const Se3& camera_from_world, double angle_rad) {
   return camera_from_world * Se3{so3_exp({0.6 * angle_rad, 0, 0.8 * angle_rad}), {0, 0, 0}};
 }
@@ -19,13 +20,17 @@ struct Objects {
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
   std::vector<Hypothesis> poses;
   explicit Objects(int views) : scene({"l_bracket", "bearing_block"}, 4, views) {
-    for (const PlacedObject& part : scene.scene.placed) poses.push_back({part.object, part.world_from_object});
+    for (const PlacedObject& part : scene.scene.placed)
+      poses.push_back({part.object, part.world_from_object});
   }
-  std::vector<ViewAgreement> judge(const std::vector<RegisterView>& views) { return view_agreement(scene.models, poses, views, *backend); }
+  std::vector<ViewAgreement> judge(const std::vector<RegisterView>& views) {
+    return view_agreement(scene.models, poses, views, *backend);
+  }
 };
 
 void print(const std::vector<ViewAgreement>& views) {
-  for (const ViewAgreement& v : views) std::printf("%.2f px by %d objects%s\n", v.residual_px, v.objects, v.disagrees ? ", disagrees" : "");
+  for (const ViewAgreement& v : views)
+    std::printf("%.2f px by %d objects%s\n", v.residual_px, v.objects, v.disagrees ? ", disagrees" : "");
 }
 
 TEST(ViewAgreement, RightPosesAgree) {
@@ -51,7 +56,8 @@ TEST(ViewAgreement, FlagsTheOneThatIsWrong) {
     print(agreement);
     for (std::size_t v = 0; v < 3; ++v) EXPECT_EQ(agreement[v].disagrees, v == odd) << v;
     ASSERT_EQ(log.messages.size(), 1u);
-    EXPECT_NE(log.messages[0].second.find("view " + std::to_string(odd + 1)), std::string::npos) << log.messages[0].second;
+    EXPECT_NE(log.messages[0].second.find("view " + std::to_string(odd + 1)), std::string::npos)
+        << log.messages[0].second;
   }
 }
 

@@ -77,7 +77,8 @@ TEST(ViewList, ComesBackFromItsFile) {
   TemporaryFolder folder;
   Random random = test_random();
   std::vector<Se3> views;
-  for (int i = 0; i < 7; ++i) views.push_back({random.rotation(), random.uniform(0.5, 2) * random.direction()});
+  for (int i = 0; i < 7; ++i)
+    views.push_back({random.rotation(), random.uniform(0.5, 2) * random.direction()});
   save_views(views, folder.path() / "views.json");
   const std::vector<Se3> back = load_views(folder.path() / "views.json");
   ASSERT_EQ(back.size(), views.size());
@@ -114,7 +115,11 @@ TEST(ViewList, InMemoryIsJudgedAlike) {
   expect_input_error([&] { validate_views(std::vector<Se3>{odd}, "robot"); }, {"robot", "/0/", "quaternion"});
   Se3 lost;
   lost.translation_m.y() = std::nan("");
-  expect_input_error([&] { validate_views(std::vector<Se3>{Se3{}, lost}, "robot"); }, {"robot", "/1/", "not finite"});
+  expect_input_error(
+      [&] {
+        validate_views(std::vector<Se3>{Se3{}, lost}, "robot");
+      },
+      {"robot", "/1/", "not finite"});
   Se3 near;
   near.translation_m.x() = 2e-4;
   EXPECT_NO_THROW(validate_views(std::vector<Se3>{Se3{}, near}, "robot"));

@@ -101,7 +101,8 @@ TEST_P(Baseline, TakesNoMoreIterationsThanAllowed) {
 TEST_P(Baseline, LeavesWhatLiesBehindTheCameraWhereItIs) {
   const Rendered& r = rendered();
   const std::span<const RegisterView> view = std::span(r.views).first(1);
-  const Hypothesis behind{0, inverse(view[0].camera_from_world) * Se3{Eigen::Quaterniond::Identity(), {0, 0, -0.5}}};
+  const Hypothesis behind{
+      0, inverse(view[0].camera_from_world) * Se3{Eigen::Quaterniond::Identity(), {0, 0, -0.5}}};
   const Registration found =
       register_with(GetParam().method, r.scene.models, std::span(&behind, 1), view, *r.backend)[0];
   EXPECT_EQ(found.reason, Convergence::NoPoints);

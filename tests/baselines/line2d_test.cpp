@@ -47,8 +47,7 @@ class Line2d : public ::testing::Test {
   double score(const Image& image, const Se3& camera_from_object, const Line2dOptions& options = {}) {
     RegisterView view = view_of_image(image);
     const Camera& c = view.camera;
-    view.view = backend->make_view({}, c.width, c.height, {},
-                                   intrinsics_of(c), {});
+    view.view = backend->make_view({}, c.width, c.height, {}, intrinsics_of(c), {});
     const Candidate candidate{0, camera_from_object};
     return line2d_scores(std::span(&box, 1), std::span(&candidate, 1), view, *backend, options)[0];
   }
@@ -89,8 +88,7 @@ TEST_F(Line2d, CountsFeaturesOutsideTheImageAsMissed) {
   const std::vector<ModelPoint> features =
       thinned(visible_edges(box, std::span(&pose, 1), *backend)[0], Line2dOptions{}.features);
   const auto inside = std::ranges::count_if(features, [&](const ModelPoint& point) {
-    return land(intrinsics_of(camera), pose, point).u <=
-           camera.width - 1;
+    return land(intrinsics_of(camera), pose, point).u <= camera.width - 1;
   });
   EXPECT_NEAR(score(drawn_square(0, right_px), pose), 100.0 * double(inside) / double(features.size()), 1);
   EXPECT_LT(inside, 40);

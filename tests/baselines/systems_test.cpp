@@ -24,9 +24,7 @@ class Systems : public ::testing::Test {
       RegisterView view;
       view.camera = camera;
       view.camera_from_world = camera_looking_at({x, 0.2, 0.45}, pose.translation_m);
-      view.view =
-          backend->make_view({}, camera.width, camera.height, {},
-                             intrinsics_of(camera), {});
+      view.view = backend->make_view({}, camera.width, camera.height, {}, intrinsics_of(camera), {});
       views.push_back(view);
       points.emplace_back();
       for (int i = 0; i < 40; ++i) points.back().push_back(random_point(random, 0.05));

@@ -45,8 +45,8 @@ class FailingBackend : public Backend {
                     std::span<float> depth) override {
     cpu_->depth_raster(mesh, jobs, width, height, depth);
   }
-  void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width, int height,
-                     std::span<std::uint32_t> nearest) override {
+  void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width,
+                     int height, std::span<std::uint32_t> nearest) override {
     cpu_->candidate_map(edges, maps, width, height, nearest);
   }
   ChamferHandle combination_chamfer(const ChamferView& view, const CombinationBits& combinations,

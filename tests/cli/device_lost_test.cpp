@@ -1,4 +1,5 @@
-// A device that is lost in the middle of a batch: an error that names it, finished images on disk, the rest done by a resumed run.
+// A device that is lost in the middle of a batch: an error that names it, finished images on disk, the rest
+// done by a resumed run.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -16,16 +17,22 @@ struct LostDevice : ::testing::Test {
   fs::path submits_file = scene.folder.path() / "submits";
 
   void SetUp() override {
-    if (nlohmann::json::parse(run_program({"devices", "--json"}).out).at("devices").empty()) GTEST_SKIP() << "no Vulkan device";
+    if (nlohmann::json::parse(run_program({"devices", "--json"}).out).at("devices").empty())
+      GTEST_SKIP() << "no Vulkan device";
     fs::create_directories(images);
     fs::copy_file(scene.image(), images / "a.png");
   }
   std::vector<std::string> detect(const std::vector<std::string>& more = {}) const {
-    return joined({{"detect", images, "--out", scene.out, "--device", "vulkan", "--no-overlays", "--camera", scene.camera()}, bracket(), more});
+    return joined({{"detect", images, "--out", scene.out, "--device", "vulkan", "--no-overlays", "--camera",
+                    scene.camera()},
+                   bracket(),
+                   more});
   }
   // ASan insists on being first; the shim replaces one function of the loader, not of the C library.
   Outcome detect_on_device_lost_after(int submits) const {
-    return run_program(detect(), "ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD='" EDGESCOUT_FAILING_DEVICE "' SUBMITS_FILE='" + submits_file.string() +
+    return run_program(detect(), "ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD='" EDGESCOUT_FAILING_DEVICE
+                                 "' SUBMITS_FILE='" +
+                                     submits_file.string() +
                                      "' FAIL_AFTER_SUBMITS=" + std::to_string(submits));
   }
 };
@@ -43,7 +50,8 @@ TEST_F(LostDevice, KeepsWhatWasFinished) {
   const std::size_t error = outcome.err.find("edgescout: error: ");
   ASSERT_NE(error, std::string::npos) << outcome.err;
   EXPECT_TRUE(is_one_line_error(outcome.err.substr(error))) << outcome.err;
-  for (const char* word : {"VK_ERROR_DEVICE_LOST", "dcd_"}) EXPECT_NE(outcome.err.find(word, error), std::string::npos) << outcome.err;
+  for (const char* word : {"VK_ERROR_DEVICE_LOST", "dcd_"})
+    EXPECT_NE(outcome.err.find(word, error), std::string::npos) << outcome.err;
   EXPECT_NO_THROW(load_image_result(scene.out / "a.json"));
   EXPECT_FALSE(fs::exists(scene.out / "b.json"));
   const std::vector<BopResult> rows = load_bop_results(scene.out / "results.csv");

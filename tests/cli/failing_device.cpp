@@ -1,5 +1,5 @@
-// A Vulkan device that is lost: preloaded before the loader, it lets FAIL_AFTER_SUBMITS submissions pass and fails every one after them. How many were asked for is
-// left in SUBMITS_FILE.
+// A Vulkan device that is lost: preloaded before the loader, it lets FAIL_AFTER_SUBMITS submissions pass and
+// fails every one after them. How many were asked for is left in SUBMITS_FILE.
 #include <dlfcn.h>
 #include <vulkan/vulkan.h>
 
@@ -7,7 +7,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-extern "C" VkResult vkQueueSubmit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* submits, VkFence fence) {
+extern "C" VkResult vkQueueSubmit(VkQueue queue, std::uint32_t count, const VkSubmitInfo* submits,
+                                  VkFence fence) {
   static std::atomic<int> asked{0};
   static const int limit = std::atoi(std::getenv("FAIL_AFTER_SUBMITS"));
   static const auto submit = reinterpret_cast<PFN_vkQueueSubmit>(dlsym(RTLD_NEXT, "vkQueueSubmit"));

@@ -60,7 +60,8 @@ TEST(Register, BringsPerturbedPosesBackToTheTruth) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     EXPECT_LT(distance_between_m(result.detections[i].world_from_object, rows[i].camera_from_object), 1e-9);
     EXPECT_EQ(result.detections[i].probability, rows[i].score);
-    EXPECT_GT(rows[i].score, 0.1);  // small parts of soft contrast: the fit gives their right poses 0.2 to 0.5
+    EXPECT_GT(rows[i].score,
+              0.1);  // small parts of soft contrast: the fit gives their right poses 0.2 to 0.5
     EXPECT_GT(rows[i].time_s, 0);
     EXPECT_TRUE(result.detections[i].covariance.allFinite());
   }
@@ -135,7 +136,8 @@ TEST(Register, DoesOnlyWhatIsMissingWhenResumed) {
   std::vector<BopResult> starts{true_results(scene, 0)[0], true_results(scene, 1)[0]};
   save_bop_results(starts, folder.path() / "starts.csv");
   const fs::path out = folder.path() / "out";
-  const std::vector<std::string> call = register_in(two_views(), folder.path() / "starts.csv", out, {"--search-rotation", "0", "--no-overlays"});
+  const std::vector<std::string> call = register_in(two_views(), folder.path() / "starts.csv", out,
+                                                    {"--search-rotation", "0", "--no-overlays"});
   ASSERT_EQ(run_program(call).exit_code, 0);
   const auto summary = [&] { return nlohmann::json::parse(content_of(out / "summary.json")); };
   EXPECT_EQ(summary().at("done"), 2);
@@ -151,7 +153,8 @@ TEST(Register, DoesOnlyWhatIsMissingWhenResumed) {
   EXPECT_EQ(fs::last_write_time(kept), before);
   const std::vector<BopResult> again = load_bop_results(out / "results.csv");
   ASSERT_EQ(again.size(), 2u);
-  for (std::size_t i = 0; i < 2; ++i) EXPECT_LT(distance_between_m(again[i].camera_from_object, rows[i].camera_from_object), 1e-9);
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_LT(distance_between_m(again[i].camera_from_object, rows[i].camera_from_object), 1e-9);
 }
 
 struct Refused {

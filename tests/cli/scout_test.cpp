@@ -1,4 +1,5 @@
-// edgescout scout: what it writes, the page that needs nothing beside itself, and a run that is killed and taken up again.
+// edgescout scout: what it writes, the page that needs nothing beside itself, and a run that is killed and
+// taken up again.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -19,12 +20,15 @@ struct SmallScout {
 
   // A bracket in a rendered cell, three images of eight views, few of everything.
   std::vector<std::string> arguments(const std::vector<std::string>& more = {}) const {
-    return joined({{"scout", "cell", "--out", out, "--device", "cpu", "--model", part_file(1), "--unit", "mm"},
-                   {"--width", "320", "--height", "240", "--focal", "400", "--objects", "1", "--clutter", "0"},
-                   {"--radius", "0.3", "--view-count", "8", "--elevations", "40", "70", "--max-views", "3", "--min-entropy", "0"},
-                   {"--viewpoints", "3", "--in-plane-steps", "12", "--aligned", "200", "--candidates", "8", "--particles", "60"},
-                   {"--combinations", "200", "--min-probability", "0.1"},
-                   more});
+    return joined(
+        {{"scout", "cell", "--out", out, "--device", "cpu", "--model", part_file(1), "--unit", "mm"},
+         {"--width", "320", "--height", "240", "--focal", "400", "--objects", "1", "--clutter", "0"},
+         {"--radius", "0.3", "--view-count", "8", "--elevations", "40", "70", "--max-views", "3",
+          "--min-entropy", "0"},
+         {"--viewpoints", "3", "--in-plane-steps", "12", "--aligned", "200", "--candidates", "8",
+          "--particles", "60"},
+         {"--combinations", "200", "--min-probability", "0.1"},
+         more});
   }
   nlohmann::json log() const { return nlohmann::json::parse(content_of(out / "scout.json")); }
   std::string page() const { return content_of(out / "scout.html"); }
@@ -38,7 +42,8 @@ std::size_t count_of(const std::string& text, const std::string& word) {
 
 // Pictures are in it, everything else it names too.
 void expect_self_contained(const std::string& page) {
-  for (const char* word : {"http:", "https:", "<script", "<link", "@import", "url("}) EXPECT_EQ(page.find(word), std::string::npos) << word;
+  for (const char* word : {"http:", "https:", "<script", "<link", "@import", "url("})
+    EXPECT_EQ(page.find(word), std::string::npos) << word;
   const std::regex reference("(src|href)='([^']{0,12})");
   int references = 0;
   for (std::sregex_iterator it(page.begin(), page.end(), reference), end; it != end; ++it, ++references) {
@@ -98,7 +103,8 @@ TEST(Scout, KilledItGoesOnToTheSameEnd) {
   const pid_t child = start_program(t.arguments({"--watch"}));
   ASSERT_GT(child, 0);
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-  while (!fs::exists(t.out / "scout.html") && std::chrono::steady_clock::now() < deadline) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  while (!fs::exists(t.out / "scout.html") && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
   ::kill(child, SIGKILL);
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);
@@ -112,16 +118,18 @@ TEST(Scout, KilledItGoesOnToTheSameEnd) {
   const nlohmann::json a = whole.log(), b = t.log();
   ASSERT_EQ(a.at("steps").size(), b.at("steps").size());
   for (std::size_t i = 0; i < a["steps"].size(); ++i)
-    for (const char* field : {"view", "information", "entropy_nats", "modes", "agreement"}) EXPECT_EQ(a["steps"][i].at(field), b["steps"][i].at(field)) << i << field;
+    for (const char* field : {"view", "information", "entropy_nats", "modes", "agreement"})
+      EXPECT_EQ(a["steps"][i].at(field), b["steps"][i].at(field)) << i << field;
   EXPECT_EQ(a.at("detections"), b.at("detections"));
 }
 
 TEST(Scout, TakesRecordedViewsAndGoesOnPastAMissingImage) {
   const SmallScene scene(4);
   fs::remove(scene.image(0));
-  const Outcome outcome = run_program(joined({{"scout", scene.scene, "--out", scene.out, "--device", "cpu", "--aligned", "200", "--candidates", "8", "--max-views", "2",
-                                               "--min-probability", "0.1", "--strategy", "dis", "--min-entropy", "0"},
-                                              bracket()}));
+  const Outcome outcome = run_program(joined(
+      {{"scout", scene.scene, "--out", scene.out, "--device", "cpu", "--aligned", "200", "--candidates", "8",
+        "--max-views", "2", "--min-probability", "0.1", "--strategy", "dis", "--min-entropy", "0"},
+       bracket()}));
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   const auto log = nlohmann::json::parse(content_of(scene.out / "scout.json"));
   EXPECT_EQ(log.at("steps").size(), 2u);
@@ -134,11 +142,13 @@ TEST(Scout, TakesRecordedViewsAndGoesOnPastAMissingImage) {
 
 TEST(Scout, RefusesWhatItCannotUse) {
   const SmallScout t;
-  const auto refused = [&](const std::vector<std::string>& arguments, std::initializer_list<std::string> words) {
+  const auto refused = [&](const std::vector<std::string>& arguments,
+                           std::initializer_list<std::string> words) {
     expect_refused(arguments, words);
     EXPECT_FALSE(fs::exists(t.out)) << "something was written";
   };
-  refused({"scout", "nowhere", "--out", t.out, "--device", "cpu", "--model", part_file(1), "--unit", "mm"}, {"nowhere", "cell"});
+  refused({"scout", "nowhere", "--out", t.out, "--device", "cpu", "--model", part_file(1), "--unit", "mm"},
+          {"nowhere", "cell"});
   refused({"scout", "cell", "--out", t.out, "--device", "cpu"}, {"--model"});
   refused(t.arguments({"--camera", "x.yaml"}), {"--camera", "cell"});
   refused(t.arguments({"--strategy", "best"}), {"strategy", "best", "mi-max"});

@@ -17,13 +17,15 @@ Observation standing_at(double x_m) {
 
 std::vector<double> places(std::span<const Observation> views) {
   std::vector<double> x_m;
-  for (const Observation& view : views) x_m.push_back(std::round(1e6 * inverse(view.view.camera_from_world).translation_m.x()) / 1e6);
+  for (const Observation& view : views)
+    x_m.push_back(std::round(1e6 * inverse(view.view.camera_from_world).translation_m.x()) / 1e6);
   return x_m;
 }
 
 TEST(HelpingViews, AreAllOfFew) {
   const std::vector<Observation> others{standing_at(3), standing_at(1), standing_at(2)};
-  for (const std::size_t most : {3, 4, 100}) EXPECT_EQ(places(helping_views(standing_at(0), others, most)), (std::vector<double>{3, 1, 2})) << most;
+  for (const std::size_t most : {3, 4, 100})
+    EXPECT_EQ(places(helping_views(standing_at(0), others, most)), (std::vector<double>{3, 1, 2})) << most;
   EXPECT_TRUE(helping_views(standing_at(0), {}, 4).empty());
 }
 

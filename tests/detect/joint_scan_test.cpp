@@ -1,4 +1,5 @@
-// Hits judged by several views: against sums over projected points, and what it is worth to a hit that is right.
+// Hits judged by several views: against sums over projected points, and what it is worth to a hit that is
+// right.
 #include "host/detect/joint_scan.h"
 
 #include <gtest/gtest.h>
@@ -35,22 +36,28 @@ struct SeenPart {
       const Se3 pose = camera_from_world * truth;
       std::vector<EdgePoint> edges;
       for (int i = 0; i < scattered; ++i)
-        edges.push_back({float(random.uniform(0, 319)), float(random.uniform(0, 239)), float(random.uniform(0, pi)), 1});
+        edges.push_back(
+            {float(random.uniform(0, 319)), float(random.uniform(0, 239)), float(random.uniform(0, pi)), 1});
       const std::vector<ModelPoint> visible = visible_edges(set.model, {&pose, 1}, *backend)[0];
       for (const ModelPoint& p : visible) {
         const Eigen::Vector3d at = pose * Eigen::Vector3d(p.x_m, p.y_m, p.z_m);
         const Eigen::Vector3d ahead = at + 1e-6 * (pose.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz));
-        const Eigen::Vector2d pixel = project(small_camera(), at), along = project(small_camera(), ahead) - pixel;
-        edges.push_back({float(pixel.x()), float(pixel.y()), float(std::fmod(std::atan2(along.y(), along.x()) + 2 * pi, pi)), 1});
+        const Eigen::Vector2d pixel = project(small_camera(), at),
+                              along = project(small_camera(), ahead) - pixel;
+        edges.push_back({float(pixel.x()), float(pixel.y()),
+                         float(std::fmod(std::atan2(along.y(), along.x()) + 2 * pi, pi)), 1});
       }
       views.push_back(observe_edges(edges, small_camera(), 1, *backend));
       views.back().view.camera_from_world = camera_from_world;
     }
   }
   std::span<const Observation> others() const { return std::span(views).subspan(1); }
-  std::vector<ScanHit> judged(std::span<const ScanHit> hits) const { return judged_by_all(set, hits, views[0], others(), *backend, ScanOptions{}); }
+  std::vector<ScanHit> judged(std::span<const ScanHit> hits) const {
+    return judged_by_all(set, hits, views[0], others(), *backend, ScanOptions{});
+  }
 
-  // Mean of a pose's points, as seen from the viewpoint nearest to the camera's, in this view, weighted as ScanHit::rank.
+  // Mean of a pose's points, as seen from the viewpoint nearest to the camera's, in this view, weighted as
+  // ScanHit::rank.
   double rank_in(const Observation& view, const Se3& pose) const {
     const Eigen::Vector3d eye = (inverse(pose).translation_m - set.model.center_m).normalized();
     const TemplateView* nearest = nullptr;
@@ -67,9 +74,12 @@ struct SeenPart {
       const ModelPoint& p = nearest->points[std::size_t(i) * nearest->points.size() / std::size_t(count)];
       const Eigen::Vector3d at = pose * Eigen::Vector3d(p.x_m, p.y_m, p.z_m);
       const Eigen::Vector3d ahead = at + 1e-6 * (pose.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz));
-      const Eigen::Vector2d pixel = project(view.coarse_camera, at), along = project(view.coarse_camera, ahead) - pixel;
+      const Eigen::Vector2d pixel = project(view.coarse_camera, at),
+                            along = project(view.coarse_camera, ahead) - pixel;
       const int x = int(std::lround(pixel.x())), y = int(std::lround(pixel.y()));
-      const int bin = int(std::lround(std::fmod(std::atan2(along.y(), along.x()) + 2 * pi, pi) * shape.bins / pi)) % shape.bins;
+      const int bin =
+          int(std::lround(std::fmod(std::atan2(along.y(), along.x()) + 2 * pi, pi) * shape.bins / pi)) %
+          shape.bins;
       const bool inside = x >= 0 && y >= 0 && x < shape.width && y < shape.height;
       sum += inside ? std::min(16, (tensor[shape.index(x, y, bin)] + 32) / 64) / 4.0 : 3.25;
     }
@@ -102,13 +112,16 @@ TEST(JointScan, EqualsTheBestSumOverDistances) {
       pose.translation_m += further * (pose * t.set.model.center_m);
       double sum = hits[i].rank;
       for (const Observation& other : t.others())
-        sum += t.rank_in(other, other.view.camera_from_world * inverse(t.views[0].view.camera_from_world) * pose);
+        sum += t.rank_in(other,
+                         other.view.camera_from_world * inverse(t.views[0].view.camera_from_world) * pose);
       lowest = std::min(lowest, sum / 3);
     }
     EXPECT_NEAR(judged[i].rank, lowest, 0.02) << "a point or two of sixty round the other way";
-    const Eigen::Vector3d before = hits[i].camera_from_object * t.set.model.center_m, after = judged[i].camera_from_object * t.set.model.center_m;
+    const Eigen::Vector3d before = hits[i].camera_from_object * t.set.model.center_m,
+                          after = judged[i].camera_from_object * t.set.model.center_m;
     EXPECT_LT(before.normalized().cross(after.normalized()).norm(), 1e-9) << "along its ray";
-    EXPECT_TRUE(judged[i].camera_from_object.rotation.coeffs() == hits[i].camera_from_object.rotation.coeffs());
+    EXPECT_TRUE(judged[i].camera_from_object.rotation.coeffs() ==
+                hits[i].camera_from_object.rotation.coeffs());
   }
 }
 
@@ -145,7 +158,8 @@ TEST(JointScan, BehindAnotherCameraItCountsAsChance) {
   SeenPart t(2, 0, random);
   t.views[1].view.camera_from_world = looking_at_origin({0, 0, 0.3});
   t.views[1].view.camera_from_world.translation_m.z() = -0.5;
-  const std::vector<ScanHit> judged = t.judged(std::vector{hit_at(t.views[0].view.camera_from_world * t.truth, 2)});
+  const std::vector<ScanHit> judged =
+      t.judged(std::vector{hit_at(t.views[0].view.camera_from_world * t.truth, 2)});
   const Se3 in_other = t.views[1].view.camera_from_world * t.truth;
   EXPECT_LT((in_other * t.set.model.center_m).z(), 0);
   EXPECT_NEAR(judged[0].rank, (2 + 3.25 * std::pow(0.5, 0.25)) / 2, 0.05);

@@ -22,7 +22,8 @@ PoseFeatures with_psi(double psi) {
 // Of a psi that makes one view's probability what is asked for.
 PoseFeatures with_probability(double p) {
   double low = 0, high = 1;
-  for (int i = 0; i < 60; ++i) (pose_probability(with_psi(0.5 * (low + high))) < p ? low : high) = 0.5 * (low + high);
+  for (int i = 0; i < 60; ++i)
+    (pose_probability(with_psi(0.5 * (low + high))) < p ? low : high) = 0.5 * (low + high);
   return with_psi(0.5 * (low + high));
 }
 
@@ -45,7 +46,8 @@ TEST(ProbabilityOverViews, GrowsWithViewsThatAgree) {
   EXPECT_LT(probability_over_views(views), 1e-3);
 }
 
-// Odds multiply, so the order of views does not matter, and the worst that one view can do is to say that it was hidden.
+// Odds multiply, so the order of views does not matter, and the worst that one view can do is to say that it
+// was hidden.
 TEST(ProbabilityOverViews, AHiddenViewCostsSoMuchAndNoMore) {
   const auto odds = [](const std::vector<PoseFeatures>& views) {
     const double p = probability_over_views(views);
@@ -63,7 +65,8 @@ TEST(ProbabilityOverViews, AViewThatDoesNotSeeItSaysNothing) {
   PoseFeatures few = fair, outside = fair;
   few.points = 5;
   outside.in_image = 0.1;
-  EXPECT_EQ(probability_over_views(std::vector{fair, few, fair, outside}), probability_over_views(std::vector{fair, fair}));
+  EXPECT_EQ(probability_over_views(std::vector{fair, few, fair, outside}),
+            probability_over_views(std::vector{fair, fair}));
   EXPECT_EQ(probability_over_views(std::vector{few, fair}), pose_probability(fair));
   EXPECT_EQ(probability_over_views(std::vector{few, outside}), 0);
   EXPECT_EQ(probability_over_views(std::vector<PoseFeatures>{}), 0);

@@ -110,23 +110,27 @@ TEST(DetectObjects, IsTheSameOnADevice) {
   const Detections cpu = t.detect(0, *make_cpu_backend(2)), device = t.detect(0, *make_vulkan_backend(0));
   ASSERT_EQ(cpu.detections.size(), device.detections.size());
   ASSERT_FALSE(cpu.detections.empty());
-  // The right one. Those below it are wrong, and a wrong pose may end in either of two optima that are as good to a thousandth.
+  // The right one. Those below it are wrong, and a wrong pose may end in either of two optima that are as
+  // good to a thousandth.
   const Detection &a = cpu.detections[0], &b = device.detections[0];
   EXPECT_LT(distance_between_m(a.world_from_object, b.world_from_object), 0.0005);
   EXPECT_LT(angle_between_rad(a.world_from_object, b.world_from_object), 0.005);
   EXPECT_NEAR(a.probability, b.probability, 0.01);
 }
 
-// What one view knows least, the distance, the others see: candidates are as exact as after registration in all views.
+// What one view knows least, the distance, the others see: candidates are as exact as after registration in
+// all views.
 TEST(FindCandidates, WithOtherViewsAreRightInAllOfThem) {
   const RenderedPart t("bearing_block", 3);
   const auto backend = make_cpu_backend(2);
   std::vector<Observation> views;
   for (std::size_t v = 0; v < 3; ++v)
-    views.push_back(observe_prepared(t.prepared(v, t.scene.views[v].camera_from_world, *backend), t.sets, *backend, t.options()));
+    views.push_back(observe_prepared(t.prepared(v, t.scene.views[v].camera_from_world, *backend), t.sets,
+                                     *backend, t.options()));
   const DetectOptions options = t.options().detect;
   const std::vector<Refined> alone = find_candidates(t.sets[0], views[0], *backend, options),
-                             helped = find_candidates(t.sets[0], views[0], std::span(views).subspan(1), *backend, options);
+                             helped = find_candidates(t.sets[0], views[0], std::span(views).subspan(1),
+                                                      *backend, options);
   ASSERT_FALSE(alone.empty());
   ASSERT_FALSE(helped.empty());
   EXPECT_EQ(alone[0].by_view.size(), 1u);

@@ -16,19 +16,22 @@ constexpr int width = 100, height = 70;
 std::vector<EdgePoint> random_edges(Random& random, int count) {
   std::vector<EdgePoint> edges;
   for (int i = 0; i < count; ++i)
-    edges.push_back({float(random.uniform(0, width - 1)), float(random.uniform(0, height - 1)), float(random.uniform(0, 3.14)),
-                     float(random.uniform(1, 100))});
+    edges.push_back({float(random.uniform(0, width - 1)), float(random.uniform(0, height - 1)),
+                     float(random.uniform(0, 3.14)), float(random.uniform(1, 100))});
   return edges;
 }
 
-std::pair<int, int> block_of(const EdgePoint& edge, int block_px) { return {int(edge.x_px) / block_px, int(edge.y_px) / block_px}; }
+std::pair<int, int> block_of(const EdgePoint& edge, int block_px) {
+  return {int(edge.x_px) / block_px, int(edge.y_px) / block_px};
+}
 
 auto fields(const EdgePoint& e) { return std::tuple(e.x_px, e.y_px, e.theta_rad, e.strength); }
 
 TEST(SalientEdges, AreTheStrongestOfEveryBlock) {
   Random random = test_random();
   const SalientOptions options{0, 0.05, 32};
-  const std::vector<EdgePoint> edges = random_edges(random, 2000), salient = salient_edges(edges, width, height, options);
+  const std::vector<EdgePoint> edges = random_edges(random, 2000),
+                               salient = salient_edges(edges, width, height, options);
   std::map<std::pair<int, int>, std::vector<float>> all, kept;
   for (const EdgePoint& edge : edges) all[block_of(edge, 32)].push_back(edge.strength);
   for (const EdgePoint& edge : salient) kept[block_of(edge, 32)].push_back(edge.strength);
@@ -49,7 +52,8 @@ TEST(SalientEdges, LeaveOutTheFaintWhateverTheExposure) {
     std::vector<EdgePoint> exposed = edges;
     for (EdgePoint& edge : exposed) edge.strength *= exposure;
     const std::vector<EdgePoint> salient = salient_edges(exposed, width, height, {0.1, 1, 48});
-    const auto strong = std::ranges::count_if(exposed, [&](const EdgePoint& e) { return e.strength > 3 * exposure; });
+    const auto strong =
+        std::ranges::count_if(exposed, [&](const EdgePoint& e) { return e.strength > 3 * exposure; });
     EXPECT_EQ(std::ptrdiff_t(salient.size()), strong);
     for (const EdgePoint& edge : salient) EXPECT_FLOAT_EQ(edge.strength, 40 * exposure);
   }

@@ -1,8 +1,9 @@
-// candidate_map: its reference against distances in double between the points as given, every path against the reference.
+// candidate_map: its reference against distances in double between the points as given, every path against
+// the reference.
 #include "kernels/candidate_map.h"
 
-#include "kernels/error.h"
 #include "kernels/cases/chamfer_cases.h"
+#include "kernels/error.h"
 #include "tests/kernels/paths.h"
 
 namespace edgescout {
@@ -10,7 +11,8 @@ namespace {
 
 TEST(CandidateMap, StepsAreTheRoundedRootOfEverySquare) {
   for (std::uint32_t d2 = 0; d2 <= CANDIDATE_MAP_REACH2; ++d2)
-    ASSERT_EQ(chamfer_steps(d2 << 16 | 7), static_cast<std::uint32_t>(std::lround(std::sqrt(double(d2))))) << d2;
+    ASSERT_EQ(chamfer_steps(d2 << 16 | 7), static_cast<std::uint32_t>(std::lround(std::sqrt(double(d2)))))
+        << d2;
   EXPECT_EQ(chamfer_steps(CANDIDATE_MAP_EMPTY), CHAMFER_CAP);
   EXPECT_EQ(std::lround(std::sqrt(double(CANDIDATE_MAP_REACH2 + 1))), long(CHAMFER_CAP));
 }
@@ -50,12 +52,14 @@ TEST(CandidateMap, HoldsTheDistanceToTheNearestEdgePoint) {
     const test::ChamferScene scene = test::random_scene(rng, {70, 50, 9, 40, 0, 0, 1});
     for (const CandidateMap& map : scene.maps)
       for (std::size_t i = 0; i < map.window.size(); ++i) {
-        const double x = map.window.x0 + int(i % map.window.width), y = map.window.y0 + int(i / map.window.width);
+        const double x = map.window.x0 + int(i % map.window.width),
+                     y = map.window.y0 + int(i / map.window.width);
         double least = 1e9;
         const auto distance_to = [&](const MapEdge& e) { return std::hypot(e.x_px - x, e.y_px - y); };
         for (std::uint32_t e = 0; e < map.edge_count; ++e) {
           const MapEdge& edge = scene.edges[map.first_edge + e];
-          if (edge.x_px >= -0.5 && edge.x_px < 69.5 && edge.y_px >= -0.5 && edge.y_px < 49.5) least = std::min(least, distance_to(edge));
+          if (edge.x_px >= -0.5 && edge.x_px < 69.5 && edge.y_px >= -0.5 && edge.y_px < 49.5)
+            least = std::min(least, distance_to(edge));
         }
         const std::uint32_t word = scene.nearest[map.first_pixel + i];
         if (word == CANDIDATE_MAP_EMPTY) {
@@ -77,8 +81,11 @@ class CandidateMapPaths : public test::PathTest {};
 
 TEST_P(CandidateMapPaths, EqualsTheReference) {
   std::mt19937 rng = test::test_rng();
-  for (const test::SceneSize& size : std::vector<test::SceneSize>{
-           {1, 1, 2, 3, 0, 0, 1}, {7, 90, 5, 20, 0, 0, 1}, {120, 80, 40, 90, 0, 0, 1}, {60, 60, 3, 700, 0, 0, 1}, {9, 9, 0, 0, 0, 0, 1}}) {
+  for (const test::SceneSize& size : std::vector<test::SceneSize>{{1, 1, 2, 3, 0, 0, 1},
+                                                                  {7, 90, 5, 20, 0, 0, 1},
+                                                                  {120, 80, 40, 90, 0, 0, 1},
+                                                                  {60, 60, 3, 700, 0, 0, 1},
+                                                                  {9, 9, 0, 0, 0, 0, 1}}) {
     SCOPED_TRACE(std::to_string(size.width) + "x" + std::to_string(size.height));
     const test::ChamferScene scene = test::random_scene(rng, size);
     std::vector<std::uint32_t> found(scene.nearest.size(), 1);
@@ -91,7 +98,8 @@ TEST_P(CandidateMapPaths, EqualsTheReference) {
 TEST_P(CandidateMapPaths, ManyMapsAndEdgesFarAway) {
   const std::vector<MapEdge> edges{{3, 3, 1}, {1e30f, 3, 1}, {3, -1e30f, 1}, {NAN, 3, 1}, {5.25f, 2.5f, 1}};
   std::vector<CandidateMap> maps;
-  for (std::uint32_t m = 0; m < 70001; ++m) maps.push_back({{int(m % 7), int(m % 5), 3, 2}, 6 * m, m % 2, 3 + m % 3});
+  for (std::uint32_t m = 0; m < 70001; ++m)
+    maps.push_back({{int(m % 7), int(m % 5), 3, 2}, 6 * m, m % 2, 3 + m % 3});
   for (CandidateMap& map : maps) map.edge_count = std::min(map.edge_count, 5 - map.first_edge);
   std::vector<std::uint32_t> found(6 * maps.size(), 1), expected(found.size(), 2);
   tested->candidate_map(edges, maps, 12, 12, found);
@@ -102,12 +110,14 @@ TEST_P(CandidateMapPaths, ManyMapsAndEdgesFarAway) {
 TEST_P(CandidateMapPaths, BrokenMapsAreOurBugs) {
   const std::vector<MapEdge> edges(3);
   std::vector<std::uint32_t> nearest(12);
-  const auto draw = [&](const CandidateMap& map, int width) { tested->candidate_map(edges, {&map, 1}, width, 8, nearest); };
+  const auto draw = [&](const CandidateMap& map, int width) {
+    tested->candidate_map(edges, {&map, 1}, width, 8, nearest);
+  };
   EXPECT_NO_THROW(draw({{0, 0, 4, 3}, 0, 0, 3}, 8));
-  EXPECT_THROW(draw({{0, 0, 4, 3}, 1, 0, 3}, 8), LogicError);          // pixels beyond the list
-  EXPECT_THROW(draw({{0, 0, 4, 3}, 0, 1, 3}, 8), LogicError);          // edge points beyond the list
-  EXPECT_THROW(draw({{1 << 30, 0, 4, 3}, 0, 0, 3}, 8), LogicError);    // a window nowhere near
-  EXPECT_THROW(draw({{0, 0, 4, 3}, 0, 0, 3}, 0), LogicError);          // no image
+  EXPECT_THROW(draw({{0, 0, 4, 3}, 1, 0, 3}, 8), LogicError);        // pixels beyond the list
+  EXPECT_THROW(draw({{0, 0, 4, 3}, 0, 1, 3}, 8), LogicError);        // edge points beyond the list
+  EXPECT_THROW(draw({{1 << 30, 0, 4, 3}, 0, 0, 3}, 8), LogicError);  // a window nowhere near
+  EXPECT_THROW(draw({{0, 0, 4, 3}, 0, 0, 3}, 0), LogicError);        // no image
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, CandidateMapPaths, test::all_paths, test::param_name);

@@ -1,11 +1,13 @@
 // combination_chamfer on every path: integer cells, equal bit for bit (combination_chamfer.h).
-#include "kernels/error.h"
 #include "kernels/cases/chamfer_cases.h"
+#include "kernels/error.h"
 #include "tests/kernels/paths.h"
 
 namespace edgescout {
 
-static bool operator==(const ChamferCell& a, const ChamferCell& b) { return a.sum == b.sum && a.seen == b.seen && a.fresh == b.fresh; }
+static bool operator==(const ChamferCell& a, const ChamferCell& b) {
+  return a.sum == b.sum && a.seen == b.seen && a.fresh == b.fresh;
+}
 static std::ostream& operator<<(std::ostream& out, const ChamferCell& cell) {
   return out << "sum " << cell.sum << " seen " << cell.seen << " fresh " << cell.fresh;
 }
@@ -16,7 +18,8 @@ class CombinationChamferPaths : public test::PathTest {
  protected:
   void expect_equal(const test::ChamferScene& scene, const ChamferOptions& options) {
     const ChamferHandle found = tested->combination_chamfer(scene.view(), scene.combinations(), options);
-    const ChamferHandle expected = reference->combination_chamfer(scene.view(), scene.combinations(), options);
+    const ChamferHandle expected =
+        reference->combination_chamfer(scene.view(), scene.combinations(), options);
     EXPECT_EQ(found->particles, scene.view().particles());
     EXPECT_EQ(found->realizations, scene.realizations);
     EXPECT_EQ(found->cells(), expected->cells());
@@ -33,7 +36,8 @@ TEST_P(CombinationChamferPaths, EqualsTheReference) {
                                                                   {30, 30, 0, 0, 3, 10, 5},
                                                                   {30, 30, 5, 10, 0, 0, 5},
                                                                   {30, 30, 5, 10, 3, 10, 0}}) {
-    SCOPED_TRACE(std::to_string(size.candidates) + " candidates, " + std::to_string(size.realizations) + " realizations");
+    SCOPED_TRACE(std::to_string(size.candidates) + " candidates, " + std::to_string(size.realizations) +
+                 " realizations");
     const test::ChamferScene scene = test::random_scene(rng, size);
     expect_equal(scene, {0.01f, 255.0f / 16});
     expect_equal(scene, {0.1f, 5});

@@ -1,14 +1,17 @@
-// combination_chamfer: its reference against realizations that are really drawn, z-buffer, edge map and distance transform.
+// combination_chamfer: its reference against realizations that are really drawn, z-buffer, edge map and
+// distance transform.
 //
 // They may differ where and because
-//   - the drawn edge map has its edges at pixel centres, at most half a pixel's diagonal from where they are; the kernel rounds
+//   - the drawn edge map has its edges at pixel centres, at most half a pixel's diagonal from where they are;
+//   the kernel rounds
 //     positions and distances to 1/16 px: both together `resolution_px`;
-//   - a member's nearest edge point may be hidden and a farther one show: the kernel then knows no edge of that member, the drawn
+//   - a member's nearest edge point may be hidden and a farther one show: the kernel then knows no edge of
+//   that member, the drawn
 //     map does. The kernel's distance is the larger one.
 #include "kernels/combination_chamfer.h"
 
-#include "kernels/error.h"
 #include "kernels/cases/chamfer_cases.h"
+#include "kernels/error.h"
 #include "tests/kernels/paths.h"
 
 namespace edgescout {
@@ -50,7 +53,8 @@ Boxes box_scene(std::mt19937& rng, int count, bool single_points) {
 // A realization as a renderer would show it.
 class Drawn {
  public:
-  Drawn(const Boxes& from, std::size_t realization) : depth_(width * height, 1e9), edge_(width * height, false) {
+  Drawn(const Boxes& from, std::size_t realization)
+      : depth_(width * height, 1e9), edge_(width * height, false) {
     const CombinationBits combinations = from.scene.combinations();
     for (std::size_t c = 0; c < from.boxes.size(); ++c)
       if (combinations.has(realization, c)) members_.push_back(from.boxes[c]);
@@ -65,14 +69,16 @@ class Drawn {
   double distance_px(double u, double v) const {
     double least = options.cap_px;
     for (int i = 0; i < width * height; ++i)
-      if (edge_[i]) least = std::min(least, std::hypot(i % width - std::lround(u), i / width - std::lround(v)));
+      if (edge_[i])
+        least = std::min(least, std::hypot(i % width - std::lround(u), i / width - std::lround(v)));
     return least;
   }
 
  private:
   static void draw_surface(std::vector<double>& depth, const test::Box& box) {
     for (int i = 0; i < width * height; ++i)
-      if (const auto z = test::box_depth(box, camera, i % width, i / width)) depth[i] = std::min(depth[i], *z);
+      if (const auto z = test::box_depth(box, camera, i % width, i / width))
+        depth[i] = std::min(depth[i], *z);
   }
   // Its own faces decide a convex body's edges exactly (box_edges), the z-buffer what the others hide.
   void draw_edges(std::size_t member) {
@@ -91,7 +97,8 @@ class Drawn {
   std::vector<bool> edge_;
 };
 
-// Whether a member's nearest edge point at the place is hidden by another: where the kernel may know less than a drawn map.
+// Whether a member's nearest edge point at the place is hidden by another: where the kernel may know less
+// than a drawn map.
 bool nearest_is_hidden(const Boxes& from, std::size_t realization, double u, double v) {
   const test::ChamferScene& scene = from.scene;
   const CombinationBits combinations = scene.combinations();
@@ -129,7 +136,8 @@ TEST(CombinationChamfer, EveryPointAgreesWithTheDrawnRealization) {
           continue;
         }
         ++compared;
-        const double found = mean_px(cell, options.cap_px), expected = drawn.distance_px(point.x_px, point.y_px);
+        const double found = mean_px(cell, options.cap_px),
+                     expected = drawn.distance_px(point.x_px, point.y_px);
         EXPECT_GE(found, expected - resolution_px);
         if (nearest_is_hidden(made, j, point.x_px, point.y_px)) {
           ++hidden_nearest;
@@ -140,8 +148,8 @@ TEST(CombinationChamfer, EveryPointAgreesWithTheDrawnRealization) {
       }
     }
   }
-  std::printf("%d points compared, %d hidden, %d with a hidden nearest edge, %d of those too far\n", compared, hidden, hidden_nearest,
-              knows_less);
+  std::printf("%d points compared, %d hidden, %d with a hidden nearest edge, %d of those too far\n", compared,
+              hidden, hidden_nearest, knows_less);
   EXPECT_GT(compared, 20000);
   EXPECT_GT(hidden, 1000);
   EXPECT_GT(hidden_nearest, 500);
@@ -197,7 +205,8 @@ TEST(CombinationChamfer, NothingSeenOrNoMemberGivesTheCap) {
       EXPECT_EQ(cells[i * m + j].fresh, 0);
       EXPECT_EQ(mean_px(cells[i * m + j], short_cap.cap_px), 4);
     }
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(mean_px(cells[i * m], short_cap.cap_px), 4);  // the empty realization
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(mean_px(cells[i * m], short_cap.cap_px), 4);  // the empty realization
   for (const ChamferCell& cell : cells) EXPECT_LE(mean_px(cell, short_cap.cap_px), 4);
 }
 

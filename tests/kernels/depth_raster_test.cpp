@@ -107,7 +107,9 @@ struct Case {
   float size_m;
 };
 
-void PrintTo(const Case& c, std::ostream* out) { *out << c.width << "x" << c.height << ", " << c.triangles << " triangles of " << c.size_m << " m"; }
+void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.width << "x" << c.height << ", " << c.triangles << " triangles of " << c.size_m << " m";
+}
 
 class DepthRaster : public testing::TestWithParam<Case> {};
 

@@ -1,6 +1,7 @@
-// mutual_information on every path, on cells that combination_chamfer made there, against the reference (mutual_information.h).
-#include "kernels/error.h"
+// mutual_information on every path, on cells that combination_chamfer made there, against the reference
+// (mutual_information.h).
 #include "kernels/cases/chamfer_cases.h"
+#include "kernels/error.h"
 #include "tests/kernels/paths.h"
 
 namespace edgescout {
@@ -10,7 +11,8 @@ std::vector<ParticleBelief> random_beliefs(std::mt19937& rng, std::size_t count)
   std::uniform_real_distribution<double> log_weight(-4, 2), upsilon(0, 200);
   std::vector<ParticleBelief> beliefs;
   for (std::size_t i = 0; i < count; ++i)
-    beliefs.push_back({i % 7 == 6 ? -INFINITY : log_weight(rng), std::uint32_t(i % 4 == 0 ? 0 : rng() % 50), 100, upsilon(rng)});
+    beliefs.push_back({i % 7 == 6 ? -INFINITY : log_weight(rng), std::uint32_t(i % 4 == 0 ? 0 : rng() % 50),
+                       100, upsilon(rng)});
   return beliefs;
 }
 
@@ -23,10 +25,11 @@ class MutualInformationPaths : public test::PathTest {
     const auto cells = own->cells();  // those of the reference, says combination_chamfer's own test
     const double tolerance = tested->is_gpu() ? 1e-4 : 1e-9;
     for (const InformationOptions& options : all_options) {
-      const double expected =
-          mutual_information_reference({own->particles, own->realizations, chamfer.cap_px, cells}, beliefs, options);
+      const double expected = mutual_information_reference(
+          {own->particles, own->realizations, chamfer.cap_px, cells}, beliefs, options);
       const double found = tested->mutual_information(*own, beliefs, options);
-      EXPECT_NEAR(found, expected, tolerance * (1 + expected)) << "scale " << options.scale_px2 << (options.literal ? ", literal" : "");
+      EXPECT_NEAR(found, expected, tolerance * (1 + expected))
+          << "scale " << options.scale_px2 << (options.literal ? ", literal" : "");
       EXPECT_GE(found, 0);
       worst = std::max(worst, std::abs(found - expected) / (1 + expected));
       largest = std::max(largest, expected);
@@ -37,11 +40,14 @@ class MutualInformationPaths : public test::PathTest {
 
 TEST_P(MutualInformationPaths, AgreesWithTheReference) {
   std::mt19937 rng = test::test_rng();
-  for (const test::SceneSize& size : std::vector<test::SceneSize>{
-           {30, 20, 3, 9, 1, 12, 1}, {40, 30, 9, 30, 6, 20, 5}, {60, 60, 20, 40, 33, 30, 257}, {60, 60, 40, 40, 200, 30, 1000}}) {
+  for (const test::SceneSize& size : std::vector<test::SceneSize>{{30, 20, 3, 9, 1, 12, 1},
+                                                                  {40, 30, 9, 30, 6, 20, 5},
+                                                                  {60, 60, 20, 40, 33, 30, 257},
+                                                                  {60, 60, 40, 40, 200, 30, 1000}}) {
     const test::ChamferScene scene = test::random_scene(rng, size);
     const std::vector<ParticleBelief> beliefs = random_beliefs(rng, scene.view().particles());
-    expect_equal(scene, beliefs, {{0.5, false}, {8, false}, {300, false}, {0.5, true}, {8, true}, {300, true}});
+    expect_equal(scene, beliefs,
+                 {{0.5, false}, {8, false}, {300, false}, {0.5, true}, {8, true}, {300, true}});
   }
   std::printf("differ by %.1e at most; up to %.3f nats\n", worst, largest);
   EXPECT_GT(largest, 0.3);
@@ -50,7 +56,8 @@ TEST_P(MutualInformationPaths, AgreesWithTheReference) {
 // The most particles there may be.
 TEST_P(MutualInformationPaths, ManyParticles) {
   std::mt19937 rng = test::test_rng();
-  const test::ChamferScene scene = test::random_scene(rng, {60, 60, 20, 40, int(INFORMATION_MAX_PARTICLES), 2, 9});
+  const test::ChamferScene scene =
+      test::random_scene(rng, {60, 60, 20, 40, int(INFORMATION_MAX_PARTICLES), 2, 9});
   expect_equal(scene, random_beliefs(rng, INFORMATION_MAX_PARTICLES), {{}});
 }
 
@@ -68,9 +75,12 @@ TEST_P(MutualInformationPaths, CellsOfAnotherBackendAreOurBug) {
   std::mt19937 rng = test::test_rng();
   const test::ChamferScene scene = test::random_scene(rng, {40, 30, 9, 30, 2, 20, 5});
   const std::vector<ParticleBelief> beliefs(2);
-  const auto other = GetParam() == test::Path::cpu ? test::make_path(test::Path::vulkan) : make_cpu_backend(1);
+  const auto other =
+      GetParam() == test::Path::cpu ? test::make_path(test::Path::vulkan) : make_cpu_backend(1);
   if (other) {
-    EXPECT_THROW(tested->mutual_information(*other->combination_chamfer(scene.view(), scene.combinations(), {}), beliefs, {}), LogicError);
+    EXPECT_THROW(tested->mutual_information(
+                     *other->combination_chamfer(scene.view(), scene.combinations(), {}), beliefs, {}),
+                 LogicError);
   }
   const ChamferHandle own = tested->combination_chamfer(scene.view(), scene.combinations(), {});
   EXPECT_NO_THROW(tested->mutual_information(*own, beliefs, {}));

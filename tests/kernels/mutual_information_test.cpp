@@ -1,5 +1,5 @@
-// mutual_information: its reference against sums of plain exponentials in long double, which reach down to exp(-11000); and what
-// holds of any mutual information, on both processor paths.
+// mutual_information: its reference against sums of plain exponentials in long double, which reach down to
+// exp(-11000); and what holds of any mutual information, on both processor paths.
 #include "kernels/mutual_information.h"
 
 #include <functional>
@@ -25,7 +25,8 @@ ChamferCell cell_of(double mu_px, int seen, int fresh) {
 }
 
 // Means in [low, high] px; now and then nothing is seen.
-Table random_table(std::mt19937& rng, std::uint32_t particles, std::uint32_t realizations, double low_px, double high_px) {
+Table random_table(std::mt19937& rng, std::uint32_t particles, std::uint32_t realizations, double low_px,
+                   double high_px) {
   std::uniform_real_distribution<double> mu(low_px, high_px), log_weight(-3, 3), upsilon(0, 20);
   std::uniform_int_distribution<int> seen(0, 60);
   Table table{particles, realizations, {}, {}};
@@ -49,9 +50,11 @@ double direct(const Table& table, const InformationOptions& options) {
     long double row = 0;
     for (std::size_t j = 0; j < m; ++j) {
       const ChamferCell& cell = table.cells[i * m + j];
-      const long double mu = cell.seen > 0 ? (long double)(cell.sum) / cell.seen / 16 : (long double)(table.cap_px);
+      const long double mu =
+          cell.seen > 0 ? (long double)(cell.sum) / cell.seen / 16 : (long double)(table.cap_px);
       const long double points = b.already_seen + cell.fresh > 0 ? b.already_seen + cell.fresh : 0.5L;
-      l[i * m + j] = points / b.total * std::exp(-(mu * mu + (options.literal ? b.upsilon_px2 : 0)) / options.scale_px2);
+      l[i * m + j] =
+          points / b.total * std::exp(-(mu * mu + (options.literal ? b.upsilon_px2 : 0)) / options.scale_px2);
       row += l[i * m + j];
     }
     for (std::size_t j = 0; j < m; ++j) {
@@ -62,7 +65,8 @@ double direct(const Table& table, const InformationOptions& options) {
   long double information = 0;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < m; ++j)
-      if (l[i * m + j] > 0 && w[i] > 0) information += w[i] / weights * l[i * m + j] * std::log(l[i * m + j] / p[j]);
+      if (l[i * m + j] > 0 && w[i] > 0)
+        information += w[i] / weights * l[i * m + j] * std::log(l[i * m + j] / p[j]);
   return double(information);
 }
 
@@ -79,10 +83,12 @@ TEST_P(MutualInformation, IsTheSumOfTheEquation) {
   std::mt19937 rng = test::test_rng();
   for (const double scale : {0.5, 8.0, 200.0})
     for (const bool literal : {false, true})
-      for (const auto& [particles, realizations] : std::vector<std::pair<int, int>>{{1, 1}, {1, 9}, {7, 1}, {5, 3}, {40, 70}}) {
+      for (const auto& [particles, realizations] :
+           std::vector<std::pair<int, int>>{{1, 1}, {1, 9}, {7, 1}, {5, 3}, {40, 70}}) {
         const Table table = random_table(rng, particles, realizations, 0, 12);
         const double expected = direct(table, {scale, literal});
-        EXPECT_NEAR(of(table, {scale, literal}), expected, 1e-9 * (1 + expected)) << particles << " x " << realizations;
+        EXPECT_NEAR(of(table, {scale, literal}), expected, 1e-9 * (1 + expected))
+            << particles << " x " << realizations;
       }
 }
 
@@ -102,7 +108,8 @@ TEST_P(MutualInformation, StaysBetweenZeroAndBothEntropies) {
 }
 
 TEST_P(MutualInformation, ReachesTheBoundWhenEveryParticleHasItsOwnRealization) {
-  Table table{8, 8, std::vector<ChamferCell>(64, cell_of(15, 50, 10)), std::vector<ParticleBelief>(8, {0, 20, 100, 0})};
+  Table table{8, 8, std::vector<ChamferCell>(64, cell_of(15, 50, 10)),
+              std::vector<ParticleBelief>(8, {0, 20, 100, 0})};
   for (std::uint32_t i = 0; i < 8; ++i) table.at(i, (3 * i) % 8) = cell_of(1, 50, 10);
   EXPECT_NEAR(of(table, {2, false}), std::log(8.0), 1e-9);
 }

@@ -178,14 +178,16 @@ TEST(PushConstants, CombinationChamfer) {
   for (const std::span<const std::uint32_t> spirv :
        {std::span<const std::uint32_t>(chamfer_masks_spv), std::span<const std::uint32_t>(chamfer_rows_spv),
         std::span<const std::uint32_t>(chamfer_sums_spv)})
-    expect_members<Push>(spirv, {MEMBER(count), MEMBER(words), MEMBER(first_word), MEMBER(column_words), MEMBER(realizations), MEMBER(cap)});
+    expect_members<Push>(spirv, {MEMBER(count), MEMBER(words), MEMBER(first_word), MEMBER(column_words),
+                                 MEMBER(realizations), MEMBER(cap)});
 }
 
 TEST(PushConstants, MutualInformation) {
   using Push = InformationPush;
-  for (const std::span<const std::uint32_t> spirv :
-       {std::span<const std::uint32_t>(information_rows_spv), std::span<const std::uint32_t>(information_columns_spv)})
-    expect_members<Push>(spirv, {MEMBER(particles), MEMBER(realizations), MEMBER(cap_px), MEMBER(inverse_scale)});
+  for (const std::span<const std::uint32_t> spirv : {std::span<const std::uint32_t>(information_rows_spv),
+                                                     std::span<const std::uint32_t>(information_columns_spv)})
+    expect_members<Push>(spirv,
+                         {MEMBER(particles), MEMBER(realizations), MEMBER(cap_px), MEMBER(inverse_scale)});
 }
 
 TEST(PushConstants, EdgeGradient) {

@@ -158,7 +158,8 @@ TEST_F(VulkanRuntime, KernelsAreTimedByName) {
 TEST_F(VulkanRuntime, CopiesWholeBuffers) {
   std::vector<std::uint32_t> values(1000);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::uint32_t>(7 * i);
-  const Buffer<std::uint32_t> from(*device, values.size(), "from"), to(*device, values.size() + 1, "to"), small(*device, 10, "small");
+  const Buffer<std::uint32_t> from(*device, values.size(), "from"), to(*device, values.size() + 1, "to"),
+      small(*device, 10, "small");
   Batch batch(*device, "copy");
   batch.upload<std::uint32_t>(from, values);
   batch.fill(to, 9);

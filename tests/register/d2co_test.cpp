@@ -51,7 +51,8 @@ TEST_P(D2co, RecoversAPartInThreeViews) {
 }
 
 // Across the line of sight one view is enough. Depth and tilt it knows less well: the tensor's cost has
-// minima beside the truth that are as deep as the truth's, and there the solver may rest, but no higher than 2 %.
+// minima beside the truth that are as deep as the truth's, and there the solver may rest, but no higher than
+// 2 %.
 TEST_P(D2co, RecoversAPartInOneView) {
   Random random = test_random();
   for (const char* part : {"l_bracket", "bearing_block", "u_channel"}) {
@@ -122,7 +123,8 @@ TEST_P(D2co, RegistersEveryHypothesisOnItsOwn) {
   Random random = test_random();
   PartScene scene("bearing_block", 2, random, *backend);
   const std::vector<EdgeModel> models{part_model("hex_nut"), scene.model};
-  Hypothesis behind{1, inverse(scene.views[0].camera_from_world) * Se3{Eigen::Quaterniond::Identity(), {0, 0, -3}}};
+  Hypothesis behind{
+      1, inverse(scene.views[0].camera_from_world) * Se3{Eigen::Quaterniond::Identity(), {0, 0, -3}}};
   const std::vector<Hypothesis> all{
       {0, scene.start.world_from_object}, {1, scene.start.world_from_object}, behind};
   const std::vector<Registration> found = GetParam().solve(models, all, scene.views, *backend, {});

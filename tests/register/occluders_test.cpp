@@ -18,7 +18,8 @@ double first_hit_m(const Mesh& mesh, const Se3& camera_from_object, const Eigen:
   double nearest = INFINITY;
   for (const auto& corner : mesh.triangles) {
     Eigen::Matrix3d corners;
-    for (int c = 0; c < 3; ++c) corners.col(c) = camera_from_object * mesh.vertices_m[std::size_t(corner[std::size_t(c)])];
+    for (int c = 0; c < 3; ++c)
+      corners.col(c) = camera_from_object * mesh.vertices_m[std::size_t(corner[std::size_t(c)])];
     // ray * z = corners * barycentric, barycentric summing to one.
     const Eigen::Vector3d weights = corners.inverse() * ray;
     if (weights.minCoeff() >= 0 && weights.sum() > 0) nearest = std::min(nearest, 1 / weights.sum());
@@ -30,7 +31,8 @@ Eigen::Vector3d middle_of_largest_triangle(const Mesh& mesh) {
   double largest = 0;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const auto& [i, j, k] : mesh.triangles) {
-    const Eigen::Vector3d a = mesh.vertices_m[std::size_t(i)], b = mesh.vertices_m[std::size_t(j)], c = mesh.vertices_m[std::size_t(k)];
+    const Eigen::Vector3d a = mesh.vertices_m[std::size_t(i)], b = mesh.vertices_m[std::size_t(j)],
+                          c = mesh.vertices_m[std::size_t(k)];
     const double area = (b - a).cross(c - a).norm();
     if (area > largest) largest = area, middle = (a + b + c) / 3;
   }
@@ -57,7 +59,8 @@ TEST(Occluders, HideWhatRaysMeetLater) {
     for (int y = -1; y <= 1; ++y)
       for (int x = -1; x <= 1; ++x) {
         const Eigen::Vector3d ray = ray_through(occluders->camera, pixel + Eigen::Vector2d(x, y));
-        const double z = first_hit_m(model.mesh, known, ray), beside = first_hit_m(model.mesh, known, ray + Eigen::Vector3d(1e-6, 1e-6, 0));
+        const double z = first_hit_m(model.mesh, known, ray),
+                     beside = first_hit_m(model.mesh, known, ray + Eigen::Vector3d(1e-6, 1e-6, 0));
         edge_on |= std::abs(z - beside) > 1e-4 || std::isinf(z) != std::isinf(beside);
         farthest = std::max(farthest, z);
       }
@@ -88,7 +91,8 @@ TEST(Occluders, HideNothingOutsideTheImageOrBehindTheCamera) {
   EXPECT_EQ(make_occluders({&model, 1}, {}, view, *backend), nullptr);
 }
 
-// A bracket, half of which a block covers that stands before it: the edges an ideal detector would find of both.
+// A bracket, half of which a block covers that stands before it: the edges an ideal detector would find of
+// both.
 struct CoveredPart {
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
   std::vector<EdgeModel> models{part_model("l_bracket"), part_model("bearing_block")};
@@ -100,7 +104,8 @@ struct CoveredPart {
     covered = {0, {random.rotation(), {0, 0, 0.42}}};
     cover = {1, {random.rotation(), {0.03, 0.01, 0.3}}};
     const EdgeModel dense = part_model("l_bracket", 2e-4);
-    std::vector<EdgePoint> edges = ideal_edges(part_model("bearing_block", 2e-4), scene_camera(), cover.world_from_object, *backend);
+    std::vector<EdgePoint> edges =
+        ideal_edges(part_model("bearing_block", 2e-4), scene_camera(), cover.world_from_object, *backend);
     const std::vector<ModelPoint> own = visible_edges(dense, {&covered.world_from_object, 1}, *backend)[0];
     const Camera camera = scene_camera();
     const Intrinsics k = intrinsics_of(camera);
@@ -119,7 +124,9 @@ struct CoveredPart {
     view.view = backend->make_view(edges, camera.width, camera.height, {}, k, {});
   }
   void know_the_cover() { view.occluders = make_occluders(models, {&cover, 1}, view, *backend); }
-  PoseFeatures features_of(const Hypothesis& pose) const { return pose_features(models, {&pose, 1}, {&view, 1}, *backend, {})[0]; }
+  PoseFeatures features_of(const Hypothesis& pose) const {
+    return pose_features(models, {&pose, 1}, {&view, 1}, *backend, {})[0];
+  }
   Registration registered() const { return register_poses(models, {&covered, 1}, {&view, 1}, *backend)[0]; }
 };
 
@@ -165,7 +172,8 @@ TEST(Occluders, CeresLeavesOutTheSame) {
   Random random = test_random();
   for (CoveredPart& t : half_covered_parts(random)) {
     t.know_the_cover();
-    const Registration batched = t.registered(), ceres = register_poses_ceres(t.models, {&t.covered, 1}, {&t.view, 1}, *t.backend)[0];
+    const Registration batched = t.registered(),
+                       ceres = register_poses_ceres(t.models, {&t.covered, 1}, {&t.view, 1}, *t.backend)[0];
     EXPECT_NEAR(ceres.points, batched.points, 0.02 * batched.points);
     EXPECT_NEAR(ceres.mean_px, batched.mean_px, 0.05);
   }
@@ -177,7 +185,9 @@ TEST(Occluders, AKnownObjectDoesNotHideItself) {
   const PoseFeatures alone = t.features_of(t.cover);
   t.know_the_cover();
   const PoseFeatures known = t.features_of(t.cover);
-  EXPECT_GT(known.points, 0.99 * alone.points);  // but for a few that it does hide, which visible_edges lets pass near contours
+  EXPECT_GT(
+      known.points,
+      0.99 * alone.points);  // but for a few that it does hide, which visible_edges lets pass near contours
   EXPECT_NEAR(known.mean_px, alone.mean_px, 0.01);
 }
 

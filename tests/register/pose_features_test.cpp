@@ -13,19 +13,24 @@ TEST(PoseFeatures, OfAllViewsAreTheMeansOverTheirPoints) {
   Random random = test_random();
   const auto backend = make_reference_backend();
   const PartScene scene("l_bracket", 3, random, *backend);
-  const std::vector<Hypothesis> poses{{0, scene.truth}, scene.start, {0, {Eigen::Quaterniond::Identity(), {50, 0, 0}}}};
+  const std::vector<Hypothesis> poses{
+      {0, scene.truth}, scene.start, {0, {Eigen::Quaterniond::Identity(), {50, 0, 0}}}};
   const std::vector<EdgeModel> models{scene.model};
   const PoseScoreOptions options;
   const std::vector<PoseFeatures> all = pose_features(models, poses, scene.views, *backend, options);
-  const std::vector<PoseFeatures> by_view = pose_features_by_view(models, poses, scene.views, *backend, options);
+  const std::vector<PoseFeatures> by_view =
+      pose_features_by_view(models, poses, scene.views, *backend, options);
   ASSERT_EQ(by_view.size(), 9u);
   for (std::size_t p = 0; p < 2; ++p) {
     double points = 0, mean = 0, matched = 0, visible = 0, length = 0;
     for (std::size_t v = 0; v < 3; ++v) {
-      const PoseFeatures alone = pose_features(models, poses, std::span(scene.views).subspan(v, 1), *backend, options)[p], &f = by_view[3 * p + v];
+      const PoseFeatures alone = pose_features(models, poses, std::span(scene.views).subspan(v, 1), *backend,
+                                               options)[p],
+                         &f = by_view[3 * p + v];
       EXPECT_EQ(f.points, alone.points);
       EXPECT_DOUBLE_EQ(f.mean_px, alone.mean_px);
-      points += f.points, mean += f.points * f.mean_px, matched += f.points * f.matched, visible += f.visible, length += f.length_px;
+      points += f.points, mean += f.points * f.mean_px, matched += f.points * f.matched, visible += f.visible,
+          length += f.length_px;
     }
     EXPECT_GT(points, 100);
     EXPECT_DOUBLE_EQ(all[p].points, points);

@@ -4,14 +4,15 @@
 #include <gtest/gtest.h>
 
 #include "host/eval/metrics.h"
-#include "tests/register/scene.h"
 #include "kernels/error.h"
+#include "tests/register/scene.h"
 #include "tests/test_random.h"
 
 namespace edgescout::test {
 namespace {
 
-std::vector<Hypothesis> starts_around(const Se3& truth, int count, double offset_m, double angle_rad, Random& random) {
+std::vector<Hypothesis> starts_around(const Se3& truth, int count, double offset_m, double angle_rad,
+                                      Random& random) {
   std::vector<Hypothesis> starts;
   for (int i = 0; i < count; ++i) {
     Vector6d off;
@@ -38,7 +39,8 @@ TEST(Refine, DoesNotDependOnHowManyAreRefinedTogether) {
       const std::vector<Refined> apart = refine_poses(models, starts, scene.views, *backend, options);
       ASSERT_EQ(apart.size(), starts.size());
       for (std::size_t i = 0; i < starts.size(); ++i) {
-        const Se3 &a = apart[i].registration.world_from_object, &b = together[i].registration.world_from_object;
+        const Se3 &a = apart[i].registration.world_from_object,
+                  &b = together[i].registration.world_from_object;
         EXPECT_EQ(a.translation_m, b.translation_m) << i;
         EXPECT_EQ(a.rotation.coeffs(), b.rotation.coeffs()) << i;
         EXPECT_EQ(apart[i].registration.cost_px2, together[i].registration.cost_px2);

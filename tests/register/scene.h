@@ -42,9 +42,7 @@ inline RegisterView view_of(const EdgeModel& dense, const Se3& world_from_object
   RegisterView view;
   view.camera = camera;
   view.camera_from_world = camera_from_world;
-  view.view =
-      backend.make_view(edges, camera.width, camera.height, {},
-                        intrinsics_of(camera), options);
+  view.view = backend.make_view(edges, camera.width, camera.height, {}, intrinsics_of(camera), options);
   return view;
 }
 

@@ -16,7 +16,8 @@ namespace {
 constexpr int width = 320, height = 240;
 const Camera camera{width, height, 500, 500, 159.5, 119.5, {}};
 
-// Grey of a matte surface under one light and the sky, from the normal of the triangle each pixel's ray meets first; elsewhere `background`.
+// Grey of a matte surface under one light and the sky, from the normal of the triangle each pixel's ray meets
+// first; elsewhere `background`.
 Image shaded(const Mesh& mesh, const Se3& camera_from_object, const auto& background) {
   Image image{width, height, std::vector<std::uint8_t>(std::size_t(width) * height)};
   const Eigen::Vector3d light = Eigen::Vector3d(0.5, -0.7, -0.6).normalized();
@@ -69,7 +70,8 @@ TEST_P(ShadingOfParts, IsExplainedByTheRightPoseOnly) {
   Se3 aside = part.truth, turned = part.truth;
   aside.translation_m.x() += 0.4 * part.model.mesh.diameter_m;
   turned.rotation = Eigen::AngleAxisd(0.7, Eigen::Vector3d(0.3, 1, 0).normalized()) * part.truth.rotation;
-  std::printf("right %.3f, aside %.3f, turned %.3f\n", right, unexplained_grey(part.at(aside)), unexplained_grey(part.at(turned)));
+  std::printf("right %.3f, aside %.3f, turned %.3f\n", right, unexplained_grey(part.at(aside)),
+              unexplained_grey(part.at(turned)));
   EXPECT_LT(right, 0.2);
   EXPECT_GT(unexplained_grey(part.at(aside)), 2 * right);
   EXPECT_GT(unexplained_grey(part.at(turned)), 2 * right);
@@ -94,7 +96,8 @@ TEST(Shading, OfNoiseAndOfNothingIsNotExplained) {
   EXPECT_EQ(part.at(outside).pixels, 0);
 }
 
-// The fit itself against the textbook's: residuals of grey on the harmonics never exceed the deviations from the mean, and views add up.
+// The fit itself against the textbook's: residuals of grey on the harmonics never exceed the deviations from
+// the mean, and views add up.
 TEST(Shading, AddsUpOverViews) {
   ShadedPart part("bearing_block");
   part.show(shaded(part.model.mesh, part.truth, [](int, int) { return 200.0; }));

@@ -1,5 +1,6 @@
-// A robot's control thread looks for a part until it is sure: look_around BOP_SCENE MESH_MM. The recorded scene stands for the robot: moving to a view and taking an image is
-// reading a file here. No thread is started, nothing is global, and any call may be left by an exception without harm.
+// A robot's control thread looks for a part until it is sure: look_around BOP_SCENE MESH_MM. The recorded
+// scene stands for the robot: moving to a view and taking an image is reading a file here. No thread is
+// started, nothing is global, and any call may be left by an exception without harm.
 #include <iostream>
 
 #include "host/active/scout.h"
@@ -22,12 +23,15 @@ int main(int, char** argv) {
   ScoutOptions options;
   options.max_views = 2;
   options.detections.min_probability = 0.1;
-  options.cancelled = [] { return false; };  // ask the emergency stop here: Cancelled is thrown between two stages
+  options.cancelled = [] {
+    return false;
+  };  // ask the emergency stop here: Cancelled is thrown between two stages
   Scout scout(sets, robot.camera(), robot.views(), options, *backend);
 
   while (const auto next = scout.propose()) {
     try {
-      const Shot shot = robot.acquire(next->view);  // move there, take an image; and where the arm knows better: its true pose
+      const Shot shot = robot.acquire(
+          next->view);  // move there, take an image; and where the arm knows better: its true pose
       scout.give(next->view, shot.image, shot.camera_from_world);
     } catch (const AcquisitionError& error) {
       scout.unreachable(next->view, error.what());
@@ -35,6 +39,7 @@ int main(int, char** argv) {
     std::cout << "view " << next->view << ": " << scout.state().entropy_nats << " nats undecided\n";
   }
   for (const ModeDetection& found : scout.state().detections)
-    std::cout << "part at " << found.detection.world_from_object.translation_m.transpose() << " m, probability " << found.detection.probability << "\n";
+    std::cout << "part at " << found.detection.world_from_object.translation_m.transpose()
+              << " m, probability " << found.detection.probability << "\n";
   return scout.state().detections.empty();
 }
