@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "host/eval/matching.h"
 #include "host/eval/metrics.h"
 #include "kernels/error.h"
 
@@ -27,22 +28,14 @@ struct Matches {
   int matched = 0;  // estimates, those of ignored truths included
 };
 
-Matches match(const Instances& pair, const std::vector<double>& errors, double threshold, int max_estimates) {
-  std::vector<char> taken(pair.truths, 0);
+Matches match(const Instances& pair, std::span<const double> errors, double threshold, int max_estimates) {
+  const std::size_t looked_at = static_cast<std::size_t>(std::min(pair.estimates(), max_estimates));
   Matches matches;
-  for (int e = 0; e < std::min(pair.estimates(), max_estimates); ++e) {
-    int best = -1;
-    double best_error = threshold;
-    for (int t = 0; t < pair.truths; ++t) {
-      const double error = errors[static_cast<std::size_t>(e) * pair.truths + t];
-      if (taken[t] || !(error < best_error)) continue;
-      best = t;
-      best_error = error;
-    }
-    if (best < 0) continue;
-    taken[best] = 1;
+  for (const int truth :
+       match_in_order(errors.first(looked_at * pair.counts.size()), pair.truths, threshold)) {
+    if (truth == UNMATCHED) continue;
     ++matches.matched;
-    matches.found += pair.counts[best];
+    matches.found += pair.counts[static_cast<std::size_t>(truth)];
   }
   return matches;
 }

@@ -1,8 +1,10 @@
 #include "host/experiments/bin_judge.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
+#include "host/eval/matching.h"
 #include "host/eval/metrics.h"
 
 namespace edgescout {
@@ -23,21 +25,18 @@ const BinInstance& nearest(std::span<const BinInstance> instances, const Se3& po
 void match(std::span<const BinInstance> instances, std::span<const ModeDetection> detections,
            Judgement& judgement, int Tally::*correct, int Tally::*wrong,
            const std::function<double(const Detection&, const BinInstance&)>& error) {
-  std::vector<char> taken(instances.size(), 0);
-  for (const ModeDetection& mode : detections) {
-    const Detection& found = mode.detection;
-    double least = 1;
-    std::size_t best = instances.size();
-    for (std::size_t i = 0; i < instances.size(); ++i) {
-      if (taken[i] || instances[i].object != found.object) continue;
-      if (const double e = error(found, instances[i]); e < least) least = e, best = i;
+  std::vector<double> errors;
+  for (const ModeDetection& mode : detections)
+    for (const BinInstance& instance : instances)
+      errors.push_back(instance.object == mode.detection.object ? error(mode.detection, instance) : INFINITY);
+  const std::vector<int> matched = match_in_order(errors, static_cast<int>(instances.size()), 1);
+  for (std::size_t d = 0; d < detections.size(); ++d) {
+    if (matched[d] == UNMATCHED) {
+      ++(group_of(judgement, nearest(instances, detections[d].detection.world_from_object)).*wrong);
+    } else if (const BinInstance& found = instances[static_cast<std::size_t>(matched[d])];
+               found.visible >= LEAST_VISIBLE) {
+      ++(group_of(judgement, found).*correct);
     }
-    if (best == instances.size()) {
-      ++(group_of(judgement, nearest(instances, found.world_from_object)).*wrong);
-      continue;
-    }
-    taken[best] = 1;
-    if (instances[best].visible >= LEAST_VISIBLE) ++(group_of(judgement, instances[best]).*correct);
   }
 }
 
