@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "host/baselines/methods.h"
-#include "host/baselines/visible_points.h"
+#include "host/register/visible_in_views.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -26,19 +26,15 @@ D2coOptions as_published(const BaselineOptions& options) {
   return d2co;
 }
 
-// Visible points at the hypotheses' poses, [hypothesis * views + view].
+// At the hypotheses' poses, [hypothesis * views + view].
 std::vector<std::vector<ModelPoint>> start_points(std::span<const EdgeModel> models,
                                                   std::span<const Hypothesis> hypotheses,
                                                   std::span<const RegisterView> views, Backend& backend,
                                                   const VisibilityOptions& visibility) {
-  std::vector<int> objects;
-  std::vector<Se3> poses;
-  for (const Hypothesis& hypothesis : hypotheses)
-    for (const RegisterView& view : views) {
-      objects.push_back(hypothesis.object);
-      poses.push_back(view.camera_from_world * hypothesis.world_from_object);
-    }
-  return visible_points(models, objects, poses, backend, visibility);
+  std::vector<std::vector<ModelPoint>> points;
+  for (VisibleInView& seen : visible_in_views(models, hypotheses, views, backend, visibility))
+    points.push_back(std::move(seen.points));
+  return points;
 }
 
 PoseSolver prepare_solver(Method method, std::span<const RegisterView> views,

@@ -6,17 +6,12 @@ namespace edgescout {
 std::vector<double> fdcm_scores(std::span<const EdgeModel> models, std::span<const Candidate> candidates,
                                 const RegisterView& view, Backend& backend,
                                 const VisibilityOptions& visibility) {
-  std::vector<int> objects;
-  std::vector<Se3> poses;
-  for (const Candidate& candidate : candidates) {
-    objects.push_back(candidate.object);
-    poses.push_back(candidate.camera_from_object);
-  }
   std::vector<ModelPoint> points;
   std::vector<PoseProblem> problems;
-  for (const std::vector<ModelPoint>& list : visible_points(models, objects, poses, backend, visibility)) {
+  for (const std::vector<ModelPoint>& list : visible_points(models, candidates, view, backend, visibility)) {
+    const Candidate& candidate = candidates[problems.size()];
     problems.push_back(
-        {to_pose(poses[problems.size()]), std::uint32_t(points.size()), std::uint32_t(list.size()), 0});
+        {to_pose(candidate.camera_from_object), std::uint32_t(points.size()), std::uint32_t(list.size()), 0});
     points.insert(points.end(), list.begin(), list.end());
   }
   PoseScoreOptions options;

@@ -117,18 +117,13 @@ std::vector<double> line2d_scores(std::span<const EdgeModel> models, std::span<c
   cv::cvtColor(cv::Mat(view.image->height, view.image->width, CV_8UC1,
                        const_cast<std::uint8_t*>(view.image->pixels.data())),
                image, cv::COLOR_GRAY2BGR);
-  std::vector<int> objects;
-  std::vector<Se3> poses;
-  for (const Candidate& candidate : candidates) {
-    objects.push_back(candidate.object);
-    poses.push_back(candidate.camera_from_object);
-  }
   std::vector<double> scores;
   for (const std::vector<ModelPoint>& points :
-       visible_points(models, objects, poses, backend, options.visibility))
-    scores.push_back(similarity(
-        place_template(thinned(points, options.features), poses[scores.size()], view, options.spread_px),
-        image, options));
+       visible_points(models, candidates, view, backend, options.visibility))
+    scores.push_back(
+        similarity(place_template(thinned(points, options.features),
+                                  candidates[scores.size()].camera_from_object, view, options.spread_px),
+                   image, options));
   return scores;
 }
 

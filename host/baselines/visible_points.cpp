@@ -1,27 +1,21 @@
 #include "host/baselines/visible_points.h"
 
-#include "kernels/error.h"
+#include "host/register/visible_in_views.h"
 
 namespace edgescout {
 
 std::vector<std::vector<ModelPoint>> visible_points(std::span<const EdgeModel> models,
-                                                    std::span<const int> objects,
-                                                    std::span<const Se3> camera_from_object, Backend& backend,
+                                                    std::span<const Candidate> candidates,
+                                                    const RegisterView& view, Backend& backend,
                                                     const VisibilityOptions& visibility) {
-  for (const int object : objects)
-    check(object >= 0 && object < int(models.size()), "visible_points: no such model");
-  std::vector<std::vector<ModelPoint>> points(objects.size());
-  for (int object = 0; object < int(models.size()); ++object) {
-    std::vector<Se3> poses;
-    std::vector<std::size_t> slots;
-    for (std::size_t i = 0; i < objects.size(); ++i)
-      if (objects[i] == object) {
-        poses.push_back(camera_from_object[i]);
-        slots.push_back(i);
-      }
-    std::vector<std::vector<ModelPoint>> visible = visible_edges(models[object], poses, backend, visibility);
-    for (std::size_t i = 0; i < slots.size(); ++i) points[slots[i]] = std::move(visible[i]);
-  }
+  RegisterView in_its_frame = view;
+  in_its_frame.camera_from_world = {};
+  std::vector<Hypothesis> poses;
+  for (const Candidate& candidate : candidates)
+    poses.push_back({candidate.object, candidate.camera_from_object});
+  std::vector<std::vector<ModelPoint>> points;
+  for (VisibleInView& seen : visible_in_views(models, poses, {&in_its_frame, 1}, backend, visibility))
+    points.push_back(std::move(seen.points));
   return points;
 }
 

@@ -1,14 +1,17 @@
-// Visible points of poses of several models. Private to host/baselines.
+// What shows of pose candidates in one view. Private to host/baselines.
 #pragma once
 
-#include "host/model/visible_edges.h"
+#include <span>
+#include <vector>
+
+#include "host/register/d2co.h"
 
 namespace edgescout {
 
-// One list a pose, in their order; objects[i] is the model of camera_from_object[i].
+// One list a candidate, in their order.
 std::vector<std::vector<ModelPoint>> visible_points(std::span<const EdgeModel> models,
-                                                    std::span<const int> objects,
-                                                    std::span<const Se3> camera_from_object, Backend& backend,
+                                                    std::span<const Candidate> candidates,
+                                                    const RegisterView& view, Backend& backend,
                                                     const VisibilityOptions& visibility);
 
 }  // namespace edgescout

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <unordered_set>
 
-#include "host/register/occluders.h"
+#include "host/register/visible_in_views.h"
 #include "kernels/pose_geometry.h"
 
 namespace edgescout {
@@ -29,13 +29,12 @@ struct Explained {
 // The image edges a pose explains, one entry a visible model point.
 std::vector<Explained> explained_edges(const EdgeModel& model, const Hypothesis& pose,
                                        std::span<const RegisterView> views,
-                                       std::span<const std::vector<ModelPoint>> points,
-                                       const EvidenceOptions& options) {
+                                       std::span<const VisibleInView> seen, const EvidenceOptions& options) {
   std::vector<Explained> explained;
   for (std::size_t v = 0; v < views.size(); ++v) {
     if (!views[v].edges) continue;
     const Pose transform = to_pose(views[v].camera_from_world * pose.world_from_object);
-    for (const ModelPoint& point : points[v]) {
+    for (const ModelPoint& point : seen[v].points) {
       const PosedPoint<float> posed = pose_point<float>(transform, point);
       if (posed.point.z <= POSE_MIN_DEPTH_M) continue;
       const ProjectedEdge<float> edge = project_edge(posed, views[v].view->intrinsics);
@@ -82,13 +81,8 @@ std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::sp
                                       const EvidenceOptions& options) {
   std::vector<std::vector<Explained>> explained(poses.size());
   for (std::size_t p = 0; p < poses.size(); ++p) {
-    std::vector<Se3> in_camera;
-    for (const RegisterView& view : views)
-      in_camera.push_back(view.camera_from_world * poses[p].world_from_object);
-    const EdgeModel& model = models[poses[p].object];
-    std::vector<std::vector<ModelPoint>> visible = visible_edges(model, in_camera, backend);
-    remove_hidden(model, in_camera, views, visible);
-    explained[p] = explained_edges(model, poses[p], views, visible, options);
+    const std::vector<VisibleInView> seen = visible_in_views(models, poses.subspan(p, 1), views, backend);
+    explained[p] = explained_edges(models[poses[p].object], poses[p], views, seen, options);
   }
   SpentEdges spent(views);
   std::vector<ChosenPose> chosen;

@@ -6,8 +6,8 @@
 
 #include <Eigen/Cholesky>
 
-#include "host/register/occluders.h"
 #include "host/register/pose_track.h"
+#include "host/register/visible_in_views.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -23,23 +23,11 @@ struct PointSets {
 PointSets collect_points(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
                          std::span<const PoseTrack> tracks, std::span<const RegisterView> views,
                          Backend& backend, const D2coOptions& options, int most) {
-  std::vector<std::vector<ModelPoint>> lists(hypotheses.size() * views.size());
-  for (int object = 0; object < int(models.size()); ++object) {
-    std::vector<Se3> poses;
-    std::vector<std::size_t> slots;
-    for (std::size_t h = 0; h < hypotheses.size(); ++h)
-      for (std::size_t v = 0; hypotheses[h].object == object && v < views.size(); ++v) {
-        poses.push_back(views[v].camera_from_world * tracks[h].pose);
-        slots.push_back(h * views.size() + v);
-      }
-    std::vector<std::vector<ModelPoint>> visible =
-        visible_edges(models[object], poses, backend, options.visibility);
-    remove_hidden(models[object], poses, views, visible);
-    for (std::size_t i = 0; i < slots.size(); ++i) lists[slots[i]] = std::move(visible[i]);
-  }
+  std::vector<Hypothesis> poses;
+  for (std::size_t h = 0; h < hypotheses.size(); ++h) poses.push_back({hypotheses[h].object, tracks[h].pose});
   PointSets sets;
-  for (const std::vector<ModelPoint>& list : lists) {
-    const std::vector<ModelPoint> kept = thinned(list, most);
+  for (const VisibleInView& seen : visible_in_views(models, poses, views, backend, options.visibility)) {
+    const std::vector<ModelPoint> kept = thinned(seen.points, most);
     sets.first.push_back(static_cast<std::uint32_t>(sets.points.size()));
     sets.count.push_back(static_cast<std::uint32_t>(kept.size()));
     sets.points.insert(sets.points.end(), kept.begin(), kept.end());

@@ -5,10 +5,10 @@
 
 #include <ceres/ceres.h>
 
-#include "host/register/occluders.h"
 #include "host/register/point_cost.h"
 #include "host/register/pose_track.h"
 #include "host/register/se3_manifold.h"
+#include "host/register/visible_in_views.h"
 #include "host/register/world_system.h"
 #include "kernels/error.h"
 
@@ -49,10 +49,9 @@ struct RoundProblem {
 void add_visible_points(RoundProblem& round, const EdgeModel& model, const HostView& view, Backend& backend,
                         const VisibilityOptions& visibility, int most) {
   const Se3& camera_from_world = view.view.camera_from_world;
-  const Se3 pose = camera_from_world * from_parameters(round.pose.data());
-  std::vector<std::vector<ModelPoint>> lists = visible_edges(model, std::span(&pose, 1), backend, visibility);
-  remove_hidden(model, std::span(&pose, 1), std::span(&view.view, 1), lists);
-  const std::vector<ModelPoint>& visible = lists[0];
+  const Hypothesis pose{0, from_parameters(round.pose.data())};
+  const std::vector<ModelPoint> visible =
+      visible_in_views({&model, 1}, {&pose, 1}, {&view.view, 1}, backend, visibility)[0].points;
   const std::size_t kept = most > 0 ? std::min(visible.size(), std::size_t(most)) : visible.size();
   for (std::size_t i = 0; i < kept; ++i)
     round.problem.AddResidualBlock(

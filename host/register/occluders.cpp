@@ -70,17 +70,4 @@ std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> model
 
 double occlusion_tolerance_m(const EdgeModel& model) { return TOLERANCE * model.mesh.diameter_m; }
 
-void remove_hidden(const EdgeModel& model, std::span<const Se3> camera_from_object,
-                   std::span<const RegisterView> views, std::span<std::vector<ModelPoint>> points) {
-  check(points.size() == camera_from_object.size(), "remove_hidden: as many lists as poses");
-  const double tolerance_m = occlusion_tolerance_m(model);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Occluders* occluders = views[i % views.size()].occluders.get();
-    if (occluders == nullptr) continue;
-    std::erase_if(points[i], [&](const ModelPoint& p) {
-      return occluders->hide(camera_from_object[i] * Eigen::Vector3d(p.x_m, p.y_m, p.z_m), tolerance_m);
-    });
-  }
-}
-
 }  // namespace edgescout

@@ -33,9 +33,4 @@ std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> model
 // surface is not hidden.
 double occlusion_tolerance_m(const EdgeModel& model);
 
-// Takes away what the views' occluders hide: points[i] of the model at camera_from_object[i] in views[i %
-// views.size()].
-void remove_hidden(const EdgeModel& model, std::span<const Se3> camera_from_object,
-                   std::span<const RegisterView> views, std::span<std::vector<ModelPoint>> points);
-
 }  // namespace edgescout

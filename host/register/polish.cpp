@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 
 #include "host/register/image_motion.h"
-#include "host/register/occluders.h"
+#include "host/register/visible_in_views.h"
 #include "host/register/world_system.h"
 #include "kernels/thread_pool.h"
 
@@ -62,20 +62,19 @@ void add_points(LineSystem& sum, const RegisterView& view, const Se3& world_from
 }
 
 LineSystem system_at(const Se3& pose, std::span<const RegisterView> views,
-                     std::span<const std::vector<ModelPoint>> points, const PolishRound& round,
-                     float max_turn_rad) {
+                     std::span<const VisibleInView> seen, const PolishRound& round, float max_turn_rad) {
   LineSystem sum;
   for (std::size_t v = 0; v < views.size(); ++v)
-    if (views[v].edges) add_points(sum, views[v], pose, points[v], round, max_turn_rad);
+    if (views[v].edges) add_points(sum, views[v], pose, seen[v].points, round, max_turn_rad);
   return sum;
 }
 
 void polish_one(Registration& registration, std::span<const RegisterView> views,
-                std::span<const std::vector<ModelPoint>> points, const PolishOptions& options) {
+                std::span<const VisibleInView> seen, const PolishOptions& options) {
   Se3 pose = registration.world_from_object;
   for (const PolishRound& round : options.rounds)
     for (int i = 0; i < round.iterations; ++i) {
-      LineSystem system = system_at(pose, views, points, round, options.max_turn_rad);
+      LineSystem system = system_at(pose, views, seen, round, options.max_turn_rad);
       if (system.matched < options.min_matched * system.points || system.matched < 12) return;
       system.hessian.diagonal() *= 1 + 1e-4;  // keeps directions no edge sees where they are
       const Vector6d step = -system.hessian.ldlt().solve(system.gradient);
@@ -83,7 +82,7 @@ void polish_one(Registration& registration, std::span<const RegisterView> views,
       pose = retract(pose, step);
       if (step.head<3>().norm() < options.min_step_m && step.tail<3>().norm() < options.min_step_rad) break;
     }
-  const LineSystem final_system = system_at(pose, views, points, options.rounds.back(), options.max_turn_rad);
+  const LineSystem final_system = system_at(pose, views, seen, options.rounds.back(), options.max_turn_rad);
   if (final_system.matched < options.min_matched * final_system.points) return;
   registration.world_from_object = pose;
   registration.covariance = pose_covariance(
@@ -95,24 +94,12 @@ void polish_one(Registration& registration, std::span<const RegisterView> views,
 void polish_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
                   std::span<const RegisterView> views, Backend& backend, const PolishOptions& options,
                   std::span<Registration> registrations) {
-  for (int object = 0; object < int(models.size()); ++object) {
-    std::vector<std::size_t> members;
-    std::vector<Se3> poses;
-    for (std::size_t h = 0; h < hypotheses.size(); ++h)
-      if (hypotheses[h].object == object) {
-        members.push_back(h);
-        for (const RegisterView& view : views)
-          poses.push_back(view.camera_from_world * registrations[h].world_from_object);
-      }
-    std::vector<std::vector<ModelPoint>> points =
-        visible_edges(models[object], poses, backend, options.visibility);
-    remove_hidden(models[object], poses, views, points);
-    for (std::vector<ModelPoint>& list : points) list = thinned(list, options.max_points);
-    backend.threads().for_each(members.size(), [&](std::size_t m) {
-      polish_one(registrations[members[m]], views, std::span(points).subspan(m * views.size(), views.size()),
-                 options);
-    });
-  }
+  std::vector<VisibleInView> seen =
+      visible_in_views(models, as_hypotheses(hypotheses, registrations), views, backend, options.visibility);
+  for (VisibleInView& view : seen) view.points = thinned(view.points, options.max_points);
+  backend.threads().for_each(hypotheses.size(), [&](std::size_t h) {
+    polish_one(registrations[h], views, std::span(seen).subspan(h * views.size(), views.size()), options);
+  });
 }
 
 }  // namespace edgescout

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/register/occluders.h"
 #include "host/register/odds_weights.h"
+#include "host/register/visible_in_views.h"
 #include "kernels/error.h"
 #include "kernels/pose_geometry.h"
 
@@ -51,36 +51,23 @@ std::vector<PoseFeatures> pose_features_by_view(std::span<const EdgeModel> model
   std::vector<PoseFeatures> features(poses.size() * views.size());
   std::vector<ModelPoint> points;
   std::vector<PoseProblem> problems;
-  std::vector<std::size_t> slots;  // of the problems, in `features`
-  for (int object = 0; object < int(models.size()); ++object) {
-    std::vector<Se3> in_camera;
-    const std::size_t first = slots.size();
-    for (std::size_t p = 0; p < poses.size(); ++p)
-      for (std::size_t v = 0; poses[p].object == object && v < views.size(); ++v) {
-        in_camera.push_back(views[v].camera_from_world * poses[p].world_from_object);
-        problems.push_back({to_pose(in_camera.back()), 0, 0, static_cast<std::uint32_t>(v)});
-        slots.push_back(p * views.size() + v);
-      }
-    std::vector<std::vector<ModelPoint>> visible =
-        visible_edges(models[object], in_camera, backend, visibility);
-    for (std::size_t i = 0; i < visible.size(); ++i)
-      features[slots[first + i]].visible = double(visible[i].size());
-    remove_hidden(models[object], in_camera, views, visible);
-    for (std::size_t i = 0; i < visible.size(); ++i) {
-      problems[first + i].first_point = static_cast<std::uint32_t>(points.size());
-      problems[first + i].point_count = static_cast<std::uint32_t>(visible[i].size());
-      PoseFeatures& f = features[slots[first + i]];
-      f.length_px = projected_length_px(models[object], in_camera[i],
-                                        views[problems[first + i].view].view->intrinsics, visible[i]);
-      points.insert(points.end(), visible[i].begin(), visible[i].end());
-    }
+  for (const VisibleInView& seen : visible_in_views(models, poses, views, backend, visibility)) {
+    const std::size_t slot = problems.size(), v = slot % views.size();
+    const Hypothesis& pose = poses[slot / views.size()];
+    const Se3 camera_from_object = views[v].camera_from_world * pose.world_from_object;
+    features[slot].visible = double(seen.unoccluded);
+    features[slot].length_px = projected_length_px(models[std::size_t(pose.object)], camera_from_object,
+                                                   views[v].view->intrinsics, seen.points);
+    problems.push_back({to_pose(camera_from_object), std::uint32_t(points.size()),
+                        std::uint32_t(seen.points.size()), std::uint32_t(v)});
+    points.insert(points.end(), seen.points.begin(), seen.points.end());
   }
   std::vector<ViewHandle> handles;
   for (const RegisterView& view : views) handles.push_back(view.view);
   std::vector<PoseScore> scores(problems.size());
   backend.pose_score(handles, points, problems, options, scores);
   for (std::size_t i = 0; i < scores.size(); ++i) {
-    PoseFeatures& f = features[slots[i]];
+    PoseFeatures& f = features[i];
     f.psi = scores[i].psi;
     f.mean_px = scores[i].points > 0 ? scores[i].mean_px : options.cap_px;
     f.matched = scores[i].matched;

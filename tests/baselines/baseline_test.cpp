@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "host/baselines/line2d.h"
 #include "host/eval/metrics.h"
+#include "host/register/occluders.h"
 #include "kernels/error.h"
 #include "tests/active/rendered_scene.h"
 #include "tests/test_random.h"
@@ -137,6 +139,23 @@ TEST(BaselineMethods, WantAViewAndTheModel) {
   EXPECT_THROW(register_with(Method::CIcp, r.scene.models, {}, {}, *r.backend), LogicError);
   EXPECT_THROW(register_with(Method::CIcp, r.scene.models, std::span(&unknown, 1), r.views, *r.backend),
                LogicError);
+}
+
+// A wall right before the camera hides the part.
+TEST(BaselineMethods, LeaveOutWhatOccludersHide) {
+  const Rendered& r = rendered();
+  RegisterView view = r.views[0];
+  const Hypothesis truth{0, r.truth};
+  Occluders wall{view.camera, {}};
+  wall.depth_m.assign(std::size_t(view.camera.width) * std::size_t(view.camera.height), 0.05f);
+  view.occluders = std::make_shared<const Occluders>(wall);
+  const Candidate candidate{0, view.camera_from_world * r.truth};
+  for (const Method method : all_methods())
+    EXPECT_EQ(register_with(method, r.scene.models, {&truth, 1}, {&view, 1}, *r.backend)[0].reason,
+              Convergence::NoPoints)
+        << to_string(method);
+  EXPECT_EQ(fdcm_scores(r.scene.models, {&candidate, 1}, view, *r.backend)[0], view.view->options.cap_px);
+  EXPECT_EQ(line2d_scores(r.scene.models, {&candidate, 1}, view, *r.backend)[0], 0);
 }
 
 TEST(BaselineMethods, WantWhatTheyRead) {
