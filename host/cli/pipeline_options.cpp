@@ -21,8 +21,7 @@ void add_edge_and_tensor_options(CLI::App& verb, PipelineOptions& o, std::string
       .bounded("cap", o.tensor.cap_px, 1.0f, 255.0f, "Largest distance, px");
 }
 
-void add_detection_options(CLI::App& verb, PipelineOptions& o) {
-  DetectOptions& d = o.detect;
+void add_search_options(CLI::App& verb, DetectOptions& d) {
   OptionTable(verb, "Detection")
       .bounded("template-points", d.scan.points, 4, 256, "Of each template in the scan")
       .bounded("anchor-step", d.scan.anchor_step, 1, 16, "Between places of the scan, coarse px")
@@ -32,12 +31,23 @@ void add_detection_options(CLI::App& verb, PipelineOptions& o) {
                "Of several images of one scene: hits that are aligned in them")
       .bounded("helping-views", d.helping_views, 1, 10000,
                "Other images of the scene that help to search one")
-      .bounded("candidates", d.candidates, 1, 100000, "Candidates registered in full")
+      .bounded("candidates", d.candidates, 1, 100000, "Candidates registered in full");
+}
+
+void add_choice_options(CLI::App& verb, double& min_probability, EvidenceOptions& evidence) {
+  OptionTable(verb, "Detection")
+      .bounded("max-spent", evidence.max_spent, 0.0, 1.0,
+               "Of a pose's edges: more explained by better poses, and it goes")
+      .bounded("min-probability", min_probability, 0.0, 1.0, "Less probable poses are not reported");
+}
+
+void add_detection_options(CLI::App& verb, PipelineOptions& o) {
+  DetectOptions& d = o.detect;
+  add_search_options(verb, d);
+  add_choice_options(verb, d.min_probability, d.evidence);
+  OptionTable(verb, "Detection")
       .bounded("second-look", d.second_look_rad, 0.0, 1.0,
                "Turned starts around what was chosen, rad; 0: none")
-      .bounded("max-spent", d.evidence.max_spent, 0.0, 1.0,
-               "Of a pose's edges: more explained by better poses, and it goes")
-      .bounded("min-probability", d.min_probability, 0.0, 1.0, "Less probable poses are not reported")
       .bounded("max-detections", d.max_detections, 1, 100000, "Reported an image");
 }
 

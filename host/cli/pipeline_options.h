@@ -9,7 +9,11 @@ namespace edgescout {
 
 // `edge_method` receives the word of --edges; edge_method_from_name (edge/edges.h) reads it.
 void add_edge_and_tensor_options(CLI::App& verb, PipelineOptions& options, std::string& edge_method);
+// What a detection in single images has: the search, the choice among what it found, a second look.
 void add_detection_options(CLI::App& verb, PipelineOptions& options);
+// Its parts that others have too.
+void add_search_options(CLI::App& verb, DetectOptions& options);
+void add_choice_options(CLI::App& verb, double& min_probability, EvidenceOptions& evidence);
 void add_template_options(CLI::App& verb, TemplateOptions& options);
 // What is imagined of a next view, and what is followed from image to image.
 void add_belief_options(CLI::App& verb, ScoutOptions& options);

@@ -60,7 +60,6 @@ void settle_options(ScoutRequest& request) {
   o.pipeline.edges.method = edge_method_from_name(request.edge_method);
   o.next_view.strategy = strategy_from(request.strategy);
   o.next_view.sequence = request.sequence;
-  o.detections.min_probability = o.pipeline.detect.min_probability;
   o.validate();
   request.templates.validate();
 }
@@ -150,8 +149,6 @@ void add_scout(CLI::App& app, int& exit_code) {
   CLI::App* verb =
       app.add_subcommand("scout", "Look again from the best place: detection with a next best view");
   auto request = std::make_shared<ScoutRequest>();
-  // --min-probability is of what the belief over all views reports, which has its own default.
-  request->options.pipeline.detect.min_probability = request->options.detections.min_probability;
   add_source_options(*verb, request->source);
   add_model_arguments(*verb, request->models);
   verb->add_option("--out", request->out, "Folder of the results")->required()->type_name("DIR");
@@ -163,7 +160,10 @@ void add_scout(CLI::App& app, int& exit_code) {
   add_loop_options(*verb, *request);
   add_template_options(*verb, request->templates);
   add_edge_and_tensor_options(*verb, request->options.pipeline, request->edge_method);
-  add_detection_options(*verb, request->options.pipeline);
+  add_search_options(*verb, request->options.pipeline.detect);
+  // The choice is among what the belief over all views holds.
+  add_choice_options(*verb, request->options.detections.min_probability,
+                     request->options.detections.evidence);
   verb->callback([request, &exit_code] { exit_code = scout(*request); });
 }
 

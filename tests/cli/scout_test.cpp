@@ -17,6 +17,7 @@ namespace {
 struct SmallScout {
   TemporaryFolder folder;
   fs::path out = folder.path() / "out";
+  std::string min_probability = "0.1";
 
   // A bracket in a rendered cell, three images of eight views, few of everything.
   std::vector<std::string> arguments(const std::vector<std::string>& more = {}) const {
@@ -27,7 +28,7 @@ struct SmallScout {
           "--min-entropy", "0"},
          {"--viewpoints", "3", "--in-plane-steps", "12", "--aligned", "200", "--candidates", "8",
           "--particles", "60"},
-         {"--combinations", "200", "--min-probability", "0.1"},
+         {"--combinations", "200", "--min-probability", min_probability},
          more});
   }
   nlohmann::json log() const { return nlohmann::json::parse(content_of(out / "scout.json")); }
@@ -140,6 +141,18 @@ TEST(Scout, TakesRecordedViewsAndGoesOnPastAMissingImage) {
   for (const BopResult& row : load_bop_results(scene.out / "results.csv")) EXPECT_EQ(row.scene_id, 3);
 }
 
+// All edges may be explained again, or none.
+TEST(Scout, LetsModesCompeteAsMaxSpentSays) {
+  const auto found = [](const char* max_spent) {
+    SmallScout t;
+    t.min_probability = "0.001";
+    const Outcome outcome = run_program(t.arguments({"--max-spent", max_spent}));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return t.log().at("detections").size();
+  };
+  EXPECT_LT(found("0"), found("1"));
+}
+
 TEST(Scout, RefusesWhatItCannotUse) {
   const SmallScout t;
   const auto refused = [&](const std::vector<std::string>& arguments,
@@ -156,6 +169,8 @@ TEST(Scout, RefusesWhatItCannotUse) {
   refused(t.arguments({"--views", t.folder.write("views.json", "[]")}), {"views.json"});
   refused(t.arguments({"--elevations", "120"}), {"elevation"});
   refused(t.arguments({"--arm-shift", "nan"}), {"--arm-shift", "nan"});
+  refused(t.arguments({"--max-detections", "1"}), {"--max-detections"});
+  refused(t.arguments({"--second-look", "0"}), {"--second-look"});
 }
 
 }  // namespace
