@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include <fmt/format.h>
 
 #include "host/core/log.h"
 #include "host/detect/probability.h"
@@ -32,34 +33,72 @@ double median(std::vector<double> values) {
 }
 
 // How the objects, registered over all views, sit in one of them.
-ViewAgreement judge(std::span<const EdgeModel> models, std::span<const Hypothesis> joint,
-                    const RegisterView& view, Backend& backend, const AgreementOptions& options) {
+struct Judged {
+  ViewAgreement view;
+  std::vector<char> shown;     // by object: whether it could be judged
+  std::vector<char> expected;  // whether most of it projects into the image, with nothing known before it
+};
+
+Judged judge(std::span<const EdgeModel> models, std::span<const Hypothesis> joint, const RegisterView& view,
+             Backend& backend, const AgreementOptions& options) {
   const std::span<const RegisterView> alone(&view, 1);
   const std::vector<Hypothesis> poses =
       as_hypotheses(joint, register_poses(models, joint, alone, backend, options.single));
-  const std::vector<PoseFeatures> features =
-      pose_features(models, poses, alone, backend, options.score, options.single.visibility);
+  const auto features_of = [&](std::span<const Hypothesis> at) {
+    return pose_features(models, at, alone, backend, options.score, options.single.visibility);
+  };
+  const std::vector<PoseFeatures> features = features_of(poses), at_joint = features_of(joint);
+  Judged judged;
   std::vector<double> moved;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    if (pose_probability(features[i]) < options.min_probability) continue;
+    judged.shown.push_back(pose_probability(features[i]) >= options.min_probability);
+    judged.expected.push_back(at_joint[i].in_image > 0.5);
+    if (!judged.shown[i]) continue;
     const Se3 camera_from_object = view.camera_from_world * poses[i].world_from_object;
     const std::vector<ModelPoint> points = visible_edges(
         models[poses[i].object], std::span(&camera_from_object, 1), backend, options.single.visibility)[0];
     moved.push_back(moved_px(points, view.camera, camera_from_object,
                              view.camera_from_world * joint[i].world_from_object));
   }
-  return {moved.empty() ? 0 : median(moved), int(moved.size()), false};
+  judged.view.residual_px = moved.empty() ? 0 : median(moved);
+  judged.view.objects = int(moved.size());
+  return judged;
 }
 
-// The view to distrust among `open`; views.size() where all are within the limit.
-std::size_t worst_of(std::span<const std::size_t> open, std::span<const ViewAgreement> views,
+// Objects that a view should show and two others do.
+int missing_in(const Judged& view, std::span<const Judged> all) {
+  int missing = 0;
+  for (std::size_t i = 0; i < view.shown.size() && view.view.objects == 0; ++i)
+    missing += view.expected[i] &&
+               std::ranges::count_if(all, [i](const Judged& other) { return other.shown[i] != 0; }) >= 2;
+  return missing;
+}
+
+// The view to distrust among `open`; views.size() where there is none.
+std::size_t worst_of(std::span<const std::size_t> open, std::span<ViewAgreement> views,
                      const AgreementOptions& options) {
-  std::size_t worst = open[0];
-  for (const std::size_t v : open)
+  std::size_t worst = open[0], barest = open[0];
+  for (const std::size_t v : open) {
     if (views[v].residual_px > views[worst].residual_px) worst = v;
-  if (views[worst].residual_px <= options.max_residual_px) return views.size();
-  // Two views disagree with each other: the later one was added to a scene that agreed.
-  return open.size() == 2 ? open[1] : worst;
+    if (views[v].missing > views[barest].missing) barest = v;
+  }
+  if (views[worst].residual_px > options.max_residual_px) {
+    // Two views disagree with each other: the later one was added to a scene that agreed.
+    if (open.size() == 2) views[open[0]].residual_px = views[open[1]].residual_px = views[worst].residual_px;
+    return open.size() == 2 ? open[1] : worst;
+  }
+  return views[barest].missing > options.max_missing ? barest : views.size();
+}
+
+void warn(std::size_t view, const ViewAgreement& found) {
+  log(LogLevel::Warning,
+      found.objects > 0 || found.missing == 0
+          ? fmt::format("the camera pose of view {} disagrees with its image: {:.1f} px between what all "
+                        "views say and what it shows",
+                        view + 1, found.residual_px)
+          : fmt::format("the camera pose of view {} disagrees with its image: it shows none of {} objects "
+                        "that other views show",
+                        view + 1, found.missing));
 }
 
 }  // namespace
@@ -85,17 +124,17 @@ std::vector<ViewAgreement> view_agreement(std::span<const EdgeModel> models,
     for (const std::size_t v : open) trusted.push_back(views[v]);
     const std::vector<Hypothesis> joint =
         as_hypotheses(objects, register_poses(models, objects, trusted, backend, options.joint));
-    for (const std::size_t v : open) agreement[v] = judge(models, joint, views[v], backend, options);
+    std::vector<Judged> judged;
+    for (const RegisterView& view : trusted) judged.push_back(judge(models, joint, view, backend, options));
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      agreement[open[i]] = judged[i].view;
+      agreement[open[i]].missing = missing_in(judged[i], judged);
+    }
     const std::size_t worst = worst_of(open, agreement, options);
     if (worst == views.size()) break;
     agreement[worst].disagrees = true;
     std::erase(open, worst);
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "the camera pose of view %zu disagrees with its image: %.1f px between what all views say "
-                  "and what it shows",
-                  worst + 1, agreement[worst].residual_px);
-    log(LogLevel::Warning, text);
+    warn(worst, agreement[worst]);
   }
   return agreement;
 }

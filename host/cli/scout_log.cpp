@@ -56,8 +56,10 @@ json information_json(const std::vector<ViewInformation>& views) {
 json step_json(const ScoutStep& step, const ScoutReport& report) {
   json agreement = json::array();
   for (const ViewAgreement& view : step.agreement)
-    agreement.push_back(
-        {{"residual_px", view.residual_px}, {"objects", view.objects}, {"disagrees", view.disagrees}});
+    agreement.push_back({{"residual_px", view.residual_px},
+                         {"objects", view.objects},
+                         {"missing", view.missing},
+                         {"disagrees", view.disagrees}});
   return {{"view", step.decision.view},
           {"information", information_json(step.decision.views)},
           {"decision_ms", stages_json(step.decision.stages)},

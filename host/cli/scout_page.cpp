@@ -159,10 +159,10 @@ class Page {
 
   std::string warning(const ScoutStep& s) const {
     if (s.agreement.empty() || !s.agreement.back().disagrees) return "";
-    return fmt::format(
-        "<p class=warning>This image's camera pose disagrees with the others: the objects lie {:.1f} px "
-        "off.</p>",
-        s.agreement.back().residual_px);
+    const ViewAgreement& view = s.agreement.back();
+    return "<p class=warning>This image's camera pose disagrees with the others: " +
+           (view.missing > 0 ? fmt::format("it shows none of {} objects.</p>", view.missing)
+                             : fmt::format("the objects lie {:.1f} px off.</p>", view.residual_px));
   }
 
   std::string hemisphere(std::size_t step) const {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "host/register/occluders.h"
 #include "tests/active/rendered_scene.h"
 #include "tests/io/collected_log.h"
 #include "tests/test_random.h"
@@ -30,7 +31,8 @@ struct Objects {
 
 void print(const std::vector<ViewAgreement>& views) {
   for (const ViewAgreement& v : views)
-    std::printf("%.2f px by %d objects%s\n", v.residual_px, v.objects, v.disagrees ? ", disagrees" : "");
+    std::printf("%.2f px by %d objects, %d missing%s\n", v.residual_px, v.objects, v.missing,
+                v.disagrees ? ", disagrees" : "");
 }
 
 TEST(ViewAgreement, RightPosesAgree) {
@@ -59,6 +61,44 @@ TEST(ViewAgreement, FlagsTheOneThatIsWrong) {
     EXPECT_NE(log.messages[0].second.find("view " + std::to_string(odd + 1)), std::string::npos)
         << log.messages[0].second;
   }
+}
+
+// So wrong that no registration finds the parts from there, but for one by chance.
+TEST(ViewAgreement, FlagsTheOneThatShowsNothingWhereItShould) {
+  Objects t(3);
+  int bare = 0;
+  for (const double angle_rad : {0.2, 0.3, 0.4, 0.5})
+    for (const std::size_t odd : {0u, 1u, 2u}) {
+      std::vector<RegisterView> views = t.scene.views(*t.backend);
+      views[odd].camera_from_world = wrong(views[odd].camera_from_world, angle_rad);
+      const CollectedLog log;
+      const std::vector<ViewAgreement> agreement = t.judge(views);
+      print(agreement);
+      for (std::size_t v = 0; v < 3; ++v) EXPECT_EQ(agreement[v].disagrees, v == odd) << v;
+      ASSERT_EQ(log.messages.size(), 1u);
+      const std::string& text = log.messages[0].second;
+      EXPECT_NE(text.find("view " + std::to_string(odd + 1)), std::string::npos) << text;
+      const bool none = agreement[odd].objects == 0;
+      EXPECT_EQ(text.find("none of") != std::string::npos, none) << text;
+      EXPECT_EQ(agreement[odd].missing >= 2, none);
+      bare += none;
+    }
+  EXPECT_GE(bare, 3);
+}
+
+// Where everything is hidden, or outside the image, nothing is missing.
+TEST(ViewAgreement, ExpectsOnlyWhatTheViewCanShow) {
+  Objects t(3);
+  std::vector<RegisterView> views = t.scene.views(*t.backend);
+  views[2].camera_from_world = wrong(views[2].camera_from_world, 0.35);
+  auto wall = std::make_shared<Occluders>();
+  wall->camera = views[2].camera;
+  wall->depth_m.assign(std::size_t(wall->camera.width) * std::size_t(wall->camera.height), 0.05f);
+  views[2].occluders = wall;
+  EXPECT_EQ(t.judge(views)[2].missing, 0);
+  views[2].occluders = nullptr;
+  views[2].camera_from_world = Se3{so3_exp({0, 1.5, 0}), {}} * views[2].camera_from_world;
+  EXPECT_EQ(t.judge(views)[2].missing, 0);
 }
 
 TEST(ViewAgreement, OfTwoTheLaterIsDoubted) {
