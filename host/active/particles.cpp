@@ -10,6 +10,7 @@
 #include "host/active/modes.h"
 #include "host/core/log.h"
 #include "kernels/error.h"
+#include "kernels/mutual_information.h"
 
 namespace edgescout {
 
@@ -93,7 +94,7 @@ void ParticleOptions::validate() const {
       throw InputError("options", std::string("particles.") + field, std::to_string(found),
                        std::to_string(low) + " to " + std::to_string(high));
   };
-  in("count", count, 1, 1e5);
+  in("count", count, 1, INFORMATION_MAX_PARTICLES);
   in("sigma", sigma_px, 1e-3, 1e3);
   in("drawn_max", drawn.max, 0, 1);
   in("drawn_min", drawn.min, 0, drawn.max);
@@ -226,7 +227,8 @@ ParticleUpdate update_particles(std::vector<Particle>& particles, std::span<cons
     update.reseeded = true;
   }
   update.effective = effective_sample_size(particles);
-  if (update.effective < options.min_effective * double(particles.size())) {
+  if (update.effective < options.min_effective * double(particles.size()) ||
+      particles.size() > INFORMATION_MAX_PARTICLES) {
     particles = resample(particles, find_modes(particles, sets, options), models, options.count, options,
                          random.split("resample"));
     update.resampled = true;

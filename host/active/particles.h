@@ -42,7 +42,7 @@ struct Spread {
 };
 
 struct ParticleOptions {
-  int count = 200;
+  int count = 200;  // at most INFORMATION_MAX_PARTICLES (kernels/mutual_information.h)
   std::uint64_t seed = 1;
   double sigma_px = 4;            // of the mean DCD of a right pose, image px
   Spread drawn{0.02, 0.1};        // around candidates
@@ -100,8 +100,9 @@ struct ParticleUpdate {
 };
 
 // Lines 15-19 of Algorithm 2, after the last of `views` was added: refine, weigh, resample with roughening
-// where the effective sample size is low. Where every particle died they are drawn anew around the
-// candidates, once, and a warning is logged. Deterministic from options.seed and the number of views.
+// where the effective sample size is low or there are more than the kernels take. Where every particle died
+// they are drawn anew around the candidates, once, and a warning is logged. Deterministic from options.seed
+// and the number of views.
 ParticleUpdate update_particles(std::vector<Particle>& particles, std::span<const TemplateSet> sets,
                                 std::span<const EdgeModel> models, std::span<const Detection> candidates,
                                 std::span<const RegisterView> views, Backend& backend,

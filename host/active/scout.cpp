@@ -1,6 +1,7 @@
 #include "host/active/scout.h"
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
 
 #include "host/active/candidates.h"
@@ -41,6 +42,43 @@ std::vector<TemplateTable> tables_of(std::span<const TemplateSet> sets, Backend&
   return tables;
 }
 
+std::vector<ScoutObject> objects_of(std::span<const TemplateSet> sets) {
+  std::vector<ScoutObject> objects;
+  for (const TemplateSet& set : sets)
+    objects.push_back({set.object_id, set.model.mesh.vertices_m.size(), set.model.mesh.triangles.size(),
+                       set.model.mesh.diameter_m});
+  return objects;
+}
+
+// The largest object and view that a state speaks of.
+struct Mentioned {
+  int object = -1, view = -1;
+
+  explicit Mentioned(const ScoutState& state) {
+    objects_in(state.candidates);
+    objects_in(state.particles);
+    objects_in(state.modes);
+    objects_in(state.detections);
+    for (const ScoutStep& step : state.steps) {
+      objects_in(step.decision.candidates);
+      objects_in(step.before);
+      objects_in(step.after);
+      objects_in(step.detections);
+      note(view, step.decision.view);
+    }
+    for (const FailedView& failed : state.failed) note(view, failed.view);
+  }
+
+ private:
+  // A negative one is none either.
+  static void note(int& most, int index) { most = std::max(most, index < 0 ? INT_MAX : index); }
+  static int object_of(const ModeDetection& x) { return x.detection.object; }
+  static int object_of(const auto& x) { return x.object; }
+  void objects_in(const auto& list) {
+    for (const auto& x : list) note(object, object_of(x));
+  }
+};
+
 ScoutDecision without_expectations(int view) {
   ScoutDecision decision;
   decision.view = view;
@@ -59,7 +97,12 @@ Scout::Scout(std::span<const TemplateSet> sets, const Camera& camera,
   if (options_.first_view >= static_cast<int>(camera_from_world_views.size()))
     throw InputError("options", "scout.first_view", std::to_string(options_.first_view),
                      "one of " + std::to_string(camera_from_world_views.size()) + " views");
+  for (const int view : options_.next_view.sequence)
+    if (view < 0 || view >= static_cast<int>(camera_from_world_views.size()))
+      throw InputError("options", "scout.sequence", std::to_string(view),
+                       "one of " + std::to_string(camera_from_world_views.size()) + " views");
   tables_ = tables_of(sets, backend);
+  state_.objects = objects_of(sets);
   state_.views = std::move(camera_from_world_views);
 }
 
@@ -93,6 +136,7 @@ void Scout::give(int view, const Image& image, const Se3& camera_from_world) {
   std::vector<Observation> observations = observations_;
   ScoutStep step;
   step.decision = proposal_ && proposal_->view == view ? *proposal_ : without_expectations(view);
+  if (proposal_) step.decision.stages = proposal_->stages;  // spent, whether followed or not
   step.camera_from_world = camera_from_world;
   look(image, step, next, observations);
   believe(step, next, views_of(observations));
@@ -105,7 +149,8 @@ void Scout::give(int view, const Image& image, const Se3& camera_from_world) {
 void Scout::unreachable(int view, const std::string& reason) {
   require_open(view);
   log(LogLevel::Warning, "view " + std::to_string(view) + " cannot be had: " + reason);
-  state_.failed.push_back({view, reason, state_.steps.size()});
+  state_.failed.push_back(
+      {view, reason, state_.steps.size(), proposal_ ? proposal_->stages : std::vector<StageSeconds>{}});
   proposal_.reset();
 }
 
@@ -256,6 +301,9 @@ void Scout::require_open(int view) const {
 }
 
 void Scout::require_fitting(const Image& image, const Se3& camera_from_world) const {
+  if (image.pixels.size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
+    throw InputError("scout", "image", std::to_string(image.pixels.size()) + " pixels",
+                     std::to_string(image.width) + "x" + std::to_string(image.height));
   if (image.width != camera_.width || image.height != camera_.height)
     throw InputError("scout", "image size", std::to_string(image.width) + "x" + std::to_string(image.height),
                      "the camera's " + std::to_string(camera_.width) + "x" + std::to_string(camera_.height));
@@ -268,9 +316,10 @@ void Scout::resume(ScoutState state, const std::string& source) {
   };
   if (!std::ranges::equal(state.views, state_.views, same))
     throw InputError(source, "views", "others", "those of this run");
-  for (const Detection& candidate : state.candidates)
-    if (candidate.object >= static_cast<int>(sets_.size()))
-      throw InputError(source, "objects", "more", "the " + std::to_string(sets_.size()) + " of this run");
+  if (state.objects != state_.objects) throw InputError(source, "objects", "others", "those of this run");
+  if (const Mentioned mentioned(state); mentioned.object >= static_cast<int>(sets_.size()) ||
+                                        mentioned.view >= static_cast<int>(state.views.size()))
+    throw InputError(source, "indices", "an object or view that is none", "those of this run");
   std::vector<Observation> observations;
   for (const ScoutStep& step : state.steps) {
     require_fitting(step.image, step.camera_from_world);
@@ -310,14 +359,28 @@ void ScoutOptions::validate() const {
   next_view.validate();
 }
 
+namespace {
+
+// What the source cannot give, or gives but cannot be used, is no shot.
+std::optional<Shot> shot_of(Scout& scout, ViewSource& source, int view) {
+  try {
+    Shot shot = source.acquire(view);
+    scout.require_fitting(shot.image, shot.camera_from_world);
+    return shot;
+  } catch (const AcquisitionError& error) {
+    scout.unreachable(view, error.what());
+  } catch (const InputError& error) {
+    scout.unreachable(view, error.what());
+  }
+  return {};
+}
+
+}  // namespace
+
 void run_scout(Scout& scout, ViewSource& source, const std::function<void(const ScoutState&)>& on_step) {
   while (const std::optional<ScoutDecision> proposal = scout.propose()) {
-    try {
-      const Shot shot = source.acquire(proposal->view);
-      scout.give(proposal->view, shot.image, shot.camera_from_world);
-    } catch (const AcquisitionError& error) {
-      scout.unreachable(proposal->view, error.what());
-    }
+    if (const std::optional<Shot> shot = shot_of(scout, source, proposal->view))
+      scout.give(proposal->view, shot->image, shot->camera_from_world);
     if (on_step) on_step(scout.state());
   }
 }

@@ -75,20 +75,22 @@ class Scout {
   std::optional<ScoutDecision> propose();
 
   // The image from a view, taken where it was planned or where the camera truly was. It need not be the
-  // proposed one. InputError: another size than the camera's, a view taken before, a pose that is not rigid.
+  // proposed one. InputError: a view taken before, what require_fitting refuses.
   void give(int view, const Image& image);
   void give(int view, const Image& image, const Se3& camera_from_world);
+  // Whether `give` would take it. InputError: another size than the camera's, other pixels than its size
+  // says, a pose that is not rigid.
+  void require_fitting(const Image& image, const Se3& camera_from_world) const;
   // The view failed; it is never proposed again.
   void unreachable(int view, const std::string& reason);
 
   const ScoutState& state() const { return state_; }
   // Goes on from a saved state, as if these steps had been made here. InputError naming `source`: other views
-  // than this scout's, objects it does not know, images of another size.
+  // or objects than this scout's, images of another size.
   void resume(ScoutState state, const std::string& source);
 
  private:
   void require_open(int view) const;
-  void require_fitting(const Image& image, const Se3& camera_from_world) const;
   ScoutEnd end_before_planning() const;
   int first_open_view() const;
   ScoutDecision decide() const;
@@ -112,8 +114,8 @@ class Scout {
   std::optional<ScoutDecision> proposal_;  // until there is news
 };
 
-// Drives the loop to its end: views that cannot be acquired are marked and it goes on. `on_step` is called
-// after every image or failure.
+// Drives the loop to its end: views that cannot be acquired, or whose shot does not fit the camera, are
+// marked and it goes on. `on_step` is called after every image or failure.
 void run_scout(Scout& scout, ViewSource& source, const std::function<void(const ScoutState&)>& on_step = {});
 
 }  // namespace edgescout

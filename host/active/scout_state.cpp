@@ -9,7 +9,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 1, "scout state"};
+constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 2, "scout state"};
 
 template <typename T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -67,13 +67,14 @@ concept A = std::same_as<std::remove_const_t<T>, Struct>;
 
 void fields(auto& io, A<StageSeconds> auto& x) { io(x.name, x.seconds); }
 void fields(auto& io, A<ViewInformation> auto& x) { io(x.open, x.information, x.motion_cost); }
-void fields(auto& io, A<ViewAgreement> auto& x) { io(x.residual_px, x.objects, x.disagrees); }
+void fields(auto& io, A<ViewAgreement> auto& x) { io(x.residual_px, x.objects, x.missing, x.disagrees); }
 void fields(auto& io, A<PoseFeatures> auto& x) {
   io(x.psi, x.mean_px, x.matched, x.points, x.length_px, x.in_image, x.visible, x.shading.pixels,
      x.shading.squares, x.shading.unexplained);
 }
 void fields(auto& io, A<ParticleUpdate> auto& x) { io(x.effective, x.resampled, x.reseeded); }
-void fields(auto& io, A<FailedView> auto& x) { io(x.view, x.reason, x.after_step); }
+void fields(auto& io, A<FailedView> auto& x) { io(x.view, x.reason, x.after_step, x.stages); }
+void fields(auto& io, A<ScoutObject> auto& x) { io(x.id, x.vertices, x.triangles, x.diameter_m); }
 void fields(auto& io, A<Image> auto& x) { io(x.width, x.height, x.pixels); }
 void fields(auto& io, A<Mode> auto& x) { io(x.object, x.particles, x.weight, x.probability); }
 void fields(auto& io, A<ModeDetection> auto& x) { io(x.detection, x.weight, x.supporting_views); }
@@ -92,7 +93,8 @@ void fields(auto& io, A<ScoutStep> auto& x) {
      x.agreement, x.entropy_nats, x.stages);
 }
 void fields(auto& io, A<ScoutState> auto& x) {
-  io(x.views, x.steps, x.failed, x.candidates, x.particles, x.modes, x.detections, x.entropy_nats, x.end);
+  io(x.objects, x.views, x.steps, x.failed, x.candidates, x.particles, x.modes, x.detections, x.entropy_nats,
+     x.end);
 }
 
 double sum(const std::vector<StageSeconds>& stages) {
@@ -131,6 +133,7 @@ std::vector<char> ScoutState::closed() const {
 double ScoutState::seconds() const {
   double seconds = 0;
   for (const ScoutStep& step : steps) seconds += sum(step.stages) + sum(step.decision.stages);
+  for (const FailedView& view : failed) seconds += sum(view.stages);
   return seconds;
 }
 

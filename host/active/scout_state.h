@@ -47,14 +47,24 @@ struct ScoutStep {
 struct FailedView {
   int view = 0;
   std::string reason;
-  std::size_t after_step = 0;  // number of images when it failed
+  std::size_t after_step = 0;        // number of images when it failed
+  std::vector<StageSeconds> stages;  // of the decision for it
 };
 
 enum class ScoutEnd { No, ViewBudget, NoViewLeft, Certain, LittleToLearn, TimeSpent };
 std::string to_string(ScoutEnd end);  // "", "view budget", ..
 
+// What tells the objects of one run from those of another.
+struct ScoutObject {
+  int id = 1;  // BOP obj_id
+  std::uint64_t vertices = 0, triangles = 0;
+  double diameter_m = 0;
+  bool operator==(const ScoutObject&) const = default;
+};
+
 struct ScoutState {
-  std::vector<Se3> views;  // camera_from_world of all possible views
+  std::vector<ScoutObject> objects;  // that are sought, in their order
+  std::vector<Se3> views;            // camera_from_world of all possible views
   std::vector<ScoutStep> steps;
   std::vector<FailedView> failed;     // never proposed again
   std::vector<Detection> candidates;  // world, best probability first
@@ -66,7 +76,7 @@ struct ScoutState {
 
   // One a view: nonzero where it was taken or cannot be reached.
   std::vector<char> closed() const;
-  // Of all steps and decisions: the machine's, not the arm's.
+  // Of all steps and decisions, those for views that failed included: the machine's, not the arm's.
   double seconds() const;
 };
 

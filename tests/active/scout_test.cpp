@@ -148,7 +148,7 @@ TEST(Scout, GoesOnFromASavedStateAsIfNothingHadHappened) {
   expect_goes_on(t, SmallCell::options(), t.source({0.0005, 0.001, true, 3}), {1, 2});
 }
 
-// Parts on a heap, of which every reported one hides what is behind it: what the next view is worth depends
+// Parts on a heap, of which every reported one hides what is behind it: the next image's registrations depend
 // on that.
 TEST(Scout, GoesOnWithWhatHidesOthers) {
   SmallCell t(4, 1);
@@ -179,6 +179,54 @@ TEST(Scout, GoesOnPastAFailedAcquisition) {
   EXPECT_EQ(state.failed[1].after_step, 0u);
   EXPECT_EQ(std::set<int>(asked.begin(), asked.end()).size(), 4u) << "none is asked for twice";
   EXPECT_EQ(t.found(state), 1);
+}
+
+// A driver's fault must not end the run.
+TEST(Scout, GoesOnPastAShotThatCannotBeUsed) {
+  SmallCell t;
+  SimulatedCell cell = t.source();
+  int shots = 0;
+  CallbackSource faulty(t.camera(), t.views, [&](int view) {
+    Shot shot = cell.acquire(view);
+    ++shots;
+    if (shots == 1) shot.image = {160, 120, std::vector<std::uint8_t>(160 * 120)};
+    if (shots == 2) shot.image.pixels.resize(100);
+    if (shots == 3) shot.camera_from_world.translation_m.x() = NAN;
+    if (shots == 4) throw InputError("camera: no link");
+    return shot;
+  });
+  ScoutOptions options = t.options();
+  options.max_views = 1;
+  Scout scout = t.scout(options);
+  run_scout(scout, faulty);
+  const ScoutState& state = scout.state();
+  EXPECT_EQ(state.steps.size(), 1u);
+  ASSERT_EQ(state.failed.size(), 4u);
+  EXPECT_NE(state.failed[0].reason.find("160x120"), std::string::npos) << state.failed[0].reason;
+  EXPECT_NE(state.failed[1].reason.find("100 pixels"), std::string::npos) << state.failed[1].reason;
+  EXPECT_NE(state.failed[2].reason.find("camera pose"), std::string::npos) << state.failed[2].reason;
+  EXPECT_EQ(state.failed[3].reason, "camera: no link");
+}
+
+TEST(Scout, CountsTheTimeOfDecisionsThatWereNotFollowed) {
+  SmallCell t;
+  SimulatedCell cell = t.source();
+  Scout scout = t.scout();
+  scout.give(0, cell.acquire(0).image);
+  const auto seconds_of = [](const ScoutDecision& decision) {
+    double seconds = 0;
+    for (const StageSeconds& stage : decision.stages) seconds += stage.seconds;
+    return seconds;
+  };
+  const double before = scout.state().seconds();
+  const ScoutDecision failed = *scout.propose();
+  scout.unreachable(failed.view, "behind the wall");
+  EXPECT_GT(seconds_of(failed), 0);
+  EXPECT_DOUBLE_EQ(scout.state().seconds(), before + seconds_of(failed));
+  const ScoutDecision ignored = *scout.propose();
+  const int other = ignored.view == 3 ? 4 : 3;
+  scout.give(other, cell.acquire(other).image);
+  EXPECT_EQ(seconds_of(scout.state().steps.back().decision), seconds_of(ignored));
 }
 
 TEST(Scout, EndsWhereNoViewCanBeHad) {
@@ -308,6 +356,14 @@ TEST(Scout, RefusesWhatItCannotUse) {
   options = t.options();
   options.min_entropy_nats = NAN;
   expect_input_error([&] { t.scout(options); }, {"min_entropy_nats"});
+  for (const int view : {-1, 8}) {
+    options = t.options();
+    options.next_view.sequence = {0, view, 3};
+    expect_input_error([&] { t.scout(options); }, {"sequence", std::to_string(view), "8 views"});
+  }
+  options = t.options();
+  options.particles.count = 16385;
+  expect_input_error([&] { t.scout(options); }, {"particles.count", "16385"});
   t.views.push_back(t.views[2]);
   expect_input_error([&] { t.scout(); }, {"scout: views"});
   expect_input_error([&] { Scout({}, t.camera(), {Se3{}}, {}, *t.backend); }, {"no object"});
@@ -333,6 +389,16 @@ TEST(ScoutState, OfAnotherRunOrDamagedIsRefused) {
   flipped[whole.size() / 3] ^= 4;
   const std::string bad = folder.write("bad.state", flipped);
   expect_input_error([&] { load_scout_state(bad); }, {"bad.state", "checksum"});
+  SmallCell nut("hex_nut");
+  Scout seeks_another = nut.scout();
+  expect_input_error([&] { seeks_another.resume(load_scout_state(file), file); }, {"scout.state", "objects"});
+  Scout same = t.scout();
+  ScoutState wrong = scout.state();
+  wrong.steps[0].after[0].object = 1;
+  expect_input_error([&] { same.resume(wrong, file); }, {"scout.state", "indices"});
+  wrong = scout.state();
+  wrong.failed.push_back({-1, "", 0, {}});
+  expect_input_error([&] { same.resume(wrong, file); }, {"scout.state", "indices"});
   t.views.pop_back();
   Scout other = t.scout();
   expect_input_error([&] { other.resume(load_scout_state(file), file); }, {"scout.state", "views"});

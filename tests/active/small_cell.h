@@ -11,14 +11,16 @@
 namespace edgescout::test {
 
 struct SmallCell {
-  Object part = make_part("l_bracket");
+  Object part;
   ThreadPool pool{2};
   Scene scene;
   std::vector<Se3> views = hemisphere_views({{0, 0, 0.01}, 0.3, {40, 70}, 8});
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
   std::vector<TemplateSet> sets;
 
-  explicit SmallCell(int objects = 1, double pile = 0) {
+  explicit SmallCell(const std::string& name) : SmallCell(1, 0, name) {}
+  explicit SmallCell(int objects = 1, double pile = 0, const std::string& name = "l_bracket")
+      : part(make_part(name)) {
     RenderOptions options = bare_board(objects);
     options.pile = pile;
     scene = make_scene(std::span(&part, 1), options);
