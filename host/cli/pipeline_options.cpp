@@ -60,7 +60,7 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
                "How much lower cameras are hidden by what is unknown; 0: not at all")
       .flag("literal", o.next_view.literal, "The paper's own formula for the information")
       .bounded("combinations", o.combinations.count, 1, 1000000, "Scenes imagined for a decision")
-      .bounded("sharpness", o.combinations.sharpness, 0.0, 1000.0,
+      .bounded("sharpness", o.combinations.sharpness, 0.0, 500.0,
                "Of the preference for likely candidates in them; 1: the paper's")
       .bounded("penetration", o.penetration_m, 0.0, 1.0, "How far parts may reach into each other, m");
   OptionTable(verb, "Belief")

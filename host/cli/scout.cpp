@@ -64,6 +64,15 @@ void settle_options(ScoutRequest& request) {
   request.templates.validate();
 }
 
+void require_known_views(const ScoutOptions& options, std::size_t count) {
+  const auto require = [&](const char* option, int view) {
+    if (view < 0 || view >= static_cast<int>(count))
+      throw InputError("command line", option, std::to_string(view), fmt::format("one of {} views", count));
+  };
+  require("--first-view", options.first_view);
+  for (const int view : options.next_view.sequence) require("--sequence", view);
+}
+
 // Says on standard error what each step brought.
 void tell(const ScoutState& state) {
   if (state.steps.empty()) return;
@@ -89,9 +98,7 @@ int scout(ScoutRequest& request) {
   const KnownModels known = load_models(request.models);
   const ScoutSource source = make_source(request.source, objects_of(known), backend->threads());
   const std::vector<Se3> views = source.source->views();
-  if (request.options.first_view >= static_cast<int>(views.size()))
-    throw InputError("command line", "--first-view", std::to_string(request.options.first_view),
-                     fmt::format("one of {} views", views.size()));
+  require_known_views(request.options, views.size());
   require_writable_folder(request.out);
   const std::vector<TemplateSet> sets =
       template_sets_of(known, with_distances_of(request.templates, views), source.source->camera(), *backend);

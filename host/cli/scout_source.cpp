@@ -72,7 +72,7 @@ void add_source_options(CLI::App& verb, SourceRequest& r) {
   OptionTable(verb, "Views")
       .bounded("radius", r.hemisphere.radius_m, 0.0, 100.0,
                "Of the hemisphere of views, m; 0: so that the parts fill the image")
-      .bounded("view-count", r.hemisphere.count, 1, 100000, "On it");
+      .bounded("view-count", r.hemisphere.count, 1, 10000, "On it");
   verb.add_option("--elevations", r.hemisphere.elevations_deg, "Of its rings, degrees above the board")
       ->capture_default_str()
       ->group("Views");

@@ -166,9 +166,14 @@ TEST(Scout, RefusesWhatItCannotUse) {
   refused(t.arguments({"--camera", "x.yaml"}), {"--camera", "cell"});
   refused(t.arguments({"--strategy", "best"}), {"strategy", "best", "mi-max"});
   refused(t.arguments({"--first-view", "8"}), {"--first-view", "8 views"});
+  refused(t.arguments({"--strategy", "fixed", "--sequence", "1", "99"}), {"--sequence", "99", "8 views"});
+  refused(t.arguments({"--strategy", "fixed", "--sequence", "1", "-1"}), {"--sequence", "-1", "8 views"});
   refused(t.arguments({"--views", t.folder.write("views.json", "[]")}), {"views.json"});
   refused(t.arguments({"--elevations", "120"}), {"elevation"});
   refused(t.arguments({"--arm-shift", "nan"}), {"--arm-shift", "nan"});
+  refused(t.arguments({"--sharpness", "501"}), {"--sharpness", "501", "0 to 500"});
+  refused({"scout", "cell", "--out", t.out, "--view-count", "10001"},
+          {"--view-count", "10001", "1 to 10000"});
   refused(t.arguments({"--max-detections", "1"}), {"--max-detections"});
   refused(t.arguments({"--second-look", "0"}), {"--second-look"});
 }
