@@ -1,5 +1,7 @@
 #include "host/experiments/recorded_starts.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/SVD>
 #include <algorithm>
 
@@ -42,10 +44,19 @@ void require_columns(const Table& table, const fs::path& file, std::initializer_
       throw InputError(file.string(), "columns", "no " + std::string(name), "a column of this name");
 }
 
+// Of a start, 1 to 4. InputError naming file and row.
+int level_in(const Table& table, std::size_t row, const fs::path& file) {
+  const std::string& text = text_in(table, row, "level");
+  if (text.size() != 1 || text[0] < '1' || text[0] > '4')
+    throw InputError(file.string(), fmt::format("row {}, level", row + 1), text, "1, 2, 3 or 4");
+  return text[0] - '0';
+}
+
 Table load_starts(const fs::path& folder) {
   const fs::path file = folder / "starts.csv";
   Table table = load_table(file);
   require_columns(table, file, {"start_id", "image", "object_id", "level", "r00", "tz"});
+  for (std::size_t row = 0; row < table.rows.size(); ++row) level_in(table, row, file);
   return table;
 }
 
@@ -150,7 +161,7 @@ std::vector<RecordedStart> recorded_starts(const fs::path& folder, const KnownSc
         std::ranges::find(scene.instances, text_in(table, row, "object_id"), &KnownInstance::name);
     if (instance == scene.instances.end()) continue;
     starts.push_back({id, static_cast<int>(instance - scene.instances.begin()),
-                      static_cast<int>(number_in(table, row, "level")), pose_in(table, row, "r00")});
+                      level_in(table, row, folder / "starts.csv"), pose_in(table, row, "r00")});
   }
   return starts;
 }
@@ -164,7 +175,7 @@ std::vector<RecordedResult> recorded_results(const fs::path& file) {
   for (std::size_t row = 0; row < table.rows.size(); ++row)
     results.push_back({static_cast<int>(number_in(table, row, "start_id")), text_in(table, row, "image"),
                        text_in(table, row, "object_id"), text_in(table, row, "method"),
-                       static_cast<int>(number_in(table, row, "level")), pose_in(table, row, first),
+                       level_in(table, row, file), pose_in(table, row, first),
                        number_in(table, row, "ok") != 0, number_in(table, row, "cpu_ms")});
   return results;
 }

@@ -19,7 +19,8 @@ struct RecordedStart {
   Se3 camera_from_object;  // in the first image
 };
 
-// The images' names, those with starts alone. InputError naming the first file of the set that is missing.
+// The images' names, those with starts alone. InputError naming the first file of the set that is missing,
+// or the row of a start whose level is none of the four.
 std::vector<std::string> recorded_images(const std::filesystem::path& folder);
 // The named image, after it `others` more of the same scene (0 where it has none).
 KnownScene recorded_scene(const std::filesystem::path& folder, const std::string& image, int others);

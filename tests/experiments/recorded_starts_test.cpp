@@ -83,5 +83,22 @@ TEST(RecordedStartsMissing, AreNamed) {
   expect_input_error([&] { recorded_images(folder.path()); }, {"s00.png"});
 }
 
+// There are four levels: others would be looked up outside of their table.
+TEST(RecordedStartsUnusable, AreNamedByTheirRow) {
+  const TemporaryFolder folder;
+  folder.write("ground_truth.json", "{}");
+  for (const std::string level : {"0", "5", "-1", "2.5", "1e9", ""}) {
+    folder.write("starts.csv",
+                 "start_id,image,object_id,level,r00,tz\n0,s00,a,1,1,1\n1,s00,a," + level + ",1,1\n");
+    expect_input_error([&] { recorded_images(folder.path()); },
+                       {"starts.csv", "row 2", "level", "found " + level, "1, 2, 3 or 4"});
+  }
+  const std::filesystem::path results = folder.write(
+      "results.csv",
+      "start_id,image,object_id,level,method,cpu_ms,ok,r00,r01,r02,r10,r11,r12,r20,r21,r22,tx,ty,tz\n"
+      "0,s00,a,7,d2co,1,1,1,0,0,0,1,0,0,0,1,0,0,500\n");
+  expect_input_error([&] { recorded_results(results); }, {"results.csv", "row 1", "level", "found 7"});
+}
+
 }  // namespace
 }  // namespace edgescout::test
