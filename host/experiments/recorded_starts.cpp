@@ -79,12 +79,18 @@ KnownImage load_known_image(const fs::path& folder, const JsonField& entry) {
   return {image, camera, pose_of(entry.at("R_cam_world").numbers(9), entry.at("t_cam_world").numbers(3))};
 }
 
+bool is_target(const JsonField& object) {
+  const JsonField target = object.at("target");
+  if (!target.value.is_boolean()) target.fail(target.value.dump(), "true or false");
+  return target.value.get<bool>();
+}
+
 // Targets of the image; their types are loaded as they appear.
 void add_instances(KnownScene& scene, const fs::path& folder, const JsonField& entry) {
   std::vector<std::string> models;
   const Se3 world_from_camera = inverse(scene.images[0].camera_from_world);
   for (const JsonField& object : entry.at("objects").elements()) {
-    if (!object.at("target").value.get<bool>()) continue;
+    if (!is_target(object)) continue;
     const std::string model = object.at("model").text();
     const auto known = std::ranges::find(models, model);
     const int index = static_cast<int>(known - models.begin());

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "host/eval/metrics.h"
+#include "host/io/image.h"
 #include "tests/io/expect_input_error.h"
 #include "tests/io/temporary_folder.h"
 
@@ -81,6 +82,17 @@ TEST(RecordedStartsMissing, AreNamed) {
   expect_input_error([&] { recorded_images(folder.path()); }, {"starts.csv", "object_id"});
   folder.write("starts.csv", "start_id,image,object_id,level,r00,tz\n0,s00,a,1,1,1\n");
   expect_input_error([&] { recorded_images(folder.path()); }, {"s00.png"});
+}
+
+TEST(RecordedStartsUnusable, AreNamedByTheirField) {
+  const TemporaryFolder folder;
+  save_png(Image{16, 16, std::vector<std::uint8_t>(16 * 16)}, folder.path() / "s00.png");
+  folder.write("ground_truth.json",
+               R"({"images": [{"name": "s00", "file": "s00.png", "width": 16, "height": 16, "fx": 20,
+                   "fy": 20, "cx": 7.5, "cy": 7.5, "R_cam_world": [1, 0, 0, 0, 1, 0, 0, 0, 1],
+                   "t_cam_world": [0, 0, 500], "objects": [{"target": "yes"}]}]})");
+  expect_input_error([&] { recorded_scene(folder.path(), "s00", 0); },
+                     {"ground_truth.json", "/images/0/objects/0/target", "found \"yes\"", "true or false"});
 }
 
 // There are four levels: others would be looked up outside of their table.
