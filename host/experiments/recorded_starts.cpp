@@ -106,14 +106,19 @@ void add_instances(KnownScene& scene, const fs::path& folder, const JsonField& e
   }
 }
 
+// The image first.
 std::vector<std::string> scene_images(const fs::path& folder, const std::string& image) {
-  const nlohmann::json json = read_json(folder / "ground_truth.json");
-  const JsonField root{json, (folder / "ground_truth.json").string(), ""};
+  const fs::path file = folder / "ground_truth.json";
+  const nlohmann::json json = read_json(file);
+  const JsonField root{json, file.string(), ""};
   std::vector<std::string> names{image};
-  for (const JsonField& entry : root.at("images").elements())
-    if (const std::string name = entry.at("name").text();
-        name != image && scene_name(name) == scene_name(image))
-      names.push_back(name);
+  bool is_there = false;
+  for (const JsonField& entry : root.at("images").elements()) {
+    const std::string name = entry.at("name").text();
+    is_there |= name == image;
+    if (name != image && scene_name(name) == scene_name(image)) names.push_back(name);
+  }
+  if (!is_there) root.at("images").fail("no " + image, "every image of starts.csv");
   return names;
 }
 

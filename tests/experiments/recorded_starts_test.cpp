@@ -93,6 +93,8 @@ TEST(RecordedStartsUnusable, AreNamedByTheirField) {
                    "t_cam_world": [0, 0, 500], "objects": [{"target": "yes"}]}]})");
   expect_input_error([&] { recorded_scene(folder.path(), "s00", 0); },
                      {"ground_truth.json", "/images/0/objects/0/target", "found \"yes\"", "true or false"});
+  expect_input_error([&] { recorded_scene(folder.path(), "s01", 0); },
+                     {"ground_truth.json", "/images", "found no s01"});
 }
 
 // There are four levels: others would be looked up outside of their table.
