@@ -10,13 +10,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int CAT_FRAMES = 32, CAT_STRIDE = 2;  // 0, 2 .. 30; frame 26 belongs to them
+constexpr int CAT_FRAMES = 32, CAT_STRIDE = 2;  // 0, 2 .. 30
 
-std::vector<int> cat_frames(const fs::path& scene, int every) {
+std::vector<int> cat_frames(int every) {
   std::vector<int> frames;
-  for (int frame = 0; frame < CAT_FRAMES; frame += CAT_STRIDE * every)
-    if (fs::exists(scene / "rgb" / fmt::format("{:06}.png", frame))) frames.push_back(frame);
+  for (int frame = 0; frame < CAT_FRAMES; frame += CAT_STRIDE * every) frames.push_back(frame);
   return frames;
+}
+
+void require_files(const Photographs& source) {
+  std::vector<fs::path> files{source.scene / "scene_camera.json", source.scene / "scene_gt.json",
+                              source.models / "obj_000001.ply"};
+  for (const int image : source.images)
+    files.push_back(source.scene / "rgb" / fmt::format("{:06}.png", image));
+  for (const fs::path& file : files)
+    if (!fs::exists(file)) throw InputError(file.string(), "file", "nothing", "a file of the photographs");
 }
 
 }  // namespace
@@ -24,13 +32,11 @@ std::vector<int> cat_frames(const fs::path& scene, int every) {
 std::vector<Photographs> photographs_in(const fs::path& data, int every) {
   if (data.empty()) return {};
   const fs::path brackets = data / "brackets", cat = data / "cat";
-  for (const fs::path& file :
-       {brackets / "000001/scene_camera.json", brackets / "000002/scene_camera.json",
-        brackets / "models/obj_000001.ply", cat / "scene_camera.json", cat / "models/obj_000001.ply"})
-    if (!fs::exists(file)) throw InputError(file.string(), "file", "nothing", "a file of the photographs");
-  return {{"brackets", brackets / "000001", brackets / "models", {1, 2, 3}},
-          {"brackets", brackets / "000002", brackets / "models", {4}},
-          {"cat", cat, cat / "models", cat_frames(cat, every)}};
+  const std::vector<Photographs> sources{{"brackets", brackets / "000001", brackets / "models", {1, 2, 3}},
+                                         {"brackets", brackets / "000002", brackets / "models", {4}},
+                                         {"cat", cat, cat / "models", cat_frames(every)}};
+  for (const Photographs& source : sources) require_files(source);
+  return sources;
 }
 
 std::vector<NamedPhotograph> single_photographs(const fs::path& data, int every) {
