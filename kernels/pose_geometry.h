@@ -48,6 +48,12 @@ ProjectedEdge<T> project_edge(const PosedPoint<T>& p, const Intrinsics& k) {
           k.fy * (p.point.z * p.tangent.y - p.point.y * p.tangent.z)};
 }
 
+// Whether it lies on one of the image's pixels.
+template <typename T>
+bool on_image(const ProjectedEdge<T>& at, int width, int height) {
+  return at.u >= T(-0.5) && at.u < width - T(0.5) && at.v >= T(-0.5) && at.v < height - T(0.5);
+}
+
 // Orientation in [0, pi).
 template <typename T>
 T orientation(T dx, T dy) {

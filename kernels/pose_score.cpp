@@ -46,8 +46,7 @@ PoseScore score_problem(const ScoreView& view, std::span<const ModelPoint> point
     const PosedPoint<T> posed = pose_point<T>(pose, model);
     if (posed.point.z <= POSE_MIN_DEPTH_M) continue;
     const ProjectedEdge<T> edge = project_edge(posed, view.tensor.intrinsics);
-    if (!(edge.u >= T(-0.5) && edge.u < s.width - T(0.5) && edge.v >= T(-0.5) && edge.v < s.height - T(0.5)))
-      continue;
+    if (!on_image(edge, s.width, s.height)) continue;
     const float value = tensor_lookup(view.tensor, float(edge.u), float(edge.v),
                                       float(orientation(edge.dx, edge.dy)), nullptr);
     ++inside;

@@ -13,13 +13,15 @@ namespace edgescout {
 namespace {
 
 // A raster point stands for raster_step of edge, seen at an angle; end-on edges are short in the image.
-double projected_length_px(const EdgeModel& model, const Se3& camera_from_object, const Intrinsics& k,
-                           std::span<const ModelPoint> points) {
+double length_in_image_px(const EdgeModel& model, const Se3& camera_from_object, const BackendView& view,
+                          std::span<const ModelPoint> points) {
   const Pose pose = to_pose(camera_from_object);
   double length = 0;
   for (const ModelPoint& point : points) {
     const PosedPoint<float> posed = pose_point<float>(pose, point);
-    const ProjectedEdge<float> edge = project_edge(posed, k);
+    if (posed.point.z <= POSE_MIN_DEPTH_M) continue;
+    const ProjectedEdge<float> edge = project_edge(posed, view.intrinsics);
+    if (!on_image(edge, view.shape.width, view.shape.height)) continue;
     length += std::hypot(edge.dx, edge.dy) / (posed.point.z * posed.point.z);
   }
   return length * model.raster_step_m;
@@ -56,8 +58,8 @@ std::vector<PoseFeatures> pose_features_by_view(std::span<const EdgeModel> model
     const Hypothesis& pose = poses[slot / views.size()];
     const Se3 camera_from_object = views[v].camera_from_world * pose.world_from_object;
     features[slot].visible = double(seen.unoccluded);
-    features[slot].length_px = projected_length_px(models[std::size_t(pose.object)], camera_from_object,
-                                                   views[v].view->intrinsics, seen.points);
+    features[slot].length_px =
+        length_in_image_px(models[std::size_t(pose.object)], camera_from_object, *views[v].view, seen.points);
     problems.push_back({to_pose(camera_from_object), std::uint32_t(points.size()),
                         std::uint32_t(seen.points.size()), std::uint32_t(v)});
     points.insert(points.end(), seen.points.begin(), seen.points.end());

@@ -43,5 +43,32 @@ TEST(PoseFeatures, OfAllViewsAreTheMeansOverTheirPoints) {
   EXPECT_EQ(all[2].mean_px, options.cap_px);
 }
 
+// An image cut in two: each half shows its part of the points and of the length, and no more.
+TEST(PoseFeatures, CountWhatLiesInTheImage) {
+  Random random = test_random();
+  const auto backend = make_cpu_backend(2);
+  const PartScene scene("bearing_block", 1, random, *backend);
+  const std::vector<EdgeModel> models{scene.model};
+  const Hypothesis truth{0, scene.truth};
+  const Camera camera = scene.views[0].camera;
+  const auto features_in = [&](int x0, int width) {
+    Camera cut = camera;
+    cut.width = width;
+    cut.cx -= x0;
+    RegisterView view = scene.views[0];
+    view.camera = cut;
+    view.view = backend->make_view({}, cut.width, cut.height, {}, intrinsics_of(cut), {});
+    return pose_features(models, {&truth, 1}, {&view, 1}, *backend, {})[0];
+  };
+  const int middle = camera.width / 2;
+  const PoseFeatures whole = features_in(0, camera.width), left = features_in(0, middle),
+                     right = features_in(middle, camera.width - middle);
+  EXPECT_GT(left.length_px, 0.1 * whole.length_px);
+  EXPECT_GT(right.length_px, 0.1 * whole.length_px);
+  EXPECT_EQ(left.points + right.points, whole.points);
+  EXPECT_NEAR(left.length_px + right.length_px, whole.length_px, 1e-3 * whole.length_px);
+  EXPECT_NEAR(left.in_image + right.in_image, 1, 1e-9);
+}
+
 }  // namespace
 }  // namespace edgescout::test
