@@ -24,6 +24,8 @@ struct DevicesRequest {
 
 void run(DevicesRequest& request) {
   request.options.pipeline.edges.method = edge_method_from_name(request.edge_method);
+  request.options.validate();
+  for (const std::string& device : request.options.devices) make_backend(device);  // that is there
   require_writable_folder(request.out);
   DevicesReport report;
   {

@@ -63,20 +63,20 @@ void write_index(const fs::path& out) {
   write_file_atomically(out / "index.md", text);
 }
 
-Table run_cells_of(const Experiment& experiment, const ExperimentSettings& settings, const ExperimentRun& run,
-                   const std::string& device_name) {
-  CellRun cells;
-  cells.folder = run.out / "cells" / experiment.name;
-  cells.settings = settings_notes(experiment, settings, device_name);
-  cells.commit = run.commit;
-  cells.resume = run.resume;
-  cells.workers = workers_on(device_name);
-  cells.make_backend = [&] {
+Table run_cells_of(const Experiment& experiment, const std::vector<Cell>& cells, const Notes& settings,
+                   const ExperimentRun& run, const std::string& device_name) {
+  CellRun cell_run;
+  cell_run.folder = run.out / "cells" / experiment.name;
+  cell_run.settings = settings;
+  cell_run.commit = run.commit;
+  cell_run.resume = run.resume;
+  cell_run.workers = workers_on(device_name);
+  cell_run.make_backend = [&] {
     return backend_of_cell(run.device == "auto" && device_name == "cpu" ? "cpu" : run.device);
   };
   if (run.progress)
-    cells.progress = [&](std::size_t done, std::size_t all) { run.progress(experiment.name, done, all); };
-  return joined(run_cells(experiment.cells(settings), cells));
+    cell_run.progress = [&](std::size_t done, std::size_t all) { run.progress(experiment.name, done, all); };
+  return joined(run_cells(cells, cell_run));
 }
 
 }  // namespace
@@ -104,10 +104,13 @@ void run_experiments(const std::vector<Experiment>& chosen, const ExperimentSett
                      const ExperimentRun& run) {
   settings.validate();
   const std::string device_name = make_backend(run.device)->name();
+  std::vector<std::vector<Cell>> cells;  // of all: data that is not there ends the run before it writes
+  for (const Experiment& experiment : chosen) cells.push_back(experiment.cells(settings));
   require_writable_folder(run.out);
-  for (const Experiment& experiment : chosen) {
-    const Table table = run_cells_of(experiment, settings, run, device_name);
-    write_report(experiment, settings, table, run.out);
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const Notes notes = settings_notes(chosen[i], settings, device_name);
+    const Table table = run_cells_of(chosen[i], cells[i], notes, run, device_name);
+    write_report(chosen[i], settings, table, run.out);
     write_index(run.out);
   }
 }

@@ -40,8 +40,8 @@ struct ExperimentRun {
 
 // Writes into `out`: cells/NAME/.., and when the experiment's cells are finished NAME.csv (all rows),
 // NAME.md, NAME.svg; at the end index.md. On a CPU as many cells run side by side as it has threads, each on
-// one of them; on a device one after the other. InputError as run_cells, for settings out of bounds and for
-// data that is not there.
+// one of them; on a device one after the other. InputError as run_cells; for settings out of bounds and for
+// data that is not there before anything is written.
 void run_experiments(const std::vector<Experiment>& chosen, const ExperimentSettings& settings,
                      const ExperimentRun& run);
 

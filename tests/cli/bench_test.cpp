@@ -126,6 +126,9 @@ TEST(BenchExperiments, NameWhatIsMissingOfTheData) {
   folder.write("data/d2co-starts/starts.csv", "start_id,image,object_id,level,r00,tz\n");
   expect_one_line(run_program(experiments(out, {"registration", "--data", data})),
                   {(data / "brackets/000001/scene_camera.json").string()});
+  expect_one_line(run_program(experiments(out, {"nbv", "multiview", "--data", data})),
+                  {(data / "brackets/000001/scene_camera.json").string()});
+  EXPECT_FALSE(fs::exists(out));
 }
 
 TEST(BenchExperiments, OfOtherSettingsAreNotMixed) {
@@ -206,12 +209,17 @@ TEST(BenchDevices, TimesEveryStageBesideTheCpu) {
     }
 }
 
-TEST(BenchDevices, RefuseADeviceThatIsNotThere) {
+TEST(BenchDevices, RefuseWhatTheyCannotTime) {
   const TemporaryFolder folder;
-  expect_one_line(run_program({"bench", "devices", "--out", folder.path() / "out", "--device", "vulkan:99"}),
-                  {"vulkan:99"});
-  expect_one_line(run_program({"bench", "devices", "--out", folder.path() / "out", "--repetitions", "2"}),
-                  {"--repetitions", "3 to 1000"});
+  const fs::path out = folder.path() / "out";
+  const auto refused = [&](const std::string& option, const std::string& value,
+                           std::initializer_list<std::string> words) {
+    expect_one_line(run_program({"bench", "devices", "--out", out, option, value}), words);
+    EXPECT_FALSE(fs::exists(out)) << option;
+  };
+  refused("--device", "vulkan:99", {"vulkan:99"});
+  refused("--repetitions", "2", {"--repetitions", "3 to 1000"});
+  refused("--distance-min", "0.5", {"distance_max"});
 }
 
 }  // namespace
