@@ -24,12 +24,21 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+BatchSettings settings_of(std::span<const TemplateSet> sets, const BatchOptions& options) {
+  BatchSettings settings{options.settings, {}};
+  for (auto& setting : settings_of(sets)) settings.common.push_back(std::move(setting));
+  if (!options.camera_file.empty()) settings.camera = load_camera(options.camera_file);
+  return settings;
+}
+
 // The images that are detected together: one, or all views of a scene.
 struct Group {
   std::vector<const InputImage*> images;
+  std::string views;  // as settings tell them
 };
 
-std::vector<Group> group_images(std::span<const InputImage> images, bool joint) {
+std::vector<Group> group_images(std::span<const InputImage> images, bool joint,
+                                const BatchSettings& settings) {
   std::vector<Group> groups;
   for (const InputImage& image : images) {
     const bool same_scene = joint && !groups.empty() && groups.back().images[0]->scene_id == image.scene_id &&
@@ -37,6 +46,7 @@ std::vector<Group> group_images(std::span<const InputImage> images, bool joint) 
     if (!same_scene) groups.emplace_back();
     groups.back().images.push_back(&image);
   }
+  for (Group& group : groups) group.views = joint ? settings.jointly(group.images) : "alone";
   return groups;
 }
 
@@ -49,9 +59,8 @@ struct Prepared {
 
 class Preparer {
  public:
-  explicit Preparer(const BatchOptions& options) : options_(options), backend_(make_cpu_backend(1)) {
-    if (!options.camera_file.empty()) camera_ = load_camera(options.camera_file);
-  }
+  Preparer(const BatchOptions& options, const std::optional<Camera>& camera)
+      : options_(options), camera_(camera), backend_(make_cpu_backend(1)) {}
   Prepared prepare(const Group& group) {
     Prepared prepared;
     for (const InputImage* input : group.images) {
@@ -85,14 +94,14 @@ class Preparer {
   }
 
   const BatchOptions& options_;
-  std::optional<Camera> camera_;
+  const std::optional<Camera>& camera_;
   std::unique_ptr<Backend> backend_;
 };
 
 ImageResult result_of(const InputImage& input, const PreparedImage& prepared, const Detections& detections,
                       std::span<const TemplateSet> sets, const Backend& backend, bool joint) {
   ImageResult result;
-  result.image = input.file;
+  result.image = place_of(input);
   result.scene_id = input.scene_id;
   result.image_id = input.image_id;
   result.camera = prepared.camera;
@@ -115,16 +124,20 @@ void write_overlay(const InputImage& input, const PreparedImage& prepared, const
            options.out / (input.name + "_overlay.png"));
 }
 
-bool is_done(const Group& group, const BatchOptions& options) {
-  return std::ranges::all_of(group.images,
-                             [&](const InputImage* input) { return is_done(options.out, *input); });
+// Each is judged, also after one that is missing: what is there must not be another run's.
+bool is_done(const Group& group, const BatchOptions& options, const BatchSettings& settings) {
+  bool all_done = true;
+  for (const InputImage* input : group.images)
+    all_done &= is_done(options.out, *input, settings.of(*input, group.views));
+  return all_done;
 }
 
 // The batch behind the preparation: device work group by group.
 class Detector {
  public:
-  Detector(std::span<const TemplateSet> sets, Backend& backend, const BatchOptions& options)
-      : sets_(sets), backend_(backend), options_(options) {
+  Detector(std::span<const TemplateSet> sets, Backend& backend, const BatchOptions& options,
+           const BatchSettings& settings)
+      : sets_(sets), backend_(backend), options_(options), settings_(settings) {
     for (const TemplateSet& set : sets) models_.push_back(set.model);
   }
   void work_on(const Group& group, Prepared prepared) {
@@ -151,8 +164,9 @@ class Detector {
     for (const StageSeconds& stage : found.stages) summary.stage_seconds[stage.name] += stage.seconds;
     for (std::size_t i = 0; i < usable.size(); ++i) {
       if (options_.overlays) write_overlay(*good.images[i], usable[i], found, models_, backend_, options_);
-      save_image_result(result_of(*good.images[i], usable[i], found, sets_, backend_, options_.joint),
-                        json_of(options_.out, *good.images[i]));
+      ImageResult result = result_of(*good.images[i], usable[i], found, sets_, backend_, options_.joint);
+      result.settings = settings_.of(*good.images[i], group.views);
+      save_image_result(result, json_of(options_.out, *good.images[i]));
       ++summary.done;
     }
   }
@@ -168,6 +182,7 @@ class Detector {
   std::span<const TemplateSet> sets_;
   Backend& backend_;
   const BatchOptions& options_;
+  const BatchSettings& settings_;
   std::vector<EdgeModel> models_;
 };
 
@@ -197,19 +212,19 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
                        Backend& backend, const BatchOptions& options) {
   const auto start = Clock::now();
   if (options.joint) require_world_poses(images);
-  std::vector<Group> groups = group_images(images, options.joint);
-  Preparer preparer(options);
-  require_writable_folder(options.out);
-  Detector detector(sets, backend, options);
+  const BatchSettings settings = settings_of(sets, options);
+  Preparer preparer(options, settings.camera);
+  Detector detector(sets, backend, options, settings);
   BatchSummary& summary = detector.summary;
   summary.images = static_cast<int>(images.size());
   std::vector<Group> open;
-  for (Group& group : groups) {
-    if (options.resume && is_done(group, options))
+  for (Group& group : group_images(images, options.joint, settings)) {
+    if (options.resume && is_done(group, options, settings))
       summary.skipped += static_cast<int>(group.images.size());
     else
       open.push_back(std::move(group));
   }
+  require_writable_folder(options.out);
   try {
     work_through(open, preparer, detector);
   } catch (const GpuError&) {

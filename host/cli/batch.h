@@ -19,13 +19,16 @@ struct BatchOptions {
   bool joint = false;  // all views of a BOP scene at once
   bool overlays = true;
   PipelineOptions pipeline;
+  Settings settings;  // of the verb, for a resumed batch to compare; models and cameras are added
 };
 
 // InputError naming the first image without a world pose: what `joint` asks for.
 void require_world_poses(std::span<const InputImage> images);
 
 // Writes into `out`: NAME.json and NAME_overlay.png an image, results.csv (BOP) and summary.json. A bad image
-// is listed and the batch goes on; a GpuError ends it, and results.csv holds what was finished.
+// is listed and the batch goes on; a GpuError ends it, and results.csv holds what was finished. With `resume`
+// images whose result is there are skipped; InputError, and nothing is written, where one of these was made
+// with other models, cameras, views or settings. Another image's result of the same name is none of these.
 BatchSummary run_batch(std::span<const InputImage> images, std::span<const TemplateSet> sets,
                        Backend& backend, const BatchOptions& options);
 

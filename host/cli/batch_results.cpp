@@ -13,14 +13,23 @@ std::filesystem::path json_of(const std::filesystem::path& out, const InputImage
   return out / (input.name + ".json");
 }
 
-bool is_done(const std::filesystem::path& out, const InputImage& input) {
+std::filesystem::path place_of(const InputImage& input) {
+  return std::filesystem::absolute(input.file).lexically_normal();
+}
+
+bool is_done(const std::filesystem::path& out, const InputImage& input, const Settings& settings) {
   const std::filesystem::path file = json_of(out, input);
   if (!std::filesystem::exists(file)) return false;
+  ImageResult result;
   try {
-    load_image_result(file);
+    result = load_image_result(file);
   } catch (const InputError&) {
     return false;  // cut short, of an older format or another file: done again
   }
+  if (result.image != place_of(input) || result.scene_id != input.scene_id ||
+      result.image_id != input.image_id)
+    return false;
+  require_same(result.settings, settings, file.string());
   return true;
 }
 

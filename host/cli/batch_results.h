@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "host/cli/inputs.h"
-#include "host/io/results.h"
+#include "host/cli/batch_settings.h"
 
 namespace edgescout {
 
@@ -22,8 +21,12 @@ struct BatchSummary {
 
 std::filesystem::path json_of(const std::filesystem::path& out, const InputImage& input);
 
-// Whether a whole result in today's format is there.
-bool is_done(const std::filesystem::path& out, const InputImage& input);
+// As results name an image: the working folder of a later run may be another.
+std::filesystem::path place_of(const InputImage& input);
+
+// Whether a whole result of this very image is there, in today's format. InputError where it was made with
+// other settings: it is neither this batch's nor to be lost.
+bool is_done(const std::filesystem::path& out, const InputImage& input, const Settings& settings);
 
 // results.csv, from the JSON files of this run and, after a resume, of those before it. Of an image that
 // failed now an older result is not listed.

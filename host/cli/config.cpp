@@ -132,7 +132,9 @@ template OptionTable& OptionTable::bounded(const std::string&, float&, float, fl
 template OptionTable& OptionTable::bounded(const std::string&, double&, double, double, const std::string&);
 
 OptionTable& OptionTable::flag(const std::string& name, bool& field, const std::string& help) {
-  verb_.add_flag("--" + name, field, help)->group(group_);
+  verb_.add_flag("--" + name, field, help)->group(group_)->default_function([&field] {
+    return std::string(field ? "true" : "false");
+  });
   return *this;
 }
 
@@ -148,6 +150,17 @@ OptionTable& OptionTable::choice(const std::string& name, std::string& field,
       "one of " + list);
   verb_.add_option("--" + name, field, help)->check(known)->capture_default_str()->group(group_);
   return *this;
+}
+
+std::vector<std::pair<std::string, std::string>> settings_of(CLI::App& verb,
+                                                             const std::set<std::string>& groups) {
+  std::vector<std::pair<std::string, std::string>> settings{{"verb", verb.get_name()}};
+  const auto is_row = [&](const CLI::Option* option) { return groups.contains(option->get_group()); };
+  for (CLI::Option* option : verb.get_options(is_row)) {
+    option->capture_default_str();  // of the field, whatever filled it
+    settings.emplace_back(option->get_lnames().front(), option->get_default_str());
+  }
+  return settings;
 }
 
 std::vector<CLI::ConfigItem> YamlConfig::from_config(std::istream& input) const {

@@ -6,7 +6,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace edgescout {
@@ -29,6 +31,11 @@ class OptionTable {
   CLI::App& verb_;
   std::string group_;
 };
+
+// What a result depends on, to be written with it: the verb that made it and the rows in these groups, each
+// with the value its field has now.
+std::vector<std::pair<std::string, std::string>> settings_of(CLI::App& verb,
+                                                             const std::set<std::string>& groups);
 
 // YAML for CLI11. Keys are option names of the verb that runs or of the program; a map under a verb's name
 // holds that verb's options and is ignored when another verb runs. Sequences give an option several values.

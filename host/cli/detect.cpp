@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "host/cli/batch.h"
+#include "host/cli/config.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/pipeline_options.h"
 #include "host/cli/template_sets.h"
@@ -103,13 +104,17 @@ void add_detect(CLI::App& app, int& exit_code) {
   OptionTable(*verb, "Batch")
       .flag("scale-camera", request->batch.scale_camera,
             "Accept images whose size is a pure scale of the calibration's")
-      .flag("resume", request->batch.resume, "Skip images whose result is there already")
+      .flag("resume", request->batch.resume,
+            "Skip images whose result is there, made with the same models and options")
       .flag("joint", request->batch.joint, "Detect in all views of a BOP scene at once (needs world poses)")
       .flag("no-overlays", request->no_overlays, "Write no overlay pictures");
   add_template_options(*verb, request->templates);
   add_edge_and_tensor_options(*verb, request->batch.pipeline, request->edge_method);
   add_detection_options(*verb, request->batch.pipeline);
-  verb->callback([request, &exit_code] { exit_code = detect(*request); });
+  verb->callback([request, &exit_code, verb] {
+    request->batch.settings = settings_of(*verb, {"Edges", "Tensor", "Detection"});
+    exit_code = detect(*request);
+  });
 }
 
 }  // namespace edgescout

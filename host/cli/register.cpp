@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "host/cli/config.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/pipeline_options.h"
 #include "host/cli/register_batch.h"
@@ -100,13 +101,18 @@ void add_register(CLI::App& app, int& exit_code) {
       .bounded("search-rotation", refine.search.rotation_rad, 0.0, 1.0,
                "Also start turned by so much about 14 axes, rad; 0: from the given pose alone")
       .bounded("survivors", refine.search.survivors, 1, 15, "Of those starts, registered in full")
-      .flag("no-polish", request->no_polish, "Leave out the last step, on sub-pixel edge points")
+      .flag("no-polish", request->no_polish, "Leave out the last step, on sub-pixel edge points");
+  OptionTable(*verb, "Batch")
       .flag("scale-camera", request->options.scale_camera,
             "Accept images whose size is a pure scale of the calibration's")
-      .flag("resume", request->options.resume, "Skip images whose result is there already")
+      .flag("resume", request->options.resume,
+            "Skip images whose result is there, made with the same models and options")
       .flag("no-overlays", request->no_overlays, "Write no overlay pictures");
   add_edge_and_tensor_options(*verb, request->options.pipeline, request->edge_method);
-  verb->callback([request, &exit_code] { exit_code = register_all(*request); });
+  verb->callback([request, &exit_code, verb] {
+    request->options.settings = settings_of(*verb, {"Registration", "Edges", "Tensor"});
+    exit_code = register_all(*request);
+  });
 }
 
 }  // namespace edgescout

@@ -1,5 +1,7 @@
 #include "host/cli/register_batch.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -8,6 +10,7 @@
 #include "host/core/log.h"
 #include "host/detect/detect.h"
 #include "host/detect/observation.h"
+#include "host/io/binary_file.h"
 #include "host/io/camera_file.h"
 #include "host/io/files.h"
 #include "host/io/image.h"
@@ -88,12 +91,11 @@ Detections refine_job(const ReadyJob& ready, std::span<const RegisterModel> mode
   return result;
 }
 
-void save_json(const ReadyJob& ready, std::size_t view, const Detections& found,
-               std::span<const RegisterModel> models, const Backend& backend,
-               const RegisterOptions& options) {
+ImageResult result_of(const ReadyJob& ready, std::size_t view, const Detections& found,
+                      std::span<const RegisterModel> models, const Backend& backend) {
   const InputImage& input = ready.job->views[view];
   ImageResult result;
-  result.image = input.file;
+  result.image = place_of(input);
   result.scene_id = input.scene_id;
   result.image_id = input.image_id;
   result.camera = ready.views[view].camera;
@@ -104,7 +106,7 @@ void save_json(const ReadyJob& ready, std::size_t view, const Detections& found,
     result.objects.push_back({model.object_id, model.edges.mesh.name});
   for (std::size_t i = 0; i < found.detections.size(); ++i)
     if (ready.job->starts[i].view == view) result.detections.push_back(found.detections[i]);
-  save_image_result(result, json_of(options.out, input));
+  return result;
 }
 
 void save_overlay(const ReadyJob& ready, std::size_t view, const Detections& found,
@@ -128,17 +130,44 @@ std::vector<std::size_t> views_with_starts(const RegisterJob& job) {
   return views;
 }
 
-bool is_done(const RegisterJob& job, const RegisterOptions& options) {
-  return std::ranges::all_of(views_with_starts(job),
-                             [&](std::size_t view) { return is_done(options.out, job.views[view]); });
+BatchSettings settings_of(std::span<const RegisterModel> models, const RegisterOptions& options) {
+  BatchSettings settings{options.settings, options.camera};
+  for (const RegisterModel& model : models)
+    settings.common.push_back(setting_of(model.object_id, model.edges));
+  return settings;
+}
+
+std::string text_of(const std::vector<RegisterJob::Start>& starts, std::span<const RegisterModel> models) {
+  BinaryWriter out;
+  for (const RegisterJob::Start& start : starts) {
+    out.put(static_cast<std::uint64_t>(start.view));
+    out.put(models[static_cast<std::size_t>(start.model)].object_id);
+    out.put_pose(start.camera_from_object);
+  }
+  return fmt::format("{}, {}", starts.size(), checksum_text(out.bytes));
+}
+
+std::string views_of(const RegisterJob& job, const BatchSettings& settings) {
+  if (job.views.size() == 1) return "alone";
+  std::vector<const InputImage*> views;
+  for (const InputImage& view : job.views) views.push_back(&view);
+  return settings.jointly(views);
 }
 
 // The batch job by job.
 class Registrar {
  public:
   Registrar(std::span<const RegisterModel> models, Backend& backend, const RegisterOptions& options)
-      : models_(models), backend_(backend), options_(options) {
+      : models_(models), backend_(backend), options_(options), settings_(settings_of(models, options)) {
     for (const RegisterModel& model : models) edge_models_.push_back(model.edges);
+  }
+
+  // Each is judged, also after one that is missing: what is there must not be another run's.
+  bool is_done(const RegisterJob& job) const {
+    bool all_done = true;
+    for (std::size_t view : views_with_starts(job))
+      all_done &= edgescout::is_done(options_.out, job.views[view], settings_of_view(job, view));
+    return all_done;
   }
 
   // InputError: an image that cannot be used.
@@ -148,8 +177,11 @@ class Registrar {
     const Detections found = refine_job(ready, models_, edge_models_, backend_, options_);
     for (std::size_t view = 0; options_.overlays && view < job.views.size(); ++view)
       save_overlay(ready, view, found, edge_models_, backend_, options_);
-    for (std::size_t view : views_with_starts(job))
-      save_json(ready, view, found, models_, backend_, options_);
+    for (std::size_t view : views_with_starts(job)) {
+      ImageResult result = result_of(ready, view, found, models_, backend_);
+      result.settings = settings_of_view(job, view);
+      save_image_result(result, json_of(options_.out, job.views[view]));
+    }
     for (const StageSeconds& stage : found.stages) summary.stage_seconds[stage.name] += stage.seconds;
     summary.done += static_cast<int>(views_with_starts(job).size());
     summary.poses += static_cast<int>(found.detections.size());
@@ -158,9 +190,16 @@ class Registrar {
   RegisterSummary summary;
 
  private:
+  Settings settings_of_view(const RegisterJob& job, std::size_t view) const {
+    Settings settings = settings_.of(job.views[view], views_of(job, settings_));
+    settings.emplace_back("starts", text_of(job.starts, models_));
+    return settings;
+  }
+
   std::span<const RegisterModel> models_;
   Backend& backend_;
   const RegisterOptions& options_;
+  BatchSettings settings_;
   std::vector<EdgeModel> edge_models_;
 };
 
@@ -171,21 +210,29 @@ std::vector<InputImage> images_of(std::span<const RegisterJob> jobs) {
   return images;
 }
 
-void work_through(std::span<const RegisterJob> jobs, Registrar& registrar, const RegisterOptions& options) {
-  Progress progress("register", jobs.size(), std::cerr, stderr_is_terminal());
-  std::size_t failed = 0;
-  for (const RegisterJob& job : jobs) {
-    if (options.resume && is_done(job, options)) {
+// Judged before any work: a result of another run ends the batch.
+std::vector<const RegisterJob*> skip_done(std::span<const RegisterJob> jobs, Registrar& registrar,
+                                          bool resume) {
+  std::vector<const RegisterJob*> open;
+  for (const RegisterJob& job : jobs)
+    if (resume && registrar.is_done(job))
       registrar.summary.skipped += static_cast<int>(views_with_starts(job).size());
-    } else {
-      try {
-        registrar.work_on(job);
-      } catch (const InputError& error) {
-        if (++failed == jobs.size()) throw;
-        for (std::size_t view : views_with_starts(job))
-          registrar.summary.failures[job.views[view].file.string()] = error.what();
-        log(LogLevel::Warning, error.what());
-      }
+    else
+      open.push_back(&job);
+  return open;
+}
+
+void work_through(const std::vector<const RegisterJob*>& open, Registrar& registrar) {
+  Progress progress("register", open.size(), std::cerr, stderr_is_terminal());
+  std::size_t failed = 0;
+  for (const RegisterJob* job : open) {
+    try {
+      registrar.work_on(*job);
+    } catch (const InputError& error) {
+      if (++failed == open.size() && registrar.summary.skipped == 0) throw;
+      for (std::size_t view : views_with_starts(*job))
+        registrar.summary.failures[job->views[view].file.string()] = error.what();
+      log(LogLevel::Warning, error.what());
     }
     progress.step();
   }
@@ -200,8 +247,9 @@ RegisterSummary run_register(std::span<const RegisterJob> jobs, std::span<const 
   Registrar registrar(models, backend, options);
   RegisterSummary& summary = registrar.summary;
   summary.images = static_cast<int>(images.size());
+  const std::vector<const RegisterJob*> open = skip_done(jobs, registrar, options.resume);
   try {
-    work_through(jobs, registrar, options);
+    work_through(open, registrar);
   } catch (const GpuError&) {
     if (summary.done + summary.skipped > 0) write_csv(images, summary, options.out);  // of what was finished
     throw;

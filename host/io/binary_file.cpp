@@ -5,16 +5,11 @@
 
 namespace edgescout {
 
-namespace {
-
-// FNV-1a, 64 bit.
 std::uint64_t checksum(std::string_view bytes) {
   std::uint64_t hash = 14695981039346656037ull;
   for (unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211ull;
   return hash;
 }
-
-}  // namespace
 
 Eigen::Quaterniond BinaryReader::get_rotation() {
   const double w = get<double>(), x = get<double>(), y = get<double>(), z = get<double>();

@@ -85,6 +85,9 @@ class BinaryReader {
   const char* name_;
 };
 
+// FNV-1a, 64 bit.
+std::uint64_t checksum(std::string_view bytes);
+
 // Header and payload, atomically.
 void write_binary_file(const std::filesystem::path& file, const BinaryFormat& format,
                        std::string_view payload);

@@ -65,6 +65,12 @@ Camera read_camera(const JsonField& field) {
   return c;
 }
 
+Settings read_settings(const JsonField& field) {
+  Settings settings;
+  for (const auto& item : field.value.items()) settings.emplace_back(item.key(), field.at(item.key()).text());
+  return settings;
+}
+
 int index_of(const JsonField& object_id, const std::vector<ObjectName>& objects) {
   for (std::size_t i = 0; i < objects.size(); ++i)
     if (objects[i].id == object_id.integer()) return static_cast<int>(i);
@@ -100,6 +106,7 @@ void save_image_result(const ImageResult& result, const std::filesystem::path& f
   root["image_id"] = result.image_id;
   root["device"] = result.device;
   root["camera"] = camera_json(result.camera);
+  for (const auto& [name, value] : result.settings) root["settings"][name] = value;
   if (result.camera_from_world) root["camera_from_world"] = pose_json(*result.camera_from_world);
   root["timings_ms"] = json::array();
   for (const StageSeconds& stage : result.stages)
@@ -125,6 +132,7 @@ ImageResult load_image_result(const std::filesystem::path& file) {
   result.image_id = root.at("image_id").integer();
   result.device = root.at("device").text();
   result.camera = read_camera(root.at("camera"));
+  if (root.has("settings")) result.settings = read_settings(root.at("settings"));
   if (root.has("camera_from_world")) result.camera_from_world = read_pose(root.at("camera_from_world"));
   for (const JsonField& stage : root.at("timings_ms").elements())
     result.stages.push_back({stage.at("stage").text(), stage.at("ms").number() / 1000});

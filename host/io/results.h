@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/core/stopwatch.h"
@@ -19,12 +20,16 @@ struct ObjectName {
   std::string name;
 };
 
+// What a result was made with beside its image, by name: checksums of models, numbers of the camera, options.
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
 struct ImageResult {
   std::filesystem::path image;
   int scene_id = 0;
   int image_id = 0;
   Camera camera;
   std::string device;                    // Backend::name()
+  Settings settings;                     // empty: not told; by name once read
   std::vector<StageSeconds> stages;      // in the order they ran
   std::optional<Se3> camera_from_world;  // where absent, the world is the camera frame
   std::vector<ObjectName> objects;       // what Detection::object indexes
@@ -32,9 +37,9 @@ struct ImageResult {
 };
 
 // Atomically. The fields: edgescout_result (version of the format, 1), image, scene_id, image_id, device,
-// camera, camera_from_world (optional), timings_ms [{stage, ms}], objects [{id, name}], detections
-// [{object_id, object, world_from_object, camera_from_object, covariance, probability, psi, cost_px,
-// visible_fraction, convergence}]. A number that is not finite becomes null.
+// camera, settings {name: text} (optional), camera_from_world (optional), timings_ms [{stage, ms}], objects
+// [{id, name}], detections [{object_id, object, world_from_object, camera_from_object, covariance,
+// probability, psi, cost_px, visible_fraction, convergence}]. A number that is not finite becomes null.
 void save_image_result(const ImageResult& result, const std::filesystem::path& file);
 
 // InputError naming file and field: missing, no JSON, another version, a field missing or of another type.

@@ -117,6 +117,17 @@ TEST(RunBatch, GoesOnPastAnImageTheDeviceRefuses) {
   EXPECT_EQ(t.listed(), (std::set<int>{0, 2}));
 }
 
+TEST(RunBatch, MixesNoJointResultsWithThoseOfOneView) {
+  const Batch t;
+  run_batch(t.images, t.sets, *make_cpu_backend(2), t.options);
+  BatchOptions jointly = t.options;
+  jointly.joint = jointly.resume = true;
+  expect_input_error([&] { run_batch(t.images, t.sets, *make_cpu_backend(1), jointly); },
+                     {"000003_000000.json", "views: found alone", "expected 3 jointly"});
+  fs::remove(t.json(0));  // to be done; the others would still be mixed with it
+  expect_input_error([&] { run_batch(t.images, t.sets, *make_cpu_backend(1), jointly); }, {"views"});
+}
+
 TEST(RunBatch, OurOwnBugsEndIt) {
   const Batch t;
   FailingBackend backend(0, [] { throw LogicError("bug"); });

@@ -57,6 +57,19 @@ struct Program {
   }
 };
 
+TEST(OptionTable, TellsWhatAResultDependsOnWhoeverSetIt) {
+  Program p;
+  p.parse({"first", "--lambda", "50.0", "--fast"});
+  CLI::App& verb = *p.app.get_subcommand("first");
+  const std::vector<std::pair<std::string, std::string>> expected{
+      {"verb", "first"}, {"lambda", "50"}, {"bins", "60"}, {"sigma", "1.5"},
+      {"top", "10"},     {"fast", "true"}, {"mode", "one"}};
+  EXPECT_EQ(settings_of(verb, {"Test"}), expected);
+  p.first.fast = false;
+  EXPECT_EQ(settings_of(verb, {"Test"})[5].second, "false");
+  EXPECT_EQ(settings_of(verb, {"Another"}).size(), 1u);
+}
+
 TEST(OptionTable, FillsTheFieldsAndKeepsTheDefaults) {
   Program program;
   program.parse({"first", "--lambda", "6", "--top=3", "--fast", "--mode", "two", "a.png", "b.png"});

@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -23,8 +24,9 @@ struct Copies : SmallScene {
   }
   static std::string name(int i) { return std::string(1, static_cast<char>('a' + i)); }
   fs::path json(int i) const { return out / (name(i) + ".json"); }
-  std::vector<std::string> arguments(const std::vector<std::string>& more = {}) const {
-    return detect(images, joined({bracket(), {"--camera", camera()}, more}));
+  std::vector<std::string> arguments(const std::vector<std::string>& more = {},
+                                     const std::string& fx = "400") const {
+    return detect(images, joined({bracket(), {"--camera", camera(fx)}, more}));
   }
   nlohmann::json summary() const { return nlohmann::json::parse(content_of(out / "summary.json")); }
 };
@@ -61,6 +63,66 @@ TEST(DetectResume, ListsNoOlderResultOfAnImageThatFailsNow) {
   t.folder.write("images/b.png", "no image");
   EXPECT_EQ(run_program(t.arguments()).exit_code, 1);
   for (const BopResult& row : load_bop_results(t.out / "results.csv")) EXPECT_EQ(row.image_id, 0);
+}
+
+TEST(DetectResume, TakesNoOtherImagesResult) {
+  const Copies t(1);
+  fs::create_directories(t.folder.path() / "other");
+  fs::copy_file(t.image(), t.folder.path() / "other/a.png");
+  const auto run_in = [&](const std::string& folder, const std::vector<std::string>& more) {
+    const std::vector<std::string> arguments = joined({bracket(), {"--camera", t.camera()}, more});
+    return run_program(t.detect("a.png", arguments), "cd '" + (t.folder.path() / folder).string() + "' &&");
+  };
+  ASSERT_EQ(run_in("images", {}).exit_code, 0);
+  EXPECT_EQ(load_image_result(t.json(0)).image, t.images / "a.png");
+  ASSERT_EQ(run_in("other", {"--resume"}).exit_code, 0);
+  EXPECT_EQ(t.summary().at("done"), 1);
+  EXPECT_EQ(load_image_result(t.json(0)).image, t.folder.path() / "other/a.png");
+}
+
+TEST(DetectResume, TakesNoResultOfAnotherImageId) {
+  const Copies t(1);
+  ASSERT_EQ(run_program(t.arguments()).exit_code, 0);
+  fs::copy_file(t.image(), t.images / "0.png");  // a.png is image 1 now
+  ASSERT_EQ(run_program(t.arguments({"--resume"})).exit_code, 0);
+  EXPECT_EQ(t.summary().at("done"), 2);
+  EXPECT_EQ(load_image_result(t.json(0)).image_id, 1);
+}
+
+TEST(DetectResume, RefusesResultsMadeWithOtherSettings) {
+  const Copies t(1);
+  ASSERT_EQ(run_program(t.arguments()).exit_code, 0);
+  const std::string before = content_of(t.json(0));
+  const auto expect_refused_with = [&](const std::vector<std::string>& call,
+                                       std::initializer_list<std::string> words) {
+    const Outcome outcome = run_program(joined({call, {"--resume"}}));
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    for (const std::string& word : words)
+      EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " not in " << outcome.err;
+  };
+  expect_refused_with(t.arguments({"--lambda", "50"}), {"a.json: lambda: found 30, expected 50"});
+  expect_refused_with(t.arguments({"--no-faint-edges"}), {"faint-edges: found true, expected false"});
+  expect_refused_with(t.arguments({"--model", part_file(2)}), {"model of object 2: found nothing"});
+  expect_refused_with(t.arguments({"--latitude-min", "0"}),
+                      {"templates of object 1", "latitude -90", "latitude 0"});
+  expect_refused_with(t.arguments({}, "405"), {"camera", "fx 400", "fx 405"});
+  const std::string changed = t.folder.write("obj_000001.ply", content_of(part_file(2)));
+  expect_refused_with(
+      t.detect(t.images,
+               joined({few_templates(), {"--model", changed, "--unit", "mm", "--camera", t.camera()}})),
+      {"model of object 1: found checksum"});
+  EXPECT_EQ(content_of(t.json(0)), before);
+}
+
+// The same in other words, and on another device.
+TEST(DetectResume, TakesUpTheSameSettings) {
+  const Copies t(1);
+  ASSERT_EQ(run_program(t.arguments()).exit_code, 0);
+  std::vector<std::string> again = t.arguments({"--resume", "--lambda", "30.0", "--faint-edges"});
+  std::ranges::replace(again, "cpu", "cpu-reference");
+  const Outcome outcome = run_program(again);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(t.summary().at("skipped"), 1);
 }
 
 TEST(DetectResume, GoesOnAfterBeingKilled) {

@@ -157,6 +157,58 @@ TEST(Register, DoesOnlyWhatIsMissingWhenResumed) {
     EXPECT_LT(distance_between_m(again[i].camera_from_object, rows[i].camera_from_object), 1e-9);
 }
 
+// Start poses of two images of the same name, in folders of their own.
+struct SameNames {
+  TemporaryFolder folder;
+  fs::path out = folder.path() / "out";
+
+  SameNames() {
+    for (const char* place : {"a", "b"}) {
+      fs::create_directories(folder.path() / place);
+      fs::copy_file(two_views() / "gray/000000.png", folder.path() / place / "000000.png");
+    }
+    fs::copy_file(two_views() / "gray/000001.png", folder.path() / "b/000000.png",
+                  fs::copy_options::overwrite_existing);
+  }
+  std::vector<std::string> call(const std::string& place, const BopResult& start,
+                                const std::vector<std::string>& more = {}) const {
+    BopResult of_image_0 = start;
+    of_image_0.image_id = 0;
+    save_bop_results({of_image_0}, folder.path() / "starts.csv");
+    return register_in(
+        folder.path() / place / "000000.png", folder.path() / "starts.csv", out,
+        joined({{"--camera", two_views() / "scene_camera.json", "--search-rotation", "0", "--no-overlays"},
+                more}));
+  }
+};
+
+TEST(Register, TakesNoOtherImagesResultWhenResumed) {
+  const SameNames t;
+  const BopScene scene = load_bop_scene(two_views());
+  const BopResult in_a = true_results(scene, 0)[0], in_b = true_results(scene, 1)[0];
+  ASSERT_EQ(run_program(t.call("a", in_a)).exit_code, 0);
+  const Outcome outcome = run_program(t.call("b", in_b, {"--resume"}));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::vector<BopResult> rows = load_bop_results(t.out / "results.csv");
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_LT(distance_between_m(rows[0].camera_from_object, in_b.camera_from_object), 0.005);
+}
+
+TEST(Register, RefusesResultsMadeWithOtherSettingsWhenResumed) {
+  const SameNames t;
+  const BopScene scene = load_bop_scene(two_views());
+  const BopResult start = true_results(scene, 0)[0], other = true_results(scene, 0)[1];
+  ASSERT_EQ(run_program(t.call("a", start)).exit_code, 0);
+  expect_refused(t.call("a", start, {"--resume", "--lambda", "50"}),
+                 {"000000.json: lambda: found 30, expected 50"});
+  expect_refused(t.call("a", start, {"--resume", "--no-polish"}), {"no-polish: found false, expected true"});
+  expect_refused(t.call("a", other, {"--resume"}), {"starts: found 1, checksum"});
+  std::vector<std::string> fewer_models = t.call("a", start, {"--resume"});
+  fewer_models.erase(std::ranges::find(fewer_models, part_file(start.object_id == 6 ? 5 : 6)));
+  expect_refused(fewer_models, {"model of object", "expected nothing"});
+  EXPECT_EQ(run_program(t.call("a", start, {"--resume"})).exit_code, 0);
+}
+
 struct Refused {
   TemporaryFolder folder;
   fs::path out = folder.path() / "out";

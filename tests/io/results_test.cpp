@@ -36,6 +36,7 @@ ImageResult sample_result() {
   r.image_id = 12;
   r.camera = {640, 480, 600, 601, 320, 240, {0.1, 0, 0, 0, 0, 0, 0, 0}};
   r.device = "cpu";
+  r.settings = {{"lambda", "100"}, {"verb", "detect"}};
   r.stages = {{"edges", 0.012}, {"tensor", 0.1}, {"edges", 0.003}};
   r.camera_from_world = Se3{so3_exp(Vector3d(0, 0.3, 0)), Vector3d(0, 0, 0.2)};
   r.objects = {{3, "bracket"}, {7, "cat"}};
@@ -56,6 +57,7 @@ TEST(ImageResult, ReadsBackWhatWasWritten) {
   EXPECT_EQ(back.camera.fy, 601);
   EXPECT_EQ(back.camera.distortion, r.camera.distortion);
   EXPECT_EQ(back.device, "cpu");
+  EXPECT_EQ(back.settings, r.settings);
   ASSERT_EQ(back.stages.size(), 3u);
   EXPECT_EQ(back.stages[2].name, "edges");
   EXPECT_DOUBLE_EQ(back.stages[2].seconds, 0.003);

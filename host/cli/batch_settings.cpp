@@ -1,0 +1,96 @@
+#include "host/cli/batch_settings.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "host/io/binary_file.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+std::string text_of(const std::optional<Camera>& camera) {
+  if (!camera) return "none";
+  return fmt::format("{}x{} px, fx {}, fy {}, cx {}, cy {}, distortion {}", camera->width, camera->height,
+                     camera->fx, camera->fy, camera->cx, camera->cy, fmt::join(camera->distortion, " "));
+}
+
+std::string text_of(const Symmetries& symmetries) {
+  BinaryWriter poses;
+  for (const Se3& pose : symmetries.discrete) poses.put_pose(pose);
+  return fmt::format("{}, {}", symmetries.discrete.size(), checksum_text(poses.bytes));
+}
+
+// The creases are there already where the model was made.
+std::string text_of(const TemplateOptions& o) {
+  return fmt::format(
+      "frequency {}, latitude {} to {}, longitude {} to {}, {} in-plane steps, {} to {} m in ratios of {}",
+      o.frequency, o.range.latitude_min_deg, o.range.latitude_max_deg, o.range.longitude_min_deg,
+      o.range.longitude_max_deg, o.in_plane_steps, o.distance_min_m, o.distance_max_m, o.distance_ratio);
+}
+
+void put(BinaryWriter& out, const Eigen::Vector3d& point) {
+  for (int i = 0; i < 3; ++i) out.put(point[i]);
+}
+
+std::string value_in(const Settings& settings, const std::string& name) {
+  const auto setting = std::ranges::find(settings, name, &Settings::value_type::first);
+  return setting == settings.end() ? "nothing" : setting->second;
+}
+
+}  // namespace
+
+std::string checksum_text(std::string_view bytes) { return fmt::format("checksum {:016x}", checksum(bytes)); }
+
+std::pair<std::string, std::string> setting_of(int object_id, const EdgeModel& model) {
+  BinaryWriter out;
+  for (const Eigen::Vector3d& vertex : model.mesh.vertices_m) put(out, vertex);
+  out.put_list(model.mesh.triangles);
+  for (const EdgeModel::Segment& crease : model.creases) {
+    put(out, crease.from_m);
+    put(out, crease.to_m);
+  }
+  out.put(model.raster_step_m);
+  return {fmt::format("model of object {}", object_id), checksum_text(out.bytes)};
+}
+
+Settings settings_of(std::span<const TemplateSet> sets) {
+  Settings settings;
+  for (const TemplateSet& set : sets) {
+    settings.push_back(setting_of(set.object_id, set.model));
+    settings.emplace_back(fmt::format("symmetries of object {}", set.object_id), text_of(set.symmetries));
+    settings.emplace_back(fmt::format("templates of object {}", set.object_id), text_of(set.options));
+  }
+  return settings;
+}
+
+Settings BatchSettings::of(const InputImage& input, const std::string& views) const {
+  Settings settings = common;
+  settings.emplace_back("views", views);
+  settings.emplace_back("camera", text_of(camera ? camera : input.camera));
+  return settings;
+}
+
+std::string BatchSettings::jointly(const std::vector<const InputImage*>& views) const {
+  BinaryWriter out;
+  for (const InputImage* view : views) {
+    out.put_text(view->name);
+    out.put_text(text_of(camera ? camera : view->camera));
+    out.put_pose(*view->camera_from_world);
+  }
+  return fmt::format("{} jointly, {}", views.size(), checksum_text(out.bytes));
+}
+
+void require_same(const Settings& found, const Settings& expected, const std::string& file) {
+  Settings all = expected;
+  all.insert(all.end(), found.begin(), found.end());
+  for (const auto& [name, value] : all)
+    if (value_in(found, name) != value_in(expected, name))
+      throw InputError(file, name, value_in(found, name),
+                       value_in(expected, name) + " as in this run (or no --resume, or another --out)");
+}
+
+}  // namespace edgescout
