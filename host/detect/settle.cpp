@@ -2,9 +2,14 @@
 
 #include <algorithm>
 
+#include "host/detect/probability_over_views.h"
+
 namespace edgescout {
 
 namespace {
+
+// One view may see what the others do not.
+double probability_of(const Refined& refined) { return probability_over_views(refined.by_view); }
 
 struct Pool {
   std::vector<Hypothesis> poses;
@@ -14,7 +19,7 @@ struct Pool {
 void add_probable(Pool& pool, std::span<const Hypothesis> starts, std::span<const Refined> refined,
                   double min_probability) {
   for (std::size_t i = 0; i < refined.size(); ++i) {
-    if (pose_probability(refined[i].features) < min_probability) continue;
+    if (probability_of(refined[i]) < min_probability) continue;
     pool.poses.push_back({starts[i].object, refined[i].registration.world_from_object});
     pool.refined.push_back(refined[i]);
   }
@@ -46,9 +51,12 @@ std::vector<Detection> settle(std::span<const EdgeModel> models, std::span<const
     chosen = compete(pool, models, views, backend, options);
   }
   std::vector<Detection> detections;
-  for (const ChosenPose& c : chosen)
-    detections.push_back(to_detection(pool.poses[c.index].object, pool.refined[c.index].registration,
-                                      pool.refined[c.index].features));
+  for (const ChosenPose& c : chosen) {
+    const Refined& refined_pose = pool.refined[c.index];
+    detections.push_back(
+        to_detection(pool.poses[c.index].object, refined_pose.registration, refined_pose.features));
+    detections.back().probability = probability_of(refined_pose);
+  }
   std::ranges::stable_sort(
       detections, [](const Detection& a, const Detection& b) { return a.probability > b.probability; });
   if (int(detections.size()) > options.max_detections) detections.resize(options.max_detections);
