@@ -15,6 +15,7 @@ PoseFeatures random_features(Random& random) {
   f.points = random.uniform(0, 300);
   f.length_px = random.uniform(0, 1000);
   f.in_image = random.uniform();
+  f.shading = {1000, 1e6, random.uniform(0, 1e6)};
   return f;
 }
 
@@ -24,15 +25,23 @@ TEST(PoseProbability, IsOneAndGrowsWithWhatSpeaksForThePose) {
     const PoseFeatures f = random_features(random);
     const double p = pose_probability(f);
     EXPECT_TRUE(p >= 0 && p <= 1) << p;
+    const auto expect_grows = [&](double PoseFeatures::*feature, double to) {
+      PoseFeatures better = f;
+      better.*feature = to;
+      EXPECT_GE(pose_probability(better), p);
+    };
+    expect_grows(&PoseFeatures::psi, random.uniform(f.psi, 1));
+    expect_grows(&PoseFeatures::length_px, random.uniform(f.length_px, 1000));
+    if (p == 0) continue;  // too few points for anything else to tell
     PoseFeatures better = f;
-    better.psi = random.uniform(f.psi, 1);
-    EXPECT_GE(pose_probability(better), p);
-    better = f;
-    better.matched = random.uniform(f.matched, 1);
-    EXPECT_GE(pose_probability(better), p);
-    better = f;
     better.mean_px = random.uniform(0, f.mean_px);
-    EXPECT_GE(pose_probability(better), p);
+    EXPECT_GT(pose_probability(better), p);
+    better = f;
+    better.in_image = random.uniform(f.in_image, 1);
+    EXPECT_GT(pose_probability(better), p);
+    better = f;
+    better.shading.unexplained = random.uniform(0, f.shading.unexplained);
+    EXPECT_GT(pose_probability(better), p);
   }
 }
 
