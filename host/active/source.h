@@ -81,6 +81,7 @@ class RecordedViews : public ViewSource {
   Camera camera() const override { return camera_; }
   std::vector<Se3> views() const override;
   Shot acquire(int view) override;
+  const std::vector<Recording>& recordings() const { return recordings_; }
 
  private:
   Camera camera_;

@@ -114,6 +114,7 @@ int scout(ScoutRequest& request) {
                            unit_of(request.options.next_view.strategy),
                            source.truth,
                            source.image_ids,
+                           source.image_files,
                            source.scene_id};
   run_scout(scout, *source.source, [&](const ScoutState& state) {
     tell(state);

@@ -20,6 +20,10 @@ json pose_json(const Se3& pose) {
   return {{"R", rotation_numbers(pose)}, {"t", translation_numbers(pose, 1.0)}};
 }
 
+json camera_json(const Camera& c) {
+  return {{"width", c.width}, {"height", c.height}, {"fx", c.fx}, {"fy", c.fy}, {"cx", c.cx}, {"cy", c.cy}};
+}
+
 json stages_json(const std::vector<StageSeconds>& stages) {
   json list = json::array();
   for (const StageSeconds& stage : stages)
@@ -79,10 +83,11 @@ json step_json(const ScoutStep& step, const ScoutReport& report) {
 }
 
 ImageResult result_of(const ScoutState& state, const ScoutStep& step, const ScoutReport& report) {
+  const auto view = static_cast<std::size_t>(step.decision.view);
   ImageResult result;
-  result.image = fmt::format("view {}", step.decision.view);
+  if (!report.image_files.empty()) result.image = report.image_files.at(view);
   result.scene_id = report.scene_id;
-  result.image_id = report.image_ids.at(static_cast<std::size_t>(step.decision.view));
+  result.image_id = report.image_ids.at(view);
   result.camera = report.camera;
   result.device = report.device;
   result.stages = step.stages;
@@ -111,7 +116,8 @@ void save_scout_log(const ScoutState& state, const ScoutReport& report, const st
            {"device", report.device},
            {"source", report.source},
            {"strategy", report.strategy},
-           {"information_unit", report.unit}};
+           {"information_unit", report.unit},
+           {"camera", camera_json(report.camera)}};
   log["views"] = json::array();
   for (const Se3& view : state.views) log["views"].push_back(pose_json(view));
   log["steps"] = json::array();

@@ -24,7 +24,8 @@ struct ScoutReport {
   std::string device, source, strategy;
   std::string unit = "nats";  // of ViewInformation::information
   std::vector<TrueObject> truth;
-  std::vector<int> image_ids;  // one a view
+  std::vector<int> image_ids;                      // one a view
+  std::vector<std::filesystem::path> image_files;  // one a view, or empty: they have none
   int scene_id = 0;
 };
 
@@ -35,12 +36,13 @@ struct DistanceToTruth {
 };
 std::optional<DistanceToTruth> distance_to_truth(const Detection& detection, const ScoutReport& report);
 
-// FOLDER/scout.json: {edgescout_scout: 1, device, source, strategy, camera, views, steps [..], failed [..],
-// detections [..], truth [..], end}; poses as in io/results.h. Atomically.
+// FOLDER/scout.json: {edgescout_scout: 1, device, source, strategy, information_unit, camera, views, steps
+// [..], failed [..], detections [..], truth [..] (of a cell), seconds, end}; poses are {R, t} and the camera
+// is the ideal one, as in io/results.h. Atomically.
 void save_scout_log(const ScoutState& state, const ScoutReport& report, const std::filesystem::path& folder);
 
 // FOLDER/view_NNN.json (io/results.h) of every image taken, with all that was found in the world, and
-// FOLDER/results.csv (BOP).
+// FOLDER/results.csv (BOP). An image without a file has an empty name there: its id says which it is.
 void save_scout_results(const ScoutState& state, const ScoutReport& report,
                         const std::filesystem::path& folder);
 

@@ -47,7 +47,10 @@ ScoutSource make_recorded(const SourceRequest& request) {
   if (!request.camera_file.empty()) camera = load_camera(request.camera_file);
   ScoutSource made;
   made.name = std::filesystem::path(request.source).filename().string();
-  made.source = std::make_unique<RecordedViews>(load_recorded_views(request.source, camera));
+  auto views = std::make_unique<RecordedViews>(load_recorded_views(request.source, camera));
+  for (const RecordedViews::Recording& recording : views->recordings())
+    made.image_files.push_back(recording.file);
+  made.source = std::move(views);
   if (!is_bop_scene(request.source)) return made;
   const BopScene scene = load_bop_scene(request.source);
   made.scene_id = scene.scene_id;

@@ -23,8 +23,9 @@ void add_source_options(CLI::App& verb, SourceRequest& request);
 struct ScoutSource {
   std::unique_ptr<ViewSource> source;
   std::string name;
-  std::vector<TrueObject> truth;  // of a cell
-  std::vector<int> image_ids;     // one a view: BOP's, else its number
+  std::vector<TrueObject> truth;                   // of a cell
+  std::vector<int> image_ids;                      // one a view: BOP's, else its number
+  std::vector<std::filesystem::path> image_files;  // one a view; empty in a cell, whose images have none
   int scene_id = 0;
 };
 

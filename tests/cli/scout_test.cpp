@@ -63,6 +63,8 @@ TEST(Scout, FindsThePartAndShowsHow) {
   EXPECT_NE(outcome.out.find("1 objects in 3 images, 0 views failed"), std::string::npos) << outcome.out;
   const nlohmann::json log = t.log();
   EXPECT_EQ(log.at("end"), "view budget");
+  EXPECT_EQ(log.at("camera").at("width"), 320);
+  EXPECT_EQ(log["camera"].at("fx"), 400);
   ASSERT_EQ(log.at("steps").size(), 3u);
   ASSERT_EQ(log.at("views").size(), 8u);
   EXPECT_TRUE(log["steps"][0].at("information").empty());
@@ -87,6 +89,7 @@ TEST(Scout, FindsThePartAndShowsHow) {
   for (const nlohmann::json& step : log["steps"]) {
     const std::string number = std::to_string(step.at("view").get<int>());
     const ImageResult result = load_image_result(t.out / ("view_00" + number + ".json"));
+    EXPECT_EQ(result.image, "") << "its id says which it is";
     EXPECT_TRUE(result.camera_from_world.has_value());
     EXPECT_EQ(result.detections.size(), 1u);
   }
@@ -138,7 +141,29 @@ TEST(Scout, TakesRecordedViewsAndGoesOnPastAMissingImage) {
   EXPECT_EQ(log["failed"][0].at("view"), 0);
   EXPECT_EQ(log.at("information_unit"), "points");
   expect_self_contained(content_of(scene.out / "scout.html"));
+  for (const nlohmann::json& step : log["steps"]) {
+    const int view = step.at("view");
+    const ImageResult result = load_image_result(scene.out / ("view_00" + std::to_string(view) + ".json"));
+    EXPECT_EQ(result.image, scene.image(view));
+  }
   for (const BopResult& row : load_bop_results(scene.out / "results.csv")) EXPECT_EQ(row.scene_id, 3);
+}
+
+TEST(Scout, LeavesResultsThatRegistrationGoesOnFrom) {
+  const SmallScene scene(3);
+  ASSERT_EQ(run_program(joined({{"scout", scene.scene, "--out", scene.out, "--device", "cpu", "--aligned",
+                                 "200", "--max-views", "1", "--min-probability", "0.1"},
+                                bracket()}))
+                .exit_code,
+            0);
+  const fs::path out = scene.folder.path() / "registered";
+  const Outcome outcome =
+      run_program({"register", scene.scene, "--poses", scene.out / "view_000.json", "--model", part_file(1),
+                   "--unit", "mm", "--out", out, "--device", "cpu", "--no-overlays"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::vector<BopResult> rows = load_bop_results(out / "results.csv");
+  ASSERT_FALSE(rows.empty());
+  for (const BopResult& row : rows) EXPECT_EQ(row.image_id, 0);
 }
 
 // All edges may be explained again, or none.
