@@ -140,6 +140,10 @@ class Detector {
       : sets_(sets), backend_(backend), options_(options), settings_(settings) {
     for (const TemplateSet& set : sets) models_.push_back(set.model);
   }
+  void skip(const Group& group) {
+    for (const InputImage* input : group.images) summary.finished.insert(input->name);
+    summary.skipped += static_cast<int>(group.images.size());
+  }
   void work_on(const Group& group, Prepared prepared) {
     Group good;
     std::vector<PreparedImage> usable;
@@ -167,6 +171,7 @@ class Detector {
       ImageResult result = result_of(*good.images[i], usable[i], found, sets_, backend_, options_.joint);
       result.settings = settings_.of(*good.images[i], group.views);
       save_image_result(result, json_of(options_.out, *good.images[i]));
+      summary.finished.insert(good.images[i]->name);
       ++summary.done;
     }
   }
@@ -220,7 +225,7 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
   std::vector<Group> open;
   for (Group& group : group_images(images, options.joint, settings)) {
     if (options.resume && is_done(group, options, settings))
-      summary.skipped += static_cast<int>(group.images.size());
+      detector.skip(group);
     else
       open.push_back(std::move(group));
   }
@@ -228,7 +233,7 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
   try {
     work_through(open, preparer, detector);
   } catch (const GpuError&) {
-    write_csv(images, summary, options.out);  // of what was finished
+    write_csv_of_ended(images, summary, options.out);
     throw;
   }
   summary.seconds = seconds_since(start);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "host/core/log.h"
 #include "host/io/bop.h"
 #include "host/io/files.h"
 #include "kernels/error.h"
@@ -37,8 +38,7 @@ void write_csv(std::span<const InputImage> images, const BatchSummary& summary,
                const std::filesystem::path& out) {
   std::vector<BopResult> rows;
   for (const InputImage& input : images) {
-    if (summary.failures.contains(input.file.string()) || !std::filesystem::exists(json_of(out, input)))
-      continue;
+    if (!summary.finished.contains(input.name)) continue;
     const ImageResult result = load_image_result(json_of(out, input));
     double seconds = 0;
     for (const StageSeconds& stage : result.stages) seconds += stage.seconds;
@@ -48,6 +48,15 @@ void write_csv(std::span<const InputImage> images, const BatchSummary& summary,
                       seconds});
   }
   save_bop_results(rows, out / "results.csv");
+}
+
+void write_csv_of_ended(std::span<const InputImage> images, const BatchSummary& summary,
+                        const std::filesystem::path& out) {
+  try {
+    write_csv(images, summary, out);
+  } catch (const std::exception& error) {
+    log(LogLevel::Warning, error.what());
+  }
 }
 
 void write_summary(const BatchSummary& summary, const std::string& device, const std::filesystem::path& out) {

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@ namespace edgescout {
 
 struct BatchSummary {
   int images = 0, done = 0, skipped = 0;
+  std::set<std::string> finished;               // names of the images done and skipped
   std::map<std::string, std::string> failures;  // message by file
   std::map<std::string, double> stage_seconds;  // of all images done, by stage
   double seconds = 0;
@@ -28,10 +30,14 @@ std::filesystem::path place_of(const InputImage& input);
 // other settings: it is neither this batch's nor to be lost.
 bool is_done(const std::filesystem::path& out, const InputImage& input, const Settings& settings);
 
-// results.csv, from the JSON files of this run and, after a resume, of those before it. Of an image that
-// failed now an older result is not listed.
+// results.csv, from the JSON files of the images that are finished: those that an earlier run left of others
+// are no results of this one.
 void write_csv(std::span<const InputImage> images, const BatchSummary& summary,
                const std::filesystem::path& out);
+
+// The same for a batch that an error ends. Failing to write is logged: the error itself is what must be told.
+void write_csv_of_ended(std::span<const InputImage> images, const BatchSummary& summary,
+                        const std::filesystem::path& out);
 
 // summary.json: counts, throughput, mean time of every stage, failures.
 void write_summary(const BatchSummary& summary, const std::string& device, const std::filesystem::path& out);

@@ -181,10 +181,18 @@ class Registrar {
       ImageResult result = result_of(ready, view, found, models_, backend_);
       result.settings = settings_of_view(job, view);
       save_image_result(result, json_of(options_.out, job.views[view]));
+      summary.finished.insert(job.views[view].name);
     }
     for (const StageSeconds& stage : found.stages) summary.stage_seconds[stage.name] += stage.seconds;
     summary.done += static_cast<int>(views_with_starts(job).size());
     summary.poses += static_cast<int>(found.detections.size());
+  }
+
+  void skip(const RegisterJob& job) {
+    for (std::size_t view : views_with_starts(job)) {
+      summary.finished.insert(job.views[view].name);
+      ++summary.skipped;
+    }
   }
 
   RegisterSummary summary;
@@ -216,7 +224,7 @@ std::vector<const RegisterJob*> skip_done(std::span<const RegisterJob> jobs, Reg
   std::vector<const RegisterJob*> open;
   for (const RegisterJob& job : jobs)
     if (resume && registrar.is_done(job))
-      registrar.summary.skipped += static_cast<int>(views_with_starts(job).size());
+      registrar.skip(job);
     else
       open.push_back(&job);
   return open;
@@ -251,7 +259,8 @@ RegisterSummary run_register(std::span<const RegisterJob> jobs, std::span<const 
   try {
     work_through(open, registrar);
   } catch (const GpuError&) {
-    if (summary.done + summary.skipped > 0) write_csv(images, summary, options.out);  // of what was finished
+    // The folder is made for the first job whose images can be read.
+    if (std::filesystem::exists(options.out)) write_csv_of_ended(images, summary, options.out);
     throw;
   }
   summary.seconds = seconds_since(start);

@@ -6,6 +6,7 @@
 #include "host/io/results.h"
 #include "kernels/error.h"
 #include "tests/cli/small_scene.h"
+#include "tests/io/collected_log.h"
 #include "tests/io/expect_input_error.h"
 
 namespace edgescout::test {
@@ -104,6 +105,26 @@ TEST(RunBatch, KeepsWhatWasFinishedWhenTheDeviceIsLost) {
   EXPECT_EQ(summary.skipped, 1);
   EXPECT_EQ(summary.done, 2);
   EXPECT_EQ(t.listed(), (std::set<int>{0, 1, 2}));
+}
+
+TEST(RunBatch, ListsNoOlderResultWhenTheDeviceIsLost) {
+  const Batch t;
+  run_batch(t.images, t.sets, *make_cpu_backend(2), t.options);
+  ASSERT_EQ(t.listed(), (std::set<int>{0, 1, 2}));
+  t.folder.write("out/000003_000002.json", "no result");
+  FailingBackend backend(views_per_image, [] { throw GpuError("make_view: VK_ERROR_DEVICE_LOST"); });
+  EXPECT_THROW(run_batch(t.images, t.sets, backend, t.options), GpuError);
+  EXPECT_EQ(t.listed(), std::set<int>{0});
+}
+
+TEST(RunBatch, TellsOfTheLostDeviceWhereTheListCannotBeWritten) {
+  const Batch t;
+  fs::create_directories(t.out / "results.csv/in the way");
+  FailingBackend backend(views_per_image, [] { throw GpuError("make_view: VK_ERROR_DEVICE_LOST"); });
+  const CollectedLog log;
+  EXPECT_THROW(run_batch(t.images, t.sets, backend, t.options), GpuError);
+  ASSERT_EQ(log.messages.size(), 1u);
+  EXPECT_NE(log.messages[0].second.find("results.csv"), std::string::npos) << log.messages[0].second;
 }
 
 TEST(RunBatch, GoesOnPastAnImageTheDeviceRefuses) {

@@ -29,23 +29,26 @@ struct LostDevice : ::testing::Test {
                    more});
   }
   // ASan insists on being first; the shim replaces one function of the loader, not of the C library.
-  Outcome detect_on_device_lost_after(int submits) const {
-    return run_program(detect(), "ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD='" EDGESCOUT_FAILING_DEVICE
-                                 "' SUBMITS_FILE='" +
-                                     submits_file.string() +
-                                     "' FAIL_AFTER_SUBMITS=" + std::to_string(submits));
+  Outcome run_on_device_lost_after(int submits, const std::vector<std::string>& arguments) const {
+    return run_program(arguments,
+                       "ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD='" EDGESCOUT_FAILING_DEVICE
+                       "' SUBMITS_FILE='" +
+                           submits_file.string() + "' FAIL_AFTER_SUBMITS=" + std::to_string(submits));
+  }
+  int submits_of(const std::vector<std::string>& arguments) const {
+    const Outcome alone = run_on_device_lost_after(std::numeric_limits<int>::max(), arguments);
+    EXPECT_EQ(alone.exit_code, 0) << alone.err;
+    return std::stoi(content_of(submits_file));
   }
 };
 
 TEST_F(LostDevice, KeepsWhatWasFinished) {
-  const Outcome alone = detect_on_device_lost_after(std::numeric_limits<int>::max());
-  ASSERT_EQ(alone.exit_code, 0) << alone.err;
-  const int submits_of_one = std::stoi(content_of(submits_file));
+  const int submits_of_one = submits_of(detect());
   ASSERT_GT(submits_of_one, 0);
   fs::remove_all(scene.out);
   fs::copy_file(scene.image(), images / "b.png");
 
-  const Outcome outcome = detect_on_device_lost_after(submits_of_one);
+  const Outcome outcome = run_on_device_lost_after(submits_of_one, detect());
   ASSERT_EQ(outcome.exit_code, 3) << outcome.err;
   const std::size_t error = outcome.err.find("edgescout: error: ");
   ASSERT_NE(error, std::string::npos) << outcome.err;
@@ -62,6 +65,30 @@ TEST_F(LostDevice, KeepsWhatWasFinished) {
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_EQ(nlohmann::json::parse(content_of(scene.out / "summary.json")).at("skipped"), 1);
   EXPECT_NO_THROW(load_image_result(scene.out / "b.json"));
+}
+
+// The folder holds results of both images from an earlier run.
+TEST_F(LostDevice, ListsNoOlderPosesOfRegistration) {
+  const BopScene views = load_bop_scene(two_views());
+  const BopResult first = true_results(views, 0)[0], second = true_results(views, 1)[0];
+  const fs::path starts = scene.folder.path() / "starts.csv";
+  const std::vector<std::string> call =
+      joined({{"register", two_views(), "--poses", starts, "--out", scene.out, "--device", "vulkan",
+               "--search-rotation", "0", "--no-overlays"},
+              part_models()});
+  save_bop_results({first}, starts);
+  const int submits_of_one = submits_of(call);
+  save_bop_results({first, second}, starts);
+  ASSERT_EQ(run_program(call).exit_code, 0);
+  ASSERT_EQ(load_bop_results(scene.out / "results.csv").size(), 2u);
+
+  const Outcome outcome = run_on_device_lost_after(submits_of_one, call);
+  ASSERT_EQ(outcome.exit_code, 3) << outcome.err;
+  const std::vector<BopResult> rows = load_bop_results(scene.out / "results.csv");
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].image_id, 0);
+  ASSERT_EQ(run_on_device_lost_after(0, call).exit_code, 3);
+  EXPECT_TRUE(load_bop_results(scene.out / "results.csv").empty());
 }
 
 }  // namespace
