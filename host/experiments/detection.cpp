@@ -8,6 +8,7 @@
 
 #include "host/baselines/line2d.h"
 #include "host/eval/detection_curve.h"
+#include "host/experiments/data_mark.h"
 #include "host/experiments/photographs.h"
 #include "host/experiments/pose_candidates.h"
 #include "host/experiments/rates.h"
@@ -30,7 +31,7 @@ Notes options(const ExperimentSettings& s) {
               {"image_scale", number_text(s.image_scale)},
               {"supersampling", std::to_string(s.supersampling)}};
   if (s.data.empty()) return notes;
-  notes.emplace_back("data", "given");
+  notes.emplace_back("data", data_mark(s.data));
   notes.emplace_back("frames_every", std::to_string(s.frames_every));
   return notes;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "host/experiments/data_mark.h"
 #include "host/experiments/photographs.h"
 #include "host/experiments/rates.h"
 #include "host/experiments/recorded_starts.h"
@@ -23,7 +24,7 @@ Notes options(const ExperimentSettings& s) {
               {"image_scale", number_text(s.image_scale)},
               {"supersampling", std::to_string(s.supersampling)}};
   if (s.data.empty()) return notes;
-  notes.emplace_back("data", "given");
+  notes.emplace_back("data", data_mark(s.data));
   notes.emplace_back("every", std::to_string(s.every));
   return notes;
 }
