@@ -1,5 +1,5 @@
 #!/bin/bash
-# Runs the evaluation behind docs/evaluation.md.
+# Runs the first three sections of docs/evaluation.md: registration, rendered scenes, real photographs.
 #
 #   bench/evaluate.sh BUILD OUT [DATA]
 #
