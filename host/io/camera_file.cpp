@@ -20,9 +20,10 @@ YAML::Node any_of(const YAML::Node& root, std::initializer_list<const char*> nam
   return YAML::Node(YAML::NodeType::Undefined);
 }
 
-void flatten(const YAML::Node& node, std::vector<double>& numbers) {
-  if (node.IsSequence())
-    for (const YAML::Node& element : node) flatten(element, numbers);
+// Numbers, or lists of them nested `depth` deep at most. An alias can make a list an element of itself.
+void flatten(const YAML::Node& node, int depth, std::vector<double>& numbers) {
+  if (node.IsSequence() && depth > 0)
+    for (const YAML::Node& element : node) flatten(element, depth - 1, numbers);
   else
     numbers.push_back(node.as<double>());
 }
@@ -32,7 +33,8 @@ std::vector<double> matrix_numbers(const YAML::Node& node, const std::string& so
   if (!node) throw InputError(source, field, "nothing", "a matrix");
   std::vector<double> numbers;
   try {
-    flatten(node.IsMap() ? node["data"] : node, numbers);
+    constexpr int rows_of_numbers = 2;
+    flatten(node.IsMap() ? node["data"] : node, rows_of_numbers, numbers);
   } catch (const YAML::Exception&) {
     throw InputError(source, field, "something else than numbers", "a matrix");
   }

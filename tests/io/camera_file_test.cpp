@@ -130,6 +130,13 @@ TEST(LoadCamera, RejectsValuesThatAreNotFiniteOrNegative) {
                      {"camera.yaml", "image_width"});
 }
 
+TEST(LoadCamera, RejectsAListThatHoldsItself) {
+  expect_input_error([] { load("camera_matrix: &a [1, *a]\n"); },
+                     {"camera.yaml", "camera_matrix", "something else than numbers"});
+  expect_input_error([] { load("K: [5, 0, 3, 0, 6, 4, 0, 0, 1]\nD: {data: &a [[*a]]}\n"); },
+                     {"camera.yaml", "distortion_coefficients", "something else than numbers"});
+}
+
 TEST(LoadCamera, RejectsModelsItCannotUndo) {
   expect_input_error([] { load(replaced(ros, "plumb_bob", "equidistant")); },
                      {"distortion_model", "equidistant", "plumb_bob"});
