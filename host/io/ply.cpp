@@ -162,12 +162,15 @@ std::vector<int> read_list(Numbers& numbers, const Property& property) {
   return list;
 }
 
+bool is_corners(const Property& property) {
+  return property.count_type && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
 void read_row(const Element& element, Numbers& numbers, Eigen::Vector3d& vertex, std::vector<int>& corners) {
   for (const Property& property : element.properties) {
     if (property.count_type) {
-      const bool is_face = property.name == "vertex_indices" || property.name == "vertex_index";
       std::vector<int> list = read_list(numbers, property);
-      if (is_face) corners = std::move(list);
+      if (is_corners(property)) corners = std::move(list);
       continue;
     }
     const double value = numbers.next(property.type, element.name.c_str());
@@ -176,13 +179,24 @@ void read_row(const Element& element, Numbers& numbers, Eigen::Vector3d& vertex,
   }
 }
 
-void require_coordinates(const Header& header, const std::string& source) {
-  for (const Element& element : header.elements)
-    for (const char* axis : {"x", "y", "z"})
-      if (element.name == "vertex" && std::ranges::none_of(element.properties, [&](const Property& p) {
-            return p.name == axis && !p.count_type;
-          }))
-        throw InputError(source, "PLY header", std::string("vertices without ") + axis, "x, y and z");
+void require_coordinates(const Element& vertex, const std::string& source) {
+  for (const char* axis : {"x", "y", "z"})
+    if (std::ranges::none_of(vertex.properties,
+                             [&](const Property& p) { return p.name == axis && !p.count_type; }))
+      throw InputError(source, "PLY header", std::string("vertices without ") + axis, "x, y and z");
+}
+
+// So that no count promises more rows than there are bytes in the file.
+void require_properties(const Header& header, const std::string& source) {
+  for (const Element& element : header.elements) {
+    if (element.name == "vertex") require_coordinates(element, source);
+    if (element.name == "face" && std::ranges::none_of(element.properties, is_corners))
+      throw InputError(source, "PLY header", "faces without vertex_indices", "a list of them");
+    if (element.count > 0 && element.properties.empty())
+      throw InputError(source, "PLY header",
+                       std::to_string(element.count) + " of " + element.name + " without a property",
+                       "one at least");
+  }
 }
 
 void add_face(RawMesh& mesh, const std::vector<int>& corners, int face, const std::string& source) {
@@ -202,7 +216,7 @@ RawMesh read_ply(const std::filesystem::path& file) {
   if (!bytes.starts_with("ply") || end == std::string::npos)
     throw InputError(source, "PLY header", "no whole header", "\"ply\" ... \"end_header\"");
   const Header header = read_header(std::string_view(bytes).substr(0, end), source);
-  require_coordinates(header, source);
+  require_properties(header, source);
   Numbers numbers(std::string_view(bytes).substr(end + 1), header.storage, source);
   RawMesh mesh;
   std::vector<std::vector<int>>

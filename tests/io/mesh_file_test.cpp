@@ -167,6 +167,22 @@ TEST(LoadMesh, RejectsIndicesOutOfRangeAndCountsThatLie) {
   expect_input_error([&] { load("index.obj", obj_box(1, 1, 1) + "f 1 2 9\n"); }, {"index.obj"});
 }
 
+// Such rows take no byte of the file: 123 bytes could ask for any amount of memory.
+TEST(LoadMesh, RejectsPlyRowsThatHoldNothing) {
+  const TemporaryFolder folder;
+  const auto load = [&](const std::string& text) {
+    load_mesh(folder.write("rows.ply", text), LengthUnit::Metre);
+  };
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
+      "property float z\nelement ";
+  expect_input_error([&] { load(head + "face 100000000\nend_header\n"); }, {"rows.ply", "vertex_indices"});
+  expect_input_error([&] { load(head + "face 100000000\nproperty uchar red\nend_header\n"); },
+                     {"rows.ply", "vertex_indices"});
+  expect_input_error([&] { load(head + "edge 100000000\nend_header\n"); },
+                     {"rows.ply", "100000000 of edge without a property"});
+}
+
 // Every cut either still holds a whole mesh or is told as an error; a cut before the last triangle is never
 // whole where the format counts.
 void cut_everywhere(const NamedFile& file, const TemporaryFolder& folder, bool counted) {
