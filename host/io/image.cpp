@@ -1,6 +1,8 @@
 #include "host/io/image.h"
 
+#include <algorithm>
 #include <atomic>
+#include <climits>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -14,6 +16,9 @@ namespace edgescout {
 namespace {
 
 constexpr int min_side_px = 16;
+constexpr int max_distorted_side_px = SHRT_MAX - 1;  // of cv::remap
+
+std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 
 // Decoders fill the missing rest of a cut image with grey and only warn; the end marks of the two common
 // formats tell.
@@ -63,6 +68,14 @@ Image from_mat(const cv::Mat& grey) {
   return image;
 }
 
+// An image may come from a caller's own program.
+void require_all_pixels(const Image& image) {
+  const std::size_t expected = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  if (image.pixels.size() != expected)
+    throw InputError("image", "pixels", std::to_string(image.pixels.size()),
+                     std::to_string(expected) + " of " + size_text(image.width, image.height));
+}
+
 std::string png_of(const cv::Mat& image) {
   std::vector<std::uint8_t> bytes;
   cv::imencode(".png", image, bytes);
@@ -75,15 +88,19 @@ Image load_image(const std::filesystem::path& file) {
   const std::string source = file.string();
   const cv::Mat image = to_grey(decode(read_file(file), source), source);
   if (image.cols < min_side_px || image.rows < min_side_px)
-    throw InputError(source, "image size", std::to_string(image.cols) + "x" + std::to_string(image.rows),
-                     "at least 16x16 px");
+    throw InputError(source, "image size", size_text(image.cols, image.rows), "at least 16x16 px");
   return from_mat(image);
 }
 
 Image undistort(const Image& image, const Camera& camera) {
   check(image.width == camera.width && image.height == camera.height,
         "undistort: image and camera differ in size");
+  require_all_pixels(image);
   if (!camera.has_distortion()) return image;
+  if (std::max(image.width, image.height) > max_distorted_side_px)
+    throw InputError("image", "size", size_text(image.width, image.height),
+                     "sides of at most " + std::to_string(max_distorted_side_px) +
+                         " px where a lens distortion is taken out");
   const cv::Matx33d k(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
   const cv::Mat distortion(1, 8, CV_64F, const_cast<double*>(camera.distortion.data()));
   const cv::Mat source(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data()));

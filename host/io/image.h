@@ -13,7 +13,8 @@ namespace edgescout {
 Image load_image(const std::filesystem::path& file);
 
 // Resamples an image of `camera` into that of undistorted(camera), bicubic; returns it unchanged where there
-// is no distortion. Pixels that no ray of the original reaches repeat its border.
+// is no distortion. Pixels that no ray of the original reaches repeat its border. InputError: another number
+// of pixels than its size says; distortion in an image with a side above 32766 px.
 Image undistort(const Image& image, const Camera& camera);
 
 // RGB, 8 bit, row-major.

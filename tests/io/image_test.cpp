@@ -142,6 +142,30 @@ TEST(Undistort, ReturnsTheImageWithoutDistortionAndRefusesAnotherSize) {
   EXPECT_THROW(undistort(image, camera), LogicError);
 }
 
+TEST(Undistort, RefusesSizesItCannotWorkOn) {
+  const Image image = gradient_image(40, 30);
+  for (std::size_t pixels : {0u, 1199u, 1201u}) {
+    Image other = image;
+    other.pixels.resize(pixels);
+    for (double k1 : {0.0, 0.1})
+      expect_input_error(
+          [&] {
+            undistort(other, {40, 30, 50, 50, 20, 15, {k1}});
+          },
+          {"pixels", "found " + std::to_string(pixels), "1200", "40x30"});
+  }
+  for (const auto& [width, height] : {std::pair{32767, 16}, {16, 40000}}) {
+    Camera camera{width, height, 5000, 5000, width / 2.0, height / 2.0, {0.01}};
+    const Image large = gradient_image(width, height);
+    expect_input_error([&] { undistort(large, camera); },
+                       {"image", "size", std::to_string(width) + "x" + std::to_string(height), "32766"});
+    camera.distortion = {};
+    EXPECT_EQ(undistort(large, camera).width, width);
+  }
+  const Camera largest{32766, 16, 5000, 5000, 16383, 8, {0.01}};
+  EXPECT_EQ(undistort(gradient_image(32766, 16), largest).width, 32766);
+}
+
 TEST(SavePng, WritesRedGreenBlueInThisOrder) {
   const TemporaryFolder folder;
   save_png(RgbImage{1, 1, {200, 100, 50}}, folder.path() / "c.png");
