@@ -63,7 +63,8 @@ class Backend {
   virtual bool is_gpu() const = 0;
 
   virtual std::vector<EdgePoint> detect_edges(const ImageView& image, const EdgeOptions& options) = 0;
-  // `image` may be empty (width 0): then the view cannot be asked for Psi.
+  // `image` may be empty (width 0): then the view cannot be asked for Psi. InputError naming the size: a
+  // tensor too large for the memory or the device.
   virtual ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height,
                                const ImageView& image, const Intrinsics& intrinsics,
                                const TensorOptions& options) = 0;

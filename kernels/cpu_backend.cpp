@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <mutex>
 #include <new>
+#include <string>
 
 #include "kernels/backend.h"
 #include "kernels/error.h"
@@ -56,6 +57,15 @@ class TensorMemory {
   std::vector<Block> free_;
 };
 
+// As the GPU's tensor says it: this image, and not the program, is at its end.
+[[noreturn]] void too_large(const TensorShape& shape) {
+  throw InputError("dcd_tensor", "image size",
+                   std::to_string(shape.width) + "x" + std::to_string(shape.height) + " with " +
+                       std::to_string(shape.bins) + " bins: a tensor of " + std::to_string(2 * shape.size()) +
+                       " bytes",
+                   "one that memory has room for (a smaller image or fewer bins)");
+}
+
 class CpuView : public BackendView {
  public:
   CpuView(std::shared_ptr<TensorMemory> memory, std::size_t size)
@@ -94,16 +104,20 @@ class CpuBackend : public Backend {
                        const Intrinsics& intrinsics, const TensorOptions& options) override {
     const Timer timer(*this, "dcd_tensor");
     const TensorShape shape{width, height, options.bins};
-    auto view = std::make_shared<CpuView>(memory_, shape.size());
-    view->shape = shape;
-    view->options = options;
-    view->intrinsics = intrinsics;
-    if (fast_)
-      dcd_tensor_fast(edges, width, height, options, pool_, view->values);
-    else
-      std::ranges::copy(dcd_tensor_reference(edges, width, height, options), view->values.begin());
-    if (image.width > 0) view->gradient_x2 = image_gradient_x2(image);
-    return view;
+    try {
+      auto view = std::make_shared<CpuView>(memory_, shape.size());
+      view->shape = shape;
+      view->options = options;
+      view->intrinsics = intrinsics;
+      if (fast_)
+        dcd_tensor_fast(edges, width, height, options, pool_, view->values);
+      else
+        std::ranges::copy(dcd_tensor_reference(edges, width, height, options), view->values.begin());
+      if (image.width > 0) view->gradient_x2 = image_gradient_x2(image);
+      return view;
+    } catch (const std::bad_alloc&) {
+      too_large(shape);
+    }
   }
 
   void template_score(const BackendView& view, std::span<const TemplatePoint> points,

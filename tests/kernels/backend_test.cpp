@@ -39,6 +39,19 @@ TEST(BackendChoice, WithoutADeviceAskingForOneIsBadInput) {
   EXPECT_THROW(make_backend("vulkan"), InputError);
 }
 
+TEST(CpuBackend, SaysWhichTensorIsTooLargeForTheMemory) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "the sanitizer ends the program where an allocation fails";
+#endif
+  for (const char* word : {"cpu", "cpu-reference"}) try {
+      make_backend(word)->make_view({}, 1 << 22, 1 << 21, {}, {}, {});
+      FAIL() << "a tensor of a thousand terabytes";
+    } catch (const InputError& error) {
+      for (const char* part : {"dcd_tensor", "4194304x2097152", "60 bins"})
+        EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
+    }
+}
+
 class BackendTimings : public test::PathTest {};
 
 TEST_P(BackendTimings, AreTakenOnce) {
