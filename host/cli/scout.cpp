@@ -92,6 +92,22 @@ void write_all(const ScoutState& state, const ScoutReport& report, const ScoutRe
     write_file_atomically(out / "scout.html", scout_page(state, report, !last, backend));
 }
 
+ScoutReport report_of(const ScoutRequest& request, const ScoutSource& source,
+                      std::span<const TemplateSet> sets, const Backend& backend) {
+  return {sets,
+          undistorted(source.source->camera()),
+          request.options.pipeline.edges,
+          backend.name(),
+          source.name,
+          request.strategy,
+          source.settings,
+          unit_of(request.options.next_view.strategy),
+          source.truth,
+          source.image_ids,
+          source.image_files,
+          source.scene_id};
+}
+
 int scout(ScoutRequest& request) {
   settle_options(request);
   const std::unique_ptr<Backend> backend = make_backend(request.device);
@@ -99,23 +115,15 @@ int scout(ScoutRequest& request) {
   const ScoutSource source = make_source(request.source, objects_of(known), backend->threads());
   const std::vector<Se3> views = source.source->views();
   require_known_views(request.options, views.size());
+  const fs::path saved = fs::path(request.out) / "scout.state";
+  const bool goes_on = request.resume && fs::exists(saved);
+  if (goes_on) require_same_source(source.settings, request.out);
   require_writable_folder(request.out);
   const std::vector<TemplateSet> sets =
       template_sets_of(known, with_distances_of(request.templates, views), source.source->camera(), *backend);
   Scout scout(sets, source.source->camera(), views, request.options, *backend);
-  const fs::path saved = fs::path(request.out) / "scout.state";
-  if (request.resume && fs::exists(saved)) scout.resume(load_scout_state(saved), saved.string());
-  const ScoutReport report{sets,
-                           undistorted(source.source->camera()),
-                           request.options.pipeline.edges,
-                           backend->name(),
-                           source.name,
-                           request.strategy,
-                           unit_of(request.options.next_view.strategy),
-                           source.truth,
-                           source.image_ids,
-                           source.image_files,
-                           source.scene_id};
+  if (goes_on) scout.resume(load_scout_state(saved), saved.string());
+  const ScoutReport report = report_of(request, source, sets, *backend);
   run_scout(scout, *source.source, [&](const ScoutState& state) {
     tell(state);
     write_all(state, report, request, false, *backend);
@@ -164,7 +172,7 @@ void add_scout(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   OptionTable(*verb, "Run")
       .flag("watch", request->watch, "Write the page after every step, so that a browser follows it")
-      .flag("resume", request->resume, "Go on from DIR/scout.state where there is one");
+      .flag("resume", request->resume, "Go on from DIR/scout.state where there is one, of the same source");
   add_loop_options(*verb, *request);
   add_template_options(*verb, request->templates);
   add_edge_and_tensor_options(*verb, request->options.pipeline, request->edge_method);
@@ -172,7 +180,10 @@ void add_scout(CLI::App& app, int& exit_code) {
   // The choice is among what the belief over all views holds.
   add_choice_options(*verb, request->options.detections.min_probability,
                      request->options.detections.evidence);
-  verb->callback([request, &exit_code] { exit_code = scout(*request); });
+  verb->callback([request, verb, &exit_code] {
+    request->source.cell_settings = settings_of(*verb, {"Scene", "Image", "Arm"});
+    exit_code = scout(*request);
+  });
 }
 
 }  // namespace edgescout

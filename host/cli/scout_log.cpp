@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/cli/batch_settings.h"
 #include "host/cli/scout_report.h"
 #include "host/eval/metrics.h"
 #include "host/io/bop.h"
@@ -118,6 +119,7 @@ void save_scout_log(const ScoutState& state, const ScoutReport& report, const st
            {"strategy", report.strategy},
            {"information_unit", report.unit},
            {"camera", camera_json(report.camera)}};
+  for (const auto& [name, value] : report.settings) log["settings"][name] = value;
   log["views"] = json::array();
   for (const Se3& view : state.views) log["views"].push_back(pose_json(view));
   log["steps"] = json::array();
@@ -134,6 +136,15 @@ void save_scout_log(const ScoutState& state, const ScoutReport& report, const st
   log["end"] = to_string(state.end);
   write_file_atomically(folder / "scout.json",
                         log.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+}
+
+void require_same_source(const Settings& settings, const std::filesystem::path& folder) {
+  const std::string file = (folder / "scout.json").string();
+  const nlohmann::json log = read_json(file);
+  const JsonField saved = JsonField{log, file, ""}.at("settings");
+  Settings found;
+  for (const auto& item : saved.value.items()) found.emplace_back(item.key(), saved.at(item.key()).text());
+  require_same(found, settings, file);
 }
 
 void save_scout_results(const ScoutState& state, const ScoutReport& report,

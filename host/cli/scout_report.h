@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/active/scout.h"
+#include "host/io/results.h"
 
 namespace edgescout {
 
@@ -22,6 +23,7 @@ struct ScoutReport {
   Camera camera;  // ideal
   EdgesOptions edges;
   std::string device, source, strategy;
+  Settings settings;          // of the source
   std::string unit = "nats";  // of ViewInformation::information
   std::vector<TrueObject> truth;
   std::vector<int> image_ids;                      // one a view
@@ -36,10 +38,12 @@ struct DistanceToTruth {
 };
 std::optional<DistanceToTruth> distance_to_truth(const Detection& detection, const ScoutReport& report);
 
-// FOLDER/scout.json: {edgescout_scout: 1, device, source, strategy, information_unit, camera, views, steps
-// [..], failed [..], detections [..], truth [..] (of a cell), seconds, end}; poses are {R, t} and the camera
-// is the ideal one, as in io/results.h. Atomically.
+// FOLDER/scout.json: {edgescout_scout: 1, device, source, settings {name: text}, strategy, information_unit,
+// camera, views, steps [..], failed [..], detections [..], truth [..] (of a cell), seconds, end}; poses are
+// {R, t} and the camera is the ideal one, as in io/results.h. Atomically.
 void save_scout_log(const ScoutState& state, const ScoutReport& report, const std::filesystem::path& folder);
+// InputError naming the first setting of the source that differs from those in FOLDER/scout.json.
+void require_same_source(const Settings& settings, const std::filesystem::path& folder);
 
 // FOLDER/view_NNN.json (io/results.h) of every image taken, with all that was found in the world, and
 // FOLDER/results.csv (BOP). An image without a file has an empty name there: its id says which it is.

@@ -2,9 +2,11 @@
 
 #include <numeric>
 
+#include "host/cli/batch_settings.h"
 #include "host/cli/scene_options.h"
 #include "host/io/bop.h"
 #include "host/io/camera_file.h"
+#include "host/io/files.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -31,6 +33,8 @@ ScoutSource make_cell(const SourceRequest& request, std::span<const Object> obje
   ScoutSource made;
   made.name = "a rendered cell of " + std::to_string(options.objects) + " parts, seed " +
               std::to_string(options.seed);
+  made.settings = request.cell_settings;
+  made.settings.emplace_back("source", "cell");
   for (const PlacedObject& placed : scene.placed)
     if (placed.target) made.truth.push_back({placed.object, placed.world_from_object});
   made.source = std::make_unique<SimulatedCell>(scene, scene.views[0].camera, cell_views(request, scene),
@@ -46,7 +50,11 @@ ScoutSource make_recorded(const SourceRequest& request) {
   std::optional<Camera> camera;
   if (!request.camera_file.empty()) camera = load_camera(request.camera_file);
   ScoutSource made;
-  made.name = std::filesystem::path(request.source).filename().string();
+  const std::filesystem::path folder = std::filesystem::canonical(request.source);
+  made.name = folder.filename().string();
+  made.settings = {
+      {"source", folder.string()},
+      {"camera", request.camera_file.empty() ? "its own" : checksum_text(read_file(request.camera_file))}};
   auto views = std::make_unique<RecordedViews>(load_recorded_views(request.source, camera));
   for (const RecordedViews::Recording& recording : views->recordings())
     made.image_files.push_back(recording.file);

@@ -16,6 +16,7 @@ struct SourceRequest {
   ArmNoise arm;
   HemisphereOptions hemisphere;  // radius 0: so that the parts fill the image
   std::vector<double> center_m{0, 0, 0};
+  Settings cell_settings;  // of scene and arm: what a cell's images depend on beside models and views
 };
 
 void add_source_options(CLI::App& verb, SourceRequest& request);
@@ -23,8 +24,9 @@ void add_source_options(CLI::App& verb, SourceRequest& request);
 struct ScoutSource {
   std::unique_ptr<ViewSource> source;
   std::string name;
-  std::vector<TrueObject> truth;                   // of a cell
-  std::vector<int> image_ids;                      // one a view: BOP's, else its number
+  Settings settings;              // what tells it from other sources of the same views and models
+  std::vector<TrueObject> truth;  // of a cell
+  std::vector<int> image_ids;     // one a view: BOP's, else its number
   std::vector<std::filesystem::path> image_files;  // one a view; empty in a cell, whose images have none
   int scene_id = 0;
 };

@@ -127,6 +127,34 @@ TEST(Scout, KilledItGoesOnToTheSameEnd) {
   EXPECT_EQ(a.at("detections"), b.at("detections"));
 }
 
+// Other parts may lie under the same views: their images are no evidence about these.
+TEST(Scout, DoesNotGoOnInAnotherCell) {
+  const SmallScout t;
+  ASSERT_EQ(run_program(t.arguments()).exit_code, 0);
+  const std::string before = content_of(t.out / "scout.json");
+  expect_refused(t.arguments({"--resume", "--seed", "2"}), {"scout.json", "seed", "found 1", "expected 2"});
+  expect_refused(t.arguments({"--resume", "--arm-tells"}), {"scout.json", "arm-tells"});
+  EXPECT_EQ(content_of(t.out / "scout.json"), before);
+}
+
+TEST(Scout, DoesNotGoOnInAnotherFolder) {
+  const SmallScene scene(2);
+  const fs::path other = scene.folder.path() / "other" / scene.scene.filename();
+  fs::create_directories(other.parent_path());
+  fs::copy(scene.scene, other, fs::copy_options::recursive);
+  const auto arguments = [&](const fs::path& folder, const std::vector<std::string>& more) {
+    return joined({{"scout", folder, "--out", scene.out, "--device", "cpu", "--aligned", "200", "--max-views",
+                    "1", "--min-probability", "0.1"},
+                   bracket(),
+                   more});
+  };
+  ASSERT_EQ(run_program(arguments(scene.scene, {})).exit_code, 0);
+  expect_refused(arguments(other, {"--resume"}), {"scout.json", "source", scene.scene, other});
+  expect_refused(arguments(scene.scene, {"--resume", "--camera", scene.camera("500")}),
+                 {"scout.json", "camera", "found its own"});
+  EXPECT_EQ(run_program(arguments(scene.scene / "", {"--resume"})).exit_code, 0) << "the same folder";
+}
+
 TEST(Scout, TakesRecordedViewsAndGoesOnPastAMissingImage) {
   const SmallScene scene(4);
   fs::remove(scene.image(0));
