@@ -88,7 +88,8 @@ class Preparer {
     const Camera camera =
         camera_for_image(calibration, image.width, image.height, options_.scale_camera, source);
     const Se3 from_world = options_.joint ? *input.camera_from_world : Se3{};
-    PreparedImage prepared = prepare_image(image, camera, from_world, *backend_, options_.pipeline);
+    PreparedImage prepared =
+        naming(input, [&] { return prepare_image(image, camera, from_world, *backend_, options_.pipeline); });
     prepared.stages.insert(prepared.stages.begin(), {"decode", decode_seconds});
     return prepared;
   }
@@ -232,7 +233,7 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
   require_writable_folder(options.out);
   try {
     work_through(open, preparer, detector);
-  } catch (const GpuError&) {
+  } catch (...) {
     write_csv_of_ended(images, summary, options.out);
     throw;
   }

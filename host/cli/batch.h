@@ -26,9 +26,10 @@ struct BatchOptions {
 void require_world_poses(std::span<const InputImage> images);
 
 // Writes into `out`: NAME.json and NAME_overlay.png an image, results.csv (BOP) and summary.json. A bad image
-// is listed and the batch goes on; a GpuError ends it, and results.csv holds what was finished. With `resume`
-// images whose result is there are skipped; InputError, and nothing is written, where one of these was made
-// with other models, cameras, views or settings. Another image's result of the same name is none of these.
+// is listed and the batch goes on; any other error ends it, and results.csv holds what was finished. With
+// `resume` images whose result is there are skipped; InputError, and nothing is written, where one of these
+// was made with other models, cameras, views or settings. Another image's result of the same name is none of
+// these.
 BatchSummary run_batch(std::span<const InputImage> images, std::span<const TemplateSet> sets,
                        Backend& backend, const BatchOptions& options);
 

@@ -8,6 +8,7 @@
 
 #include "host/core/types.h"
 #include "host/io/bop.h"
+#include "kernels/error.h"
 
 namespace edgescout {
 
@@ -26,6 +27,16 @@ struct InputImage {
 // of images (png, jpg, jpeg, pgm, ppm, bmp, tif, tiff; sorted by name). InputError where one is none of these
 // or holds no image.
 std::vector<InputImage> list_images(const std::vector<std::string>& arguments);
+
+// What `work` makes of the image. Its InputErrors know no file: they get this one's name.
+template <typename Work>
+auto naming(const InputImage& image, Work work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw InputError(image.file.string() + ": " + error.what());
+  }
+}
 
 struct ModelArguments {
   std::vector<std::string> models;  // mesh files

@@ -42,7 +42,8 @@ PreparedImage prepare_view(const InputImage& input, bool is_alone, Backend& back
       camera_for_image(options.camera ? *options.camera : *input.camera, image.width, image.height,
                        options.scale_camera, options.camera ? options.camera_file : input.file.string());
   const Se3 camera_from_world = is_alone ? Se3{} : *input.camera_from_world;
-  return prepare_image(image, camera, camera_from_world, backend, options.pipeline);
+  return naming(input,
+                [&] { return prepare_image(image, camera, camera_from_world, backend, options.pipeline); });
 }
 
 ReadyJob prepare_job(const RegisterJob& job, Backend& backend, const RegisterOptions& options) {
@@ -75,11 +76,14 @@ Detections refine_job(const ReadyJob& ready, std::span<const RegisterModel> mode
     result.stages.insert(result.stages.end(), view.stages.begin(), view.stages.end());
   const auto start = Clock::now();
   std::vector<RegisterView> views;
-  for (const PreparedImage& view : ready.views)
-    views.push_back(observe(view.image, view.camera, view.camera_from_world, view.edges,
-                            reduction_for(smallest_size_px(ready, view, models)), options.pipeline.tensor,
-                            backend)
-                        .view);
+  for (std::size_t i = 0; i < ready.views.size(); ++i) {
+    const PreparedImage& view = ready.views[i];
+    const double reduction = reduction_for(smallest_size_px(ready, view, models));
+    views.push_back(naming(ready.job->views[i], [&] {
+                      return observe(view.image, view.camera, view.camera_from_world, view.edges, reduction,
+                                     options.pipeline.tensor, backend);
+                    }).view);
+  }
   result.stages.push_back({"tensors", seconds_since(start)});
   const auto tensors_made = Clock::now();
   const std::vector<Refined> refined =
@@ -258,7 +262,9 @@ RegisterSummary run_register(std::span<const RegisterJob> jobs, std::span<const 
   const std::vector<const RegisterJob*> open = skip_done(jobs, registrar, options.resume);
   try {
     work_through(open, registrar);
-  } catch (const GpuError&) {
+  } catch (const InputError&) {  // no image can be used: nothing is written
+    throw;
+  } catch (...) {
     // The folder is made for the first job whose images can be read.
     if (std::filesystem::exists(options.out)) write_csv_of_ended(images, summary, options.out);
     throw;

@@ -149,10 +149,25 @@ TEST(RunBatch, MixesNoJointResultsWithThoseOfOneView) {
   expect_input_error([&] { run_batch(t.images, t.sets, *make_cpu_backend(1), jointly); }, {"views"});
 }
 
-TEST(RunBatch, OurOwnBugsEndIt) {
+TEST(RunBatch, OurOwnBugsEndItAndWhatWasFinishedIsListed) {
   const Batch t;
-  FailingBackend backend(0, [] { throw LogicError("bug"); });
+  FailingBackend backend(views_per_image, [] { throw LogicError("bug"); });
   EXPECT_THROW(run_batch(t.images, t.sets, backend, t.options), LogicError);
+  EXPECT_EQ(t.listed(), std::set<int>{0});
+}
+
+TEST(RunBatch, NamesTheImageThatIsTooLarge) {
+  Batch t;
+  const fs::path wide = t.folder.path() / "wide.png";
+  save_png(Image{32767, 120, std::vector<std::uint8_t>(32767 * 120, 128)}, wide);
+  t.options.camera_file =
+      t.folder.write("lens.yaml", "K: [400, 0, 159.5, 0, 400, 119.5, 0, 0, 1]\nD: [0.1, 0, 0, 0, 0]\n");
+  const BatchSummary summary =
+      run_batch(list_images({wide.string()}), t.sets, *make_cpu_backend(1), t.options);
+  ASSERT_EQ(summary.failures.size(), 1u);
+  EXPECT_NE(summary.failures.begin()->second.find("wide.png: image: size: found 32767x120"),
+            std::string::npos)
+      << summary.failures.begin()->second;
 }
 
 TEST(RunBatch, JoinsOnlyViewsOfKnownPlace) {

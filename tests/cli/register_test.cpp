@@ -261,6 +261,16 @@ TEST(Register, RefusesOptionsDevicesAndFolders) {
   expect_refused({"register", one_view(), "--poses", starts, "--out", t.out}, {"--model", "neither"});
 }
 
+TEST(Register, NamesTheImageThatIsTooLarge) {
+  const Refused t;
+  const fs::path wide = t.folder.path() / "wide.png";
+  save_png(Image{32767, 120, std::vector<std::uint8_t>(32767 * 120, 128)}, wide);
+  const std::string lens =
+      t.folder.write("lens.yaml", "K: [400, 0, 159.5, 0, 400, 119.5, 0, 0, 1]\nD: [0.1, 0, 0, 0, 0]\n");
+  expect_refused(register_in(wide, t.starts(good_start()), t.out, {"--camera", lens, "--log-level", "error"}),
+                 {"wide.png: image: size: found 32767x120"});
+}
+
 TEST(Register, RefusesTheOnlyImageWhereItIsBad) {
   const Refused t;
   fs::copy(one_view(), t.folder.path() / "000000", fs::copy_options::recursive);
