@@ -35,6 +35,14 @@ PosedPoint<T> pose_point(const Pose& pose, const ModelPoint& model) {
           rotate<T>(pose, model.tx, model.ty, model.tz)};
 }
 
+// Whether it is in front of the camera, and nowhere that arithmetic in float loses it.
+template <typename T>
+bool can_be_seen(const Vec3<T>& point) {
+  constexpr T range = T(POSE_MAX_RANGE_M);
+  return point.z > T(POSE_MIN_DEPTH_M) && point.z < range && std::abs(point.x) < range &&
+         std::abs(point.y) < range;
+}
+
 // Projection of the point, and of its tangent up to a positive factor: d = z^2 * d(projection)(tangent).
 template <typename T>
 struct ProjectedEdge {

@@ -11,7 +11,9 @@
 // rho = s^2/2 * r^2 / (s^2 + r^2), which forgets far points: for annealing.
 //
 // Outside the image the value is that of the nearest border pixel plus the distance to it in px: smooth,
-// growing, pulling back. A point at or behind z = POSE_MIN_DEPTH_M counts in `behind` and nowhere else.
+// growing, pulling back. A point at or behind z = POSE_MIN_DEPTH_M counts in `behind` and nowhere else; so
+// does one that lies POSE_MAX_RANGE_M away or nowhere (not finite), where a diverging registration may take
+// it.
 //
 // Orientation: xi = atan2(dy, dx) mod pi of the projected tangent, d = d(projection) * (R tangent). An edge
 // seen end on has none that could be trusted: where |d| < POSE_MIN_FORESHORTENING * fx * z the derivative by
@@ -29,6 +31,7 @@ namespace edgescout {
 #endif
 EDGESCOUT_CONST(LOSS_HUBER, 0);
 EDGESCOUT_CONST(LOSS_GEMAN_MCCLURE, 1);
+EDGESCOUT_CONST(POSE_MAX_RANGE_M, 10000);  // of a point, along each axis of the camera
 #ifdef __cplusplus
 }  // namespace edgescout
 
@@ -70,7 +73,7 @@ struct NormalEquations {
   float residual_sum;  // sum of r, px
   float weight_sum;    // sum of w
   float points;        // points in front of the camera
-  float behind;        // points that were not
+  float behind;        // points that were not, or nowhere
 };
 
 // Value in px at (x, y, theta) and, where `derivative` is not null, its derivatives by x, y (px/px) and

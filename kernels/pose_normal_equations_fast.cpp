@@ -44,9 +44,15 @@ inline __attribute__((always_inline)) void load_points(const ModelPoint* models,
     }
   }
   for (int i = 0; i < lanes; ++i) {
-    const bool in_front = g.point[2][i] > POSE_MIN_DEPTH_M;
-    g.active[i] = in_front && i < count ? 1.0f : 0.0f;
-    g.point[2][i] = in_front ? g.point[2][i] : 1.0f;
+    constexpr float range = float(POSE_MAX_RANGE_M);
+    const bool seen = g.point[2][i] > POSE_MIN_DEPTH_M && g.point[2][i] < range &&
+                      std::abs(g.point[0][i]) < range && std::abs(g.point[1][i]) < range;
+    g.active[i] = seen && i < count ? 1.0f : 0.0f;
+    for (int r = 0; r < 3; ++r) {  // elsewhere something finite, which counts nowhere
+      g.point[r][i] = seen ? g.point[r][i] : 1.0f;
+      g.arm[r][i] = seen ? g.arm[r][i] : 1.0f;
+      g.tangent[r][i] = seen ? g.tangent[r][i] : 1.0f;
+    }
     const float inverse = 1.0f / g.point[2][i];
     g.u[i] = k.fx * g.point[0][i] * inverse + k.cx;
     g.v[i] = k.fy * g.point[1][i] * inverse + k.cy;

@@ -80,7 +80,7 @@ void pose_normal_equations_reference(std::span<const TensorView> views, std::spa
     Sums sums;
     for (const ModelPoint& model : points.subspan(problem.first_point, problem.point_count)) {
       const PosedPoint<double> posed = pose_point<double>(problem.camera_from_object, model);
-      if (posed.point.z <= POSE_MIN_DEPTH_M) {
+      if (!can_be_seen(posed.point)) {
         sums.behind += 1;
         continue;
       }

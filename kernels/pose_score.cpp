@@ -44,7 +44,7 @@ PoseScore score_problem(const ScoreView& view, std::span<const ModelPoint> point
   const TensorShape& s = view.tensor.shape;
   for (const ModelPoint& model : points) {
     const PosedPoint<T> posed = pose_point<T>(pose, model);
-    if (posed.point.z <= POSE_MIN_DEPTH_M) continue;
+    if (!can_be_seen(posed.point)) continue;
     const ProjectedEdge<T> edge = project_edge(posed, view.tensor.intrinsics);
     if (!on_image(edge, s.width, s.height)) continue;
     const float value = tensor_lookup(view.tensor, float(edge.u), float(edge.v),

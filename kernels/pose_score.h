@@ -1,7 +1,7 @@
 // How well many poses fit many views: mean tensor value (Eq. 7), gradient-direction score Psi (Eq. 10) and
 // the fraction of points that find an edge.
 //
-// Per problem, over the points in front of the camera and inside the image:
+// Per problem, over the points in front of the camera (pose_normal_equations.h) and inside the image:
 //   mean_px = mean of the trilinear tensor value (pose_normal_equations.h);
 //   psi     = mean of |n . g| / |g|, n the unit normal of the projected edge, g the image gradient at the
 //             nearest pixel; a gradient weaker than `min_gradient` counts 0, not as chance (which would give

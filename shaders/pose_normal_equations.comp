@@ -54,7 +54,7 @@ void main() {
     const uint at = (first + i) * POSE_POINT_WORDS;
     const PosedPoint p = pose_point(rotation, translation_m, vec3(points[at], points[at + 1], points[at + 2]),
                                     vec3(points[at + 3], points[at + 4], points[at + 5]));
-    if (!(p.point.z > push.camera.min_depth_m)) {
+    if (!can_be_seen(p.point, push.camera)) {
       total[31] += 1.0;
       continue;
     }

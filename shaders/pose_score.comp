@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#include "pose_normal_equations.h"
 #include "pose_push.h"
 #include "tensor_read.glsl"
 #include "pose_point.glsl"
@@ -44,7 +45,7 @@ void main() {
     const uint at = (first + i) * POSE_POINT_WORDS;
     const PosedPoint p = pose_point(rotation, translation_m, vec3(points[at], points[at + 1], points[at + 2]),
                                     vec3(points[at + 3], points[at + 4], points[at + 5]));
-    if (!(p.point.z > push.camera.min_depth_m)) continue;
+    if (!can_be_seen(p.point, push.camera)) continue;
     const ProjectedEdge edge = project_edge(p, push.camera);
     if (!in_image(edge.at)) continue;
     const float value = tensor_lookup(push.grid, edge.at, undirected_angle(edge.direction)).value;

@@ -25,7 +25,7 @@ SeenPoints seen_in(const TemplateTable& table, const Se3& world_from_object,
     const Intrinsics k = intrinsics_of(view.camera);
     for (const TemplateTablePoint& p : table.seen_from(camera_from_object)) {
       const PosedPoint<float> posed = pose_point<float>(pose, p.point);
-      if (seen.by_id[p.id] || posed.point.z <= POSE_MIN_DEPTH_M) continue;
+      if (seen.by_id[p.id] || !can_be_seen(posed.point)) continue;
       const ProjectedEdge<float> edge = project_edge(posed, k);
       if (!in_image(edge.u, edge.v, view.camera)) continue;
       if (edge_px > 0 && view.edges &&
@@ -45,7 +45,7 @@ std::vector<ParticlePoint> showing_points(const TemplateTable& table, const Se3&
   const Intrinsics k = intrinsics_of(camera);
   for (const TemplateTablePoint& p : table.seen_from(camera_from_object)) {
     const PosedPoint<float> posed = pose_point<float>(pose, p.point);
-    if (posed.point.z <= POSE_MIN_DEPTH_M || points.size() == CHAMFER_MAX_POINTS) continue;
+    if (!can_be_seen(posed.point) || points.size() == CHAMFER_MAX_POINTS) continue;
     const ProjectedEdge<float> edge = project_edge(posed, k);
     if (in_image(edge.u, edge.v, camera))
       points.push_back({edge.u, edge.v, posed.point.z, seen.by_id[p.id] ? 0u : 1u});

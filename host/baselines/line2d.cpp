@@ -49,7 +49,7 @@ PlacedTemplate place_template(std::span<const ModelPoint> points, const Se3& cam
   std::vector<cv::Point> places;
   for (const ModelPoint& model : points) {
     const PosedPoint<double> posed = pose_point<double>(pose, model);
-    if (posed.point.z <= POSE_MIN_DEPTH_M) continue;
+    if (!can_be_seen(posed.point)) continue;
     const ProjectedEdge<double> at = project_edge(posed, view.view->intrinsics);
     if (!(at.u >= 0 && at.v >= 0 && at.u <= view.camera.width - 1 && at.v <= view.camera.height - 1))
       continue;

@@ -35,7 +35,7 @@ WorldSystem sum_over_points(std::span<const RegisterView> views,
     WorldSystem in_camera;
     for (std::size_t i = 0; i < points[v].size(); ++i) {
       const PosedPoint<double> posed = pose_point<double>(pose, points[v][i]);
-      if (posed.point.z <= POSE_MIN_DEPTH_M) continue;
+      if (!can_be_seen(posed.point)) continue;
       visit(in_camera, v, i, posed, project_edge(posed, views[v].view->intrinsics));
     }
     add_view(sum, in_camera, views[v].camera_from_world);

@@ -19,7 +19,7 @@ double length_in_image_px(const EdgeModel& model, const Se3& camera_from_object,
   double length = 0;
   for (const ModelPoint& point : points) {
     const PosedPoint<float> posed = pose_point<float>(pose, point);
-    if (posed.point.z <= POSE_MIN_DEPTH_M) continue;
+    if (!can_be_seen(posed.point)) continue;
     const ProjectedEdge<float> edge = project_edge(posed, view.intrinsics);
     if (!on_image(edge, view.shape.width, view.shape.height)) continue;
     length += std::hypot(edge.dx, edge.dy) / (posed.point.z * posed.point.z);

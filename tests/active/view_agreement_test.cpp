@@ -97,7 +97,7 @@ TEST(ViewAgreement, ExpectsOnlyWhatTheViewCanShow) {
   views[2].occluders = wall;
   EXPECT_EQ(t.judge(views)[2].missing, 0);
   views[2].occluders = nullptr;
-  views[2].camera_from_world = Se3{so3_exp({0, 1.5, 0}), {}} * views[2].camera_from_world;
+  views[2].camera_from_world = Se3{so3_exp({0, 1.5, 0}), {0, 0, 0}} * views[2].camera_from_world;
   EXPECT_EQ(t.judge(views)[2].missing, 0);
 }
 

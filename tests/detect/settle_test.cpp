@@ -24,7 +24,7 @@ TEST(Settle, ViewsThatLookElsewhereTakeNothingFromAPose) {
   EXPECT_GT(alone[0].probability, 0.5);
   for (const double turn_rad : {-1.0, -0.9, 0.9, 1.0}) {
     views.push_back(views[0]);
-    views.back().camera_from_world = Se3{so3_exp({0, turn_rad, 0}), {}} * views[0].camera_from_world;
+    views.back().camera_from_world = Se3{so3_exp({0, turn_rad, 0}), {0, 0, 0}} * views[0].camera_from_world;
   }
   const std::vector<Detection> among_others = settled();
   ASSERT_EQ(among_others.size(), 1u);

@@ -33,6 +33,23 @@ inline std::vector<ModelPoint> random_points(std::mt19937& rng, int count) {
   return points;
 }
 
+// Where a diverging registration may end.
+inline std::vector<Pose> poses_nowhere(std::mt19937& rng) {
+  std::vector<Pose> poses;
+  for (const float lost : {NAN, INFINITY, -INFINITY, 1e38f, 1e20f, 1.1e4f})
+    for (const int entry : {3, 7, 11}) {
+      Pose pose = random_pose(rng, 0.3f);
+      pose.m[entry] = lost;
+      poses.push_back(pose);
+    }
+  for (int entry = 0; entry < 12; ++entry) {
+    Pose pose = random_pose(rng, 0.3f);
+    pose.m[entry] = NAN;
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
 struct PoseCase {
   std::vector<ModelPoint> points;
   std::vector<PoseProblem> problems;

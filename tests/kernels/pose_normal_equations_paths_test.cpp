@@ -57,6 +57,21 @@ TEST_P(PoseNormalEquationsPaths, NoProblemsNoPoints) {
   EXPECT_EQ(found.points, 0);
 }
 
+TEST_P(PoseNormalEquationsPaths, PosesNowhereSeeNothing) {
+  std::mt19937 rng = test::test_rng();
+  const test::TwoViews views = test::make_views(*tested, *reference, rng, false);
+  const std::vector<ModelPoint> points = test::random_points(rng, 70);
+  std::vector<PoseProblem> problems;
+  for (const Pose& nowhere : test::poses_nowhere(rng)) problems.push_back({nowhere, 0, 70, 0});
+  std::vector<NormalEquations> found(problems.size());
+  tested->pose_normal_equations(views.tested, points, problems, {LOSS_HUBER, 4}, found);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    SCOPED_TRACE("problem " + std::to_string(i));
+    EXPECT_EQ(found[i].behind, 70);
+    expect_agreement(found[i], NormalEquations{.behind = 70});
+  }
+}
+
 TEST_P(PoseNormalEquationsPaths, BrokenProblemsAreOurBugs) {
   std::mt19937 rng = test::test_rng();
   const test::TwoViews views = test::make_views(*tested, *reference, rng, false);

@@ -34,8 +34,9 @@ TEST_P(PoseScorePaths, NothingInsideScoresTheCap) {
   Pose away = test::random_pose(rng, 0.3f), behind = away;
   away.m[3] = 5;
   behind.m[11] = -1;
-  const std::vector<PoseProblem> problems{{away, 0, 10, 0}, {behind, 0, 10, 0}};
-  std::vector<PoseScore> found(2);
+  std::vector<PoseProblem> problems{{away, 0, 10, 0}, {behind, 0, 10, 0}};
+  for (const Pose& nowhere : test::poses_nowhere(rng)) problems.push_back({nowhere, 0, 10, 0});
+  std::vector<PoseScore> found(problems.size());
   PoseScoreOptions options;
   options.cap_px = 17;
   tested->pose_score(views.tested, points, problems, options, found);
