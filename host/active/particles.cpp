@@ -107,6 +107,7 @@ void ParticleOptions::validate() const {
   in("dead", dead_px, 1e-3, 1e3);
   in("min_points", min_points, 1, 1e5);
   d2co.validate();
+  polish_options.validate();
 }
 
 Detection candidate_in_world(const Detection& in_camera, const Se3& camera_from_world) {

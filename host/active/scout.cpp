@@ -353,6 +353,14 @@ void ScoutOptions::validate() const {
   in("min_entropy_nats", min_entropy_nats, 0, 1e6);
   in("min_information_nats", min_information_nats, 0, 1e6);
   in("max_seconds", max_seconds, 0, 1e9);
+  in("detections.min_probability", detections.min_probability, 0, 1);
+  in("detections.support_probability", detections.support_probability, 0, 1);
+  in("agreement.max_residual_px", agreement.max_residual_px, 0, 1e9);
+  in("agreement.min_probability", agreement.min_probability, 0, 1);
+  in("agreement.max_missing", agreement.max_missing, 0, 1e9);
+  detections.evidence.validate();
+  agreement.joint.validate();
+  agreement.single.validate();
   pipeline.validate();
   combinations.validate();
   particles.validate();

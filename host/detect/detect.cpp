@@ -66,6 +66,8 @@ void DetectOptions::validate() const {
   };
   in("template_points", scan.points, 4, TEMPLATE_SCORE_MAX_POINTS);
   in("anchor_step", scan.anchor_step, 1, 16);
+  in("region_columns", scan.region_columns, 1, 4096);
+  in("region_rows", scan.region_rows, 1, 4096);
   in("scan_hits", scan.kept, 1, 1e7);
   in("aligned", aligned, 1, 1e6);
   in("aligned_jointly", aligned_jointly, 1, 1e6);
@@ -76,6 +78,7 @@ void DetectOptions::validate() const {
   in("max_detections", max_detections, 1, 1e5);
   touch_up.validate();
   refine.validate();
+  evidence.validate();
 }
 
 Detection to_detection(int object, const Registration& registration, const PoseFeatures& features) {

@@ -5,6 +5,7 @@
 #include <unordered_set>
 
 #include "host/register/visible_in_views.h"
+#include "kernels/error.h"
 #include "kernels/pose_geometry.h"
 
 namespace edgescout {
@@ -36,7 +37,7 @@ std::vector<Explained> explained_edges(const EdgeModel& model, const Hypothesis&
     const Pose transform = to_pose(views[v].camera_from_world * pose.world_from_object);
     for (const ModelPoint& point : seen[v].points) {
       const PosedPoint<float> posed = pose_point<float>(transform, point);
-      if (posed.point.z <= POSE_MIN_DEPTH_M) continue;
+      if (!can_be_seen(posed.point)) continue;
       const ProjectedEdge<float> edge = project_edge(posed, views[v].view->intrinsics);
       const EdgePoint* match = views[v].edges->nearest(edge.u, edge.v, orientation(edge.dx, edge.dy),
                                                        options.match_px, options.max_turn_rad);
@@ -74,6 +75,17 @@ double fresh_fraction(const std::vector<Explained>& explained, const SpentEdges&
 }
 
 }  // namespace
+
+void EvidenceOptions::validate() const {
+  const auto in = [](const char* field, double found, double low, double high) {
+    if (!(found >= low && found <= high))
+      throw InputError("options", std::string("evidence.") + field, std::to_string(found),
+                       std::to_string(low) + " to " + std::to_string(high));
+  };
+  in("match", match_px, 0.01, EdgeIndex::CELL_PX);
+  in("max_turn", max_turn_rad, 0, 3.15);
+  in("max_spent", max_spent, 0, 1);
+}
 
 std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
                                       std::span<const PoseFeatures> features,

@@ -16,6 +16,7 @@ struct EvidenceOptions {
   float match_px = 3;  // from a projected point to the edge it explains
   float max_turn_rad = 0.35f;
   double max_spent = 0.5;  // of the length a pose explains: more spent by better poses, and it goes
+  void validate() const;   // throws InputError naming the field and the violated bound
 };
 
 struct ChosenPose {

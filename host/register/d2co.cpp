@@ -160,8 +160,7 @@ std::vector<Registration> register_poses(std::span<const EdgeModel> models,
                                          std::span<const RegisterView> views, Backend& backend,
                                          const D2coOptions& options) {
   options.validate();
-  check(!views.empty(), "register_poses: at least one view");
-  check_starts(hypotheses, models.size());
+  check_problem(hypotheses, models.size(), views);
   std::vector<PoseTrack> tracks(hypotheses.size());
   for (std::size_t h = 0; h < hypotheses.size(); ++h) tracks[h].pose = hypotheses[h].world_from_object;
   for (const D2coRound& round : options.rounds) {

@@ -139,8 +139,7 @@ std::vector<Registration> register_poses_ceres(std::span<const EdgeModel> models
                                                std::span<const RegisterView> views, Backend& backend,
                                                const D2coOptions& options) {
   options.validate();
-  check(!views.empty(), "register_poses_ceres: at least one view");
-  check_starts(hypotheses, models.size());
+  check_problem(hypotheses, models.size(), views);
   const std::vector<HostView> host = download(views);
   std::vector<Registration> results(hypotheses.size());
   for (std::size_t h = 0; h < hypotheses.size(); ++h) {

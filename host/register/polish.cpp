@@ -5,6 +5,7 @@
 #include "host/register/image_motion.h"
 #include "host/register/visible_in_views.h"
 #include "host/register/world_system.h"
+#include "kernels/error.h"
 #include "kernels/thread_pool.h"
 
 namespace edgescout {
@@ -39,7 +40,7 @@ void add_points(LineSystem& sum, const RegisterView& view, const Se3& world_from
   Vector6d gradient = Vector6d::Zero();
   for (const ModelPoint& model : points) {
     const PosedPoint<double> posed = pose_point<double>(pose, model);
-    if (posed.point.z <= POSE_MIN_DEPTH_M) continue;
+    if (!can_be_seen(posed.point)) continue;
     ++sum.points;
     const ProjectedEdge<double> projected = project_edge(posed, k);
     const EdgePoint* edge =
@@ -90,6 +91,25 @@ void polish_one(Registration& registration, std::span<const RegisterView> views,
 }
 
 }  // namespace
+
+void PolishOptions::validate() const {
+  const auto in = [](const char* field, double found, double low, double high) {
+    if (!(found >= low && found <= high))
+      throw InputError("options", std::string("polish.") + field, std::to_string(found),
+                       std::to_string(low) + " to " + std::to_string(high));
+  };
+  if (rounds.empty()) throw InputError("options", "polish.rounds", "none", "at least one");
+  for (const PolishRound& round : rounds) {
+    in("radius", round.radius_px, 0.01, EdgeIndex::CELL_PX);
+    in("scale", round.scale_px, 1e-3, 1000);
+    in("iterations", round.iterations, 1, 1000);
+  }
+  in("max_turn", max_turn_rad, 0, 3.15);
+  in("min_matched", min_matched, 0, 1);
+  in("max_points", max_points, 0, 1e6);
+  in("min_step_m", min_step_m, 0, 1e9);
+  in("min_step_rad", min_step_rad, 0, 1e9);
+}
 
 void polish_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
                   std::span<const RegisterView> views, Backend& backend, const PolishOptions& options,

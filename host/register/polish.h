@@ -27,6 +27,7 @@ struct PolishOptions {
   double min_step_m = 2e-6;  // a smaller step ends the round
   double min_step_rad = 2e-5;
   VisibilityOptions visibility;
+  void validate() const;  // throws InputError naming the field and the violated bound
 };
 
 // Improves pose and covariance of every registration in place. Views without an edge index do not take part.

@@ -8,7 +8,11 @@
 
 namespace edgescout {
 
-void check_starts(std::span<const Hypothesis> starts, std::size_t models) {
+void check_problem(std::span<const Hypothesis> starts, std::size_t models,
+                   std::span<const RegisterView> views) {
+  check(!views.empty(), "register_poses: at least one view");
+  for (const RegisterView& view : views)
+    check(is_finite(view.camera_from_world), "register_poses: a view whose pose is not finite");
   for (const Hypothesis& start : starts) {
     check(start.object >= 0 && static_cast<std::size_t>(start.object) < models,
           "register_poses: no such model");

@@ -17,9 +17,9 @@ struct PoseTrack {
   Convergence reason = Convergence::IterationLimit;
 };
 
-// LogicError for a start that is no pose or of no model: a place that is no number would be looked up in the
-// tensor.
-void check_starts(std::span<const Hypothesis> starts, std::size_t models);
+// LogicError for a start that is no pose or of no model, for no view or one that stands nowhere.
+void check_problem(std::span<const Hypothesis> starts, std::size_t models,
+                   std::span<const RegisterView> views);
 // Before a round: the first trial is the pose itself.
 void restart(PoseTrack& track);
 // With the system at the first trial: a pose without points in front of the camera goes no further.

@@ -133,6 +133,7 @@ D2coOptions RefineOptions::full_defaults() {
 void RefineOptions::validate() const {
   search.coarse.validate();
   d2co.validate();
+  polish_options.validate();
   if (!(search.rotation_rad >= 0 && search.rotation_rad <= 1))
     throw InputError("options", "register.search_rotation", std::to_string(search.rotation_rad),
                      "an angle in [0, 1] rad");

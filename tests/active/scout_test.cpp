@@ -361,6 +361,20 @@ TEST(Scout, RefusesWhatItCannotUse) {
     options.next_view.sequence = {0, view, 3};
     expect_input_error([&] { t.scout(options); }, {"sequence", std::to_string(view), "8 views"});
   }
+  const auto expect_refused = [&](const char* field, const auto& spoil) {
+    ScoutOptions spoilt = t.options();
+    spoil(spoilt);
+    expect_input_error([&] { t.scout(spoilt); }, {field});
+  };
+  expect_refused("region_columns", [](ScoutOptions& o) { o.pipeline.detect.scan.region_columns = 0; });
+  expect_refused("region_rows", [](ScoutOptions& o) { o.pipeline.detect.scan.region_rows = 0; });
+  expect_refused("polish.rounds", [](ScoutOptions& o) { o.particles.polish_options.rounds.clear(); });
+  expect_refused("polish.radius",
+                 [](ScoutOptions& o) { o.pipeline.detect.refine.polish_options.rounds[0].radius_px = 8.5f; });
+  expect_refused("evidence.match", [](ScoutOptions& o) { o.detections.evidence.match_px = 9; });
+  expect_refused("evidence.match", [](ScoutOptions& o) { o.pipeline.detect.evidence.match_px = NAN; });
+  expect_refused("max_residual_px", [](ScoutOptions& o) { o.agreement.max_residual_px = NAN; });
+  expect_refused("detections.min_probability", [](ScoutOptions& o) { o.detections.min_probability = -1; });
   options = t.options();
   options.particles.count = 16385;
   expect_input_error([&] { t.scout(options); }, {"particles.count", "16385"});

@@ -148,6 +148,9 @@ TEST_P(D2co, RefusesPosesThatAreNone) {
   scene.start = start;
   scene.start.object = 1;
   EXPECT_THROW(solve(scene), LogicError);
+  scene.start = start;
+  scene.views[0].camera_from_world.translation_m.y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(solve(scene), LogicError);
 }
 
 TEST_P(D2co, RefusesOptionsOutOfRange) {

@@ -58,7 +58,8 @@ TEST(VisibleInViews, EveryPoseInEveryViewAsAlone) {
 TEST(VisibleInViews, RefusesAnObjectThatIsNone) {
   const auto backend = make_cpu_backend(1);
   const EdgeModel model = part_model("l_bracket");
-  const RegisterView view{.view = nullptr, .camera = scene_camera()};
+  RegisterView view;
+  view.camera = scene_camera();
   for (const int object : {-1, 1}) {
     const Hypothesis pose{object, {Eigen::Quaterniond::Identity(), {0, 0, 0.4}}};
     EXPECT_THROW(visible_in_views({&model, 1}, {&pose, 1}, {&view, 1}, *backend), LogicError);
