@@ -8,6 +8,7 @@
 #include "host/active/seen_points.h"
 #include "host/active/views.h"
 #include "host/core/log.h"
+#include "host/core/option_bounds.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
 
@@ -15,8 +16,13 @@ namespace edgescout {
 
 namespace {
 
-// Enough maps at once to keep every thread and device busy, few enough to stay in memory.
-constexpr std::size_t MAPS_AT_ONCE = 2048;
+// Views whose maps are made at once: enough to keep every thread and device busy, few enough to stay in
+// memory, 8 bytes a pixel, were every candidate as large as the image.
+std::size_t views_at_once(std::size_t candidates, const Camera& map_camera) {
+  constexpr std::size_t maps = 2048, pixels = std::size_t(1) << 27;
+  const std::size_t image = std::size_t(map_camera.width) * std::size_t(map_camera.height);
+  return std::max<std::size_t>(1, std::min(maps, pixels / image) / candidates);
+}
 
 // The particles that have a weight, and what real views told about them.
 struct Watched {
@@ -90,7 +96,7 @@ std::vector<double> mutual_information(const Planning& planning, std::span<const
                                float(options.cap_px / options.reduction)};
   const double sigma_px = options.sigma_px / options.reduction;
   const InformationOptions likelihood{2 * sigma_px * sigma_px, options.literal};
-  const std::size_t block = std::max<std::size_t>(1, MAPS_AT_ONCE / planning.candidates.size());
+  const std::size_t block = views_at_once(planning.candidates.size(), map_camera);
   for (std::size_t first = 0; first < open.size(); first += block) {
     std::vector<Se3> cameras;
     for (std::size_t i = first; i < std::min(first + block, open.size()); ++i)
@@ -215,11 +221,7 @@ Strategy strategy_from(const std::string& word) {
 }
 
 void NextViewOptions::validate() const {
-  const auto in = [](const char* field, double found, double low, double high) {
-    if (!(found >= low && found <= high))
-      throw InputError("options", std::string("next_view.") + field, std::to_string(found),
-                       std::to_string(low) + " to " + std::to_string(high));
-  };
+  const OptionBounds in("next_view");
   in("reduction", reduction, 1, 16);
   in("cap", cap_px, reduction / CHAMFER_STEPS_PER_PX, reduction * CHAMFER_CAP / CHAMFER_STEPS_PER_PX);
   in("sigma", sigma_px, 1e-3, 1e3);

@@ -9,6 +9,7 @@
 
 #include "host/active/modes.h"
 #include "host/core/log.h"
+#include "host/core/option_bounds.h"
 #include "kernels/error.h"
 #include "kernels/mutual_information.h"
 
@@ -89,11 +90,7 @@ PolishOptions ParticleOptions::polish_defaults() {
 }
 
 void ParticleOptions::validate() const {
-  const auto in = [](const char* field, double found, double low, double high) {
-    if (!(found >= low && found <= high))
-      throw InputError("options", std::string("particles.") + field, std::to_string(found),
-                       std::to_string(low) + " to " + std::to_string(high));
-  };
+  const OptionBounds in("particles");
   in("count", count, 1, INFORMATION_MAX_PARTICLES);
   in("sigma", sigma_px, 1e-3, 1e3);
   in("drawn_max", drawn.max, 0, 1);

@@ -7,6 +7,7 @@
 #include "host/active/candidates.h"
 #include "host/active/views.h"
 #include "host/core/log.h"
+#include "host/core/option_bounds.h"
 #include "host/register/occluders.h"
 #include "kernels/error.h"
 
@@ -340,11 +341,7 @@ PipelineOptions ScoutOptions::quick_looks() {
 }
 
 void ScoutOptions::validate() const {
-  const auto in = [](const char* field, double found, double low, double high) {
-    if (!(found >= low && found <= high))
-      throw InputError("options", std::string("scout.") + field, std::to_string(found),
-                       std::to_string(low) + " to " + std::to_string(high));
-  };
+  const OptionBounds in("scout");
   in("max_candidates", max_candidates, 1, 10000);
   in("known_probability", known_probability, 0, 2);
   in("penetration_m", penetration_m, 0, 1);

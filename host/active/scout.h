@@ -41,7 +41,8 @@ struct ScoutOptions {
   bool detect_jointly =
       true;  // later images are searched with the help of those before (detect/joint_scan.h); else each alone
   // Instances as probable as this hide what is behind them (register/occluders.h): what they cover counts
-  // neither for nor against other poses. Above 1: none do.
+  // neither for nor against other poses, but leaves less to be certain by (detect/probability.h). Above 1:
+  // none do.
   double known_probability = 0.9;
   double penetration_m = DEFAULT_PENETRATION_M;
   CombinationOptions combinations;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/core/option_bounds.h"
 #include "host/core/random.h"
 #include "host/io/bop.h"
 #include "host/io/files.h"
@@ -82,13 +83,9 @@ std::vector<RecordedViews::Recording> visp_recordings(const fs::path& folder) {
 }  // namespace
 
 void ArmNoise::validate() const {
-  const auto in = [](const char* field, double found, double high) {
-    if (!(found >= 0 && found <= high))
-      throw InputError("options", std::string("arm_noise.") + field, std::to_string(found),
-                       "0 to " + std::to_string(high));
-  };
-  in("translation_m", translation_m, 1);
-  in("rotation_rad", rotation_rad, 1);
+  const OptionBounds in("arm_noise");
+  in("translation_m", translation_m, 0, 1);
+  in("rotation_rad", rotation_rad, 0, 1);
 }
 
 SimulatedCell::SimulatedCell(Scene scene, const Camera& camera, std::vector<Se3> camera_from_world,

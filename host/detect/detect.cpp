@@ -1,10 +1,10 @@
 #include "host/detect/detect.h"
 
+#include "host/core/option_bounds.h"
 #include "host/detect/helping_views.h"
 #include "host/detect/joint_scan.h"
 #include "host/detect/probability_over_views.h"
 #include "host/detect/suppression.h"
-#include "kernels/error.h"
 
 namespace edgescout {
 
@@ -59,11 +59,7 @@ RefineOptions DetectOptions::refine_defaults() {
 }
 
 void DetectOptions::validate() const {
-  const auto in = [](const char* field, double found, double low, double high) {
-    if (!(found >= low && found <= high))
-      throw InputError("options", std::string("detect.") + field, std::to_string(found),
-                       std::to_string(low) + " to " + std::to_string(high));
-  };
+  const OptionBounds in("detect");
   in("template_points", scan.points, 4, TEMPLATE_SCORE_MAX_POINTS);
   in("anchor_step", scan.anchor_step, 1, 16);
   in("region_columns", scan.region_columns, 1, 4096);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "host/core/option_bounds.h"
 #include "host/register/visible_in_views.h"
-#include "kernels/error.h"
 #include "kernels/pose_geometry.h"
 
 namespace edgescout {
@@ -77,11 +77,7 @@ double fresh_fraction(const std::vector<Explained>& explained, const SpentEdges&
 }  // namespace
 
 void EvidenceOptions::validate() const {
-  const auto in = [](const char* field, double found, double low, double high) {
-    if (!(found >= low && found <= high))
-      throw InputError("options", std::string("evidence.") + field, std::to_string(found),
-                       std::to_string(low) + " to " + std::to_string(high));
-  };
+  const OptionBounds in("evidence");
   in("match", match_px, 0.01, EdgeIndex::CELL_PX);
   in("max_turn", max_turn_rad, 0, 3.15);
   in("max_spent", max_spent, 0, 1);

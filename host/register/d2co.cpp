@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "host/core/option_bounds.h"
 #include "host/register/pose_track.h"
 #include "host/register/visible_in_views.h"
 #include "kernels/error.h"
@@ -115,11 +116,7 @@ std::vector<D2coRound> D2coOptions::default_rounds() {
 }
 
 void D2coOptions::validate() const {
-  const auto in = [](const char* field, double found, double low, double high) {
-    if (!(found >= low && found <= high))
-      throw InputError("options", std::string("register.") + field, std::to_string(found),
-                       std::to_string(low) + " to " + std::to_string(high));
-  };
+  const OptionBounds in("register");
   if (rounds.empty()) throw InputError("options", "register.rounds", "none", "at least one round");
   for (const D2coRound& round : rounds) {
     if (round.loss != LOSS_HUBER && round.loss != LOSS_GEMAN_MCCLURE)

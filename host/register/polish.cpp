@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "host/core/option_bounds.h"
 #include "host/register/image_motion.h"
 #include "host/register/visible_in_views.h"
 #include "host/register/world_system.h"
@@ -93,11 +94,7 @@ void polish_one(Registration& registration, std::span<const RegisterView> views,
 }  // namespace
 
 void PolishOptions::validate() const {
-  const auto in = [](const char* field, double found, double low, double high) {
-    if (!(found >= low && found <= high))
-      throw InputError("options", std::string("polish.") + field, std::to_string(found),
-                       std::to_string(low) + " to " + std::to_string(high));
-  };
+  const OptionBounds in("polish");
   if (rounds.empty()) throw InputError("options", "polish.rounds", "none", "at least one");
   for (const PolishRound& round : rounds) {
     in("radius", round.radius_px, 0.01, EdgeIndex::CELL_PX);

@@ -17,7 +17,7 @@ struct PoseFeatures {
   double matched = 0;    // fraction of points with a tensor value below the match limit
   double points = 0;     // inside the images
   double length_px = 0;  // of the visible edges, as far as they lie in the images
-  double in_image = 0;   // fraction of the visible points that project into the image
+  double in_image = 0;   // fraction of the visible points in the image that no known object hides
   double visible = 0;    // points that show from the camera, inside the image or not
   Shading shading;       // nothing compared where the view has no image
 };
