@@ -67,7 +67,7 @@ TEST(ViewAgreement, FlagsTheOneThatIsWrong) {
 TEST(ViewAgreement, FlagsTheOneThatShowsNothingWhereItShould) {
   Objects t(3);
   int bare = 0;
-  for (const double angle_rad : {0.2, 0.3, 0.4, 0.5})
+  for (const double angle_rad : {0.3, 0.5})
     for (const std::size_t odd : {0u, 1u, 2u}) {
       std::vector<RegisterView> views = t.scene.views(*t.backend);
       views[odd].camera_from_world = wrong(views[odd].camera_from_world, angle_rad);
