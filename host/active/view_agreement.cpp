@@ -36,7 +36,7 @@ double median(std::vector<double> values) {
 struct Judged {
   ViewAgreement view;
   std::vector<char> shown;     // by object: whether it could be judged
-  std::vector<char> expected;  // whether most of it projects into the image, with nothing known before it
+  std::vector<char> expected;  // where none could: whether most of it lies in the image, before known objects
 };
 
 Judged judge(std::span<const EdgeModel> models, std::span<const Hypothesis> joint, const RegisterView& view,
@@ -47,12 +47,11 @@ Judged judge(std::span<const EdgeModel> models, std::span<const Hypothesis> join
   const auto features_of = [&](std::span<const Hypothesis> at) {
     return pose_features(models, at, alone, backend, options.score, options.single.visibility);
   };
-  const std::vector<PoseFeatures> features = features_of(poses), at_joint = features_of(joint);
+  const std::vector<PoseFeatures> features = features_of(poses);
   Judged judged;
   std::vector<double> moved;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     judged.shown.push_back(pose_probability(features[i]) >= options.min_probability);
-    judged.expected.push_back(at_joint[i].in_image > 0.5);
     if (!judged.shown[i]) continue;
     const Se3 camera_from_object = view.camera_from_world * poses[i].world_from_object;
     const std::vector<ModelPoint> points = visible_edges(
@@ -60,15 +59,18 @@ Judged judge(std::span<const EdgeModel> models, std::span<const Hypothesis> join
     moved.push_back(moved_px(points, view.camera, camera_from_object,
                              view.camera_from_world * joint[i].world_from_object));
   }
-  judged.view.residual_px = moved.empty() ? 0 : median(moved);
   judged.view.objects = int(moved.size());
+  if (moved.empty())
+    for (const PoseFeatures& f : features_of(joint)) judged.expected.push_back(f.in_image > 0.5);
+  else
+    judged.view.residual_px = median(moved);
   return judged;
 }
 
 // Objects that a view should show and two others do.
 int missing_in(const Judged& view, std::span<const Judged> all) {
   int missing = 0;
-  for (std::size_t i = 0; i < view.shown.size() && view.view.objects == 0; ++i)
+  for (std::size_t i = 0; i < view.expected.size(); ++i)
     missing += view.expected[i] &&
                std::ranges::count_if(all, [i](const Judged& other) { return other.shown[i] != 0; }) >= 2;
   return missing;
@@ -92,7 +94,7 @@ std::size_t worst_of(std::span<const std::size_t> open, std::span<ViewAgreement>
 
 void warn(std::size_t view, const ViewAgreement& found) {
   log(LogLevel::Warning,
-      found.objects > 0 || found.missing == 0
+      found.missing == 0
           ? fmt::format("the camera pose of view {} disagrees with its image: {:.1f} px between what all "
                         "views say and what it shows",
                         view + 1, found.residual_px)
