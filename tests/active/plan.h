@@ -1,0 +1,69 @@
+// A few parts about the origin as candidates and particles, cameras around them: what a next view is chosen
+// from.
+#pragma once
+
+#include "host/active/combinations.h"
+#include "host/active/next_view.h"
+#include "host/active/views.h"
+#include "host/render/parts.h"
+
+namespace edgescout::test {
+
+inline Camera test_camera() { return {480, 360, 600, 600, 239.5, 179.5, {}}; }
+
+inline RegisterView looked_from(const Se3& camera_from_world) {
+  RegisterView view;
+  view.camera = test_camera();
+  view.camera_from_world = camera_from_world;
+  return view;
+}
+
+struct Plan {
+  std::unique_ptr<Backend> backend = make_cpu_backend(2);
+  std::vector<EdgeModel> models;
+  std::vector<TemplateTable> tables;
+  std::vector<Se3> views;
+  std::vector<RegisterView> real;
+  std::vector<Detection> candidates;
+  std::vector<Particle> particles;
+  BitMatrix combinations;
+  std::vector<char> closed;
+  NextViewOptions options;
+
+  explicit Plan(int count = 6) {
+    options.free_sight = 0;
+    for (const char* part : {"l_bracket", "bearing_block"})
+      models.push_back(make_edge_model(make_part(part).mesh));
+    for (const EdgeModel& model : models)
+      tables.push_back(make_template_table(model, 0.5, *backend, {3, 300}));
+    views = hemisphere_views({{0, 0, 0.02}, 0.5, {35, 70}, 10});
+    real = {looked_from(views[0])};
+    closed.assign(views.size(), 0);
+    closed[0] = 1;
+    Random random(7);
+    for (int i = 0; i < count; ++i) {
+      Detection c;
+      c.object = i % 2;
+      c.world_from_object = {random.rotation(), {0.07 * (i % 3) - 0.07, 0.08 * (i / 3) - 0.04, 0.03}};
+      c.psi = 0.6 + 0.05 * i;
+      c.covariance.diagonal() << 1e-6, 1e-6, 1e-6, 1e-4, 1e-4, 1e-4;
+      candidates.push_back(c);
+    }
+    particles = draw_particles(models, candidates, 24, {0.02, 0.1}, Random(3));
+    draw_combinations();
+  }
+  void draw_combinations() {
+    std::vector<Hypothesis> poses;
+    std::vector<double> psi;
+    for (const Detection& c : candidates)
+      poses.push_back({c.object, c.world_from_object}), psi.push_back(c.psi);
+    combinations =
+        sample_combinations(psi, plausible_pairs(models, poses, 0.002, backend->threads()), {60, 1, 1});
+  }
+  Planning planning() const {
+    return {models, tables, test_camera(), views, closed, real, candidates, &combinations, particles};
+  }
+  std::vector<ViewInformation> information() { return view_information(planning(), *backend, options); }
+};
+
+}  // namespace edgescout::test

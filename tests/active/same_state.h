@@ -1,0 +1,47 @@
+// Two active detections that came to the same.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "host/active/scout_state.h"
+
+namespace edgescout::test {
+
+inline bool same(const Se3& a, const Se3& b) {
+  return a.translation_m == b.translation_m && a.rotation.coeffs() == b.rotation.coeffs();
+}
+
+// Everything but the times.
+inline void expect_same(const ScoutState& a, const ScoutState& b) {
+  ASSERT_EQ(a.steps.size(), b.steps.size());
+  for (std::size_t i = 0; i < a.steps.size(); ++i) {
+    EXPECT_EQ(a.steps[i].decision.view, b.steps[i].decision.view) << i;
+    ASSERT_EQ(a.steps[i].decision.views.size(), b.steps[i].decision.views.size());
+    for (std::size_t v = 0; v < a.steps[i].decision.views.size(); ++v)
+      EXPECT_EQ(a.steps[i].decision.views[v].information, b.steps[i].decision.views[v].information);
+    EXPECT_EQ(a.steps[i].image.pixels, b.steps[i].image.pixels);
+    EXPECT_EQ(a.steps[i].entropy_nats, b.steps[i].entropy_nats);
+  }
+  ASSERT_EQ(a.particles.size(), b.particles.size());
+  for (std::size_t i = 0; i < a.particles.size(); ++i) {
+    EXPECT_TRUE(same(a.particles[i].world_from_object, b.particles[i].world_from_object)) << i;
+    EXPECT_EQ(a.particles[i].log_weight, b.particles[i].log_weight);
+  }
+  ASSERT_EQ(a.detections.size(), b.detections.size());
+  for (std::size_t i = 0; i < a.detections.size(); ++i) {
+    EXPECT_TRUE(
+        same(a.detections[i].detection.world_from_object, b.detections[i].detection.world_from_object));
+    EXPECT_EQ(a.detections[i].detection.probability, b.detections[i].detection.probability);
+    EXPECT_EQ(a.detections[i].supporting_views, b.detections[i].supporting_views);
+  }
+  EXPECT_EQ(a.failed.size(), b.failed.size());
+  EXPECT_EQ(a.end, b.end);
+}
+
+inline std::vector<int> views_of(const ScoutState& state) {
+  std::vector<int> views;
+  for (const ScoutStep& step : state.steps) views.push_back(step.decision.view);
+  return views;
+}
+
+}  // namespace edgescout::test

@@ -1,0 +1,151 @@
+// Sources that fail, images that show nothing, cameras that are not where they say, options out of range.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/active/small_cell.h"
+#include "tests/io/expect_input_error.h"
+
+namespace edgescout::test {
+namespace {
+
+TEST(Scout, GoesOnPastAFailedAcquisition) {
+  SmallCell t;
+  SimulatedCell cell = t.source();
+  std::vector<int> asked;
+  CallbackSource stuck(t.camera(), t.views, [&](int view) {
+    asked.push_back(view);
+    if (asked.size() <= 2) throw AcquisitionError("timeout");
+    return cell.acquire(view);
+  });
+  ScoutOptions options = t.options();
+  options.max_views = 2;
+  Scout scout = t.scout(options);
+  run_scout(scout, stuck);
+  const ScoutState& state = scout.state();
+  EXPECT_EQ(state.end, ScoutEnd::ViewBudget);
+  EXPECT_EQ(state.steps.size(), 2u);
+  ASSERT_EQ(state.failed.size(), 2u);
+  EXPECT_EQ(state.failed[0].view, 0);
+  EXPECT_EQ(state.failed[0].reason, "timeout");
+  EXPECT_EQ(state.failed[1].after_step, 0u);
+  EXPECT_EQ(std::set<int>(asked.begin(), asked.end()).size(), 4u) << "none is asked for twice";
+  EXPECT_EQ(t.found(state), 1);
+}
+
+// A driver's fault must not end the run.
+TEST(Scout, GoesOnPastAShotThatCannotBeUsed) {
+  SmallCell t;
+  SimulatedCell cell = t.source();
+  int shots = 0;
+  CallbackSource faulty(t.camera(), t.views, [&](int view) {
+    Shot shot = cell.acquire(view);
+    ++shots;
+    if (shots == 1) shot.image = {160, 120, std::vector<std::uint8_t>(160 * 120)};
+    if (shots == 2) shot.image.pixels.resize(100);
+    if (shots == 3) shot.camera_from_world.translation_m.x() = NAN;
+    if (shots == 4) throw InputError("camera: no link");
+    return shot;
+  });
+  ScoutOptions options = t.options();
+  options.max_views = 1;
+  Scout scout = t.scout(options);
+  run_scout(scout, faulty);
+  const ScoutState& state = scout.state();
+  EXPECT_EQ(state.steps.size(), 1u);
+  ASSERT_EQ(state.failed.size(), 4u);
+  EXPECT_NE(state.failed[0].reason.find("160x120"), std::string::npos) << state.failed[0].reason;
+  EXPECT_NE(state.failed[1].reason.find("100 pixels"), std::string::npos) << state.failed[1].reason;
+  EXPECT_NE(state.failed[2].reason.find("camera pose"), std::string::npos) << state.failed[2].reason;
+  EXPECT_EQ(state.failed[3].reason, "camera: no link");
+}
+
+TEST(Scout, EndsWhereNoViewCanBeHad) {
+  SmallCell t;
+  CallbackSource dead(t.camera(), t.views, [](int) -> Shot { throw AcquisitionError("no arm"); });
+  Scout scout = t.scout();
+  run_scout(scout, dead);
+  EXPECT_EQ(scout.state().end, ScoutEnd::NoViewLeft);
+  EXPECT_EQ(scout.state().failed.size(), t.views.size());
+  EXPECT_TRUE(scout.state().detections.empty());
+}
+
+TEST(Scout, WithNothingToSeeItLooksOnAndFindsNothing) {
+  SmallCell t;
+  CallbackSource blank(t.camera(), t.views, [&](int view) {
+    return Shot{{320, 240, std::vector<std::uint8_t>(320 * 240, 90)}, t.views[view]};
+  });
+  Scout scout = t.scout();
+  run_scout(scout, blank);
+  EXPECT_EQ(scout.state().steps.size(), 3u);
+  EXPECT_TRUE(scout.state().detections.empty());
+  EXPECT_TRUE(scout.state().particles.empty());
+}
+
+TEST(Scout, FlagsACameraPoseThatDisagrees) {
+  SmallCell t;
+  SimulatedCell cell = t.source();
+  Scout scout = t.scout();
+  for (const int view : {0, 2}) scout.give(view, cell.acquire(view).image);
+  for (const ViewAgreement& agreement : scout.state().steps.back().agreement)
+    EXPECT_FALSE(agreement.disagrees) << agreement.residual_px;
+  scout.give(5, cell.acquire(5).image, Se3{so3_exp({0, 0.02, 0}), {0.004, 0, 0}} * t.views[5]);
+  const std::vector<ViewAgreement>& agreement = scout.state().steps.back().agreement;
+  ASSERT_EQ(agreement.size(), 3u);
+  EXPECT_TRUE(agreement[2].disagrees) << agreement[2].residual_px;
+  EXPECT_FALSE(agreement[0].disagrees || agreement[1].disagrees);
+}
+
+TEST(Scout, RefusesWhatItCannotUse) {
+  SmallCell t;
+  SimulatedCell cell = t.source();
+  const Image image = cell.acquire(1).image;
+  Scout scout = t.scout();
+  expect_input_error(
+      [&] {
+        scout.give(1, Image{160, 120, std::vector<std::uint8_t>(160 * 120)});
+      },
+      {"160x120", "320x240"});
+  Se3 bent = t.views[1];
+  bent.translation_m.x() = NAN;
+  expect_input_error([&] { scout.give(1, image, bent); }, {"camera pose"});
+  EXPECT_TRUE(scout.state().steps.empty());
+  scout.give(1, image);
+  expect_input_error([&] { scout.give(1, image); }, {"view", "1 again"});
+  expect_input_error([&] { scout.unreachable(1, "?"); }, {"view", "1 again"});
+  EXPECT_THROW(scout.give(99, image), LogicError);
+  ScoutOptions options = t.options();
+  options.first_view = 8;
+  expect_input_error([&] { t.scout(options); }, {"first_view", "8 views"});
+  options = t.options();
+  options.min_entropy_nats = NAN;
+  expect_input_error([&] { t.scout(options); }, {"min_entropy_nats"});
+  for (const int view : {-1, 8}) {
+    options = t.options();
+    options.next_view.sequence = {0, view, 3};
+    expect_input_error([&] { t.scout(options); }, {"sequence", std::to_string(view), "8 views"});
+  }
+  const auto expect_refused = [&](const char* field, const auto& spoil) {
+    ScoutOptions spoilt = t.options();
+    spoil(spoilt);
+    expect_input_error([&] { t.scout(spoilt); }, {field});
+  };
+  expect_refused("region_columns", [](ScoutOptions& o) { o.pipeline.detect.scan.region_columns = 0; });
+  expect_refused("region_rows", [](ScoutOptions& o) { o.pipeline.detect.scan.region_rows = 0; });
+  expect_refused("polish.rounds", [](ScoutOptions& o) { o.particles.polish_options.rounds.clear(); });
+  expect_refused("polish.radius",
+                 [](ScoutOptions& o) { o.pipeline.detect.refine.polish_options.rounds[0].radius_px = 8.5f; });
+  expect_refused("evidence.match", [](ScoutOptions& o) { o.detections.evidence.match_px = 9; });
+  expect_refused("evidence.match", [](ScoutOptions& o) { o.pipeline.detect.evidence.match_px = NAN; });
+  expect_refused("max_residual_px", [](ScoutOptions& o) { o.agreement.max_residual_px = NAN; });
+  expect_refused("detections.min_probability", [](ScoutOptions& o) { o.detections.min_probability = -1; });
+  options = t.options();
+  options.particles.count = 16385;
+  expect_input_error([&] { t.scout(options); }, {"particles.count", "16385"});
+  t.views.push_back(t.views[2]);
+  expect_input_error([&] { t.scout(); }, {"scout: views"});
+  expect_input_error([&] { Scout({}, t.camera(), {Se3{}}, {}, *t.backend); }, {"no object"});
+}
+
+}  // namespace
+}  // namespace edgescout::test

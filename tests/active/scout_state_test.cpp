@@ -1,0 +1,90 @@
+// What is saved after every step, and taken up again.
+#include "host/active/scout_state.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/active/same_state.h"
+#include "tests/active/small_cell.h"
+#include "tests/io/expect_input_error.h"
+#include "tests/io/temporary_folder.h"
+
+namespace edgescout::test {
+namespace {
+
+// Stopped after so many images, saved, loaded and gone on with: the same to the end as without a stop.
+void expect_goes_on(SmallCell& t, const ScoutOptions& options, SimulatedCell cell,
+                    std::initializer_list<int> stops) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "state";
+  Scout whole = t.scout(options);
+  run_scout(whole, cell);
+  for (const int steps : stops) {
+    {
+      Scout killed = t.scout(options);
+      for (int i = 0; i < steps; ++i) {
+        const auto proposal = killed.propose();
+        ASSERT_TRUE(proposal);
+        const Shot shot = cell.acquire(proposal->view);
+        killed.give(proposal->view, shot.image, shot.camera_from_world);
+      }
+      save_scout_state(killed.state(), file);
+    }
+    Scout resumed = t.scout(options);
+    resumed.resume(load_scout_state(file), file.string());
+    EXPECT_EQ(resumed.state().steps.size(), std::size_t(steps));
+    run_scout(resumed, cell);
+    expect_same(whole.state(), resumed.state());
+  }
+}
+
+TEST(ScoutState, GoesOnFromASavedStateAsIfNothingHadHappened) {
+  SmallCell t;
+  expect_goes_on(t, SmallCell::options(), t.source({0.0005, 0.001, true, 3}), {1, 2});
+}
+
+// Parts on a heap, of which every reported one hides what is behind it: the next image's registrations depend
+// on that.
+TEST(ScoutState, GoesOnWithWhatHidesOthers) {
+  SmallCell t(4, 1);
+  ScoutOptions options = SmallCell::options();
+  options.known_probability = 0;
+  expect_goes_on(t, options, t.source(), {2});
+}
+
+TEST(ScoutState, OfAnotherRunOrDamagedIsRefused) {
+  SmallCell t;
+  const TemporaryFolder folder;
+  SimulatedCell cell = t.source();
+  ScoutOptions options = t.options();
+  options.max_views = 1;
+  Scout scout = t.scout(options);
+  run_scout(scout, cell);
+  const std::string file = folder.path() / "scout.state";
+  save_scout_state(scout.state(), file);
+  const std::string whole = content_of(file);
+  for (const std::size_t length :
+       {std::size_t(0), std::size_t(7), std::size_t(27), whole.size() / 2, whole.size() - 1}) {
+    const std::string cut = folder.write("cut.state", whole.substr(0, length));
+    expect_input_error([&] { load_scout_state(cut); }, {"cut.state"});
+  }
+  std::string flipped = whole;
+  flipped[whole.size() / 3] ^= 4;
+  const std::string bad = folder.write("bad.state", flipped);
+  expect_input_error([&] { load_scout_state(bad); }, {"bad.state", "checksum"});
+  SmallCell nut("hex_nut");
+  Scout seeks_another = nut.scout();
+  expect_input_error([&] { seeks_another.resume(load_scout_state(file), file); }, {"scout.state", "objects"});
+  Scout same = t.scout();
+  ScoutState wrong = scout.state();
+  wrong.steps[0].after[0].object = 1;
+  expect_input_error([&] { same.resume(wrong, file); }, {"scout.state", "indices"});
+  wrong = scout.state();
+  wrong.failed.push_back({-1, "", 0, {}});
+  expect_input_error([&] { same.resume(wrong, file); }, {"scout.state", "indices"});
+  t.views.pop_back();
+  Scout other = t.scout();
+  expect_input_error([&] { other.resume(load_scout_state(file), file); }, {"scout.state", "views"});
+}
+
+}  // namespace
+}  // namespace edgescout::test
