@@ -45,9 +45,7 @@ std::vector<TemplateTable> tables_of(std::span<const TemplateSet> sets, Backend&
 
 std::vector<ScoutObject> objects_of(std::span<const TemplateSet> sets) {
   std::vector<ScoutObject> objects;
-  for (const TemplateSet& set : sets)
-    objects.push_back({set.object_id, set.model.mesh.vertices_m.size(), set.model.mesh.triangles.size(),
-                       set.model.mesh.diameter_m});
+  for (const TemplateSet& set : sets) objects.push_back({set.object_id, fingerprint(set.model)});
   return objects;
 }
 

@@ -9,7 +9,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 2, "scout state"};
+constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 3, "scout state"};
 
 template <typename T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -74,7 +74,7 @@ void fields(auto& io, A<PoseFeatures> auto& x) {
 }
 void fields(auto& io, A<ParticleUpdate> auto& x) { io(x.effective, x.resampled, x.reseeded); }
 void fields(auto& io, A<FailedView> auto& x) { io(x.view, x.reason, x.after_step, x.stages); }
-void fields(auto& io, A<ScoutObject> auto& x) { io(x.id, x.vertices, x.triangles, x.diameter_m); }
+void fields(auto& io, A<ScoutObject> auto& x) { io(x.id, x.fingerprint); }
 void fields(auto& io, A<Image> auto& x) { io(x.width, x.height, x.pixels); }
 void fields(auto& io, A<Mode> auto& x) { io(x.object, x.particles, x.weight, x.probability); }
 void fields(auto& io, A<ModeDetection> auto& x) { io(x.detection, x.weight, x.supporting_views); }

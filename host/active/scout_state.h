@@ -19,11 +19,11 @@ namespace edgescout {
 // Why a view, and what was thought when it was chosen.
 struct ScoutDecision {
   int view = 0;
-  std::vector<ViewInformation>
-      views;  // one a view; empty for the first image, of which nothing can be expected
+  // one a view; empty for the first image, of which nothing can be expected
+  std::vector<ViewInformation> views;
   std::vector<Detection> candidates;  // world, at that time
-  std::vector<int> likeliest,
-      unlikeliest;  // of the sampled combinations: indices into the candidates. Empty where none were sampled
+  // of the sampled combinations: indices into the candidates. Empty where none were sampled
+  std::vector<int> likeliest, unlikeliest;
   std::vector<StageSeconds> stages;
 };
 
@@ -33,13 +33,13 @@ struct ScoutStep {
   Se3 camera_from_world;           // as given
   Image image;                     // undistorted
   std::size_t new_candidates = 0;  // that no particle had been near
-  std::vector<Particle>
-      before;  // as they were before this image, or as drawn around the first image's candidates
+  // as they were before this image, or as drawn around the first image's candidates
+  std::vector<Particle> before;
   std::vector<Particle> after;
   ParticleUpdate update;
   std::vector<ModeDetection> detections;
-  std::vector<ViewAgreement>
-      agreement;                     // one a step so far: the later images' say on this and the earlier ones
+  // one a step so far: the later images' say on this and the earlier ones
+  std::vector<ViewAgreement> agreement;
   double entropy_nats = 0;           // belief_entropy of the modes after
   std::vector<StageSeconds> stages;  // in the order they ran
 };
@@ -56,9 +56,8 @@ std::string to_string(ScoutEnd end);  // "", "view budget", ..
 
 // What tells the objects of one run from those of another.
 struct ScoutObject {
-  int id = 1;  // BOP obj_id
-  std::uint64_t vertices = 0, triangles = 0;
-  double diameter_m = 0;
+  int id = 1;                     // BOP obj_id
+  std::uint64_t fingerprint = 0;  // of its model
   bool operator==(const ScoutObject&) const = default;
 };
 

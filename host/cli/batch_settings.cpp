@@ -32,9 +32,7 @@ std::string text_of(const TemplateOptions& o) {
       o.range.longitude_max_deg, o.in_plane_steps, o.distance_min_m, o.distance_max_m, o.distance_ratio);
 }
 
-void put(BinaryWriter& out, const Eigen::Vector3d& point) {
-  for (int i = 0; i < 3; ++i) out.put(point[i]);
-}
+std::string text_of_checksum(std::uint64_t sum) { return fmt::format("checksum {:016x}", sum); }
 
 std::string value_in(const Settings& settings, const std::string& name) {
   const auto setting = std::ranges::find(settings, name, &Settings::value_type::first);
@@ -43,18 +41,10 @@ std::string value_in(const Settings& settings, const std::string& name) {
 
 }  // namespace
 
-std::string checksum_text(std::string_view bytes) { return fmt::format("checksum {:016x}", checksum(bytes)); }
+std::string checksum_text(std::string_view bytes) { return text_of_checksum(checksum(bytes)); }
 
 std::pair<std::string, std::string> setting_of(int object_id, const EdgeModel& model) {
-  BinaryWriter out;
-  for (const Eigen::Vector3d& vertex : model.mesh.vertices_m) put(out, vertex);
-  out.put_list(model.mesh.triangles);
-  for (const EdgeModel::Segment& crease : model.creases) {
-    put(out, crease.from_m);
-    put(out, crease.to_m);
-  }
-  out.put(model.raster_step_m);
-  return {fmt::format("model of object {}", object_id), checksum_text(out.bytes)};
+  return {fmt::format("model of object {}", object_id), text_of_checksum(fingerprint(model))};
 }
 
 Settings settings_of(std::span<const TemplateSet> sets) {

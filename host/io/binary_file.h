@@ -42,9 +42,12 @@ class BinaryWriter {
   void put_rotation(const Eigen::Quaterniond& rotation) {
     for (double v : {rotation.w(), rotation.x(), rotation.y(), rotation.z()}) put(v);
   }
+  void put_point(const Eigen::Vector3d& point) {
+    for (int i = 0; i < 3; ++i) put(point[i]);
+  }
   void put_pose(const Se3& pose) {
     put_rotation(pose.rotation);
-    for (int i = 0; i < 3; ++i) put(pose.translation_m[i]);
+    put_point(pose.translation_m);
   }
   std::string bytes;
 };

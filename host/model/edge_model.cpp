@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "host/io/binary_file.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -111,6 +112,18 @@ EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options) {
   for (const auto& triangle : mesh.triangles)
     for (int corner : triangle) model.triangles.push_back(static_cast<std::uint32_t>(corner));
   return model;
+}
+
+std::uint64_t fingerprint(const EdgeModel& model) {
+  BinaryWriter out;
+  for (const Eigen::Vector3d& vertex : model.mesh.vertices_m) out.put_point(vertex);
+  out.put_list(model.mesh.triangles);
+  for (const EdgeModel::Segment& crease : model.creases) {
+    out.put_point(crease.from_m);
+    out.put_point(crease.to_m);
+  }
+  out.put(model.raster_step_m);
+  return checksum(out.bytes);
 }
 
 }  // namespace edgescout

@@ -10,8 +10,8 @@
 namespace edgescout {
 
 struct EdgeModelOptions {
-  double crease_angle_deg =
-      25;  // between face normals: a sharper edge is drawn, a flatter one is smooth surface; (0, 180)
+  // between face normals: a sharper edge is drawn, a flatter one is smooth surface; (0, 180)
+  double crease_angle_deg = 25;
   double raster_step_m = 0;  // between raster points along an edge; 0: diameter / 80
   void validate() const;     // throws InputError naming the field and the violated bound
 };
@@ -40,5 +40,9 @@ struct EdgeModel {
 };
 
 EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options = {});
+
+// Of its mesh, creases and raster step: what was made with a model of another one is not taken up with this
+// (a batch's results, an active detection's state).
+std::uint64_t fingerprint(const EdgeModel& model);
 
 }  // namespace edgescout

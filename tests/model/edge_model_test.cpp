@@ -41,6 +41,19 @@ TEST(EdgeModel, FramesTheMeshForTheKernels) {
   EXPECT_EQ(model.triangles[5], std::uint32_t(model.mesh.triangles[1][2]));
 }
 
+TEST(EdgeModel, IsToldFromOthersByItsFingerprint) {
+  const auto of = [](double height_m, const EdgeModelOptions& options = {}) {
+    return fingerprint(make_edge_model(make_box({0.1, 0.2, height_m}), options));
+  };
+  EXPECT_EQ(of(0.3), of(0.3));
+  EXPECT_NE(of(0.3), of(0.3 + 1e-9));
+  EXPECT_NE(of(0.3), of(0.3, {.crease_angle_deg = 120})) << "no edge of a box is that sharp";
+  EXPECT_NE(of(0.3), of(0.3, {.raster_step_m = 0.001}));
+  EdgeModel turned_inside_out = make_edge_model(make_box({0.1, 0.2, 0.3}));
+  for (auto& triangle : turned_inside_out.mesh.triangles) std::swap(triangle[0], triangle[1]);
+  EXPECT_NE(of(0.3), fingerprint(turned_inside_out));
+}
+
 TEST(EdgeModel, OpenBordersShow) {
   const EdgeModel sheet = make_edge_model(
       make_mesh("sheet", {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}}, {{0, 1, 2}, {0, 2, 3}}));
