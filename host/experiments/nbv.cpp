@@ -13,9 +13,8 @@ namespace edgescout {
 
 namespace {
 
-constexpr const char* STRATEGIES[] = {"mi-max", "random", "dis", "fixed"};
-constexpr int FIXED_STRIDE =
-    13;  // the fixed sequence goes around and through the rings, as somebody would lay it out
+// the fixed sequence goes around and through the rings, as somebody would lay it out
+constexpr int FIXED_STRIDE = 13;
 
 const std::vector<Object>& types() {
   static const std::vector<Object> parts{make_part("l_bracket"), make_part("bearing_block"),
@@ -58,8 +57,8 @@ class Detector {
                                  backend_, options_);
     };
     if (!earlier.empty()) return search();  // what was seen before differs from strategy to strategy
-    const auto key =
-        std::tuple(view, type, observation.reduction);  // coarser tensors where only large types are sought
+    // coarser tensors where only large types are sought
+    const auto key = std::tuple(view, type, observation.reduction);
     auto known = found_.find(key);
     if (known == found_.end()) known = found_.emplace(key, search()).first;
     return known->second;
@@ -95,13 +94,13 @@ Search make_search(const Bin& bin, int count, std::span<const TemplateSet> sets)
 }
 
 ScoutOptions options_for(const ExperimentSettings& s, const Bin& bin, const Search& search,
-                         Detector& detector, const std::string& strategy) {
+                         Detector& detector, Strategy strategy) {
   ScoutOptions options = s.scout;
   options.detect = [&](int view, const Observation& observation, std::span<const Observation> earlier) {
     return detector.find(view, observation, earlier, search.first_type, search.count);
   };
   options.first_view = bin.first_view;
-  options.next_view.strategy = strategy_from(strategy);
+  options.next_view.strategy = strategy;
   options.next_view.seed = options.combinations.seed = options.particles.seed =
       static_cast<std::uint64_t>(bin.number) + 1;
   const int views = bin_views().count;
@@ -120,31 +119,31 @@ double seconds_of(const ScoutStep& step) {
 
 // Of the step that chose and used the `views`th image.
 void add_rows(Table& table, const ExperimentSettings& s, const Bin& bin, const Search& search,
-              const std::string& strategy, const ScoutState& state) {
+              Strategy strategy, const ScoutState& state) {
   for (std::size_t i = 0; i < state.steps.size(); ++i) {
     const ScoutStep& step = state.steps[i];
     const Judgement judgement =
         judge(search.instances, step, search.objects, bin.cell->camera(), state.steps[0].camera_from_world);
     for (const auto& [group, tally] : {std::pair{"light", judgement.light}, {"heavy", judgement.heavy}})
       table.rows.push_back(
-          {std::to_string(bin.number), std::to_string(bin.parts), std::to_string(search.count), strategy,
-           std::to_string(i + 1), std::to_string(step.decision.view), group, std::to_string(tally.instances),
-           std::to_string(tally.correct), std::to_string(tally.correct_px), std::to_string(tally.wrong),
-           std::to_string(tally.wrong_px), std::to_string(tally.followed), number_text(step.entropy_nats),
-           s.times ? number_text(seconds_of(step)) : ""});
+          {std::to_string(bin.number), std::to_string(bin.parts), std::to_string(search.count),
+           to_string(strategy), std::to_string(i + 1), std::to_string(step.decision.view), group,
+           std::to_string(tally.instances), std::to_string(tally.correct), std::to_string(tally.correct_px),
+           std::to_string(tally.wrong), std::to_string(tally.wrong_px), std::to_string(tally.followed),
+           number_text(step.entropy_nats), s.times ? number_text(seconds_of(step)) : ""});
   }
 }
 
 // The first image once, then every strategy from what was known after it.
 void run_search(Table& table, const ExperimentSettings& s, const Bin& bin, const Search& search,
                 Detector& detector, Backend& backend) {
-  const auto scout_for = [&](const std::string& strategy) {
+  const auto scout_for = [&](Strategy strategy) {
     return Scout(search.sets, bin.cell->camera(), bin.cell->views(),
                  options_for(s, bin, search, detector, strategy), backend);
   };
-  Scout first = scout_for(STRATEGIES[0]);
+  Scout first = scout_for(s.strategies[0]);
   first.give(bin.first_view, bin.cell->acquire(bin.first_view).image);
-  for (const char* strategy : STRATEGIES) {
+  for (const Strategy strategy : s.strategies) {
     Scout scout = scout_for(strategy);
     scout.resume(first.state(), "first image");
     run_scout(scout, *bin.cell);
@@ -165,11 +164,18 @@ Table run_bin(const ExperimentSettings& s, int number, Backend& backend) {
   return table;
 }
 
+std::string names_of(const std::vector<Strategy>& strategies) {
+  std::string names;
+  for (const Strategy strategy : strategies) names += (names.empty() ? "" : " ") + to_string(strategy);
+  return names;
+}
+
 Notes options(const ExperimentSettings& s) {
   const ScoutOptions& o = s.scout;
   // Not the number of bins: more of them may be added to a finished run.
   return {{"image_scale", number_text(s.image_scale)},
           {"supersampling", std::to_string(s.supersampling)},
+          {"strategies", names_of(s.strategies)},
           {"images", std::to_string(o.max_views)},
           {"detection", o.detect_in_every_image ? "every image" : "first image"},
           {"jointly", o.detect_jointly ? "yes" : "no"},

@@ -1,5 +1,6 @@
 #include "host/experiments/settings.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/core/random.h"
@@ -64,6 +65,10 @@ void ExperimentSettings::validate() const {
   require(frames_every >= 1, "frames_every", frames_every, "at least 1");
   require(candidates >= 1 && candidates <= 100000, "candidates", candidates, "1 to 100000");
   require(bins >= 1 && bins <= 10000, "bins", bins, "1 to 10000");
+  require(!strategies.empty(), "strategies", 0, "at least one");
+  for (const Strategy strategy : strategies)
+    if (std::ranges::count(strategies, strategy) > 1)
+      throw InputError("experiments", "strategies", to_string(strategy) + " twice", "each once");
   scout.validate();
   require(image_scale >= 0.1 && image_scale <= 2, "image_scale", image_scale, "0.1 to 2");
   require(supersampling % 2 == 1 && supersampling >= 1 && supersampling <= 7, "supersampling", supersampling,

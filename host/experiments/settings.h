@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "host/active/scout.h"
 #include "host/experiments/table.h"
@@ -13,14 +14,17 @@ namespace edgescout {
 struct ExperimentSettings {
   std::filesystem::path data;  // folder with d2co-starts, brackets, cat; empty: rendered scenes alone
   unsigned seed = 1;
-  int scenes = 4;          // images with up to five parts: detection and registration
-  int groups = 1;          // of three images with up to twenty parts: several views
-  int starts = 8;          // of the registration around every instance
-  int group_starts = 2;    // the same for the groups
-  int every = 54;          // of the recorded starts (d2co-starts) those whose number this divides
-  int frames_every = 4;    // of the cat's photographs one in so many is used
-  int candidates = 1260;   // of the detection, in every image and for every type
-  int bins = 1;            // of the next best view: piled parts, looked at from a hemisphere
+  int scenes = 4;         // images with up to five parts: detection and registration
+  int groups = 1;         // of three images with up to twenty parts: several views
+  int starts = 8;         // of the registration around every instance
+  int group_starts = 2;   // the same for the groups
+  int every = 54;         // of the recorded starts (d2co-starts) those whose number this divides
+  int frames_every = 4;   // of the cat's photographs one in so many is used
+  int candidates = 1260;  // of the detection, in every image and for every type
+  int bins = 1;           // of the next best view: piled parts, looked at from a hemisphere
+  // in the bins; all from one belief, so that none changes what another finds
+  std::vector<Strategy> strategies{Strategy::Information, Strategy::Random, Strategy::Disocclusion,
+                                   Strategy::Fixed};
   ScoutOptions scout;      // in the bins; strategy, sequence, seeds and first view are the experiment's
   double image_scale = 1;  // of the paper's image sizes; the bins' are 640x480
   int supersampling = 3;   // of the renderer; odd

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <thread>
 
 #include "host/experiments/table.h"
@@ -108,6 +110,26 @@ TEST(BenchExperiments, KilledAndResumedGiveTheSameBytes) {
   const Outcome outcome = run_program(again);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(files_in(cut), expected);
+}
+
+// A strategy finds by itself what it finds among all.
+TEST(BenchExperiments, RunChosenStrategiesAlone) {
+  const TemporaryFolder folder;
+  const fs::path all = folder.path() / "all", some = folder.path() / "some";
+  ASSERT_EQ(run_program(experiments(all, {"nbv", "--no-times"})).exit_code, 0);
+  const Outcome outcome = run_program(experiments(some, {"--no-times", "--strategies", "fixed,dis", "nbv"}));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Table expected = load_table(all / "nbv.csv"), found = load_table(some / "nbv.csv");
+  const auto strategy = std::ranges::find(expected.columns, "strategy") - expected.columns.begin();
+  std::multiset<std::vector<std::string>> rows;
+  for (const std::vector<std::string>& row : expected.rows)
+    if (row[strategy] == "fixed" || row[strategy] == "dis") rows.insert(row);
+  EXPECT_EQ(rows.size(), expected.rows.size() / 2);
+  EXPECT_EQ(rows, std::multiset(found.rows.begin(), found.rows.end()));
+  expect_one_line(run_program(experiments(folder.path() / "none", {"nbv", "--strategies", "best"})),
+                  {"strategy", "best", "mi-max"});
+  expect_one_line(run_program(experiments(folder.path() / "none", {"nbv", "--strategies", "dis,fixed,dis"})),
+                  {"strategies", "dis twice", "each once"});
 }
 
 TEST(BenchExperiments, OfAnUnknownNameListTheKnownOnes) {
