@@ -44,8 +44,8 @@ Observation observe_prepared(const PreparedImage& prepared, std::span<const Temp
 std::vector<EdgeModel> models_of(std::span<const TemplateSet> sets);
 
 struct Detections {
-  std::vector<Detection>
-      detections;  // best probability first; world_from_object is camera_from_object for one view
+  // best probability first; world_from_object is camera_from_object for one view
+  std::vector<Detection> detections;
   std::vector<StageSeconds> stages;  // in the order they ran
 };
 

@@ -168,8 +168,8 @@ class Planner {
   }
 
   void make_rows() {
-    const std::uint32_t farthest = plan_.cap - 1,
-                        farthest_d2 = farthest * farthest + farthest;  // that rounds below the cap
+    const std::uint32_t farthest = plan_.cap - 1;
+    const std::uint32_t farthest_d2 = farthest * farthest + farthest;  // that rounds below the cap
     PixelLists<std::uint32_t> reach =
         gather<std::uint32_t>(view_, pool_, [&](std::uint32_t c, std::size_t i, std::size_t pixel) {
           const std::uint32_t word =

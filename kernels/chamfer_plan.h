@@ -29,8 +29,8 @@ struct ChamferRow {
 // Neighbouring points of a particle on one row.
 struct ChamferVisit {
   std::uint32_t row = 0;
-  std::uint16_t count = 0,
-                fresh = 0;  // points, 1 to CHAMFER_POINTS_AT_ONCE, and those of them that are fresh
+  std::uint16_t count = 0;  // points, 1 to CHAMFER_POINTS_AT_ONCE
+  std::uint16_t fresh = 0;  // of them
 };
 
 struct ChamferRun {

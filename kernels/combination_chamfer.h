@@ -30,8 +30,8 @@
 
 namespace edgescout {
 
-inline constexpr std::uint32_t CHAMFER_MAX_POINTS =
-    16384;  // lavapipe ends a shader's loops after 65535 turns in all
+// lavapipe ends a shader's loops after 65535 turns in all
+inline constexpr std::uint32_t CHAMFER_MAX_POINTS = 16384;
 
 struct ParticlePoint {
   float x_px, y_px;     // on the map
@@ -45,11 +45,11 @@ struct ChamferView {
   std::span<const CandidateMap> candidates;  // in the order of the combinations' bits
   std::span<const MapEdge> edges;            // of all candidates
   std::span<const std::uint32_t> nearest;    // as candidate_map() gives it
-  std::span<const float>
-      surface_m;  // depths with the layout of `nearest`, DEPTH_EMPTY where there is no object
+  // depths with the layout of `nearest`, DEPTH_EMPTY where there is no object
+  std::span<const float> surface_m;
   std::span<const ParticlePoint> points;  // of all particles
-  std::span<const std::uint32_t>
-      first_point;  // particles + 1: particle i has points [first_point[i], first_point[i + 1])
+  // particles + 1: particle i has points [first_point[i], first_point[i + 1])
+  std::span<const std::uint32_t> first_point;
   std::size_t particles() const { return first_point.empty() ? 0 : first_point.size() - 1; }
 };
 
@@ -66,8 +66,8 @@ struct CombinationBits {
 
 struct ChamferOptions {
   float tolerance_m = 0.01f;  // >= 0
-  float cap_px =
-      float(CHAMFER_CAP) / float(CHAMFER_STEPS_PER_PX);  // px of the map, 1/16 to 255/16; rounded to 1/16
+  // px of the map, 1/16 to 255/16; rounded to 1/16
+  float cap_px = float(CHAMFER_CAP) / float(CHAMFER_STEPS_PER_PX);
   std::uint32_t cap_steps() const { return std::uint32_t(cap_px * float(CHAMFER_STEPS_PER_PX) + 0.5f); }
   void validate() const;  // throws InputError
 };

@@ -28,8 +28,8 @@ BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Hyp
 struct CombinationOptions {
   int count = 1000;
   std::uint64_t seed = 1;
-  double sharpness =
-      1;  // a: candidates are drawn with p ~ exp(-a (1 - psi)^2); 1 is the paper's, hardly less than flat
+  // a: candidates are drawn with p ~ exp(-a (1 - psi)^2); 1 is the paper's, hardly less than flat
+  double sharpness = 1;
   void validate() const;
 };
 

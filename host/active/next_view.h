@@ -49,8 +49,8 @@ struct Planning {
   std::span<const TemplateTable> tables;  // one an object
   Camera camera;                          // ideal, full resolution
   std::span<const Se3> views;             // camera_from_world of all possible views
-  std::span<const char>
-      closed;  // one a view: nonzero where it was taken or cannot be reached; empty: all are open
+  // one a view: nonzero where it was taken or cannot be reached; empty: all are open
+  std::span<const char> closed;
   std::span<const RegisterView> real_views;  // the images so far, in order; of the tensors nothing is read
   std::span<const Detection> candidates;     // in the world
   const BitMatrix* combinations = nullptr;   // over the candidates; needed by Strategy::Information

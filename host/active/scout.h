@@ -38,8 +38,8 @@ struct ScoutOptions {
   std::function<std::vector<Detection>(int view, const Observation& observation,
                                        std::span<const Observation> earlier)>
       detect;
-  bool detect_jointly =
-      true;  // later images are searched with the help of those before (detect/joint_scan.h); else each alone
+  // later images are searched with the help of those before (detect/joint_scan.h); else each alone
+  bool detect_jointly = true;
   // Instances as probable as this hide what is behind them (register/occluders.h): what they cover counts
   // neither for nor against other poses, but leaves less to be certain by (detect/probability.h). Above 1:
   // none do.
@@ -54,9 +54,9 @@ struct ScoutOptions {
   // The end, whichever comes first. A limit of 0 is none.
   int max_views = 5;               // images
   double min_entropy_nats = 0.01;  // less: the modes are certain
-  double min_information_nats =
-      0;                   // less expected of the best view (Strategy::Information): not worth the way
-  double max_seconds = 0;  // of computing
+  // less expected of the best view (Strategy::Information): not worth the way
+  double min_information_nats = 0;
+  double max_seconds = 0;           // of computing
   std::function<bool()> cancelled;  // asked between stages, from the calling thread
   // Fewer hits and candidates an image than a detection that has but one: what an image misses, the next one
   // shows, in half the time (docs/evaluation.md).

@@ -14,12 +14,12 @@
 namespace edgescout {
 
 struct Line2dOptions {
-  int features =
-      63;  // of a template, evenly spread over its edges; [1, 63]: OpenCV adds up their similarities in bytes
+  // of a template, evenly spread over its edges; [1, 63]: OpenCV adds up their similarities in bytes
+  int features = 63;
   int spread_px = 5;  // side of the square over which the image's directions are spread (T of the paper
                       // below); odd, in [1, 15]
-  float weak_gradient =
-      10;  // of OpenCV's 3 x 3 Sobel on the blurred image: weaker ones have no direction; >= 0
+  // of OpenCV's 3 x 3 Sobel on the blurred image: weaker ones have no direction; >= 0
+  float weak_gradient = 10;
   VisibilityOptions visibility;
   void validate() const;  // throws InputError naming field and bound
 };

@@ -42,8 +42,8 @@ struct ModelArguments {
   std::vector<std::string> models;  // mesh files
   std::string unit;
   std::string models_info;  // BOP models_info.json; empty: no symmetries
-  std::vector<int>
-      object_ids;  // of the models; empty: the number at the end of the file's name, else 1, 2 ..
+  // of the models; empty: the number at the end of the file's name, else 1, 2 ..
+  std::vector<int> object_ids;
   std::vector<std::string> templates;  // template files, in place of models
 };
 // Surfaces of revolution are sampled in `continuous_steps` turns.

@@ -14,8 +14,8 @@ struct ScanOptions {
   int anchor_step = 2;      // coarse pixels between places
   int region_columns = 32;  // anchors for which one projection of a template holds
   int region_rows = 16;
-  int kept =
-      10000;  // hits, shared evenly among the regions: texture must not crowd out the rest of the image
+  // hits, shared evenly among the regions: texture must not crowd out the rest of the image
+  int kept = 10000;
 };
 
 // Of ScanHit::rank; 0.5 finds one more of 54 rendered parts and loses four of 16 cats.

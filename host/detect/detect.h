@@ -15,8 +15,8 @@ struct DetectOptions {
   int aligned_jointly = 150;  // where other images helped to rank the hits (joint_scan.h)
   int helping_views = 4;      // of other images that help to search one (helping_views.h)
   int aligned = 2500;         // different ones among the scan's hits that are aligned, roughly and cheaply
-  int candidates =
-      60;  // different ones among those that are registered in full (the paper's object candidates)
+  // different ones among those that are registered in full (the paper's object candidates)
+  int candidates = 60;
   D2coOptions touch_up = touch_up_defaults();  // on the full tensor after the coarse one, before Psi can
                                                // judge: it means nothing 3 px off
   RefineOptions refine = refine_defaults();

@@ -7,8 +7,8 @@ namespace edgescout {
 
 namespace {
 
-constexpr std::size_t VIEWS_WORTH =
-    4;  // the best of all views, as many as these have: what is right is found in several
+// the best of all views, as many as these have: what is right is found in several
+constexpr std::size_t VIEWS_WORTH = 4;
 
 // All views' candidates of one object in the world, best probability first, without duplicates.
 std::vector<Hypothesis> gather(int object, const TemplateSet& set,

@@ -18,8 +18,8 @@ struct Tally {
   int instances = 0;  // that count
   int correct = 0, correct_px = 0;
   int wrong = 0, wrong_px = 0;
-  int followed =
-      0;  // instances with a particle that is right, reported or not: more cannot be found by looking again
+  // instances with a particle that is right, reported or not: more cannot be found by looking again
+  int followed = 0;
 };
 
 struct Judgement {

@@ -28,8 +28,8 @@ struct CellRun {
   bool resume = false;
   int workers = 1;  // cells that run side by side, each with a backend of its own
   std::function<std::unique_ptr<Backend>()> make_backend;
-  std::function<void(std::size_t done, std::size_t all)>
-      progress;  // may be empty; at the start too, by one thread at a time
+  // may be empty; at the start too, by one thread at a time
+  std::function<void(std::size_t done, std::size_t all)> progress;
 };
 
 // The cells' tables, in their order. A finished cell's file is taken as it is with `resume`; one that cannot

@@ -33,9 +33,9 @@ struct StageSamples {
 struct DeviceTimes {
   std::string choice, name, driver;
   bool is_software = false;  // a rasteriser on the processor: right, but no measure of a graphics card
-  std::vector<StageSamples>
-      stages;                       // "edges", "tensors", "scan", "registration", "scoring", "image to poses"
-  std::size_t peak_host_bytes = 0;  // resident, while an image was searched
+  // "edges", "tensors", "scan", "registration", "scoring", "image to poses"
+  std::vector<StageSamples> stages;
+  std::size_t peak_host_bytes = 0;    // resident, while an image was searched
   std::size_t peak_device_bytes = 0;  // in the device's buffers; part of the host's where memory is unified
   double copy_bytes_per_s = 0;        // read and written
   std::vector<bench::Row> kernels;

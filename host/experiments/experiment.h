@@ -34,8 +34,8 @@ struct ExperimentRun {
   std::string device = "cpu";  // as make_backend takes it
   std::string commit;
   bool resume = false;
-  std::function<void(const std::string& experiment, std::size_t done, std::size_t all)>
-      progress;  // may be empty
+  // may be empty
+  std::function<void(const std::string& experiment, std::size_t done, std::size_t all)> progress;
 };
 
 // Writes into `out`: cells/NAME/.., and when the experiment's cells are finished NAME.csv (all rows),

@@ -9,8 +9,8 @@
 
 namespace edgescout {
 
-using Notes =
-    std::vector<std::pair<std::string, std::string>>;  // name and value, in the order they are written
+// name and value, in the order they are written
+using Notes = std::vector<std::pair<std::string, std::string>>;
 
 struct Table {
   Notes notes;

@@ -110,8 +110,8 @@ Camera load_camera(const std::filesystem::path& file) {
   if ((camera.width == 0) != (camera.height == 0))
     throw InputError(source, camera.width ? "image_height" : "image_width", "nothing",
                      "both sizes or neither");
-  Camera judged =
-      camera;  // where the file gives no size, the principal point is judged once the image's is known
+  // where the file gives no size, the principal point is judged once the image's is known
+  Camera judged = camera;
   if (camera.width == 0) judged.width = judged.height = 1 << 20;
   validate(judged, source);
   return camera;

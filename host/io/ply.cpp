@@ -219,8 +219,8 @@ RawMesh read_ply(const std::filesystem::path& file) {
   require_properties(header, source);
   Numbers numbers(std::string_view(bytes).substr(end + 1), header.storage, source);
   RawMesh mesh;
-  std::vector<std::vector<int>>
-      faces;  // kept until all vertices are known: the order of the elements is free
+  // kept until all vertices are known: the order of the elements is free
+  std::vector<std::vector<int>> faces;
   for (const Element& element : header.elements)
     for (int i = 0; i < element.count; ++i) {
       Eigen::Vector3d vertex = Eigen::Vector3d::Zero();

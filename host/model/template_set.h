@@ -20,8 +20,8 @@ struct TemplateOptions {
   int frequency = 5;        // of the icosphere: 10 f^2 + 2 viewpoints, about 60 / f degrees apart
   SphereRange range;        // of viewpoints, in the object frame
   int in_plane_steps = 24;  // rotations about the line of sight, over a full turn
-  double distance_min_m =
-      0;  // of the object's centre from the camera; 0: from the object's size and the camera
+  // of the object's centre from the camera; 0: from the object's size and the camera
+  double distance_min_m = 0;
   double distance_max_m = 0;
   double distance_ratio = 1.1;  // between neighbouring distances
   EdgeModelOptions edges;

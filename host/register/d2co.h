@@ -58,11 +58,11 @@ std::string to_string(Convergence reason);
 
 struct Registration {
   Se3 world_from_object;
-  Matrix6d covariance =
-      Matrix6d::Zero();  // inverse of the final J'WJ, times the residual variance; infinite where singular
-  double cost_px2 = 0;   // final sum of rho over all points and views
-  double mean_px = 0;    // mean residual
-  int points = 0;        // in all views
+  // inverse of the final J'WJ, times the residual variance; infinite where singular
+  Matrix6d covariance = Matrix6d::Zero();
+  double cost_px2 = 0;  // final sum of rho over all points and views
+  double mean_px = 0;   // mean residual
+  int points = 0;       // in all views
   int iterations = 0;
   Convergence reason = Convergence::NoPoints;
 };

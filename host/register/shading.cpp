@@ -12,10 +12,10 @@ namespace edgescout {
 namespace {
 
 constexpr int WINDOW_PX = 96;  // square depth map of the object
-constexpr int FEWEST_STRIDE =
-    2;  // image pixels between its pixels: blur at a silhouette must not reach the pixels one further in
-constexpr double LARGEST_BEND =
-    4e-3;  // relative second difference of inverse depth: more is an edge or another surface
+// image pixels between its pixels: blur at a silhouette must not reach the pixels one further in
+constexpr int FEWEST_STRIDE = 2;
+// relative second difference of inverse depth: more is an edge or another surface
+constexpr double LARGEST_BEND = 4e-3;
 constexpr int HARMONICS = 9;
 constexpr double FEWEST_PIXELS = 60;  // fewer, and nine harmonics explain any grey
 constexpr double NOISE_GREY = 2;

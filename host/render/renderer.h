@@ -13,8 +13,8 @@ struct Rendering {
   Image image;
   std::vector<int> placed;     // per pixel centre: index into Scene::placed, -1 on the board
   std::vector<float> depth_m;  // per pixel centre: camera-frame z, board included; infinity above the horizon
-  std::vector<double>
-      visible_fraction;  // per placed object: its pixels seen / its whole silhouette, beyond the image too
+  // per placed object: its pixels seen / its whole silhouette, beyond the image too
+  std::vector<double> visible_fraction;
 };
 
 // All views. The bytes depend on the scene alone, not on the number of threads.

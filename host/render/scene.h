@@ -47,8 +47,8 @@ struct PlacedObject {
 
 struct Light {
   Eigen::Vector3d position_m;
-  double irradiance =
-      0;  // at the world's origin on a surface facing the light; falls with the squared distance
+  // at the world's origin on a surface facing the light; falls with the squared distance
+  double irradiance = 0;
   int shadow_px = 512;  // side of its shadow map: fewer, softer
 };
 

@@ -39,8 +39,8 @@
 namespace edgescout {
 namespace {
 
-using Members =
-    std::vector<std::pair<std::string, std::size_t>>;  // name and offset, nested ones as "grid.width"
+// name and offset, nested ones as "grid.width"
+using Members = std::vector<std::pair<std::string, std::size_t>>;
 
 // As much of a SPIR-V module as says where its push constants lie.
 class Module {
