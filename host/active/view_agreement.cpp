@@ -36,7 +36,7 @@ double median(std::vector<double> values) {
 struct Judged {
   ViewAgreement view;
   std::vector<char> shown;     // by object: whether it could be judged
-  std::vector<char> expected;  // where none could: whether most of it lies in the image, before known objects
+  std::vector<char> expected;  // where none shows: whether most of it lies in the image, before known objects
 };
 
 Judged judge(std::span<const EdgeModel> models, std::span<const Hypothesis> joint, const RegisterView& view,
@@ -50,8 +50,11 @@ Judged judge(std::span<const EdgeModel> models, std::span<const Hypothesis> join
   const std::vector<PoseFeatures> features = features_of(poses);
   Judged judged;
   std::vector<double> moved;
+  double strongest = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    judged.shown.push_back(pose_probability(features[i]) >= options.min_probability);
+    const double probability = pose_probability(features[i]);
+    strongest = std::max(strongest, probability);
+    judged.shown.push_back(probability >= options.min_probability);
     if (!judged.shown[i]) continue;
     const Se3 camera_from_object = view.camera_from_world * poses[i].world_from_object;
     const std::vector<ModelPoint> points = visible_edges(
@@ -60,10 +63,9 @@ Judged judge(std::span<const EdgeModel> models, std::span<const Hypothesis> join
                              view.camera_from_world * joint[i].world_from_object));
   }
   judged.view.objects = int(moved.size());
-  if (moved.empty())
+  if (!moved.empty()) judged.view.residual_px = median(moved);
+  if (strongest < options.absent_probability)
     for (const PoseFeatures& f : features_of(joint)) judged.expected.push_back(f.in_image > 0.5);
-  else
-    judged.view.residual_px = median(moved);
   return judged;
 }
 

@@ -13,14 +13,16 @@ struct ViewAgreement {
   double residual_px = 0;  // median over the objects of how far their points move in this image when only it
                            // has a say; 0 where `objects` is 0. Of two that disagree both have the larger
   int objects = 0;         // that could be judged in it
-  int missing = 0;         // where none could: objects that two other views show and this one should
+  int missing = 0;         // where none shows at all: objects that two other views show and this one should
   bool disagrees = false;
 };
 
 struct AgreementOptions {
   double max_residual_px = 2;
   double min_probability = 0.3;  // of an object's pose registered on the one image alone, for it to judge
-  int max_missing = 1;           // one object may be hidden by what nobody knows
+  // below it an object does not show at all; a part that others cover lies between the two
+  double absent_probability = 0.03;
+  int max_missing = 1;  // one object may be hidden by what nobody knows
   D2coOptions joint = joint_defaults(), single = single_defaults();
   PoseScoreOptions score{1.0f, 4.0f, 60.0f};
   static D2coOptions joint_defaults();
@@ -29,8 +31,8 @@ struct AgreementOptions {
 
 // One a view. The worst view above max_residual_px is flagged and left out, then the rest are judged again:
 // one wrong pose spoils the joint registration for all others. Of two views that disagree with each other the
-// later is flagged. So is one that shows none of several objects that it should: its pose is so wrong that
-// registration does not find them. Each flag is logged as a warning. Fewer than two views or no objects:
+// later is flagged. So is one that shows not a trace of several objects that it should: its pose is so wrong
+// that registration does not find them. Each flag is logged as a warning. Fewer than two views or no objects:
 // nothing can disagree; a scene of one object, or of two views, does not tell a grossly wrong pose from an
 // object that is hidden.
 std::vector<ViewAgreement> view_agreement(std::span<const EdgeModel> models,

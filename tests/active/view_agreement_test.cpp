@@ -86,6 +86,26 @@ TEST(ViewAgreement, FlagsTheOneThatShowsNothingWhereItShould) {
   EXPECT_GE(bare, 3);
 }
 
+// A view that has its objects worse than the others have them, but has them, is no wrong one.
+TEST(ViewAgreement, DoesNotDoubtAViewThatShowsTraces) {
+  Objects t(3);
+  const std::vector<RegisterView> views = t.scene.views(*t.backend);
+  int doubted = 0;
+  AgreementOptions options;
+  for (options.min_probability = 0.5; options.min_probability < 1; options.min_probability += 0.05) {
+    const auto missing = [&](double absent_probability) {
+      options.absent_probability = absent_probability;
+      int most = 0;
+      for (const ViewAgreement& v : view_agreement(t.scene.models, t.poses, views, *t.backend, options))
+        most = std::max(most, v.missing);
+      return most;
+    };
+    doubted += missing(options.min_probability) > 0;
+    EXPECT_EQ(missing(0.03), 0) << options.min_probability;
+  }
+  EXPECT_GT(doubted, 0) << "the case never arose";
+}
+
 // Where everything is hidden, or outside the image, nothing is missing.
 TEST(ViewAgreement, ExpectsOnlyWhatTheViewCanShow) {
   Objects t(3);
