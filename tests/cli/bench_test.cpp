@@ -1,14 +1,11 @@
 // edgescout bench experiments as a user runs it: stopped and taken up again, with what it cannot use, and
 // with a disk that is full.
 #include <gtest/gtest.h>
-#include <signal.h>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <thread>
 
 #include "host/experiments/table.h"
 #include "kernels/backend.h"
@@ -89,16 +86,8 @@ TEST(BenchExperiments, KilledAndResumedGiveTheSameBytes) {
   const fs::path whole = folder.path() / "whole", cut = folder.path() / "cut";
   const std::vector<std::string> more{"registration", "--no-times"};
   ASSERT_EQ(run_program(experiments(whole, more, 6)).exit_code, 0);
-  const pid_t child = start_program(experiments(cut, more, 6));
-  ASSERT_GT(child, 0);
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
   const auto finished = [&] { return fs::exists(cut / "cells") ? files_in(cut / "cells").size() : 0; };
-  while (finished() == 0 && std::chrono::steady_clock::now() < deadline)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  ::kill(child, SIGKILL);
-  int status = 0;
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFSIGNALED(status)) << "it had ended before";
+  ASSERT_TRUE(run_program_until(experiments(cut, more, 6), [&] { return finished() > 0; }));
   const std::map<std::string, std::string> left = files_in(cut);
   ASSERT_GE(left.size(), 1u);
   ASSERT_LT(left.size(), 6u);

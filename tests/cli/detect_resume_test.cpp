@@ -1,12 +1,8 @@
 // edgescout detect interrupted and taken up again: nothing half-written, nothing done twice.
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "host/io/results.h"
 #include "tests/cli/small_scene.h"
@@ -127,15 +123,7 @@ TEST(DetectResume, TakesUpTheSameSettings) {
 
 TEST(DetectResume, GoesOnAfterBeingKilled) {
   const Copies t(6);
-  const pid_t child = start_program(t.arguments());
-  ASSERT_GT(child, 0);
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (!fs::exists(t.json(0)) && std::chrono::steady_clock::now() < deadline)
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  ::kill(child, SIGKILL);
-  int status = 0;
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFSIGNALED(status)) << "it had ended before";
+  ASSERT_TRUE(run_program_until(t.arguments(), [&] { return fs::exists(t.json(0)); }));
   const auto finished = times_in(t.out, ".json");
   ASSERT_GE(finished.size(), 1u);
   ASSERT_LT(finished.size(), 6u);

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <functional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/io/temporary_folder.h"
@@ -30,7 +34,7 @@ inline Outcome run_program(const std::vector<std::string>& arguments, const std:
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(out), content_of(err)};
 }
 
-// Starts the program and leaves it running.
+// Leaves it running.
 inline pid_t start_program(const std::vector<std::string>& arguments) {
   std::vector<char*> argv{const_cast<char*>(EDGESCOUT_CLI)};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
@@ -41,6 +45,21 @@ inline pid_t start_program(const std::vector<std::string>& arguments) {
   for (int stream : {0, 1, 2}) ::dup2(nowhere, stream);
   ::execv(EDGESCOUT_CLI, argv.data());
   ::_exit(127);
+}
+
+// Starts the program and kills it as soon as `condition` holds, however long that takes (sanitizers are slow,
+// the test's own time limit ends a wait in vain). False where it had ended before.
+inline bool run_program_until(const std::vector<std::string>& arguments,
+                              const std::function<bool()>& condition) {
+  const pid_t child = start_program(arguments);
+  if (child < 0) return false;
+  int status = 0;
+  while (!condition()) {
+    if (::waitpid(child, &status, WNOHANG) != 0) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ::kill(child, SIGKILL);
+  return ::waitpid(child, &status, 0) == child && WIFSIGNALED(status);
 }
 
 // One line that starts with the program's name.

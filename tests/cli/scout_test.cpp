@@ -1,12 +1,9 @@
 // edgescout scout: what it writes, the page that needs nothing beside itself, and a run that is killed and
 // taken up again.
 #include <gtest/gtest.h>
-#include <signal.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <regex>
-#include <thread>
 
 #include "host/io/results.h"
 #include "tests/cli/small_scene.h"
@@ -104,15 +101,7 @@ TEST(Scout, FindsThePartAndShowsHow) {
 TEST(Scout, KilledItGoesOnToTheSameEnd) {
   const SmallScout whole, t;
   ASSERT_EQ(run_program(whole.arguments()).exit_code, 0);
-  const pid_t child = start_program(t.arguments({"--watch"}));
-  ASSERT_GT(child, 0);
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-  while (!fs::exists(t.out / "scout.html") && std::chrono::steady_clock::now() < deadline)
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  ::kill(child, SIGKILL);
-  int status = 0;
-  ASSERT_EQ(::waitpid(child, &status, 0), child);
-  ASSERT_TRUE(WIFSIGNALED(status)) << "it had ended before";
+  ASSERT_TRUE(run_program_until(t.arguments({"--watch"}), [&] { return fs::exists(t.out / "scout.html"); }));
   expect_self_contained(t.page());
   EXPECT_NE(t.page().find("<meta http-equiv=refresh"), std::string::npos);
   const std::size_t steps = t.log().at("steps").size();
