@@ -5,7 +5,7 @@
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 scripts/setup.sh
-build_preset release
+build_preset release edgescout_cli
 edgescout=build/release/host/cli/edgescout
 photographs=/usr/share/visp-images-data/ViSP-images/mbt
 examples=docs/examples
