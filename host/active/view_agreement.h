@@ -20,7 +20,8 @@ struct ViewAgreement {
 struct AgreementOptions {
   double max_residual_px = 2;
   double min_probability = 0.3;  // of an object's pose registered on the one image alone, for it to judge
-  // below it an object does not show at all; a part that others cover lies between the two
+  // below it an object does not show at all; a part that others cover lies between the two. At most
+  // min_probability
   double absent_probability = 0.03;
   int max_missing = 1;  // one object may be hidden by what nobody knows
   D2coOptions joint = joint_defaults(), single = single_defaults();

@@ -137,6 +137,7 @@ TEST(Scout, RefusesWhatItCannotUse) {
                  [](ScoutOptions& o) { o.pipeline.detect.refine.polish_options.rounds[0].radius_px = 8.5f; });
   expect_refused("evidence.match", [](ScoutOptions& o) { o.detections.evidence.match_px = 9; });
   expect_refused("evidence.match", [](ScoutOptions& o) { o.pipeline.detect.evidence.match_px = NAN; });
+  expect_refused("absent_probability", [](ScoutOptions& o) { o.agreement.absent_probability = 0.5; });
   expect_refused("max_residual_px", [](ScoutOptions& o) { o.agreement.max_residual_px = NAN; });
   expect_refused("detections.min_probability", [](ScoutOptions& o) { o.detections.min_probability = -1; });
   options = t.options();
