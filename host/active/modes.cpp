@@ -60,10 +60,30 @@ Detection to_detection(const Particle& particle, const PoseFeatures& features, d
   return detection;
 }
 
+// A single view says too little of how far away poses are.
+void exclude_each_other(std::span<Mode> modes, std::span<const Particle> particles,
+                        std::span<const EdgeModel> models, double penetration_m, ThreadPool& pool) {
+  std::vector<Hypothesis> poses;
+  std::vector<Mode*> probable;
+  std::vector<double> probabilities;
+  constexpr double least = 0.01;  // the rest is as good as none already
+  for (Mode& mode : modes) {
+    const Particle& best = particles[mode.particles[0]];
+    if (best.by_view.size() < 2 || mode.probability < least) continue;
+    poses.push_back({mode.object, best.world_from_object});
+    probable.push_back(&mode);
+    probabilities.push_back(mode.probability);
+  }
+  const std::vector<double> left =
+      exclusive_probabilities(probabilities, plausible_pairs(models, poses, penetration_m, pool));
+  for (std::size_t i = 0; i < left.size(); ++i) probable[i]->probability = left[i];
+}
+
 }  // namespace
 
 std::vector<Mode> find_modes(std::span<const Particle> particles, std::span<const TemplateSet> sets,
-                             const ParticleOptions& options) {
+                             std::span<const EdgeModel> models, const ParticleOptions& options,
+                             ThreadPool& pool) {
   std::vector<Mode> modes;
   double total = 0;
   for (const std::size_t i : best_first(particles)) {
@@ -85,6 +105,7 @@ std::vector<Mode> find_modes(std::span<const Particle> particles, std::span<cons
     home->weight += weight_of(particle);
   }
   for (Mode& mode : modes) mode.weight /= total;
+  exclude_each_other(modes, particles, models, options.penetration_m, pool);
   std::ranges::stable_sort(modes, [](const Mode& a, const Mode& b) { return a.weight > b.weight; });
   return modes;
 }
@@ -96,20 +117,20 @@ std::vector<ModeDetection> mode_detections(std::span<const Particle> particles, 
                                            const ModeDetectionOptions& options) {
   std::vector<const Mode*> probable;
   std::vector<Hypothesis> poses;
-  std::vector<PoseFeatures> features;
+  std::vector<std::vector<PoseFeatures>> features;
   for (const Mode& mode : modes) {
     if (mode.probability < options.min_probability) continue;
     const Particle& best = particles[mode.particles[0]];
     check(best.by_view.size() == views.size(), "mode_detections: particles weighed with these views");
     probable.push_back(&mode);
     poses.push_back({best.object, best.world_from_object});
-    features.push_back(together(best.by_view));
+    features.push_back(best.by_view);
   }
   std::vector<ModeDetection> found;
   for (const ChosenPose& chosen : explain_image(models, poses, features, views, backend, options.evidence)) {
     const Mode& mode = *probable[chosen.index];
     const Particle& best = particles[mode.particles[0]];
-    ModeDetection detection{to_detection(best, features[chosen.index], mode.probability), mode.weight, {}};
+    ModeDetection detection{to_detection(best, together(best.by_view), mode.probability), mode.weight, {}};
     detection.detection.covariance += scatter(particles, mode, sets[mode.object]);
     for (std::size_t v = 0; v < views.size(); ++v)
       if (pose_probability(best.by_view[v]) >= options.support_probability)

@@ -13,13 +13,16 @@ struct Mode {
   int object = 0;
   std::vector<std::size_t> particles;  // the best one, by evidence over all views, first
   double weight = 0;                   // sum of its particles', over that of all
-  double probability = 0;  // of the best particle, from all views (detect/probability_over_views.h); 0 before
-                           // particles are weighed
+  // Of the best particle, from all views (detect/probability_over_views.h), and where there are several, that
+  // no more probable mode stands where it would reach into (exclusive_probabilities); 0 before particles are
+  // weighed.
+  double probability = 0;
 };
 
 // Heaviest first. Every particle of weight above 0 belongs to one mode.
 std::vector<Mode> find_modes(std::span<const Particle> particles, std::span<const TemplateSet> sets,
-                             const ParticleOptions& options);
+                             std::span<const EdgeModel> models, const ParticleOptions& options,
+                             ThreadPool& pool);
 
 // Systematic resampling with a quota a mode, so that instances whose images fit less well (hidden in part,
 // say) do not starve: modes that are probable or heavy enough keep at least min_per_mode, the rest is shared

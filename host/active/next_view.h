@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "host/active/bit_matrix.h"
 #include "host/active/particles.h"
 #include "host/active/template_table.h"
+#include "host/core/bit_matrix.h"
 
 namespace edgescout {
 

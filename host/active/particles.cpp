@@ -101,6 +101,7 @@ void ParticleOptions::validate() const {
   in("min_per_mode", min_per_mode, 0, 1e5);
   in("min_mode_probability", min_mode_probability, 0, 1);
   in("mode_radius", mode_radius, 1e-6, 10);
+  in("penetration", penetration_m, 0, 1);
   in("dead", dead_px, 1e-3, 1e3);
   in("min_points", min_points, 1, 1e5);
   d2co.validate();
@@ -227,8 +228,8 @@ ParticleUpdate update_particles(std::vector<Particle>& particles, std::span<cons
   update.effective = effective_sample_size(particles);
   if (update.effective < options.min_effective * double(particles.size()) ||
       particles.size() > INFORMATION_MAX_PARTICLES) {
-    particles = resample(particles, find_modes(particles, sets, options), models, options.count, options,
-                         random.split("resample"));
+    particles = resample(particles, find_modes(particles, sets, models, options, backend.threads()), models,
+                         options.count, options, random.split("resample"));
     update.resampled = true;
   }
   return update;

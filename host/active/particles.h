@@ -15,6 +15,7 @@
 
 #include "host/core/random.h"
 #include "host/core/types.h"
+#include "host/detect/plausible_pairs.h"
 #include "host/model/template_set.h"
 #include "host/register/d2co.h"
 #include "host/register/polish.h"
@@ -51,8 +52,10 @@ struct ParticleOptions {
   int min_per_mode = 4;           // particles kept for every mode that may be an instance
   double min_mode_probability = 0.05;  // below it a mode lives by its weight alone
   double mode_radius = 0.1;  // of the diameter: particles closer than that (modulo symmetry) are one mode
-  double dead_px = 20;       // mean DCD above which a particle is no hypothesis any more
-  double min_points = 12;    // in an image, for it to say something about a particle
+  double penetration_m =
+      DEFAULT_PENETRATION_M;  // modes that reach further into each other exclude each other
+  double dead_px = 20;        // mean DCD above which a particle is no hypothesis any more
+  double min_points = 12;     // in an image, for it to say something about a particle
   D2coOptions d2co = refine_defaults();
   bool polish = true;
   PolishOptions polish_options = polish_defaults();

@@ -203,7 +203,7 @@ void Scout::believe(ScoutStep& step, ScoutState& next, std::span<const RegisterV
       update_particles(next.particles, sets_, models_, next.candidates, views, backend_, options_.particles);
   step.after = next.particles;
   done(watch, "particles");
-  next.modes = find_modes(next.particles, sets_, options_.particles);
+  next.modes = find_modes(next.particles, sets_, models_, options_.particles, backend_.threads());
   next.entropy_nats = step.entropy_nats = belief_entropy(next.modes);
   next.detections = step.detections =
       mode_detections(next.particles, next.modes, sets_, models_, views, backend_, options_.detections);
@@ -263,8 +263,8 @@ BitMatrix Scout::sampled_combinations() const {
   }
   CombinationOptions options = options_.combinations;
   options.seed += state_.steps.size();
-  return sample_combinations(psi, plausible_pairs(models_, poses, options_.penetration_m, backend_.threads()),
-                             options);
+  return sample_combinations(
+      psi, plausible_pairs(models_, poses, options_.particles.penetration_m, backend_.threads()), options);
 }
 
 ScoutEnd Scout::end_before_planning() const {
@@ -342,7 +342,6 @@ void ScoutOptions::validate() const {
   const OptionBounds in("scout");
   in("max_candidates", max_candidates, 1, 10000);
   in("known_probability", known_probability, 0, 2);
-  in("penetration_m", penetration_m, 0, 1);
   in("first_view", first_view, 0, 1e6);
   in("max_views", max_views, 1, 1e6);
   in("min_entropy_nats", min_entropy_nats, 0, 1e6);

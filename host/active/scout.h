@@ -44,7 +44,6 @@ struct ScoutOptions {
   // neither for nor against other poses, but leaves less to be certain by (detect/probability.h). Above 1:
   // none do.
   double known_probability = 0.9;
-  double penetration_m = DEFAULT_PENETRATION_M;
   CombinationOptions combinations;
   ParticleOptions particles;
   NextViewOptions next_view;

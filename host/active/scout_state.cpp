@@ -9,7 +9,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 3, "scout state"};
+constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 4, "scout state"};
 
 template <typename T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -69,8 +69,8 @@ void fields(auto& io, A<StageSeconds> auto& x) { io(x.name, x.seconds); }
 void fields(auto& io, A<ViewInformation> auto& x) { io(x.open, x.information, x.motion_cost); }
 void fields(auto& io, A<ViewAgreement> auto& x) { io(x.residual_px, x.objects, x.missing, x.disagrees); }
 void fields(auto& io, A<PoseFeatures> auto& x) {
-  io(x.psi, x.mean_px, x.matched, x.points, x.length_px, x.in_image, x.visible, x.shading.pixels,
-     x.shading.squares, x.shading.unexplained);
+  io(x.psi, x.beside_psi, x.mean_px, x.matched, x.points, x.length_px, x.in_image, x.visible,
+     x.shading.pixels, x.shading.squares, x.shading.unexplained);
 }
 void fields(auto& io, A<ParticleUpdate> auto& x) { io(x.effective, x.resampled, x.reseeded); }
 void fields(auto& io, A<FailedView> auto& x) { io(x.view, x.reason, x.after_step, x.stages); }

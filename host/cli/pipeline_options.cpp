@@ -48,7 +48,9 @@ void add_detection_options(CLI::App& verb, PipelineOptions& o) {
   OptionTable(verb, "Detection")
       .bounded("second-look", d.second_look_rad, 0.0, 1.0,
                "Turned starts around what was chosen, rad; 0: none")
-      .bounded("max-detections", d.max_detections, 1, 100000, "Reported an image");
+      .bounded("max-detections", d.max_detections, 1, 100000, "Reported an image")
+      .bounded("penetration", d.penetration_m, 0.0, 1.0,
+               "Of several images of one scene: how far parts may reach into each other, m");
 }
 
 void add_belief_options(CLI::App& verb, ScoutOptions& o) {
@@ -62,7 +64,8 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
       .bounded("combinations", o.combinations.count, 1, 1000000, "Scenes imagined for a decision")
       .bounded("sharpness", o.combinations.sharpness, 0.0, 500.0,
                "Of the preference for likely candidates in them; 1: the paper's")
-      .bounded("penetration", o.penetration_m, 0.0, 1.0, "How far parts may reach into each other, m");
+      .bounded("penetration", o.particles.penetration_m, 0.0, 1.0,
+               "How far parts may reach into each other, m");
   OptionTable(verb, "Belief")
       .bounded("particles", o.particles.count, 1, 100000, "Poses that are followed")
       .bounded("max-candidates", o.max_candidates, 1, 10000,

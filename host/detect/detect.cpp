@@ -39,10 +39,6 @@ std::vector<RegisterView> coarse_of(std::vector<RegisterView> views) {
   return views;
 }
 
-double merit(std::span<const PoseFeatures> by_view) {
-  return by_view.size() == 1 ? log_odds(by_view[0]) : probability_over_views(by_view);
-}
-
 }  // namespace
 
 D2coOptions DetectOptions::touch_up_defaults() {
@@ -72,6 +68,7 @@ void DetectOptions::validate() const {
   in("min_probability", min_probability, 0, 1);
   in("second_look", second_look_rad, 0, 1);
   in("max_detections", max_detections, 1, 1e5);
+  in("penetration", penetration_m, 0, 1);
   touch_up.validate();
   refine.validate();
   evidence.validate();

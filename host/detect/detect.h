@@ -5,6 +5,7 @@
 
 #include "host/detect/coarse_scan.h"
 #include "host/detect/evidence.h"
+#include "host/detect/plausible_pairs.h"
 #include "host/detect/probability.h"
 #include "host/register/refine.h"
 
@@ -21,6 +22,9 @@ struct DetectOptions {
                                                // judge: it means nothing 3 px off
   RefineOptions refine = refine_defaults();
   EvidenceOptions evidence;
+  // How far parts may reach into each other: of poses found in several views that reach further, the less
+  // probable one is doubted (plausible_pairs.h).
+  double penetration_m = DEFAULT_PENETRATION_M;
   double second_look_rad = 0.3;   // turned starts around what was chosen (settle.h); 0: none
   double min_probability = 0.05;  // of what is reported; docs/evaluation.md has the reliability
   int max_detections = 100;

@@ -5,7 +5,9 @@
 #include <unordered_set>
 
 #include "host/core/option_bounds.h"
+#include "host/detect/probability_over_views.h"
 #include "host/register/visible_in_views.h"
+#include "kernels/error.h"
 #include "kernels/pose_geometry.h"
 
 namespace edgescout {
@@ -84,9 +86,10 @@ void EvidenceOptions::validate() const {
 }
 
 std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
-                                      std::span<const PoseFeatures> features,
+                                      std::span<const std::vector<PoseFeatures>> features,
                                       std::span<const RegisterView> views, Backend& backend,
                                       const EvidenceOptions& options) {
+  check(features.size() == poses.size(), "explain_image: as many features as poses");
   std::vector<std::vector<Explained>> explained(poses.size());
   for (std::size_t p = 0; p < poses.size(); ++p) {
     const std::vector<VisibleInView> seen = visible_in_views(models, poses.subspan(p, 1), views, backend);
@@ -97,16 +100,16 @@ std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::sp
   std::vector<bool> open(poses.size(), true);
   for (;;) {
     std::size_t best = poses.size();
-    double best_merit = 0;
+    double most_worth = 0;
     for (std::size_t p = 0; p < poses.size(); ++p) {
       if (!open[p]) continue;
       const double fresh = fresh_fraction(explained[p], spent);
-      if (fresh < 1 - options.max_spent || evidence(features[p]) <= 0) {
+      if (fresh < 1 - options.max_spent || evidence(together(features[p])) <= 0) {
         open[p] = false;
         continue;
       }
-      const double merit = fresh / (1 + std::exp(-log_odds(features[p])));
-      if (merit > best_merit) best_merit = merit, best = p;
+      const double worth = fresh / (1 + std::exp(-merit(features[p])));
+      if (worth > most_worth) most_worth = worth, best = p;
     }
     if (best == poses.size()) return chosen;
     chosen.push_back({best, fresh_fraction(explained[best], spent)});

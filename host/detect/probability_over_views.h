@@ -7,10 +7,19 @@
 
 namespace edgescout {
 
-// By Bayes' rule: each view multiplies the odds by what its own features say (detect/probability.h) beyond
-// the base rate of right poses. A view may fail to see an instance that is there (hidden by others, say), so
-// it speaks against it only so far; one that has less than 12 points or a fifth of the pose in its image says
-// nothing. Of a single view that speaks: its pose_probability; of none: 0.
+// Each view adds to the log-odds what its features say (evidence, evidence over what agrees beside the pose,
+// unexplained grey), and what n of them say together counts a square root of n less, as for means of n errors
+// that are not independent: views share the neighbours, the shadows and the wrong edges that a pose was
+// pulled to. A view may fail to see an instance that is there (hidden by others, say), so it speaks against
+// it only so far; one that has less than 12 points or a fifth of the pose in its image says nothing. Of a
+// single view that speaks: its pose_probability (detect/probability.h); of none: 0.
+//
+// Fitted on candidates of rendered bins that do not reach into a better one (docs/evaluation.md says how):
+// that two things cannot stand in one place is left to exclusive_probabilities (plausible_pairs.h).
 double probability_over_views(std::span<const PoseFeatures> by_view);
+
+// Log-odds by which candidates are ranked and chosen: of probability_over_views; of a single view
+// log_odds (register/pose_features.h). Minus infinity where no view of several speaks.
+double merit(std::span<const PoseFeatures> by_view);
 
 }  // namespace edgescout

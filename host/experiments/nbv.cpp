@@ -185,7 +185,7 @@ Notes options(const ExperimentSettings& s) {
           {"particles", std::to_string(o.particles.count)},
           {"combinations", std::to_string(o.combinations.count)},
           {"sharpness", number_text(o.combinations.sharpness)},
-          {"penetration_m", number_text(o.penetration_m)},
+          {"penetration_m", number_text(o.particles.penetration_m)},
           {"known_probability", number_text(o.known_probability)},
           {"map_reduction", number_text(o.next_view.reduction)},
           {"chamfer_cap_px", number_text(o.next_view.cap_px)},

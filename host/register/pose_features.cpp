@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "host/register/odds_weights.h"
 #include "host/register/visible_in_views.h"
@@ -27,12 +28,58 @@ double length_in_image_px(const EdgeModel& model, const Se3& camera_from_object,
   return length * model.raster_step_m;
 }
 
-}  // namespace
+constexpr int BESIDE = 8;           // directions in which a pose is moved aside
+constexpr double ASIDE = 0.05;      // of the diameter: further than edges are wide, in the same surroundings
+constexpr int BESIDE_POINTS = 150;  // enough for a mean
 
-double evidence(const PoseFeatures& features) {
+// Poses with their points, as the kernel takes them.
+struct Problems {
+  std::vector<ModelPoint> points;
+  std::vector<PoseProblem> list;
+
+  void add(const Se3& camera_from_object, std::size_t view, const std::vector<ModelPoint>& seen) {
+    add_one(camera_from_object, view, seen.size());
+    points.insert(points.end(), seen.begin(), seen.end());
+  }
+
+  // Those beside it, moved along the image plane.
+  void add_beside(const Se3& camera_from_object, double diameter_m, std::size_t view,
+                  const std::vector<ModelPoint>& seen) {
+    const std::vector<ModelPoint> some = thinned(seen, BESIDE_POINTS);
+    for (int i = 0; i < BESIDE; ++i) {
+      const double angle = 2 * std::numbers::pi * i / BESIDE;
+      Se3 beside = camera_from_object;
+      beside.translation_m += ASIDE * diameter_m * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+      add_one(beside, view, some.size());
+    }
+    points.insert(points.end(), some.begin(), some.end());
+  }
+
+ private:
+  void add_one(const Se3& camera_from_object, std::size_t view, std::size_t count) {
+    list.push_back({to_pose(camera_from_object), std::uint32_t(points.size()), std::uint32_t(count),
+                    std::uint32_t(view)});
+  }
+};
+
+double standard_errors(const PoseFeatures& features, double of_psi) {
   constexpr double spread = 0.308;      // of |cos| of unrelated directions
   constexpr double independent_px = 5;  // neighbouring edge points agree or not together
-  return (features.psi - CHANCE_PSI) / spread * std::sqrt(features.length_px / independent_px);
+  return of_psi / spread * std::sqrt(features.length_px / independent_px);
+}
+
+double mean_psi(std::span<const PoseScore> scores) {
+  double sum = 0, points = 0;
+  for (const PoseScore& score : scores) sum += score.psi * score.points, points += score.points;
+  return points > 0 ? sum / points : 0;
+}
+
+}  // namespace
+
+double evidence(const PoseFeatures& features) { return standard_errors(features, features.psi - CHANCE_PSI); }
+
+double evidence_over_beside(const PoseFeatures& features) {
+  return standard_errors(features, features.psi - features.beside_psi);
 }
 
 double weighted_odds(const PoseFeatures& features, const OddsWeights& w) {
@@ -51,29 +98,30 @@ std::vector<PoseFeatures> pose_features_by_view(std::span<const EdgeModel> model
                                                 const PoseScoreOptions& options,
                                                 const VisibilityOptions& visibility) {
   std::vector<PoseFeatures> features(poses.size() * views.size());
-  std::vector<ModelPoint> points;
-  std::vector<PoseProblem> problems;
+  Problems problems;
+  const std::size_t of_one = views.size() > 1 ? 1 + BESIDE : 1;
   for (const VisibleInView& seen : visible_in_views(models, poses, views, backend, visibility)) {
-    const std::size_t slot = problems.size(), v = slot % views.size();
+    const std::size_t slot = problems.list.size() / of_one, v = slot % views.size();
     const Hypothesis& pose = poses[slot / views.size()];
     const Se3 camera_from_object = views[v].camera_from_world * pose.world_from_object;
     features[slot].visible = double(seen.unoccluded);
-    features[slot].length_px =
-        length_in_image_px(models[std::size_t(pose.object)], camera_from_object, *views[v].view, seen.points);
-    problems.push_back({to_pose(camera_from_object), std::uint32_t(points.size()),
-                        std::uint32_t(seen.points.size()), std::uint32_t(v)});
-    points.insert(points.end(), seen.points.begin(), seen.points.end());
+    const EdgeModel& model = models[std::size_t(pose.object)];
+    features[slot].length_px = length_in_image_px(model, camera_from_object, *views[v].view, seen.points);
+    problems.add(camera_from_object, v, seen.points);
+    if (of_one > 1) problems.add_beside(camera_from_object, model.mesh.diameter_m, v, seen.points);
   }
   std::vector<ViewHandle> handles;
   for (const RegisterView& view : views) handles.push_back(view.view);
-  std::vector<PoseScore> scores(problems.size());
-  backend.pose_score(handles, points, problems, options, scores);
-  for (std::size_t i = 0; i < scores.size(); ++i) {
+  std::vector<PoseScore> scores(problems.list.size());
+  backend.pose_score(handles, problems.points, problems.list, options, scores);
+  for (std::size_t i = 0; i < features.size(); ++i) {
     PoseFeatures& f = features[i];
-    f.psi = scores[i].psi;
-    f.mean_px = scores[i].points > 0 ? scores[i].mean_px : options.cap_px;
-    f.matched = scores[i].matched;
-    f.points = scores[i].points;
+    const PoseScore* of_pose = &scores[i * of_one];
+    f.psi = of_pose->psi;
+    f.beside_psi = mean_psi({of_pose + 1, of_one - 1});
+    f.mean_px = of_pose->points > 0 ? of_pose->mean_px : options.cap_px;
+    f.matched = of_pose->matched;
+    f.points = of_pose->points;
     f.in_image = f.visible > 0 ? f.points / f.visible : 0;
   }
   const std::vector<Shading> shadings = shading(models, poses, views, backend);
@@ -84,8 +132,10 @@ std::vector<PoseFeatures> pose_features_by_view(std::span<const EdgeModel> model
 PoseFeatures together(std::span<const PoseFeatures> by_view) {
   check(!by_view.empty(), "together: features of at least one view");
   PoseFeatures sum;
+  double beside = 0;
   for (const PoseFeatures& f : by_view) {
     sum.psi += f.psi * f.points;
+    beside += f.beside_psi * f.points;
     sum.mean_px += f.mean_px * f.points;
     sum.matched += f.matched * f.points;
     sum.points += f.points;
@@ -93,10 +143,12 @@ PoseFeatures together(std::span<const PoseFeatures> by_view) {
     sum.visible += f.visible;
     add(sum.shading, f.shading);
   }
-  if (sum.points > 0)
+  if (sum.points > 0) {
     sum.psi /= sum.points, sum.mean_px /= sum.points, sum.matched /= sum.points;
-  else
+    sum.beside_psi = beside / sum.points;
+  } else {
     sum.mean_px = by_view[0].mean_px;
+  }
   if (sum.visible > 0) sum.in_image = sum.points / sum.visible;
   return sum;
 }

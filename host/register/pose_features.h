@@ -12,7 +12,9 @@
 namespace edgescout {
 
 struct PoseFeatures {
-  double psi = 0;  // means over the visible points of all views, weighted by their number
+  double psi = 0;         // means over the visible points of all views, weighted by their number
+  double beside_psi = 0;  // psi where the object is not: of the same points, the pose moved a little aside;
+                          // of a single view alone not computed
   double mean_px = 0;
   double matched = 0;    // fraction of points with a tensor value below the match limit
   double points = 0;     // inside the images
@@ -28,6 +30,10 @@ struct PoseFeatures {
 // of two poses of one object, the one that shows more edges.
 inline constexpr double CHANCE_PSI = 0.65;
 double evidence(const PoseFeatures& features);
+
+// The same over what agrees beside the pose: a barcode, whose lines all run one way, agrees with an object
+// wherever it stands, blank surroundings with none.
+double evidence_over_beside(const PoseFeatures& features);
 
 // Log-odds that the pose is right: a linear function of the logarithm of the evidence, the mean distance and
 // the unexplained grey, fitted on rendered scenes (docs/evaluation.md says how). What candidates are ranked

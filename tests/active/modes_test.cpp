@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "host/detect/probability_over_views.h"
+#include "kernels/thread_pool.h"
 #include "tests/active/rendered_scene.h"
 #include "tests/test_random.h"
 
@@ -37,6 +39,7 @@ struct Nuts {
   std::vector<TemplateSet> sets{set_of(make_part("hex_nut")), set_of(make_part("l_bracket"))};
   std::vector<EdgeModel> models{sets[0].model, sets[1].model};
   ParticleOptions options;
+  mutable ThreadPool threads{1};
 };
 
 TEST(FindModes, JoinsSymmetricPosesAndNothingElse) {
@@ -51,7 +54,7 @@ TEST(FindModes, JoinsSymmetricPosesAndNothingElse) {
   particles.push_back(particle(0, there, 0.5, true));
   particles.push_back(particle(1, here, 0.3, false));  // another object at the same place
   particles.push_back(particle(1, {{0, 1, 0, 0}, {-0.3, 0, 0}}, 0, false));  // no weight, no mode
-  const std::vector<Mode> modes = find_modes(particles, t.sets, t.options);
+  const std::vector<Mode> modes = find_modes(particles, t.sets, t.models, t.options, t.threads);
   ASSERT_EQ(modes.size(), 3u);
   EXPECT_EQ(modes[0].particles, std::vector<std::size_t>{turns});
   EXPECT_EQ(modes[1].object, 1);
@@ -64,6 +67,27 @@ TEST(FindModes, JoinsSymmetricPosesAndNothingElse) {
   EXPECT_LT(modes[1].probability, 0.05);
 }
 
+TEST(FindModes, DoubtsWhatStandsInAMoreProbableMode) {
+  Random random = test_random();
+  const Nuts t;
+  const Se3 here{random.rotation(), {0, 0, 0.5}}, there{random.rotation(), {0.3, 0, 0.5}};
+  std::vector<Particle> particles{particle(0, here, 0.4, true), particle(1, here, 0.3, true),
+                                  particle(1, there, 0.2, true)};
+  particles[1].by_view[0].psi -= 0.05;
+  const double alone = find_modes(particles, t.sets, t.models, t.options, t.threads)[1].probability;
+  EXPECT_EQ(alone, probability_over_views(particles[1].by_view)) << "one view does not tell how far away";
+  for (Particle& p : particles) p.by_view.push_back(p.by_view[0]);
+  const std::vector<Mode> modes = find_modes(particles, t.sets, t.models, t.options, t.threads);
+  ASSERT_EQ(modes.size(), 3u);
+  const double first = probability_over_views(particles[0].by_view),
+               second = probability_over_views(particles[1].by_view);
+  ASSERT_GT(first, second);
+  ASSERT_GT(second, 0.01);
+  EXPECT_EQ(modes[0].probability, first);
+  EXPECT_DOUBLE_EQ(modes[1].probability, second * (1 - first));
+  EXPECT_EQ(modes[2].probability, first);
+}
+
 TEST(Resample, KeepsProbableModesAndLetsOthersDie) {
   const Nuts t;
   std::vector<Particle> particles;
@@ -73,7 +97,8 @@ TEST(Resample, KeepsProbableModesAndLetsOthersDie) {
   for (int i = 0; i < 5; ++i) particles.push_back(particle(1, {{1, 0, 0, 0}, {2, 0, 0}}, 0.00006, false));
   for (Particle& p : particles) p.upsilon_px2 = 7;
   const std::vector<Particle> next =
-      resample(particles, find_modes(particles, t.sets, t.options), t.models, 100, t.options, Random(5));
+      resample(particles, find_modes(particles, t.sets, t.models, t.options, t.threads), t.models, 100,
+               t.options, Random(5));
   ASSERT_EQ(next.size(), 100u);
   int count[3] = {0, 0, 0};
   double weight[3] = {0, 0, 0};
@@ -105,7 +130,8 @@ TEST(Resample, DrawsSystematicallyByWeight) {
   options.roughened = {0, 0};
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const std::vector<Particle> next =
-        resample(particles, find_modes(particles, t.sets, options), t.models, 33, options, Random(seed));
+        resample(particles, find_modes(particles, t.sets, t.models, options, t.threads), t.models, 33,
+                 options, Random(seed));
     ASSERT_EQ(next.size(), 33u);
     for (int i = 0; i < 5; ++i) {
       const auto copies = std::ranges::count_if(next, [&](const Particle& p) {
@@ -120,7 +146,8 @@ TEST(Resample, RoughensCopiesButKeepsOneOfEach) {
   const Nuts t;
   const std::vector<Particle> particles{particle(1, {{1, 0, 0, 0}, {0.3, 0, 0}}, 1, true)};
   const std::vector<Particle> next =
-      resample(particles, find_modes(particles, t.sets, t.options), t.models, 50, t.options, Random(5));
+      resample(particles, find_modes(particles, t.sets, t.models, t.options, t.threads), t.models, 50,
+               t.options, Random(5));
   int exact = 0;
   for (const Particle& p : next) {
     const double off = distance_between_m(p.world_from_object, particles[0].world_from_object);
@@ -133,7 +160,7 @@ TEST(Resample, RoughensCopiesButKeepsOneOfEach) {
 TEST(Resample, OfNothingIsNothing) {
   const Nuts t;
   EXPECT_TRUE(resample({}, {}, t.models, 10, t.options, Random(1)).empty());
-  EXPECT_TRUE(find_modes({}, t.sets, t.options).empty());
+  EXPECT_TRUE(find_modes({}, t.sets, t.models, t.options, t.threads).empty());
 }
 
 TEST(BeliefEntropy, IsZeroWhereAllIsCertain) {

@@ -223,8 +223,8 @@ TEST(WeighParticles, CountsNoViewTwiceAfterResampling) {
   EXPECT_GT(before, 0.7);
   EXPECT_LT(before, 0.9999);
   for (int round = 0; round < 3; ++round) {
-    particles = resample(particles, find_modes(particles, sets, t.options), t.models, 30, t.options,
-                         random.split(round));
+    particles = resample(particles, find_modes(particles, sets, t.models, t.options, t.backend->threads()),
+                         t.models, 30, t.options, random.split(round));
     ASSERT_EQ(particles.size(), 30u);
     EXPECT_NEAR(weight_of_truth(), before, 1e-9);
     for (Particle& p : particles)
@@ -250,7 +250,8 @@ TEST(WeighParticles, LateOnesFindTheirShare) {
   weigh_particles(t.models, from_the_start, t.part.views, *t.backend, t.options);
   for (int round = 0; round < 2; ++round) {
     weigh_particles(t.models, early, t.part.views, *t.backend, t.options);
-    early = resample(early, find_modes(early, sets, t.options), t.models, 50, t.options, random.split(round));
+    early = resample(early, find_modes(early, sets, t.models, t.options, t.backend->threads()), t.models, 50,
+                     t.options, random.split(round));
   }
   early.push_back(late);
   weigh_particles(t.models, early, t.part.views, *t.backend, t.options);
@@ -282,7 +283,7 @@ TEST(UpdateParticles, FindsTheInstancesAndDropsTheRest) {
     EXPECT_FALSE(update.reseeded);
     EXPECT_EQ(particles.size(), 40u);
   }
-  const std::vector<Mode> modes = find_modes(particles, t.sets, options);
+  const std::vector<Mode> modes = find_modes(particles, t.sets, t.models, options, backend->threads());
   for (const Mode& m : modes)
     std::printf("mode of object %d: %zu particles, weight %.3f, probability %.3f\n", m.object,
                 m.particles.size(), m.weight, m.probability);
@@ -325,7 +326,7 @@ TEST(UpdateParticles, DrawsAnewWhereAllDied) {
   EXPECT_TRUE(update.reseeded);
   ASSERT_EQ(log.messages.size(), 1u);
   EXPECT_NE(log.messages[0].second.find("all particles died"), std::string::npos);
-  const std::vector<Mode> modes = find_modes(particles, t.sets, options);
+  const std::vector<Mode> modes = find_modes(particles, t.sets, t.models, options, backend->threads());
   ASSERT_FALSE(modes.empty());
   EXPECT_LT(distance_between_m(particles[modes[0].particles[0]].world_from_object,
                                t.scene.placed[0].world_from_object),

@@ -29,12 +29,13 @@ struct TwoParts {
                                  const EvidenceOptions& options = {}) const {
     std::vector<Hypothesis> hypotheses;
     for (const Se3& pose : poses) hypotheses.push_back({0, pose});
-    std::vector<PoseFeatures> features;
+    std::vector<std::vector<PoseFeatures>> features;
     for (double length_px : lengths_px) {
       PoseFeatures f;
       f.psi = length_px > 0 ? 1 : 0;
+      f.points = 100;
       f.length_px = std::abs(length_px);
-      features.push_back(f);
+      features.push_back({f});
     }
     return explain_image(models, hypotheses, features, views, *backend, options);
   }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "host/detect/probability.h"
 
 namespace edgescout::test {
@@ -10,29 +12,26 @@ namespace {
 PoseFeatures with_psi(double psi) {
   PoseFeatures f;
   f.psi = psi;
+  f.beside_psi = 0.5;
   f.mean_px = 3;
   f.matched = 0.8;
   f.points = f.visible = 200;
   f.length_px = 500;
   f.in_image = 1;
-  f.shading = {1000, 1e6, 4e4};
+  f.shading = {1000, 1e6, 1e5};
   return f;
 }
 
-// Of a psi that makes one view's probability what is asked for.
-PoseFeatures with_probability(double p) {
-  double low = 0, high = 1;
-  for (int i = 0; i < 60; ++i)
-    (pose_probability(with_psi(0.5 * (low + high))) < p ? low : high) = 0.5 * (low + high);
-  return with_psi(0.5 * (low + high));
+double log_odds_of(const std::vector<PoseFeatures>& views) {
+  const double p = probability_over_views(views);
+  return std::log(p / (1 - p));
 }
 
 TEST(ProbabilityOverViews, GrowsWithViewsThatAgree) {
-  const PoseFeatures fair = with_probability(0.15);
-  const double one = pose_probability(fair);
-  ASSERT_NEAR(one, 0.15, 1e-6);
+  const PoseFeatures fair = with_psi(0.85);
   std::vector<PoseFeatures> views{fair};
-  EXPECT_EQ(probability_over_views(views), one);
+  EXPECT_EQ(probability_over_views(views), pose_probability(fair));
+  views.push_back(fair);
   double last = 0;
   for (int i = 0; i < 4; ++i) {
     const double p = probability_over_views(views);
@@ -41,27 +40,50 @@ TEST(ProbabilityOverViews, GrowsWithViewsThatAgree) {
     views.push_back(fair);
   }
   EXPECT_GT(last, 0.9);
-  // And falls with those that show nothing of it.
-  views.assign(4, with_probability(0.002));
-  EXPECT_LT(probability_over_views(views), 1e-3);
+  // What no view shows is not there, however many do not.
+  views.assign(5, with_psi(0.6));
+  for (PoseFeatures& f : views) f.shading = {1000, 1e6, 1e6};
+  EXPECT_LT(probability_over_views(views), 0.01);
 }
 
-// Odds multiply, so the order of views does not matter, and the worst that one view can do is to say that it
-// was hidden.
+// n views count for the square root of n: twice as far from the bias with four times the views.
+TEST(ProbabilityOverViews, CountsViewsAsErrorsThatAreNotIndependent) {
+  const PoseFeatures fair = with_psi(0.8);
+  const double of_two = log_odds_of(std::vector(2, fair)), of_eight = log_odds_of(std::vector(8, fair)),
+               of_four = log_odds_of(std::vector(4, fair));
+  const double bias = 2 * of_two - of_eight;
+  EXPECT_LT(bias, -5);
+  EXPECT_NEAR((of_four - bias) / (of_two - bias), std::sqrt(2), 1e-6);
+}
+
+TEST(ProbabilityOverViews, GrowsWithWhatAgreesHereAndNotBeside) {
+  const PoseFeatures fair = with_psi(0.8);
+  PoseFeatures more = fair, striped = fair, darker = fair;
+  more.psi = 0.85;
+  striped.beside_psi = 0.7;
+  darker.shading = {1000, 1e6, 5e5};
+  const double p = probability_over_views(std::vector{fair, fair});
+  EXPECT_GT(probability_over_views(std::vector{fair, more}), p);
+  EXPECT_LT(probability_over_views(std::vector{fair, striped}), p);
+  EXPECT_LT(probability_over_views(std::vector{fair, darker}), p);
+}
+
+// The worst that one view can do is to show nothing of it; worse than nothing there is not, and the order of
+// views does not matter.
 TEST(ProbabilityOverViews, AHiddenViewCostsSoMuchAndNoMore) {
-  const auto odds = [](const std::vector<PoseFeatures>& views) {
-    const double p = probability_over_views(views);
-    return p / (1 - p);
-  };
-  const PoseFeatures fair = with_probability(0.3);
-  PoseFeatures hidden = with_psi(0);
-  hidden.mean_px = 100;
-  EXPECT_NEAR(odds({fair, fair, hidden}) / odds({fair, fair}), 0.2, 0.01);
-  EXPECT_NEAR(odds({hidden, fair, fair}), odds({fair, fair, hidden}), 1e-9);
+  const PoseFeatures good = with_psi(0.95);
+  PoseFeatures hidden = with_psi(0), worse = hidden;
+  hidden.psi = 0.55;
+  worse.beside_psi = 1;
+  const double without = log_odds_of({good, good, good}), with = log_odds_of({good, good, good, hidden});
+  EXPECT_LT(with, without);
+  EXPECT_GT(probability_over_views(std::vector{good, good, good, hidden}), 0.5);
+  EXPECT_NEAR(log_odds_of({good, good, good, worse}), with, 1e-9);
+  EXPECT_NEAR(log_odds_of({hidden, good, good, good}), with, 1e-9);
 }
 
 TEST(ProbabilityOverViews, AViewThatDoesNotSeeItSaysNothing) {
-  const PoseFeatures fair = with_probability(0.3);
+  const PoseFeatures fair = with_psi(0.85);
   PoseFeatures few = fair, outside = fair;
   few.points = 5;
   outside.in_image = 0.1;
@@ -70,6 +92,16 @@ TEST(ProbabilityOverViews, AViewThatDoesNotSeeItSaysNothing) {
   EXPECT_EQ(probability_over_views(std::vector{few, fair}), pose_probability(fair));
   EXPECT_EQ(probability_over_views(std::vector{few, outside}), 0);
   EXPECT_EQ(probability_over_views(std::vector<PoseFeatures>{}), 0);
+}
+
+TEST(Merit, RanksAsTheProbabilityDoes) {
+  const PoseFeatures fair = with_psi(0.85), good = with_psi(0.95);
+  EXPECT_EQ(merit(std::vector{fair}), log_odds(fair));
+  EXPECT_NEAR(merit(std::vector{fair, good}), log_odds_of({fair, good}), 1e-9);
+  PoseFeatures few = fair;
+  few.points = 5;
+  EXPECT_EQ(merit(std::vector{fair, few}), log_odds(fair));
+  EXPECT_EQ(merit(std::vector{few, few}), -INFINITY);
 }
 
 }  // namespace

@@ -46,7 +46,13 @@ TEST(PoseProbability, IsOneAndGrowsWithWhatSpeaksForThePose) {
 }
 
 TEST(PoseProbability, TellsTheBestFromTheWorst) {
-  PoseFeatures f{1, 0, 1, 200, 500, 1, 200, {1000, 1e6, 1e4}};
+  PoseFeatures f{.psi = 1,
+                 .matched = 1,
+                 .points = 200,
+                 .length_px = 500,
+                 .in_image = 1,
+                 .visible = 200,
+                 .shading = {1000, 1e6, 1e4}};
   EXPECT_GT(pose_probability(f), 0.9);
   f.psi = 0.65;
   f.matched = 0.2;

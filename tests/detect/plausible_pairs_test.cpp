@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "host/active/combinations.h"
+#include "host/detect/plausible_pairs.h"
 #include "host/model/viewpoints.h"
 #include "host/render/parts.h"
 #include "kernels/thread_pool.h"
@@ -150,8 +150,35 @@ TEST(PlausiblePairs, ManyCandidatesOnSeveralThreads) {
 
 TEST(PlausiblePairs, RefusesAToleranceThatIsNone) {
   ThreadPool pool(1);
-  expect_input_error([&] { plausible_pairs({}, {}, -1, pool); }, {"combinations.penetration"});
+  expect_input_error([&] { plausible_pairs({}, {}, -1, pool); }, {"penetration"});
   EXPECT_EQ(plausible_pairs({}, {}, 0, pool).rows, 0u);
+}
+
+TEST(ExclusiveProbabilities, CountWhatStandsInTheWay) {
+  BitMatrix plausible(4, 4);
+  const auto allow = [&](std::size_t i, std::size_t j) { plausible.set(i, j), plausible.set(j, i); };
+  for (std::size_t i = 0; i < 4; ++i) allow(i, i);
+  allow(0, 1), allow(0, 3), allow(1, 3), allow(2, 3);  // 2 would stand in 0 and in 1
+  const std::vector<double> left = exclusive_probabilities(std::vector{0.9, 0.3, 0.8, 0.4}, plausible);
+  EXPECT_DOUBLE_EQ(left[0], 0.9);
+  EXPECT_DOUBLE_EQ(left[2], 0.8 * (1 - 0.9));
+  // what is itself ruled out rules out as little
+  EXPECT_DOUBLE_EQ(left[1], 0.3 * (1 - left[2]));
+  EXPECT_DOUBLE_EQ(left[3], 0.4);
+  EXPECT_TRUE(exclusive_probabilities({}, BitMatrix(0, 0)).empty());
+}
+
+// Of two that exclude each other the chances add up to one at most.
+TEST(ExclusiveProbabilities, OfAPairAreNoMoreThanCertain) {
+  Random random = test_random();
+  BitMatrix neither(2, 2);
+  neither.set(0, 0), neither.set(1, 1);
+  for (int i = 0; i < 100; ++i) {
+    const std::vector<double> p{random.uniform(), random.uniform()};
+    const std::vector<double> left = exclusive_probabilities(p, neither);
+    EXPECT_LE(left[0] + left[1], 1 + 1e-12);
+    EXPECT_EQ(std::max(left[0], left[1]), std::max(p[0], p[1]));
+  }
 }
 
 }  // namespace

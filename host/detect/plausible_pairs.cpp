@@ -1,13 +1,15 @@
+#include "host/detect/plausible_pairs.h"
+
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/math/bv/OBBRSS.h>
 #include <fcl/narrowphase/collision.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
 #include <numeric>
 
-#include "host/active/combinations.h"
 #include "host/model/viewpoints.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
@@ -144,8 +146,7 @@ bool can_exist_together(const Pair& pair, double penetration_m) {
 BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Hypothesis> candidates,
                           double penetration_m, ThreadPool& pool) {
   if (!(penetration_m >= 0 && penetration_m <= 1))
-    throw InputError("options", "combinations.penetration", std::to_string(penetration_m),
-                     "a length in [0, 1] m");
+    throw InputError("options", "penetration", std::to_string(penetration_m), "a length in [0, 1] m");
   std::vector<Solid> solids;
   for (const EdgeModel& model : models) solids.push_back(make_solid(model));
   const std::size_t count = candidates.size();
@@ -167,6 +168,21 @@ BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Hyp
     for (std::size_t j = 0; j < count; ++j)
       if (together[i * count + j]) plausible.set(i, j);
   return plausible;
+}
+
+std::vector<double> exclusive_probabilities(std::span<const double> probabilities,
+                                            const BitMatrix& plausible) {
+  check(plausible.rows == probabilities.size() && plausible.columns == probabilities.size(),
+        "exclusive_probabilities: a row and a column a candidate");
+  std::vector<std::size_t> order(probabilities.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order,
+                           [&](std::size_t a, std::size_t b) { return probabilities[a] > probabilities[b]; });
+  std::vector<double> left(probabilities.begin(), probabilities.end());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (!plausible.has(order[i], order[j])) left[order[i]] *= 1 - left[order[j]];
+  return left;
 }
 
 }  // namespace edgescout
