@@ -60,23 +60,17 @@ Detection to_detection(const Particle& particle, const PoseFeatures& features, d
   return detection;
 }
 
-// A single view says too little of how far away poses are.
 void exclude_each_other(std::span<Mode> modes, std::span<const Particle> particles,
                         std::span<const EdgeModel> models, double penetration_m, ThreadPool& pool) {
   std::vector<Hypothesis> poses;
-  std::vector<Mode*> probable;
-  std::vector<double> probabilities;
-  constexpr double least = 0.01;  // the rest is as good as none already
-  for (Mode& mode : modes) {
+  std::vector<std::vector<PoseFeatures>> by_view;
+  for (const Mode& mode : modes) {
     const Particle& best = particles[mode.particles[0]];
-    if (best.by_view.size() < 2 || mode.probability < least) continue;
     poses.push_back({mode.object, best.world_from_object});
-    probable.push_back(&mode);
-    probabilities.push_back(mode.probability);
+    by_view.push_back(best.by_view);
   }
-  const std::vector<double> left =
-      exclusive_probabilities(probabilities, plausible_pairs(models, poses, penetration_m, pool));
-  for (std::size_t i = 0; i < left.size(); ++i) probable[i]->probability = left[i];
+  const std::vector<double> left = probabilities_apart(models, poses, by_view, penetration_m, pool);
+  for (std::size_t i = 0; i < modes.size(); ++i) modes[i].probability = left[i];
 }
 
 }  // namespace
@@ -98,8 +92,7 @@ std::vector<Mode> find_modes(std::span<const Particle> particles, std::span<cons
                              set.model.mesh, set.symmetries) < radius_m;
     });
     if (home == modes.end()) {
-      const double probability = probability_over_views(particle.by_view);
-      home = modes.insert(home, {particle.object, {}, 0, probability});
+      home = modes.insert(home, {particle.object, {}, 0, 0});
     }
     home->particles.push_back(i);
     home->weight += weight_of(particle);

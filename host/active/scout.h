@@ -41,8 +41,7 @@ struct ScoutOptions {
   // later images are searched with the help of those before (detect/joint_scan.h); else each alone
   bool detect_jointly = true;
   // Instances as probable as this hide what is behind them (register/occluders.h): what they cover counts
-  // neither for nor against other poses, but leaves less to be certain by (detect/probability.h). Above 1:
-  // none do.
+  // neither for nor against other poses, but leaves fewer edges to be certain by. Above 1: none do.
   double known_probability = 0.9;
   CombinationOptions combinations;
   ParticleOptions particles;

@@ -63,10 +63,11 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
       .flag("literal", o.next_view.literal, "The paper's own formula for the information")
       .bounded("combinations", o.combinations.count, 1, 1000000, "Scenes imagined for a decision")
       .bounded("sharpness", o.combinations.sharpness, 0.0, 500.0,
-               "Of the preference for likely candidates in them; 1: the paper's")
-      .bounded("penetration", o.particles.penetration_m, 0.0, 1.0,
-               "How far parts may reach into each other, m");
+               "Of the preference for likely candidates in them; 1: the paper's");
   OptionTable(verb, "Belief")
+      .bounded("penetration", o.particles.penetration_m, 0.0, 1.0,
+               "How far parts may reach into each other, m: else no scene has both, and the less probable is "
+               "doubted")
       .bounded("particles", o.particles.count, 1, 100000, "Poses that are followed")
       .bounded("max-candidates", o.max_candidates, 1, 10000,
                "Of all objects together, kept from image to image")

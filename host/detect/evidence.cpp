@@ -76,6 +76,11 @@ double fresh_fraction(const std::vector<Explained>& explained, const SpentEdges&
   return total > 0 ? fresh / total : 0;
 }
 
+// In some view: others may hide it.
+bool any_evidence(std::span<const PoseFeatures> by_view) {
+  return std::ranges::any_of(by_view, [](const PoseFeatures& f) { return evidence(f) > 0; });
+}
+
 }  // namespace
 
 void EvidenceOptions::validate() const {
@@ -104,7 +109,7 @@ std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::sp
     for (std::size_t p = 0; p < poses.size(); ++p) {
       if (!open[p]) continue;
       const double fresh = fresh_fraction(explained[p], spent);
-      if (fresh < 1 - options.max_spent || evidence(together(features[p])) <= 0) {
+      if (fresh < 1 - options.max_spent || !any_evidence(features[p])) {
         open[p] = false;
         continue;
       }

@@ -170,6 +170,32 @@ BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Hyp
   return plausible;
 }
 
+namespace {
+
+// The chance that none of these is there. Those that exclude each other add up, others are independent.
+double chance_of_none(std::span<const std::size_t> candidates, std::span<const double> probabilities,
+                      const BitMatrix& plausible) {
+  std::vector<std::vector<std::size_t>> groups;  // whose members exclude each other
+  for (const std::size_t c : candidates) {
+    const auto home = std::ranges::find_if(groups, [&](const auto& group) {
+      return std::ranges::none_of(group, [&](std::size_t other) { return plausible.has(c, other); });
+    });
+    if (home == groups.end())
+      groups.push_back({c});
+    else
+      home->push_back(c);
+  }
+  double none = 1;
+  for (const auto& group : groups) {
+    double some = 0;
+    for (const std::size_t c : group) some += probabilities[c];
+    none *= std::max(0.0, 1 - some);
+  }
+  return none;
+}
+
+}  // namespace
+
 std::vector<double> exclusive_probabilities(std::span<const double> probabilities,
                                             const BitMatrix& plausible) {
   check(plausible.rows == probabilities.size() && plausible.columns == probabilities.size(),
@@ -179,9 +205,12 @@ std::vector<double> exclusive_probabilities(std::span<const double> probabilitie
   std::ranges::stable_sort(order,
                            [&](std::size_t a, std::size_t b) { return probabilities[a] > probabilities[b]; });
   std::vector<double> left(probabilities.begin(), probabilities.end());
-  for (std::size_t i = 0; i < order.size(); ++i)
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    std::vector<std::size_t> in_the_way;
     for (std::size_t j = 0; j < i; ++j)
-      if (!plausible.has(order[i], order[j])) left[order[i]] *= 1 - left[order[j]];
+      if (!plausible.has(order[i], order[j])) in_the_way.push_back(order[j]);
+    left[order[i]] *= chance_of_none(in_the_way, left, plausible);
+  }
   return left;
 }
 

@@ -25,7 +25,9 @@ BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Hyp
                           double penetration_m, ThreadPool& pool);
 
 // What remains of the candidates' probabilities where no two of a pair that is not plausible can both be
-// there: each is multiplied by the chance that nothing more probable stands where it would reach into.
+// there: each is multiplied by the chance that nothing more probable stands where it would reach into. Of
+// those, what excludes each other adds up, the rest is taken as independent; candidates of which all exclude
+// each other have no more than 1 in sum.
 std::vector<double> exclusive_probabilities(std::span<const double> probabilities,
                                             const BitMatrix& plausible);
 

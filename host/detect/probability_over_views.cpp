@@ -2,49 +2,84 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <vector>
 
+#include "host/detect/plausible_pairs.h"
 #include "host/detect/probability.h"
+#include "kernels/error.h"
 
 namespace edgescout {
 
 namespace {
 
+constexpr double LEAST_TO_STAND = 0.01;  // what is less probable is as good as ruled out already
+
 double logistic(double log_odds) { return 1 / (1 + std::exp(-log_odds)); }
 
-std::vector<PoseFeatures> speaking(std::span<const PoseFeatures> by_view) {
+bool speaks(const PoseFeatures& f) {
   constexpr double min_points = 12, min_in_image = 0.2;
-  std::vector<PoseFeatures> views;
-  for (const PoseFeatures& f : by_view)
-    if (f.points >= min_points && f.in_image >= min_in_image) views.push_back(f);
-  return views;
+  return f.points >= min_points && f.in_image >= min_in_image;
 }
 
-double log_odds_of_several(std::span<const PoseFeatures> views) {
+const PoseFeatures& the_one_that_speaks(std::span<const PoseFeatures> by_view) {
+  return *std::ranges::find_if(by_view, speaks);
+}
+
+double log_odds_of(const SeveralViews& sums) {
   constexpr double bias = -9.184, of_a_view = 0.198, by_log_evidence = 2.463, by_log_over_beside = 2.745,
                    by_unexplained_grey = -3.324;
-  constexpr double least = 2;  // standard errors: below that a view shows nothing of it, it may be hidden
-  double sum = 0;
-  for (const PoseFeatures& f : views)
-    sum += of_a_view + by_log_evidence * std::log(std::max(evidence(f), least)) +
-           by_log_over_beside * std::log(std::max(evidence_over_beside(f), least)) +
-           by_unexplained_grey * unexplained_grey(f.shading);
-  return bias + sum / std::sqrt(double(views.size()));
+  constexpr int most = 5;  // views that it is fitted to: more are not more than these, each says less
+  const double sum = of_a_view * sums.views + by_log_evidence * sums.log_evidence +
+                     by_log_over_beside * sums.log_over_beside + by_unexplained_grey * sums.unexplained_grey;
+  return bias + sum / sums.views * std::sqrt(double(std::min(sums.views, most)));
 }
 
 }  // namespace
 
+SeveralViews sum_of_speaking(std::span<const PoseFeatures> by_view) {
+  constexpr double least = 2;  // standard errors: below that a view shows nothing of it, it may be hidden
+  SeveralViews sums;
+  for (const PoseFeatures& f : by_view) {
+    if (!speaks(f)) continue;
+    ++sums.views;
+    sums.log_evidence += std::log(std::max(evidence(f), least));
+    sums.log_over_beside += std::log(std::max(evidence_over_beside(f), least));
+    sums.unexplained_grey += unexplained_grey(f.shading);
+  }
+  return sums;
+}
+
 double probability_over_views(std::span<const PoseFeatures> by_view) {
-  const std::vector<PoseFeatures> views = speaking(by_view);
-  if (views.empty()) return 0;
-  return views.size() == 1 ? pose_probability(views[0]) : logistic(log_odds_of_several(views));
+  const SeveralViews sums = sum_of_speaking(by_view);
+  if (sums.views == 0) return 0;
+  return sums.views == 1 ? pose_probability(the_one_that_speaks(by_view)) : logistic(log_odds_of(sums));
 }
 
 double merit(std::span<const PoseFeatures> by_view) {
-  const std::vector<PoseFeatures> views = by_view.size() == 1 ? std::vector{by_view[0]} : speaking(by_view);
-  if (views.empty()) return -std::numeric_limits<double>::infinity();
-  return views.size() == 1 ? log_odds(views[0]) : log_odds_of_several(views);
+  if (by_view.size() == 1) return log_odds(by_view[0]);
+  const SeveralViews sums = sum_of_speaking(by_view);
+  if (sums.views > 1) return log_odds_of(sums);
+  const double p = probability_over_views(by_view);
+  return std::log(p / (1 - p));
+}
+
+std::vector<double> probabilities_apart(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
+                                        std::span<const std::vector<PoseFeatures>> by_view,
+                                        double penetration_m, ThreadPool& pool) {
+  check(by_view.size() == poses.size(), "probabilities_apart: as many features as poses");
+  std::vector<double> all, placed;
+  std::vector<Hypothesis> placed_poses;
+  std::vector<std::size_t> owner;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    all.push_back(probability_over_views(by_view[i]));
+    if (all[i] < LEAST_TO_STAND || sum_of_speaking(by_view[i]).views < 2) continue;
+    placed.push_back(all[i]);
+    placed_poses.push_back(poses[i]);
+    owner.push_back(i);
+  }
+  const std::vector<double> left =
+      exclusive_probabilities(placed, plausible_pairs(models, placed_poses, penetration_m, pool));
+  for (std::size_t i = 0; i < left.size(); ++i) all[owner[i]] = left[i];
+  return all;
 }
 
 }  // namespace edgescout

@@ -10,12 +10,15 @@ namespace {
 
 struct Pool {
   std::vector<Hypothesis> poses;
-  std::vector<Refined> refined;
+  std::vector<Registration> registrations;
+  std::vector<std::vector<PoseFeatures>> by_view;
   std::vector<double> probabilities;
 
-  void add(const Hypothesis& pose, const Refined& r, double probability) {
+  void add(const Hypothesis& pose, const Registration& registration,
+           const std::vector<PoseFeatures>& features, double probability) {
     poses.push_back(pose);
-    refined.push_back(r);
+    registrations.push_back(registration);
+    by_view.push_back(features);
     probabilities.push_back(probability);
   }
 };
@@ -24,28 +27,26 @@ void add_probable(Pool& pool, std::span<const Hypothesis> starts, std::span<cons
                   double min_probability) {
   for (std::size_t i = 0; i < refined.size(); ++i)
     if (const double p = probability_over_views(refined[i].by_view); p >= min_probability)
-      pool.add({starts[i].object, refined[i].registration.world_from_object}, refined[i], p);
+      pool.add({starts[i].object, refined[i].registration.world_from_object}, refined[i].registration,
+               refined[i].by_view, p);
 }
 
-// Without those that would stand inside a more probable one. A single view says too little of how far away
-// poses are.
-Pool standing_apart(const Pool& pool, std::span<const EdgeModel> models, std::size_t views, Backend& backend,
+// Without those that would stand inside a more probable one.
+Pool standing_apart(const Pool& pool, std::span<const EdgeModel> models, Backend& backend,
                     const DetectOptions& options) {
-  if (views < 2) return pool;
-  const std::vector<double> left = exclusive_probabilities(
-      pool.probabilities, plausible_pairs(models, pool.poses, options.penetration_m, backend.threads()));
+  const std::vector<double> left =
+      probabilities_apart(models, pool.poses, pool.by_view, options.penetration_m, backend.threads());
   Pool apart;
   for (std::size_t i = 0; i < left.size(); ++i)
-    if (left[i] >= options.min_probability) apart.add(pool.poses[i], pool.refined[i], left[i]);
+    if (left[i] >= options.min_probability)
+      apart.add(pool.poses[i], pool.registrations[i], pool.by_view[i], left[i]);
   return apart;
 }
 
 std::vector<ChosenPose> compete(const Pool& pool, std::span<const EdgeModel> models,
                                 std::span<const RegisterView> views, Backend& backend,
                                 const DetectOptions& options) {
-  std::vector<std::vector<PoseFeatures>> features;
-  for (const Refined& r : pool.refined) features.push_back(r.by_view);
-  return explain_image(models, pool.poses, features, views, backend, options.evidence);
+  return explain_image(models, pool.poses, pool.by_view, views, backend, options.evidence);
 }
 
 }  // namespace
@@ -55,24 +56,23 @@ std::vector<Detection> settle(std::span<const EdgeModel> models, std::span<const
                               Backend& backend, const DetectOptions& options) {
   Pool pool;
   add_probable(pool, poses, refined, options.min_probability);
-  pool = standing_apart(pool, models, views.size(), backend, options);
-  std::vector<ChosenPose> chosen = compete(pool, models, views, backend, options);
+  Pool apart = standing_apart(pool, models, backend, options);
+  std::vector<ChosenPose> chosen = compete(apart, models, views, backend, options);
   if (options.second_look_rad > 0 && !chosen.empty()) {
     RefineOptions refine = options.refine;
     refine.search.rotation_rad = options.second_look_rad;
     std::vector<Hypothesis> winners;
-    for (const ChosenPose& winner : chosen) winners.push_back(pool.poses[winner.index]);
+    for (const ChosenPose& winner : chosen) winners.push_back(apart.poses[winner.index]);
     add_probable(pool, winners, refine_poses(models, winners, views, backend, refine),
                  options.min_probability);
-    pool = standing_apart(pool, models, views.size(), backend, options);
-    chosen = compete(pool, models, views, backend, options);
+    apart = standing_apart(pool, models, backend, options);
+    chosen = compete(apart, models, views, backend, options);
   }
   std::vector<Detection> detections;
   for (const ChosenPose& c : chosen) {
-    const Refined& refined_pose = pool.refined[c.index];
-    detections.push_back(
-        to_detection(pool.poses[c.index].object, refined_pose.registration, refined_pose.features));
-    detections.back().probability = pool.probabilities[c.index];
+    detections.push_back(to_detection(apart.poses[c.index].object, apart.registrations[c.index],
+                                      together(apart.by_view[c.index])));
+    detections.back().probability = apart.probabilities[c.index];
   }
   std::ranges::stable_sort(
       detections, [](const Detection& a, const Detection& b) { return a.probability > b.probability; });

@@ -10,6 +10,7 @@
 #include "host/active/source.h"
 #include "host/active/views.h"
 #include "host/experiments/settings.h"
+#include "host/model/template_set.h"
 
 namespace edgescout {
 
@@ -44,6 +45,12 @@ inline constexpr int FEWEST_PARTS_OF_BIN = 5, MOST_PARTS_OF_BIN = 20;
 HemisphereOptions bin_views();
 // The parts' distances from every view lie in this range.
 inline constexpr double BIN_DEPTH_MARGIN_M = 0.16;  // on either side of the hemisphere's radius
+
+// What the bins hold beside foreign parts, and what is searched for in them, at any distance from the views.
+const std::vector<Object>& bin_types();
+std::vector<TemplateSet> bin_templates(Backend& backend);
+// Around the hemisphere and through its rings from the first view, as somebody would lay it out.
+std::vector<int> fixed_sequence(const Bin& bin);
 
 Bin make_bin(std::span<const Object> types, const ExperimentSettings& settings, int number, ThreadPool& pool);
 

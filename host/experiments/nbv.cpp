@@ -6,30 +6,10 @@
 
 #include "host/active/candidates.h"
 #include "host/experiments/bin_judge.h"
-#include "host/model/template_set.h"
-#include "host/render/parts.h"
 
 namespace edgescout {
 
 namespace {
-
-// the fixed sequence goes around and through the rings, as somebody would lay it out
-constexpr int FIXED_STRIDE = 13;
-
-const std::vector<Object>& types() {
-  static const std::vector<Object> parts{make_part("l_bracket"), make_part("bearing_block"),
-                                         make_part("u_channel")};
-  return parts;
-}
-
-std::vector<TemplateSet> templates(Backend& backend) {
-  TemplateOptions options;
-  options.distance_min_m = bin_views().radius_m - BIN_DEPTH_MARGIN_M;
-  options.distance_max_m = bin_views().radius_m + BIN_DEPTH_MARGIN_M;
-  std::vector<TemplateSet> sets;
-  for (const Object& type : types()) sets.push_back(build_templates(type, options, backend));
-  return sets;
-}
 
 // What is found in the images of a bin: where no earlier image helps, once for all searches and strategies
 // that look there.
@@ -84,8 +64,8 @@ Search make_search(const Bin& bin, int count, std::span<const TemplateSet> sets)
   const int all = static_cast<int>(sets.size());
   search.first_type = count == all ? 0 : bin.number % all;
   search.sets = sets.subspan(static_cast<std::size_t>(search.first_type), static_cast<std::size_t>(count));
-  search.objects = std::span(types()).subspan(static_cast<std::size_t>(search.first_type),
-                                              static_cast<std::size_t>(count));
+  search.objects = std::span(bin_types())
+                       .subspan(static_cast<std::size_t>(search.first_type), static_cast<std::size_t>(count));
   for (BinInstance instance : bin.instances) {
     instance.object -= search.first_type;
     if (instance.object >= 0 && instance.object < count) search.instances.push_back(instance);
@@ -103,10 +83,7 @@ ScoutOptions options_for(const ExperimentSettings& s, const Bin& bin, const Sear
   options.next_view.strategy = strategy;
   options.next_view.seed = options.combinations.seed = options.particles.seed =
       static_cast<std::uint64_t>(bin.number) + 1;
-  const int views = bin_views().count;
-  options.next_view.sequence.clear();
-  for (int i = 0; i < views; ++i)
-    options.next_view.sequence.push_back((bin.first_view + i * FIXED_STRIDE) % views);
+  options.next_view.sequence = fixed_sequence(bin);
   return options;
 }
 
@@ -156,8 +133,8 @@ Table run_bin(const ExperimentSettings& s, int number, Backend& backend) {
               {"bin", "parts", "sought", "strategy", "views", "view", "group", "instances", "correct",
                "correct_px", "wrong", "wrong_px", "followed", "entropy_nats", "seconds"},
               {}};
-  const std::vector<TemplateSet> sets = templates(backend);
-  const Bin bin = make_bin(types(), s, number, backend.threads());
+  const std::vector<TemplateSet> sets = bin_templates(backend);
+  const Bin bin = make_bin(bin_types(), s, number, backend.threads());
   Detector detector(sets, s.scout.pipeline.detect, backend);
   for (const int count : {1, static_cast<int>(sets.size())})
     run_search(table, s, bin, make_search(bin, count, sets), detector, backend);

@@ -74,6 +74,43 @@ double mean_psi(std::span<const PoseScore> scores) {
   return points > 0 ? sum / points : 0;
 }
 
+std::vector<PoseFeatures> features_by_view(std::span<const EdgeModel> models,
+                                           std::span<const Hypothesis> poses,
+                                           std::span<const RegisterView> views, Backend& backend,
+                                           const PoseScoreOptions& options,
+                                           const VisibilityOptions& visibility, bool look_beside) {
+  std::vector<PoseFeatures> features(poses.size() * views.size());
+  Problems problems;
+  const std::size_t of_one = look_beside ? 1 + BESIDE : 1;
+  for (const VisibleInView& seen : visible_in_views(models, poses, views, backend, visibility)) {
+    const std::size_t slot = problems.list.size() / of_one, v = slot % views.size();
+    const Hypothesis& pose = poses[slot / views.size()];
+    const Se3 camera_from_object = views[v].camera_from_world * pose.world_from_object;
+    features[slot].visible = double(seen.unoccluded);
+    const EdgeModel& model = models[std::size_t(pose.object)];
+    features[slot].length_px = length_in_image_px(model, camera_from_object, *views[v].view, seen.points);
+    problems.add(camera_from_object, v, seen.points);
+    if (look_beside) problems.add_beside(camera_from_object, model.mesh.diameter_m, v, seen.points);
+  }
+  std::vector<ViewHandle> handles;
+  for (const RegisterView& view : views) handles.push_back(view.view);
+  std::vector<PoseScore> scores(problems.list.size());
+  backend.pose_score(handles, problems.points, problems.list, options, scores);
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    PoseFeatures& f = features[i];
+    const PoseScore* of_pose = &scores[i * of_one];
+    f.psi = of_pose->psi;
+    f.beside_psi = mean_psi({of_pose + 1, of_one - 1});
+    f.mean_px = of_pose->points > 0 ? of_pose->mean_px : options.cap_px;
+    f.matched = of_pose->matched;
+    f.points = of_pose->points;
+    f.in_image = f.visible > 0 ? f.points / f.visible : 0;
+  }
+  const std::vector<Shading> shadings = shading(models, poses, views, backend);
+  for (std::size_t i = 0; i < features.size(); ++i) features[i].shading = shadings[i];
+  return features;
+}
+
 }  // namespace
 
 double evidence(const PoseFeatures& features) { return standard_errors(features, features.psi - CHANCE_PSI); }
@@ -97,45 +134,15 @@ std::vector<PoseFeatures> pose_features_by_view(std::span<const EdgeModel> model
                                                 std::span<const RegisterView> views, Backend& backend,
                                                 const PoseScoreOptions& options,
                                                 const VisibilityOptions& visibility) {
-  std::vector<PoseFeatures> features(poses.size() * views.size());
-  Problems problems;
-  const std::size_t of_one = views.size() > 1 ? 1 + BESIDE : 1;
-  for (const VisibleInView& seen : visible_in_views(models, poses, views, backend, visibility)) {
-    const std::size_t slot = problems.list.size() / of_one, v = slot % views.size();
-    const Hypothesis& pose = poses[slot / views.size()];
-    const Se3 camera_from_object = views[v].camera_from_world * pose.world_from_object;
-    features[slot].visible = double(seen.unoccluded);
-    const EdgeModel& model = models[std::size_t(pose.object)];
-    features[slot].length_px = length_in_image_px(model, camera_from_object, *views[v].view, seen.points);
-    problems.add(camera_from_object, v, seen.points);
-    if (of_one > 1) problems.add_beside(camera_from_object, model.mesh.diameter_m, v, seen.points);
-  }
-  std::vector<ViewHandle> handles;
-  for (const RegisterView& view : views) handles.push_back(view.view);
-  std::vector<PoseScore> scores(problems.list.size());
-  backend.pose_score(handles, problems.points, problems.list, options, scores);
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    PoseFeatures& f = features[i];
-    const PoseScore* of_pose = &scores[i * of_one];
-    f.psi = of_pose->psi;
-    f.beside_psi = mean_psi({of_pose + 1, of_one - 1});
-    f.mean_px = of_pose->points > 0 ? of_pose->mean_px : options.cap_px;
-    f.matched = of_pose->matched;
-    f.points = of_pose->points;
-    f.in_image = f.visible > 0 ? f.points / f.visible : 0;
-  }
-  const std::vector<Shading> shadings = shading(models, poses, views, backend);
-  for (std::size_t i = 0; i < features.size(); ++i) features[i].shading = shadings[i];
-  return features;
+  return features_by_view(models, poses, views, backend, options, visibility, views.size() > 1);
 }
 
 PoseFeatures together(std::span<const PoseFeatures> by_view) {
   check(!by_view.empty(), "together: features of at least one view");
   PoseFeatures sum;
-  double beside = 0;
   for (const PoseFeatures& f : by_view) {
     sum.psi += f.psi * f.points;
-    beside += f.beside_psi * f.points;
+    sum.beside_psi += f.beside_psi * f.points;
     sum.mean_px += f.mean_px * f.points;
     sum.matched += f.matched * f.points;
     sum.points += f.points;
@@ -144,8 +151,7 @@ PoseFeatures together(std::span<const PoseFeatures> by_view) {
     add(sum.shading, f.shading);
   }
   if (sum.points > 0) {
-    sum.psi /= sum.points, sum.mean_px /= sum.points, sum.matched /= sum.points;
-    sum.beside_psi = beside / sum.points;
+    sum.psi /= sum.points, sum.beside_psi /= sum.points, sum.mean_px /= sum.points, sum.matched /= sum.points;
   } else {
     sum.mean_px = by_view[0].mean_px;
   }
@@ -158,7 +164,7 @@ std::vector<PoseFeatures> pose_features(std::span<const EdgeModel> models, std::
                                         const PoseScoreOptions& options,
                                         const VisibilityOptions& visibility) {
   const std::vector<PoseFeatures> by_view =
-      pose_features_by_view(models, poses, views, backend, options, visibility);
+      features_by_view(models, poses, views, backend, options, visibility, false);
   std::vector<PoseFeatures> features;
   for (std::size_t p = 0; p < poses.size(); ++p)
     features.push_back(together(std::span(by_view).subspan(p * views.size(), views.size())));

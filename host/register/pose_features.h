@@ -12,9 +12,10 @@
 namespace edgescout {
 
 struct PoseFeatures {
-  double psi = 0;         // means over the visible points of all views, weighted by their number
-  double beside_psi = 0;  // psi where the object is not: of the same points, the pose moved a little aside;
-                          // of a single view alone not computed
+  double psi = 0;  // means over the visible points of all views, weighted by their number
+  // psi where the object is not: of the same points, the pose moved a little aside. Only of several views, by
+  // view (pose_features_by_view).
+  double beside_psi = 0;
   double mean_px = 0;
   double matched = 0;    // fraction of points with a tensor value below the match limit
   double points = 0;     // inside the images

@@ -183,12 +183,12 @@ TEST(Scout, LeavesResultsThatRegistrationGoesOnFrom) {
   for (const BopResult& row : rows) EXPECT_EQ(row.image_id, 0);
 }
 
-// All edges may be explained again, or none.
+// All edges may be explained again, or none; of what may stand in one place.
 TEST(Scout, LetsModesCompeteAsMaxSpentSays) {
   const auto found = [](const char* max_spent) {
     SmallScout t;
     t.min_probability = "0.001";
-    const Outcome outcome = run_program(t.arguments({"--max-spent", max_spent}));
+    const Outcome outcome = run_program(t.arguments({"--max-spent", max_spent, "--penetration", "1"}));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return t.log().at("detections").size();
   };

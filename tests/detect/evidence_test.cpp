@@ -104,5 +104,26 @@ TEST(ExplainImage, CountsAllViewsTogether) {
   EXPECT_EQ(indices(t.choose({t.left, t.right}, {90, 100})), (Indices{1, 0}));
 }
 
+// Views that do not show a pose, because others hide it, take nothing from those that do.
+TEST(ExplainImage, KeepsWhatSomeViewsShow) {
+  const TwoParts t;
+  PoseFeatures good, hidden;
+  good.points = good.visible = hidden.points = hidden.visible = 200;
+  good.in_image = hidden.in_image = 1;
+  good.length_px = hidden.length_px = 500;
+  good.psi = 0.95;
+  hidden.psi = 0.2;
+  good.shading = {1000, 1e6, 1e4};
+  const std::vector<PoseFeatures> shown{good, good, good, hidden, hidden, hidden}, never(6, hidden);
+  ASSERT_LT(evidence(together(shown)), 0);
+  const std::vector<Hypothesis> pose{{0, t.left}};
+  EXPECT_EQ(explain_image(t.models, pose, std::vector<std::vector<PoseFeatures>>{shown}, t.views, *t.backend)
+                .size(),
+            1u);
+  EXPECT_TRUE(
+      explain_image(t.models, pose, std::vector<std::vector<PoseFeatures>>{never}, t.views, *t.backend)
+          .empty());
+}
+
 }  // namespace
 }  // namespace edgescout::test

@@ -2,8 +2,10 @@
 // directions.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "host/detect/plausible_pairs.h"
 #include "host/model/viewpoints.h"
@@ -168,17 +170,27 @@ TEST(ExclusiveProbabilities, CountWhatStandsInTheWay) {
   EXPECT_TRUE(exclusive_probabilities({}, BitMatrix(0, 0)).empty());
 }
 
-// Of two that exclude each other the chances add up to one at most.
-TEST(ExclusiveProbabilities, OfAPairAreNoMoreThanCertain) {
+TEST(ExclusiveProbabilities, OfThingsInOnePlaceAreNoMoreThanCertain) {
   Random random = test_random();
-  BitMatrix neither(2, 2);
-  neither.set(0, 0), neither.set(1, 1);
-  for (int i = 0; i < 100; ++i) {
-    const std::vector<double> p{random.uniform(), random.uniform()};
-    const std::vector<double> left = exclusive_probabilities(p, neither);
-    EXPECT_LE(left[0] + left[1], 1 + 1e-12);
-    EXPECT_EQ(std::max(left[0], left[1]), std::max(p[0], p[1]));
+  for (const std::size_t count : {2, 3, 5, 10}) {
+    BitMatrix none(count, count);
+    for (std::size_t i = 0; i < count; ++i) none.set(i, i);
+    std::vector<double> p;
+    for (std::size_t i = 0; i < count; ++i) p.push_back(random.uniform(0.4, 1));
+    const std::vector<double> left = exclusive_probabilities(p, none);
+    EXPECT_LE(std::accumulate(left.begin(), left.end(), 0.0), 1 + 1e-12) << count;
+    EXPECT_EQ(*std::ranges::max_element(left), *std::ranges::max_element(p));
+    for (const double x : left) EXPECT_GE(x, 0);
   }
+}
+
+// Two that stand apart may each be in a third one's way.
+TEST(ExclusiveProbabilities, OfIndependentOnesMultiply) {
+  BitMatrix plausible(3, 3);
+  for (std::size_t i = 0; i < 3; ++i) plausible.set(i, i);
+  plausible.set(0, 1), plausible.set(1, 0);
+  const std::vector<double> left = exclusive_probabilities(std::vector{0.6, 0.5, 0.4}, plausible);
+  EXPECT_DOUBLE_EQ(left[2], 0.4 * (1 - 0.6) * (1 - 0.5));
 }
 
 }  // namespace

@@ -41,19 +41,23 @@ TEST(ProbabilityOverViews, GrowsWithViewsThatAgree) {
   }
   EXPECT_GT(last, 0.9);
   // What no view shows is not there, however many do not.
-  views.assign(5, with_psi(0.6));
-  for (PoseFeatures& f : views) f.shading = {1000, 1e6, 1e6};
-  EXPECT_LT(probability_over_views(views), 0.01);
+  for (const double unexplained : {0.09, 0.25, 1.0})
+    for (int n = 2; n <= 40; ++n) {
+      views.assign(std::size_t(n), with_psi(0.5));
+      for (PoseFeatures& f : views) f.shading = {1000, 1e6, 1e6 * unexplained};
+      EXPECT_LT(probability_over_views(views), 0.1) << n << " views, " << unexplained;
+    }
 }
 
-// n views count for the square root of n: twice as far from the bias with four times the views.
+// n views count for the square root of n, as far as there were so many to fit it to.
 TEST(ProbabilityOverViews, CountsViewsAsErrorsThatAreNotIndependent) {
   const PoseFeatures fair = with_psi(0.8);
-  const double of_two = log_odds_of(std::vector(2, fair)), of_eight = log_odds_of(std::vector(8, fair)),
-               of_four = log_odds_of(std::vector(4, fair));
-  const double bias = 2 * of_two - of_eight;
+  const auto of = [&](std::size_t n) { return log_odds_of(std::vector(n, fair)); };
+  const double a_view = (of(4) - of(2)) / (2 - std::sqrt(2)), bias = of(4) - 2 * a_view;
   EXPECT_LT(bias, -5);
-  EXPECT_NEAR((of_four - bias) / (of_two - bias), std::sqrt(2), 1e-6);
+  EXPECT_NEAR(of(3), bias + std::sqrt(3) * a_view, 1e-6);
+  EXPECT_NEAR(of(5), bias + std::sqrt(5) * a_view, 1e-6);
+  EXPECT_NEAR(of(20), of(5), 1e-6);
 }
 
 TEST(ProbabilityOverViews, GrowsWithWhatAgreesHereAndNotBeside) {
@@ -100,7 +104,7 @@ TEST(Merit, RanksAsTheProbabilityDoes) {
   EXPECT_NEAR(merit(std::vector{fair, good}), log_odds_of({fair, good}), 1e-9);
   PoseFeatures few = fair;
   few.points = 5;
-  EXPECT_EQ(merit(std::vector{fair, few}), log_odds(fair));
+  EXPECT_NEAR(merit(std::vector{fair, few}), log_odds_of({fair}), 1e-9);
   EXPECT_EQ(merit(std::vector{few, few}), -INFINITY);
 }
 

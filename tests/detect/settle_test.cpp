@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/active/rendered_scene.h"
+#include "tests/io/expect_input_error.h"
 
 namespace edgescout::test {
 namespace {
@@ -29,6 +30,39 @@ TEST(Settle, ViewsThatLookElsewhereTakeNothingFromAPose) {
   const std::vector<Detection> among_others = settled();
   ASSERT_EQ(among_others.size(), 1u);
   EXPECT_NEAR(among_others[0].probability, alone[0].probability, 0.02);
+}
+
+// Of two poses that would stand in one another, seen by two views that make both certain, one is there. From
+// one view it cannot be told how far away they are, and both stay.
+TEST(Settle, OfPosesInsideEachOtherTheBetterStays) {
+  const RenderedScene scene({"l_bracket"}, 1, 2);
+  const auto backend = make_cpu_backend(2);
+  std::vector<RegisterView> views{scene.view(0, *backend), scene.view(1, *backend)};
+  const Se3 truth = scene.scene.placed[0].world_from_object;
+  const std::vector<Hypothesis> poses{
+      {0, {truth.rotation, truth.translation_m + Eigen::Vector3d(0.01, 0, 0)}}, {0, truth}};
+  std::vector<Refined> refined(2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    refined[i].registration.world_from_object = poses[i].world_from_object;
+    refined[i].by_view = pose_features_by_view(scene.models, {&poses[1], 1}, views, *backend, {});
+  }
+  refined[0].by_view[0].psi *= 0.98;
+  DetectOptions options;
+  options.second_look_rad = 0;
+  options.evidence.max_spent = 1;
+  const auto settled = [&] { return settle(scene.models, poses, refined, views, *backend, options); };
+  std::vector<Detection> detections = settled();
+  ASSERT_EQ(detections.size(), 1u);
+  EXPECT_GT(detections[0].probability, 0.9);
+  EXPECT_LT(distance_between_m(detections[0].world_from_object, truth), 1e-9);
+  options.penetration_m = 0.5;
+  EXPECT_EQ(settled().size(), 2u) << "allowed to";
+  options.penetration_m = DEFAULT_PENETRATION_M;
+  views.pop_back();
+  for (Refined& r : refined) r.by_view.pop_back();
+  EXPECT_EQ(settled().size(), 2u) << "one view";
+  options.penetration_m = -1;
+  expect_input_error([&] { options.validate(); }, {"penetration"});
 }
 
 }  // namespace

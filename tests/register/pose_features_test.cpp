@@ -91,7 +91,7 @@ TEST(PoseFeatures, TellEvidenceFromSurroundingsThatAgreeAnywhere) {
     view.view =
         backend->make_view({}, camera.width, camera.height, {image.width, image.height, image.pixels.data()},
                            intrinsics_of(camera), {});
-    return pose_features(models, {&pose, 1}, std::vector{view, view}, *backend, {})[0];
+    return pose_features_by_view(models, {&pose, 1}, std::vector{view, view}, *backend, {})[0];
   };
   const PoseFeatures on_stripes = features_on(stripes), on_itself = features_on(filled);
   EXPECT_GT(on_stripes.psi, 0.3);
