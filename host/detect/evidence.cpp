@@ -76,9 +76,11 @@ double fresh_fraction(const std::vector<Explained>& explained, const SpentEdges&
   return total > 0 ? fresh / total : 0;
 }
 
-// In some view: others may hide it.
-bool any_evidence(std::span<const PoseFeatures> by_view) {
-  return std::ranges::any_of(by_view, [](const PoseFeatures& f) { return evidence(f) > 0; });
+// More than chance in all views together, or clearly so in two of them: others may hide it from the rest.
+bool has_evidence(std::span<const PoseFeatures> by_view) {
+  constexpr double clearly = 2;  // standard errors
+  return evidence(together(by_view)) > 0 ||
+         std::ranges::count_if(by_view, [](const PoseFeatures& f) { return evidence(f) > clearly; }) > 1;
 }
 
 }  // namespace
@@ -109,7 +111,7 @@ std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::sp
     for (std::size_t p = 0; p < poses.size(); ++p) {
       if (!open[p]) continue;
       const double fresh = fresh_fraction(explained[p], spent);
-      if (fresh < 1 - options.max_spent || !any_evidence(features[p])) {
+      if (fresh < 1 - options.max_spent || !has_evidence(features[p])) {
         open[p] = false;
         continue;
       }

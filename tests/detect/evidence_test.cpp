@@ -114,15 +114,17 @@ TEST(ExplainImage, KeepsWhatSomeViewsShow) {
   good.psi = 0.95;
   hidden.psi = 0.2;
   good.shading = {1000, 1e6, 1e4};
-  const std::vector<PoseFeatures> shown{good, good, good, hidden, hidden, hidden}, never(6, hidden);
+  const std::vector<PoseFeatures> shown{good, good, good, hidden, hidden, hidden}, never(6, hidden),
+      once{good, hidden, hidden, hidden};
   ASSERT_LT(evidence(together(shown)), 0);
   const std::vector<Hypothesis> pose{{0, t.left}};
   EXPECT_EQ(explain_image(t.models, pose, std::vector<std::vector<PoseFeatures>>{shown}, t.views, *t.backend)
                 .size(),
             1u);
-  EXPECT_TRUE(
-      explain_image(t.models, pose, std::vector<std::vector<PoseFeatures>>{never}, t.views, *t.backend)
-          .empty());
+  for (const std::vector<PoseFeatures>& features : {never, once})
+    EXPECT_TRUE(
+        explain_image(t.models, pose, std::vector<std::vector<PoseFeatures>>{features}, t.views, *t.backend)
+            .empty());
 }
 
 }  // namespace
