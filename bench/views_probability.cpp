@@ -94,10 +94,7 @@ void print_bin(int number, std::span<const TemplateSet> sets, Backend& backend) 
   Scout scout(sets, bin.cell->camera(), bin.cell->views(), options, backend);
   run_scout(scout, *bin.cell, [&](const ScoutState& state) {
     if (views.size() < 2 || views.size() == 4) return;
-    std::vector<Hypothesis> known;
-    for (const ModeDetection& mode : state.detections)
-      if (mode.detection.probability >= options.known_probability)
-        known.push_back({mode.detection.object, mode.detection.world_from_object});
+    const std::vector<Hypothesis> known = known_objects(state.detections, options.known_probability);
     std::vector<RegisterView> seen = views;
     for (RegisterView& view : seen) view.occluders = make_occluders(models, known, view, backend);
     Candidates all;

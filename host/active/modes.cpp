@@ -136,6 +136,14 @@ std::vector<ModeDetection> mode_detections(std::span<const Particle> particles, 
   return found;
 }
 
+std::vector<Hypothesis> known_objects(std::span<const ModeDetection> detections, double least_probability) {
+  std::vector<Hypothesis> known;
+  for (const ModeDetection& mode : detections)
+    if (mode.detection.probability >= least_probability)
+      known.push_back({mode.detection.object, mode.detection.world_from_object});
+  return known;
+}
+
 double belief_entropy(std::span<const Mode> modes) {
   double sum = 0;
   for (const Mode& mode : modes)

@@ -54,6 +54,9 @@ std::vector<ModeDetection> mode_detections(std::span<const Particle> particles, 
                                            std::span<const RegisterView> views, Backend& backend,
                                            const ModeDetectionOptions& options = {});
 
+// Those at least so probable: what is known well enough to hide others (register/occluders.h).
+std::vector<Hypothesis> known_objects(std::span<const ModeDetection> detections, double least_probability);
+
 // How undecided the belief is, nats: sum over modes of the entropy of "is an instance or not". Zero where
 // every mode is certain to be or not to be one.
 double belief_entropy(std::span<const Mode> modes);

@@ -162,7 +162,8 @@ void Scout::look(const Image& image, ScoutStep& step, ScoutState& next,
   step.stages = prepared.stages;
   Stopwatch watch(step.stages);
   observations.push_back(observe_prepared(prepared, sets_, backend_, options_.pipeline));
-  hide_behind(known_objects(next.detections), observations);
+  // nothing is known before the second image
+  hide_behind(known_objects(next.detections, options_.known_probability), observations);
   done(watch, "tensors");
   if (next.steps.empty() || options_.detect_in_every_image) {
     const Observation& newest = observations.back();
@@ -178,15 +179,6 @@ void Scout::look(const Image& image, ScoutStep& step, ScoutState& next,
                                        static_cast<std::size_t>(options_.max_candidates), backend_,
                                        options_.pipeline.detect);
   done(watch, "candidates");
-}
-
-// What hides others: nothing before the second image.
-std::vector<Hypothesis> Scout::known_objects(std::span<const ModeDetection> detections) const {
-  std::vector<Hypothesis> known;
-  for (const ModeDetection& mode : detections)
-    if (mode.detection.probability >= options_.known_probability)
-      known.push_back({mode.detection.object, mode.detection.world_from_object});
-  return known;
 }
 
 void Scout::hide_behind(std::span<const Hypothesis> known, std::span<Observation> observations) const {

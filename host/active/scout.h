@@ -98,7 +98,6 @@ class Scout {
             std::vector<Observation>& observations) const;
   void believe(ScoutStep& step, ScoutState& next, std::span<const RegisterView> views) const;
   std::size_t add_particles(ScoutState& next) const;
-  std::vector<Hypothesis> known_objects(std::span<const ModeDetection> detections) const;
   void hide_behind(std::span<const Hypothesis> known, std::span<Observation> observations) const;
   void done(Stopwatch& watch, const char* stage) const;
 
