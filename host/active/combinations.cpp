@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <string>
 
@@ -38,6 +39,21 @@ bool stands_with_all(std::size_t candidate, const BitMatrix& plausible,
   return true;
 }
 
+void check_input(std::size_t candidates, const BitMatrix& plausible, const CombinationOptions& options) {
+  options.validate();
+  if (candidates == 0)
+    throw InputError("combinations", "candidates", "none", "at least one object candidate");
+  check(plausible.rows == candidates && plausible.columns == candidates,
+        "combinations: plausible pairs of as many candidates");
+}
+
+std::vector<std::size_t> most_probable_first(std::span<const double> probabilities) {
+  std::vector<std::size_t> order(probabilities.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return probabilities[i]; });
+  return order;
+}
+
 }  // namespace
 
 void CombinationOptions::validate() const {
@@ -49,12 +65,8 @@ void CombinationOptions::validate() const {
 
 BitMatrix sample_combinations(std::span<const double> psi, const BitMatrix& plausible,
                               const CombinationOptions& options) {
-  options.validate();
   const std::size_t candidates = psi.size();
-  if (candidates == 0)
-    throw InputError("combinations", "candidates", "none", "at least one object candidate");
-  check(plausible.rows == candidates && plausible.columns == candidates,
-        "sample_combinations: plausible pairs of as many candidates");
+  check_input(candidates, plausible, options);
   std::vector<double> weights;
   for (const double score : psi) {
     check(score >= 0 && score <= 1, "sample_combinations: psi in [0, 1]");
@@ -71,6 +83,27 @@ BitMatrix sample_combinations(std::span<const double> psi, const BitMatrix& plau
                                                  combinations.row_words());
     for (int k = 0; k < draws; ++k)
       if (stands_with_all(order[k], plausible, members)) combinations.set(j, order[k]);
+  }
+  return combinations;
+}
+
+BitMatrix sample_probable_combinations(std::span<const double> probabilities, const BitMatrix& plausible,
+                                       const CombinationOptions& options) {
+  constexpr double least = 0.02;  // of presence and of absence: nobody is surer than that
+  const std::size_t candidates = probabilities.size();
+  check_input(candidates, plausible, options);
+  for (const double p : probabilities)
+    check(p >= 0 && p <= 1, "sample_probable_combinations: probabilities in [0, 1]");
+  const std::vector<std::size_t> order = most_probable_first(probabilities);
+  BitMatrix combinations(options.count, candidates);
+  Random random = Random(options.seed).split("probable combinations");
+  for (int j = 0; j < options.count; ++j) {
+    const std::span<const std::uint32_t> members(combinations.words.data() + j * combinations.row_words(),
+                                                 combinations.row_words());
+    for (const std::size_t c : order)
+      if (random.uniform() < std::clamp(probabilities[c], least, 1 - least) &&
+          stands_with_all(c, plausible, members))
+        combinations.set(j, c);
   }
   return combinations;
 }

@@ -1,5 +1,4 @@
-// Hypothetical scenes: subsets of the object candidates that can exist together (paper, Sec. 5.2, Algorithm
-// 1).
+// Hypothetical scenes: subsets of the object candidates that can exist together (paper, Sec. 5.2).
 #pragma once
 
 #include <cstdint>
@@ -12,7 +11,8 @@ namespace edgescout {
 struct CombinationOptions {
   int count = 1000;
   std::uint64_t seed = 1;
-  // a: candidates are drawn with p ~ exp(-a (1 - psi)^2); 1 is the paper's, hardly less than flat
+  // a of Algorithm 1: candidates are drawn with p ~ exp(-a (1 - psi)^2); 1 is the paper's, hardly less than
+  // flat
   double sharpness = 1;
   void validate() const;
 };
@@ -23,5 +23,13 @@ struct CombinationOptions {
 // candidate or none. InputError where there is no candidate.
 BitMatrix sample_combinations(std::span<const double> psi, const BitMatrix& plausible,
                               const CombinationOptions& options);
+
+// Scenes as often as they are believed in: each candidate is there with its own probability, the more
+// probable ones first, and not where it clashes with one that is there. What is known stands in nearly every
+// scene, so that a view of it is expected to tell little, and hides what it hides; Algorithm 1 has every
+// candidate in about half of them, however well it is known. None is surer to be there or not than 98 %.
+// Rows, `count` and `seed` as above. InputError where there is no candidate.
+BitMatrix sample_probable_combinations(std::span<const double> probabilities, const BitMatrix& plausible,
+                                       const CombinationOptions& options);
 
 }  // namespace edgescout

@@ -248,15 +248,17 @@ ScoutDecision Scout::decide() const {
 
 BitMatrix Scout::sampled_combinations() const {
   std::vector<Hypothesis> poses;
-  std::vector<double> psi;
+  std::vector<double> odds;
   for (const Detection& candidate : state_.candidates) {
     poses.push_back({candidate.object, candidate.world_from_object});
-    psi.push_back(candidate.psi);
+    odds.push_back(options_.probable_combinations ? candidate.probability : candidate.psi);
   }
+  const BitMatrix plausible =
+      plausible_pairs(models_, poses, options_.particles.penetration_m, backend_.threads());
   CombinationOptions options = options_.combinations;
   options.seed += state_.steps.size();
-  return sample_combinations(
-      psi, plausible_pairs(models_, poses, options_.particles.penetration_m, backend_.threads()), options);
+  return options_.probable_combinations ? sample_probable_combinations(odds, plausible, options)
+                                        : sample_combinations(odds, plausible, options);
 }
 
 ScoutEnd Scout::end_before_planning() const {

@@ -44,6 +44,7 @@ struct ScoutOptions {
   // neither for nor against other poses, but leaves fewer edges to be certain by. Above 1: none do.
   double known_probability = 0.9;
   CombinationOptions combinations;
+  bool probable_combinations = true;  // scenes as often as they are believed in; else by psi (Algorithm 1)
   ParticleOptions particles;
   NextViewOptions next_view;
   ModeDetectionOptions detections;

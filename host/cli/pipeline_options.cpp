@@ -63,7 +63,9 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
       .flag("literal", o.next_view.literal, "The paper's own formula for the information")
       .bounded("combinations", o.combinations.count, 1, 1000000, "Scenes imagined for a decision")
       .bounded("sharpness", o.combinations.sharpness, 0.0, 500.0,
-               "Of the preference for likely candidates in them; 1: the paper's");
+               "Of the preference for likely candidates in them, by psi; 1: the paper's")
+      .flag("scenes-by-probability,!--scenes-by-psi", o.probable_combinations,
+            "Imagine scenes as often as they are believed in (default), or as in the paper's Algorithm 1");
   OptionTable(verb, "Belief")
       .bounded("penetration", o.particles.penetration_m, 0.0, 1.0,
                "How far parts may reach into each other, m: else no scene has both, and the less probable is "

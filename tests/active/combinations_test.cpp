@@ -129,6 +129,61 @@ TEST(SampleCombinations, AllImplausibleLeavesSingleObjects) {
   EXPECT_NEAR(empty / 4000.0, 1 / 256.0, 0.005);
 }
 
+// Probability of every scene, by asking each candidate in turn.
+void ask(const std::vector<double>& probabilities, const BitMatrix& plausible,
+         const std::vector<std::size_t>& order, std::size_t asked, std::uint32_t set, double probability,
+         std::map<std::uint32_t, double>& outcome) {
+  if (asked == order.size()) {
+    outcome[set] += probability;
+    return;
+  }
+  const std::size_t c = order[asked];
+  bool fits = true;
+  for (std::size_t m = 0; m < order.size(); ++m) fits &= !(set >> m & 1) || plausible.has(c, m);
+  const double p = fits ? probabilities[c] : 0;
+  ask(probabilities, plausible, order, asked + 1, set, probability * (1 - p), outcome);
+  if (fits) ask(probabilities, plausible, order, asked + 1, set | 1u << c, probability * p, outcome);
+}
+
+TEST(SampleProbableCombinations, HasTheProbabilitiesOfTheCandidates) {
+  const std::vector<double> probabilities{0.3, 0.9, 0.05, 0.6, 0.5};
+  BitMatrix plausible = all_together(5);
+  for (auto [i, j] : {std::pair(0, 1), {3, 4}})
+    plausible.words[i] &= ~(1u << j), plausible.words[j] &= ~(1u << i);
+  std::map<std::uint32_t, double> expected, found;
+  ask(probabilities, plausible, {1, 3, 4, 0, 2}, 0, 0, 1, expected);
+  CombinationOptions options;
+  options.count = 400000;
+  const BitMatrix drawn = sample_probable_combinations(probabilities, plausible, options);
+  for (std::size_t j = 0; j < drawn.rows; ++j) found[row_of(drawn, j)] += 1.0 / options.count;
+  ASSERT_EQ(found.size(), expected.size());
+  for (const auto& [set, probability] : expected)
+    EXPECT_NEAR(found[set], probability, 5 * std::sqrt(probability / options.count)) << std::hex << set;
+}
+
+// What is certain is still left out now and then, what is ruled out still imagined.
+TEST(SampleProbableCombinations, IsNeverCertain) {
+  const BitMatrix drawn =
+      sample_probable_combinations(std::vector<double>{0, 1}, all_together(2), {20000, 1, 1});
+  double first = 0, second = 0;
+  for (std::size_t j = 0; j < drawn.rows; ++j) first += drawn.has(j, 0), second += drawn.has(j, 1);
+  EXPECT_NEAR(first / drawn.rows, 0.02, 0.005);
+  EXPECT_NEAR(second / drawn.rows, 0.98, 0.005);
+}
+
+TEST(SampleProbableCombinations, DependsOnTheSeedAlone) {
+  const std::vector<double> probabilities(40, 0.5);
+  const auto words = [&](std::uint64_t seed) {
+    return sample_probable_combinations(probabilities, all_together(40), {100, seed, 1}).words;
+  };
+  EXPECT_EQ(words(3), words(3));
+  EXPECT_NE(words(3), words(4));
+}
+
+TEST(SampleProbableCombinations, NeedsACandidate) {
+  expect_input_error([] { sample_probable_combinations({}, BitMatrix(0, 0), {}); }, {"candidates", "none"});
+}
+
 TEST(SampleCombinations, NeedsACandidate) {
   expect_input_error([] { sample_combinations({}, BitMatrix(0, 0), {}); }, {"candidates", "none"});
   expect_input_error(
