@@ -154,20 +154,49 @@ std::vector<double> along_sequence(std::size_t views, std::span<const std::size_
   return values;
 }
 
-// The probability that nothing unknown stands before a camera, one a view.
-std::vector<double> free_sights(std::span<const Se3> views, double exponent) {
-  const Eigen::Vector3d center_m = looked_at_m(views);
+// From what the views look at to each camera.
+std::vector<Eigen::Vector3d> directions_to(std::span<const Se3> cameras, const Eigen::Vector3d& center_m) {
   std::vector<Eigen::Vector3d> directions;
+  for (const Se3& camera : cameras)
+    directions.push_back((inverse(camera).translation_m - center_m).normalized());
+  return directions;
+}
+
+// The probability that nothing unknown stands before a camera, one a view.
+std::vector<double> free_sights(std::span<const Eigen::Vector3d> directions, double exponent) {
   Eigen::Vector3d above = Eigen::Vector3d::Zero();
-  for (const Se3& view : views) {
-    directions.push_back((inverse(view).translation_m - center_m).normalized());
-    above += directions.back();
-  }
-  if (above.norm() < 0.1 * double(views.size())) return std::vector<double>(views.size(), 1);
+  for (const Eigen::Vector3d& direction : directions) above += direction;
+  if (above.norm() < 0.1 * double(directions.size())) return std::vector<double>(directions.size(), 1);
   std::vector<double> free;
   for (const Eigen::Vector3d& direction : directions)
     free.push_back(std::pow(std::max(0.0, direction.dot(above.normalized())), exponent));
   return free;
+}
+
+// What of a view no real one has told already.
+double unrepeated(const Eigen::Vector3d& direction, std::span<const Eigen::Vector3d> real,
+                  double repeat_rad) {
+  double left = 1;
+  for (const Eigen::Vector3d& other : real) {
+    const double angle = std::acos(std::clamp(direction.dot(other), -1.0, 1.0)) / repeat_rad;
+    left = std::min(left, 1 - std::exp(-angle * angle));
+  }
+  return left;
+}
+
+// Takes off the information what cannot be seen and what is known.
+void discount(std::span<double> information, std::span<const std::size_t> open, const Planning& planning,
+              const NextViewOptions& options) {
+  const Eigen::Vector3d center_m = looked_at_m(planning.views);
+  std::vector<Se3> taken;
+  for (const RegisterView& view : planning.real_views) taken.push_back(view.camera_from_world);
+  const std::vector<Eigen::Vector3d> directions = directions_to(planning.views, center_m),
+                                     real = directions_to(taken, center_m);
+  const std::vector<double> free = free_sights(directions, options.free_sight);
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    information[i] *= free[open[i]];
+    if (options.repeat_rad > 0) information[i] *= unrepeated(directions[open[i]], real, options.repeat_rad);
+  }
 }
 
 std::vector<double> information_of(const Planning& planning, std::span<const std::size_t> open,
@@ -175,9 +204,7 @@ std::vector<double> information_of(const Planning& planning, std::span<const std
   switch (options.strategy) {
     case Strategy::Information: {
       std::vector<double> information = mutual_information(planning, open, backend, options);
-      if (options.literal) return information;
-      const std::vector<double> free = free_sights(planning.views, options.free_sight);
-      for (std::size_t i = 0; i < open.size(); ++i) information[i] *= free[open[i]];
+      if (!options.literal) discount(information, open, planning, options);
       return information;
     }
     case Strategy::Disocclusion:
@@ -228,6 +255,7 @@ void NextViewOptions::validate() const {
   in("tolerance", tolerance, 0, 10);
   in("seen", seen_px, 0, EdgeIndex::CELL_PX);
   in("free_sight", free_sight, 0, 100);
+  in("repeat_rad", repeat_rad, 0, 100);
   in("motion_cost_per_m", motion_cost_per_m, 0, 1e9);
   in("motion_cost_per_rad", motion_cost_per_rad, 0, 1e9);
 }

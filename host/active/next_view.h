@@ -34,7 +34,12 @@ struct NextViewOptions {
   // that is not tells nothing: an erasure, which leaves that share of the information. Straight above is the
   // mean direction from what the views look at to their cameras; where they stand all around there is none,
   // and all are free. 0: all are free, as in the paper's own formula always.
-  double free_sight = 1;
+  double free_sight = 0.5;
+  // Views near each other err alike: what misleads one (neighbours, shadows, a wrong pose's chance agreement,
+  // what hides a part) misleads the other. Of what a view would tell, a real view at an angle theta from it,
+  // as seen from what the views look at, has told exp(-(theta / repeat_rad)^2) already; the nearest one
+  // counts. 0: every view is new, as in the paper's own formula always.
+  double repeat_rad = 0.45;
   double motion_cost_per_m = 0;  // taken off the information: for the way from the last view's camera
   double motion_cost_per_rad = 0;
   std::function<bool(int view)> reachable;  // empty: all are

@@ -60,6 +60,8 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
       .bounded("sigma", o.next_view.sigma_px, 0.001, 1000.0, "Of the mean distance of a right pose, image px")
       .bounded("free-sight", o.next_view.free_sight, 0.0, 100.0,
                "How much lower cameras are hidden by what is unknown; 0: not at all")
+      .bounded("repeat-angle", o.next_view.repeat_rad, 0.0, 100.0,
+               "Within which views tell much the same, rad; 0: every view is new")
       .flag("literal", o.next_view.literal, "The paper's own formula for the information")
       .bounded("combinations", o.combinations.count, 1, 1000000, "Scenes imagined for a decision")
       .bounded("sharpness", o.combinations.sharpness, 0.0, 500.0,

@@ -169,6 +169,7 @@ Notes options(const ExperimentSettings& s) {
           {"chamfer_cap_px", number_text(o.next_view.cap_px)},
           {"sigma_px", number_text(o.next_view.sigma_px)},
           {"free_sight", number_text(o.next_view.free_sight)},
+          {"repeat_rad", number_text(o.next_view.repeat_rad)},
           {"formula", o.next_view.literal ? "literal" : "mutual information"},
           {"min_probability", number_text(o.detections.min_probability)}};
 }

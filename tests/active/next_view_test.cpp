@@ -169,6 +169,34 @@ TEST(ViewInformation, IsWorthLessWhereTheUnknownMayHideMore) {
   does_not_matter();
 }
 
+// What the nearest real view is, by the angle at what all look at, has told already.
+TEST(ViewInformation, IsWorthLessNearARealView) {
+  Plan t;
+  t.real = {looked_from(t.views[0]), looked_from(t.views[3])};
+  t.closed[3] = 1;
+  const auto direction = [&](std::size_t v) {
+    return Eigen::Vector3d((inverse(t.views[v]).translation_m - Eigen::Vector3d(0, 0, 0.02)).normalized());
+  };
+  const std::vector<ViewInformation> all_new = t.information();
+  t.options.repeat_rad = 0.8;
+  const std::vector<ViewInformation> views = t.information();
+  double least = 1, most = 0;
+  for (std::size_t v = 1; v < views.size(); ++v) {
+    if (v == 3) continue;
+    const double cosine = std::max(direction(v).dot(direction(0)), direction(v).dot(direction(3)));
+    const double share = 1 - std::exp(-std::pow(std::acos(cosine) / 0.8, 2));
+    EXPECT_NEAR(views[v].information, all_new[v].information * share, 1e-6) << v;
+    least = std::min(least, share), most = std::max(most, share);
+  }
+  EXPECT_LT(least, 0.8);
+  EXPECT_GT(most, 0.9);
+  t.options.strategy = Strategy::Disocclusion;
+  const std::vector<ViewInformation> some = t.information();
+  t.options.repeat_rad = 0;
+  const std::vector<ViewInformation> all = t.information();
+  for (std::size_t v = 1; v < views.size(); ++v) EXPECT_EQ(some[v].information, all[v].information);
+}
+
 TEST(ViewInformation, OfNoViewsIsNone) {
   Plan t(2);
   t.options.free_sight = 1;
