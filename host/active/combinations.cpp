@@ -31,9 +31,13 @@ void draw_order(std::span<const double> weights, Random& random, std::vector<dou
   std::ranges::sort(order, {}, [&](std::size_t i) { return waits[i]; });
 }
 
+std::span<const std::uint32_t> row(const BitMatrix& matrix, std::size_t index) {
+  return std::span(matrix.words).subspan(index * matrix.row_words(), matrix.row_words());
+}
+
 bool stands_with_all(std::size_t candidate, const BitMatrix& plausible,
                      std::span<const std::uint32_t> members) {
-  const std::uint32_t* beside = plausible.words.data() + candidate * plausible.row_words();
+  const std::span<const std::uint32_t> beside = row(plausible, candidate);
   for (std::size_t w = 0; w < members.size(); ++w)
     if (members[w] & ~beside[w]) return false;
   return true;
@@ -79,8 +83,7 @@ BitMatrix sample_combinations(std::span<const double> psi, const BitMatrix& plau
   for (int j = 0; j < options.count; ++j) {
     const int draws = coins(candidates, random);
     draw_order(weights, random, waits, order);
-    const std::span<const std::uint32_t> members(combinations.words.data() + j * combinations.row_words(),
-                                                 combinations.row_words());
+    const std::span<const std::uint32_t> members = row(combinations, j);
     for (int k = 0; k < draws; ++k)
       if (stands_with_all(order[k], plausible, members)) combinations.set(j, order[k]);
   }
@@ -98,8 +101,7 @@ BitMatrix sample_probable_combinations(std::span<const double> probabilities, co
   BitMatrix combinations(options.count, candidates);
   Random random = Random(options.seed).split("probable combinations");
   for (int j = 0; j < options.count; ++j) {
-    const std::span<const std::uint32_t> members(combinations.words.data() + j * combinations.row_words(),
-                                                 combinations.row_words());
+    const std::span<const std::uint32_t> members = row(combinations, j);
     for (const std::size_t c : order)
       if (random.uniform() < std::clamp(probabilities[c], least, 1 - least) &&
           stands_with_all(c, plausible, members))

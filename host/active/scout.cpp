@@ -248,17 +248,18 @@ ScoutDecision Scout::decide() const {
 
 BitMatrix Scout::sampled_combinations() const {
   std::vector<Hypothesis> poses;
-  std::vector<double> odds;
+  std::vector<double> psi, probabilities;
   for (const Detection& candidate : state_.candidates) {
     poses.push_back({candidate.object, candidate.world_from_object});
-    odds.push_back(options_.probable_combinations ? candidate.probability : candidate.psi);
+    psi.push_back(candidate.psi);
+    probabilities.push_back(candidate.probability);
   }
   const BitMatrix plausible =
       plausible_pairs(models_, poses, options_.particles.penetration_m, backend_.threads());
   CombinationOptions options = options_.combinations;
   options.seed += state_.steps.size();
-  return options_.probable_combinations ? sample_probable_combinations(odds, plausible, options)
-                                        : sample_combinations(odds, plausible, options);
+  return options_.probable_combinations ? sample_probable_combinations(probabilities, plausible, options)
+                                        : sample_combinations(psi, plausible, options);
 }
 
 ScoutEnd Scout::end_before_planning() const {
