@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <string>
 
+#include "host/core/order.h"
 #include "host/core/random.h"
 #include "kernels/error.h"
 
@@ -51,13 +51,6 @@ void check_input(std::size_t candidates, const BitMatrix& plausible, const Combi
         "combinations: plausible pairs of as many candidates");
 }
 
-std::vector<std::size_t> most_probable_first(std::span<const double> probabilities) {
-  std::vector<std::size_t> order(probabilities.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return probabilities[i]; });
-  return order;
-}
-
 }  // namespace
 
 void CombinationOptions::validate() const {
@@ -97,7 +90,7 @@ BitMatrix sample_probable_combinations(std::span<const double> probabilities, co
   check_input(candidates, plausible, options);
   for (const double p : probabilities)
     check(p >= 0 && p <= 1, "sample_probable_combinations: probabilities in [0, 1]");
-  const std::vector<std::size_t> order = most_probable_first(probabilities);
+  const std::vector<std::size_t> order = largest_first(probabilities);
   BitMatrix combinations(options.count, candidates);
   Random random = Random(options.seed).split("probable combinations");
   for (int j = 0; j < options.count; ++j) {

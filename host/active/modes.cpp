@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "host/core/order.h"
 #include "host/detect/detect.h"
 #include "host/detect/probability_over_views.h"
 #include "host/detect/suppression.h"
@@ -20,10 +20,7 @@ std::vector<std::size_t> best_first(std::span<const Particle> particles) {
   std::vector<double> merit;
   for (const Particle& particle : particles)
     merit.push_back(particle.by_view.empty() ? particle.log_weight : evidence(together(particle.by_view)));
-  std::vector<std::size_t> order(particles.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return merit[a] > merit[b]; });
-  return order;
+  return largest_first(merit);
 }
 
 // The object's symmetric twin of `pose` that lies nearest to `reference`.

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include <Eigen/Eigenvalues>
 
 #include "host/active/modes.h"
 #include "host/core/log.h"
 #include "host/core/option_bounds.h"
+#include "host/core/order.h"
 #include "kernels/error.h"
 #include "kernels/mutual_information.h"
 
@@ -63,10 +63,9 @@ void normalise(std::span<Particle> particles) {
 
 // The candidates by psi, as many as there may be particles.
 std::vector<std::size_t> best_candidates(std::span<const Detection> candidates, int most) {
-  std::vector<std::size_t> order(candidates.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(
-      order, [&](std::size_t a, std::size_t b) { return candidates[a].psi > candidates[b].psi; });
+  std::vector<double> psi;
+  for (const Detection& candidate : candidates) psi.push_back(candidate.psi);
+  std::vector<std::size_t> order = largest_first(psi);
   if (int(order.size()) > most) order.resize(most);
   return order;
 }

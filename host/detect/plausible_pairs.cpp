@@ -10,6 +10,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "host/core/order.h"
 #include "host/model/viewpoints.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
@@ -200,10 +201,7 @@ std::vector<double> exclusive_probabilities(std::span<const double> probabilitie
                                             const BitMatrix& plausible) {
   check(plausible.rows == probabilities.size() && plausible.columns == probabilities.size(),
         "exclusive_probabilities: a row and a column a candidate");
-  std::vector<std::size_t> order(probabilities.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order,
-                           [&](std::size_t a, std::size_t b) { return probabilities[a] > probabilities[b]; });
+  const std::vector<std::size_t> order = largest_first(probabilities);
   std::vector<double> left(probabilities.begin(), probabilities.end());
   for (std::size_t i = 0; i < order.size(); ++i) {
     std::vector<std::size_t> in_the_way;

@@ -1,0 +1,21 @@
+// The order in which the largest comes first.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace edgescout {
+
+// Indices of the values, the largest first, equal ones as they stand.
+inline std::vector<std::size_t> largest_first(std::span<const double> values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return values[i]; });
+  return order;
+}
+
+}  // namespace edgescout
