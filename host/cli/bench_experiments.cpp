@@ -21,7 +21,6 @@ struct ExperimentsRequest {
   std::vector<std::string> names;
   std::string out, data, device = "cpu";
   bool is_short = false, is_full = false, resume = false;
-  std::vector<std::string> strategies;
   ExperimentSettings settings;  // what was given on the command line
 };
 
@@ -42,8 +41,6 @@ ExperimentSettings settings_of(const ExperimentsRequest& request, const CLI::App
   for (const auto& [name, size] : SIZES)
     if (verb.count(std::string("--") + name) == 0) settings.*size = form.*size;
   settings.data = request.data;
-  if (!request.strategies.empty()) settings.strategies.clear();
-  for (const std::string& name : request.strategies) settings.strategies.push_back(strategy_from(name));
   return settings;
 }
 
@@ -131,8 +128,9 @@ void add_bench_experiments(CLI::App& bench, int& exit_code) {
       .flag("times,!--no-times", request->settings.times,
             "Measured times among the rows (default); without, two runs give the same bytes");
   add_sizes(*verb, *request);
-  verb->add_option("--strategies", request->strategies,
-                   "In the bins: of mi-max, random, dis, fixed; default: all")
+  verb->add_option("--strategies", request->settings.strategies,
+                   "In the bins: of mi-max, random, dis, fixed (default: these) and clairvoyant, which knows "
+                   "the scene")
       ->type_name("NAME,..")
       ->delimiter(',')
       ->allow_extra_args(false)

@@ -8,6 +8,8 @@ namespace edgescout {
 
 namespace {
 
+constexpr double LEAST_TELLING = 0.3;  // visible fraction
+
 RenderOptions options_of(const ExperimentSettings& settings, int number, Random& random) {
   RenderOptions options = bin_image_options(settings);
   options.seed = 1000 * settings.seed + static_cast<unsigned>(number);
@@ -16,19 +18,22 @@ RenderOptions options_of(const ExperimentSettings& settings, int number, Random&
   return options;
 }
 
-// How much of every placed object shows from a view.
-std::vector<double> visible_from(Scene scene, const Camera& camera, const Se3& camera_from_world,
-                                 ThreadPool& pool) {
-  scene.views = {{camera, camera_from_world}};
-  scene.options.supersampling = 1;  // the truth at the pixels' centres alone
-  return render(scene, pool)[0].visible_fraction;
-}
-
 }  // namespace
 
 Shot BinCell::acquire(int view) {
   auto known = shots_.find(view);
   if (known == shots_.end()) known = shots_.emplace(view, cell_.acquire(view)).first;
+  return known->second;
+}
+
+const std::vector<double>& BinCell::visible(int view) {
+  auto known = visible_.find(view);
+  if (known == visible_.end()) {
+    Scene scene = scene_;
+    scene.views = {{camera(), views()[static_cast<std::size_t>(view)]}};
+    scene.options.supersampling = 1;  // the truth at the pixels' centres alone
+    known = visible_.emplace(view, render(scene, pool_)[0].visible_fraction).first;
+  }
   return known->second;
 }
 
@@ -57,6 +62,32 @@ std::vector<int> fixed_sequence(const Bin& bin) {
   return sequence;
 }
 
+std::vector<int> clairvoyant_sequence(const Bin& bin, std::span<const BinInstance> sought, int views) {
+  std::vector<double> shown(sought.size(), 0);  // by the images so far
+  const auto with = [&](int view, std::size_t i) {
+    const double visible = bin.cell->visible(view)[sought[i].placed];
+    return std::min(1.0, shown[i] + std::max(0.0, visible - LEAST_TELLING));
+  };
+  std::vector<int> sequence;
+  const auto take = [&](int view) {
+    for (std::size_t i = 0; i < sought.size(); ++i) shown[i] = with(view, i);
+    sequence.push_back(view);
+  };
+  take(bin.first_view);
+  while (static_cast<int>(sequence.size()) < std::min(views, bin_views().count)) {
+    int best = -1;
+    double most = -1;
+    for (int view = 0; view < bin_views().count; ++view) {
+      if (std::ranges::count(sequence, view) > 0) continue;
+      double sum = 0;
+      for (std::size_t i = 0; i < sought.size(); ++i) sum += with(view, i);
+      if (sum > most) best = view, most = sum;
+    }
+    take(best);
+  }
+  return sequence;
+}
+
 Bin make_bin(std::span<const Object> types, const ExperimentSettings& settings, int number,
              ThreadPool& pool) {
   Random random = Random(settings.seed).split("bin").split(static_cast<std::uint64_t>(number));
@@ -68,11 +99,10 @@ Bin make_bin(std::span<const Object> types, const ExperimentSettings& settings, 
   bin.first_view = random.below(static_cast<int>(views.size()));
   const Scene scene = make_scene(types, options);
   bin.cell = std::make_unique<BinCell>(scene, views, pool);
-  const std::vector<double> visible =
-      visible_from(scene, bin.cell->camera(), views[static_cast<std::size_t>(bin.first_view)], pool);
+  const std::vector<double>& visible = bin.cell->visible(bin.first_view);
   for (std::size_t i = 0; i < scene.placed.size(); ++i)
     if (const PlacedObject& placed = scene.placed[i]; placed.target)
-      bin.instances.push_back({placed.object, placed.world_from_object, visible[i]});
+      bin.instances.push_back({placed.object, placed.world_from_object, visible[i], visible[i], i});
   return bin;
 }
 

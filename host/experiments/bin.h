@@ -17,21 +17,28 @@ namespace edgescout {
 struct BinInstance {
   int object = 0;  // index into the types
   Se3 world_from_object;
-  double visible = 0;  // fraction of its silhouette, in the first view
+  double visible = 0;       // fraction of its silhouette, in the first view
+  double most_visible = 0;  // in any of the images so far
+  std::size_t placed = 0;   // index into the scene's placed objects
 };
 
 // A simulated cell whose images are rendered once, however many strategies ask for them.
 class BinCell : public ViewSource {
  public:
   BinCell(const Scene& scene, std::vector<Se3> views, ThreadPool& pool)
-      : cell_(scene, scene.views[0].camera, std::move(views), {}, pool) {}
+      : scene_(scene), cell_(scene, scene.views[0].camera, std::move(views), {}, pool), pool_(pool) {}
   Camera camera() const override { return cell_.camera(); }
   std::vector<Se3> views() const override { return cell_.views(); }
   Shot acquire(int view) override;
+  // How much of every placed object's silhouette shows from there.
+  const std::vector<double>& visible(int view);
 
  private:
+  Scene scene_;
   SimulatedCell cell_;
+  ThreadPool& pool_;
   std::map<int, Shot> shots_;
+  std::map<int, std::vector<double>> visible_;
 };
 
 struct Bin {
@@ -51,6 +58,9 @@ const std::vector<Object>& bin_types();
 std::vector<TemplateSet> bin_templates(Backend& backend);
 // Around the hemisphere and through its rings from the first view, as somebody would lay it out.
 std::vector<int> fixed_sequence(const Bin& bin);
+// Views that show as much as they can of `sought`, one after the other, first view and all. What an image
+// shows of an instance helps from three tenths on, where the first hits are, and several images together.
+std::vector<int> clairvoyant_sequence(const Bin& bin, std::span<const BinInstance> sought, int views);
 
 Bin make_bin(std::span<const Object> types, const ExperimentSettings& settings, int number, ThreadPool& pool);
 

@@ -65,6 +65,7 @@ Judgement judge(std::span<const BinInstance> instances, const ScoutStep& step,
     if (instance.visible < LEAST_VISIBLE) continue;
     Tally& tally = group_of(judgement, instance);
     ++tally.instances;
+    tally.shown += instance.most_visible > LIGHTLY_OCCLUDED;
     tally.followed += is_followed(instance, step.after, object_of(instance.object));
   }
   if (instances.empty()) return judgement;

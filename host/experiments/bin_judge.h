@@ -20,6 +20,7 @@ struct Tally {
   int wrong = 0, wrong_px = 0;
   // instances with a particle that is right, reported or not: more cannot be found by looking again
   int followed = 0;
+  int shown = 0;  // instances that some image so far shows lightly occluded
 };
 
 struct Judgement {

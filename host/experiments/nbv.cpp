@@ -1,6 +1,6 @@
 #include "host/experiments/nbv.h"
 
-#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <tuple>
 
@@ -74,16 +74,18 @@ Search make_search(const Bin& bin, int count, std::span<const TemplateSet> sets)
 }
 
 ScoutOptions options_for(const ExperimentSettings& s, const Bin& bin, const Search& search,
-                         Detector& detector, Strategy strategy) {
+                         Detector& detector, const std::string& strategy) {
   ScoutOptions options = s.scout;
   options.detect = [&](int view, const Observation& observation, std::span<const Observation> earlier) {
     return detector.find(view, observation, earlier, search.first_type, search.count);
   };
   options.first_view = bin.first_view;
-  options.next_view.strategy = strategy;
+  const bool knows = strategy == CLAIRVOYANT;
+  options.next_view.strategy = knows ? Strategy::Fixed : strategy_from(strategy);
   options.next_view.seed = options.combinations.seed = options.particles.seed =
       static_cast<std::uint64_t>(bin.number) + 1;
-  options.next_view.sequence = fixed_sequence(bin);
+  options.next_view.sequence =
+      knows ? clairvoyant_sequence(bin, search.instances, s.scout.max_views) : fixed_sequence(bin);
   return options;
 }
 
@@ -94,19 +96,27 @@ double seconds_of(const ScoutStep& step) {
   return seconds;
 }
 
-// Of the step that chose and used the `views`th image.
+void look_from(int view, const Bin& bin, std::vector<BinInstance>& instances) {
+  const std::vector<double>& visible = bin.cell->visible(view);
+  for (BinInstance& instance : instances)
+    instance.most_visible = std::max(instance.most_visible, visible[instance.placed]);
+}
+
+// Two a step, which chose and used an image.
 void add_rows(Table& table, const ExperimentSettings& s, const Bin& bin, const Search& search,
-              Strategy strategy, const ScoutState& state) {
+              const std::string& strategy, const ScoutState& state) {
+  std::vector<BinInstance> instances = search.instances;
   for (std::size_t i = 0; i < state.steps.size(); ++i) {
     const ScoutStep& step = state.steps[i];
+    look_from(step.decision.view, bin, instances);
     const Judgement judgement =
-        judge(search.instances, step, search.objects, bin.cell->camera(), state.steps[0].camera_from_world);
+        judge(instances, step, search.objects, bin.cell->camera(), state.steps[0].camera_from_world);
     for (const auto& [group, tally] : {std::pair{"light", judgement.light}, {"heavy", judgement.heavy}})
       table.rows.push_back(
-          {std::to_string(bin.number), std::to_string(bin.parts), std::to_string(search.count),
-           to_string(strategy), std::to_string(i + 1), std::to_string(step.decision.view), group,
-           std::to_string(tally.instances), std::to_string(tally.correct), std::to_string(tally.correct_px),
-           std::to_string(tally.wrong), std::to_string(tally.wrong_px), std::to_string(tally.followed),
+          {std::to_string(bin.number), std::to_string(bin.parts), std::to_string(search.count), strategy,
+           std::to_string(i + 1), std::to_string(step.decision.view), group, std::to_string(tally.instances),
+           std::to_string(tally.correct), std::to_string(tally.correct_px), std::to_string(tally.wrong),
+           std::to_string(tally.wrong_px), std::to_string(tally.followed), std::to_string(tally.shown),
            number_text(step.entropy_nats), s.times ? number_text(seconds_of(step)) : ""});
   }
 }
@@ -114,13 +124,13 @@ void add_rows(Table& table, const ExperimentSettings& s, const Bin& bin, const S
 // The first image once, then every strategy from what was known after it.
 void run_search(Table& table, const ExperimentSettings& s, const Bin& bin, const Search& search,
                 Detector& detector, Backend& backend) {
-  const auto scout_for = [&](Strategy strategy) {
+  const auto scout_for = [&](const std::string& strategy) {
     return Scout(search.sets, bin.cell->camera(), bin.cell->views(),
                  options_for(s, bin, search, detector, strategy), backend);
   };
   Scout first = scout_for(s.strategies[0]);
   first.give(bin.first_view, bin.cell->acquire(bin.first_view).image);
-  for (const Strategy strategy : s.strategies) {
+  for (const std::string& strategy : s.strategies) {
     Scout scout = scout_for(strategy);
     scout.resume(first.state(), "first image");
     run_scout(scout, *bin.cell);
@@ -131,7 +141,7 @@ void run_search(Table& table, const ExperimentSettings& s, const Bin& bin, const
 Table run_bin(const ExperimentSettings& s, int number, Backend& backend) {
   Table table{{},
               {"bin", "parts", "sought", "strategy", "views", "view", "group", "instances", "correct",
-               "correct_px", "wrong", "wrong_px", "followed", "entropy_nats", "seconds"},
+               "correct_px", "wrong", "wrong_px", "followed", "shown", "entropy_nats", "seconds"},
               {}};
   const std::vector<TemplateSet> sets = bin_templates(backend);
   const Bin bin = make_bin(bin_types(), s, number, backend.threads());
@@ -141,18 +151,12 @@ Table run_bin(const ExperimentSettings& s, int number, Backend& backend) {
   return table;
 }
 
-std::string names_of(const std::vector<Strategy>& strategies) {
-  std::string names;
-  for (const Strategy strategy : strategies) names += (names.empty() ? "" : " ") + to_string(strategy);
-  return names;
-}
-
 Notes options(const ExperimentSettings& s) {
   const ScoutOptions& o = s.scout;
   // Not the number of bins: more of them may be added to a finished run.
   return {{"image_scale", number_text(s.image_scale)},
           {"supersampling", std::to_string(s.supersampling)},
-          {"strategies", names_of(s.strategies)},
+          {"strategies", fmt::format("{}", fmt::join(s.strategies, " "))},
           {"images", std::to_string(o.max_views)},
           {"detection", o.detect_in_every_image ? "every image" : "first image"},
           {"jointly", o.detect_jointly ? "yes" : "no"},

@@ -14,12 +14,13 @@ struct Searched {
 };
 
 struct Outcome {
-  std::vector<Cluster> correct, wrong;  // by bin; `wrong` counts bins as trials
+  std::vector<Cluster> correct, wrong, shown;  // by bin; `wrong` counts bins as trials
 };
 
 std::string name_of(const std::string& strategy) {
   if (strategy == "mi-max") return "MI-MAX";
   if (strategy == "dis") return "DIS";
+  if (strategy == CLAIRVOYANT) return "Clairvoyant";
   return strategy == "random" ? "Random" : "Fixed";
 }
 
@@ -53,6 +54,7 @@ Outcome outcome_of(const Table& rows, const std::string& views) {
     if (text_in(rows, row, "views") != views) continue;
     outcome.correct.push_back({number_in(rows, row, "correct"), number_in(rows, row, "instances")});
     outcome.wrong.push_back({number_in(rows, row, "wrong"), 1});
+    outcome.shown.push_back({number_in(rows, row, "shown"), number_in(rows, row, "instances")});
   }
   return outcome;
 }
@@ -66,8 +68,9 @@ PlotPoint point_of(double x, const std::vector<Cluster>& clusters) {
 }
 
 std::string cell_of(const Outcome& outcome) {
-  return fmt::format("{}; {:.2f}", percent(rate(outcome.correct), bootstrap_interval(outcome.correct)),
-                     rate(outcome.wrong));
+  return fmt::format("{}; {:.2f}; {:.0f} %",
+                     percent(rate(outcome.correct), bootstrap_interval(outcome.correct)), rate(outcome.wrong),
+                     100 * rate(outcome.shown));
 }
 
 std::string table_of(const Table& table, const Searched& searched, const std::vector<std::string>& strategies,
@@ -121,8 +124,8 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
   Report report;
   report.columns = std::max(1, static_cast<int>(searches.size()));
   report.markdown = fmt::format(
-      "Bins: {}. Instances correctly localised (below 0.1 rad and 5 mm) after so many views, and false "
-      "positives a bin.\n\n",
+      "Bins: {}. Instances correctly localised (below 0.1 rad and 5 mm) after so many views; false positives "
+      "a bin; instances of which some image so far showed more than 70 %.\n\n",
       values_of(table, "bin").size());
   for (const Searched& searched : searches) report.markdown += table_of(table, searched, strategies, views);
   for (const Measure measure : {Measure::Correct, Measure::Wrong})

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "host/core/random.h"
 #include "kernels/error.h"
@@ -10,6 +11,7 @@ namespace edgescout {
 
 namespace {
 
+constexpr std::string_view STRATEGIES[] = {"mi-max", "random", "dis", "fixed", CLAIRVOYANT};
 constexpr int MOST_PARTS = 5, MOST_PARTS_IN_GROUP = 20, VIEWS_OF_GROUP = 3;
 
 void require(bool holds, const char* field, double found, const char* expected) {
@@ -66,9 +68,12 @@ void ExperimentSettings::validate() const {
   require(candidates >= 1 && candidates <= 100000, "candidates", candidates, "1 to 100000");
   require(bins >= 1 && bins <= 10000, "bins", bins, "1 to 10000");
   require(!strategies.empty(), "strategies", 0, "at least one");
-  for (const Strategy strategy : strategies)
+  for (const std::string& strategy : strategies) {
+    if (std::ranges::find(STRATEGIES, strategy) == std::end(STRATEGIES))
+      throw InputError("experiments", "strategies", strategy, "mi-max, random, dis, fixed or clairvoyant");
     if (std::ranges::count(strategies, strategy) > 1)
-      throw InputError("experiments", "strategies", to_string(strategy) + " twice", "each once");
+      throw InputError("experiments", "strategies", strategy + " twice", "each once");
+  }
   scout.validate();
   require(image_scale >= 0.1 && image_scale <= 2, "image_scale", image_scale, "0.1 to 2");
   require(supersampling % 2 == 1 && supersampling >= 1 && supersampling <= 7, "supersampling", supersampling,

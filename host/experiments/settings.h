@@ -11,6 +11,10 @@
 
 namespace edgescout {
 
+// Knows the scene, and takes the views that show most of what is sought (clairvoyant_sequence): what a choice
+// of views could reach at all.
+inline constexpr char CLAIRVOYANT[] = "clairvoyant";
+
 struct ExperimentSettings {
   std::filesystem::path data;  // folder with d2co-starts, brackets, cat; empty: rendered scenes alone
   unsigned seed = 1;
@@ -22,9 +26,9 @@ struct ExperimentSettings {
   int frames_every = 4;   // of the cat's photographs one in so many is used
   int candidates = 1260;  // of the detection, in every image and for every type
   int bins = 1;           // of the next best view: piled parts, looked at from a hemisphere
-  // in the bins; all from one belief, so that none changes what another finds
-  std::vector<Strategy> strategies{Strategy::Information, Strategy::Random, Strategy::Disocclusion,
-                                   Strategy::Fixed};
+  // In the bins, by name; all from one belief, so that none changes what another finds. Beside these there is
+  // CLAIRVOYANT.
+  std::vector<std::string> strategies{"mi-max", "random", "dis", "fixed"};
   ScoutOptions scout;      // in the bins; strategy, sequence, seeds and first view are the experiment's
   double image_scale = 1;  // of the paper's image sizes; the bins' are 640x480
   int supersampling = 3;   // of the renderer; odd

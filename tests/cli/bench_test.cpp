@@ -116,7 +116,7 @@ TEST(BenchExperiments, RunChosenStrategiesAlone) {
   EXPECT_EQ(rows.size(), expected.rows.size() / 2);
   EXPECT_EQ(rows, std::multiset(found.rows.begin(), found.rows.end()));
   expect_one_line(run_program(experiments(folder.path() / "none", {"nbv", "--strategies", "best"})),
-                  {"strategy", "best", "mi-max"});
+                  {"strategies", "best", "mi-max", "clairvoyant"});
   expect_one_line(run_program(experiments(folder.path() / "none", {"nbv", "--strategies", "dis,fixed,dis"})),
                   {"strategies", "dis twice", "each once"});
 }

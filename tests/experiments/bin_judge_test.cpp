@@ -87,5 +87,15 @@ TEST(BinJudge, FollowedIsWhatAParticleHasRight) {
   EXPECT_EQ(judged(instances, step).heavy.correct, 0) << "followed, not reported";
 }
 
+TEST(BinJudge, ShownIsWhatAnImageSoFarShowsLightlyOccluded) {
+  const std::vector<BinInstance> instances{{0, at(0, 0), 0.9, 0.9},
+                                           {0, at(0.2, 0), 0.4, 0.71},
+                                           {0, at(0, 0.2), 0.4, 0.69},
+                                           {0, at(0.2, 0.2), 0.05, 1}};
+  const Judgement judgement = judged(instances, {});
+  EXPECT_EQ(judgement.light.shown, 1);
+  EXPECT_EQ(judgement.heavy.shown, 1) << "what does not count is not counted here either";
+}
+
 }  // namespace
 }  // namespace edgescout::test
