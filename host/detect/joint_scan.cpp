@@ -14,23 +14,39 @@ namespace {
 constexpr int STEPS = 5;  // distances tried, evenly over the gap between templates
 constexpr double CHANCE_PX = TEMPLATE_SCORE_OUTSIDE / 4.0;
 
-// A template set as other views see it: the points of the viewpoint nearest to theirs.
+// A viewpoint's points, and the pose at which they are what a camera sees.
+struct SeenTemplate {
+  const ThinnedView* view = nullptr;
+  Se3 camera_from_object;
+};
+
+// A template set as other views see it: the points of the viewpoint nearest to theirs. A set holds viewpoints
+// modulo symmetry: the nearest may belong to another of the object's equal poses.
 class NearestViews {
  public:
-  NearestViews(const TemplateSet& set, int points) {
+  NearestViews(const TemplateSet& set, int points) : set_(set) {
     for (const TemplateView& view : set.views) {
       views_.emplace_back(view, points);
       towards_camera_.push_back(view.camera_from_object.inverse() * -Eigen::Vector3d::UnitZ());
     }
   }
-  const ThinnedView& seen_from(const Eigen::Vector3d& direction) const {
-    std::size_t best = 0;
-    for (std::size_t v = 1; v < views_.size(); ++v)
-      if (towards_camera_[v].dot(direction) > towards_camera_[best].dot(direction)) best = v;
-    return views_[best];
+  SeenTemplate seen_at(const Se3& camera_from_object) const {
+    SeenTemplate best;
+    double largest = -2;
+    for (const Se3& symmetry : set_.symmetries.discrete) {
+      const Se3 equal = camera_from_object * symmetry;
+      const Eigen::Vector3d to_camera = (inverse(equal).translation_m - set_.model.center_m).normalized();
+      for (std::size_t v = 0; v < views_.size(); ++v)
+        if (const double cosine = towards_camera_[v].dot(to_camera); cosine > largest) {
+          largest = cosine;
+          best = {&views_[v], equal};
+        }
+    }
+    return best;
   }
 
  private:
+  const TemplateSet& set_;
   std::vector<ThinnedView> views_;
   std::vector<Eigen::Vector3d> towards_camera_;
 };
@@ -49,14 +65,12 @@ std::vector<double> ranks_in(const Observation& view, const TemplateSet& set, co
   constexpr std::size_t chunk = 256;
   backend.threads().for_each((jobs.size() + chunk - 1) / chunk, [&](std::size_t c) {
     for (std::size_t j = c * chunk; j < std::min(jobs.size(), (c + 1) * chunk); ++j) {
-      const Se3& pose = camera_from_object[j];
-      const ThinnedView& seen =
-          templates.seen_from((inverse(pose).translation_m - set.model.center_m).normalized());
+      const auto [seen, pose] = templates.seen_at(camera_from_object[j]);
       TemplatePoint* to = points.data() + j * width;
-      drawn[j] = seen.count() > 0 && seen.project(to_pose(pose), salient.intrinsics, 0, 0, salient.shape.bins,
-                                                  float(0.1 * set.model.radius_m), to);
+      drawn[j] = seen->count() > 0 && seen->project(to_pose(pose), salient.intrinsics, 0, 0,
+                                                    salient.shape.bins, float(0.1 * set.model.radius_m), to);
       if (!drawn[j]) to[0] = {};  // a job needs a point; its answer is not read
-      jobs[j] = {std::uint32_t(j * width), std::uint32_t(drawn[j] ? seen.count() : 1), 0, 0, 1, 1};
+      jobs[j] = {std::uint32_t(j * width), std::uint32_t(drawn[j] ? seen->count() : 1), 0, 0, 1, 1};
     }
   });
   std::vector<TemplateHit> hits(jobs.size());
