@@ -17,10 +17,17 @@ namespace {
 constexpr double metres_per_mm = 1e-3;
 
 int scene_number(const fs::path& folder) {
-  const std::string name = (folder.has_filename() ? folder : folder.parent_path()).filename().string();
+  const fs::path whole = fs::absolute(folder).lexically_normal();  // "." has a name of its own
+  const std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
   int number = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
   return error == std::errc{} && end == name.data() + name.size() ? number : 0;
+}
+
+// What cannot be looked at is not there.
+bool is_there(const fs::path& path) {
+  std::error_code unknown;
+  return fs::exists(path, unknown);
 }
 
 // The image under gray/ or rgb/; where none is there, the name that one would have, so that reading it says
@@ -30,8 +37,8 @@ fs::path image_file(const fs::path& folder, int image_id) {
   const std::string stem = std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits;
   for (const char* kind : {"gray", "rgb"})
     for (const char* extension : {".png", ".jpg", ".jpeg", ".tif"})
-      if (const fs::path file = folder / kind / (stem + extension); fs::exists(file)) return file;
-  return folder / (fs::exists(folder / "gray") ? "gray" : "rgb") / (stem + ".png");
+      if (const fs::path file = folder / kind / (stem + extension); is_there(file)) return file;
+  return folder / (is_there(folder / "gray") ? "gray" : "rgb") / (stem + ".png");
 }
 
 std::map<int, BopImage> read_images(const fs::path& folder) {
@@ -55,22 +62,27 @@ std::map<int, BopImage> read_images(const fs::path& folder) {
 }
 
 void read_truth(const fs::path& folder, std::map<int, std::vector<BopTruth>>& truth) {
-  if (!fs::exists(folder / "scene_gt.json")) return;
+  if (!is_there(folder / "scene_gt.json")) return;
   const json content = read_json(folder / "scene_gt.json");
   const JsonField root{content, (folder / "scene_gt.json").string(), ""};
-  for (const auto& [key, value] : content.items())
+  for (const auto& [key, value] : content.items()) {
+    std::vector<BopTruth>& objects = truth[integer_key(key, root)];  // also where there are none
     for (const JsonField& entry : root.at(key).elements())
-      truth[integer_key(key, root)].push_back(
-          {entry.at("obj_id").integer(),
-           pose_from(entry.at("cam_R_m2c"), entry.at("cam_t_m2c"), metres_per_mm), 1.0});
+      objects.push_back({entry.at("obj_id").integer(),
+                         pose_from(entry.at("cam_R_m2c"), entry.at("cam_t_m2c"), metres_per_mm), 1.0});
+  }
 }
 
 void read_visible_fractions(const fs::path& folder, std::map<int, std::vector<BopTruth>>& truth) {
-  if (!fs::exists(folder / "scene_gt_info.json")) return;
+  if (!is_there(folder / "scene_gt_info.json")) return;
   const json content = read_json(folder / "scene_gt_info.json");
   const JsonField root{content, (folder / "scene_gt_info.json").string(), ""};
+  std::map<int, std::string> keys;  // which may be padded with zeros
+  for (const auto& [key, value] : content.items()) keys[integer_key(key, root)] = key;
   for (auto& [image_id, objects] : truth) {
-    const JsonField entries = root.at(std::to_string(image_id));
+    if (objects.empty()) continue;
+    const auto key = keys.find(image_id);
+    const JsonField entries = root.at(key == keys.end() ? std::to_string(image_id) : key->second);
     const std::vector<JsonField> infos = entries.elements();
     if (infos.size() != objects.size())
       entries.fail(std::to_string(infos.size()) + " objects",
@@ -93,7 +105,7 @@ json camera_entry(const BopImage& image) {
 
 }  // namespace
 
-bool is_bop_scene(const fs::path& folder) { return fs::exists(folder / "scene_camera.json"); }
+bool is_bop_scene(const fs::path& folder) { return is_there(folder / "scene_camera.json"); }
 
 BopScene load_bop_scene(const fs::path& folder) {
   BopScene scene;

@@ -73,7 +73,8 @@ class TemporaryFile {
 }  // namespace
 
 std::string read_file(const fs::path& file) {
-  if (fs::is_directory(file)) throw InputError(file.string(), "file", "a folder", "a readable file");
+  std::error_code unknown;  // told by opening it
+  if (fs::is_directory(file, unknown)) throw InputError(file.string(), "file", "a folder", "a readable file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file.string(), "file", reason(errno), "a readable file");
   std::ostringstream content;

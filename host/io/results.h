@@ -39,7 +39,8 @@ struct ImageResult {
 // Atomically. The fields: edgescout_result (version of the format, 1), image, scene_id, image_id, device,
 // camera, settings {name: text} (optional), camera_from_world (optional), timings_ms [{stage, ms}], objects
 // [{id, name}], detections [{object_id, object, world_from_object, camera_from_object, covariance,
-// probability, psi, cost_px, visible_fraction, convergence}]. A number that is not finite becomes null.
+// probability, psi, cost_px, visible_fraction, evidence, unexplained_grey, convergence}]. A number that is
+// not finite becomes null.
 void save_image_result(const ImageResult& result, const std::filesystem::path& file);
 
 // InputError naming file and field: missing, no JSON, another version, a field missing or of another type.

@@ -77,6 +77,30 @@ TEST(BopScene, ReadsMillimetresAndLivesWithoutTruthInfoOrImages) {
   EXPECT_EQ(truth.visible_fraction, 1);
 }
 
+// An image without any counts false positives. Keys may be padded, as file names are.
+TEST(BopScene, KnowsImagesWithoutObjects) {
+  const TemporaryFolder folder;
+  folder.write(
+      "s/scene_gt.json",
+      R"({"000009": [{"obj_id": 2, "cam_R_m2c": [1,0,0,0,1,0,0,0,1], "cam_t_m2c": [0, 0, 500]}], "10": []})");
+  folder.write("s/scene_gt_info.json", R"({"000009": [{"visib_fract": 0.25}]})");
+  folder.write("s/scene_camera.json",
+               R"({"10": {"cam_K": [5,0,3,0,6,4,0,0,1]}, "9": {"cam_K": [5,0,3,0,6,4,0,0,1]}})");
+  const BopScene scene = load_bop_scene(folder.path() / "s");
+  EXPECT_EQ(scene.truth.at(9).at(0).visible_fraction, 0.25);
+  EXPECT_TRUE(scene.truth.at(10).empty());
+}
+
+TEST(BopScene, HasItsNumberFromInsideTheFolderToo) {
+  const TemporaryFolder folder;
+  folder.write("000048/scene_camera.json", "{}");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path() / "000048");
+  EXPECT_EQ(load_bop_scene(".").scene_id, 48);
+  EXPECT_EQ(load_bop_scene("../000048/").scene_id, 48);
+  std::filesystem::current_path(before);
+}
+
 TEST(BopScene, NamesFileAndFieldOfWhatIsWrong) {
   const TemporaryFolder folder;
   const auto load = [&](const std::string& camera, const std::string& truth = "{}") {
