@@ -6,6 +6,7 @@
 #include "host/core/stopwatch.h"
 #include "host/detect/joint.h"
 #include "host/io/image.h"
+#include "kernels/error.h"
 
 namespace edgescout {
 
@@ -18,6 +19,7 @@ double size_px(const TemplateSet& set, const Camera& camera) {
 }
 
 double smallest_size_px(std::span<const TemplateSet> sets, const Camera& camera) {
+  check(!sets.empty(), "pipeline: no templates");
   double smallest = size_px(sets[0], camera);
   for (const TemplateSet& set : sets) smallest = std::min(smallest, size_px(set, camera));
   return smallest;

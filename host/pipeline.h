@@ -5,7 +5,6 @@
 // (model/template_set.h), makes a backend (kernels/backend.h) and calls detect_objects for each image.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 

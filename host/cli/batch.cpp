@@ -41,8 +41,8 @@ std::vector<Group> group_images(std::span<const InputImage> images, bool joint,
                                 const BatchSettings& settings) {
   std::vector<Group> groups;
   for (const InputImage& image : images) {
-    const bool same_scene = joint && !groups.empty() && groups.back().images[0]->scene_id == image.scene_id &&
-                            groups.back().images[0]->file.parent_path() == image.file.parent_path();
+    const bool same_scene =
+        joint && !groups.empty() && groups.back().images[0]->scene_folder == image.scene_folder;
     if (!same_scene) groups.emplace_back();
     groups.back().images.push_back(&image);
   }

@@ -40,7 +40,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(CLI::App& verb,
 // YAML for CLI11. Keys are option names of the verb that runs or of the program; a map under a verb's name
 // holds that verb's options and is ignored when another verb runs. Sequences give an option several values.
 //   device: vulkan
-//   detect: {lambda: 100, top: 40}
+//   detect: {lambda: 100, min-probability: 0.1}
 // InputError naming file and key: no YAML, an option that does not exist.
 class YamlConfig : public CLI::Config {
  public:

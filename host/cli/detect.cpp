@@ -34,8 +34,8 @@ Camera first_camera(const DetectRequest& request, std::span<const InputImage> im
   std::optional<Camera> given;
   if (!request.batch.camera_file.empty()) given = load_camera(request.batch.camera_file);
   for (const InputImage& input : images) {
-    if (!given && !input.camera) throw InputError(input.file.string(), "camera", "none", "--camera FILE");
     try {
+      if (!given && !input.camera) throw InputError(input.file.string(), "camera", "none", "--camera FILE");
       const Image image = load_image(input.file);
       const std::string source = given ? request.batch.camera_file : input.file.string();
       return camera_for_image(given ? *given : *input.camera, image.width, image.height,
@@ -47,22 +47,13 @@ Camera first_camera(const DetectRequest& request, std::span<const InputImage> im
   throw InputError("command line", "inputs", "no image", "at least one");
 }
 
-// Overlays among the images would be taken for images the next time.
-void require_other_folder(const DetectRequest& request) {
-  std::error_code not_there;
-  for (const std::string& input : request.inputs)
-    if (std::filesystem::is_directory(input) &&
-        std::filesystem::equivalent(input, request.batch.out, not_there))
-      throw InputError("command line", "--out", "the folder of the images", "another one");
-}
-
 // What can be judged without work is judged first: nothing is written for a request that cannot be met.
 std::vector<TemplateSet> template_sets(const DetectRequest& request, std::span<const InputImage> images,
                                        Backend& backend) {
   const KnownModels known = load_models(request.models);
   const Camera camera = first_camera(request, images);
   if (request.batch.joint) require_world_poses(images);
-  require_other_folder(request);
+  require_other_folder(images, request.batch.out);
   require_writable_folder(request.batch.out);
   return template_sets_of(known, request.templates, camera, backend);
 }
@@ -112,6 +103,7 @@ void add_detect(CLI::App& app, int& exit_code) {
   add_edge_and_tensor_options(*verb, request->batch.pipeline, request->edge_method);
   add_detection_options(*verb, request->batch.pipeline);
   verb->callback([request, &exit_code, verb] {
+    refuse_beside_templates(*verb);
     request->batch.settings = settings_of(*verb, {"Edges", "Tensor", "Detection"});
     exit_code = detect(*request);
   });

@@ -22,9 +22,18 @@ bool has_image_extension(const fs::path& file) {
   return known.contains(extension);
 }
 
+// What cannot be looked at is none.
+bool is_folder(const fs::path& path) {
+  std::error_code unknown;
+  return fs::is_directory(path, unknown);
+}
+
 std::vector<fs::path> sorted_entries(const fs::path& folder) {
   std::vector<fs::path> entries;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) entries.push_back(entry.path());
+  std::error_code failure;
+  for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure))
+    entries.push_back(entry->path());
+  if (failure) throw InputError(folder.string(), "folder", failure.message(), "one that can be read");
   std::ranges::sort(entries);
   return entries;
 }
@@ -32,8 +41,10 @@ std::vector<fs::path> sorted_entries(const fs::path& folder) {
 void add_scene(const fs::path& folder, std::vector<InputImage>& images) {
   const BopScene scene = load_bop_scene(folder);
   for (const BopImage& image : scene.images)
-    images.push_back({image.file, scene.scene_id, image.image_id, image.camera, image.camera_from_world,
-                      fmt::format("{:06}_{:06}", scene.scene_id, image.image_id)});
+    images.push_back({image.file, folder, scene.scene_id, image.image_id, image.camera,
+                      image.camera_from_world, fmt::format("{:06}_{:06}", scene.scene_id, image.image_id)});
+  if (scene.images.empty())
+    throw InputError((folder / "scene_camera.json").string(), "images", "none", "at least one");
 }
 
 void add_file(const fs::path& file, std::vector<InputImage>& images) {
@@ -48,7 +59,7 @@ void add_folder(const fs::path& folder, std::vector<InputImage>& images) {
   if (is_bop_scene(folder)) return add_scene(folder, images);
   const std::size_t before = images.size();
   for (const fs::path& entry : sorted_entries(folder))
-    if (fs::is_directory(entry) && is_bop_scene(entry)) add_scene(entry, images);
+    if (is_folder(entry) && is_bop_scene(entry)) add_scene(entry, images);
   if (images.size() > before) return;
   for (const fs::path& entry : sorted_entries(folder))
     if (has_image_extension(entry)) add_file(entry, images);
@@ -68,7 +79,7 @@ void make_names_unique(std::vector<InputImage>& images) {
 int id_in_name(const std::string& file, int otherwise) {
   const std::string stem = fs::path(file).stem().string();
   const std::size_t digits = stem.size() - (stem.find_last_not_of("0123456789") + 1);
-  if (digits == 0 || digits > 8 || stem.find_last_not_of("0123456789") == std::string::npos) return otherwise;
+  if (digits == 0 || digits > 8) return otherwise;
   return std::stoi(stem.substr(stem.size() - digits));
 }
 
@@ -78,16 +89,24 @@ std::vector<InputImage> list_images(const std::vector<std::string>& arguments) {
   std::vector<InputImage> images;
   for (const std::string& argument : arguments) {
     const fs::path path = fs::path(argument).lexically_normal();
-    if (fs::is_directory(path))
+    std::error_code unknown;
+    if (is_folder(path))
       add_folder(path.has_filename() ? path : path.parent_path(), images);
-    else if (fs::exists(path))
+    else if (fs::exists(path, unknown))
       add_file(path, images);
     else
-      throw InputError(argument, "input", "nothing of that name",
+      throw InputError(argument, "input", unknown ? unknown.message() : "nothing of that name",
                        "an image, a folder of images or a BOP scene");
   }
   make_names_unique(images);
   return images;
+}
+
+void require_other_folder(std::span<const InputImage> images, const fs::path& out) {
+  std::error_code not_there;
+  for (const InputImage& image : images)
+    if (image.scene_folder.empty() && fs::equivalent(image.file.parent_path() / ".", out, not_there))
+      throw InputError("command line", "--out", "the folder of the images", "another one");
 }
 
 std::vector<Object> load_objects(const ModelArguments& arguments, int continuous_steps) {

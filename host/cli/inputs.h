@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace edgescout {
 
 struct InputImage {
   std::filesystem::path file;
+  std::filesystem::path scene_folder;  // of a BOP scene; else empty
   int scene_id = 0;
   int image_id = 0;
   std::optional<Camera> camera;  // of a BOP scene; size 0 x 0 until the image is read
@@ -27,6 +29,10 @@ struct InputImage {
 // of images (png, jpg, jpeg, pgm, ppm, bmp, tif, tiff; sorted by name). InputError where one is none of these
 // or holds no image.
 std::vector<InputImage> list_images(const std::vector<std::string>& arguments);
+
+// Results among images that a scene does not list would be taken for images the next time. InputError where
+// `out` is the folder of one.
+void require_other_folder(std::span<const InputImage> images, const std::filesystem::path& out);
 
 // What `work` makes of the image. Its InputErrors know no file: they get this one's name.
 template <typename Work>

@@ -1,8 +1,10 @@
 // edgescout VERB: dispatches, and turns every exception into one line and an exit code.
+#include <fmt/format.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 #include <new>
 
@@ -88,6 +90,8 @@ int run_and_catch(int argc, char** argv) {
     return run(argc, argv);
   } catch (const InputError& error) {
     return fail(error.what(), exit_bad_request);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(fmt::format("{}: {}", error.path1().string(), error.code().message()), exit_bad_request);
   } catch (const GpuError& error) {
     return fail(error.what(), exit_device_failed);
   } catch (const std::bad_alloc&) {

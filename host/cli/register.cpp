@@ -7,6 +7,7 @@
 #include "host/cli/exit_codes.h"
 #include "host/cli/pipeline_options.h"
 #include "host/cli/register_batch.h"
+#include "host/cli/template_sets.h"
 #include "host/cli/verbs.h"
 #include "host/io/camera_file.h"
 #include "kernels/error.h"
@@ -55,6 +56,7 @@ int register_all(RegisterRequest& request) {
   const std::vector<RegisterModel> models = load_models(request);
   const std::vector<StartPose> poses = load_start_poses(request.poses);
   const std::vector<InputImage> images = list_images(request.inputs);
+  require_other_folder(images, options.out);
   const std::vector<RegisterJob> jobs = make_jobs(images, models, poses, request.multi_view, request.poses);
   const RegisterSummary summary = run_register(jobs, models, *backend, options);
   std::cout << fmt::format(
@@ -110,6 +112,7 @@ void add_register(CLI::App& app, int& exit_code) {
       .flag("no-overlays", request->no_overlays, "Write no overlay pictures");
   add_edge_and_tensor_options(*verb, request->options.pipeline, request->edge_method);
   verb->callback([request, &exit_code, verb] {
+    refuse_beside_templates(*verb);
     request->options.settings = settings_of(*verb, {"Registration", "Edges", "Tensor"});
     exit_code = register_all(*request);
   });

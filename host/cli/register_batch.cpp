@@ -175,10 +175,16 @@ class Registrar {
   }
 
   // InputError: an image that cannot be used.
-  void work_on(const RegisterJob& job) {
-    const ReadyJob ready = prepare_job(job, backend_, options_);
+  std::pair<ReadyJob, Detections> refine(const RegisterJob& job) const {
+    ReadyJob ready = prepare_job(job, backend_, options_);
+    Detections found = refine_job(ready, models_, edge_models_, backend_, options_);
+    return {std::move(ready), std::move(found)};
+  }
+
+  // InputError: a folder that cannot be written.
+  void write(const ReadyJob& ready, const Detections& found) {
+    const RegisterJob& job = *ready.job;
     require_writable_folder(options_.out);
-    const Detections found = refine_job(ready, models_, edge_models_, backend_, options_);
     for (std::size_t view = 0; options_.overlays && view < job.views.size(); ++view)
       save_overlay(ready, view, found, edge_models_, backend_, options_);
     for (std::size_t view : views_with_starts(job)) {
@@ -238,14 +244,16 @@ void work_through(const std::vector<const RegisterJob*>& open, Registrar& regist
   Progress progress("register", open.size(), std::cerr, stderr_is_terminal());
   std::size_t failed = 0;
   for (const RegisterJob* job : open) {
+    std::optional<std::pair<ReadyJob, Detections>> refined;
     try {
-      registrar.work_on(*job);
+      refined = registrar.refine(*job);
     } catch (const InputError& error) {
       if (++failed == open.size() && registrar.summary.skipped == 0) throw;
       for (std::size_t view : views_with_starts(*job))
         registrar.summary.failures[job->views[view].file.string()] = error.what();
       log(LogLevel::Warning, error.what());
     }
+    if (refined) registrar.write(refined->first, refined->second);
     progress.step();
   }
 }
@@ -262,10 +270,10 @@ RegisterSummary run_register(std::span<const RegisterJob> jobs, std::span<const 
   const std::vector<const RegisterJob*> open = skip_done(jobs, registrar, options.resume);
   try {
     work_through(open, registrar);
-  } catch (const InputError&) {  // no image can be used: nothing is written
+  } catch (const InputError&) {  // where no image can be used nothing is written
+    if (!summary.finished.empty()) write_csv_of_ended(images, summary, options.out);
     throw;
   } catch (...) {
-    // The folder is made for the first job whose images can be read.
     if (std::filesystem::exists(options.out)) write_csv_of_ended(images, summary, options.out);
     throw;
   }

@@ -45,8 +45,8 @@ struct RegisterJob {
 
 // One job an image, or a BOP scene with `multi_view`, in the order of the images; images without starts are
 // left out of single views. `poses_file` appears in errors. InputError: a start for an image or an object
-// that is not there, or with its object behind the camera; no start that fits the images' scenes; a view
-// without world pose. Starts of other scenes are passed over.
+// that is not there, for more than one image, or with its object behind the camera; no start that fits the
+// images' scenes; a view without world pose. Starts of other scenes are passed over.
 std::vector<RegisterJob> make_jobs(std::span<const InputImage> images, std::span<const RegisterModel> models,
                                    std::span<const StartPose> poses, bool multi_view,
                                    const std::string& poses_file);

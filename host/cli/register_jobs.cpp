@@ -1,8 +1,6 @@
 // Which start belongs to which image.
 #include <fmt/format.h>
 
-#include <set>
-
 #include "host/cli/register_batch.h"
 #include "host/core/log.h"
 #include "kernels/error.h"
@@ -19,12 +17,20 @@ std::string described(const StartPose& pose) {
 std::optional<std::size_t> image_of(const StartPose& pose, std::span<const InputImage> images,
                                     const std::string& poses_file) {
   bool scene_is_here = !pose.scene_id;
+  std::optional<std::size_t> found;
   for (std::size_t i = 0; i < images.size(); ++i) {
     // Images of BOP scenes bring their camera; others are of no scene.
     const std::optional<int> scene = images[i].camera ? std::optional(images[i].scene_id) : std::nullopt;
-    if (belongs_to(pose, images[i].file, scene, images[i].image_id)) return i;
     scene_is_here |= !scene || scene == pose.scene_id;
+    if (!belongs_to(pose, images[i].file, scene, images[i].image_id)) continue;
+    if (found)
+      throw InputError(poses_file, "image",
+                       fmt::format("{}, which is {} and {}", described(pose), images[*found].file.string(),
+                                   images[i].file.string()),
+                       "one that fits a single image");
+    found = i;
   }
+  if (found) return found;
   if (scene_is_here) throw InputError(poses_file, "image", described(pose), "one of the images given");
   return std::nullopt;
 }
@@ -45,9 +51,8 @@ RegisterJob::Start start_of(const StartPose& pose, std::size_t view, std::span<c
 std::vector<RegisterJob> group_views(std::span<const InputImage> images, bool multi_view) {
   std::vector<RegisterJob> jobs;
   for (const InputImage& image : images) {
-    const bool same_scene = multi_view && !jobs.empty() &&
-                            jobs.back().views[0].file.parent_path() == image.file.parent_path() &&
-                            jobs.back().views[0].scene_id == image.scene_id;
+    const bool same_scene =
+        multi_view && !jobs.empty() && jobs.back().views[0].scene_folder == image.scene_folder;
     if (!same_scene) jobs.emplace_back();
     jobs.back().views.push_back(image);
   }

@@ -22,6 +22,17 @@ void add_model_arguments(CLI::App& verb, ModelArguments& arguments) {
       ->type_name("FILE");
 }
 
+void refuse_beside_templates(const CLI::App& verb) {
+  if (verb.count("--templates") == 0) return;
+  for (const CLI::Option* option : verb.get_options()) {
+    const std::string name = option->get_name();
+    const bool is_of_models = name == "--unit" || name == "--models-info" || name == "--object-id";
+    if (option->count() > 0 && (is_of_models || option->get_group() == "Templates"))
+      throw InputError("command line", name, "beside --templates",
+                       "it with --model: a template file says it itself");
+  }
+}
+
 KnownModels load_models(const ModelArguments& arguments) {
   if (arguments.models.empty() == arguments.templates.empty())
     throw InputError("command line", "--model, --templates", arguments.models.empty() ? "neither" : "both",

@@ -13,6 +13,10 @@ class Backend;
 // --model, --unit, --models-info, --object-id and --templates.
 void add_model_arguments(CLI::App& verb, ModelArguments& arguments);
 
+// A template file says all this itself. InputError: --templates, and beside it an option that says how models
+// are read or templates are built.
+void refuse_beside_templates(const CLI::App& verb);
+
 struct KnownModels {
   std::vector<Object> objects;    // of meshes: templates must be built
   std::vector<TemplateSet> sets;  // or read

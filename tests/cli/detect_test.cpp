@@ -240,6 +240,10 @@ TEST(Detect, RefusesOptionsDevicesAndFolders) {
   refused({"--device", "cpu", "--unit", "mm", "--model", part_file(1), part_file(1)},
           {"obj_000001.ply", "object id", "twice"});
   refused({"--device", "cpu", "--unit", "mm", "--model", t.folder.path() / "none.stl"}, {"none.stl"});
+  // What a template file says itself.
+  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
+           {"--unit", "mm"}, {"--object-id", "1"}, {"--distance-min", "0.2"}, {"--viewpoints", "4"}})
+    refused(joined({{"--templates", "part.est"}, more}), {more[0], "beside --templates"});
   const fs::path below = t.folder.write("file", "content") / "out";
   expect_refused(joined({{"detect", t.scene, "--out", below, "--device", "cpu"}, bracket()}),
                  {below, "output folder"});
@@ -259,6 +263,9 @@ TEST(Detect, KeepsOverlaysApartFromTheImages) {
                           "--camera", t.camera()},
                          bracket()}),
                  {"--out", "folder of the images"});
+  expect_refused(
+      joined({{"detect", t.image(), "--out", images, "--device", "cpu", "--camera", t.camera()}, bracket()}),
+      {"--out", "folder of the images"});
   EXPECT_EQ(std::distance(fs::directory_iterator(images), {}), 1);
 }
 

@@ -246,6 +246,37 @@ TEST(Register, RefusesPosesThatDoNotFit) {
                  {"000000.png", "world pose"});
 }
 
+// Results among the images would be images the next time; a start for two images would refine in one of them.
+TEST(Register, RefusesWhatWouldMixImages) {
+  const Refused t;
+  const fs::path a = t.folder.path() / "a", b = t.folder.path() / "b";
+  for (const fs::path& folder : {a, b}) {
+    fs::create_directories(folder);
+    fs::copy(one_view() / "gray/000000.png", folder / "part.png");
+  }
+  const std::string starts = t.folder.write(
+      "start.json", R"([{"image": "part.png", "object": 2, "R": [1,0,0,0,1,0,0,0,1], "t": [0, 0, 0.5]}])");
+  const auto in = [&](const std::vector<std::string>& images, const fs::path& out) {
+    return joined(
+        {{"register"}, images, {"--poses", starts, "--out", out, "--device", "cpu"}, part_models()});
+  };
+  expect_refused(in({a / "part.png"}, a), {"--out", "folder of the images"});
+  expect_refused(in({a / "part.png", b / "part.png"}, t.out),
+                 {"start.json", "part.png", "a/part.png and ", "single image"});
+  EXPECT_EQ(std::distance(fs::directory_iterator(a), {}), 1);
+}
+
+// What cannot be written is no bad image: the batch ends.
+TEST(Register, EndsWhereAResultCannotBeWritten) {
+  const Refused t;
+  const fs::path out = t.folder.path() / "blocked";
+  fs::create_directories(out / "000000_000000.json");
+  const Outcome outcome = run_program(register_in(one_view(), t.starts(good_start()), out));
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+  EXPECT_NE(outcome.err.find("000000_000000.json: output file"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(out / "summary.json"));
+}
+
 TEST(Register, RefusesOptionsDevicesAndFolders) {
   const Refused t;
   const std::string starts = t.starts(good_start());
