@@ -217,7 +217,7 @@ ParticleUpdate update_particles(std::vector<Particle>& particles, std::span<cons
     return weigh_particles(models, particles, views, backend, options);
   };
   if (refine_and_weigh() == 0 && !candidates.empty()) {
-    log(LogLevel::Warning, "all particles died in view " + std::to_string(views.size()) +
+    log(LogLevel::Warning, "all particles died in image " + std::to_string(views.size()) +
                                "; drawn anew around " + std::to_string(candidates.size()) + " candidates");
     const Spread wider{options.drawn.min, 2 * options.drawn.max};
     particles = draw_particles(models, candidates, options.count, wider, random.split("anew"));

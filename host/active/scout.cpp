@@ -8,6 +8,7 @@
 #include "host/active/views.h"
 #include "host/core/log.h"
 #include "host/core/option_bounds.h"
+#include "host/io/binary_file.h"
 #include "host/register/occluders.h"
 #include "kernels/error.h"
 
@@ -45,7 +46,12 @@ std::vector<TemplateTable> tables_of(std::span<const TemplateSet> sets, Backend&
 
 std::vector<ScoutObject> objects_of(std::span<const TemplateSet> sets) {
   std::vector<ScoutObject> objects;
-  for (const TemplateSet& set : sets) objects.push_back({set.object_id, fingerprint(set.model)});
+  for (const TemplateSet& set : sets) {
+    BinaryWriter bytes;
+    bytes.put(fingerprint(set.model));
+    for (const Se3& symmetry : set.symmetries.discrete) bytes.put_pose(symmetry);
+    objects.push_back({set.object_id, checksum(bytes.bytes)});
+  }
   return objects;
 }
 
@@ -228,6 +234,7 @@ std::size_t Scout::add_particles(ScoutState& next) const {
 ScoutDecision Scout::decide() const {
   if (state_.steps.empty()) return without_expectations(first_open_view());
   ScoutDecision decision;
+  decision.strategy = options_.next_view.strategy;
   Stopwatch watch(decision.stages);
   decision.candidates = state_.candidates;
   BitMatrix combinations;
@@ -316,7 +323,11 @@ void Scout::resume(ScoutState state, const std::string& source) {
     throw InputError(source, "indices", "an object or view that is none", "those of this run");
   std::vector<Observation> observations;
   for (const ScoutStep& step : state.steps) {
-    require_fitting(step.image, step.camera_from_world);
+    try {
+      require_fitting(step.image, step.camera_from_world);
+    } catch (const InputError& error) {
+      throw InputError(source + ": " + error.what());
+    }
     const PreparedImage prepared =
         prepare_image(step.image, undistorted(camera_), step.camera_from_world, backend_, options_.pipeline);
     observations.push_back(observe_prepared(prepared, sets_, backend_, options_.pipeline));

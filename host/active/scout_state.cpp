@@ -9,7 +9,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 4, "scout state"};
+constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 5, "scout state"};
 
 template <typename T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -86,7 +86,7 @@ void fields(auto& io, A<Particle> auto& x) {
   io(x.object, x.world_from_object, x.covariance, x.log_weight, x.upsilon_px2, x.spent_px2, x.by_view);
 }
 void fields(auto& io, A<ScoutDecision> auto& x) {
-  io(x.view, x.views, x.candidates, x.likeliest, x.unlikeliest, x.stages);
+  io(x.view, x.strategy, x.views, x.candidates, x.likeliest, x.unlikeliest, x.stages);
 }
 void fields(auto& io, A<ScoutStep> auto& x) {
   io(x.decision, x.camera_from_world, x.image, x.new_candidates, x.before, x.after, x.update, x.detections,

@@ -19,6 +19,7 @@ namespace edgescout {
 // Why a view, and what was thought when it was chosen.
 struct ScoutDecision {
   int view = 0;
+  Strategy strategy = Strategy::Information;  // by which `views` was judged
   // one a view; empty for the first image, of which nothing can be expected
   std::vector<ViewInformation> views;
   std::vector<Detection> candidates;  // world, at that time
@@ -57,7 +58,7 @@ std::string to_string(ScoutEnd end);  // "", "view budget", ..
 // What tells the objects of one run from those of another.
 struct ScoutObject {
   int id = 1;                     // BOP obj_id
-  std::uint64_t fingerprint = 0;  // of its model
+  std::uint64_t fingerprint = 0;  // of its model and symmetries
   bool operator==(const ScoutObject&) const = default;
 };
 

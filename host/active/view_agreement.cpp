@@ -97,11 +97,11 @@ std::size_t worst_of(std::span<const std::size_t> open, std::span<ViewAgreement>
 void warn(std::size_t view, const ViewAgreement& found) {
   log(LogLevel::Warning,
       found.missing == 0
-          ? fmt::format("the camera pose of view {} disagrees with its image: {:.1f} px between what all "
-                        "views say and what it shows",
+          ? fmt::format("the camera pose of image {} disagrees with it: {:.1f} px between what all images "
+                        "say and what it shows",
                         view + 1, found.residual_px)
-          : fmt::format("the camera pose of view {} disagrees with its image: it shows none of {} objects "
-                        "that other views show",
+          : fmt::format("the camera pose of image {} disagrees with it: it shows none of {} objects that "
+                        "other images show",
                         view + 1, found.missing));
 }
 

@@ -72,7 +72,7 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
       .bounded("penetration", o.particles.penetration_m, 0.0, 1.0,
                "How far parts may reach into each other, m: else no scene has both, and the less probable is "
                "doubted")
-      .bounded("particles", o.particles.count, 1, 100000, "Poses that are followed")
+      .bounded("particles", o.particles.count, 1, 16384, "Poses that are followed")
       .bounded("max-candidates", o.max_candidates, 1, 10000,
                "Of all objects together, kept from image to image")
       .bounded("known-probability", o.known_probability, 0.0, 2.0,

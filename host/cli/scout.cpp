@@ -51,15 +51,17 @@ TemplateOptions with_distances_of(TemplateOptions options, const std::vector<Se3
   return options;
 }
 
-const char* unit_of(Strategy strategy) {
-  return strategy == Strategy::Information ? "nats" : strategy == Strategy::Disocclusion ? "points" : "";
-}
-
-void settle_options(ScoutRequest& request) {
+// Also a YAML file's options count as given.
+void settle_options(ScoutRequest& request, const CLI::App& verb) {
   ScoutOptions& o = request.options;
   o.pipeline.edges.method = edge_method_from_name(request.edge_method);
   o.next_view.strategy = strategy_from(request.strategy);
   o.next_view.sequence = request.sequence;
+  if (o.next_view.strategy != Strategy::Fixed && !request.sequence.empty())
+    throw InputError("command line", "--sequence", "beside --strategy " + request.strategy, "fixed");
+  if (o.next_view.strategy != Strategy::Information && o.min_information_nats > 0)
+    throw InputError("command line", "--min-information", "beside --strategy " + request.strategy, "mi-max");
+  if (!request.sequence.empty() && verb.count("--first-view") == 0) o.first_view = request.sequence.front();
   o.validate();
   request.templates.validate();
 }
@@ -85,8 +87,9 @@ void tell(const ScoutState& state) {
 void write_all(const ScoutState& state, const ScoutReport& report, const ScoutRequest& request, bool last,
                Backend& backend) {
   const fs::path out = request.out;
-  save_scout_state(state, out / "scout.state");
+  // The state last: without it there is nothing to go on from, and the log tells of what it is.
   save_scout_log(state, report, out);
+  save_scout_state(state, out / "scout.state");
   if (last) save_scout_results(state, report, out);
   if (last || request.watch)
     write_file_atomically(out / "scout.html", scout_page(state, report, !last, backend));
@@ -101,15 +104,14 @@ ScoutReport report_of(const ScoutRequest& request, const ScoutSource& source,
           source.name,
           request.strategy,
           source.settings,
-          unit_of(request.options.next_view.strategy),
           source.truth,
           source.image_ids,
           source.image_files,
           source.scene_id};
 }
 
-int scout(ScoutRequest& request) {
-  settle_options(request);
+int scout(ScoutRequest& request, const CLI::App& verb) {
+  settle_options(request, verb);
   const std::unique_ptr<Backend> backend = make_backend(request.device);
   const KnownModels known = load_models(request.models);
   const ScoutSource source = make_source(request.source, objects_of(known), backend->threads());
@@ -123,6 +125,8 @@ int scout(ScoutRequest& request) {
       template_sets_of(known, with_distances_of(request.templates, views), source.source->camera(), *backend);
   Scout scout(sets, source.source->camera(), views, request.options, *backend);
   if (goes_on) scout.resume(load_scout_state(saved), saved.string());
+  std::error_code not_there;
+  if (!goes_on) fs::remove(saved, not_there);  // of another run, which must not be taken for this one
   const ScoutReport report = report_of(request, source, sets, *backend);
   run_scout(scout, *source.source, [&](const ScoutState& state) {
     tell(state);
@@ -182,7 +186,9 @@ void add_scout(CLI::App& app, int& exit_code) {
                      request->options.detections.evidence);
   verb->callback([request, verb, &exit_code] {
     request->source.cell_settings = settings_of(*verb, {"Scene", "Image", "Arm"});
-    exit_code = scout(*request);
+    refuse_unused(*verb);
+    refuse_beside_templates(*verb);
+    exit_code = scout(*request, *verb);
   });
 }
 

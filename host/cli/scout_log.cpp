@@ -43,7 +43,7 @@ json modes_json(const std::vector<ModeDetection>& modes, const ScoutReport& repo
                {"psi", d.psi},
                {"world_from_object", pose_json(d.world_from_object)},
                {"covariance", std::vector<double>(transposed.data(), transposed.data() + transposed.size())},
-               {"supporting_views", mode.supporting_views}};
+               {"supporting_images", mode.supporting_views}};
     if (const auto off = distance_to_truth(d, report))
       entry["off_truth"] = {
           {"angle_rad", off->angle_rad}, {"distance_m", off->distance_m}, {"right", off->right}};
@@ -66,7 +66,9 @@ json step_json(const ScoutStep& step, const ScoutReport& report) {
                          {"missing", view.missing},
                          {"disagrees", view.disagrees}});
   return {{"view", step.decision.view},
+          {"strategy", to_string(step.decision.strategy)},
           {"information", information_json(step.decision.views)},
+          {"information_unit", unit_of(step.decision.strategy)},
           {"decision_ms", stages_json(step.decision.stages)},
           {"camera_from_world", pose_json(step.camera_from_world)},
           {"timings_ms", stages_json(step.stages)},
@@ -100,6 +102,10 @@ ImageResult result_of(const ScoutState& state, const ScoutStep& step, const Scou
 
 }  // namespace
 
+const char* unit_of(Strategy strategy) {
+  return strategy == Strategy::Information ? "nats" : strategy == Strategy::Disocclusion ? "points" : "";
+}
+
 std::optional<DistanceToTruth> distance_to_truth(const Detection& detection, const ScoutReport& report) {
   std::optional<DistanceToTruth> nearest;
   for (const TrueObject& there : report.truth) {
@@ -117,7 +123,6 @@ void save_scout_log(const ScoutState& state, const ScoutReport& report, const st
            {"device", report.device},
            {"source", report.source},
            {"strategy", report.strategy},
-           {"information_unit", report.unit},
            {"camera", camera_json(report.camera)}};
   for (const auto& [name, value] : report.settings) log["settings"][name] = value;
   log["views"] = json::array();

@@ -132,12 +132,12 @@ class Page {
   std::string step(std::size_t i) const {
     const ScoutStep& s = state_.steps[i];
     const ScoutDecision& why = s.decision;
-    std::string html =
-        fmt::format("<section><h2>Image {} <small>view {}{}</small></h2>{}<div class=row>", i + 1, why.view,
-                    why.views.empty()
-                        ? ""
-                        : fmt::format(", {:.3f} {} expected", why.views[why.view].information, report_.unit),
-                    warning(s));
+    std::string html = fmt::format(
+        "<section><h2>Image {} <small>view {}{}</small></h2>{}<div class=row>", i + 1, why.view,
+        why.views.empty()
+            ? ""
+            : fmt::format(", {:.3f} {} expected", why.views[why.view].information, unit_of(why.strategy)),
+        warning(s));
     html +=
         figure(hemisphere(i),
                i == 0 ? "The views, from above. Nothing is known before the first image."
@@ -176,7 +176,7 @@ class Page {
     for (const FailedView& failed : state_.failed)
       if (failed.after_step <= step) drawn[failed.view].unreachable = true;
     drawn[why.view].chosen = true;
-    return hemisphere_svg(drawn, report_.unit);
+    return hemisphere_svg(drawn, unit_of(why.strategy));
   }
 
   std::string particles(const std::vector<Particle>& particles) const {

@@ -23,13 +23,15 @@ struct ScoutReport {
   Camera camera;  // ideal
   EdgesOptions edges;
   std::string device, source, strategy;
-  Settings settings;          // of the source
-  std::string unit = "nats";  // of ViewInformation::information
+  Settings settings;  // of the source
   std::vector<TrueObject> truth;
   std::vector<int> image_ids;                      // one a view
   std::vector<std::filesystem::path> image_files;  // one a view, or empty: they have none
   int scene_id = 0;
 };
+
+// Of ViewInformation::information.
+const char* unit_of(Strategy strategy);
 
 // How far a detection lies from the nearest instance of its object; nothing where no truth is known.
 struct DistanceToTruth {
@@ -38,7 +40,7 @@ struct DistanceToTruth {
 };
 std::optional<DistanceToTruth> distance_to_truth(const Detection& detection, const ScoutReport& report);
 
-// FOLDER/scout.json: {edgescout_scout: 1, device, source, settings {name: text}, strategy, information_unit,
+// FOLDER/scout.json: {edgescout_scout: 1, device, source, settings {name: text}, strategy (of the last run),
 // camera, views, steps [..], failed [..], detections [..], truth [..] (of a cell), seconds, end}; poses are
 // {R, t} and the camera is the ideal one, as in io/results.h. Atomically.
 void save_scout_log(const ScoutState& state, const ScoutReport& report, const std::filesystem::path& folder);

@@ -1,5 +1,7 @@
 #include "host/cli/scout_source.h"
 
+#include <fmt/format.h>
+
 #include <numeric>
 
 #include "host/cli/batch_settings.h"
@@ -35,6 +37,7 @@ ScoutSource make_cell(const SourceRequest& request, std::span<const Object> obje
               std::to_string(options.seed);
   made.settings = request.cell_settings;
   made.settings.emplace_back("source", "cell");
+  made.settings.emplace_back("radius", fmt::format("{}", request.hemisphere.radius_m));  // sizes the board
   for (const PlacedObject& placed : scene.placed)
     if (placed.target) made.truth.push_back({placed.object, placed.world_from_object});
   made.source = std::make_unique<SimulatedCell>(scene, scene.views[0].camera, cell_views(request, scene),
@@ -94,6 +97,18 @@ void add_source_options(CLI::App& verb, SourceRequest& r) {
                "By which a cell's arm misses its place, standard deviation of each axis, m")
       .bounded("arm-turn", r.arm.rotation_rad, 0.0, 1.0, "And its direction, rad")
       .flag("arm-tells", r.arm.known, "Its encoders tell where it is");
+}
+
+void refuse_unused(const CLI::App& verb) {
+  const bool is_cell = verb["source"]->as<std::string>() == "cell", has_list = verb.count("--views") > 0;
+  for (const CLI::Option* option : verb.get_options()) {
+    const std::string &name = option->get_name(), &group = option->get_group();
+    if (option->count() == 0 || name == "--views") continue;
+    if (!is_cell && (group == "Scene" || group == "Image" || group == "Arm" || group == "Views"))
+      throw InputError("command line", name, "beside recorded views", "it with a cell");
+    if (has_list && group == "Views" && name != "--radius")  // which sizes the board as well
+      throw InputError("command line", name, "beside --views", "one of the two");
+  }
 }
 
 ScoutSource make_source(const SourceRequest& request, std::span<const Object> objects, ThreadPool& pool) {

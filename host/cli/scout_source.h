@@ -21,6 +21,10 @@ struct SourceRequest {
 
 void add_source_options(CLI::App& verb, SourceRequest& request);
 
+// Of what was given on the command line. InputError: options of a cell with recorded views, of the hemisphere
+// with a list of views.
+void refuse_unused(const CLI::App& verb);
+
 struct ScoutSource {
   std::unique_ptr<ViewSource> source;
   std::string name;
@@ -31,7 +35,7 @@ struct ScoutSource {
   int scene_id = 0;
 };
 
-// `objects` lie in a cell. InputError: neither "cell" nor a folder of recorded views, options of the one with
+// `objects` lie in a cell. InputError: neither "cell" nor a folder of recorded views, a file of the one with
 // the other.
 ScoutSource make_source(const SourceRequest& request, std::span<const Object> objects, ThreadPool& pool);
 

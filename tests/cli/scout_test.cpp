@@ -2,6 +2,7 @@
 // taken up again.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -123,7 +124,21 @@ TEST(Scout, DoesNotGoOnInAnotherCell) {
   const std::string before = content_of(t.out / "scout.json");
   expect_refused(t.arguments({"--resume", "--seed", "2"}), {"scout.json", "seed", "found 1", "expected 2"});
   expect_refused(t.arguments({"--resume", "--arm-tells"}), {"scout.json", "arm-tells"});
+  std::vector<std::string> farther = t.arguments({"--resume"});
+  *(std::ranges::find(farther, "--radius") + 1) = "0.31";
+  expect_refused(farther, {"scout.json", "radius", "0.31"});
   EXPECT_EQ(content_of(t.out / "scout.json"), before);
+}
+
+// A fixed sequence begins with its first view.
+TEST(Scout, FollowsTheSequence) {
+  const SmallScout t;
+  const Outcome outcome = run_program(t.arguments({"--strategy", "fixed", "--sequence", "5", "3", "7"}));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const nlohmann::json log = t.log();
+  ASSERT_EQ(log.at("steps").size(), 3u);
+  EXPECT_EQ(log["steps"][0].at("view"), 5);
+  EXPECT_EQ(log["steps"][1].at("view"), 3);
 }
 
 TEST(Scout, DoesNotGoOnInAnotherFolder) {
@@ -156,7 +171,8 @@ TEST(Scout, TakesRecordedViewsAndGoesOnPastAMissingImage) {
   EXPECT_EQ(log.at("steps").size(), 2u);
   ASSERT_EQ(log.at("failed").size(), 1u);
   EXPECT_EQ(log["failed"][0].at("view"), 0);
-  EXPECT_EQ(log.at("information_unit"), "points");
+  EXPECT_EQ(log["steps"][1].at("strategy"), "dis");
+  EXPECT_EQ(log["steps"][1].at("information_unit"), "points");
   expect_self_contained(content_of(scene.out / "scout.html"));
   for (const nlohmann::json& step : log["steps"]) {
     const int view = step.at("view");
@@ -210,7 +226,15 @@ TEST(Scout, RefusesWhatItCannotUse) {
   refused(t.arguments({"--first-view", "8"}), {"--first-view", "8 views"});
   refused(t.arguments({"--strategy", "fixed", "--sequence", "1", "99"}), {"--sequence", "99", "8 views"});
   refused(t.arguments({"--strategy", "fixed", "--sequence", "1", "-1"}), {"--sequence", "-1", "8 views"});
-  refused(t.arguments({"--views", t.folder.write("views.json", "[]")}), {"views.json"});
+  refused(t.arguments({"--views", t.folder.write("views.json", "[]")}), {"--view-count", "beside --views"});
+  const std::vector<std::string> model{"--out",   t.out,        "--device", "cpu",
+                                       "--model", part_file(1), "--unit",   "mm"};
+  refused(joined({{"scout", "cell", "--views", t.folder.path() / "views.json"}, model}), {"views.json"});
+  refused(joined({{"scout", one_view(), "--arm-shift", "0.01"}, model}), {"--arm-shift", "recorded views"});
+  refused(joined({{"scout", one_view(), "--view-count", "9"}, model}), {"--view-count", "recorded views"});
+  refused(t.arguments({"--sequence", "1", "2"}), {"--sequence", "--strategy mi-max"});
+  refused(t.arguments({"--strategy", "dis", "--min-information", "0.1"}),
+          {"--min-information", "--strategy dis"});
   refused(t.arguments({"--elevations", "120"}), {"elevation"});
   refused(t.arguments({"--arm-shift", "nan"}), {"--arm-shift", "nan"});
   refused(t.arguments({"--sharpness", "501"}), {"--sharpness", "501", "0 to 500"});
