@@ -36,14 +36,16 @@ Notes options(const ExperimentSettings& s) {
   return notes;
 }
 
-// Columns: set, image, object, candidate, instance (empty: of none), and the scores.
+// Columns: set, image, object, instances (of the object in the image), candidate, instance (empty: of none),
+// and the scores.
 Table score_candidates(const KnownScene& scene, const ExperimentSettings& settings, Backend& backend) {
-  Table table{{}, {"set", "image", "object", "candidate", "instance", "fdcm_px", "line2d"}, {}};
+  Table table{{}, {"set", "image", "object", "instances", "candidate", "instance", "fdcm_px", "line2d"}, {}};
   std::vector<EdgeModel> models;
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
   const RegisterView view = register_views(scene, backend)[0];
   for (int object = 0; object < static_cast<int>(scene.objects.size()); ++object) {
-    if (std::ranges::find(scene.instances, object, &KnownInstance::object) == scene.instances.end()) continue;
+    const auto instances = std::ranges::count(scene.instances, object, &KnownInstance::object);
+    if (instances == 0) continue;
     const std::vector<PoseCandidate> candidates =
         pose_candidates(scene, object, settings.candidates, settings.seed);
     std::vector<Candidate> poses;
@@ -52,7 +54,8 @@ Table score_candidates(const KnownScene& scene, const ExperimentSettings& settin
     const std::vector<double> fdcm = fdcm_scores(models, poses, view, backend);
     const std::vector<double> line2d = line2d_scores(models, poses, view, backend);
     for (std::size_t i = 0; i < candidates.size(); ++i)
-      table.rows.push_back({scene.set, scene.name, scene.objects[object].mesh.name, std::to_string(i),
+      table.rows.push_back({scene.set, scene.name, scene.objects[object].mesh.name, std::to_string(instances),
+                            std::to_string(i),
                             candidates[i].instance < 0 ? "" : scene.instances[candidates[i].instance].name,
                             number_text(fdcm[i]), number_text(line2d[i])});
   }
@@ -91,20 +94,23 @@ struct Curve {
 };
 
 Curve curve_of(const Table& table, const Detector& detector) {
-  std::map<std::string, int> instances;
+  std::map<std::string, int> instances;  // with a candidate
+  std::map<std::string, double> there;   // by image and object, with one or not
   std::set<std::string> images;
   std::vector<ScoredPose> poses;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const std::string image = text_in(table, row, "set") + "/" + text_in(table, row, "image");
     images.insert(image);
+    there[image + "/" + text_in(table, row, "object")] = number_in(table, row, "instances");
     ScoredPose pose{detector.sign * number_in(table, row, detector.column), -1};
     if (const std::string& instance = text_in(table, row, "instance"); !instance.empty())
       pose.instance =
           instances.emplace(image + "/" + instance, static_cast<int>(instances.size())).first->second;
     poses.push_back(pose);
   }
-  return {detection_curve(std::move(poses), static_cast<int>(instances.size())),
-          static_cast<int>(images.size()), static_cast<int>(instances.size())};
+  int all = 0;
+  for (const auto& [key, count] : there) all += static_cast<int>(count);
+  return {detection_curve(std::move(poses), all), static_cast<int>(images.size()), all};
 }
 
 // The corners of the staircase: where the rate rises, and the ends. On a logarithmic axis no false positive

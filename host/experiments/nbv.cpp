@@ -36,7 +36,8 @@ class Detector {
       return candidates_in_image(std::span(&sets_[static_cast<std::size_t>(type)], 1), observation, earlier,
                                  backend_, options_);
     };
-    if (!earlier.empty()) return search();  // what was seen before differs from strategy to strategy
+    // what was seen before differs from strategy to strategy
+    if (!earlier.empty() || observation.view.occluders) return search();
     // coarser tensors where only large types are sought
     const auto key = std::tuple(view, type, observation.reduction);
     auto known = found_.find(key);

@@ -138,8 +138,8 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
       seconds.push_back(number_in(table, row, "seconds"));
   if (!seconds.empty())
     report.markdown += fmt::format(
-        "A step took {:.1f} s (median): the decision, and what its image brings; images that another "
-        "strategy had looked at before are not searched again.\n",
+        "A step took {:.1f} s (median): the decision, and what its image brings, while other bins ran "
+        "beside.\n",
         median(seconds));
   return report;
 }

@@ -35,7 +35,7 @@ struct ExperimentSettings {
   bool times = true;       // off: columns of times stay empty, so that two runs give the same bytes
   ExperimentSettings();
   static ExperimentSettings short_form();  // minutes on two cores
-  static ExperimentSettings full_form();   // the paper's numbers of images; an hour and a half on two cores
+  static ExperimentSettings full_form();   // the paper's numbers of images; two to three hours on two cores
   void validate() const;                   // InputError naming the field and the violated bound
 };
 
