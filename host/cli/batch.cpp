@@ -80,13 +80,8 @@ class Preparer {
     const auto start = Clock::now();
     const Image image = load_image(input.file);
     const double decode_seconds = seconds_since(start);
-    const Camera calibration = camera_ ? *camera_
-                               : input.camera
-                                   ? *input.camera
-                                   : throw InputError(input.file.string(), "camera", "none", "--camera FILE");
-    const std::string source = camera_ ? options_.camera_file : input.file.string();
     const Camera camera =
-        camera_for_image(calibration, image.width, image.height, options_.scale_camera, source);
+        camera_of(input, image.width, image.height, {camera_, options_.camera_file, options_.scale_camera});
     const Se3 from_world = options_.joint ? *input.camera_from_world : Se3{};
     PreparedImage prepared =
         naming(input, [&] { return prepare_image(image, camera, from_world, *backend_, options_.pipeline); });

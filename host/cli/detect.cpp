@@ -31,15 +31,12 @@ struct DetectRequest {
 // The camera that default distances are taken from: that of the first image that can be used. Where none can,
 // the last one's error.
 Camera first_camera(const DetectRequest& request, std::span<const InputImage> images) {
-  std::optional<Camera> given;
-  if (!request.batch.camera_file.empty()) given = load_camera(request.batch.camera_file);
+  GivenCamera given{{}, request.batch.camera_file, request.batch.scale_camera};
+  if (!given.file.empty()) given.camera = load_camera(given.file);
   for (const InputImage& input : images) {
     try {
-      if (!given && !input.camera) throw InputError(input.file.string(), "camera", "none", "--camera FILE");
       const Image image = load_image(input.file);
-      const std::string source = given ? request.batch.camera_file : input.file.string();
-      return camera_for_image(given ? *given : *input.camera, image.width, image.height,
-                              request.batch.scale_camera, source);
+      return camera_of(input, image.width, image.height, given);
     } catch (const InputError&) {
       if (&input == &images.back()) throw;
     }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "host/io/camera_file.h"
 #include "host/io/mesh.h"
 #include "kernels/error.h"
 
@@ -107,6 +108,16 @@ void require_other_folder(std::span<const InputImage> images, const fs::path& ou
   for (const InputImage& image : images)
     if (image.scene_folder.empty() && fs::equivalent(image.file.parent_path() / ".", out, not_there))
       throw InputError("command line", "--out", "the folder of the images", "another one");
+}
+
+Camera camera_of(const InputImage& image, int width, int height, const GivenCamera& given) {
+  if (!given.camera && !image.camera)
+    throw InputError(image.file.string(), "camera", "none", "--camera FILE");
+  const std::string source = given.camera ? given.file : (image.scene_folder / "scene_camera.json").string();
+  return naming(image, [&] {
+    return camera_for_image(given.camera ? *given.camera : *image.camera, width, height, given.may_scale,
+                            source);
+  });
 }
 
 std::vector<Object> load_objects(const ModelArguments& arguments, int continuous_steps) {

@@ -44,6 +44,16 @@ auto naming(const InputImage& image, Work work) {
   }
 }
 
+// A calibration that the user gives for all images.
+struct GivenCamera {
+  std::optional<Camera> camera;  // absent: BOP scenes bring their own
+  std::string file;
+  bool may_scale = false;  // to images of another size
+};
+// Of an image of this size. InputError naming the image and its calibration: there is none, one that does not
+// fit.
+Camera camera_of(const InputImage& image, int width, int height, const GivenCamera& given);
+
 struct ModelArguments {
   std::vector<std::string> models;  // mesh files
   std::string unit;

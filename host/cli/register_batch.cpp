@@ -11,7 +11,6 @@
 #include "host/detect/detect.h"
 #include "host/detect/observation.h"
 #include "host/io/binary_file.h"
-#include "host/io/camera_file.h"
 #include "host/io/files.h"
 #include "host/io/image.h"
 #include "host/io/overlay.h"
@@ -36,11 +35,8 @@ struct ReadyJob {
 PreparedImage prepare_view(const InputImage& input, bool is_alone, Backend& backend,
                            const RegisterOptions& options) {
   const Image image = load_image(input.file);
-  if (!options.camera && !input.camera)
-    throw InputError(input.file.string(), "camera", "none", "--camera FILE");
-  const Camera camera =
-      camera_for_image(options.camera ? *options.camera : *input.camera, image.width, image.height,
-                       options.scale_camera, options.camera ? options.camera_file : input.file.string());
+  const Camera camera = camera_of(input, image.width, image.height,
+                                  {options.camera, options.camera_file, options.scale_camera});
   const Se3 camera_from_world = is_alone ? Se3{} : *input.camera_from_world;
   return naming(input,
                 [&] { return prepare_image(image, camera, camera_from_world, backend, options.pipeline); });
