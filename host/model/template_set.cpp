@@ -54,10 +54,8 @@ TemplateSet build_templates(const Object& object, const TemplateOptions& options
   set.symmetries = object.symmetries;
   set.options = options;
   set.model = make_edge_model(object.mesh, options.edges);
-  std::vector<Eigen::Vector3d> directions;
-  for (const Eigen::Vector3d& d : icosphere(options.frequency))
-    if (options.range.contains(d)) directions.push_back(d);
-  directions = modulo_symmetry(directions, object.symmetries, ICOSPHERE_GAP_RAD / options.frequency);
+  const std::vector<Eigen::Vector3d> directions =
+      viewpoints_in(options.range, object.symmetries, options.frequency);
   // The visible set hardly depends on the distance within 2 : 1; take the geometric middle.
   const double distance =
       std::max(std::sqrt(options.distance_min_m * options.distance_max_m), 1.2 * set.model.radius_m);

@@ -63,6 +63,16 @@ std::vector<Eigen::Vector3d> modulo_symmetry(const std::vector<Eigen::Vector3d>&
   return kept;
 }
 
+std::vector<Eigen::Vector3d> viewpoints_in(const SphereRange& range, const Symmetries& symmetries,
+                                           int frequency) {
+  std::vector<Eigen::Vector3d> asked;
+  for (const Eigen::Vector3d& d : icosphere(frequency))
+    if (std::ranges::any_of(symmetries.discrete,
+                            [&](const Se3& s) { return range.contains(s.rotation * d); }))
+      asked.push_back(d);
+  return modulo_symmetry(asked, symmetries, ICOSPHERE_GAP_RAD / frequency);
+}
+
 Eigen::Quaterniond looking_from(const Eigen::Vector3d& direction) {
   const Eigen::Vector3d z = -direction.normalized();
   const Eigen::Vector3d helper = std::abs(z.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();

@@ -27,6 +27,11 @@ struct SphereRange {
 std::vector<Eigen::Vector3d> modulo_symmetry(const std::vector<Eigen::Vector3d>& directions,
                                              const Symmetries& symmetries, double margin_rad);
 
+// The icosphere's directions that `range` asks for, modulo symmetry: those that a symmetry brings into the
+// range are asked for too, one of each kind is kept.
+std::vector<Eigen::Vector3d> viewpoints_in(const SphereRange& range, const Symmetries& symmetries,
+                                           int frequency);
+
 // Rotation camera_from_object of a camera at `direction` from the object that looks back at it; the roll
 // about the line of sight is arbitrary but fixed.
 Eigen::Quaterniond looking_from(const Eigen::Vector3d& direction);

@@ -93,6 +93,30 @@ TEST(Viewpoints, ABoxKeepsAboutAQuarter) { expect_no_gap(symmetric({"x2", "z2"})
 TEST(Viewpoints, AHexagonKeepsAboutATwelfth) { expect_no_gap(symmetric({"x2", "z6"}), 5, 1 / 12.0, 0.25); }
 TEST(Viewpoints, ASolidOfRevolutionKeepsOneMeridian) { expect_no_gap(symmetric({"z"}), 5, 0, 0.15); }
 
+// What is asked for is there, also where the fundamental domain lies outside the range.
+TEST(Viewpoints, OfARangeHaveNoGapModuloSymmetry) {
+  Random random = test_random();
+  constexpr int frequency = 5;
+  for (const SphereRange range :
+       {SphereRange{-90, 0, 0, 360}, SphereRange{-90, -30, 0, 360}, SphereRange{-90, 90, 180, 360}})
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{}, {"y2"}, {"z2"}, {"z"}}) {
+      const Symmetries symmetries = symmetric(words);
+      const std::vector<Eigen::Vector3d> kept = viewpoints_in(range, symmetries, frequency);
+      double widest = 0;
+      for (int i = 0; i < 2000; ++i) {
+        const Eigen::Vector3d any = random.direction();
+        double nearest = range.contains(any) ? 10 : 0;
+        for (const Se3& symmetry : symmetries.discrete)
+          for (const Eigen::Vector3d& d : kept)
+            nearest = std::min(nearest, angle_rad(symmetry.rotation * any, d));
+        widest = std::max(widest, nearest);
+      }
+      // at the range's border one of three neighbours may stand alone
+      EXPECT_LT(widest, 2 * ICOSPHERE_GAP_RAD / frequency) << range.latitude_max_deg << " " << kept.size();
+    }
+}
+
 TEST(AxisSymmetry, TurnsAboutTheCentroidAndClosesTheGroup) {
   Mesh box = box_mesh(0.06, 0.04, 0.02);
   for (Eigen::Vector3d& v : box.vertices_m) v += Eigen::Vector3d(0.1, 0.2, 0.3);
