@@ -12,7 +12,7 @@
 // the remainder, so that they sum to exactly 32768.
 //
 // Agreement: reference, fast CPU path and Vulkan are equal bit for bit. Memory: 2 bytes a value; the
-// fast path needs bit masks of the seeds beside it, no second tensor.
+// fast path needs a list of the seeds beside it, no second tensor.
 #pragma once
 
 #include <span>
