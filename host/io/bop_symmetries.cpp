@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "host/core/symmetry_group.h"
 #include "host/io/bop.h"
 #include "host/io/json_fields.h"
 #include "kernels/error.h"
@@ -11,27 +12,6 @@ namespace edgescout {
 namespace {
 
 constexpr std::size_t max_discrete = 240;  // twice the largest finite rotation group of a solid, with room
-
-bool same(const Se3& a, const Se3& b) {
-  return angle_between_rad(a, b) < 1e-4 && distance_between_m(a, b) < 1e-6;
-}
-
-void add_unless_known(std::vector<Se3>& members, const Se3& member) {
-  if (std::none_of(members.begin(), members.end(), [&](const Se3& known) { return same(known, member); }))
-    members.push_back(member);
-}
-
-// Every product of the generators, the identity first.
-std::vector<Se3> closure(const std::vector<Se3>& generators, const JsonField& field) {
-  std::vector<Se3> group{Se3{}};
-  for (std::size_t i = 0; i < group.size(); ++i)
-    for (const Se3& generator : generators) {
-      add_unless_known(group, generator * group[i]);
-      if (group.size() > max_discrete)
-        field.fail("symmetries that generate no finite group", "at most 240 members");
-    }
-  return group;
-}
 
 std::vector<Se3> read_discrete(const JsonField& object) {
   std::vector<Se3> given;
@@ -46,7 +26,9 @@ std::vector<Se3> read_discrete(const JsonField& object) {
       entry.fail("a matrix that is no rotation", "a rigid 4x4 transform by row, in mm");
     }
   }
-  return closure(given, list);
+  std::vector<Se3> group = generated_group(given, max_discrete);
+  if (group.empty()) list.fail("symmetries that generate no finite group", "at most 240 members");
+  return group;
 }
 
 // Rotations about every given axis in equal steps; several axes (a ball) are sampled one by one, as BOP does.

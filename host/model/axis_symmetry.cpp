@@ -3,11 +3,15 @@
 #include <charconv>
 #include <numbers>
 
+#include "host/core/symmetry_group.h"
 #include "kernels/error.h"
 
 namespace edgescout {
 
 namespace {
+
+constexpr int MOST_TURNS = 360;
+constexpr std::size_t MOST_MEMBERS = 2 * MOST_TURNS;  // with a half turn about another axis
 
 Eigen::Vector3d surface_centroid_m(const Mesh& mesh) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -23,19 +27,19 @@ Eigen::Vector3d surface_centroid_m(const Mesh& mesh) {
 
 struct Turns {
   Eigen::Vector3d axis;
-  int order;
+  int order;       // or steps
+  bool is_finite;  // else any turn
 };
 
 Turns turns_of(const std::string& word, int continuous_steps) {
-  constexpr int most = 360;
   const InputError unknown("command line", "--symmetry", "\"" + word + "\"",
                            "x, y or z for any turn, or followed by 2 to 360 for an order, as in z2");
   if (word.empty() || word[0] < 'x' || word[0] > 'z') throw unknown;
-  Turns turns{Eigen::Vector3d::Unit(word[0] - 'x'), continuous_steps};
-  if (word.size() == 1) return turns;
+  Turns turns{Eigen::Vector3d::Unit(word[0] - 'x'), continuous_steps, word.size() > 1};
+  if (!turns.is_finite) return turns;
   const char* end = word.data() + word.size();
   const auto [rest, error] = std::from_chars(word.data() + 1, end, turns.order);
-  if (error != std::errc{} || rest != end || turns.order < 2 || turns.order > most) throw unknown;
+  if (error != std::errc{} || rest != end || turns.order < 2 || turns.order > MOST_TURNS) throw unknown;
   return turns;
 }
 
@@ -43,15 +47,24 @@ Turns turns_of(const std::string& word, int continuous_steps) {
 
 Symmetries axis_symmetries(const Mesh& mesh, std::span<const std::string> words, int continuous_steps) {
   const Eigen::Vector3d center = surface_centroid_m(mesh);
+  const auto about_center = [&](const Turns& turns, int count) {
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(2 * std::numbers::pi * count / turns.order, turns.axis));
+    return Se3{turn, center - turn * center};
+  };
+  std::vector<Se3> generators;
   Symmetries all;
+  for (const std::string& word : words)
+    if (const Turns turns = turns_of(word, continuous_steps); turns.is_finite)
+      generators.push_back(about_center(turns, 1));
+  all.discrete = generated_group(generators, MOST_MEMBERS);
+  if (all.discrete.empty())
+    throw InputError("command line", "--symmetry", "turns that generate no finite group", "those of a solid");
   for (const std::string& word : words) {
     const Turns turns = turns_of(word, continuous_steps);
+    if (turns.is_finite) continue;
     std::vector<Se3> products;
-    for (int i = 0; i < turns.order; ++i) {
-      const Eigen::Quaterniond turn(Eigen::AngleAxisd(2 * std::numbers::pi * i / turns.order, turns.axis));
-      const Se3 about_center{turn, center - turn * center};
-      for (const Se3& known : all.discrete) products.push_back(about_center * known);
-    }
+    for (int i = 0; i < turns.order; ++i)
+      for (const Se3& known : all.discrete) products.push_back(about_center(turns, i) * known);
     all.discrete = std::move(products);
   }
   return all;

@@ -138,6 +138,14 @@ TEST(AxisSymmetry, TurnsAboutTheCentroidAndClosesTheGroup) {
   }
 }
 
+TEST(AxisSymmetry, GeneratesTheGroupOfItsWords) {
+  EXPECT_EQ(symmetric({"x4", "z4"}).discrete.size(), 24u) << "a cube";
+  EXPECT_EQ(symmetric({"x2", "z6"}).discrete.size(), 12u) << "a hexagon";
+  EXPECT_EQ(symmetric({"z360", "x2"}).discrete.size(), 720u);
+  EXPECT_EQ(symmetric({"x2", "z"}).discrete.size(), 128u) << "a bar";
+  EXPECT_THROW(symmetric({"x4", "z3"}), InputError) << "of no solid";
+}
+
 TEST(AxisSymmetry, RefusesOtherWords) {
   for (const std::string word : {"", "q", "w2", "z1", "z0", "z-2", "z361", "z2x", "Z2"})
     expect_input_error([&] { axis_symmetries(box_mesh(0.06, 0.04, 0.02), std::vector{word}); },
