@@ -58,7 +58,7 @@ TEST(ViewAgreement, FlagsTheOneThatIsWrong) {
     print(agreement);
     for (std::size_t v = 0; v < 3; ++v) EXPECT_EQ(agreement[v].disagrees, v == odd) << v;
     ASSERT_EQ(log.messages.size(), 1u);
-    EXPECT_NE(log.messages[0].second.find("view " + std::to_string(odd + 1)), std::string::npos)
+    EXPECT_NE(log.messages[0].second.find("image " + std::to_string(odd + 1)), std::string::npos)
         << log.messages[0].second;
   }
 }
@@ -77,7 +77,7 @@ TEST(ViewAgreement, FlagsTheOneThatShowsNothingWhereItShould) {
       for (std::size_t v = 0; v < 3; ++v) EXPECT_EQ(agreement[v].disagrees, v == odd) << v;
       ASSERT_EQ(log.messages.size(), 1u);
       const std::string& text = log.messages[0].second;
-      EXPECT_NE(text.find("view " + std::to_string(odd + 1)), std::string::npos) << text;
+      EXPECT_NE(text.find("image " + std::to_string(odd + 1)), std::string::npos) << text;
       const bool none = agreement[odd].objects == 0;
       EXPECT_EQ(text.find("none of") != std::string::npos, none) << text;
       EXPECT_EQ(agreement[odd].missing >= 2, none);
