@@ -12,7 +12,8 @@ namespace edgescout {
 
 // The hits of a scan of `own`, moved along their rays, with `rank` the mean over all views of what
 // ScanHit::rank is in one; mean_px stays that of their own view. Other views in which a hit lies behind the
-// camera or in no image count as chance. `points` as for the scan. In the order given.
+// camera or in no image count as chance; of what known objects hide there (RegisterView::occluders) a view
+// says nothing, and counts the less. `points` as for the scan. In the order given.
 std::vector<ScanHit> judged_by_all(const TemplateSet& set, std::span<const ScanHit> hits,
                                    const Observation& own, std::span<const Observation> others,
                                    Backend& backend, const ScanOptions& options);

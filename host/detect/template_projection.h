@@ -21,6 +21,12 @@ class ThinnedView {
   // `nearest_m`.
   bool project(const Pose& camera_from_object, const Intrinsics& intrinsics, float x_px, float y_px, int bins,
                float nearest_m, TemplatePoint* out) const;
+  // Of one of the points, along the optical axis.
+  float depth_m(const Pose& camera_from_object, int point) const {
+    const float* m = camera_from_object.m;
+    return m[8] * coordinates_[0][point] + m[9] * coordinates_[1][point] + m[10] * coordinates_[2][point] +
+           m[11];
+  }
 
  private:
   int count_;

@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "host/register/occluders.h"
 #include "tests/detect/part_image.h"
 #include "tests/test_random.h"
 
@@ -58,8 +59,10 @@ struct SeenPart {
   }
 
   // Mean of a pose's points, as seen from the viewpoint nearest to the camera's modulo symmetry, in this
-  // view, weighted as ScanHit::rank.
-  double rank_in(const Observation& view, Se3 pose) const {
+  // view, weighted as ScanHit::rank; of the points in columns from `first_column` on, and the fraction that
+  // they are.
+  double rank_in(const Observation& view, Se3 pose, double first_column = -INFINITY,
+                 double* fraction = nullptr) const {
     const TemplateView* nearest = nullptr;
     double largest = -2;
     const Se3 given = pose;
@@ -74,12 +77,15 @@ struct SeenPart {
     const std::vector<std::uint16_t> tensor = view.salient->tensor();
     const int count = std::min<int>(ScanOptions{}.points, int(nearest->points.size()));
     double sum = 0;
+    int shown = 0;
     for (int i = 0; i < count; ++i) {
       const ModelPoint& p = nearest->points[std::size_t(i) * nearest->points.size() / std::size_t(count)];
       const Eigen::Vector3d at = pose * Eigen::Vector3d(p.x_m, p.y_m, p.z_m);
       const Eigen::Vector3d ahead = at + 1e-6 * (pose.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz));
       const Eigen::Vector2d pixel = project(view.coarse_camera, at),
                             along = project(view.coarse_camera, ahead) - pixel;
+      if (pixel.x() < first_column - 0.5) continue;
+      ++shown;
       const int x = int(std::lround(pixel.x())), y = int(std::lround(pixel.y()));
       const int bin =
           int(std::lround(std::fmod(std::atan2(along.y(), along.x()) + 2 * pi, pi) * shape.bins / pi)) %
@@ -87,7 +93,8 @@ struct SeenPart {
       const bool inside = x >= 0 && y >= 0 && x < shape.width && y < shape.height;
       sum += inside ? std::min(16, (tensor[shape.index(x, y, bin)] + 32) / 64) / 4.0 : 3.25;
     }
-    return sum / count * std::pow((pose * set.model.center_m).norm(), 0.25);
+    if (fraction) *fraction = double(shown) / count;
+    return sum / shown * std::pow((pose * set.model.center_m).norm(), 0.25);
   }
 };
 
@@ -172,6 +179,46 @@ TEST(JointScan, AloneItChangesNothing) {
   ASSERT_EQ(judged.size(), 1u);
   EXPECT_EQ(judged[0].rank, 2);
   EXPECT_TRUE(judged[0].camera_from_object.translation_m == hits[0].camera_from_object.translation_m);
+}
+
+// Known objects before a part's half, or all of it: only what they leave has a say.
+TEST(JointScan, WhatKnownObjectsHideHasNoSay) {
+  Random random = test_random();
+  SeenPart t(2, 300, random);
+  const Se3 truth = t.views[0].view.camera_from_world * t.truth;
+  std::vector<ScanHit> hits;
+  for (int i = 0; i < 20; ++i) {
+    Vector6d off;
+    off << 0.02 * random.direction(), 0.3 * random.direction();
+    hits.push_back(hit_at(retract(truth, off), random.uniform(0.5, 3)));
+  }
+  const auto behind = [&](int columns, float depth_m) {
+    auto occluders = std::make_shared<Occluders>();
+    occluders->camera = small_camera();
+    occluders->depth_m.assign(320 * 240, DEPTH_EMPTY);
+    for (int i = 0; i < 320 * 240; ++i)
+      if (i % 320 < columns) occluders->depth_m[std::size_t(i)] = depth_m;
+    t.views[1].view.occluders = occluders;
+    return t.judged(hits);
+  };
+  const std::vector<ScanHit> free = t.judged(hits), hidden = behind(320, 0.1f), before = behind(320, 0.9f);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    EXPECT_NEAR(hidden[i].rank, hits[i].rank, 1e-12) << "its own view's say alone";
+    EXPECT_EQ(before[i].rank, free[i].rank) << "what stands behind it hides nothing";
+  }
+  const std::vector<ScanHit> half = behind(160, 0.1f);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    double lowest = INFINITY;
+    for (const double further : {-0.05, -0.025, 0.0, 0.025, 0.05}) {
+      Se3 pose = hits[i].camera_from_object;
+      pose.translation_m += further * (pose * t.set.model.center_m);
+      const Se3 there = t.views[1].view.camera_from_world * inverse(t.views[0].view.camera_from_world) * pose;
+      double shown = 0;
+      const double rank = t.rank_in(t.views[1], there, 160, &shown);
+      lowest = std::min(lowest, (hits[i].rank + (shown > 0 ? shown * rank : 0)) / (1 + shown));
+    }
+    EXPECT_NEAR(half[i].rank, lowest, 0.04) << "a point or two of sixty round the other way";
+  }
 }
 
 // A view that looks the other way knows nothing, for or against.
