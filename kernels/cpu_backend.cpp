@@ -7,6 +7,7 @@
 
 #include "kernels/backend.h"
 #include "kernels/error.h"
+#include "kernels/pose_problems.h"
 #include "kernels/thread_pool.h"
 
 #ifdef __linux__
@@ -102,6 +103,9 @@ class CpuBackend : public Backend {
 
   ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height, const ImageView& image,
                        const Intrinsics& intrinsics, const TensorOptions& options) override {
+    check(width > 0 && height > 0, "make_view: an image without pixels");
+    check(image.width == 0 || (image.width == width && image.height == height),
+          "make_view: image of another size");
     const Timer timer(*this, "dcd_tensor");
     const TensorShape shape{width, height, options.bins};
     try {
@@ -134,6 +138,7 @@ class CpuBackend : public Backend {
   void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
                              std::span<const PoseProblem> problems, const PoseLoss& loss,
                              std::span<NormalEquations> out) override {
+    check_pose_problems(problems, points.size(), views.size());
     const Timer timer(*this, "pose_normal_equations");
     std::vector<TensorView> tensors;
     for (const ViewHandle& view : views) tensors.push_back(own(*view).tensor_view());
@@ -146,6 +151,7 @@ class CpuBackend : public Backend {
   void pose_score(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
                   std::span<const PoseProblem> problems, const PoseScoreOptions& options,
                   std::span<PoseScore> out) override {
+    check_pose_problems(problems, points.size(), views.size());
     const Timer timer(*this, "pose_score");
     std::vector<ScoreView> scored;
     for (const ViewHandle& view : views) scored.push_back({own(*view).tensor_view(), own(*view).gradient_x2});

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "kernels/error.h"
+#include "kernels/pose_problems.h"
 
 namespace edgescout::gpu {
 
@@ -22,12 +23,9 @@ std::uint32_t groups_to_fill(const Device& device) {
 
 PosePlan plan_poses(std::span<const PoseProblem> problems, std::size_t points, std::size_t views,
                     std::uint32_t min_groups) {
+  check_pose_problems(problems, points, views);
   std::uint32_t longest = 1;
-  for (const PoseProblem& problem : problems) {
-    check(std::size_t(problem.first_point) + problem.point_count <= points, "poses: points beyond the list");
-    check(problem.view < views, "poses: no such view");
-    longest = std::max(longest, problem.point_count);
-  }
+  for (const PoseProblem& problem : problems) longest = std::max(longest, problem.point_count);
   PosePlan plan;
   plan.order.resize(problems.size());
   std::iota(plan.order.begin(), plan.order.end(), 0u);

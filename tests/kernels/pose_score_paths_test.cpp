@@ -48,6 +48,26 @@ TEST_P(PoseScorePaths, NothingInsideScoresTheCap) {
   }
 }
 
+TEST_P(PoseScorePaths, BrokenProblemsAreOurBugs) {
+  std::mt19937 rng = test::test_rng();
+  const test::TwoViews views = test::make_views(*tested, *reference, rng, true);
+  const std::vector<ModelPoint> points = test::random_points(rng, 3);
+  PoseScore out;
+  const auto score = [&](PoseProblem problem) {
+    tested->pose_score(views.tested, points, {&problem, 1}, {}, {&out, 1});
+    reference->pose_score(views.reference, points, {&problem, 1}, {}, {&out, 1});
+  };
+  EXPECT_NO_THROW(score({test::random_pose(rng, 0.3f), 0, 3, 0}));
+  EXPECT_THROW(score({test::random_pose(rng, 0.3f), 1, 3, 0}), LogicError);  // points beyond the list
+  EXPECT_THROW(score({test::random_pose(rng, 0.3f), 0, 3, 3}), LogicError);  // a view that is not there
+}
+
+TEST_P(PoseScorePaths, AnImageOfAnotherSizeIsOurBug) {
+  const std::vector<std::uint8_t> pixels(16 * 12, 0);
+  EXPECT_THROW(tested->make_view({}, 32, 24, {16, 12, pixels.data()}, {100, 100, 15.5f, 11.5f}, {}),
+               LogicError);
+}
+
 INSTANTIATE_TEST_SUITE_P(Paths, PoseScorePaths, test::all_paths, test::param_name);
 
 }  // namespace
