@@ -1,7 +1,9 @@
 // How depth_raster.comp is called (depth_raster.h says what it computes).
 //
 // A workgroup takes DEPTH_GROUP triangles of one job: each invocation sets one up and fills it where its box
-// is small; the large ones are filled by all together.
+// is small; the large ones are filled by all together. The group's z is a band of rows, outside of which it
+// fills nothing: lavapipe ends a shader's loops after 65,535 turns in all, and DEPTH_GROUP triangles as large
+// as a band take a turn a pixel of it.
 //
 // A pixel's ray r = ((x - cx) / fx, (y - cy) / fy, 1) passes the triangle p0 p1 p2 where the three
 // w_k = (p_i x (p_j - p_i)) . r have one sign; there z = sum w_k z_k / sum w_k. In camera coordinates a
@@ -19,13 +21,15 @@ namespace edgescout {
 #endif
 EDGESCOUT_CONST(DEPTH_GROUP, 64);
 EDGESCOUT_CONST(DEPTH_JOB_WORDS, 16);
-EDGESCOUT_CONST(DEPTH_SMALL_BOX, 32);  // pixels an invocation fills alone
+EDGESCOUT_CONST(DEPTH_SMALL_BOX, 32);       // pixels an invocation fills alone
+EDGESCOUT_CONST(DEPTH_BAND_PIXELS, 65000);  // at most, unless a single row has more
 
 struct DepthRasterPush {
   uint triangle_count;
   uint width;
   uint height;
   float near_m;
+  uint band_rows;
 };
 #ifdef __cplusplus
 }  // namespace edgescout

@@ -46,7 +46,10 @@ Triangle set_up(uint job, uint triangle) {
   const vec2 focal = focal_of(job), centre = centre_of(job), last = vec2(push.width, push.height) - 1.0;
   const vec2 pa = focal * a.xy / a.z + centre, pb = focal * b.xy / b.z + centre, pc = focal * c.xy / c.z + centre;
   t.low = ivec2(ceil(clamp(min(pa, min(pb, pc)), vec2(0.0), last + 1.0)));
-  const ivec2 high = ivec2(floor(clamp(max(pa, max(pb, pc)), vec2(-1.0), last)));
+  ivec2 high = ivec2(floor(clamp(max(pa, max(pb, pc)), vec2(-1.0), last)));
+  const int first_row = int(gl_WorkGroupID.z * push.band_rows);
+  t.low.y = max(t.low.y, first_row);
+  high.y = min(high.y, first_row + int(push.band_rows) - 1);
   t.size = max(high - t.low + 1, ivec2(0));
   return t;
 }

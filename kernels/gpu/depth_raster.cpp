@@ -39,10 +39,13 @@ void DepthRaster::record(Batch& batch, const TriangleMesh& mesh, std::span<const
   batch.upload(jobs_, jobs);
   batch.fill(depth_, std::bit_cast<std::uint32_t>(DEPTH_EMPTY));
   batch.barrier();
-  const DepthRasterPush push{count, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height),
-                             DEPTH_NEAR_M};
-  batch.dispatch(kernel_, {groups_for(count, DEPTH_GROUP), static_cast<std::uint32_t>(jobs.size())},
-                 {vertices_, triangles_, jobs_, depth_}, push);
+  const auto rows = static_cast<std::uint32_t>(height);
+  const std::uint32_t band_rows = std::max(1u, DEPTH_BAND_PIXELS / static_cast<std::uint32_t>(width));
+  const DepthRasterPush push{count, static_cast<std::uint32_t>(width), rows, DEPTH_NEAR_M, band_rows};
+  batch.dispatch(
+      kernel_,
+      {groups_for(count, DEPTH_GROUP), static_cast<std::uint32_t>(jobs.size()), groups_for(rows, band_rows)},
+      {vertices_, triangles_, jobs_, depth_}, push);
   batch.download(depth_, depth);
 }
 

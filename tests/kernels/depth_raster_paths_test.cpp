@@ -128,6 +128,20 @@ TEST_P(DepthRasterPaths, ManyMaps) {
   EXPECT_LT(differ, found.size() / 100);  // centres next to an edge
 }
 
+// lavapipe ends a shader's loops after 65,535 turns in all: large triangles are filled in bands.
+TEST_P(DepthRasterPaths, LargeTrianglesFillLargeMaps) {
+  Soup wall;
+  wall.vertices = {-2, -2, 0.5f, 2, -2, 0.5f, 2, 2, 0.5f, -2, 2, 0.5f};
+  wall.triangles = {0, 1, 2, 0, 2, 3};
+  constexpr int size = 2048;
+  const DepthJob job{{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}}, {size, size, size / 2 + 0.3f, size / 2 - 0.1f}};
+  std::vector<float> depth(std::size_t(size) * size, -1);
+  tested->depth_raster(wall.mesh(), {&job, 1}, size, size, depth);
+  std::size_t empty = 0;
+  for (const float d : depth) empty += !(std::abs(d - 0.5f) < 1e-5f);
+  EXPECT_EQ(empty, 0u);
+}
+
 TEST_P(DepthRasterPaths, EmptyMeshLeavesEmptyMaps) {
   const DepthJob job = job_at(0, 0.3f, 8, 2, 2);
   std::vector<float> depth(20, -1);

@@ -164,8 +164,8 @@ TEST(PushConstants, PoseScore) {
 
 TEST(PushConstants, DepthRaster) {
   using Push = DepthRasterPush;
-  expect_members<Push>(depth_raster_spv,
-                       {MEMBER(triangle_count), MEMBER(width), MEMBER(height), MEMBER(near_m)});
+  expect_members<Push>(depth_raster_spv, {MEMBER(triangle_count), MEMBER(width), MEMBER(height),
+                                          MEMBER(near_m), MEMBER(band_rows)});
 }
 
 TEST(PushConstants, CandidateMap) {
