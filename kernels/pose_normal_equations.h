@@ -20,7 +20,8 @@
 // orientation counts as zero.
 //
 // Agreement: reference accumulates in double; the fast path and Vulkan in float by groups of points; sums
-// agree to 1e-3 relative to the largest entry of the same system (order of summation and the device's atan2).
+// agree to 1e-3 relative to the largest entry of the same system (order of summation and the device's atan2),
+// but for points within 1e-3 px of the image's border and edges seen end on: float cannot keep those.
 #ifndef EDGESCOUT_POSE_NORMAL_EQUATIONS_H
 #define EDGESCOUT_POSE_NORMAL_EQUATIONS_H
 

@@ -10,7 +10,9 @@
 // No point inside: mean_px = cap of the tensor, psi = matched = 0.
 //
 // Agreement: points equal; the means to 1e-3 px and 1e-3 (order of summation, atan2; a point on the
-// threshold may fall on either side: matched to 2 / points).
+// threshold may fall on either side: matched to 2 / points). What float cannot keep is excepted: a point within
+// 1e-3 px of the image's border may be inside on one path alone, and an edge seen end on
+// (POSE_MIN_FORESHORTENING) has an orientation of rounding alone.
 #pragma once
 
 #include <span>
