@@ -51,17 +51,20 @@ Symmetries axis_symmetries(const Mesh& mesh, std::span<const std::string> words,
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(2 * std::numbers::pi * count / turns.order, turns.axis));
     return Se3{turn, center - turn * center};
   };
+  std::vector<Turns> continuous;
   std::vector<Se3> generators;
-  Symmetries all;
-  for (const std::string& word : words)
-    if (const Turns turns = turns_of(word, continuous_steps); turns.is_finite)
+  for (const std::string& word : words) {
+    const Turns turns = turns_of(word, continuous_steps);
+    if (turns.is_finite)
       generators.push_back(about_center(turns, 1));
+    else
+      continuous.push_back(turns);
+  }
+  Symmetries all;
   all.discrete = generated_group(generators, MOST_MEMBERS);
   if (all.discrete.empty())
     throw InputError("command line", "--symmetry", "turns that generate no finite group", "those of a solid");
-  for (const std::string& word : words) {
-    const Turns turns = turns_of(word, continuous_steps);
-    if (turns.is_finite) continue;
+  for (const Turns& turns : continuous) {
     std::vector<Se3> products;
     for (int i = 0; i < turns.order; ++i)
       for (const Se3& known : all.discrete) products.push_back(about_center(turns, i) * known);
