@@ -59,7 +59,8 @@ struct Say {
   double rank = 0, weight = 1;
 };
 
-// Known objects before the points of one tensor's pixels.
+// Known objects before the points of one tensor's pixels. One pixel of their map is looked at, where
+// Occluders::hide asks nine: a rank over sixty points bears one that falls on the other side.
 class Hiding {
  public:
   Hiding(const Observation& view, double tolerance_m)
