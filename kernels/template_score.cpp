@@ -219,7 +219,8 @@ void check_jobs(std::size_t points, std::span<const TemplateJob> jobs, int ancho
     check(job.point_count >= 1 && job.point_count <= TEMPLATE_SCORE_MAX_POINTS,
           "template_score: points of a template");
     check(std::size_t(job.first_point) + job.point_count <= points, "template_score: points beyond the list");
-    check(job.columns >= 1 && job.rows >= 1, "template_score: a job without anchors");
+    const std::uint64_t anchors = std::uint64_t(job.columns) * job.rows;
+    check(anchors >= 1 && anchors <= TEMPLATE_SCORE_MAX_ANCHORS, "template_score: anchors of a job");
   }
 }
 

@@ -24,6 +24,9 @@ EDGESCOUT_CONST(TEMPLATE_SCORE_SHIFT, 6);
 EDGESCOUT_CONST(TEMPLATE_SCORE_CAP, 16);
 EDGESCOUT_CONST(TEMPLATE_SCORE_OUTSIDE, 13);
 EDGESCOUT_CONST(TEMPLATE_SCORE_MAX_POINTS, 256);
+// Of a job: lavapipe ends a shader's loops after 65,535 turns in all, and an invocation takes one a point of
+// every 64th anchor.
+EDGESCOUT_CONST(TEMPLATE_SCORE_MAX_ANCHORS, 8192);
 #ifdef __cplusplus
 }  // namespace edgescout
 
@@ -43,10 +46,10 @@ struct TemplatePoint {  // 32 bits beyond the struct's padding rules: three smal
 };
 
 struct TemplateJob {
-  std::uint32_t first_point;  // into the list of all templates' points
-  std::uint32_t point_count;  // 1..TEMPLATE_SCORE_MAX_POINTS
-  std::int32_t x0, y0;        // first anchor
-  std::uint32_t columns, rows;
+  std::uint32_t first_point;    // into the list of all templates' points
+  std::uint32_t point_count;    // 1..TEMPLATE_SCORE_MAX_POINTS
+  std::int32_t x0, y0;          // first anchor
+  std::uint32_t columns, rows;  // 1..TEMPLATE_SCORE_MAX_ANCHORS anchors
 };
 
 struct TemplateHit {

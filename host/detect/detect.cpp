@@ -60,6 +60,8 @@ void DetectOptions::validate() const {
   in("anchor_step", scan.anchor_step, 1, 16);
   in("region_columns", scan.region_columns, 1, 4096);
   in("region_rows", scan.region_rows, 1, 4096);
+  in("region_columns * region_rows", double(scan.region_columns) * scan.region_rows, 1,
+     TEMPLATE_SCORE_MAX_ANCHORS);
   in("scan_hits", scan.kept, 1, 1e7);
   in("aligned", aligned, 1, 1e6);
   in("aligned_jointly", aligned_jointly, 1, 1e6);

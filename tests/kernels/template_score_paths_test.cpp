@@ -107,6 +107,22 @@ TEST_P(TemplateScorePaths, BrokenJobsAreOurBugs) {
   EXPECT_THROW(score(1, {0, 2, 0, 0, 1, 1}), LogicError);  // points beyond the list
   EXPECT_THROW(score(1, {0, 0, 0, 0, 1, 1}), LogicError);  // no points
   EXPECT_THROW(score(1, {0, 1, 0, 0, 0, 1}), LogicError);  // no anchors
+  const auto most = static_cast<std::uint32_t>(TEMPLATE_SCORE_MAX_ANCHORS);
+  EXPECT_THROW(score(1, {0, 1, 0, 0, most + 1, 1}), LogicError);
+  EXPECT_THROW(score(1, {0, 1, 0, 0, 1u << 16, 1u << 16}), LogicError);  // 2^32 of them
+}
+
+// The best anchor is the last: a shader whose loops end early (lavapipe's, after 65,535 turns) misses it.
+TEST_P(TemplateScorePaths, TheLargestJobIsLookedThroughToItsEnd) {
+  const std::vector<EdgePoint> corner{{95, 95, 0, 10}};
+  const ViewHandle view = tested->make_view(corner, 96, 96, {}, {}, {});
+  const std::vector<TemplatePoint> points(TEMPLATE_SCORE_MAX_POINTS, {0, 0, 0});
+  const std::vector<TemplateJob> jobs{{0, TEMPLATE_SCORE_MAX_POINTS, -32, 32, 128, 64}};
+  ASSERT_EQ(jobs[0].columns * jobs[0].rows, std::uint32_t(TEMPLATE_SCORE_MAX_ANCHORS));
+  std::vector<TemplateHit> hits(1);
+  tested->template_score(*view, points, jobs, 1, hits);
+  EXPECT_EQ(hits[0].x, 95);
+  EXPECT_EQ(hits[0].y, 95);
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, TemplateScorePaths, test::all_paths, test::param_name);
