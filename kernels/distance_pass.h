@@ -7,6 +7,10 @@
 //   D(x) = min(cap, round(256 * sqrt(min_s |x - s|^2))), the rounding made exact in integers.
 // Cost: seeds times the area within the cap of each, whatever their arrangement.
 //
+// Specialization constant 0: seeds looked at in one turn of the loop. lavapipe ends a shader's loops after
+// 65,535 turns in all; up to DISTANCE_PLAIN_REACH neighbours a window cannot hold as many seeds, beyond it
+// (17 x 17 cells of 32 x 32 px at a cap of 255 px) DISTANCE_MANY at once are enough, and some 15 % slower.
+//
 // Buffers: 0 cells, 1 seeds (dcd_seed.h), 2 tensor, the band of rows [first_row, first_row + row_count).
 #ifndef EDGESCOUT_DISTANCE_PASS_H
 #define EDGESCOUT_DISTANCE_PASS_H
@@ -18,6 +22,8 @@ namespace edgescout {
 #endif
 EDGESCOUT_CONST(DISTANCE_ROWS, 32);  // of a workgroup
 EDGESCOUT_CONST(DISTANCE_ROWS_PER_INVOCATION, 16);
+EDGESCOUT_CONST(DISTANCE_PLAIN_REACH, 3);
+EDGESCOUT_CONST(DISTANCE_MANY, 8);
 EDGESCOUT_CONST(DISTANCE_WORDS, 16);  // of a tile's row: two pixels each
 
 struct DistancePassPush {

@@ -4,6 +4,7 @@
 #include "distance_pass.h"
 
 layout(local_size_x = DISTANCE_WORDS, local_size_y = DISTANCE_ROWS / DISTANCE_ROWS_PER_INVOCATION) in;
+layout(constant_id = 0) const uint SEEDS_AT_ONCE = 1;
 layout(push_constant) uniform Push { DistancePassPush push; };
 layout(binding = 0) readonly buffer Cells { uvec2 cells[]; };
 layout(binding = 1) readonly buffer Seeds { uint seeds[]; };
@@ -24,6 +25,22 @@ uint root(uint v) {
   return q;
 }
 
+// The pixels of this invocation: a column of the left and one of the right of each word.
+int left[ROWS], right[ROWS];
+
+// |x - s|^2 = dx^2 + sy^2 - 2 r sy + r^2 with sy counted from row y: r^2 is the same for all seeds and is added last.
+void look_at(uint seed, int x, int y) {
+  const int dx = x - int(seed & 0xffffu), sy = int(seed >> 16) - y;
+  int a = dx * dx + sy * sy, b = a + 2 * dx + 1;
+  const int less = 2 * sy;
+  [[unroll]] for (uint r = 0; r < ROWS; ++r) {
+    left[r] = min(left[r], a);
+    right[r] = min(right[r], b);
+    a -= less;
+    b -= less;
+  }
+}
+
 uint distance_of(int squared) { return min(push.cap, root(uint(min(squared, 65535)))); }
 
 void main() {
@@ -32,8 +49,6 @@ void main() {
   const int x = int(tile * DCD_TILE + gl_LocalInvocationID.x * 2u);
   const int y = int(strip_row + gl_LocalInvocationID.y * ROWS);
 
-  // |x - s|^2 = dx^2 + sy^2 - 2 r sy + r^2 with sy counted from row y: r^2 is the same for all seeds and is added last.
-  int left[ROWS], right[ROWS];
   [[unroll]] for (uint r = 0; r < ROWS; ++r) left[r] = right[r] = FAR;
 
   const uint x_end = min(tile + push.reach_cells + 1u, push.cell_columns) - 1u, x_begin = tile - min(tile, push.reach_cells);
@@ -44,19 +59,12 @@ void main() {
     const uint row = (bin * push.cell_rows + cy) * push.cell_columns;
     const uint begin = cells[row + x_begin].x;
     const uvec2 last = cells[row + x_end];
-    any = any || begin < last.x + last.y;
-    [[dont_unroll]] for (uint i = begin; i < last.x + last.y; ++i) {
-      const uint seed = seeds[i];
-      const int dx = x - int(seed & 0xffffu), sy = int(seed >> 16) - y;
-      int a = dx * dx + sy * sy, b = a + 2 * dx + 1;
-      const int less = 2 * sy;
-      [[unroll]] for (uint r = 0; r < ROWS; ++r) {
-        left[r] = min(left[r], a);
-        right[r] = min(right[r], b);
-        a -= less;
-        b -= less;
-      }
-    }
+    const uint end = last.x + last.y;
+    any = any || begin < end;
+    uint i = begin;
+    [[dont_unroll]] for (; i + SEEDS_AT_ONCE <= end; i += SEEDS_AT_ONCE)
+      [[unroll]] for (uint k = 0; k < SEEDS_AT_ONCE; ++k) look_at(seeds[i + k], x, y);
+    [[dont_unroll]] for (; i < end; ++i) look_at(seeds[i], x, y);
   }
 
   const uint band_row = uint(y) - push.first_row;

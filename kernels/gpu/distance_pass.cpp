@@ -6,13 +6,15 @@
 namespace edgescout::gpu {
 
 DistancePass::DistancePass(const Device& device)
-    : kernel_(device, {"distance_pass", distance_pass_spv, 3, sizeof(DistancePassPush), {}}) {}
+    : plain_(device, {"distance_pass", distance_pass_spv, 3, sizeof(DistancePassPush), {1}}),
+      many_(device, {"distance_pass", distance_pass_spv, 3, sizeof(DistancePassPush), {DISTANCE_MANY}}) {}
 
 void DistancePass::record(Batch& batch, const SeedLists& lists, std::uint32_t cap,
                           const DeviceTensor& tensor) const {
   const TensorShape& shape = tensor.shape();
   // The last distance below the cap, in whole cells: a seed further away cannot matter.
   const std::uint32_t reach_cells = groups_for(groups_for(cap, DCD_UNITS_PER_PX), DCD_CELL);
+  const Kernel& kernel = reach_cells <= DISTANCE_PLAIN_REACH ? plain_ : many_;
   const auto tiles = static_cast<std::uint32_t>(shape.tiles_per_row());
   for (std::uint32_t band = 0; band < tensor.bands(); ++band) {
     const DistancePassPush push{static_cast<std::uint32_t>(shape.width),
@@ -26,7 +28,7 @@ void DistancePass::record(Batch& batch, const SeedLists& lists, std::uint32_t ca
                                 cap};
     const Groups groups{tiles, groups_for(tensor.row_count(band), DISTANCE_ROWS),
                         static_cast<std::uint32_t>(shape.bins)};
-    batch.dispatch(kernel_, groups, {lists.cells, lists.seeds, tensor.band(band)}, push);
+    batch.dispatch(kernel, groups, {lists.cells, lists.seeds, tensor.band(band)}, push);
   }
   batch.barrier();
 }

@@ -15,7 +15,7 @@ class DistancePass {
   void record(Batch& batch, const SeedLists& lists, std::uint32_t cap, const DeviceTensor& tensor) const;
 
  private:
-  Kernel kernel_;
+  Kernel plain_, many_;
 };
 
 }  // namespace edgescout::gpu

@@ -64,6 +64,21 @@ TEST_F(DistancePassTest, EveryRootIsExact) {
   EXPECT_EQ(distances(corner, shape, 65280), brute_force(corner, shape, 65280));
 }
 
+// As many seeds within the largest cap as there can be: those below the gap come last, after more turns than
+// lavapipe lets a shader's loop take.
+TEST_F(DistancePassTest, LooksAtEverySeedOfTheFullestWindow) {
+  const int side = 17 * int(DCD_CELL), gap = 8 * int(DCD_CELL);
+  std::vector<EdgePoint> edges;
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side && y / int(DCD_CELL) != 8; ++x) edges.push_back({float(x), float(y), 0, 1});
+  const TensorShape shape{side, side, 4};
+  const std::vector<std::uint16_t> found = distances(edges, shape, 65280);
+  for (int y = 0; y < side; ++y) {
+    const int expected = std::max(0, std::min(y - gap + 1, gap + int(DCD_CELL) - y));
+    for (int x = 0; x < side; ++x) ASSERT_EQ(found[shape.index(x, y, 0)], 256 * expected) << x << ", " << y;
+  }
+}
+
 }  // namespace
 }  // namespace edgescout
 #endif
