@@ -157,10 +157,7 @@ void Batch::check_dispatch(const Kernel& kernel, Groups groups, std::span<const 
   if (groups.x > most[0] || groups.y > most[1] || groups.z > most[2])
     throw GpuError(described(kernel, groups) + ": more workgroups than " + device_.info().name + " takes");
   for (const Bound& range : bound)
-    if (range.bytes > device_.limits().maxStorageBufferRange)
-      throw GpuError(kernel.name() + ": buffer '" + range.buffer->name() + "' of " +
-                     std::to_string(range.bytes) + " bytes, " + device_.info().name + " binds at most " +
-                     std::to_string(device_.limits().maxStorageBufferRange));
+    device_.check_range(range.bytes, kernel.name() + ": buffer '" + range.buffer->name() + "'");
 }
 
 VkDescriptorSet Batch::bind(const Kernel& kernel, std::span<const Bound> bound) {

@@ -50,9 +50,11 @@ class Buffer : public RawBuffer {
   Buffer(const Device& device, std::size_t size, std::string name, Memory memory = Memory::device)
       : RawBuffer(device, size * sizeof(T), memory, std::move(name)), size_(size) {}
   std::size_t size() const { return size_; }
-  // Grows to at least `size` values; the contents are lost when it does.
+  // Grows to at least `size` values; the contents are lost when it does. Throws GpuError, and stays as it is,
+  // where a kernel could not be given all of it: a dispatch binds such a buffer whole.
   void reserve(const Device& device, std::size_t size, const char* name) {
     if (size > size_ || get() == VK_NULL_HANDLE) {
+      device.check_range(size * sizeof(T), "buffer '" + std::string(name) + "'");
       *this = Buffer();
       *this = Buffer(device, size, name);
     }

@@ -99,6 +99,12 @@ Device::Device(const DeviceOptions& options)
 
 Device::~Device() = default;
 
+void Device::check_range(VkDeviceSize bytes, const std::string& name) const {
+  if (bytes > limits_.maxStorageBufferRange)
+    throw GpuError(name + " of " + std::to_string(bytes) + " bytes, " + info_.name + " binds at most " +
+                   std::to_string(limits_.maxStorageBufferRange));
+}
+
 std::uint32_t Device::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags flags) const {
   for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
     if ((allowed >> i & 1u) != 0 && (memory_.memoryTypes[i].propertyFlags & flags) == flags) return i;

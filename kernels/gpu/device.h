@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <vulkan/vulkan.h>
@@ -32,7 +33,9 @@ class Device {
   const DeviceInfo& info() const { return info_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
   VkDeviceSize max_allocation_bytes() const { return max_allocation_bytes_; }
-  // Most bytes of a tensor in one binding.
+  // Throws GpuError where `bytes` of what `name` says are more than one binding takes.
+  void check_range(VkDeviceSize bytes, const std::string& name) const;
+  // Most bytes in one binding, of what is cut to fit: tensors, maps, poses.
   VkDeviceSize max_band_bytes() const { return max_band_bytes_; }
   // 0: this queue cannot write timestamps.
   double seconds_per_tick() const { return seconds_per_tick_; }

@@ -12,7 +12,12 @@ static_assert(sizeof(NormalEquations) == sizeof(float) * POSE_SYSTEM_SUMS);
 PoseNormalEquations::PoseNormalEquations(const Device& device, std::uint32_t min_groups)
     : kernel_(device, {"pose_normal_equations", pose_normal_equations_spv, 7, sizeof(PoseSystemPush), {}}),
       min_groups_(min_groups > 0 ? min_groups : groups_to_fill(device)),
+      device_(device),
       buffers_(device) {}
+
+std::size_t PoseNormalEquations::that_fit(std::span<const PoseProblem> problems) const {
+  return poses_that_fit(device_, problems, POSE_SYSTEM_SUMS);
+}
 
 void PoseNormalEquations::record(Batch& batch, std::span<const PoseView> views,
                                  std::span<const ModelPoint> points, std::span<const PoseProblem> problems,

@@ -11,6 +11,8 @@ class PoseNormalEquations {
  public:
   // `min_groups` 0: as the device likes it.
   explicit PoseNormalEquations(const Device& device, std::uint32_t min_groups = 0);
+  // How many problems from the front one batch takes: at least one.
+  std::size_t that_fit(std::span<const PoseProblem> problems) const;
   void record(Batch& batch, std::span<const PoseView> views, std::span<const ModelPoint> points,
               std::span<const PoseProblem> problems, const PoseLoss& loss);
   // After the batch has run: a system for every problem that was recorded last.
@@ -19,6 +21,7 @@ class PoseNormalEquations {
  private:
   BandedKernel kernel_;
   std::uint32_t min_groups_;
+  const Device& device_;
   PosePlan plan_;
   PoseBuffers buffers_;
 };

@@ -15,18 +15,48 @@ static_assert(sizeof(PoseProblem) == 4 * POSE_PROBLEM_WORDS);
 
 constexpr std::uint32_t max_run = 1u << 15;  // any device takes so many workgroups in y
 
+// Points that some problems name, with what lies between.
+struct PointRange {
+  std::uint32_t begin = 0, end = 0;
+  std::uint32_t size() const { return end - begin; }
+  void include(const PoseProblem& problem) {
+    if (problem.point_count == 0) return;
+    begin = size() == 0 ? problem.first_point : std::min(begin, problem.first_point);
+    end = std::max(end, problem.first_point + problem.point_count);
+  }
+};
+
 }  // namespace
 
 std::uint32_t groups_to_fill(const Device& device) {
   return device.info().hardware || !device.unified_memory() ? 1024 : 1;
 }
 
+std::size_t poses_that_fit(const Device& device, std::span<const PoseProblem> problems, std::uint32_t sums) {
+  const std::size_t most = device.max_band_bytes();
+  PointRange range;
+  std::size_t count = 0;
+  while (count < problems.size()) {
+    range.include(problems[count]);
+    const std::size_t results = (count + 1) * std::max(sizeof(PoseProblem), sums * sizeof(float));
+    if (count > 0 && std::max(results, range.size() * sizeof(ModelPoint)) > most) break;
+    ++count;
+  }
+  return count;
+}
+
 PosePlan plan_poses(std::span<const PoseProblem> problems, std::size_t points, std::size_t views,
                     std::uint32_t min_groups) {
   check_pose_problems(problems, points, views);
   std::uint32_t longest = 1;
-  for (const PoseProblem& problem : problems) longest = std::max(longest, problem.point_count);
+  PointRange range;
+  for (const PoseProblem& problem : problems) {
+    longest = std::max(longest, problem.point_count);
+    range.include(problem);
+  }
   PosePlan plan;
+  plan.first_point = range.begin;
+  plan.point_count = range.size();
   plan.order.resize(problems.size());
   std::iota(plan.order.begin(), plan.order.end(), 0u);
   std::ranges::stable_sort(plan.order, {}, [&](std::uint32_t i) { return problems[i].view; });
@@ -50,12 +80,15 @@ void PoseBuffers::upload(Batch& batch, const PosePlan& plan, std::span<const Mod
                          std::span<const PoseProblem> problems, std::uint32_t sums) {
   std::vector<PoseProblem> sorted;
   sorted.reserve(problems.size());
-  for (std::uint32_t i : plan.order) sorted.push_back(problems[i]);
+  for (std::uint32_t i : plan.order) {
+    sorted.push_back(problems[i]);
+    sorted.back().first_point -= plan.first_point;
+  }
   host_results_.assign(problems.size() * plan.parts * sums, 0.0f);
-  points_.reserve(device_, points.size(), "model points");
+  points_.reserve(device_, plan.point_count, "model points");
   problems_.reserve(device_, sorted.size(), "pose problems");
   results_.reserve(device_, host_results_.size(), "pose sums");
-  batch.upload(points_, points);
+  batch.upload(points_, points.subspan(plan.first_point, plan.point_count));
   batch.upload<PoseProblem>(problems_, sorted);
   batch.barrier();
 }

@@ -18,11 +18,13 @@ struct PoseView {
   const RawBuffer* gradient_x2;
 };
 
-// Problems in the order of their views; a run of them is one dispatch.
+// Problems in the order of their views; a run of them is one dispatch. The device holds the points they name,
+// [first_point, first_point + point_count).
 struct PosePlan {
   struct Run {
     std::uint32_t view, first, count;
   };
+  std::uint32_t first_point = 0, point_count = 0;
   std::vector<std::uint32_t> order;
   std::vector<Run> runs;
   std::uint32_t parts = 1;  // workgroups a problem
@@ -31,6 +33,9 @@ struct PosePlan {
 // `min_groups`: workgroups that keep the device busy. Throws LogicError on problems that break the contract.
 PosePlan plan_poses(std::span<const PoseProblem> problems, std::size_t points, std::size_t views,
                     std::uint32_t min_groups);
+// How many problems from the front a device binds at once, with the points they name and `sums` floats of
+// results each: at least one.
+std::size_t poses_that_fit(const Device& device, std::span<const PoseProblem> problems, std::uint32_t sums);
 // Workgroups that keep the device busy: many on a graphics card (or where tests ask for one's ways: staging),
 // one on a processor's few cores.
 std::uint32_t groups_to_fill(const Device& device);

@@ -8,7 +8,12 @@ namespace edgescout::gpu {
 PoseScorer::PoseScorer(const Device& device, std::uint32_t min_groups)
     : kernel_(device, {"pose_score", pose_score_spv, 8, sizeof(PoseScorePush), {}}),
       min_groups_(min_groups > 0 ? min_groups : groups_to_fill(device)),
+      device_(device),
       buffers_(device) {}
+
+std::size_t PoseScorer::that_fit(std::span<const PoseProblem> problems) const {
+  return poses_that_fit(device_, problems, POSE_SCORE_SUMS);
+}
 
 void PoseScorer::record(Batch& batch, std::span<const PoseView> views, std::span<const ModelPoint> points,
                         std::span<const PoseProblem> problems, const PoseScoreOptions& options) {

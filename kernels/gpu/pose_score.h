@@ -12,6 +12,8 @@ class PoseScorer {
  public:
   // `min_groups` 0: as the device likes it.
   explicit PoseScorer(const Device& device, std::uint32_t min_groups = 0);
+  // How many problems from the front one batch takes: at least one.
+  std::size_t that_fit(std::span<const PoseProblem> problems) const;
   // A view without a gradient scores psi = 0.
   void record(Batch& batch, std::span<const PoseView> views, std::span<const ModelPoint> points,
               std::span<const PoseProblem> problems, const PoseScoreOptions& options);
@@ -21,6 +23,7 @@ class PoseScorer {
  private:
   BandedKernel kernel_;
   std::uint32_t min_groups_;
+  const Device& device_;
   float cap_px_ = 0;
   PosePlan plan_;
   PoseBuffers buffers_;

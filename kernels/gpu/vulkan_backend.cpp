@@ -140,19 +140,13 @@ class VulkanBackend : public Backend {
   void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
                              std::span<const PoseProblem> problems, const PoseLoss& loss,
                              std::span<NormalEquations> out) override {
-    Batch batch(*device_, "pose_normal_equations");
-    systems_.record(batch, pose_views(views), points, problems, loss);
-    run(batch);
-    systems_.collect(out);
+    run_poses("pose_normal_equations", systems_, views, points, problems, loss, out);
   }
 
   void pose_score(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
                   std::span<const PoseProblem> problems, const PoseScoreOptions& options,
                   std::span<PoseScore> out) override {
-    Batch batch(*device_, "pose_score");
-    scorer_.record(batch, pose_views(views), points, problems, options);
-    run(batch);
-    scorer_.collect(out);
+    run_poses("pose_score", scorer_, views, points, problems, options, out);
   }
 
   void depth_raster(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
@@ -215,6 +209,22 @@ class VulkanBackend : public Backend {
     std::vector<PoseView> list;
     for (const ViewHandle& view : views) list.push_back(own(*view).pose_view());
     return list;
+  }
+
+  // As many batches as the points of all problems take.
+  template <class Kernel, class Options, class Out>
+  void run_poses(const char* name, Kernel& kernel, std::span<const ViewHandle> views,
+                 std::span<const ModelPoint> points, std::span<const PoseProblem> problems,
+                 const Options& options, std::span<Out> out) {
+    check(out.size() == problems.size(), "poses: as many results as problems");
+    const std::vector<PoseView> own_views = pose_views(views);
+    for (std::size_t first = 0, count = 0; first < problems.size(); first += count) {
+      count = kernel.that_fit(problems.subspan(first));
+      Batch batch(*device_, name);
+      kernel.record(batch, own_views, points, problems.subspan(first, count), options);
+      run(batch);
+      kernel.collect(out.subspan(first, count));
+    }
   }
 
   // Kernels by their names on the device's clock; what the call took beyond them (copies, waiting, the

@@ -12,7 +12,7 @@ TEST_P(PoseScorePaths, AgreesWithTheReference) {
   for (const bool with_image : {true, false}) {
     const test::TwoViews views = test::make_views(*tested, *reference, rng, with_image);
     for (const int max_points : {1, 64, 1500}) {
-      const test::PoseCase c = test::pose_case(rng, 17, max_points, 3);
+      const test::PoseCase c = test::pose_case(rng, 40, max_points, 3);
       std::vector<PoseScore> found(c.problems.size()), expected(c.problems.size());
       tested->pose_score(views.tested, c.points, c.problems, {}, found);
       reference->pose_score(views.reference, c.points, c.problems, {}, expected);

@@ -76,6 +76,15 @@ TEST_F(VulkanRuntime, TooMuchMemoryNamesBufferAndSize) {
   EXPECT_TRUE(contains(message, "'a whale'") && contains(message, "9223372036854775807")) << message;
 }
 
+// Or every later use of the buffer would fail: it is bound whole, and never shrinks.
+TEST_F(VulkanRuntime, ABufferDoesNotGrowBeyondWhatIsBound) {
+  Buffer<float> buffer(*device, 8, "a pond");
+  const std::size_t most = device->limits().maxStorageBufferRange / sizeof(float);
+  const std::string message = message_of<GpuError>([&] { buffer.reserve(*device, most + 1, "a lake"); });
+  EXPECT_TRUE(contains(message, "'a lake'") && contains(message, std::to_string(4 * (most + 1)))) << message;
+  EXPECT_EQ(buffer.size(), 8u);
+}
+
 TEST_F(VulkanRuntime, ATensorTooLargeForTheDeviceIsBadInput) {
   const std::string message = message_of<InputError>([&] {
     gpu::DeviceTensor(*device, {30000, 30000, 128});
