@@ -140,9 +140,9 @@ Image develop(cv::Mat light, const RenderOptions& options, const Random& random)
   return image;
 }
 
-// Pixels of one object's silhouette with nothing before it and no end of the image.
-std::size_t silhouette_px(const Scene& scene, const PlacedObject& part, const SceneView& view,
-                          ThreadPool& pool) {
+// Pixels of one object's silhouette with nothing before it and no end of the image. One that touches the
+// camera may be thousands of images wide: of such a one every so many pixels are looked at.
+double silhouette_px(const Scene& scene, const PlacedObject& part, const SceneView& view, ThreadPool& pool) {
   const Mesh& mesh = scene.objects[part.object].mesh;
   std::vector<TriangleCorners> triangles;
   Eigen::Vector2d low = Eigen::Vector2d::Constant(1e9), high = -low;
@@ -157,14 +157,19 @@ std::size_t silhouette_px(const Scene& scene, const PlacedObject& part, const Sc
     }
     triangles.push_back(t);
   }
-  Camera window = view.camera;
+  constexpr double MOST_PX = 4096;
+  const double spacing_px = std::max(1.0, (high - low).maxCoeff() / MOST_PX);
+  Camera window = spacing_px > 1 ? scaled(view.camera, 1 / spacing_px) : view.camera;
+  low /= spacing_px;
+  high /= spacing_px;
   window.cx -= std::floor(low.x());
   window.cy -= std::floor(low.y());
   window.width = static_cast<int>(std::ceil(high.x()) - std::floor(low.x())) + 1;
   window.height = static_cast<int>(std::ceil(high.y()) - std::floor(low.y())) + 1;
   const Raster alone = rasterize(triangles, window, view.camera_from_world, pool);
-  return static_cast<std::size_t>(
-      std::count_if(alone.triangle.begin(), alone.triangle.end(), [](int t) { return t >= 0; }));
+  const auto samples =
+      std::count_if(alone.triangle.begin(), alone.triangle.end(), [](int t) { return t >= 0; });
+  return static_cast<double>(samples) * spacing_px * spacing_px;
 }
 
 void read_truth(const ViewContext& view, const SceneView& scene_view, Rendering& out, ThreadPool& pool) {
@@ -180,9 +185,8 @@ void read_truth(const ViewContext& view, const SceneView& scene_view, Rendering&
       if (placed >= 0) ++seen[placed];
     }
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    const std::size_t whole = silhouette_px(view.scene, view.scene.placed[i], scene_view, pool);
-    out.visible_fraction.push_back(whole == 0 ? 0.0
-                                              : static_cast<double>(seen[i]) / static_cast<double>(whole));
+    const double whole_px = silhouette_px(view.scene, view.scene.placed[i], scene_view, pool);
+    out.visible_fraction.push_back(whole_px == 0 ? 0.0 : static_cast<double>(seen[i]) / whole_px);
   }
 }
 

@@ -148,6 +148,17 @@ TEST(Render, VisibleFractionIsThatOfAKnownOverlap) {
   EXPECT_DOUBLE_EQ(rendering.visible_fraction[1], 1);
 }
 
+// Its silhouette is 170,000 px wide: no memory holds it.
+TEST(Render, APartThatTouchesTheCameraIsHardlyVisible) {
+  const Scene scene = plain_scene(make_box({1, 1, 0.002}),
+                                  {Eigen::Quaterniond::Identity(), {0, 0, 0.4 - 0.00105 - 0.001}}, 0.4);
+  ThreadPool pool(1);
+  const Camera& camera = scene.views[0].camera;
+  const double side_px = camera.fx / 0.00105;
+  const double expected = camera.width * camera.height / (side_px * side_px);
+  EXPECT_NEAR(render(scene, pool).front().visible_fraction[0] / expected, 1, 0.01);
+}
+
 TEST(Render, WhatLeavesTheImageIsNotVisible) {
   const Scene half = plain_scene(make_box({0.04, 0.04, 0.002}),
                                  {Eigen::Quaterniond::Identity(), {80.5 / 180 * 0.398, 0, 0.001}}, 0.4);
