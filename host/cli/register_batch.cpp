@@ -264,6 +264,7 @@ RegisterSummary run_register(std::span<const RegisterJob> jobs, std::span<const 
   RegisterSummary& summary = registrar.summary;
   summary.images = static_cast<int>(images.size());
   const std::vector<const RegisterJob*> open = skip_done(jobs, registrar, options.resume);
+  require_writable_place(options.out);
   try {
     work_through(open, registrar);
   } catch (const InputError&) {  // where no image can be used nothing is written

@@ -10,27 +10,30 @@ namespace edgescout {
 namespace {
 
 std::string described(const StartPose& pose) {
-  return pose.image.empty() ? fmt::format("image {}", pose.image_id) : pose.image;
+  return pose.image.empty() ? fmt::format("image {}", pose.image_id) : pose.image.string();
 }
 
 // The image of a start; none where it is of a scene that is not among the images.
 std::optional<std::size_t> image_of(const StartPose& pose, std::span<const InputImage> images,
                                     const std::string& poses_file) {
   bool scene_is_here = !pose.scene_id;
-  std::optional<std::size_t> found;
+  std::vector<std::size_t> found;
   for (std::size_t i = 0; i < images.size(); ++i) {
     // Images of BOP scenes bring their camera; others are of no scene.
     const std::optional<int> scene = images[i].camera ? std::optional(images[i].scene_id) : std::nullopt;
     scene_is_here |= !scene || scene == pose.scene_id;
     if (!belongs_to(pose, images[i].file, scene, images[i].image_id)) continue;
-    if (found)
-      throw InputError(poses_file, "image",
-                       fmt::format("{}, which is {} and {}", described(pose), images[*found].file.string(),
-                                   images[i].file.string()),
-                       "one that fits a single image");
-    found = i;
+    if (!found.empty() && same_ending(pose, images[i].file) > same_ending(pose, images[found[0]].file))
+      found.clear();
+    if (found.empty() || same_ending(pose, images[i].file) == same_ending(pose, images[found[0]].file))
+      found.push_back(i);
   }
-  if (found) return found;
+  if (found.size() > 1)
+    throw InputError(poses_file, "image",
+                     fmt::format("{}, which is {} and {}", described(pose), images[found[0]].file.string(),
+                                 images[found[1]].file.string()),
+                     "one that fits a single image");
+  if (!found.empty()) return found[0];
   if (scene_is_here) throw InputError(poses_file, "image", described(pose), "one of the images given");
   return std::nullopt;
 }

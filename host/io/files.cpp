@@ -70,6 +70,13 @@ class TemporaryFile {
   bool renamed_ = false;
 };
 
+// InputError about `folder`.
+void prove_writable(const fs::path& where, const fs::path& folder) {
+  TemporaryFile proof(temporary_beside(where / "probe"));
+  if (const int error = proof.write("x"))
+    throw InputError(folder.string(), "output folder", reason(error), "a folder that can be written");
+}
+
 }  // namespace
 
 std::string read_file(const fs::path& file) {
@@ -91,14 +98,19 @@ void write_file_atomically(const fs::path& file, std::string_view content) {
   if (error) throw InputError(file.string(), "output file", reason(error), "a file that can be written");
 }
 
+void require_writable_place(const fs::path& folder) {
+  std::error_code missing;
+  fs::path there = fs::absolute(folder).lexically_normal();
+  while (!fs::exists(there, missing) && there.has_relative_path()) there = there.parent_path();
+  prove_writable(there, folder);
+}
+
 void require_writable_folder(const fs::path& folder) {
   std::error_code failure;
   fs::create_directories(folder, failure);
   if (failure)
     throw InputError(folder.string(), "output folder", failure.message(), "a folder that can be created");
-  TemporaryFile proof(temporary_beside(folder / "probe"));
-  if (const int error = proof.write("x"))
-    throw InputError(folder.string(), "output folder", reason(error), "a folder that can be written");
+  prove_writable(folder, folder);
 }
 
 }  // namespace edgescout

@@ -14,6 +14,10 @@ std::string read_file(const std::filesystem::path& file);
 // naming the file and the system's reason (full disk, no permission); nothing is left behind then.
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);
 
+// Proves that the folder, or while it is not there its nearest parent, can be written, and leaves nothing in
+// it; InputError otherwise.
+void require_writable_place(const std::filesystem::path& folder);
+
 // Creates the folder (and parents) and proves that a file can be written in it; InputError otherwise.
 void require_writable_folder(const std::filesystem::path& folder);
 

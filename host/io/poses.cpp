@@ -23,7 +23,7 @@ std::vector<StartPose> from_image_result(const std::filesystem::path& file) {
   const std::optional<int> scene = result.scene_id == 0 ? std::nullopt : std::optional(result.scene_id);
   std::vector<StartPose> poses;
   for (const Detection& found : result.detections)
-    poses.push_back({scene, result.image_id, result.image.filename().string(),
+    poses.push_back({scene, result.image_id, result.image,
                      result.objects.at(static_cast<std::size_t>(found.object)).id,
                      camera_from_world * found.world_from_object, found.probability});
   return poses;
@@ -33,7 +33,7 @@ StartPose from_entry(const JsonField& entry) {
   StartPose pose;
   const JsonField image = entry.at("image");
   if (image.value.is_string())
-    pose.image = std::filesystem::path(image.text()).filename().string();
+    pose.image = image.text();
   else
     pose.image_id = image.integer();
   if (entry.has("scene")) pose.scene_id = entry.at("scene").integer();
@@ -58,7 +58,15 @@ std::vector<StartPose> load_start_poses(const std::filesystem::path& file) {
 bool belongs_to(const StartPose& pose, const std::filesystem::path& image, std::optional<int> scene_id,
                 int image_id) {
   if (pose.scene_id && scene_id && *pose.scene_id != *scene_id) return false;
-  return pose.image.empty() ? pose.image_id == image_id : pose.image == image.filename().string();
+  return pose.image.empty() ? pose.image_id == image_id : pose.image.filename() == image.filename();
+}
+
+int same_ending(const StartPose& pose, const std::filesystem::path& image) {
+  const std::filesystem::path a = pose.image.lexically_normal(),
+                              b = std::filesystem::absolute(image).lexically_normal();
+  int count = 0;
+  for (auto i = a.end(), j = b.end(); i != a.begin() && j != b.begin() && *--i == *--j;) ++count;
+  return count;
 }
 
 }  // namespace edgescout

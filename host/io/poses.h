@@ -18,7 +18,7 @@ namespace edgescout {
 struct StartPose {
   std::optional<int> scene_id;  // absent: of any scene
   int image_id = 0;
-  std::string image;  // file name; where not empty, it names the image instead of image_id
+  std::filesystem::path image;  // as written; where not empty, it names the image instead of image_id
   int object_id = 1;
   Se3 camera_from_object;
   double score = 0;
@@ -27,8 +27,12 @@ struct StartPose {
 // InputError naming file, line or field.
 std::vector<StartPose> load_start_poses(const std::filesystem::path& file);
 
-// Whether the pose is meant for this image. No scene on either side fits every scene.
+// Whether the pose may be meant for this image. Images are compared by their file names: folders may have
+// moved since. No scene on either side fits every scene.
 bool belongs_to(const StartPose& pose, const std::filesystem::path& image, std::optional<int> scene_id,
                 int image_id);
+// How many names at the ends of the pose's path and the image's are the same: the file's, its folder's and so
+// on. Of several images of one file name the pose is meant for the one with the most.
+int same_ending(const StartPose& pose, const std::filesystem::path& image);
 
 }  // namespace edgescout

@@ -246,24 +246,53 @@ TEST(Register, RefusesPosesThatDoNotFit) {
                  {"000000.png", "world pose"});
 }
 
+// The example's, for images outside of its folder.
+fs::path camera_file(const TemporaryFolder& folder) {
+  return folder.write("camera.json",
+                      R"({"fx": 700, "fy": 700, "cx": 319.5, "cy": 239.5, "width": 640, "height": 480})");
+}
+
+// a/part.png and b/part.png.
+std::pair<fs::path, fs::path> two_of_one_name(const fs::path& folder) {
+  for (const char* name : {"a", "b"}) {
+    fs::create_directories(folder / name);
+    fs::copy(one_view() / "gray/000000.png", folder / name / "part.png");
+  }
+  return {folder / "a/part.png", folder / "b/part.png"};
+}
+
 // Results among the images would be images the next time; a start for two images would refine in one of them.
 TEST(Register, RefusesWhatWouldMixImages) {
   const Refused t;
-  const fs::path a = t.folder.path() / "a", b = t.folder.path() / "b";
-  for (const fs::path& folder : {a, b}) {
-    fs::create_directories(folder);
-    fs::copy(one_view() / "gray/000000.png", folder / "part.png");
-  }
+  const auto [a, b] = two_of_one_name(t.folder.path());
   const std::string starts = t.folder.write(
       "start.json", R"([{"image": "part.png", "object": 2, "R": [1,0,0,0,1,0,0,0,1], "t": [0, 0, 0.5]}])");
   const auto in = [&](const std::vector<std::string>& images, const fs::path& out) {
     return joined(
         {{"register"}, images, {"--poses", starts, "--out", out, "--device", "cpu"}, part_models()});
   };
-  expect_refused(in({a / "part.png"}, a), {"--out", "folder of the images"});
-  expect_refused(in({a / "part.png", b / "part.png"}, t.out),
-                 {"start.json", "part.png", "a/part.png and ", "single image"});
-  EXPECT_EQ(std::distance(fs::directory_iterator(a), {}), 1);
+  expect_refused(in({a}, a.parent_path()), {"--out", "folder of the images"});
+  expect_refused(in({a, b}, t.out), {"start.json", "part.png", "a/part.png and ", "single image"});
+  EXPECT_EQ(std::distance(fs::directory_iterator(a.parent_path()), {}), 1);
+}
+
+// Two images of one name are told apart by their folders, also where those have moved.
+TEST(Register, TellsImagesOfOneNameApartByTheirFolders) {
+  const TemporaryFolder folder;
+  const auto [a, b] = two_of_one_name(folder.path());
+  const BopResult start = good_start();
+  const Eigen::Matrix3d r = start.camera_from_object.rotation.toRotationMatrix();
+  nlohmann::json entry{{"image", "elsewhere/b/part.png"}, {"object", start.object_id}};
+  for (int i = 0; i < 9; ++i) entry["R"].push_back(r(i / 3, i % 3));
+  for (int i = 0; i < 3; ++i) entry["t"].push_back(start.camera_from_object.translation_m[i]);
+  const std::string starts = folder.write("start.json", nlohmann::json::array({entry}).dump());
+  const fs::path out = folder.path() / "out";
+  const Outcome outcome = run_program(joined({{"register", a, b, "--poses", starts, "--out", out, "--device",
+                                               "cpu", "--camera", camera_file(folder)},
+                                              part_models()}));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(load_image_result(out / "part_2.json").image, b);
+  EXPECT_FALSE(fs::exists(out / "part.json"));
 }
 
 // What cannot be written is no bad image: the batch ends.
@@ -284,6 +313,10 @@ TEST(Register, RefusesOptionsDevicesAndFolders) {
                  {"--search-rotation", "1.5", "0 to 1"});
   expect_refused(register_in(one_view(), starts, t.out, {"--bins", "61"}), {"bins", "61"});
   expect_refused(register_in(one_view(), starts, "/proc/out"), {"/proc/out"});
+  // Said before any image is looked at.
+  const fs::path broken = t.folder.write("000000.png", "no image");
+  expect_refused(register_in(broken, starts, "/proc/deeper/out", {"--camera", camera_file(t.folder)}),
+                 {"/proc/deeper/out", "output folder"});
   expect_refused(register_in(one_view() / "gray/000000.png", starts, t.out), {"000000.png", "camera"});
   const std::string no_drivers = "VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent";
   expect_refused(joined({{"register", one_view(), "--poses", starts, "--out", t.out, "--device", "vulkan"},

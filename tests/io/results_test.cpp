@@ -178,6 +178,10 @@ TEST(StartPoses, ComeFromAPlainList) {
   ASSERT_EQ(poses.size(), 2u);
   EXPECT_TRUE(belongs_to(poses[0], "x.png", 99, 12));
   EXPECT_TRUE(belongs_to(poses[1], "b.png", 5, 0));
+  EXPECT_EQ(same_ending(poses[1], "/images/a/b.png"), 2);
+  EXPECT_EQ(same_ending(poses[1], "/images/x/b.png"), 1);
+  EXPECT_EQ(same_ending(poses[1], "/b.png"), 1);
+  EXPECT_EQ(same_ending(poses[1], "/a/x.png"), 0);
   EXPECT_FALSE(belongs_to(poses[1], "b.png", 6, 0));
   EXPECT_LT((poses[1].camera_from_object * Vector3d::UnitX() - Vector3d(0, 1, 1)).norm(), 1e-12);
   const auto bad = [&](const std::string& text) { load_start_poses(folder.write("bad.json", text)); };
