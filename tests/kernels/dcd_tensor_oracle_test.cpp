@@ -129,7 +129,7 @@ std::vector<std::uint16_t> oracle_tensor(std::span<const EdgePoint> edges, const
 std::vector<Case> all_pairs_of_settings() {
   constexpr int widths[] = {1, 7, 33, 31}, heights[] = {1, 5, 17, 50};
   constexpr int bins[] = {4, 6, 60, 128};
-  constexpr float lambdas[] = {0, 1, 100, 10000}, variances[] = {0, 0.25f, 1, 16};
+  constexpr float lambdas[] = {0, 2, 100, 10000}, variances[] = {0, 0.25f, 1, 16};
   constexpr float caps[] = {1 / 256.0f, 8, 60, 255};
   constexpr int twice[] = {0, 2, 3, 1}, thrice[] = {0, 3, 1, 2};
   std::vector<Case> cases;

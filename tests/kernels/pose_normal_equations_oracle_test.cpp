@@ -116,39 +116,39 @@ NormalEquations system_of(Backend& backend, const ViewHandle& view, const ModelP
 }
 
 // 3.5 px right of the edge and half a bin beyond its orientation. By x the tensor grows by 1 px/px, by
-// orientation by a bin's step in pi / 60. A metre to the right is 100 px, a metre ahead -3.5 px; the
-// rotations turn the tangent's image by 0.035 ty^2, -0.035 tx ty and 1.
+// orientation by a bin's step in pi / 60. A metre to the right is 10 px, a metre ahead -3.5 px; the
+// rotations turn the tangent's image by 0.35 ty^2, -0.35 tx ty and 1.
 void expect_system_beside_the_edge(Backend& backend) {
   const Real pi = std::numbers::pi_v<Real>, angle = pi / 2 + pi / 120;
   const Real tx = std::cos(angle), ty = std::sin(angle), turn = test::bin_px * 60 / pi;
   const Real r = 3.5L + test::bin_px / 2;
-  const std::array<Real, 6> jacobian{
-      100, 0, -3.5L, turn * 0.035L * ty * ty, 0.1225L - turn * 0.035L * tx * ty, turn};
+  const std::array<Real, 6> jacobian{10,  0, -3.5L, turn * 0.35L * ty * ty, 1.225L - turn * 0.35L * tx * ty,
+                                     turn};
   OracleSystem expected{{}, {}, r * r / 2, r, 1, 1, 0};
   for (int i = 0, entry = 0; i < 6; ++i) {
     expected.gradient[i] = r * jacobian[i];
     for (int j = i; j < 6; ++j) expected.hessian[entry++] = jacobian[i] * jacobian[j];
   }
   const ViewHandle view = test::straight_edge(backend, true, {});
-  expect_near(system_of(backend, view, {0.035f, 0, 0, float(tx), float(ty), 0}, {LOSS_HUBER, 10}), expected);
+  expect_near(system_of(backend, view, {0.35f, 0, 0, float(tx), float(ty), 0}, {LOSS_HUBER, 10}), expected);
 }
 
 // 3.5 px left of the image, whose border lies 16 px from the edge: the residual is 19.5 px and grows
 // outwards.
 void expect_system_outside_the_image(Backend& backend) {
   const ViewHandle view = test::straight_edge(backend, true, {});
-  const ModelPoint point{-0.195f, 0, 0, 0, 1, 0};
+  const ModelPoint point{-1.95f, 0, 0, 0, 1, 0};
   const NormalEquations huber = system_of(backend, view, point, {LOSS_HUBER, 2});
   EXPECT_NEAR(huber.residual_sum, 19.5, 1e-3);
   EXPECT_NEAR(huber.cost, 2 * (19.5 - 1), 1e-2);
   EXPECT_NEAR(huber.weight_sum, 2 / 19.5, 1e-4);
-  EXPECT_NEAR(huber.gradient[0], 2 * -100, 0.2);
-  EXPECT_NEAR(huber.gradient[1], 0, 0.2);
-  EXPECT_NEAR(huber.gradient[2], 2 * 19.5, 0.2);
+  EXPECT_NEAR(huber.gradient[0], 2 * -10, 0.02);
+  EXPECT_NEAR(huber.gradient[1], 0, 0.02);
+  EXPECT_NEAR(huber.gradient[2], 2 * -19.5, 0.02);
   const NormalEquations forgetful = system_of(backend, view, point, {LOSS_GEMAN_MCCLURE, 6.5f});
   EXPECT_NEAR(forgetful.cost, 6.5 * 6.5 / 2 * 0.9, 1e-2);  // r = 3 s
   EXPECT_NEAR(forgetful.weight_sum, 0.01, 1e-5);
-  EXPECT_NEAR(forgetful.gradient[0], 0.01 * 19.5 * -100, 0.02);
+  EXPECT_NEAR(forgetful.gradient[0], 0.01 * 19.5 * -10, 0.002);
 }
 
 void expect_behind_counted(Backend& backend) {

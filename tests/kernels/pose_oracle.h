@@ -177,8 +177,8 @@ inline std::span<const ModelPoint> points_of(const PoseCase& c, const PoseProble
 // Camera and object share their axes; the object lies a metre ahead.
 inline constexpr Pose ahead{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1}};
 
-// A straight edge through the middle of a 33 x 33 px view, one point a pixel, and 60 bins without smoothing:
-// a bin is 3 degrees and turns cost round(256 * 30 * pi / 60) = 402 units a bin.
+// A straight edge through the middle of a wide-angle view of 33 x 33 px, one point a pixel, and 60 bins
+// without smoothing: a bin is 3 degrees and turns cost round(256 * 30 * pi / 60) = 402 units a bin.
 inline ViewHandle straight_edge(Backend& backend, bool vertical, const ImageView& image) {
   std::vector<EdgePoint> edges;
   for (int i = 0; i < 33; ++i)
@@ -186,7 +186,7 @@ inline ViewHandle straight_edge(Backend& backend, bool vertical, const ImageView
                              : EdgePoint{float(i), 16, 0, 10});
   TensorOptions options;
   options.smoothing_variance = 0;
-  return backend.make_view(edges, 33, 33, image, {100, 100, 16, 16}, options);
+  return backend.make_view(edges, 33, 33, image, {10, 10, 16, 16}, options);
 }
 
 inline constexpr Real bin_px = 402 / 256.0L;

@@ -83,7 +83,7 @@ std::vector<ModelPoint> points_on_the_middle(Real degrees) {
   const Real angle = degrees * std::numbers::pi_v<Real> / 180;
   std::vector<ModelPoint> points;
   for (int y = 2; y <= 30; ++y)
-    points.push_back({0, 0.01f * float(y - 16), 0, float(std::cos(angle)), float(std::sin(angle)), 0});
+    points.push_back({0, 0.1f * float(y - 16), 0, float(std::cos(angle)), float(std::sin(angle)), 0});
   return points;
 }
 
@@ -112,7 +112,7 @@ void expect_turned_scores(Backend& backend) {
     const PoseScore score = score_of(backend, view, points_on_the_middle(90 + turn));
     EXPECT_EQ(score.points, 29);
     EXPECT_NEAR(score.psi, std::cos(turn * std::numbers::pi_v<Real> / 180), 1e-3);
-    EXPECT_NEAR(score.mean_px, std::abs(turn) / 3 * test::bin_px, 1e-3);
+    EXPECT_NEAR(score.mean_px, std::abs(turn) / 3.0L * test::bin_px, 1e-3);
     EXPECT_EQ(score.matched, std::abs(turn) < 11);
   }
 }
@@ -132,7 +132,7 @@ void expect_weak_steps_count_zero(Backend& backend) {
 void expect_wrap_at_pi(Backend& backend) {
   const std::vector<std::uint8_t> pixels = step_image(0);
   const ViewHandle view = test::straight_edge(backend, false, {33, 33, pixels.data()});
-  const Real rows = 2 * (14 * 15 / 2) / 29.0L;
+  const Real rows = 14 * 15 / 29.0L;
   for (const Real degrees : {-4.5L, -3.0L, -1.5L, -0.75L, 0.0L, 0.75L, 1.5L, 4.5L, 178.5L, 181.5L}) {
     SCOPED_TRACE("angle " + std::to_string(degrees));
     const Real turn = std::abs(degrees > 90 ? degrees - 180 : degrees);
