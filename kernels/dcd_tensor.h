@@ -2,14 +2,15 @@
 // run after each other. Every path is exact with respect to the rounded definition below.
 //
 // An edge point seeds the pixel (round(x), round(y)) (half away from zero) of bin
-// round(theta * bins / pi) mod bins; points outside the image are dropped. With S_k the seeds of bin k:
+// round(theta * bins / pi) mod bins; points outside the image or not finite are dropped. With S_k the seeds of
+// bin k and the cap in whole 1/256 px:
 //   D_k(x)  = min(cap, min_{s in S_k} round(256 * |x - s|))                    exact Euclidean distance
 //   T_k(x)  = min_j (D_j(x) + round(256 * lambda * pi / bins) * |k - j|_bins)  circular recursion, to the
 //                                                                              fixed point (Eqs. 5, 6)
 //   DT3_k   = (sum_d w_d T_{k+d}(x) + 2^14) >> 15                              circular Gaussian, 15-bit
 // where |k - j|_bins = min(|k - j|, bins - |k - j|), all in units of 1/256 px. The weights w_d are the
-// sampled Gaussian of `smoothing_variance` out to 3 sigma, rounded to 1/32768 with the centre tap taking
-// the remainder, so that they sum to exactly 32768.
+// sampled Gaussian of `smoothing_variance` out to r = ceil(3 sigma), at most bins / 2 - 1, divided by their sum
+// and rounded to 1/32768, the centre tap taking the remainder, so that they sum to exactly 32768.
 //
 // Agreement: reference, fast CPU path and Vulkan are equal bit for bit. Memory: 2 bytes a value; the
 // fast path needs a list of the seeds beside it, no second tensor.

@@ -10,18 +10,19 @@
 // Loss: LOSS_HUBER: rho = r^2/2 up to scale, linear beyond. LOSS_GEMAN_MCCLURE:
 // rho = s^2/2 * r^2 / (s^2 + r^2), which forgets far points: for annealing.
 //
-// Outside the image the value is that of the nearest border pixel plus the distance to it in px: smooth,
-// growing, pulling back. A point at or behind z = POSE_MIN_DEPTH_M counts in `behind` and nowhere else; so
+// Outside the pixel centres, [0, width - 1], the value is the interpolant's at the nearest place inside plus the
+// Euclidean distance to it in px: smooth, growing, pulling back. A point at or behind z = POSE_MIN_DEPTH_M counts in `behind` and nowhere else; so
 // does one that lies POSE_MAX_RANGE_M away or nowhere (not finite), where a diverging registration may take
 // it.
 //
 // Orientation: xi = atan2(dy, dx) mod pi of the projected tangent, d = d(projection) * (R tangent). An edge
-// seen end on has none that could be trusted: where |d| < POSE_MIN_FORESHORTENING * fx * z the derivative by
+// seen end on has none that could be trusted: where |d| < POSE_MIN_FORESHORTENING * fx / z the derivative by
 // orientation counts as zero.
 //
 // Agreement: reference accumulates in double; the fast path and Vulkan in float by groups of points; sums
-// agree to 1e-3 relative to the largest entry of the same system (order of summation and the device's atan2),
-// but for points within 1e-3 px of the image's border and edges seen end on: float cannot keep those.
+// agree to 1e-3 relative to the largest entry of their kind in the same system (order of summation and the
+// device's atan2), but for points within 1e-3 px of the image's border or of a row or column of pixels, within
+// as little of a bin's centre (there J jumps), and edges seen end on: float cannot keep those.
 #ifndef EDGESCOUT_POSE_NORMAL_EQUATIONS_H
 #define EDGESCOUT_POSE_NORMAL_EQUATIONS_H
 

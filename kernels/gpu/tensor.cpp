@@ -27,7 +27,10 @@ DeviceTensor::DeviceTensor(const Device& device, const TensorShape& shape) : sha
   const VkDeviceSize rows = std::min(range / row_bytes_, height);
   band_rows_ = static_cast<std::uint32_t>(
       rows == height ? height : rows / TENSOR_BAND_ROW_STEP * TENSOR_BAND_ROW_STEP);
-  const VkDeviceSize most = std::min<VkDeviceSize>(device.max_allocation_bytes(), TENSOR_MAX_BANDS * range);
+  const VkDeviceSize band_bytes =
+      range / row_bytes_ / TENSOR_BAND_ROW_STEP * TENSOR_BAND_ROW_STEP * row_bytes_;
+  const VkDeviceSize most =
+      std::min<VkDeviceSize>(device.max_allocation_bytes(), TENSOR_MAX_BANDS * band_bytes);
   if (band_rows_ == 0) too_large(device, shape, most);
   bands_ = static_cast<std::uint32_t>((height + band_rows_ - 1) / band_rows_);
   if (bands_ > TENSOR_MAX_BANDS || bytes > device.max_allocation_bytes()) too_large(device, shape, most);

@@ -82,12 +82,12 @@ std::vector<std::int64_t> joined(std::span<const std::int64_t> distance, std::in
   return least;
 }
 
-// w_0..w_r: the samples' share of their sum in 1/32768, no sample beyond 3 sigma or meeting itself around the
-// circle.
+// w_0..w_r: the samples' share of their sum in 1/32768, none a whole step beyond 3 sigma or meeting itself
+// around the circle.
 std::vector<std::int64_t> gaussian_weights(const TensorOptions& options) {
   const long double variance = options.smoothing_variance;
   std::vector<long double> samples{1};
-  for (int d = 1; d * d <= 9 * variance && d < options.bins / 2; ++d)
+  for (int d = 1; (d - 1) * (d - 1) < 9 * variance && d < options.bins / 2; ++d)
     samples.push_back(std::exp(-d * d / (2 * variance)));
   long double sum = -1;
   for (const long double sample : samples) sum += 2 * sample;
@@ -137,6 +137,8 @@ std::vector<Case> all_pairs_of_settings() {
     for (int b = 0; b < 4; ++b)
       cases.push_back(
           {widths[a], heights[a], {bins[b], lambdas[a ^ b], variances[a ^ twice[b]], caps[a ^ thrice[b]]}});
+  // The outermost weight, 9 of 32768, shows where neighbouring bins differ by much.
+  cases.push_back({33, 17, {60, 100, 0.25f, 255}});
   return cases;
 }
 
