@@ -50,14 +50,15 @@ double mspd_px(const Se3& estimate, const Se3& truth, const Object& object, cons
   return std::sqrt(best);
 }
 
-PoseError pose_error(const Se3& estimate, const Se3& truth, const Symmetries& symmetries) {
+PoseError pose_error(const Se3& estimate, const Se3& truth, const Symmetries& symmetries,
+                     double max_angle_rad, double max_distance_m) {
   PoseError best;
   double best_excess = std::numeric_limits<double>::infinity();
   for (const Se3& symmetry : symmetries.discrete) {
     const Se3 moved = truth * symmetry;
     const PoseError error{angle_between_rad(estimate, moved), distance_between_m(estimate, moved)};
-    const double excess = std::max(error.angle_rad / 0.1, error.distance_m / 0.005);
-    if (excess < best_excess) {
+    const double excess = std::max(error.angle_rad / max_angle_rad, error.distance_m / max_distance_m);
+    if (excess < best_excess || (excess == best_excess && error.angle_rad < best.angle_rad)) {
       best_excess = excess;
       best = error;
     }

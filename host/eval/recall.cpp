@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "host/eval/matching.h"
@@ -20,6 +19,7 @@ struct Instances {
   std::vector<double> mssd;            // of the diameter
   std::vector<double> mspd;            // px
   std::vector<double> raw, symmetric;  // largest of angle and distance, each over its bound
+  int counting() const { return static_cast<int>(std::ranges::count(counts, 1)); }
   int estimates() const { return truths == 0 ? 0 : static_cast<int>(mssd.size()) / truths; }
 };
 
@@ -28,16 +28,26 @@ struct Matches {
   int matched = 0;  // estimates, those of ignored truths included
 };
 
-Matches match(const Instances& pair, std::span<const double> errors, double threshold, int max_estimates) {
-  const std::size_t looked_at = static_cast<std::size_t>(std::min(pair.estimates(), max_estimates));
+Matches match(const Instances& pair, std::span<const double> errors, double threshold) {
   Matches matches;
-  for (const int truth :
-       match_in_order(errors.first(looked_at * pair.counts.size()), pair.truths, threshold)) {
+  for (const int truth : match_in_order(errors, pair.truths, threshold)) {
     if (truth == UNMATCHED) continue;
     ++matches.matched;
     matches.found += pair.counts[static_cast<std::size_t>(truth)];
   }
   return matches;
+}
+
+// How many truths that count BOP finds: the others take no estimate, and as many estimates are looked at as
+// there are truths that count.
+int found_by_bop(const Instances& pair, std::span<const double> errors, double threshold) {
+  std::vector<double> counting;
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    if (pair.counts[i % pair.counts.size()]) counting.push_back(errors[i]);
+  const int truths = pair.counting();
+  const std::size_t looked_at = static_cast<std::size_t>(std::min(pair.estimates(), truths)) * truths;
+  const std::vector<int> matched = match_in_order(std::span(counting).first(looked_at), truths, threshold);
+  return static_cast<int>(matched.size() - std::ranges::count(matched, UNMATCHED));
 }
 
 const Object& object_of(const std::map<int, Object>& objects, int id) {
@@ -63,28 +73,30 @@ Instances compare(const Object& object, const Camera& camera, const std::vector<
       pair.mssd.push_back(mssd_m(e.camera_from_object, t.camera_from_object, object) /
                           object.mesh.diameter_m);
       pair.mspd.push_back(mspd_px(e.camera_from_object, t.camera_from_object, object, camera));
-      pair.raw.push_back(
-          paper_error(pose_error(e.camera_from_object, t.camera_from_object, Symmetries{}), options));
-      pair.symmetric.push_back(
-          paper_error(pose_error(e.camera_from_object, t.camera_from_object, object.symmetries), options));
+      const auto paper_error_with = [&](const Symmetries& symmetries) {
+        return paper_error(pose_error(e.camera_from_object, t.camera_from_object, symmetries,
+                                      options.max_angle_rad, options.max_distance_m),
+                           options);
+      };
+      pair.raw.push_back(paper_error_with(Symmetries{}));
+      pair.symmetric.push_back(paper_error_with(object.symmetries));
     }
   return pair;
 }
 
 void count(const Instances& pair, int estimates, double px_per_step, const RecallOptions& options,
            Recalls& sums) {
-  constexpr int ALL = std::numeric_limits<int>::max();
   for (int step = 0; step < RECALL_STEPS; ++step) {
-    sums.mssd[step] += match(pair, pair.mssd, 0.05 * (step + 1), pair.truths).found;
-    sums.mspd[step] += match(pair, pair.mspd, px_per_step * (step + 1), pair.truths).found;
+    sums.mssd[step] += found_by_bop(pair, pair.mssd, 0.05 * (step + 1));
+    sums.mspd[step] += found_by_bop(pair, pair.mspd, px_per_step * (step + 1));
   }
-  sums.recall_raw += match(pair, pair.raw, 1.0, ALL).found;
-  sums.recall_symmetric += match(pair, pair.symmetric, 1.0, ALL).found;
-  const Matches seen = match(pair, pair.mspd, options.max_mspd_px, ALL);
+  sums.recall_raw += match(pair, pair.raw, 1.0).found;
+  sums.recall_symmetric += match(pair, pair.symmetric, 1.0).found;
+  const Matches seen = match(pair, pair.mspd, options.max_mspd_px);
   sums.recall_mspd += seen.found;
   sums.false_positives += estimates - seen.matched;
   sums.estimates += estimates;
-  sums.truths += static_cast<int>(std::count(pair.counts.begin(), pair.counts.end(), 1));
+  sums.truths += pair.counting();
 }
 
 void count_image(const EvaluationImage& image, const std::map<int, Object>& objects,

@@ -2,7 +2,8 @@
 //
 // Matching, per image, object and threshold: estimates in order of falling score each take the free truth
 // with the smallest error below the threshold. Recall is matched truths / truths. A truth seen by less than
-// `min_visible_fraction` is ignored: not finding it is no miss, finding it is no false positive.
+// `min_visible_fraction` is ignored: not finding it is no miss, finding it is no false positive. It can take
+// an estimate, but for BOP's recalls.
 #pragma once
 
 #include <array>
@@ -43,7 +44,8 @@ struct Recalls {
   int truths = 0;     // that count
   int estimates = 0;  // above min_score
   // BOP: thresholds 5, 10 .. 50 % of the diameter (MSSD), 5, 10 .. 50 px times width / 640 (MSPD). As BOP
-  // does, only as many estimates of an object as it has truths in the image are looked at, best scores first.
+  // does, only as many estimates of an object as it has truths that count in the image are looked at, best
+  // scores first, and ignored truths take none of them.
   std::array<double, RECALL_STEPS> mssd{};
   std::array<double, RECALL_STEPS> mspd{};
   double ar_mssd = 0;  // mean over the thresholds

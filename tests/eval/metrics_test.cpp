@@ -100,5 +100,19 @@ TEST(PoseError, TakesTheSymmetryThatPassesMostEasily) {
   EXPECT_NEAR(pose_error(nearer, Se3{}, symmetries).angle_rad, 0, 1e-12);
 }
 
+// Five millimetres off at every symmetry: which one counts is up to the angle, and to the bounds.
+TEST(PoseError, TakesTheSmallestAngleOfSymmetriesAlike) {
+  Symmetries turns;
+  for (int i = 1; i < 8; ++i) turns.discrete.push_back({so3_exp({0, 0, 0.01 * i}), {0, 0, 0}});
+  Se3 estimate{so3_exp({0, 0, 0.052}), {0.0045, 0, 0}};
+  EXPECT_NEAR(pose_error(estimate, Se3{}, turns).angle_rad, 0.002, 1e-12);
+  EXPECT_TRUE(pose_error(estimate, Se3{}, turns, 0.003, 0.02).passes(0.003, 0.02));
+  Symmetries shifted;
+  shifted.discrete.push_back({so3_exp({0, 0, 0.06}), {0.004, 0, 0}});
+  estimate = {Eigen::Quaterniond::Identity(), {0.0045, 0, 0}};
+  EXPECT_NEAR(pose_error(estimate, Se3{}, shifted).angle_rad, 0.06, 1e-12);
+  EXPECT_NEAR(pose_error(estimate, Se3{}, shifted, 0.03, 0.01).angle_rad, 0, 1e-12);
+}
+
 }  // namespace
 }  // namespace edgescout

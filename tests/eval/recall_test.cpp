@@ -135,6 +135,19 @@ TEST(Recall, IgnoresHiddenTruths) {
   EXPECT_DOUBLE_EQ(without.ar_mssd, 1);
 }
 
+// BOP's toolkit looks at as many estimates as there are truths that count, and gives none to the others.
+TEST(Recall, OfBopGivesNothingToHiddenTruths) {
+  EvaluationImage one = image();
+  one.truth = {truth(1, 0), truth(1, 300, 0.3)};
+  one.estimates = {estimate(1, 300, 0.9), estimate(1, 0, 0.8)};
+  RecallOptions options;
+  options.min_visible_fraction = 0.7;
+  const Recalls recalls = evaluate(std::vector{one}, OBJECTS, options);
+  EXPECT_DOUBLE_EQ(recalls.ar_mssd, 0) << "the first estimate alone is looked at";
+  EXPECT_DOUBLE_EQ(recalls.recall_mspd, 1);
+  EXPECT_EQ(recalls.false_positives, 0);
+}
+
 TEST(Recall, CountsFalsePositivesAboveTheScorePerImage) {
   EvaluationImage one = image();
   one.truth = {truth(1, 0)};
