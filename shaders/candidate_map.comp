@@ -59,7 +59,7 @@ void main() {
     [[dont_unroll]] for (uint i = 0u; i < count; ++i) {
       const ivec3 edge = picked[i];
       const ivec2 d = low + STEPS * ivec2(mine) - edge.xy;
-      for (uint k = 0u; k < PIXELS; ++k) {
+      [[unroll]] for (uint k = 0u; k < PIXELS; ++k) {
         const int dy = d.y + STEPS * int(k * down);
         const uint d2 = uint(d.x * d.x + dy * dy);
         if (d2 <= CANDIDATE_MAP_REACH2) best[k] = min(best[k], d2 << 16 | uint(edge.z));

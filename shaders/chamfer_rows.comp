@@ -22,7 +22,7 @@ void main() {
   for (uint q = 0u; q < CHAMFER_QUADS; ++q) quads[q] = 0u;
   [[dont_unroll]] for (uint e = first; e < end && remaining != 0u; ++e) {
     const uint distance = reach[e] >> 24, take = remaining & bits[(reach[e] & 0xffffffu) * push.words + word];
-    for (uint q = 0u; q < CHAMFER_QUADS; ++q) quads[q] |= distance * bytes_of(bitfieldExtract(take, int(4u * q), 4));
+    [[unroll]] for (uint q = 0u; q < CHAMFER_QUADS; ++q) quads[q] |= distance * bytes_of(bitfieldExtract(take, int(4u * q), 4));
     remaining &= ~take;
   }
   for (uint q = 0u; q < CHAMFER_QUADS; ++q)

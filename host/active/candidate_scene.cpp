@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/register/d2co.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
 
@@ -35,7 +36,7 @@ std::vector<MapEdge> projected(std::span<const ModelPoint> points, const Se3& ca
   std::vector<MapEdge> edges;
   for (const ModelPoint& point : points) {
     const Eigen::Vector3d x = camera_from_object * Eigen::Vector3d(point.x_m, point.y_m, point.z_m);
-    if (x.z() <= DEPTH_NEAR_M || edges.size() == CANDIDATE_MAP_MAX_EDGES) continue;
+    if (x.z() <= DEPTH_NEAR_M) continue;
     const Eigen::Vector2d p = project(camera, x);
     edges.push_back({float(p.x()), float(p.y()), float(x.z())});
   }
@@ -116,7 +117,8 @@ CandidateScene draw_candidates(std::span<const EdgeModel> models, std::span<cons
     backend.threads().for_each(own.maps.size(), [&](std::size_t s) {
       Box box;
       if (!projected_box(models[object].mesh, own.poses[s], camera, box)) return;
-      edges[own.maps[s]] = projected(visible[s], own.poses[s], camera);
+      // In the order of creases, borders and contours: of too many every so many stay, not the first.
+      edges[own.maps[s]] = projected(thinned(visible[s], int(CANDIDATE_MAP_MAX_EDGES)), own.poses[s], camera);
       scene.maps[own.maps[s]].window =
           map_window(box.x_min, box.y_min, box.x_max, box.y_max, camera.width, camera.height);
     });

@@ -187,11 +187,12 @@ double unrepeated(const Eigen::Vector3d& direction, std::span<const Eigen::Vecto
 // Takes off the information what cannot be seen and what is known.
 void discount(std::span<double> information, std::span<const std::size_t> open, const Planning& planning,
               const NextViewOptions& options) {
-  const Eigen::Vector3d center_m = looked_at_m(planning.views);
+  const std::optional<Eigen::Vector3d> center_m = looked_at_m(planning.views);
+  if (!center_m) return;
   std::vector<Se3> taken;
   for (const RegisterView& view : planning.real_views) taken.push_back(view.camera_from_world);
-  const std::vector<Eigen::Vector3d> directions = directions_to(planning.views, center_m),
-                                     real = directions_to(taken, center_m);
+  const std::vector<Eigen::Vector3d> directions = directions_to(planning.views, *center_m),
+                                     real = directions_to(taken, *center_m);
   const std::vector<double> free = free_sights(directions, options.free_sight);
   for (std::size_t i = 0; i < open.size(); ++i) {
     information[i] *= free[open[i]];

@@ -33,7 +33,8 @@ struct NextViewOptions {
   // line of sight is free of it with probability cos^free_sight of its angle to straight above, and a view
   // that is not tells nothing: an erasure, which leaves that share of the information. Straight above is the
   // mean direction from what the views look at to their cameras; where they stand all around there is none,
-  // and all are free. 0: all are free, as in the paper's own formula always.
+  // and all are free. 0: all are free, as in the paper's own formula always. Views that look at no point in
+  // common (looked_at_m) are neither hidden nor repeated.
   double free_sight = 0.5;
   // Views near each other err alike: what misleads one (neighbours, shadows, a wrong pose's chance agreement,
   // what hides a part) misleads the other. Of what a view would tell, a real view at an angle theta from it,

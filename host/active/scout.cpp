@@ -84,10 +84,17 @@ struct Mentioned {
   }
 };
 
-ScoutDecision without_expectations(int view) {
+ScoutDecision without_expectations(int view, Strategy strategy) {
   ScoutDecision decision;
   decision.view = view;
+  decision.strategy = strategy;
   return decision;
+}
+
+double most_information(std::span<const ViewInformation> views) {
+  double most = 0;
+  for (const ViewInformation& view : views) most = std::max(most, view.information);
+  return most;
 }
 
 }  // namespace
@@ -119,8 +126,9 @@ std::optional<ScoutDecision> Scout::propose() {
   ScoutDecision decision = decide();
   if (decision.view < 0) {
     state_.end = ScoutEnd::NoViewLeft;
-  } else if (!decision.views.empty() && options_.next_view.strategy == Strategy::Information &&
-             decision.views[decision.view].information < options_.min_information_nats) {
+  } else if (options_.next_view.strategy == Strategy::Information && !state_.candidates.empty() &&
+             most_information(decision.views) < options_.min_information_nats) {
+    // Without candidates there is nothing that information could be about, and everything to find.
     state_.end = ScoutEnd::LittleToLearn;
   } else {
     proposal_ = std::move(decision);
@@ -140,7 +148,9 @@ void Scout::give(int view, const Image& image, const Se3& camera_from_world) {
   ScoutState next = state_;
   std::vector<Observation> observations = observations_;
   ScoutStep step;
-  step.decision = proposal_ && proposal_->view == view ? *proposal_ : without_expectations(view);
+  step.decision = proposal_ && proposal_->view == view
+                      ? *proposal_
+                      : without_expectations(view, options_.next_view.strategy);
   if (proposal_) step.decision.stages = proposal_->stages;  // spent, whether followed or not
   step.camera_from_world = camera_from_world;
   look(image, step, next, observations);
@@ -232,7 +242,7 @@ std::size_t Scout::add_particles(ScoutState& next) const {
 
 // Lines 4 to 10 and 13. No view is left where the decision's is negative.
 ScoutDecision Scout::decide() const {
-  if (state_.steps.empty()) return without_expectations(first_open_view());
+  if (state_.steps.empty()) return without_expectations(first_open_view(), options_.next_view.strategy);
   ScoutDecision decision;
   decision.strategy = options_.next_view.strategy;
   Stopwatch watch(decision.stages);

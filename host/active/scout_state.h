@@ -34,7 +34,7 @@ struct ScoutStep {
   Se3 camera_from_world;           // as given
   Image image;                     // undistorted
   std::size_t new_candidates = 0;  // that no particle had been near
-  // as they were before this image, or as drawn around the first image's candidates
+  // before this image's say, those drawn around its new candidates included
   std::vector<Particle> before;
   std::vector<Particle> after;
   ParticleUpdate update;

@@ -1,5 +1,7 @@
 #include "host/active/views.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -83,7 +85,7 @@ std::vector<Se3> hemisphere_views(const HemisphereOptions& options) {
   return views;
 }
 
-Eigen::Vector3d looked_at_m(std::span<const Se3> camera_from_world) {
+std::optional<Eigen::Vector3d> looked_at_m(std::span<const Se3> camera_from_world) {
   Eigen::Matrix3d a = Eigen::Matrix3d::Zero();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
   for (const Se3& pose : camera_from_world) {
@@ -93,9 +95,17 @@ Eigen::Vector3d looked_at_m(std::span<const Se3> camera_from_world) {
     a += across;
     b += across * world_from_camera.translation_m;
   }
-  const Eigen::FullPivLU<Eigen::Matrix3d> lu = Eigen::FullPivLU<Eigen::Matrix3d>(a).setThreshold(1e-6);
-  return lu.isInvertible() ? Eigen::Vector3d(lu.solve(b))
-                           : inverse(camera_from_world[0]) * Eigen::Vector3d::UnitZ();
+  // The smallest eigenvalue is the mean squared sine of the angle between the axes and their common
+  // direction.
+  constexpr double LEAST_SPREAD = 0.003, NEAREST_M = 0.01;
+  const auto count = double(camera_from_world.size());
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(a / count, Eigen::EigenvaluesOnly);
+  if (!(spread.eigenvalues()[0] >= LEAST_SPREAD)) return std::nullopt;
+  const Eigen::Vector3d point_m = a.ldlt().solve(b);
+  const auto before = std::ranges::count_if(
+      camera_from_world, [&](const Se3& pose) { return (pose * point_m).z() > NEAREST_M; });
+  if (2 * double(before) <= count) return std::nullopt;
+  return point_m;
 }
 
 void validate_views(std::span<const Se3> camera_from_world, const std::string& source) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,9 +28,10 @@ struct HemisphereOptions {
 // other.
 std::vector<Se3> hemisphere_views(const HemisphereOptions& options);
 
-// The point nearest to all optical axes: what the cameras look at. World frame. Of parallel axes the point 1
-// m ahead of the first.
-Eigen::Vector3d looked_at_m(std::span<const Se3> camera_from_world);
+// The point nearest to all optical axes: what the cameras look at. World frame. Nothing where they look at no
+// point in common: a single one, axes parallel to some 3 degrees, or for more than half of the cameras a
+// point that is not before them (a head that only pans and tilts).
+std::optional<Eigen::Vector3d> looked_at_m(std::span<const Se3> camera_from_world);
 
 // At least one view, each finite and rigid, no two alike (closer than 0.1 mm and 0.1 mrad). InputError naming
 // `source` and the view.

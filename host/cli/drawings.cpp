@@ -168,7 +168,8 @@ std::string hemisphere_svg(std::span<const DrawnView> views, const std::string& 
     low = std::min(low, *view.information);
     high = std::max(high, *view.information);
   }
-  const Eigen::Vector3d center_m = looked_at_m(poses);
+  // Where the views look at nothing in common any point shows their order.
+  const Eigen::Vector3d center_m = looked_at_m(poses).value_or(inverse(poses[0]) * Eigen::Vector3d::UnitZ());
   std::vector<Place> places;
   for (const Se3& pose : poses) places.push_back(place_of(pose, center_m));
   std::string svg =

@@ -26,6 +26,7 @@ struct ScoutRequest {
   ScoutOptions options;
   std::string strategy = to_string(Strategy::Information), device = "auto", edge_method = "gradient", out;
   std::vector<int> sequence;
+  unsigned draws_seed = 1;
   bool resume = false, watch = false;
 };
 
@@ -36,13 +37,20 @@ std::vector<Object> objects_of(const KnownModels& known) {
   return objects;
 }
 
-// Where the user says nothing: what the views see, 15 % on either side.
+// Where the user says nothing: what the views see, 15 % on either side. Where they look at nothing in common
+// the distances stay open, to be taken from the objects' sizes.
 TemplateOptions with_distances_of(TemplateOptions options, const std::vector<Se3>& views) {
   if (options.distance_min_m > 0 || options.distance_max_m > 0) return options;
-  const Eigen::Vector3d center_m = looked_at_m(views);
+  const std::optional<Eigen::Vector3d> center_m = looked_at_m(views);
+  if (!center_m) {
+    log(LogLevel::Warning,
+        "the views look at no point in common: distances are guessed from the objects' sizes; --distance-min "
+        "and --distance-max say them");
+    return options;
+  }
   double near_m = INFINITY, far_m = 0;
   for (const Se3& view : views) {
-    const double distance_m = (view * center_m).norm();
+    const double distance_m = (view * *center_m).norm();
     near_m = std::min(near_m, distance_m);
     far_m = std::max(far_m, distance_m);
   }
@@ -51,16 +59,30 @@ TemplateOptions with_distances_of(TemplateOptions options, const std::vector<Se3
   return options;
 }
 
+// Options that would change nothing beside others.
+void refuse_idle_options(const ScoutRequest& request, const CLI::App& verb) {
+  const ScoutOptions& o = request.options;
+  const auto refuse = [&](const std::string& option, const std::string& beside, const char* expected) {
+    if (verb.count(option) > 0) throw InputError("command line", option, "beside " + beside, expected);
+  };
+  if (o.next_view.strategy != Strategy::Fixed)
+    refuse("--sequence", "--strategy " + request.strategy, "fixed");
+  if (o.next_view.strategy != Strategy::Information)
+    refuse("--min-information", "--strategy " + request.strategy, "mi-max");
+  if (o.probable_combinations) refuse("--sharpness", "--scenes-by-probability", "--scenes-by-psi");
+  if (o.next_view.literal)
+    for (const char* option : {"--free-sight", "--repeat-angle"})
+      refuse(option, "--literal", "the information by default");
+}
+
 // Also a YAML file's options count as given.
 void settle_options(ScoutRequest& request, const CLI::App& verb) {
   ScoutOptions& o = request.options;
   o.pipeline.edges.method = edge_method_from_name(request.edge_method);
   o.next_view.strategy = strategy_from(request.strategy);
   o.next_view.sequence = request.sequence;
-  if (o.next_view.strategy != Strategy::Fixed && !request.sequence.empty())
-    throw InputError("command line", "--sequence", "beside --strategy " + request.strategy, "fixed");
-  if (o.next_view.strategy != Strategy::Information && o.min_information_nats > 0)
-    throw InputError("command line", "--min-information", "beside --strategy " + request.strategy, "mi-max");
+  refuse_idle_options(request, verb);
+  o.next_view.seed = o.combinations.seed = o.particles.seed = request.draws_seed;
   if (!request.sequence.empty() && verb.count("--first-view") == 0) o.first_view = request.sequence.front();
   o.validate();
   request.templates.validate();
@@ -125,8 +147,7 @@ int scout(ScoutRequest& request, const CLI::App& verb) {
       template_sets_of(known, with_distances_of(request.templates, views), source.source->camera(), *backend);
   Scout scout(sets, source.source->camera(), views, request.options, *backend);
   if (goes_on) scout.resume(load_scout_state(saved), saved.string());
-  std::error_code not_there;
-  if (!goes_on) fs::remove(saved, not_there);  // of another run, which must not be taken for this one
+  if (!goes_on) remove_scout_results(request.out);
   const ScoutReport report = report_of(request, source, sets, *backend);
   run_scout(scout, *source.source, [&](const ScoutState& state) {
     tell(state);
@@ -134,10 +155,12 @@ int scout(ScoutRequest& request, const CLI::App& verb) {
   });
   const ScoutState& state = scout.state();
   write_all(state, report, request, true, *backend);
+  const std::string images = disagreeing_images(state);
   std::cout << fmt::format(
-      "{} objects in {} images, {} views failed, {:.1f} s, ended by: {}; results in {}\n",
-      state.detections.size(), state.steps.size(), state.failed.size(), state.seconds(), to_string(state.end),
-      request.out);
+      "{} objects in {} images, {} views failed{}, {:.1f} s, ended by: {}; results in {}\n",
+      state.detections.size(), state.steps.size(), state.failed.size(),
+      images.empty() ? "" : ", camera poses of images " + images + " disagree", state.seconds(),
+      to_string(state.end), request.out);
   return state.steps.empty() || !state.failed.empty() ? exit_some_failed : exit_done;
 }
 
@@ -158,6 +181,9 @@ void add_loop_options(CLI::App& verb, ScoutRequest& r) {
                "Taken off for a metre of the camera's way, nats")
       .bounded("radian-cost", o.next_view.motion_cost_per_rad, 0.0, 1e6,
                "And for a radian of its turn, nats");
+  OptionTable(verb, "Belief")
+      .bounded("draws-seed", r.draws_seed, 0u, 4000000000u,
+               "Of particles, imagined scenes and the views of strategy random");
   verb.add_option("--sequence", r.sequence, "Views of strategy fixed; default: all in order")
       ->group("Next view");
   add_belief_options(verb, o);

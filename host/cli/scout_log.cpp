@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "host/cli/batch_settings.h"
 #include "host/cli/scout_report.h"
@@ -58,6 +59,12 @@ json information_json(const std::vector<ViewInformation>& views) {
   return list;
 }
 
+json costs_json(const std::vector<ViewInformation>& views) {
+  json list = json::array();
+  for (const ViewInformation& view : views) list.push_back(view.open ? json(view.motion_cost) : json());
+  return list;
+}
+
 json step_json(const ScoutStep& step, const ScoutReport& report) {
   json agreement = json::array();
   for (const ViewAgreement& view : step.agreement)
@@ -69,6 +76,7 @@ json step_json(const ScoutStep& step, const ScoutReport& report) {
           {"strategy", to_string(step.decision.strategy)},
           {"information", information_json(step.decision.views)},
           {"information_unit", unit_of(step.decision.strategy)},
+          {"motion_cost", costs_json(step.decision.views)},
           {"decision_ms", stages_json(step.decision.stages)},
           {"camera_from_world", pose_json(step.camera_from_world)},
           {"timings_ms", stages_json(step.stages)},
@@ -101,6 +109,15 @@ ImageResult result_of(const ScoutState& state, const ScoutStep& step, const Scou
 }
 
 }  // namespace
+
+std::string disagreeing_images(const ScoutState& state) {
+  std::string images;
+  if (state.steps.empty()) return images;
+  const std::vector<ViewAgreement>& agreement = state.steps.back().agreement;
+  for (std::size_t i = 0; i < agreement.size(); ++i)
+    if (agreement[i].disagrees) images += fmt::format("{}{}", images.empty() ? "" : ", ", i + 1);
+  return images;
+}
 
 const char* unit_of(Strategy strategy) {
   return strategy == Strategy::Information ? "nats" : strategy == Strategy::Disocclusion ? "points" : "";
@@ -141,6 +158,19 @@ void save_scout_log(const ScoutState& state, const ScoutReport& report, const st
   log["end"] = to_string(state.end);
   write_file_atomically(folder / "scout.json",
                         log.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+}
+
+void remove_scout_results(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  static const std::regex own("view_[0-9]{3,}\\.json|results\\.csv|scout\\.(html|json|state)");
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (std::regex_match(entry.path().filename().string(), own)) files.push_back(entry.path());
+  for (const fs::path& file : files) {
+    std::error_code failure;
+    if (!fs::remove(file, failure))
+      throw InputError(file.string(), "file of an earlier run", failure.message(), "one that can be removed");
+  }
 }
 
 void require_same_source(const Settings& settings, const std::filesystem::path& folder) {

@@ -74,6 +74,8 @@ class Page {
     if (!steps.empty())
       html += tile(fmt::format("{:.2f} → {:.2f}", steps.front().entropy_nats, state_.entropy_nats),
                    "entropy after the first and last image, nats");
+    if (const std::string images = disagreeing_images(state_); !images.empty())
+      html += tile(images, "images whose camera pose disagrees");
     html += tile(fmt::format("{:.1f} s", state_.seconds()), "computing");
     return html + tile(state_.end == ScoutEnd::No ? "looking …" : to_string(state_.end), "state") + "</div>";
   }
@@ -137,7 +139,7 @@ class Page {
         why.views.empty()
             ? ""
             : fmt::format(", {:.3f} {} expected", why.views[why.view].information, unit_of(why.strategy)),
-        warning(s));
+        warnings(s));
     html +=
         figure(hemisphere(i),
                i == 0 ? "The views, from above. Nothing is known before the first image."
@@ -153,16 +155,21 @@ class Page {
                                                    : s.update.resampled ? ", resampled"
                                                                         : ""));
     html += "</div>";
-    if (!why.likeliest.empty()) html += "<div class=row>" + scenes(why) + "</div>";
+    if (!why.likeliest.empty() || !why.unlikeliest.empty())
+      html += "<div class=row>" + scenes(why) + "</div>";
     return html + numbers(s) + "</section>";
   }
 
-  std::string warning(const ScoutStep& s) const {
-    if (s.agreement.empty() || !s.agreement.back().disagrees) return "";
-    const ViewAgreement& view = s.agreement.back();
-    return "<p class=warning>This image's camera pose disagrees with the others: " +
-           (view.missing > 0 ? fmt::format("it shows none of {} objects.</p>", view.missing)
-                             : fmt::format("the objects lie {:.1f} px off.</p>", view.residual_px));
+  // Of this image and of earlier ones, on which this one has had its say.
+  static std::string warnings(const ScoutStep& s) {
+    std::string html;
+    for (std::size_t i = 0; i < s.agreement.size(); ++i)
+      if (const ViewAgreement& view = s.agreement[i]; view.disagrees)
+        html += fmt::format(
+            "<p class=warning>The camera pose of image {} disagrees with the others: {}.</p>", i + 1,
+            view.missing > 0 ? fmt::format("it shows none of {} objects", view.missing)
+                             : fmt::format("the objects lie {:.1f} px off", view.residual_px));
+    return html;
   }
 
   std::string hemisphere(std::size_t step) const {

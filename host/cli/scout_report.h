@@ -30,6 +30,9 @@ struct ScoutReport {
   int scene_id = 0;
 };
 
+// Numbers of the images whose camera pose the others contradict after the last one: "2, 5"; empty: none.
+std::string disagreeing_images(const ScoutState& state);
+
 // Of ViewInformation::information.
 const char* unit_of(Strategy strategy);
 
@@ -44,6 +47,8 @@ std::optional<DistanceToTruth> distance_to_truth(const Detection& detection, con
 // camera, views, steps [..], failed [..], detections [..], truth [..] (of a cell), seconds, end}; poses are
 // {R, t} and the camera is the ideal one, as in io/results.h. Atomically.
 void save_scout_log(const ScoutState& state, const ScoutReport& report, const std::filesystem::path& folder);
+// What an earlier run left: its state, log, results and page, which must not be taken for this one's.
+void remove_scout_results(const std::filesystem::path& folder);
 // InputError naming the first setting of the source that differs from those in FOLDER/scout.json.
 void require_same_source(const Settings& settings, const std::filesystem::path& folder);
 

@@ -32,6 +32,8 @@ ScoutSource make_cell(const SourceRequest& request, std::span<const Object> obje
   RenderOptions options = request.scene;
   options.min_distance_m = options.max_distance_m = request.hemisphere.radius_m;
   const Scene scene = make_scene(objects, options);
+  ArmNoise arm = request.arm;
+  arm.seed = options.seed;
   ScoutSource made;
   made.name = "a rendered cell of " + std::to_string(options.objects) + " parts, seed " +
               std::to_string(options.seed);
@@ -40,8 +42,8 @@ ScoutSource make_cell(const SourceRequest& request, std::span<const Object> obje
   made.settings.emplace_back("radius", fmt::format("{}", request.hemisphere.radius_m));  // sizes the board
   for (const PlacedObject& placed : scene.placed)
     if (placed.target) made.truth.push_back({placed.object, placed.world_from_object});
-  made.source = std::make_unique<SimulatedCell>(scene, scene.views[0].camera, cell_views(request, scene),
-                                                request.arm, pool);
+  made.source =
+      std::make_unique<SimulatedCell>(scene, scene.views[0].camera, cell_views(request, scene), arm, pool);
   return made;
 }
 

@@ -150,6 +150,21 @@ TEST(Scout, EndsByEachOfItsLimits) {
             End(ScoutEnd::NoViewLeft, 1));
 }
 
+// No information where nothing was found is no reason to stop looking.
+TEST(Scout, GoesOnWhereTheFirstImageShowsNothing) {
+  SmallCell t;
+  ScoutOptions options = t.options();
+  options.min_information_nats = 0.05;
+  options.detect = [](int, const Observation&, std::span<const Observation>) {
+    return std::vector<Detection>{};
+  };
+  Scout scout = t.scout(options);
+  SimulatedCell cell = t.source();
+  run_scout(scout, cell);
+  EXPECT_EQ(scout.state().end, ScoutEnd::ViewBudget);
+  EXPECT_EQ(scout.state().steps.size(), 3u);
+}
+
 TEST(Scout, ProposesTheSameUntilThereIsNews) {
   SmallCell t;
   SimulatedCell cell = t.source();

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "host/core/camera.h"
+#include "host/core/random.h"
 #include "tests/io/expect_input_error.h"
 #include "tests/io/temporary_folder.h"
 #include "tests/test_random.h"
@@ -123,6 +124,32 @@ TEST(ViewList, InMemoryIsJudgedAlike) {
   Se3 near;
   near.translation_m.x() = 2e-4;
   EXPECT_NO_THROW(validate_views(std::vector<Se3>{Se3{}, near}, "robot"));
+}
+
+TEST(LookedAt, IsWhereTheAxesMeet) {
+  HemisphereOptions options;
+  options.center_m = {0.1, -0.2, 0.3};
+  const auto point_m = looked_at_m(hemisphere_views(options));
+  ASSERT_TRUE(point_m);
+  EXPECT_LT((*point_m - options.center_m).norm(), 1e-9);
+}
+
+// A gantry's cameras, with 1 mrad of tilt, would "meet" tens of metres away; those of a head that pans and
+// tilts meet in themselves.
+TEST(LookedAt, IsNothingWhereViewsHaveNoPointInCommon) {
+  Random random(3);
+  std::vector<Se3> one{look_at({0, 0, 0.5}, {0, 0, 0})}, gantry, head;
+  for (int i = 0; i < 12; ++i) {
+    Se3 down = one[0];
+    const Eigen::Vector3d shift(0.05 * i, 0.02 * (i % 3), 0);
+    down.rotation = so3_exp(1e-3 * random.direction()) * down.rotation;
+    down.translation_m -= down.rotation * shift;
+    gantry.push_back(down);
+    head.push_back(look_at({0, 0, 0.5}, {0.02 * i, 0.1, 0}));
+  }
+  EXPECT_FALSE(looked_at_m(one));
+  EXPECT_FALSE(looked_at_m(gantry));
+  EXPECT_FALSE(looked_at_m(head));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
 
@@ -141,6 +142,38 @@ TEST(Scout, FollowsTheSequence) {
   EXPECT_EQ(log["steps"][1].at("view"), 3);
 }
 
+// What a run before left would pass for this one's.
+TEST(Scout, RemovesTheResultsOfARunBefore) {
+  const SmallScout t;
+  const auto follow = [&](const char* second) {
+    ASSERT_EQ(run_program(t.arguments({"--strategy", "fixed", "--sequence", "0", second})).exit_code, 0);
+  };
+  follow("5");
+  EXPECT_TRUE(fs::exists(t.out / "view_005.json"));
+  std::ofstream(t.out / "notes.txt") << "mine";
+  follow("3");
+  EXPECT_FALSE(fs::exists(t.out / "view_005.json"));
+  EXPECT_TRUE(fs::exists(t.out / "view_003.json"));
+  EXPECT_TRUE(fs::exists(t.out / "notes.txt"));
+}
+
+TEST(Scout, DrawsRandomViewsFromItsSeed) {
+  const auto views_of = [](const char* seed) {
+    const SmallScout t;
+    EXPECT_EQ(run_program(t.arguments({"--strategy", "random", "--draws-seed", seed})).exit_code, 0);
+    std::vector<int> views;
+    const nlohmann::json log = t.log();
+    for (const nlohmann::json& step : log.at("steps")) {
+      views.push_back(step.at("view"));
+      EXPECT_EQ(step.at("strategy"), "random");
+    }
+    return views;
+  };
+  const std::vector<int> views = views_of("1");
+  EXPECT_EQ(views_of("1"), views);
+  EXPECT_NE(views_of("4"), views);
+}
+
 TEST(Scout, DoesNotGoOnInAnotherFolder) {
   const SmallScene scene(2);
   const fs::path other = scene.folder.path() / "other" / scene.scene.filename();
@@ -235,6 +268,8 @@ TEST(Scout, RefusesWhatItCannotUse) {
   refused(t.arguments({"--sequence", "1", "2"}), {"--sequence", "--strategy mi-max"});
   refused(t.arguments({"--strategy", "dis", "--min-information", "0.1"}),
           {"--min-information", "--strategy dis"});
+  refused(t.arguments({"--sharpness", "2"}), {"--sharpness", "--scenes-by-psi"});
+  refused(t.arguments({"--literal", "--free-sight", "1"}), {"--free-sight", "--literal"});
   refused(t.arguments({"--elevations", "120"}), {"elevation"});
   refused(t.arguments({"--arm-shift", "nan"}), {"--arm-shift", "nan"});
   refused(t.arguments({"--sharpness", "501"}), {"--sharpness", "501", "0 to 500"});
