@@ -22,7 +22,7 @@ struct DevicesRequest {
   DevicesOptions options;
 };
 
-void run(DevicesRequest& request) {
+void run(DevicesRequest& request, CLI::App& verb) {
   request.options.pipeline.edges.method = edge_method_from_name(request.edge_method);
   request.options.validate();
   for (const std::string& device : request.options.devices) make_backend(device);  // that is there
@@ -34,6 +34,7 @@ void run(DevicesRequest& request) {
     report = time_devices(request.options, [&](std::size_t done, std::size_t) { progress.move_to(done); });
   }
   report.commit = EDGESCOUT_COMMIT;
+  report.settings = settings_of(verb, {"Measurement", "Templates", "Edges", "Tensor", "Detection"});
   for (const std::string& warning : report.warnings) log(LogLevel::Warning, warning);
   const std::filesystem::path out = request.out;
   write_file_atomically(out / "devices.json", devices_json(report));
@@ -61,8 +62,8 @@ void add_bench_devices(CLI::App& bench, int& exit_code) {
   add_template_options(*verb, o.templates);
   add_edge_and_tensor_options(*verb, o.pipeline, request->edge_method);
   add_detection_options(*verb, o.pipeline);
-  verb->callback([request, &exit_code] {
-    run(*request);
+  verb->callback([request, verb, &exit_code] {
+    run(*request, *verb);
     exit_code = exit_done;
   });
 }

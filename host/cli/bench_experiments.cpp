@@ -20,7 +20,7 @@ namespace {
 struct ExperimentsRequest {
   std::vector<std::string> names;
   std::string out, data, device = "cpu";
-  bool is_short = false, is_full = false, resume = false;
+  bool is_short = false, is_full = false, resume = false, any_commit = false;
   ExperimentSettings settings;  // what was given on the command line
 };
 
@@ -69,6 +69,7 @@ void run(const ExperimentsRequest& request, const CLI::App& verb) {
   run.device = request.device;
   run.commit = EDGESCOUT_COMMIT;
   run.resume = request.resume;
+  run.any_commit = request.any_commit;
   run.progress = [&](const std::string& experiment, std::size_t done, std::size_t all) {
     bars.move_to(experiment, done, all);
   };
@@ -124,6 +125,8 @@ void add_bench_experiments(CLI::App& bench, int& exit_code) {
       ->capture_default_str();
   OptionTable(*verb, "Run")
       .flag("resume", request->resume, "Go on where DIR has finished cells of the same settings")
+      .flag("any-commit", request->any_commit,
+            "With --resume: also where these are of another commit; the report lists all of them")
       .bounded("seed", request->settings.seed, 0u, 4000000000u, "Of scenes, starts and candidates")
       .flag("times,!--no-times", request->settings.times,
             "Measured times among the rows (default); without, two runs give the same bytes");

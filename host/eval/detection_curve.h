@@ -1,6 +1,7 @@
 // True positives against false positives, over all thresholds of a score (the paper's first experiment).
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 namespace edgescout {
@@ -10,6 +11,7 @@ namespace edgescout {
 struct ScoredPose {
   double score = 0;
   int instance = -1;
+  int image = 0;
 };
 
 // What is accepted from one score up.
@@ -25,5 +27,14 @@ std::vector<CurvePoint> detection_curve(std::vector<ScoredPose> poses, int insta
 
 // The highest rate with at most so many false positives.
 double rate_at(const std::vector<CurvePoint>& curve, double false_positives);
+
+// A bootstrap over images: of every draw how often each image is in it.
+using Draws = std::vector<std::vector<int>>;
+Draws draw_images(std::size_t images, int draws = 2000, std::uint64_t seed = 1);
+
+// rate_at() of the curve over each draw's images, with at most so many false positives an image. `instances`
+// by image. Draws without any instance are left out.
+std::vector<double> resampled_rates(std::vector<ScoredPose> poses, const std::vector<int>& instances,
+                                    double false_positives_per_image, const Draws& draws);
 
 }  // namespace edgescout

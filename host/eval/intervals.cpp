@@ -22,21 +22,32 @@ double rate(std::span<const Cluster> clusters) {
   return trials > 0 ? hits / trials : 0;
 }
 
-Interval bootstrap_interval(std::span<const Cluster> clusters, int resamples, std::uint64_t seed) {
-  if (clusters.size() < 2)
-    return clusters.empty() ? Interval{} : wilson_interval(clusters[0].hits, clusters[0].trials);
-  Random random(seed);
-  std::vector<double> rates;
-  std::vector<Cluster> drawn(clusters.size());
-  for (int i = 0; i < resamples; ++i) {
-    for (Cluster& cluster : drawn) cluster = clusters[random.below(static_cast<int>(clusters.size()))];
-    rates.push_back(rate(drawn));
-  }
-  std::ranges::sort(rates);
+Interval percentile_interval(std::vector<double> values) {
+  if (values.empty()) return {};
+  std::ranges::sort(values);
   const auto at = [&](double quantile) {
-    return rates[static_cast<std::size_t>(std::lround(quantile * (resamples - 1)))];
+    return values[static_cast<std::size_t>(std::lround(quantile * static_cast<double>(values.size() - 1)))];
   };
   return {at(0.025), at(0.975)};
+}
+
+Interval bootstrap_interval(std::span<const Cluster> clusters, int resamples, std::uint64_t seed) {
+  std::vector<Cluster> with_trials(clusters.begin(), clusters.end());
+  std::erase_if(with_trials, [](const Cluster& cluster) { return cluster.trials <= 0; });
+  const auto has_first_rate = [&](const Cluster& cluster) {
+    return cluster.hits * with_trials[0].trials == with_trials[0].hits * cluster.trials;
+  };
+  if (std::ranges::all_of(with_trials, has_first_rate))
+    return wilson_interval(rate(with_trials) * static_cast<double>(with_trials.size()),
+                           static_cast<double>(with_trials.size()));
+  Random random(seed);
+  std::vector<double> rates;
+  std::vector<Cluster> drawn(with_trials.size());
+  for (int i = 0; i < resamples; ++i) {
+    for (Cluster& cluster : drawn) cluster = with_trials[random.below(static_cast<int>(with_trials.size()))];
+    rates.push_back(rate(drawn));
+  }
+  return percentile_interval(std::move(rates));
 }
 
 }  // namespace edgescout

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace edgescout {
 
@@ -22,9 +23,12 @@ struct Cluster {
 // Of all clusters together; 0 without trials.
 double rate(std::span<const Cluster> clusters);
 
+// What holds 95 % of these values; [0, 1] without any.
+Interval percentile_interval(std::vector<double> values);
+
 // Percentile bootstrap of `rate` over clusters: as many are drawn with replacement, `resamples` times; the
-// interval holds 95 %. With fewer than two clusters nothing can be said of their spread: Wilson's interval
-// then.
+// interval holds 95 %. Where all clusters have one rate no draw shows any spread, and one cluster has none:
+// Wilson's interval then, each cluster as one trial.
 Interval bootstrap_interval(std::span<const Cluster> clusters, int resamples = 2000, std::uint64_t seed = 1);
 
 }  // namespace edgescout

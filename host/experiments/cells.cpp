@@ -30,8 +30,12 @@ void require_same_settings(const Table& finished, const CellRun& run, const std:
     if (note == finished.notes.end()) fail(name, "nothing", value);
     if (note->second != value) fail(name, note->second, value);
   }
-  if (finished.notes.size() != run.settings.size() + 1)
-    fail("settings", std::to_string(finished.notes.size() - 1), std::to_string(run.settings.size()));
+  const auto commit = std::ranges::find(finished.notes, COMMIT, &std::pair<std::string, std::string>::first);
+  if (commit == finished.notes.end() || finished.notes.size() != run.settings.size() + 1)
+    fail("settings", std::to_string(finished.notes.size()), std::to_string(run.settings.size() + 1));
+  if (commit->second != run.commit && !run.any_commit)
+    throw InputError(file, COMMIT, commit->second,
+                     run.commit + " as in this run, --any-commit, or another output folder");
 }
 
 // What an earlier run left of a cell.
@@ -94,8 +98,17 @@ class Workers {
     require_writable_folder(file.parent_path());
     write_file_atomically(file, to_csv(table));
     const std::lock_guard lock(mutex_);
+    require_same_columns(table);
     tables_[index] = std::move(table);
     if (run_.progress) run_.progress(++done_, cells_.size());
+  }
+
+  // Cells of another commit may have others.
+  void require_same_columns(const Table& table) const {
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      if (tables_[i] && tables_[i]->columns != table.columns)
+        throw InputError(file_of(cells_[i], run_).string(), "columns", "others than this program's",
+                         "cells of this program, or another output folder");
   }
 
   std::span<const Cell> cells_;

@@ -24,9 +24,10 @@ struct Cell {
 struct CellRun {
   std::filesystem::path folder;  // of the cells' files
   Notes settings;                // what the results depend on; the head of every file
-  std::string commit;            // noted beside the settings; cells of several commits may be joined
+  std::string commit;            // noted beside the settings
   bool resume = false;
-  int workers = 1;  // cells that run side by side, each with a backend of its own
+  bool any_commit = false;  // finished cells of other commits are taken too
+  int workers = 1;          // cells that run side by side, each with a backend of its own
   std::function<std::unique_ptr<Backend>()> make_backend;
   // may be empty; at the start too, by one thread at a time
   std::function<void(std::size_t done, std::size_t all)> progress;
@@ -34,7 +35,8 @@ struct CellRun {
 
 // The cells' tables, in their order. A finished cell's file is taken as it is with `resume`; one that cannot
 // be read is done again. InputError: finished cells without `resume`; a finished cell with other settings,
-// naming the first that differs; a file that cannot be written. Whatever ends the run, finished cells stay.
+// naming the first that differs, of another commit without `any_commit`, or with other columns; a file that
+// cannot be written. Whatever ends the run, finished cells stay.
 std::vector<Table> run_cells(std::span<const Cell> cells, const CellRun& run);
 
 }  // namespace edgescout

@@ -2,18 +2,42 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "host/io/binary_file.h"
 #include "host/io/files.h"
 
 namespace edgescout {
 
-std::string data_mark(const std::filesystem::path& data) {
-  std::string contents = read_file(data / "d2co-starts/ground_truth.json");
-  contents += read_file(data / "d2co-starts/starts.csv");
-  for (const char* scene : {"brackets/000001", "brackets/000002", "cat"})
-    for (const char* file : {"scene_camera.json", "scene_gt.json"})
-      contents += read_file(data / scene / file);
-  return fmt::format("{:016x}", checksum(contents));
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* SETS[] = {"d2co-starts", "brackets", "cat"};
+constexpr const char* NEEDED[] = {"d2co-starts/ground_truth.json",
+                                  "d2co-starts/starts.csv",
+                                  "brackets/000001/scene_camera.json",
+                                  "brackets/000001/scene_gt.json",
+                                  "brackets/000002/scene_camera.json",
+                                  "brackets/000002/scene_gt.json",
+                                  "cat/scene_camera.json",
+                                  "cat/scene_gt.json"};
+
+}  // namespace
+
+std::string data_mark(const fs::path& data) {
+  for (const char* file : NEEDED) read_file(data / file);
+  std::vector<fs::path> files;
+  for (const char* set : SETS)
+    for (const auto& entry : fs::recursive_directory_iterator(data / set))
+      if (entry.is_regular_file()) files.push_back(entry.path());
+  std::ranges::sort(files);
+  std::string marks;
+  for (const fs::path& file : files)
+    marks += fmt::format("{} {:016x}\n", file.lexically_relative(data).generic_string(),
+                         checksum(read_file(file)));
+  return fmt::format("{:016x}", checksum(marks));
 }
 
 }  // namespace edgescout

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "host/baselines/line2d.h"
 #include "host/eval/detection_curve.h"
+#include "host/eval/intervals.h"
 #include "host/experiments/data_mark.h"
 #include "host/experiments/photographs.h"
 #include "host/experiments/pose_candidates.h"
@@ -23,11 +25,14 @@ struct Detector {
   const char* column;
   double sign;  // times it, the column is the higher the likelier
 };
-constexpr Detector DETECTORS[] = {{"FDCM", "fdcm_px", -1}, {"LINE-2D", "line2d", 1}};
+constexpr Detector DETECTORS[] = {
+    {"FDCM", "fdcm_px", -1}, {"FDCM (lambda 30)", "fdcm_own_px", -1}, {"LINE-2D", "line2d", 1}};
+static_assert(OWN_LAMBDA_PX_PER_RAD == 30, "as the detector's name says");
 
 Notes options(const ExperimentSettings& s) {
   Notes notes{{"scenes", std::to_string(s.scenes)},
               {"candidates", std::to_string(s.candidates)},
+              lambda_note(),
               {"image_scale", number_text(s.image_scale)},
               {"supersampling", std::to_string(s.supersampling)}};
   if (s.data.empty()) return notes;
@@ -39,10 +44,14 @@ Notes options(const ExperimentSettings& s) {
 // Columns: set, image, object, instances (of the object in the image), candidate, instance (empty: of none),
 // and the scores.
 Table score_candidates(const KnownScene& scene, const ExperimentSettings& settings, Backend& backend) {
-  Table table{{}, {"set", "image", "object", "instances", "candidate", "instance", "fdcm_px", "line2d"}, {}};
+  Table table{
+      {},
+      {"set", "image", "object", "instances", "candidate", "instance", "fdcm_px", "fdcm_own_px", "line2d"},
+      {}};
   std::vector<EdgeModel> models;
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
-  const RegisterView view = register_views(scene, backend)[0];
+  const RegisterView view = register_views(scene, tensor_with(PAPER_LAMBDA_PX_PER_RAD), backend)[0],
+                     own_view = register_views(scene, tensor_with(OWN_LAMBDA_PX_PER_RAD), backend)[0];
   for (int object = 0; object < static_cast<int>(scene.objects.size()); ++object) {
     const auto instances = std::ranges::count(scene.instances, object, &KnownInstance::object);
     if (instances == 0) continue;
@@ -52,12 +61,13 @@ Table score_candidates(const KnownScene& scene, const ExperimentSettings& settin
     for (const PoseCandidate& candidate : candidates)
       poses.push_back({object, candidate.camera_from_object, 0});
     const std::vector<double> fdcm = fdcm_scores(models, poses, view, backend);
+    const std::vector<double> own_fdcm = fdcm_scores(models, poses, own_view, backend);
     const std::vector<double> line2d = line2d_scores(models, poses, view, backend);
     for (std::size_t i = 0; i < candidates.size(); ++i)
       table.rows.push_back({scene.set, scene.name, scene.objects[object].mesh.name, std::to_string(instances),
                             std::to_string(i),
                             candidates[i].instance < 0 ? "" : scene.instances[candidates[i].instance].name,
-                            number_text(fdcm[i]), number_text(line2d[i])});
+                            number_text(fdcm[i]), number_text(own_fdcm[i]), number_text(line2d[i])});
   }
   return table;
 }
@@ -88,44 +98,44 @@ std::vector<Cell> cells(const ExperimentSettings& s) {
   return list;
 }
 
-struct Curve {
-  std::vector<CurvePoint> points;
-  int images = 0, instances = 0;
+// A detector's candidates in one set of images.
+struct Scored {
+  std::vector<ScoredPose> poses;
+  std::vector<int> instances;  // of every image, with a candidate or without
+  int all_instances() const { return std::accumulate(instances.begin(), instances.end(), 0); }
 };
 
-Curve curve_of(const Table& table, const Detector& detector) {
-  std::map<std::string, int> instances;  // with a candidate
-  std::map<std::string, double> there;   // by image and object, with one or not
-  std::set<std::string> images;
-  std::vector<ScoredPose> poses;
+Scored scored_by(const Detector& detector, const Table& table) {
+  Scored scored;
+  std::map<std::string, int> images, instances;
+  std::set<std::string> counted;  // objects of images
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const std::string image = text_in(table, row, "set") + "/" + text_in(table, row, "image");
-    images.insert(image);
-    there[image + "/" + text_in(table, row, "object")] = number_in(table, row, "instances");
-    ScoredPose pose{detector.sign * number_in(table, row, detector.column), -1};
+    const int index = images.emplace(image, static_cast<int>(images.size())).first->second;
+    scored.instances.resize(images.size());
+    if (counted.insert(image + "/" + text_in(table, row, "object")).second)
+      scored.instances[index] += static_cast<int>(number_in(table, row, "instances"));
+    ScoredPose pose{detector.sign * number_in(table, row, detector.column), -1, index};
     if (const std::string& instance = text_in(table, row, "instance"); !instance.empty())
       pose.instance =
           instances.emplace(image + "/" + instance, static_cast<int>(instances.size())).first->second;
-    poses.push_back(pose);
+    scored.poses.push_back(pose);
   }
-  int all = 0;
-  for (const auto& [key, count] : there) all += static_cast<int>(count);
-  return {detection_curve(std::move(poses), all), static_cast<int>(images.size()), all};
+  return scored;
 }
 
 // The corners of the staircase: where the rate rises, and the ends. On a logarithmic axis no false positive
 // at all is drawn as half of one.
-PlotLine line_of(const char* name, const Curve& curve) {
+PlotLine line_of(const char* name, const std::vector<CurvePoint>& points, std::size_t images) {
   PlotLine line{name, {}};
-  const std::vector<CurvePoint>& points = curve.points;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool is_end = i == 0 || i + 1 == points.size();
     if (is_end || points[i + 1].rate > points[i].rate || points[i].rate > points[i - 1].rate)
-      line.points.push_back(
-          {std::max(0.5, static_cast<double>(points[i].false_positives)) / std::max(1, curve.images),
-           points[i].rate,
-           {},
-           {}});
+      line.points.push_back({std::max(0.5, static_cast<double>(points[i].false_positives)) /
+                                 static_cast<double>(std::max<std::size_t>(1, images)),
+                             points[i].rate,
+                             {},
+                             {}});
   }
   return line;
 }
@@ -153,28 +163,67 @@ std::vector<Part> parts_of(const Table& table) {
   return parts;
 }
 
+constexpr double ALLOWED[] = {0, 0.1, 1, 10};  // false positives an image
+
+// Rates of one detector, and what they would be in other images: resampled, of the same draws for all.
+struct Rates {
+  double rate = 0;
+  std::vector<double> resampled;
+};
+
+std::vector<Rates> rates_of(const Scored& scored, const std::vector<CurvePoint>& curve, const Draws& draws) {
+  std::vector<Rates> rates;
+  for (const double allowed : ALLOWED)
+    rates.push_back({rate_at(curve, allowed * static_cast<double>(scored.instances.size())),
+                     resampled_rates(scored.poses, scored.instances, allowed, draws)});
+  return rates;
+}
+
+// In points of percent, FDCM's less LINE-2D's.
+std::string difference_row(const std::string& name, const std::vector<Rates>& fdcm,
+                           const std::vector<Rates>& line2d) {
+  std::string text = "| " + name + " | FDCM less LINE-2D, points";
+  for (std::size_t i = 0; i < fdcm.size(); ++i) {
+    std::vector<double> differences;
+    for (std::size_t d = 0; d < fdcm[i].resampled.size(); ++d)
+      differences.push_back(fdcm[i].resampled[d] - line2d[i].resampled[d]);
+    const Interval interval = percentile_interval(std::move(differences));
+    text += fmt::format(" | {:+.1f} [{:+.1f}, {:+.1f}]", 100 * (fdcm[i].rate - line2d[i].rate),
+                        100 * interval.low, 100 * interval.high);
+  }
+  return text + " | |\n";
+}
+
 Report report(const ExperimentSettings& settings, const Table& table) {
-  constexpr double ALLOWED[] = {0, 0.1, 1, 10};  // false positives an image
   Report result;
   result.markdown = fmt::format(
       "{} candidates an image and type: {} around every instance of which at least a tenth shows, within {} "
       "rad and {:.0f} mm; all others anywhere in a cube that holds the instances. "
-      "FDCM ranks by the mean distance of the tensor, LINE-2D by the similarity of OpenCV's linemod. An "
-      "instance is found where a candidate of it is accepted.\n\n"
+      "FDCM ranks by the mean distance of the tensor (with the paper's weight of the orientation, {} px/rad, "
+      "or "
+      "another), LINE-2D by the similarity of OpenCV's linemod. An instance is found where a candidate of it "
+      "is "
+      "accepted. 95 % intervals by bootstrap over images; of the difference over the same draws of "
+      "images.\n\n"
       "| candidates | method | no false positive | 0.1 an image | 1 | 10 | instances "
       "|\n|---|---|---|---|---|---|---|\n",
-      settings.candidates, CANDIDATES_AN_INSTANCE, CANDIDATE_ANGLE_RAD, 1000 * CANDIDATE_DISTANCE_M);
+      settings.candidates, CANDIDATES_AN_INSTANCE, CANDIDATE_ANGLE_RAD, 1000 * CANDIDATE_DISTANCE_M,
+      PAPER_LAMBDA_PX_PER_RAD);
   for (const Part& part : parts_of(table)) {
     Panel panel{part.name, "false positives an image (none: as half of one)", "true positive rate", {}, 0, 1,
                 true};
+    std::vector<std::vector<Rates>> of_detector;
     for (const Detector& detector : DETECTORS) {
-      const Curve curve = curve_of(part.rows, detector);
-      panel.lines.push_back(line_of(detector.name, curve));
+      const Scored scored = scored_by(detector, part.rows);
+      const std::vector<CurvePoint> curve = detection_curve(scored.poses, scored.all_instances());
+      panel.lines.push_back(line_of(detector.name, curve, scored.instances.size()));
+      of_detector.push_back(rates_of(scored, curve, draw_images(scored.instances.size())));
       result.markdown += "| " + part.name + " | " + detector.name;
-      for (const double allowed : ALLOWED)
-        result.markdown += " | " + percent(rate_at(curve.points, allowed * curve.images));
-      result.markdown += fmt::format(" | {} |\n", curve.instances);
+      for (const Rates& rates : of_detector.back())
+        result.markdown += " | " + percent(rates.rate, percentile_interval(rates.resampled));
+      result.markdown += fmt::format(" | {} |\n", scored.all_instances());
     }
+    result.markdown += difference_row(part.name, of_detector.front(), of_detector.back());
     result.panels.push_back(std::move(panel));
   }
   return result;

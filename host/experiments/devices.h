@@ -35,7 +35,8 @@ struct DeviceTimes {
   bool is_software = false;  // a rasteriser on the processor: right, but no measure of a graphics card
   // "edges", "tensors", "scan", "registration", "scoring", "image to poses"
   std::vector<StageSamples> stages;
-  std::size_t peak_host_bytes = 0;    // resident, while an image was searched
+  // of the whole process while an image was searched, with what the devices before it keep
+  std::size_t peak_host_bytes = 0;
   std::size_t peak_device_bytes = 0;  // in the device's buffers; part of the host's where memory is unified
   double copy_bytes_per_s = 0;        // read and written
   std::vector<bench::Row> kernels;
@@ -48,7 +49,8 @@ struct DevicesReport {
   std::size_t templates = 0;                            // that are searched for
   DevicesOptions options;
   std::string commit;
-  std::vector<DeviceTimes> devices;  // the CPU first
+  std::vector<std::pair<std::string, std::string>> settings;  // every option with its value
+  std::vector<DeviceTimes> devices;                           // the CPU first
 };
 
 // `progress` (may be empty) is called with repetitions done and in all.

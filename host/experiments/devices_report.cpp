@@ -109,7 +109,9 @@ std::string devices_json(const DevicesReport& report) {
                               {"threads", report.load.threads},
                               {"load_average", report.load.load_average},
                               {"processor_share", report.load.share},
+                              {"machine", machine_name()},
                               {"warnings", report.warnings}};
+  for (const auto& [name, value] : report.settings) json["options"][name] = value;
   for (const DeviceTimes& device : report.devices)
     json["devices"].push_back(device_json(device, report.devices[0]));
   return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "host/experiments/detection.h"
+#include "host/experiments/machine.h"
 #include "host/experiments/multiview.h"
 #include "host/experiments/nbv.h"
 #include "host/experiments/registration.h"
@@ -33,6 +34,7 @@ Notes settings_notes(const Experiment& experiment, const ExperimentSettings& set
       {"experiment", experiment.name}, {"seed", std::to_string(settings.seed)}, {"device", device_name}};
   for (const auto& note : experiment.options(settings)) notes.push_back(note);
   notes.emplace_back("times", settings.times ? "yes" : "no");
+  if (settings.times) notes.emplace_back("machine", machine_name());  // its times are no other's
   return notes;
 }
 
@@ -47,7 +49,7 @@ void write_report(const Experiment& experiment, const ExperimentSettings& settin
   const Report report = experiment.report(settings, table);
   const std::string& name = experiment.name;
   write_file_atomically(out / (name + ".csv"), to_csv(table));
-  write_file_atomically(out / (name + ".svg"), svg_of(report.panels, report.columns));
+  write_file_atomically(out / (name + ".svg"), svg_of(report.panels, report.columns, provenance(table)));
   write_file_atomically(out / (name + ".md"),
                         fmt::format("# {0}\n\n{1}\n![{0}]({2}.svg)\n\nRows: [{2}.csv]({2}.csv). {3}",
                                     experiment.title, report.markdown, name, provenance(table)));
@@ -70,6 +72,7 @@ Table run_cells_of(const Experiment& experiment, const std::vector<Cell>& cells,
   cell_run.settings = settings;
   cell_run.commit = run.commit;
   cell_run.resume = run.resume;
+  cell_run.any_commit = run.any_commit;
   cell_run.workers = workers_on(device_name);
   cell_run.make_backend = [&] {
     return backend_of_cell(run.device == "auto" && device_name == "cpu" ? "cpu" : run.device);

@@ -34,6 +34,7 @@ struct ExperimentRun {
   std::string device = "cpu";  // as make_backend takes it
   std::string commit;
   bool resume = false;
+  bool any_commit = false;  // finished cells of other commits are taken too
   // may be empty
   std::function<void(const std::string& experiment, std::size_t done, std::size_t all)> progress;
 };

@@ -120,12 +120,13 @@ KnownScene bop_scene(const std::string& set, const fs::path& scene_folder, const
   return known;
 }
 
-std::vector<RegisterView> register_views(const KnownScene& scene, Backend& backend) {
+std::vector<RegisterView> register_views(const KnownScene& scene, const TensorOptions& tensor,
+                                         Backend& backend) {
   std::vector<RegisterView> views;
   for (const KnownImage& view : scene.images)
     views.push_back(observe(view.image, view.camera, view.camera_from_world,
                             find_edges(view.image, {}, backend), reduction_for(smallest_size_px(scene, view)),
-                            {}, backend)
+                            tensor, backend)
                         .view);
   return views;
 }

@@ -51,6 +51,7 @@ KnownScene bop_scene(const std::string& set, const std::filesystem::path& scene_
                      const std::filesystem::path& models, const std::vector<int>& image_ids);
 
 // What registration asks of the images, one view each: edges, tensors, the image itself.
-std::vector<RegisterView> register_views(const KnownScene& scene, Backend& backend);
+std::vector<RegisterView> register_views(const KnownScene& scene, const TensorOptions& tensor,
+                                         Backend& backend);
 
 }  // namespace edgescout

@@ -30,7 +30,21 @@ double share_of_one(Clock::duration length) {
   return (own_seconds() - own) / std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
+std::string processor_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name"))
+      if (const std::size_t at = line.find(": "); at != std::string::npos) return line.substr(at + 2);
+  return "unknown processor";
+}
+
 }  // namespace
+
+std::string machine_name() {
+  std::string name = processor_name();
+  std::ranges::replace(name, ',', ' ');
+  return fmt::format("{} x {}", name, std::thread::hardware_concurrency());
+}
 
 MachineLoad machine_load() {
   constexpr std::chrono::milliseconds LENGTH{200};

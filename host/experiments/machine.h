@@ -13,6 +13,9 @@ struct MachineLoad {
   double share = 1;         // of the processors that this process gets when it asks for all of them, [0, 1]
 };
 
+// The processor as the system names it, and how many threads it runs: "AMD EPYC 7B13 x 2". No comma.
+std::string machine_name();
+
 // Takes a fifth of a second of all processors.
 MachineLoad machine_load();
 // What may spoil times; empty where nothing does: a load average above a quarter of the threads, a share

@@ -16,16 +16,30 @@ namespace {
 
 constexpr int VIEWS = 3;  // the first and N_v = 2 more
 
-std::vector<Trial> trials() { return {{"d2co", 1}, {"d2co", VIEWS}, {"edgescout", 1}, {"edgescout", VIEWS}}; }
+// Of the recorded starts more are taken than in one view, on the one pile of photographs more starts: there
+// are few images of which there are others.
+int recorded_every(const ExperimentSettings& s) { return std::max(1, s.every / 3); }
+int pile_starts(const ExperimentSettings& s) { return 5 * s.group_starts; }
+
+std::vector<Trial> trials() {
+  return {{"d2co", 1},
+          {"d2co", VIEWS},
+          {"d2co", 1, OWN_LAMBDA_PX_PER_RAD},
+          {"d2co", VIEWS, OWN_LAMBDA_PX_PER_RAD},
+          {"edgescout", 1},
+          {"edgescout", VIEWS}};
+}
 
 Notes options(const ExperimentSettings& s) {
   Notes notes{{"groups", std::to_string(s.groups)},
               {"group_starts", std::to_string(s.group_starts)},
+              lambda_note(),
               {"image_scale", number_text(s.image_scale)},
               {"supersampling", std::to_string(s.supersampling)}};
   if (s.data.empty()) return notes;
   notes.emplace_back("data", data_mark(s.data));
-  notes.emplace_back("every", std::to_string(s.every));
+  notes.emplace_back("every", std::to_string(recorded_every(s)));
+  notes.emplace_back("pile_starts", std::to_string(pile_starts(s)));
   return notes;
 }
 
@@ -33,7 +47,7 @@ Table run_recorded(const fs::path& folder, const std::string& image, const Exper
                    Backend& backend) {
   const KnownScene scene = recorded_scene(folder, image, VIEWS - 1);
   std::vector<Start> starts;
-  for (const RecordedStart& start : recorded_starts(folder, scene, std::max(1, settings.every / 3)))
+  for (const RecordedStart& start : recorded_starts(folder, scene, recorded_every(settings)))
     starts.push_back({start.id, start.instance, LEVELS_RAD[start.level - 1], start.camera_from_object});
   return run_trials(scene, starts, trials(), settings, backend);
 }
@@ -59,7 +73,7 @@ std::vector<Cell> cells(const ExperimentSettings& s) {
   const Photographs pile = photographs_in(s.data, s.frames_every)[0];
   list.push_back({"brackets/pile", [s, pile](Backend& backend) {
                     const KnownScene scene = bop_scene(pile.set, pile.scene, pile.models, pile.images);
-                    return run_trials(scene, starts_around(scene, 5 * s.group_starts, s.seed), trials(), s,
+                    return run_trials(scene, starts_around(scene, pile_starts(s), s.seed), trials(), s,
                                       backend);
                   }});
   return list;
@@ -68,10 +82,10 @@ std::vector<Cell> cells(const ExperimentSettings& s) {
 std::vector<Series> series() {
   std::vector<Series> list;
   for (const Trial& trial : trials())
-    list.push_back({fmt::format("{}, {}", trial.method,
+    list.push_back({fmt::format("{}, {}", trial.name(),
                                 trial.views == 1 ? "one view" : fmt::format("{} views", trial.views)),
                     [trial](const Table& table, std::size_t row) {
-                      return text_in(table, row, "method") == trial.method &&
+                      return text_in(table, row, "method") == trial.name() &&
                              text_in(table, row, "views") == std::to_string(trial.views);
                     }});
   return list;

@@ -190,7 +190,7 @@ std::vector<double> tick_values(double low, double high, int most) {
   return ticks;
 }
 
-std::string svg_of(std::span<const Panel> panels, int columns) {
+std::string svg_of(std::span<const Panel> panels, int columns, const std::string& description) {
   const std::vector<std::string> names = names_in(panels);
   const int count = static_cast<int>(panels.size()), across = std::max(1, std::min(columns, count));
   const int a_row = std::max(1, static_cast<int>((across * WIDTH - LEFT) / LEGEND_COLUMN));
@@ -205,6 +205,7 @@ std::string svg_of(std::span<const Panel> panels, int columns) {
       "font-size=\"12\">\n<style>.grid{{stroke:#ddd}}.axes{{fill:none;stroke:#333}}"
       ".curve{{fill:none;stroke-width:1.8}}</style>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
       width, height);
+  if (!description.empty()) svg += "<desc>" + escaped(description) + "</desc>\n";
   for (int i = 0; i < count; ++i) {
     const Panel& panel = panels[i];
     const Axes axes(panel, MARGIN + WIDTH * (i % across), MARGIN + HEIGHT * (i / across));

@@ -12,7 +12,7 @@ namespace edgescout {
 
 namespace {
 
-using Clusters = std::map<std::string, Cluster>;  // by image
+using Clusters = std::map<std::string, Cluster>;  // what succeeds and fails together
 
 std::vector<Cluster> as_list(const Clusters& clusters) {
   std::vector<Cluster> list;
@@ -24,8 +24,26 @@ std::string image_of(const Table& table, std::size_t row) {
   return text_in(table, row, "set") + "/" + text_in(table, row, "image");
 }
 
-void count(Clusters& clusters, const Table& table, std::size_t row, const Criterion& criterion) {
-  Cluster& cluster = clusters[image_of(table, row)];
+// The images of a table, or where it has but one the instances in it.
+class ClusterKeys {
+ public:
+  explicit ClusterKeys(const Table& table) : table_(table) {
+    std::set<std::string> images;
+    for (std::size_t row = 0; row < table.rows.size(); ++row) images.insert(image_of(table, row));
+    by_image_ = images.size() > 1;
+  }
+  std::string of(std::size_t row) const {
+    return by_image_ ? image_of(table_, row) : text_in(table_, row, "instance");
+  }
+
+ private:
+  const Table& table_;
+  bool by_image_;
+};
+
+void count(Clusters& clusters, const ClusterKeys& keys, const Table& table, std::size_t row,
+           const Criterion& criterion) {
+  Cluster& cluster = clusters[keys.of(row)];
   cluster.hits += criterion.holds(table, row);
   ++cluster.trials;
 }
@@ -46,11 +64,12 @@ double step_rad(const Table& table) {
 
 PlotLine line_of(const Series& series, const Table& table, const Criterion& criterion, double step) {
   std::map<int, Clusters> bins;
+  const ClusterKeys keys(table);
   constexpr double SLACK = 1e-6;  // a distance written with six digits stays in its bin
   for (std::size_t row = 0; row < table.rows.size(); ++row)
     if (series.has(table, row))
-      count(bins[static_cast<int>(std::ceil(number_in(table, row, "distance_rad") / step - SLACK))], table,
-            row, criterion);
+      count(bins[static_cast<int>(std::ceil(number_in(table, row, "distance_rad") / step - SLACK))], keys,
+            table, row, criterion);
   PlotLine line{series.name, {}};
   const bool at_the_end = step == 0.1;  // of its bin lies every start, else the middle stands for them
   for (const auto& [bin, clusters] : bins) {
@@ -81,10 +100,11 @@ int level_of(double distance_rad) {
 
 LevelRates rates_of(const Table& table, const Series& series, const Criterion& criterion) {
   Clusters levels[std::size(LEVELS_RAD)];
+  const ClusterKeys keys(table);
   LevelRates rates;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     if (!series.has(table, row)) continue;
-    count(levels[level_of(number_in(table, row, "distance_rad")) - 1], table, row, criterion);
+    count(levels[level_of(number_in(table, row, "distance_rad")) - 1], keys, table, row, criterion);
     if (!text_in(table, row, "ms").empty()) rates.ms.push_back(number_in(table, row, "ms"));
   }
   for (std::size_t level = 0; level < std::size(LEVELS_RAD); ++level)

@@ -21,12 +21,14 @@ namespace {
 std::vector<Trial> trials() {
   std::vector<Trial> list{{"edgescout", 1}};
   for (const Method method : all_methods()) list.push_back({to_string(method), 1});
+  for (const char* method : {"d2co", "dc-icp"}) list.push_back({method, 1, OWN_LAMBDA_PX_PER_RAD});
   return list;
 }
 
 Notes options(const ExperimentSettings& s) {
   Notes notes{{"scenes", std::to_string(s.scenes)},
               {"starts", std::to_string(s.starts)},
+              lambda_note(),
               {"image_scale", number_text(s.image_scale)},
               {"supersampling", std::to_string(s.supersampling)}};
   if (s.data.empty()) return notes;

@@ -40,6 +40,17 @@ void set_camera(RenderOptions& options, int width, int height, double focal_px, 
 
 }  // namespace
 
+TensorOptions tensor_with(float lambda_px_per_rad) {
+  TensorOptions options;
+  options.lambda_px_per_rad = lambda_px_per_rad;
+  return options;
+}
+
+std::pair<std::string, std::string> lambda_note() {
+  return {"lambda_px_per_rad",
+          number_text(PAPER_LAMBDA_PX_PER_RAD) + " and " + number_text(OWN_LAMBDA_PX_PER_RAD)};
+}
+
 ExperimentSettings::ExperimentSettings() {
   scout.min_entropy_nats = 0;  // all strategies use up their views
 }

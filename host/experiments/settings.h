@@ -15,6 +15,13 @@ namespace edgescout {
 // of views could reach at all.
 inline constexpr char CLAIRVOYANT[] = "clairvoyant";
 
+// Weight of the orientation in the tensors that the paper's methods read (Sec. 6), and in edgescout's own.
+inline constexpr float PAPER_LAMBDA_PX_PER_RAD = 100;
+inline constexpr float OWN_LAMBDA_PX_PER_RAD = TensorOptions{}.lambda_px_per_rad;
+TensorOptions tensor_with(float lambda_px_per_rad);
+// Both as results say what they were made with: name and value.
+std::pair<std::string, std::string> lambda_note();
+
 struct ExperimentSettings {
   std::filesystem::path data;  // folder with d2co-starts, brackets, cat; empty: rendered scenes alone
   unsigned seed = 1;

@@ -15,6 +15,8 @@ namespace edgescout {
 
 namespace {
 
+constexpr const char* EDGESCOUT = "edgescout";
+
 // On a CPU the thread's own time: other work on the machine does not count. On a device the time that passes.
 double seconds_now(const Backend& backend) {
   if (backend.is_gpu())
@@ -35,6 +37,10 @@ Registrar edgescout_itself(std::span<const EdgeModel> models, std::span<const Re
   };
 }
 
+float lambda_of(const Trial& trial) {
+  return trial.method == EDGESCOUT ? OWN_LAMBDA_PX_PER_RAD : trial.lambda_px_per_rad;
+}
+
 struct TimedPoses {
   std::vector<Se3> camera_from_object;  // one a start, in the first image
   double ms = 0;                        // of one
@@ -44,7 +50,7 @@ struct TimedPoses {
 TimedPoses run_trial(const Trial& trial, const KnownScene& scene, const std::vector<Start>& starts,
                      std::span<const EdgeModel> models, std::span<const RegisterView> views,
                      Backend& backend) {
-  const Registrar registrar = trial.method == "edgescout"
+  const Registrar registrar = trial.method == EDGESCOUT
                                   ? edgescout_itself(models, views, backend)
                                   : prepare_method(method_from(trial.method), models, views, backend);
   const Se3& camera_from_world = scene.images[0].camera_from_world;
@@ -74,7 +80,7 @@ std::vector<std::string> row_of(const KnownScene& scene, const Start& start, con
           std::to_string(start.number),
           number_text(start.distance_rad),
           number_text(instance.visible),
-          trial.method,
+          trial.name(),
           std::to_string(trial.views),
           number_text(error.angle_rad),
           number_text(1000 * error.distance_m),
@@ -91,6 +97,12 @@ std::vector<std::vector<Start>> by_object(const KnownScene& scene, const std::ve
 }
 
 }  // namespace
+
+std::string Trial::name() const {
+  return method == EDGESCOUT || lambda_px_per_rad == PAPER_LAMBDA_PX_PER_RAD
+             ? method
+             : method + " (lambda " + number_text(lambda_px_per_rad) + ")";
+}
 
 std::vector<Start> starts_around(const KnownScene& scene, int count, unsigned seed) {
   std::vector<Start> starts;
@@ -118,13 +130,16 @@ Table run_trials(const KnownScene& scene, const std::vector<Start>& starts, cons
                  const ExperimentSettings& settings, Backend& backend) {
   std::vector<EdgeModel> models;
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
-  const std::vector<RegisterView> views = register_views(scene, backend);
+  std::map<float, std::vector<RegisterView>> views_with;
+  for (const Trial& trial : trials)
+    if (const float lambda = lambda_of(trial); !views_with.contains(lambda))
+      views_with[lambda] = register_views(scene, tensor_with(lambda), backend);
   Table table{{}, trial_columns(), {}};
   for (const std::vector<Start>& group : by_object(scene, starts))
     for (const Trial& trial : trials) {
+      const std::span<const RegisterView> views = views_with.at(lambda_of(trial));
       if (trial.views > static_cast<int>(views.size())) continue;
-      const TimedPoses poses =
-          run_trial(trial, scene, group, models, std::span(views).first(trial.views), backend);
+      const TimedPoses poses = run_trial(trial, scene, group, models, views.first(trial.views), backend);
       for (std::size_t i = 0; i < group.size(); ++i)
         table.rows.push_back(row_of(scene, group[i], trial, poses.camera_from_object[i],
                                     settings.times ? number_text(poses.ms) : ""));

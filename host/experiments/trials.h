@@ -26,10 +26,12 @@ inline constexpr double FARTHEST_START_RAD = 0.4;
 std::vector<Start> starts_around(const KnownScene& scene, int count, unsigned seed);
 
 // A method and how many of the scene's views it uses. "edgescout" is refine_poses at its defaults; the others
-// are those of host/baselines.
+// are those of host/baselines, on tensors of this lambda (D2CO, DC-ICP).
 struct Trial {
   std::string method;
   int views = 1;
+  float lambda_px_per_rad = PAPER_LAMBDA_PX_PER_RAD;
+  std::string name() const;  // "d2co", or with another lambda than the paper's "d2co (lambda 30)"
 };
 
 // Columns: set, image, object, instance, start, distance_rad, visible, method, views, angle_rad, distance_mm,

@@ -34,10 +34,12 @@ TEST(Rate, WeighsClustersByTheirTrials) {
   EXPECT_EQ(rate({}), 0);
 }
 
-TEST(Bootstrap, OfClustersThatAgreeIsAPoint) {
-  const std::vector<Cluster> clusters(7, {3, 4});
-  EXPECT_DOUBLE_EQ(bootstrap_interval(clusters).low, 0.75);
-  EXPECT_DOUBLE_EQ(bootstrap_interval(clusters).high, 0.75);
+// Ten images without a hit do not say that there never is one.
+TEST(Bootstrap, OfClustersThatAgreeIsWilsonsOverThem) {
+  const std::vector<Cluster> none{{0, 5}, {0, 5}, {0, 2}, {0, 0}}, alike(7, {3, 4});
+  EXPECT_EQ(bootstrap_interval(none).low, 0);
+  EXPECT_DOUBLE_EQ(bootstrap_interval(none).high, wilson_interval(0, 3).high);
+  EXPECT_DOUBLE_EQ(bootstrap_interval(alike).low, wilson_interval(0.75 * 7, 7).low);
 }
 
 TEST(Bootstrap, OfTwoClustersKnowsItsFourDraws) {
@@ -64,9 +66,17 @@ TEST(Bootstrap, RepeatsItself) {
   EXPECT_EQ(bootstrap_interval(clusters).high, bootstrap_interval(clusters).high);
 }
 
-TEST(Bootstrap, OfOneClusterFallsBackToWilson) {
+TEST(Bootstrap, OfOneClusterIsOneTrial) {
   const std::vector<Cluster> clusters{{8, 10}};
-  EXPECT_DOUBLE_EQ(bootstrap_interval(clusters).low, wilson_interval(8, 10).low);
+  EXPECT_DOUBLE_EQ(bootstrap_interval(clusters).low, wilson_interval(0.8, 1).low);
+  EXPECT_EQ(bootstrap_interval({}).high, 1);
+}
+
+TEST(Percentiles, HoldNineteenOfTwenty) {
+  std::vector<double> values;
+  for (int i = 0; i <= 200; ++i) values.push_back(200 - i);
+  EXPECT_EQ(percentile_interval(values).low, 5);
+  EXPECT_EQ(percentile_interval(values).high, 195);
 }
 
 }  // namespace

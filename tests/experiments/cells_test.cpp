@@ -101,14 +101,25 @@ TEST(Cells, OfOtherSettingsAreNoPartOfThisRun) {
   expect_input_error([&] { t.go(); }, {"a.csv", "settings"});
 }
 
-// A later build may go on; its cells say so.
+// Another build may count otherwise: it goes on where it is told to, and the cells say so.
 TEST(Cells, OfSeveralCommitsAreToldApart) {
   Trial t;
   t.go();
   fs::remove(t.run.folder / "b.csv");
   t.run.resume = true;
   t.run.commit = "def";
+  expect_input_error([&] { t.go(); }, {"a.csv", "commit", "found abc", "--any-commit"});
+  t.run.any_commit = true;
   EXPECT_EQ(joined(t.go()).notes.back(), (std::pair<std::string, std::string>{"commit", "abc def"}));
+}
+
+TEST(Cells, OfOtherColumnsEndTheRun) {
+  Trial t;
+  t.go();
+  t.folder.write("cells/a.csv", "# seed: 1\n# scenes: 3\n# commit: old\nname,more\na,1\n");
+  fs::remove(t.run.folder / "b.csv");
+  t.run.resume = t.run.any_commit = true;
+  expect_input_error([&] { t.go(); }, {"a.csv", "columns"});
 }
 
 TEST(Cells, KeepWhatIsFinishedWhereOneFails) {

@@ -38,6 +38,21 @@ TEST(DataMark, IsOfTheContentAlone) {
   }
 }
 
+// Symmetries, meshes and images decide what is right as much as truths do.
+TEST(DataMark, IsOfWhateverLiesInTheSets) {
+  const TemporaryFolder folder;
+  write_data(folder);
+  const std::string before = data_mark(folder.path());
+  folder.write("brackets/models/models_info.json", "{}");
+  const std::string with = data_mark(folder.path());
+  EXPECT_NE(with, before);
+  folder.write("brackets/models/models_info.json", "{ }");
+  EXPECT_NE(data_mark(folder.path()), with);
+  folder.write("elsewhere/notes.txt", "");
+  std::filesystem::remove_all(folder.path() / "brackets/models");
+  EXPECT_EQ(data_mark(folder.path()), before);
+}
+
 TEST(DataMark, NamesWhatIsMissing) {
   const TemporaryFolder folder;
   for (const char* file : FILES) {

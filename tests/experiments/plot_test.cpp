@@ -50,6 +50,7 @@ TEST(Ticks, OfOnePlaceHaveARange) {
 TEST(Plot, IsWellFormed) {
   EXPECT_EQ(fault_of_xml(svg_of(std::vector{panel(), panel(), panel(), panel()})), "");
   EXPECT_EQ(fault_of_xml(svg_of({})), "");
+  EXPECT_EQ(fault_of_xml(svg_of({}, 3, "lambda < 5 & \"seed\" 1")), "");
   EXPECT_EQ(fault_of_xml(svg_of(std::vector{Panel{}})), "");
 }
 

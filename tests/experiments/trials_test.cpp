@@ -7,6 +7,7 @@
 
 #include "host/eval/metrics.h"
 #include "host/experiments/pose_candidates.h"
+#include "host/experiments/rates.h"
 
 namespace edgescout::test {
 namespace {
@@ -96,9 +97,10 @@ TEST(Trials, RowsSayWhatThePosesAre) {
   std::vector<Start> starts = starts_around(scene, 8, 3);
   std::erase_if(starts, [](const Start& start) { return start.distance_rad > 0.1; });
   ASSERT_EQ(starts.size(), 4u);
-  const Table table =
-      run_trials(scene, starts, {{"edgescout", 1}, {"d2co", 1}, {"edgescout", 3}}, settings, *backend);
-  EXPECT_EQ(table.rows.size(), 8u) << "three views are not there";
+  const Table table = run_trials(
+      scene, starts, {{"edgescout", 1}, {"d2co", 1}, {"d2co", 1, 30}, {"edgescout", 3}}, settings, *backend);
+  EXPECT_EQ(values_of(table, "method"), (std::vector<std::string>{"edgescout", "d2co", "d2co (lambda 30)"}));
+  EXPECT_EQ(table.rows.size(), 12u) << "three views are not there";
   int right = 0;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const bool is_right =
