@@ -40,13 +40,11 @@ struct Group {
 std::vector<Group> group_images(std::span<const InputImage> images, bool joint,
                                 const BatchSettings& settings) {
   std::vector<Group> groups;
-  for (const InputImage& image : images) {
-    const bool same_scene =
-        joint && !groups.empty() && groups.back().images[0]->scene_folder == image.scene_folder;
-    if (!same_scene) groups.emplace_back();
-    groups.back().images.push_back(&image);
+  for (const std::span<const InputImage> together : groups_of(images, joint)) {
+    Group& group = groups.emplace_back();
+    for (const InputImage& image : together) group.images.push_back(&image);
+    group.views = joint ? settings.jointly(group.images) : "alone";
   }
-  for (Group& group : groups) group.views = joint ? settings.jointly(group.images) : "alone";
   return groups;
 }
 

@@ -103,6 +103,16 @@ std::vector<InputImage> list_images(const std::vector<std::string>& arguments) {
   return images;
 }
 
+std::vector<std::span<const InputImage>> groups_of(std::span<const InputImage> images, bool by_scene) {
+  std::vector<std::span<const InputImage>> groups;
+  for (std::size_t first = 0, i = 1; i <= images.size(); ++i) {
+    if (by_scene && i < images.size() && images[i].scene_folder == images[first].scene_folder) continue;
+    groups.push_back(images.subspan(first, i - first));
+    first = i;
+  }
+  return groups;
+}
+
 void require_other_folder(std::span<const InputImage> images, const fs::path& out) {
   std::error_code not_there;
   for (const InputImage& image : images)

@@ -30,6 +30,9 @@ struct InputImage {
 // or holds no image.
 std::vector<InputImage> list_images(const std::vector<std::string>& arguments);
 
+// What is worked on together: every image alone, or `by_scene` all of a scene that follow each other.
+std::vector<std::span<const InputImage>> groups_of(std::span<const InputImage> images, bool by_scene);
+
 // Results among images that a scene does not list would be taken for images the next time. InputError where
 // `out` is the folder of one.
 void require_other_folder(std::span<const InputImage> images, const std::filesystem::path& out);

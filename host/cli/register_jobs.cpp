@@ -51,17 +51,6 @@ RegisterJob::Start start_of(const StartPose& pose, std::size_t view, std::span<c
   throw InputError(poses_file, "object", std::to_string(pose.object_id), "the id of one of the models given");
 }
 
-std::vector<RegisterJob> group_views(std::span<const InputImage> images, bool multi_view) {
-  std::vector<RegisterJob> jobs;
-  for (const InputImage& image : images) {
-    const bool same_scene =
-        multi_view && !jobs.empty() && jobs.back().views[0].scene_folder == image.scene_folder;
-    if (!same_scene) jobs.emplace_back();
-    jobs.back().views.push_back(image);
-  }
-  return jobs;
-}
-
 void require_world_poses(const RegisterJob& job) {
   for (const InputImage& view : job.views)
     if (!view.camera_from_world)
@@ -74,7 +63,9 @@ void require_world_poses(const RegisterJob& job) {
 std::vector<RegisterJob> make_jobs(std::span<const InputImage> images, std::span<const RegisterModel> models,
                                    std::span<const StartPose> poses, bool multi_view,
                                    const std::string& poses_file) {
-  std::vector<RegisterJob> jobs = group_views(images, multi_view);
+  std::vector<RegisterJob> jobs;
+  for (const std::span<const InputImage> together : groups_of(images, multi_view))
+    jobs.emplace_back().views.assign(together.begin(), together.end());
   std::vector<std::pair<std::size_t, std::size_t>> place;  // job and view of every image
   for (std::size_t j = 0; j < jobs.size(); ++j)
     for (std::size_t v = 0; v < jobs[j].views.size(); ++v) place.emplace_back(j, v);

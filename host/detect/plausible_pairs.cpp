@@ -148,9 +148,10 @@ BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Hyp
                           double penetration_m, ThreadPool& pool) {
   if (!(penetration_m >= 0 && penetration_m <= 1))
     throw InputError("options", "penetration", std::to_string(penetration_m), "a length in [0, 1] m");
-  std::vector<Solid> solids;
-  for (const EdgeModel& model : models) solids.push_back(make_solid(model));
   const std::size_t count = candidates.size();
+  std::vector<Solid> solids;
+  if (count > 1)
+    for (const EdgeModel& model : models) solids.push_back(make_solid(model));
   std::vector<char> together(count * count, 1);
   pool.for_each(count * count, [&](std::size_t cell) {
     const std::size_t i = cell / count, j = cell % count;
