@@ -31,15 +31,19 @@ Interval percentile_interval(std::vector<double> values) {
   return {at(0.025), at(0.975)};
 }
 
+Interval resampled_interval(std::vector<double> rates, double clusters) {
+  constexpr double ROUNDING = 1e-12;
+  if (rates.empty()) return {};
+  const auto [least, most] = std::ranges::minmax(rates);
+  if (most - least < ROUNDING && most <= 1 + ROUNDING)
+    return wilson_interval(std::min(1.0, most) * clusters, clusters);
+  return percentile_interval(std::move(rates));
+}
+
 Interval bootstrap_interval(std::span<const Cluster> clusters, int resamples, std::uint64_t seed) {
   std::vector<Cluster> with_trials(clusters.begin(), clusters.end());
   std::erase_if(with_trials, [](const Cluster& cluster) { return cluster.trials <= 0; });
-  const auto has_first_rate = [&](const Cluster& cluster) {
-    return cluster.hits * with_trials[0].trials == with_trials[0].hits * cluster.trials;
-  };
-  if (std::ranges::all_of(with_trials, has_first_rate))
-    return wilson_interval(rate(with_trials) * static_cast<double>(with_trials.size()),
-                           static_cast<double>(with_trials.size()));
+  if (with_trials.empty()) return {};
   Random random(seed);
   std::vector<double> rates;
   std::vector<Cluster> drawn(with_trials.size());
@@ -47,7 +51,7 @@ Interval bootstrap_interval(std::span<const Cluster> clusters, int resamples, st
     for (Cluster& cluster : drawn) cluster = with_trials[random.below(static_cast<int>(with_trials.size()))];
     rates.push_back(rate(drawn));
   }
-  return percentile_interval(std::move(rates));
+  return resampled_interval(std::move(rates), static_cast<double>(with_trials.size()));
 }
 
 }  // namespace edgescout

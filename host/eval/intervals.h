@@ -26,9 +26,13 @@ double rate(std::span<const Cluster> clusters);
 // What holds 95 % of these values; [0, 1] without any.
 Interval percentile_interval(std::vector<double> values);
 
+// The same of a rate that was resampled over so many clusters. Where all values are alike nothing shows a
+// spread: Wilson's interval then, each cluster as one trial (of a mean number above 1, which is no rate, the
+// value).
+Interval resampled_interval(std::vector<double> rates, double clusters);
+
 // Percentile bootstrap of `rate` over clusters: as many are drawn with replacement, `resamples` times; the
-// interval holds 95 %. Where all clusters have one rate no draw shows any spread, and one cluster has none:
-// Wilson's interval then, each cluster as one trial.
+// interval is resampled_interval()'s. [0, 1] without trials.
 Interval bootstrap_interval(std::span<const Cluster> clusters, int resamples = 2000, std::uint64_t seed = 1);
 
 }  // namespace edgescout

@@ -56,6 +56,15 @@ std::optional<Table> finished_cell(const Cell& cell, const CellRun& run) {
   return table;
 }
 
+// Cells of another commit may have others.
+void require_same_columns(std::span<const Cell> cells, const CellRun& run,
+                          const std::vector<std::optional<Table>>& tables, const Table& table) {
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    if (tables[i] && tables[i]->columns != table.columns)
+      throw InputError(file_of(cells[i], run).string(), "columns", "others than those of other cells",
+                       "cells of one program, or another output folder");
+}
+
 // Takes open cells one after the other until none is left or one failed.
 class Workers {
  public:
@@ -95,20 +104,15 @@ class Workers {
     table.notes = run_.settings;
     table.notes.emplace_back(COMMIT, run_.commit);
     const fs::path file = file_of(cell, run_);
+    {
+      const std::lock_guard lock(mutex_);
+      require_same_columns(cells_, run_, tables_, table);
+    }
     require_writable_folder(file.parent_path());
     write_file_atomically(file, to_csv(table));
     const std::lock_guard lock(mutex_);
-    require_same_columns(table);
     tables_[index] = std::move(table);
     if (run_.progress) run_.progress(++done_, cells_.size());
-  }
-
-  // Cells of another commit may have others.
-  void require_same_columns(const Table& table) const {
-    for (std::size_t i = 0; i < cells_.size(); ++i)
-      if (tables_[i] && tables_[i]->columns != table.columns)
-        throw InputError(file_of(cells_[i], run_).string(), "columns", "others than this program's",
-                         "cells of this program, or another output folder");
   }
 
   std::span<const Cell> cells_;
@@ -127,6 +131,8 @@ class Workers {
 std::vector<Table> run_cells(std::span<const Cell> cells, const CellRun& run) {
   std::vector<std::optional<Table>> tables;
   for (const Cell& cell : cells) tables.push_back(finished_cell(cell, run));
+  for (const std::optional<Table>& table : tables)
+    if (table) require_same_columns(cells, run, tables, *table);
   require_writable_folder(run.folder);
   Workers(cells, run, tables).work();
   std::vector<Table> results;

@@ -6,8 +6,8 @@
 
 namespace edgescout {
 
-// What tells the data below a folder from others, wherever the folder lies: a checksum of the files that say
-// what is in it (truths, cameras, starts). InputError naming one of these that is missing.
+// What tells the data below a folder from others, wherever the folder lies: a checksum of all files of its
+// three sets. InputError naming one of those that no set can do without (truths, cameras, starts).
 std::string data_mark(const std::filesystem::path& data);
 
 }  // namespace edgescout

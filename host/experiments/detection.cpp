@@ -220,7 +220,9 @@ Report report(const ExperimentSettings& settings, const Table& table) {
       of_detector.push_back(rates_of(scored, curve, draw_images(scored.instances.size())));
       result.markdown += "| " + part.name + " | " + detector.name;
       for (const Rates& rates : of_detector.back())
-        result.markdown += " | " + percent(rates.rate, percentile_interval(rates.resampled));
+        result.markdown +=
+            " | " + percent(rates.rate, resampled_interval(rates.resampled,
+                                                           static_cast<double>(scored.instances.size())));
       result.markdown += fmt::format(" | {} |\n", scored.all_instances());
     }
     result.markdown += difference_row(part.name, of_detector.front(), of_detector.back());

@@ -72,6 +72,14 @@ TEST(Bootstrap, OfOneClusterIsOneTrial) {
   EXPECT_EQ(bootstrap_interval({}).high, 1);
 }
 
+TEST(Resampled, WithoutSpreadIsWilsons) {
+  EXPECT_DOUBLE_EQ(resampled_interval({1, 1, 1}, 4).low, wilson_interval(4, 4).low);
+  EXPECT_EQ(resampled_interval({0, 1}, 4).low, 0);
+  EXPECT_EQ(resampled_interval({}, 4).high, 1);
+  EXPECT_EQ(resampled_interval({2, 2}, 4).low, 2) << "a mean number, no rate";
+  EXPECT_EQ(resampled_interval({2, 2}, 4).high, 2);
+}
+
 TEST(Percentiles, HoldNineteenOfTwenty) {
   std::vector<double> values;
   for (int i = 0; i <= 200; ++i) values.push_back(200 - i);

@@ -119,7 +119,7 @@ TEST(Cells, OfOtherColumnsEndTheRun) {
   t.folder.write("cells/a.csv", "# seed: 1\n# scenes: 3\n# commit: old\nname,more\na,1\n");
   fs::remove(t.run.folder / "b.csv");
   t.run.resume = t.run.any_commit = true;
-  expect_input_error([&] { t.go(); }, {"a.csv", "columns"});
+  expect_input_error([&] { t.go(); }, {"c.csv", "columns"});
 }
 
 TEST(Cells, KeepWhatIsFinishedWhereOneFails) {
