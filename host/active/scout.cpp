@@ -126,15 +126,17 @@ std::optional<ScoutDecision> Scout::propose() {
   ScoutDecision decision = decide();
   if (decision.view < 0) {
     state_.end = ScoutEnd::NoViewLeft;
-  } else if (options_.next_view.strategy == Strategy::Information && !state_.candidates.empty() &&
+  } else if (options_.next_view.strategy == Strategy::Information && !may_find_more() &&
              most_information(decision.views) < options_.min_information_nats) {
-    // Without candidates there is nothing that information could be about, and everything to find.
     state_.end = ScoutEnd::LittleToLearn;
   } else {
     proposal_ = std::move(decision);
   }
   return proposal_;
 }
+
+// Without candidates there is nothing that information could be about, and everything to find.
+bool Scout::may_find_more() const { return state_.candidates.empty() && options_.detect_in_every_image; }
 
 void Scout::give(int view, const Image& image) {
   check(view >= 0 && view < static_cast<int>(state_.views.size()), "Scout::give: no such view");

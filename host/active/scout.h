@@ -92,6 +92,7 @@ class Scout {
  private:
   void require_open(int view) const;
   ScoutEnd end_before_planning() const;
+  bool may_find_more() const;
   int first_open_view() const;
   ScoutDecision decide() const;
   BitMatrix sampled_combinations() const;

@@ -29,7 +29,7 @@ struct HemisphereOptions {
 std::vector<Se3> hemisphere_views(const HemisphereOptions& options);
 
 // The point nearest to all optical axes: what the cameras look at. World frame. Nothing where they look at no
-// point in common: a single one, axes parallel to some 3 degrees, or for more than half of the cameras a
+// point in common: a single one, axes parallel to some 3 degrees, or for half of the cameras or more a
 // point that is not before them (a head that only pans and tilts).
 std::optional<Eigen::Vector3d> looked_at_m(std::span<const Se3> camera_from_world);
 

@@ -59,7 +59,7 @@ TemplateOptions with_distances_of(TemplateOptions options, const std::vector<Se3
   return options;
 }
 
-// Options that would change nothing beside others.
+// Options that look as if they changed something and would not.
 void refuse_idle_options(const ScoutRequest& request, const CLI::App& verb) {
   const ScoutOptions& o = request.options;
   const auto refuse = [&](const std::string& option, const std::string& beside, const char* expected) {
@@ -143,8 +143,9 @@ int scout(ScoutRequest& request, const CLI::App& verb) {
   const bool goes_on = request.resume && fs::exists(saved);
   if (goes_on) require_same_source(source.settings, request.out);
   require_writable_folder(request.out);
-  const std::vector<TemplateSet> sets =
-      template_sets_of(known, with_distances_of(request.templates, views), source.source->camera(), *backend);
+  const TemplateOptions templates =
+      known.objects.empty() ? request.templates : with_distances_of(request.templates, views);
+  const std::vector<TemplateSet> sets = template_sets_of(known, templates, source.source->camera(), *backend);
   Scout scout(sets, source.source->camera(), views, request.options, *backend);
   if (goes_on) scout.resume(load_scout_state(saved), saved.string());
   if (!goes_on) remove_scout_results(request.out);

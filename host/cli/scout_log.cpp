@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
-#include <regex>
 
 #include "host/cli/batch_settings.h"
 #include "host/cli/scout_report.h"
@@ -108,6 +107,10 @@ ImageResult result_of(const ScoutState& state, const ScoutStep& step, const Scou
   return result;
 }
 
+std::filesystem::path view_file(const std::filesystem::path& folder, int view) {
+  return folder / fmt::format("view_{:03}.json", view);
+}
+
 }  // namespace
 
 std::string disagreeing_images(const ScoutState& state) {
@@ -162,13 +165,19 @@ void save_scout_log(const ScoutState& state, const ScoutReport& report, const st
 
 void remove_scout_results(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
-  static const std::regex own("view_[0-9]{3,}\\.json|results\\.csv|scout\\.(html|json|state)");
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (std::regex_match(entry.path().filename().string(), own)) files.push_back(entry.path());
+  const fs::path log = folder / "scout.json";
+  std::vector<fs::path> files{folder / "scout.state"};
+  std::error_code unknown;
+  if (fs::exists(log, unknown)) {
+    const nlohmann::json old = read_json(log);
+    for (const JsonField& step : JsonField{old, log.string(), ""}.at("steps").elements())
+      files.push_back(view_file(folder, step.at("view").integer()));
+    for (const char* name : {"results.csv", "scout.html", "scout.json"}) files.push_back(folder / name);
+  }
   for (const fs::path& file : files) {
     std::error_code failure;
-    if (!fs::remove(file, failure))
+    fs::remove(file, failure);
+    if (failure)
       throw InputError(file.string(), "file of an earlier run", failure.message(), "one that can be removed");
   }
 }
@@ -187,7 +196,7 @@ void save_scout_results(const ScoutState& state, const ScoutReport& report,
   std::vector<BopResult> rows;
   for (const ScoutStep& step : state.steps) {
     const ImageResult result = result_of(state, step, report);
-    save_image_result(result, folder / fmt::format("view_{:03}.json", step.decision.view));
+    save_image_result(result, view_file(folder, step.decision.view));
     for (const Detection& d : result.detections)
       rows.push_back({result.scene_id, result.image_id, result.objects[static_cast<std::size_t>(d.object)].id,
                       d.probability, step.camera_from_world * d.world_from_object, state.seconds()});

@@ -47,7 +47,8 @@ std::optional<DistanceToTruth> distance_to_truth(const Detection& detection, con
 // camera, views, steps [..], failed [..], detections [..], truth [..] (of a cell), seconds, end}; poses are
 // {R, t} and the camera is the ideal one, as in io/results.h. Atomically.
 void save_scout_log(const ScoutState& state, const ScoutReport& report, const std::filesystem::path& folder);
-// What an earlier run left: its state, log, results and page, which must not be taken for this one's.
+// What an earlier run left, by its log: state, log, results and page, which must not be taken for this one's.
+// Other files stay. InputError: a log that cannot be read, a file that cannot be removed.
 void remove_scout_results(const std::filesystem::path& folder);
 // InputError naming the first setting of the source that differs from those in FOLDER/scout.json.
 void require_same_source(const Settings& settings, const std::filesystem::path& folder);

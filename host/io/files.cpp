@@ -100,7 +100,10 @@ void write_file_atomically(const fs::path& file, std::string_view content) {
 
 void require_writable_place(const fs::path& folder) {
   std::error_code missing;
-  fs::path there = fs::absolute(folder).lexically_normal();
+  fs::path there = fs::weakly_canonical(fs::absolute(folder, missing), missing);
+  if (folder.empty() || there.empty())
+    throw InputError(folder.string(), "output folder", folder.empty() ? "no name" : missing.message(),
+                     "a folder that can be created");
   while (!fs::exists(there, missing) && there.has_relative_path()) there = there.parent_path();
   prove_writable(there, folder);
 }

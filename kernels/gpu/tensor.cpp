@@ -31,7 +31,7 @@ DeviceTensor::DeviceTensor(const Device& device, const TensorShape& shape) : sha
       range / row_bytes_ / TENSOR_BAND_ROW_STEP * TENSOR_BAND_ROW_STEP * row_bytes_;
   const VkDeviceSize most =
       std::min<VkDeviceSize>(device.max_allocation_bytes(), TENSOR_MAX_BANDS * band_bytes);
-  if (band_rows_ == 0) too_large(device, shape, most);
+  if (band_rows_ == 0) too_large(device, shape, range);
   bands_ = static_cast<std::uint32_t>((height + band_rows_ - 1) / band_rows_);
   if (bands_ > TENSOR_MAX_BANDS || bytes > device.max_allocation_bytes()) too_large(device, shape, most);
   buffer_ = RawBuffer(device, bytes, Memory::device, "tensor");
