@@ -7,12 +7,14 @@ install(TARGETS edgescout EXPORT edgescout-targets LIBRARY DESTINATION ${CMAKE_I
 install(EXPORT edgescout-targets NAMESPACE edgescout:: DESTINATION ${package_dir})
 
 # Headers keep their paths, so that `#include "host/core/types.h"` reads the same inside and outside. Those of the
-# command line, of Vulkan and of the JSON reader need packages that users of the library do not.
+# command line, of Vulkan, of Ceres and of the JSON reader need packages that users of the library do not.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/host ${PROJECT_SOURCE_DIR}/kernels
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/edgescout
         FILES_MATCHING PATTERN "*.h"
         PATTERN cli EXCLUDE
         PATTERN gpu EXCLUDE
+        PATTERN point_cost.h EXCLUDE
+        PATTERN se3_manifold.h EXCLUDE
         PATTERN json_fields.h EXCLUDE
         PATTERN camera_json.h EXCLUDE)
 
