@@ -12,7 +12,7 @@ namespace {
 
 constexpr double WIDTH = 380, HEIGHT = 300;                     // of a panel with its labels
 constexpr double LEFT = 62, RIGHT = 14, TOP = 34, BOTTOM = 50;  // around the axes
-constexpr double LEGEND_LINE = 20, LEGEND_COLUMN = 190, MARGIN = 10;
+constexpr double LEGEND_LINE = 20, MARGIN = 10;
 // Okabe and Ito's colours, told apart by colour-blind readers too; then dashes.
 constexpr const char* COLOURS[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                    "#56b4e9", "#e69f00", "#000000"};
@@ -158,10 +158,19 @@ std::string curve(const PlotLine& line, const Panel& panel, const Axes& axes, co
          (line.points.size() > MOST_MARKED ? "" : marks);
 }
 
+// Room for the longest name at 12 px and the line before it.
+double legend_column(const std::vector<std::string>& names) {
+  constexpr double LETTER = 7, LEAST = 190, BESIDE = 50;
+  std::size_t longest = 0;
+  for (const std::string& name : names) longest = std::max(longest, name.size());
+  return std::max(LEAST, LETTER * static_cast<double>(longest) + BESIDE);
+}
+
 std::string legend(const std::vector<std::string>& names, double top, int a_row) {
+  const double column = legend_column(names);
   std::string svg;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    const double x = MARGIN + LEFT + LEGEND_COLUMN * static_cast<double>(i % a_row),
+    const double x = MARGIN + LEFT + column * static_cast<double>(i % a_row),
                  y = top + LEGEND_LINE * static_cast<double>(i / a_row);
     svg += fmt::format("<line class=\"curve\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n",
                        x, y, x + 26, y, stroke(style_of(i)));
@@ -193,7 +202,7 @@ std::vector<double> tick_values(double low, double high, int most) {
 std::string svg_of(std::span<const Panel> panels, int columns, const std::string& description) {
   const std::vector<std::string> names = names_in(panels);
   const int count = static_cast<int>(panels.size()), across = std::max(1, std::min(columns, count));
-  const int a_row = std::max(1, static_cast<int>((across * WIDTH - LEFT) / LEGEND_COLUMN));
+  const int a_row = std::max(1, static_cast<int>((across * WIDTH - LEFT) / legend_column(names)));
   const double legend_top = MARGIN + HEIGHT * ((count + across - 1) / across);
   const double width = 2 * MARGIN + across * WIDTH,
                height = legend_top + LEGEND_LINE * static_cast<double>((names.size() + a_row - 1) / a_row) +
