@@ -101,7 +101,7 @@ TEST(PlausiblePairs, PartsAgreeWithPushingThemEverywhere) {
   const double tolerance = 0.002;
   int clashing = 0, pushed_apart = 0;
   for (int i = 0; i < 25; ++i) {
-    const Hypothesis a{i % 2, {random.rotation(), {}}};
+    const Hypothesis a{i % 2, {random.rotation(), Eigen::Vector3d::Zero()}};
     Hypothesis b{1 - i % 2, {random.rotation(), random.uniform(0.02, 0.05) * random.direction()}};
     const bool free = together(models, a, b, 0), tolerated = together(models, a, b, tolerance);
     EXPECT_TRUE(!free || tolerated);
