@@ -33,32 +33,37 @@ std::vector<Hypothesis> poses_of(std::span<const Particle> particles) {
   return poses;
 }
 
+bool sees(const PoseFeatures& in_view, const ParticleOptions& options) {
+  return in_view.points >= options.min_points;
+}
+
+double squared(double x) { return x * x; }
+
 bool lives(const Particle& particle, const ParticleOptions& options) {
-  const bool seen = std::ranges::any_of(
-      particle.by_view, [&](const PoseFeatures& f) { return f.points >= options.min_points; });
+  const bool seen =
+      std::ranges::any_of(particle.by_view, [&](const PoseFeatures& f) { return sees(f, options); });
   return seen && is_finite(particle.world_from_object) &&
          together(particle.by_view).mean_px <= options.dead_px;
 }
 
-// What a view counts for a particle that it does not see: -s log of its mean likelihood over those it does.
-double unseen_px2(std::span<const Particle> particles, std::span<const char> living, std::size_t view,
+// What a view adds to Upsilon where it does not see a particle: -s log of its mean likelihood over those that
+// it sees, by the belief before it. 0 where it sees none.
+double unseen_px2(std::span<const Particle> particles, std::span<const double> log_before, std::size_t view,
                   const ParticleOptions& options) {
-  std::vector<double> logs;
+  std::vector<double> before, after;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const PoseFeatures& f = particles[i].by_view[view];
-    if (living[i] && f.points >= options.min_points)
-      logs.push_back(-f.mean_px * f.mean_px / options.scale_px2());
+    if (log_before[i] == NOTHING || !sees(f, options)) continue;
+    before.push_back(log_before[i]);
+    after.push_back(log_before[i] - squared(f.mean_px) / options.scale_px2());
   }
-  return logs.empty() ? 0 : -options.scale_px2() * (log_sum_exp(logs) - std::log(double(logs.size())));
+  return before.empty() ? 0 : options.scale_px2() * (log_sum_exp(before) - log_sum_exp(after));
 }
 
-void normalise(std::span<Particle> particles) {
-  std::vector<double> logs;
-  for (const Particle& particle : particles) logs.push_back(particle.log_weight);
+// To a sum of 1; equal where all are nothing.
+void normalise(std::span<double> logs) {
   const double total = log_sum_exp(logs);
-  for (Particle& particle : particles)
-    particle.log_weight =
-        total == NOTHING ? -std::log(double(particles.size())) : particle.log_weight - total;
+  for (double& x : logs) x = total == NOTHING ? -std::log(double(logs.size())) : x - total;
 }
 
 // The candidates by psi, as many as there may be particles.
@@ -170,31 +175,41 @@ void refine_particles(std::span<const EdgeModel> models, std::span<Particle> par
   }
 }
 
-std::size_t weigh_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
-                            std::span<const RegisterView> views, Backend& backend,
-                            const ParticleOptions& options) {
+Weighing weigh_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
+                         std::span<const RegisterView> views, Backend& backend,
+                         const ParticleOptions& options) {
   check(!views.empty(), "weigh_particles: at least one view");
   const std::vector<PoseFeatures> features =
       pose_features_by_view(models, poses_of(particles), views, backend, options.score, options.visibility);
-  std::vector<char> living;
+  Weighing weighing;
+  std::vector<double> logs;  // of the weights, by what has been spent and the views so far
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    particles[i].by_view.assign(features.begin() + i * views.size(),
-                                features.begin() + (i + 1) * views.size());
-    particles[i].upsilon_px2 = 0;
-    living.push_back(lives(particles[i], options));
+    Particle& particle = particles[i];
+    particle.by_view.assign(features.begin() + i * views.size(), features.begin() + (i + 1) * views.size());
+    particle.upsilon_px2 = 0;
+    const bool living = lives(particle, options);
+    weighing.living += living;
+    logs.push_back(living ? particle.spent_px2 / options.scale_px2() : NOTHING);
   }
+  std::vector<double> before_last;
   for (std::size_t v = 0; v < views.size(); ++v) {
-    const double unseen = unseen_px2(particles, living, v, options);
-    for (Particle& particle : particles) {
+    const double unseen = unseen_px2(particles, logs, v, options);
+    before_last = logs;
+    for (std::size_t i = 0; i < particles.size(); ++i) {
+      Particle& particle = particles[i];
       const PoseFeatures& f = particle.by_view[v];
-      particle.upsilon_px2 += f.points >= options.min_points ? f.mean_px * f.mean_px : unseen;
+      if (particle.unseen_px2.size() == v) particle.unseen_px2.push_back(unseen);
+      const double counts = sees(f, options) ? squared(f.mean_px) : particle.unseen_px2[v];
+      particle.upsilon_px2 += counts;
+      logs[i] -= counts / options.scale_px2();
     }
   }
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    particles[i].log_weight =
-        living[i] ? (particles[i].spent_px2 - particles[i].upsilon_px2) / options.scale_px2() : NOTHING;
-  normalise(particles);
-  return std::size_t(std::ranges::count(living, char(1)));
+  normalise(before_last), normalise(logs);
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    particles[i].log_weight = logs[i];
+    if (logs[i] > NOTHING) weighing.gained_nats += std::exp(logs[i]) * (logs[i] - before_last[i]);
+  }
+  return weighing;
 }
 
 double effective_sample_size(std::span<const Particle> particles) {
@@ -214,7 +229,9 @@ ParticleUpdate update_particles(std::vector<Particle>& particles, std::span<cons
   ParticleUpdate update;
   const auto refine_and_weigh = [&] {
     refine_particles(models, particles, views, backend, options);
-    return weigh_particles(models, particles, views, backend, options);
+    const Weighing weighing = weigh_particles(models, particles, views, backend, options);
+    update.gained_nats = weighing.gained_nats;
+    return weighing.living;
   };
   if (refine_and_weigh() == 0 && !candidates.empty()) {
     log(LogLevel::Warning, "all particles died in image " + std::to_string(views.size()) +

@@ -7,6 +7,11 @@
 // real views at the pose of today; what resampling has turned from weight into number of particles is
 // remembered in `spent_px2` and leaves the weight: no view counts twice. A particle drawn later starts with
 // nothing spent and is weighed by all views like the others.
+//
+// A view that does not see a particle tells nothing about it. It counts for it like the view's mean
+// likelihood over the particles it does see, as far as they were believed in before it: then the particle's
+// share is after the view what it was before. That mean is settled when particle and view meet first
+// (`unseen_px2`): it must not change with those that die later.
 #pragma once
 
 #include <cstdint>
@@ -31,6 +36,7 @@ struct Particle {
   double log_weight = 0;                   // natural; weigh_particles makes the weights sum to 1
   double upsilon_px2 = 0;  // log_weight is spent_px2 - upsilon_px2, over s, up to a constant common to all
   double spent_px2 = 0;
+  std::vector<double> unseen_px2;     // one a real view: what it adds to Upsilon where it does not see this
   std::vector<PoseFeatures> by_view;  // at this pose, one a real view; empty until weighed
 };
 
@@ -83,14 +89,20 @@ Se3 perturbed(const Se3& pose, const Matrix6d& covariance, double diameter_m, co
 void refine_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
                       std::span<const RegisterView> views, Backend& backend, const ParticleOptions& options);
 
-// Features in every real view, Upsilon and normalised weights. A view that does not see a particle tells
-// nothing about it: it counts for it like that view's mean likelihood over the particles it does see, which
-// leaves the particle's share as it was. A particle that is dead (no view sees it, mean DCD above dead_px,
-// pose not finite) has weight 0 (log weight -infinity). Returns how many live; where none does, all weights
-// are equal.
-std::size_t weigh_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
-                            std::span<const RegisterView> views, Backend& backend,
-                            const ParticleOptions& options);
+struct Weighing {
+  std::size_t living = 0;
+  // What the last of the views taught: the Kullback-Leibler divergence of the weights without it from those
+  // with it, at the poses of today. 0 where it says the same of all particles. The information expected of
+  // a view is an expectation of this one (kernels/mutual_information.h).
+  double gained_nats = 0;
+};
+
+// Features in every real view, Upsilon and normalised weights. A particle that is dead (no view sees it, mean
+// DCD above dead_px, pose not finite) has weight 0 (log weight -infinity); where none lives, all weights are
+// equal and nothing was gained.
+Weighing weigh_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
+                         std::span<const RegisterView> views, Backend& backend,
+                         const ParticleOptions& options);
 
 // 1 / sum w^2, between 1 and the number of particles; 0 without particles. Weights need not be normalised.
 double effective_sample_size(std::span<const Particle> particles);
@@ -99,7 +111,8 @@ double effective_sample_size(std::span<const Particle> particles);
 struct ParticleUpdate {
   double effective = 0;  // sample size before resampling
   bool resampled = false;
-  bool reseeded = false;  // all had died and were drawn anew around the candidates
+  bool reseeded = false;   // all had died and were drawn anew around the candidates
+  double gained_nats = 0;  // from it, before resampling
 };
 
 // Lines 15-19 of Algorithm 2, after the last of `views` was added: refine, weigh, resample with roughening

@@ -286,8 +286,15 @@ ScoutEnd Scout::end_before_planning() const {
   if (static_cast<int>(state_.steps.size()) >= options_.max_views) return ScoutEnd::ViewBudget;
   if (std::ranges::find(closed, 0) == closed.end()) return ScoutEnd::NoViewLeft;
   if (!state_.detections.empty() && state_.entropy_nats < options_.min_entropy_nats) return ScoutEnd::Certain;
+  if (little_learned()) return ScoutEnd::LittleLearned;
   if (options_.max_seconds > 0 && state_.seconds() >= options_.max_seconds) return ScoutEnd::TimeSpent;
   return ScoutEnd::No;
+}
+
+bool Scout::little_learned() const {
+  if (state_.steps.empty() || may_find_more()) return false;
+  const ScoutStep& last = state_.steps.back();
+  return last.new_candidates == 0 && last.update.gained_nats < options_.min_gained_nats;
 }
 
 int Scout::first_open_view() const {
@@ -364,6 +371,7 @@ void ScoutOptions::validate() const {
   in("max_views", max_views, 1, 1e6);
   in("min_entropy_nats", min_entropy_nats, 0, 1e6);
   in("min_information_nats", min_information_nats, 0, 1e6);
+  in("min_gained_nats", min_gained_nats, 0, 1e6);
   in("max_seconds", max_seconds, 0, 1e9);
   in("detections.min_probability", detections.min_probability, 0, 1);
   in("detections.support_probability", detections.support_probability, 0, 1);

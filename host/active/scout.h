@@ -55,6 +55,7 @@ struct ScoutOptions {
   double min_entropy_nats = 0.01;  // less: the modes are certain
   // less expected of the best view (Strategy::Information): not worth the way
   double min_information_nats = 0;
+  double min_gained_nats = 0;  // less from the last image, and no candidate that was not known
   double max_seconds = 0;           // of computing
   std::function<bool()> cancelled;  // asked between stages, from the calling thread
   // Fewer hits and candidates an image than a detection that has but one: what an image misses, the next one
@@ -93,6 +94,7 @@ class Scout {
   void require_open(int view) const;
   ScoutEnd end_before_planning() const;
   bool may_find_more() const;
+  bool little_learned() const;
   int first_open_view() const;
   ScoutDecision decide() const;
   BitMatrix sampled_combinations() const;

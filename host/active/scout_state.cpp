@@ -9,7 +9,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 5, "scout state"};
+constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 6, "scout state"};
 
 template <typename T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -72,7 +72,7 @@ void fields(auto& io, A<PoseFeatures> auto& x) {
   io(x.psi, x.beside_psi, x.mean_px, x.matched, x.points, x.length_px, x.in_image, x.visible,
      x.shading.pixels, x.shading.squares, x.shading.unexplained);
 }
-void fields(auto& io, A<ParticleUpdate> auto& x) { io(x.effective, x.resampled, x.reseeded); }
+void fields(auto& io, A<ParticleUpdate> auto& x) { io(x.effective, x.resampled, x.reseeded, x.gained_nats); }
 void fields(auto& io, A<FailedView> auto& x) { io(x.view, x.reason, x.after_step, x.stages); }
 void fields(auto& io, A<ScoutObject> auto& x) { io(x.id, x.fingerprint); }
 void fields(auto& io, A<Image> auto& x) { io(x.width, x.height, x.pixels); }
@@ -83,7 +83,8 @@ void fields(auto& io, A<Detection> auto& x) {
      x.evidence, x.unexplained_grey, x.convergence);
 }
 void fields(auto& io, A<Particle> auto& x) {
-  io(x.object, x.world_from_object, x.covariance, x.log_weight, x.upsilon_px2, x.spent_px2, x.by_view);
+  io(x.object, x.world_from_object, x.covariance, x.log_weight, x.upsilon_px2, x.spent_px2, x.unseen_px2,
+     x.by_view);
 }
 void fields(auto& io, A<ScoutDecision> auto& x) {
   io(x.view, x.strategy, x.views, x.candidates, x.likeliest, x.unlikeliest, x.stages);
@@ -117,6 +118,8 @@ std::string to_string(ScoutEnd end) {
       return "certain";
     case ScoutEnd::LittleToLearn:
       return "little to learn";
+    case ScoutEnd::LittleLearned:
+      return "little learned";
     case ScoutEnd::TimeSpent:
       return "time spent";
   }

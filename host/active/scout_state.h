@@ -52,7 +52,7 @@ struct FailedView {
   std::vector<StageSeconds> stages;  // of the decision for it
 };
 
-enum class ScoutEnd { No, ViewBudget, NoViewLeft, Certain, LittleToLearn, TimeSpent };
+enum class ScoutEnd { No, ViewBudget, NoViewLeft, Certain, LittleToLearn, LittleLearned, TimeSpent };
 std::string to_string(ScoutEnd end);  // "", "view budget", ..
 
 // What tells the objects of one run from those of another.

@@ -173,6 +173,8 @@ void add_loop_options(CLI::App& verb, ScoutRequest& r) {
                "Ends where the modes are as certain as that, nats; 0: never")
       .bounded("min-information", o.min_information_nats, 0.0, 1e6,
                "Ends where no view is expected to tell as much, nats; 0: never")
+      .bounded("min-gained", o.min_gained_nats, 0.0, 1e6,
+               "Ends where the last image told less and showed no new candidate, nats; 0: never")
       .bounded("max-seconds", o.max_seconds, 0.0, 1e9, "Of computing; 0: no limit");
   OptionTable(verb, "Next view")
       .choice("strategy", r.strategy, {"mi-max", "dis", "random", "fixed"},

@@ -87,6 +87,7 @@ json step_json(const ScoutStep& step, const ScoutReport& report) {
             {"effective", step.update.effective},
             {"resampled", step.update.resampled},
             {"reseeded", step.update.reseeded}}},
+          {"gained_nats", step.update.gained_nats},
           {"entropy_nats", step.entropy_nats},
           {"agreement", agreement},
           {"modes", modes_json(step.detections, report)}};

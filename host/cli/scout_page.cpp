@@ -149,11 +149,12 @@ class Page {
     html +=
         "</div><div class=row>" +
         figure(particles(s.before), fmt::format("{} particles before, seen from image 1", s.before.size()));
-    html += figure(particles(s.after), fmt::format("and after: {}, effective sample size {:.0f}{}",
-                                                   s.after.size(), s.update.effective,
-                                                   s.update.reseeded    ? ", all had died and were drawn anew"
-                                                   : s.update.resampled ? ", resampled"
-                                                                        : ""));
+    html += figure(particles(s.after),
+                   fmt::format("and after: {}, {:.3f} nats gained, effective sample size {:.0f}{}",
+                               s.after.size(), s.update.gained_nats, s.update.effective,
+                               s.update.reseeded    ? ", all had died and were drawn anew"
+                               : s.update.resampled ? ", resampled"
+                                                    : ""));
     html += "</div>";
     if (!why.likeliest.empty() || !why.unlikeliest.empty())
       html += "<div class=row>" + scenes(why) + "</div>";

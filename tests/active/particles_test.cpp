@@ -134,7 +134,7 @@ TEST(WeighParticles, FollowsTheSquaredMeansOfAllViews) {
   IdealScene t(random);
   std::vector<Particle> particles;
   for (double d : {0.0, 0.001, 0.003, 0.006}) particles.push_back(t.off_by(d, random));
-  ASSERT_EQ(weigh_particles(t.models, particles, t.part.views, *t.backend, t.options), 4u);
+  ASSERT_EQ(weigh_particles(t.models, particles, t.part.views, *t.backend, t.options).living, 4u);
   // Oracle: the registration's own mean residual in each view.
   D2coOptions still;
   still.rounds = {{LOSS_HUBER, 1000, 1, 0}};
@@ -180,8 +180,79 @@ TEST(WeighParticles, AViewThatSeesNothingOfAParticleLeavesItsShare) {
   // A camera that looks the other way sees none of them.
   views.push_back(t.part.views[1]);
   views[1].camera_from_world = Se3{so3_exp({0, 3, 0}), {0, 0, 0}} * views[1].camera_from_world;
-  EXPECT_EQ(weigh_particles(t.models, particles, views, *t.backend, t.options), 6u);
+  EXPECT_EQ(weigh_particles(t.models, particles, views, *t.backend, t.options).living, 6u);
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(particles[i].log_weight, before[i], 1e-9);
+}
+
+// Two views of a part: one from afar that sees every particle, one that sees those at the part alone, of
+// which few fit and many do not.
+struct HalfSeen {
+  std::unique_ptr<Backend> backend = make_cpu_backend(2);
+  std::vector<EdgeModel> models{part_model("l_bracket")};
+  std::vector<RegisterView> views;
+  std::vector<Particle> particles;  // the first one beside the second view's image
+  ParticleOptions options;
+
+  explicit HalfSeen(Random& random) {
+    const Se3 truth{random.rotation(), {1, 2, 0.5}};
+    const EdgeModel dense = part_model("l_bracket", 2e-4);
+    for (const double distance_m : {1.4, 0.35})
+      views.push_back(view_of(
+          dense, truth,
+          camera_looking_at(truth.translation_m + Eigen::Vector3d(0, 0, distance_m), truth.translation_m),
+          *backend));
+    options.dead_px = 1000;
+    options.sigma_px = 10;
+    add(truth, {0.3, 0, 0});
+    for (int i = 0; i < 3; ++i) add(truth, 0.001 * random.direction());
+    for (int i = 0; i < 20; ++i) add(truth, 0.04 * random.direction());
+  }
+  void add(const Se3& truth, const Eigen::Vector3d& off_m) {
+    particles.emplace_back().world_from_object = {truth.rotation, truth.translation_m + off_m};
+  }
+  Weighing weigh(std::size_t view_count) {
+    return weigh_particles(models, particles, {views.data(), view_count}, *backend, options);
+  }
+};
+
+TEST(WeighParticles, AViewThatSeesOthersLeavesAParticleItsShare) {
+  Random random = test_random();
+  HalfSeen t(random);
+  ASSERT_EQ(t.weigh(1).living, 24u);
+  ASSERT_GE(t.particles[0].by_view[0].points, t.options.min_points);
+  const std::vector<Particle> before = t.particles;
+  ASSERT_EQ(t.weigh(2).living, 24u);
+  ASSERT_LT(t.particles[0].by_view[1].points, t.options.min_points);
+  EXPECT_NEAR(t.particles[0].log_weight, before[0].log_weight, 1e-9);
+  EXPECT_GT(t.particles[1].log_weight, before[1].log_weight + 0.2);
+  EXPECT_LT(t.particles[4].log_weight, before[4].log_weight - 0.2);
+  // Those that do not fit die: what the view counts for a particle it does not see has been settled before.
+  const double ratio = t.particles[0].log_weight - t.particles[1].log_weight;
+  t.particles.resize(4);
+  t.weigh(2);
+  EXPECT_NEAR(t.particles[0].log_weight - t.particles[1].log_weight, ratio, 1e-9);
+}
+
+TEST(WeighParticles, TellsWhatTheLastViewTaught) {
+  Random random = test_random();
+  HalfSeen t(random);
+  double gained = 0;
+  const double first = t.weigh(1).gained_nats;
+  for (const Particle& p : t.particles)  // without any view all weigh the same
+    gained += std::exp(p.log_weight) * (p.log_weight + std::log(24.0));
+  EXPECT_GT(gained, 0.05);
+  EXPECT_NEAR(first, gained, 1e-9);
+  const std::vector<Particle> before = t.particles;
+  const double second = t.weigh(2).gained_nats;
+  gained = 0;
+  for (std::size_t i = 0; i < before.size(); ++i)
+    gained += std::exp(t.particles[i].log_weight) * (t.particles[i].log_weight - before[i].log_weight);
+  EXPECT_GT(gained, 0.05);
+  EXPECT_NEAR(second, gained, 1e-9);
+  // A camera that looks the other way teaches nothing.
+  t.views.push_back(t.views[1]);
+  t.views[2].camera_from_world = Se3{so3_exp({0, 3, 0}), {0, 0, 0}} * t.views[1].camera_from_world;
+  EXPECT_NEAR(t.weigh(3).gained_nats, 0, 1e-12);
 }
 
 TEST(WeighParticles, TheDeadHaveNoWeight) {
@@ -189,12 +260,12 @@ TEST(WeighParticles, TheDeadHaveNoWeight) {
   IdealScene t(random);
   std::vector<Particle> particles{t.off_by(0.001, random), t.off_by(0.001, random), t.off_by(30, random)};
   particles[1].world_from_object.translation_m.x() = std::nan("");
-  EXPECT_EQ(weigh_particles(t.models, particles, t.part.views, *t.backend, t.options), 1u);
+  EXPECT_EQ(weigh_particles(t.models, particles, t.part.views, *t.backend, t.options).living, 1u);
   EXPECT_NEAR(particles[0].log_weight, 0, 1e-12);
   EXPECT_EQ(particles[1].log_weight, -INFINITE);
   EXPECT_EQ(particles[2].log_weight, -INFINITE);
   particles.erase(particles.begin());
-  EXPECT_EQ(weigh_particles(t.models, particles, t.part.views, *t.backend, t.options), 0u);
+  EXPECT_EQ(weigh_particles(t.models, particles, t.part.views, *t.backend, t.options).living, 0u);
   for (const Particle& p : particles) EXPECT_NEAR(p.log_weight, -std::log(2.0), 1e-12);
 }
 

@@ -146,6 +146,15 @@ TEST(Scout, EndsByEachOfItsLimits) {
   EXPECT_EQ(ended([](ScoutOptions& o) { o.min_entropy_nats = 1000; }), End(ScoutEnd::Certain, 1));
   EXPECT_EQ(ended([](ScoutOptions& o) { o.max_seconds = 1e-6; }), End(ScoutEnd::TimeSpent, 1));
   EXPECT_EQ(ended([](ScoutOptions& o) { o.min_information_nats = 1000; }), End(ScoutEnd::LittleToLearn, 1));
+  // The first image's candidates are all new; the later ones find the same.
+  const auto found_once = [](ScoutOptions& o) {
+    o.detect_in_every_image = false;
+    o.next_view.strategy = Strategy::Fixed;
+  };
+  EXPECT_EQ(ended([&](ScoutOptions& o) { found_once(o), o.min_gained_nats = 1000; }),
+            End(ScoutEnd::LittleLearned, 2));
+  EXPECT_EQ(ended([&](ScoutOptions& o) { found_once(o), o.min_gained_nats = 1e-9; }),
+            End(ScoutEnd::ViewBudget, 3));
   EXPECT_EQ(ended([](ScoutOptions& o) { o.next_view.reachable = [](int view) { return view == 3; }; }),
             End(ScoutEnd::NoViewLeft, 1));
 }
