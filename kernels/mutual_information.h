@@ -11,9 +11,10 @@
 // exp(-upsilon_i / s), not normalised (Eq. 19 and 20). It is still >= 0, but no mutual information: it falls
 // with every real view and where all is unlikely, and has no bound of this kind; below exp(-745) it is 0.
 //
-// Agreement: the reference and the fast path to 1e-9 (1 + I), Vulkan, in float, to 1e-4 (1 + I). LogicError:
-// no particles or no realizations, more than INFORMATION_MAX_PARTICLES, beliefs of another number than the
-// particles, a total of 0, a log weight that is no number or +infinity, or all weights 0.
+// Agreement: the reference and the fast path to 1e-9 (1 + I), Vulkan, in float, to 1e-4 (1 + I) for
+// scale_px2 of at least cap_px^2 / INFORMATION_MAX_SHARPNESS. LogicError: no particles or no realizations,
+// more than INFORMATION_MAX_PARTICLES, beliefs of another number than the particles, a total of 0, a log
+// weight that is no number or +infinity, or all weights 0.
 #pragma once
 
 #include <cstdint>
@@ -25,6 +26,7 @@
 namespace edgescout {
 
 inline constexpr std::uint32_t INFORMATION_MAX_PARTICLES = 16384;  // as CHAMFER_MAX_POINTS
+inline constexpr double INFORMATION_MAX_SHARPNESS = 10000;  // more nats than that float does not tell apart
 
 struct ParticleBelief {
   double log_weight = 0;           // natural logarithm, up to a constant common to all; -infinity: weight 0

@@ -252,7 +252,7 @@ void NextViewOptions::validate() const {
   const OptionBounds in("next_view");
   in("reduction", reduction, 1, 16);
   in("cap", cap_px, reduction / CHAMFER_STEPS_PER_PX, reduction * CHAMFER_CAP / CHAMFER_STEPS_PER_PX);
-  in("sigma", sigma_px, 1e-3, 1e3);
+  in("sigma", sigma_px, cap_px / std::sqrt(2 * INFORMATION_MAX_SHARPNESS), 1e3);
   in("tolerance", tolerance, 0, 10);
   in("seen", seen_px, 0, EdgeIndex::CELL_PX);
   in("free_sight", free_sight, 0, 100);

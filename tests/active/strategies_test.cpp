@@ -62,6 +62,9 @@ TEST(Strategies, HaveNames) {
   options = {};
   options.reduction = 0.5;
   expect_input_error([&] { options.validate(); }, {"next_view.reduction"});
+  options = {};
+  options.sigma_px = 0.2;  // sharper than float tells apart at this cap
+  expect_input_error([&] { options.validate(); }, {"next_view.sigma"});
 }
 
 }  // namespace

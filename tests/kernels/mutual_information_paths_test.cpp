@@ -16,11 +16,13 @@ std::vector<ParticleBelief> random_beliefs(std::mt19937& rng, std::size_t count)
   return beliefs;
 }
 
+constexpr float test_cap_px = 255.0f / 16;
+
 class MutualInformationPaths : public test::PathTest {
  protected:
   void expect_equal(const test::ChamferScene& scene, const std::vector<ParticleBelief>& beliefs,
                     const std::vector<InformationOptions>& all_options) {
-    constexpr ChamferOptions chamfer{0.03f, 255.0f / 16};
+    constexpr ChamferOptions chamfer{0.03f, test_cap_px};
     const ChamferHandle own = tested->combination_chamfer(scene.view(), scene.combinations(), chamfer);
     const auto cells = own->cells();  // those of the reference, says combination_chamfer's own test
     const double tolerance = tested->is_gpu() ? 1e-4 : 1e-9;
@@ -46,8 +48,10 @@ TEST_P(MutualInformationPaths, AgreesWithTheReference) {
                                                                   {60, 60, 40, 40, 200, 30, 1000}}) {
     const test::ChamferScene scene = test::random_scene(rng, size);
     const std::vector<ParticleBelief> beliefs = random_beliefs(rng, scene.view().particles());
-    expect_equal(scene, beliefs,
-                 {{0.5, false}, {8, false}, {300, false}, {0.5, true}, {8, true}, {300, true}});
+    const double least = test_cap_px * test_cap_px / INFORMATION_MAX_SHARPNESS;
+    expect_equal(
+        scene, beliefs,
+        {{least, false}, {0.5, false}, {8, false}, {300, false}, {0.5, true}, {8, true}, {300, true}});
   }
   std::printf("differ by %.1e at most; up to %.3f nats\n", worst, largest);
   EXPECT_GT(largest, 0.3);
