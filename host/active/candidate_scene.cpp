@@ -112,13 +112,15 @@ CandidateScene draw_candidates(std::span<const EdgeModel> models, std::span<cons
   scene.maps.resize(edges.size());
   for (std::size_t object = 0; object < models.size(); ++object) {
     const Slots& own = slots[object];
-    const std::vector<std::vector<ModelPoint>> visible =
+    std::vector<std::vector<ModelPoint>> visible =
         visible_edges(models[object], own.poses, backend, visibility);
     backend.threads().for_each(own.maps.size(), [&](std::size_t s) {
       Box box;
       if (!projected_box(models[object].mesh, own.poses[s], camera, box)) return;
       // In the order of creases, borders and contours: of too many every so many stay, not the first.
-      edges[own.maps[s]] = projected(thinned(visible[s], int(CANDIDATE_MAP_MAX_EDGES)), own.poses[s], camera);
+      if (visible[s].size() > CANDIDATE_MAP_MAX_EDGES)
+        visible[s] = thinned(visible[s], int(CANDIDATE_MAP_MAX_EDGES));
+      edges[own.maps[s]] = projected(visible[s], own.poses[s], camera);
       scene.maps[own.maps[s]].window =
           map_window(box.x_min, box.y_min, box.x_max, box.y_max, camera.width, camera.height);
     });
