@@ -50,8 +50,9 @@ Table score_candidates(const KnownScene& scene, const ExperimentSettings& settin
       {}};
   std::vector<EdgeModel> models;
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
-  const RegisterView view = register_views(scene, tensor_with(PAPER_LAMBDA_PX_PER_RAD), backend)[0],
-                     own_view = register_views(scene, tensor_with(OWN_LAMBDA_PX_PER_RAD), backend)[0];
+  const SceneEdges edges = edges_of(scene, backend);
+  const RegisterView view = register_views(scene, edges, tensor_with(PAPER_LAMBDA_PX_PER_RAD), backend)[0],
+                     own_view = register_views(scene, edges, tensor_with(OWN_LAMBDA_PX_PER_RAD), backend)[0];
   for (int object = 0; object < static_cast<int>(scene.objects.size()); ++object) {
     const auto instances = std::ranges::count(scene.instances, object, &KnownInstance::object);
     if (instances == 0) continue;
@@ -213,11 +214,12 @@ Report report(const ExperimentSettings& settings, const Table& table) {
     Panel panel{part.name, "false positives an image (none: as half of one)", "true positive rate", {}, 0, 1,
                 true};
     std::vector<std::vector<Rates>> of_detector;
+    const Draws draws = draw_images(values_of(part.rows, "image").size());
     for (const Detector& detector : DETECTORS) {
       const Scored scored = scored_by(detector, part.rows);
       const std::vector<CurvePoint> curve = detection_curve(scored.poses, scored.all_instances());
       panel.lines.push_back(line_of(detector.name, curve, scored.instances.size()));
-      of_detector.push_back(rates_of(scored, curve, draw_images(scored.instances.size())));
+      of_detector.push_back(rates_of(scored, curve, draws));
       result.markdown += "| " + part.name + " | " + detector.name;
       for (const Rates& rates : of_detector.back())
         result.markdown +=

@@ -120,14 +120,21 @@ KnownScene bop_scene(const std::string& set, const fs::path& scene_folder, const
   return known;
 }
 
-std::vector<RegisterView> register_views(const KnownScene& scene, const TensorOptions& tensor,
-                                         Backend& backend) {
+SceneEdges edges_of(const KnownScene& scene, Backend& backend) {
+  SceneEdges edges;
+  for (const KnownImage& view : scene.images) edges.push_back(find_edges(view.image, {}, backend));
+  return edges;
+}
+
+std::vector<RegisterView> register_views(const KnownScene& scene, const SceneEdges& edges,
+                                         const TensorOptions& tensor, Backend& backend) {
   std::vector<RegisterView> views;
-  for (const KnownImage& view : scene.images)
-    views.push_back(observe(view.image, view.camera, view.camera_from_world,
-                            find_edges(view.image, {}, backend), reduction_for(smallest_size_px(scene, view)),
-                            tensor, backend)
+  for (std::size_t i = 0; i < scene.images.size(); ++i) {
+    const KnownImage& view = scene.images[i];
+    views.push_back(observe(view.image, view.camera, view.camera_from_world, edges[i],
+                            reduction_for(smallest_size_px(scene, view)), tensor, backend)
                         .view);
+  }
   return views;
 }
 

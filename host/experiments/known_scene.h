@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/core/types.h"
+#include "host/edge/edges.h"
 #include "host/register/d2co.h"
 #include "host/render/scene.h"
 
@@ -50,8 +51,12 @@ KnownScene rendered_scene(const std::string& name, const std::vector<Object>& ty
 KnownScene bop_scene(const std::string& set, const std::filesystem::path& scene_folder,
                      const std::filesystem::path& models, const std::vector<int>& image_ids);
 
+// Edge points of every image, as found once for all tensors.
+using SceneEdges = std::vector<std::vector<EdgePoint>>;
+SceneEdges edges_of(const KnownScene& scene, Backend& backend);
+
 // What registration asks of the images, one view each: edges, tensors, the image itself.
-std::vector<RegisterView> register_views(const KnownScene& scene, const TensorOptions& tensor,
-                                         Backend& backend);
+std::vector<RegisterView> register_views(const KnownScene& scene, const SceneEdges& edges,
+                                         const TensorOptions& tensor, Backend& backend);
 
 }  // namespace edgescout

@@ -130,10 +130,11 @@ Table run_trials(const KnownScene& scene, const std::vector<Start>& starts, cons
                  const ExperimentSettings& settings, Backend& backend) {
   std::vector<EdgeModel> models;
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
+  const SceneEdges edges = edges_of(scene, backend);
   std::map<float, std::vector<RegisterView>> views_with;
   for (const Trial& trial : trials)
     if (const float lambda = lambda_of(trial); !views_with.contains(lambda))
-      views_with[lambda] = register_views(scene, tensor_with(lambda), backend);
+      views_with[lambda] = register_views(scene, edges, tensor_with(lambda), backend);
   Table table{{}, trial_columns(), {}};
   for (const std::vector<Start>& group : by_object(scene, starts))
     for (const Trial& trial : trials) {
