@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 
+#include "host/active/views.h"
+#include "host/io/json_fields.h"
 #include "host/io/results.h"
 #include "tests/cli/small_scene.h"
 
@@ -79,7 +81,9 @@ TEST(Scout, FindsThePartAndShowsHow) {
     EXPECT_EQ(taken, i);
     EXPECT_FALSE(step.at("decision_ms").empty());
     EXPECT_EQ(step.at("agreement").size(), static_cast<std::size_t>(i + 1));
+    EXPECT_GE(step.at("gained_nats").get<double>(), 0);
   }
+  EXPECT_GT(log["steps"][0].at("gained_nats").get<double>(), 0);
   ASSERT_EQ(log.at("detections").size(), 1u);
   EXPECT_TRUE(log["detections"][0].at("off_truth").at("right"));
   ASSERT_EQ(log.at("truth").size(), 1u);
@@ -129,6 +133,35 @@ TEST(Scout, DoesNotGoOnInAnotherCell) {
   *(std::ranges::find(farther, "--radius") + 1) = "0.31";
   expect_refused(farther, {"scout.json", "radius", "0.31"});
   EXPECT_EQ(content_of(t.out / "scout.json"), before);
+}
+
+TEST(Scout, LooksFromTheViewsOfAFile) {
+  const SmallScout t;
+  HemisphereOptions hemisphere;
+  hemisphere.radius_m = 0.3;
+  hemisphere.elevations_deg = {40, 70};
+  hemisphere.count = 6;
+  std::vector<Se3> views = hemisphere_views(hemisphere);
+  std::ranges::reverse(views);
+  const fs::path file = t.folder.path() / "views.json";
+  save_views(views, file);
+  std::vector<std::string> arguments = t.arguments({"--views", file});
+  for (const auto& [option, values] : {std::pair{"--view-count", 1}, std::pair{"--elevations", 2}}) {
+    const auto at = std::ranges::find(arguments, option);
+    arguments.erase(at, at + 1 + values);
+  }
+  const Outcome outcome = run_program(arguments);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const nlohmann::json log = t.log();
+  ASSERT_EQ(log.at("views").size(), 6u);
+  ASSERT_EQ(log.at("steps").size(), 3u);
+  for (const nlohmann::json& step : log["steps"]) {
+    const JsonField pose{step.at("camera_from_world"), "scout.json", ""};
+    const Se3 taken = pose_from(pose.at("R"), pose.at("t"), 1.0);
+    EXPECT_LT(distance_between_m(taken, views[step.at("view").get<std::size_t>()]), 1e-9);
+  }
+  ASSERT_EQ(log.at("detections").size(), 1u);
+  EXPECT_TRUE(log["detections"][0].at("off_truth").at("right"));
 }
 
 // A fixed sequence begins with its first view.
