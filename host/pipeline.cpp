@@ -98,7 +98,7 @@ Detections detect_jointly(std::span<const PreparedImage> views, std::span<const 
     std::vector<Observation> others = observations;
     others.erase(others.begin() + std::ptrdiff_t(v));
     for (const TemplateSet& set : sets)
-      candidates[v].push_back(find_candidates(set, observations[v], others, backend, options.detect));
+      candidates[v].push_back(find_candidates(set, observations[v], others, {}, backend, options.detect));
   }
   watch.lap("candidates");
   result.detections = join_views(sets, models_of(sets), candidates, observations, backend, options.detect);

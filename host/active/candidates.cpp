@@ -40,16 +40,21 @@ std::vector<Detection> different_ones(const std::vector<Detection>& detections,
 }  // namespace
 
 std::vector<Detection> candidates_in_image(std::span<const TemplateSet> sets, const Observation& observation,
-                                           std::span<const Observation> earlier, Backend& backend,
+                                           std::span<const Observation> earlier,
+                                           std::span<const Hypothesis> known, Backend& backend,
                                            const DetectOptions& options) {
   std::vector<Detection> found;
-  for (std::size_t object = 0; object < sets.size(); ++object)
-    for (const Refined& candidate : find_candidates(sets[object], observation, earlier, backend, options)) {
-      found.push_back(candidate_in_world(
-          to_detection(static_cast<int>(object), candidate.registration, candidate.features),
-          observation.view.camera_from_world));
+  for (int object = 0; object < static_cast<int>(sets.size()); ++object) {
+    std::vector<Se3> same;
+    for (const Hypothesis& instance : known)
+      if (instance.object == object) same.push_back(instance.world_from_object);
+    for (const Refined& candidate : find_candidates(sets[static_cast<std::size_t>(object)], observation,
+                                                    earlier, same, backend, options)) {
+      found.push_back(candidate_in_world(to_detection(object, candidate.registration, candidate.features),
+                                         observation.view.camera_from_world));
       found.back().probability = probability_over_views(candidate.by_view);
     }
+  }
   sort_by_probability(found);
   return found;
 }

@@ -11,9 +11,10 @@
 namespace edgescout {
 
 // Of all objects in one image, with the help of the images before it (none: alone), in the world; the most
-// probable first.
+// probable first. Without the instances that are known.
 std::vector<Detection> candidates_in_image(std::span<const TemplateSet> sets, const Observation& observation,
-                                           std::span<const Observation> earlier, Backend& backend,
+                                           std::span<const Observation> earlier,
+                                           std::span<const Hypothesis> known, Backend& backend,
                                            const DetectOptions& options);
 
 // Registers candidates over all views (Eq. 11), gives them the probability that the views' features together

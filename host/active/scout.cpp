@@ -181,15 +181,17 @@ void Scout::look(const Image& image, ScoutStep& step, ScoutState& next,
   Stopwatch watch(step.stages);
   observations.push_back(observe_prepared(prepared, sets_, backend_, options_.pipeline));
   // nothing is known before the second image
-  hide_behind(known_objects(next.detections, options_.known_probability), observations);
+  const std::vector<Hypothesis> known = known_objects(next.detections, options_.known_probability);
+  hide_behind(known, observations);
   done(watch, "tensors");
   if (next.steps.empty() || options_.detect_in_every_image) {
     const Observation& newest = observations.back();
     const std::span<const Observation> earlier(observations.data(),
                                                options_.detect_jointly ? observations.size() - 1 : 0);
     const std::vector<Detection> found =
-        options_.detect ? options_.detect(step.decision.view, newest, earlier)
-                        : candidates_in_image(sets_, newest, earlier, backend_, options_.pipeline.detect);
+        options_.detect
+            ? options_.detect(step.decision.view, newest, earlier, known)
+            : candidates_in_image(sets_, newest, earlier, known, backend_, options_.pipeline.detect);
     next.candidates.insert(next.candidates.end(), found.begin(), found.end());
     done(watch, "detection");
   }

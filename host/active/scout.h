@@ -34,14 +34,17 @@ struct ScoutOptions {
   int max_candidates = 40;            // kept of all objects together (the paper's N_obj)
   bool detect_in_every_image = true;  // else in the first alone, as in the paper
   // A detector of one's own in place of candidates_in_image (candidates.h): what may be in the image of this
-  // view, in the world. `earlier` are the images before it, as far as detection may use them.
+  // view, in the world. `earlier` are the images before it, as far as detection may use them, `known` the
+  // instances that need not be found again.
   std::function<std::vector<Detection>(int view, const Observation& observation,
-                                       std::span<const Observation> earlier)>
+                                       std::span<const Observation> earlier,
+                                       std::span<const Hypothesis> known)>
       detect;
   // later images are searched with the help of those before (detect/joint_scan.h); else each alone
   bool detect_jointly = true;
-  // Instances as probable as this hide what is behind them (register/occluders.h): what they cover counts
-  // neither for nor against other poses, but leaves fewer edges to be certain by. Above 1: none do.
+  // Instances as probable as this are known: they are not sought in later images, and hide what is behind
+  // them (register/occluders.h): what they cover counts neither for nor against other poses, but leaves
+  // fewer edges to be certain by. Above 1: none are.
   double known_probability = 0.9;
   CombinationOptions combinations;
   bool probable_combinations = true;  // scenes as often as they are believed in; else by psi (Algorithm 1)

@@ -10,18 +10,30 @@ namespace edgescout {
 
 namespace {
 
+// Of the object's diameter: poses closer than that are the same, and a hit so near to a known instance is
+// drawn to it by the alignment.
+constexpr double SAME_POSE = 0.1, DRAWN_TO = 0.2;
+
 // Of one object, in metres and modulo its symmetry; `key` of an index is lower for better ones.
 std::vector<std::size_t> best_of(std::span<const Se3> poses, const TemplateSet& set, std::size_t most,
                                  const auto& key) {
   std::vector<double> keys;
   for (std::size_t i = 0; i < poses.size(); ++i) keys.push_back(key(i));
-  return best_different(poses, keys, set.model.mesh, set.symmetries, 0.1 * set.model.mesh.diameter_m, most);
+  return best_different(poses, keys, set.model.mesh, set.symmetries, SAME_POSE * set.model.mesh.diameter_m,
+                        most);
 }
 
 std::vector<Hypothesis> hypotheses_at(std::span<const Se3> poses, std::span<const std::size_t> chosen) {
   std::vector<Hypothesis> out;
   for (std::size_t i : chosen) out.push_back({0, poses[i]});
   return out;
+}
+
+KnownPoses in_camera(std::span<const Se3> known_in_world, const TemplateSet& set,
+                     const Observation& observation) {
+  std::vector<Se3> poses;
+  for (const Se3& pose : known_in_world) poses.push_back(observation.view.camera_from_world * pose);
+  return {poses, set.model.mesh, set.symmetries};
 }
 
 // The image's camera frame is the world.
@@ -93,18 +105,23 @@ Detection to_detection(int object, const Registration& registration, const PoseF
 
 std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation, Backend& backend,
                                      const DetectOptions& options) {
-  return find_candidates(set, observation, {}, backend, options);
+  return find_candidates(set, observation, {}, {}, backend, options);
 }
 
 std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation,
-                                     std::span<const Observation> all_others, Backend& backend,
-                                     const DetectOptions& options) {
+                                     std::span<const Observation> all_others, std::span<const Se3> known,
+                                     Backend& backend, const DetectOptions& options) {
   const std::vector<Observation> others =
       helping_views(observation, all_others, std::size_t(options.helping_views));
   const std::span<const EdgeModel> models(&set.model, 1);
   const std::vector<RegisterView> full = views_around(observation, others), coarse = coarse_of(full);
-  const std::vector<ScanHit> hits = judged_by_all(set, coarse_scan(set, observation, backend, options.scan),
-                                                  observation, others, backend, options.scan);
+  const KnownPoses known_here = in_camera(known, set, observation);
+  const auto is_known = [&](const Se3& pose, double radius) {
+    return known_here.any_within(radius * set.model.mesh.diameter_m, pose);
+  };
+  std::vector<ScanHit> hits = judged_by_all(set, coarse_scan(set, observation, backend, options.scan),
+                                            observation, others, backend, options.scan);
+  std::erase_if(hits, [&](const ScanHit& hit) { return is_known(hit.camera_from_object, DRAWN_TO); });
   std::vector<Se3> poses;
   for (const ScanHit& hit : hits) poses.push_back(hit.camera_from_object);
   const int aligned = others.empty() ? options.aligned : std::min(options.aligned, options.aligned_jointly);
@@ -115,6 +132,7 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
   hypotheses = as_hypotheses(
       hypotheses, register_poses(models, hypotheses, coarse, backend, options.refine.search.coarse));
   hypotheses = as_hypotheses(hypotheses, register_poses(models, hypotheses, full, backend, options.touch_up));
+  std::erase_if(hypotheses, [&](const Hypothesis& h) { return is_known(h.world_from_object, SAME_POSE); });
   poses.clear();
   for (const Hypothesis& h : hypotheses) poses.push_back(h.world_from_object);
   const std::vector<PoseFeatures> features = pose_features_by_view(
@@ -128,8 +146,9 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
   RefineOptions refine = options.refine;
   if (!others.empty())
     refine.search.rotation_rad = 0;  // several views leave no doubt that a search could settle
-  const std::vector<Refined> refined =
-      refine_poses(models, hypotheses_at(poses, chosen), full, backend, refine);
+  std::vector<Refined> refined = refine_poses(models, hypotheses_at(poses, chosen), full, backend, refine);
+  std::erase_if(refined,
+                [&](const Refined& r) { return is_known(r.registration.world_from_object, SAME_POSE); });
   std::vector<Se3> final_poses;
   for (const Refined& r : refined) final_poses.push_back(r.registration.world_from_object);
   std::vector<Refined> different;

@@ -43,9 +43,10 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
 // The same with the help of other images of the same static scene: hits are judged by all of them
 // (joint_scan.h), registered in all of them, and ranked by what all of them say (probability_over_views.h).
 // Of many others some are taken (helping_views.h). Refined::by_view has the given view first, then those that
-// helped.
+// helped. `known` are the instances of the object that need not be found again, in the world of the views:
+// they take no place among hits and candidates.
 std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation,
-                                     std::span<const Observation> others, Backend& backend,
-                                     const DetectOptions& options);
+                                     std::span<const Observation> others, std::span<const Se3> known,
+                                     Backend& backend, const DetectOptions& options);
 
 }  // namespace edgescout

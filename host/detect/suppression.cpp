@@ -82,4 +82,16 @@ std::vector<std::size_t> best_different(std::span<const Se3> poses, std::span<co
   return best;
 }
 
+KnownPoses::KnownPoses(std::vector<Se3> poses, const Mesh& mesh, const Symmetries& symmetries)
+    : corners_(box_corners(mesh)) {
+  for (const Se3& pose : poses)
+    for (const Se3& symmetry : symmetries.discrete) poses_.push_back(pose * symmetry);
+}
+
+bool KnownPoses::any_within(double radius_m, const Se3& pose) const {
+  return std::ranges::any_of(poses_, [&](const Se3& known) {
+    return corner_distance_m(pose, known, corners_, radius_m) < radius_m;
+  });
+}
+
 }  // namespace edgescout

@@ -1,6 +1,7 @@
 // Which of many poses are one and the same object.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -23,5 +24,17 @@ std::vector<std::size_t> suppress_duplicates(std::span<const Se3> poses_best_fir
 std::vector<std::size_t> best_different(std::span<const Se3> poses, std::span<const double> keys,
                                         const Mesh& mesh, const Symmetries& symmetries, double radius_m,
                                         std::size_t most);
+
+// Poses of one object where something is known to be.
+class KnownPoses {
+ public:
+  KnownPoses(std::vector<Se3> poses, const Mesh& mesh, const Symmetries& symmetries);
+  // Whether one of them lies within `radius_m` (pose_distance_m).
+  bool any_within(double radius_m, const Se3& pose) const;
+
+ private:
+  std::vector<Se3> poses_;  // each in all its symmetric forms
+  std::array<Eigen::Vector3d, 8> corners_;
+};
 
 }  // namespace edgescout

@@ -19,30 +19,35 @@ class Detector {
       : sets_(sets), options_(options), backend_(backend) {}
   // Objects are counted from `first_type`.
   std::vector<Detection> find(int view, const Observation& observation, std::span<const Observation> earlier,
-                              int first_type, int count) {
+                              std::span<const Hypothesis> known, int first_type, int count) {
     std::vector<Detection> all;
-    for (int i = 0; i < count; ++i)
-      for (Detection detection : of_type(view, observation, earlier, first_type + i)) {
+    for (int i = 0; i < count; ++i) {
+      std::vector<Hypothesis> same;
+      for (const Hypothesis& instance : known)
+        if (instance.object == i) same.push_back({0, instance.world_from_object});
+      for (Detection detection : of_type(view, observation, earlier, same, first_type + i)) {
         detection.object = i;
         all.push_back(std::move(detection));
       }
+    }
     return all;
   }
 
  private:
   std::vector<Detection> of_type(int view, const Observation& observation,
-                                 std::span<const Observation> earlier, int type) {
+                                 std::span<const Observation> earlier, std::span<const Hypothesis> known,
+                                 int type) {
     const auto search = [&] {
       return candidates_in_image(std::span(&sets_[static_cast<std::size_t>(type)], 1), observation, earlier,
-                                 backend_, options_);
+                                 known, backend_, options_);
     };
     // what was seen before differs from strategy to strategy
-    if (!earlier.empty() || observation.view.occluders) return search();
+    if (!earlier.empty() || !known.empty() || observation.view.occluders) return search();
     // coarser tensors where only large types are sought
     const auto key = std::tuple(view, type, observation.reduction);
-    auto known = found_.find(key);
-    if (known == found_.end()) known = found_.emplace(key, search()).first;
-    return known->second;
+    auto before = found_.find(key);
+    if (before == found_.end()) before = found_.emplace(key, search()).first;
+    return before->second;
   }
 
   const std::vector<TemplateSet>& sets_;
@@ -77,8 +82,9 @@ Search make_search(const Bin& bin, int count, std::span<const TemplateSet> sets)
 ScoutOptions options_for(const ExperimentSettings& s, const Bin& bin, const Search& search,
                          Detector& detector, const std::string& strategy) {
   ScoutOptions options = s.scout;
-  options.detect = [&](int view, const Observation& observation, std::span<const Observation> earlier) {
-    return detector.find(view, observation, earlier, search.first_type, search.count);
+  options.detect = [&](int view, const Observation& observation, std::span<const Observation> earlier,
+                       std::span<const Hypothesis> known) {
+    return detector.find(view, observation, earlier, known, search.first_type, search.count);
   };
   options.first_view = bin.first_view;
   const bool knows = strategy == CLAIRVOYANT;

@@ -48,7 +48,8 @@ TEST(Scout, TakesCandidatesFromADetectorOfOnesOwn) {
   off << 0.002, -0.001, 0.001, 0.02, 0.03, -0.02;
   near_truth.world_from_object = retract(t.scene.placed[0].world_from_object, off);
   near_truth.psi = 0.9;
-  options.detect = [&](int view, const Observation& observation, std::span<const Observation>) {
+  options.detect = [&](int view, const Observation& observation, std::span<const Observation>,
+                       std::span<const Hypothesis>) {
     EXPECT_EQ(observation.view.camera.width, t.camera().width);
     asked.push_back(view);
     return std::vector{near_truth};
@@ -164,7 +165,7 @@ TEST(Scout, GoesOnWhereTheFirstImageShowsNothing) {
   SmallCell t;
   ScoutOptions options = t.options();
   options.min_information_nats = 0.05;
-  options.detect = [](int, const Observation&, std::span<const Observation>) {
+  options.detect = [](int, const Observation&, std::span<const Observation>, std::span<const Hypothesis>) {
     return std::vector<Detection>{};
   };
   Scout scout = t.scout(options);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "host/detect/detect.h"
+#include "host/detect/suppression.h"
 #include "host/eval/metrics.h"
 #include "host/pipeline.h"
 #include "host/render/parts.h"
@@ -129,7 +130,7 @@ TEST(FindCandidates, WithOtherViewsAreRightInAllOfThem) {
                                      *backend, t.options()));
   const DetectOptions options = t.options().detect;
   const std::vector<Refined> alone = find_candidates(t.sets[0], views[0], *backend, options),
-                             helped = find_candidates(t.sets[0], views[0], std::span(views).subspan(1),
+                             helped = find_candidates(t.sets[0], views[0], std::span(views).subspan(1), {},
                                                       *backend, options);
   ASSERT_FALSE(alone.empty());
   ASSERT_FALSE(helped.empty());
@@ -141,6 +142,27 @@ TEST(FindCandidates, WithOtherViewsAreRightInAllOfThem) {
   EXPECT_LT(joint.distance_m, 0.0005);
   EXPECT_LT(joint.angle_rad, 0.01);
   EXPECT_LT(joint.distance_m, single.distance_m);
+}
+
+TEST(FindCandidates, LeavesOutWhatIsKnown) {
+  const RenderedPart t("bearing_block", 2);
+  const auto backend = make_cpu_backend(2);
+  // Of a scene whose world is not the camera's.
+  const Observation view = observe_prepared(t.prepared(1, t.scene.views[1].camera_from_world, *backend),
+                                            t.sets, *backend, t.options());
+  const std::vector<Se3> known{t.scene.placed[0].world_from_object};
+  const Mesh& mesh = t.sets[0].model.mesh;
+  const auto nearest = [&](std::span<const Se3> of_known) {
+    double least = 1;
+    for (const Refined& r : find_candidates(t.sets[0], view, {}, of_known, *backend, t.options().detect))
+      least = std::min(least, pose_distance_m(r.registration.world_from_object, t.truth_in(1), mesh,
+                                              t.sets[0].symmetries) /
+                                  mesh.diameter_m);
+    return least;
+  };
+  EXPECT_LT(nearest({}), 0.02);
+  EXPECT_GT(nearest(known), 0.1);
+  EXPECT_LT(nearest(known), 1) << "others are still found";
 }
 
 }  // namespace

@@ -110,5 +110,27 @@ TEST(SuppressDuplicates, AgreesWithTheDistance) {
   }
 }
 
+TEST(KnownPoses, HoldWhatIsNearModuloSymmetry) {
+  Random random = test_random();
+  for (const char* part : {"l_bracket", "hex_nut"}) {
+    const Object object = make_part(part);
+    std::vector<Se3> known;
+    for (int i = 0; i < 4; ++i) known.push_back(random_pose(random));
+    const KnownPoses poses(known, object.mesh, object.symmetries);
+    int near = 0;
+    for (int i = 0; i < 400; ++i) {
+      const Se3 turned = known[i % 4] * object.symmetries.discrete[i % object.symmetries.discrete.size()];
+      const Se3 pose = moved(turned, random.uniform(0, 0.02), random.uniform(0, 0.6), random);
+      double nearest = 1e9;
+      for (const Se3& k : known) nearest = std::min(nearest, brute_distance(pose, k, object));
+      EXPECT_EQ(poses.any_within(0.015, pose), nearest < 0.015) << part << " " << i;
+      near += nearest < 0.015;
+    }
+    EXPECT_GT(near, 40);
+    EXPECT_LT(near, 360);
+    EXPECT_FALSE(KnownPoses({}, object.mesh, object.symmetries).any_within(1, known[0]));
+  }
+}
+
 }  // namespace
 }  // namespace edgescout::test
