@@ -35,6 +35,8 @@ constexpr std::pair<const char*, int ExperimentSettings::*> SIZES[] = {
 ExperimentSettings settings_of(const ExperimentsRequest& request, const CLI::App& verb) {
   if (request.is_short && request.is_full)
     throw InputError("command line", "--short, --full", "both", "one of the two");
+  if (verb.count("--bins") > 0 && verb.count("--only-bins") > 0)
+    throw InputError("command line", "--bins, --only-bins", "both", "one of the two");
   ExperimentSettings settings = request.settings;
   const ExperimentSettings form =
       request.is_full ? ExperimentSettings::full_form() : ExperimentSettings::short_form();
@@ -131,6 +133,11 @@ void add_bench_experiments(CLI::App& bench, int& exit_code) {
       .flag("times,!--no-times", request->settings.times,
             "Measured times among the rows (default); without, two runs give the same bytes");
   add_sizes(*verb, *request);
+  verb->add_option("--only-bins", request->settings.only_bins, "These, in place of the first --bins")
+      ->type_name("NUMBER,..")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->group("Bins");
   verb->add_option("--strategies", request->settings.strategies,
                    "In the bins: of mi-max, random, dis, fixed (default: these) and clairvoyant, which knows "
                    "the scene")

@@ -187,7 +187,7 @@ Notes options(const ExperimentSettings& s) {
 
 std::vector<Cell> cells(const ExperimentSettings& s) {
   std::vector<Cell> list;
-  for (int number = 0; number < s.bins; ++number)
+  for (const int number : s.bin_numbers())
     list.push_back({fmt::format("bin_{:03}", number),
                     [s, number](Backend& backend) { return run_bin(s, number, backend); }});
   return list;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string_view>
 
 #include "host/core/random.h"
@@ -69,6 +70,13 @@ ExperimentSettings ExperimentSettings::full_form() {
   return settings;
 }
 
+std::vector<int> ExperimentSettings::bin_numbers() const {
+  if (!only_bins.empty()) return only_bins;
+  std::vector<int> numbers(static_cast<std::size_t>(bins));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  return numbers;
+}
+
 void ExperimentSettings::validate() const {
   require(scenes >= 1 && scenes <= 10000, "scenes", scenes, "1 to 10000");
   require(groups >= 1 && groups <= 10000, "groups", groups, "1 to 10000");
@@ -78,6 +86,11 @@ void ExperimentSettings::validate() const {
   require(frames_every >= 1, "frames_every", frames_every, "at least 1");
   require(candidates >= 1 && candidates <= 100000, "candidates", candidates, "1 to 100000");
   require(bins >= 1 && bins <= 10000, "bins", bins, "1 to 10000");
+  for (const int bin : only_bins) {
+    require(bin >= 0 && bin < 10000, "only_bins", bin, "0 to 9999");
+    if (std::ranges::count(only_bins, bin) > 1)
+      throw InputError("experiments", "only_bins", std::to_string(bin) + " twice", "each once");
+  }
   require(!strategies.empty(), "strategies", 0, "at least one");
   for (const std::string& strategy : strategies) {
     if (std::ranges::find(STRATEGIES, strategy) == std::end(STRATEGIES))

@@ -33,6 +33,8 @@ struct ExperimentSettings {
   int frames_every = 4;   // of the cat's photographs one in so many is used
   int candidates = 1260;  // of the detection, in every image and for every type
   int bins = 1;           // of the next best view: piled parts, looked at from a hemisphere
+  // The bins of these numbers in place of the first `bins`.
+  std::vector<int> only_bins;
   // In the bins, by name; all from one belief, so that none changes what another finds. Beside these there is
   // CLAIRVOYANT.
   std::vector<std::string> strategies{"mi-max", "random", "dis", "fixed"};
@@ -43,7 +45,8 @@ struct ExperimentSettings {
   ExperimentSettings();
   static ExperimentSettings short_form();  // minutes on two cores
   static ExperimentSettings full_form();   // the paper's numbers of images; two to three hours on two cores
-  void validate() const;                   // InputError naming the field and the violated bound
+  std::vector<int> bin_numbers() const;
+  void validate() const;  // InputError naming the field and the violated bound
 };
 
 // Of a bin's camera and light; how many parts there are and where differs from bin to bin (bin.h).

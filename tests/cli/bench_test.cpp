@@ -121,6 +121,29 @@ TEST(BenchExperiments, RunChosenStrategiesAlone) {
                   {"strategies", "dis twice", "each once"});
 }
 
+// A bin is the same whichever others there are.
+TEST(BenchExperiments, RunChosenBinsAlone) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  const auto run = [&](const std::vector<std::string>& bins) {
+    std::vector<std::string> arguments{
+        "bench", "experiments", "nbv",          "--out", out,           "--image-scale",
+        "0.3",   "--no-times",  "--strategies", "fixed", "--max-views", "1"};
+    arguments.insert(arguments.end(), bins.begin(), bins.end());
+    return run_program(arguments);
+  };
+  ASSERT_EQ(run({"--only-bins", "2"}).exit_code, 0);
+  const std::map<std::string, std::string> found = files_in(out / "cells");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found.begin()->first, "nbv/bin_002.csv");
+  const Table table = load_table(out / "nbv.csv");
+  ASSERT_FALSE(table.rows.empty());
+  for (const std::vector<std::string>& row : table.rows) EXPECT_EQ(row[0], "2");
+  expect_one_line(run({"--only-bins", "2,1,2"}), {"only_bins", "2 twice"});
+  expect_one_line(run({"--only-bins", "-1"}), {"only_bins", "-1"});
+  expect_one_line(run({"--only-bins", "1", "--bins", "2"}), {"--bins, --only-bins", "both"});
+}
+
 TEST(BenchExperiments, OfAnUnknownNameListTheKnownOnes) {
   const TemporaryFolder folder;
   expect_one_line(run_program(experiments(folder.path() / "out", {"registratoin"})),
