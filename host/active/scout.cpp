@@ -1,7 +1,6 @@
 #include "host/active/scout.h"
 
 #include <algorithm>
-#include <climits>
 #include <cmath>
 
 #include "host/active/candidates.h"
@@ -54,35 +53,6 @@ std::vector<ScoutObject> objects_of(std::span<const TemplateSet> sets) {
   }
   return objects;
 }
-
-// The largest object and view that a state speaks of.
-struct Mentioned {
-  int object = -1, view = -1;
-
-  explicit Mentioned(const ScoutState& state) {
-    objects_in(state.candidates);
-    objects_in(state.particles);
-    objects_in(state.modes);
-    objects_in(state.detections);
-    for (const ScoutStep& step : state.steps) {
-      objects_in(step.decision.candidates);
-      objects_in(step.before);
-      objects_in(step.after);
-      objects_in(step.detections);
-      note(view, step.decision.view);
-    }
-    for (const FailedView& failed : state.failed) note(view, failed.view);
-  }
-
- private:
-  // A negative one is none either.
-  static void note(int& most, int index) { most = std::max(most, index < 0 ? INT_MAX : index); }
-  static int object_of(const ModeDetection& x) { return x.detection.object; }
-  static int object_of(const auto& x) { return x.object; }
-  void objects_in(const auto& list) {
-    for (const auto& x : list) note(object, object_of(x));
-  }
-};
 
 ScoutDecision without_expectations(int view, Strategy strategy) {
   ScoutDecision decision;
@@ -333,15 +303,7 @@ void Scout::require_fitting(const Image& image, const Se3& camera_from_world) co
 }
 
 void Scout::resume(ScoutState state, const std::string& source) {
-  const auto same = [](const Se3& a, const Se3& b) {
-    return distance_between_m(a, b) < 1e-6 && angle_between_rad(a, b) < 1e-6;
-  };
-  if (!std::ranges::equal(state.views, state_.views, same))
-    throw InputError(source, "views", "others", "those of this run");
-  if (state.objects != state_.objects) throw InputError(source, "objects", "others", "those of this run");
-  if (const Mentioned mentioned(state); mentioned.object >= static_cast<int>(sets_.size()) ||
-                                        mentioned.view >= static_cast<int>(state.views.size()))
-    throw InputError(source, "indices", "an object or view that is none", "those of this run");
+  require_same_run(state, state_, source);
   std::vector<Observation> observations;
   for (const ScoutStep& step : state.steps) {
     try {

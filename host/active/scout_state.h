@@ -85,4 +85,7 @@ struct ScoutState {
 void save_scout_state(const ScoutState& state, const std::filesystem::path& file);
 ScoutState load_scout_state(const std::filesystem::path& file);
 
+// InputError naming `source`: `saved` has other views or objects than `run`, or speaks of one that is none.
+void require_same_run(const ScoutState& saved, const ScoutState& run, const std::string& source);
+
 }  // namespace edgescout

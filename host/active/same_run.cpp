@@ -1,0 +1,57 @@
+// Whether a saved state can be gone on with.
+#include <algorithm>
+#include <climits>
+
+#include "host/active/scout_state.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+// The largest object and view that a state speaks of.
+struct Mentioned {
+  int object = -1, view = -1;
+
+  explicit Mentioned(const ScoutState& state) {
+    objects_in(state.candidates);
+    objects_in(state.particles);
+    objects_in(state.modes);
+    objects_in(state.detections);
+    for (const ScoutStep& step : state.steps) {
+      objects_in(step.decision.candidates);
+      objects_in(step.before);
+      objects_in(step.after);
+      objects_in(step.detections);
+      note(view, step.decision.view);
+    }
+    for (const FailedView& failed : state.failed) note(view, failed.view);
+  }
+
+ private:
+  // A negative one is none either.
+  static void note(int& most, int index) { most = std::max(most, index < 0 ? INT_MAX : index); }
+  static int object_of(const ModeDetection& x) { return x.detection.object; }
+  static int object_of(const auto& x) { return x.object; }
+  void objects_in(const auto& list) {
+    for (const auto& x : list) note(object, object_of(x));
+  }
+};
+
+bool same_place(const Se3& a, const Se3& b) {
+  return distance_between_m(a, b) < 1e-6 && angle_between_rad(a, b) < 1e-6;
+}
+
+}  // namespace
+
+void require_same_run(const ScoutState& saved, const ScoutState& run, const std::string& source) {
+  if (!std::ranges::equal(saved.views, run.views, same_place))
+    throw InputError(source, "views", "others", "those of this run");
+  if (saved.objects != run.objects) throw InputError(source, "objects", "others", "those of this run");
+  const Mentioned mentioned(saved);
+  if (mentioned.object >= static_cast<int>(run.objects.size()) ||
+      mentioned.view >= static_cast<int>(run.views.size()))
+    throw InputError(source, "indices", "an object or view that is none", "those of this run");
+}
+
+}  // namespace edgescout
