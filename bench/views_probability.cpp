@@ -80,9 +80,9 @@ void print_bin(int number, std::span<const TemplateSet> sets, Backend& backend) 
   std::vector<Detection> found;
   std::vector<RegisterView> views;
   options.detect = [&](int, const Observation& observation, std::span<const Observation> earlier,
-                       std::span<const Hypothesis> already) {
+                       std::span<const Hypothesis>) {
     const std::vector<Detection> here =
-        candidates_in_image(sets, observation, earlier, already, backend, pipeline.detect);
+        candidates_in_image(sets, observation, earlier, {}, backend, pipeline.detect);
     found.insert(found.end(), here.begin(), here.end());
     views.push_back(observation.view);
     return here;

@@ -32,6 +32,12 @@ std::vector<Particle> resample(std::span<const Particle> particles, std::span<co
                                std::span<const EdgeModel> models, int count, const ParticleOptions& options,
                                Random random);
 
+// Lines 18 and 19 of Algorithm 2: resamples where the effective sample size is low or there are more
+// particles than the kernels take. Whether it did. Deterministic from options.seed and the number of images.
+bool resample_where_poor(std::vector<Particle>& particles, std::span<const Mode> modes,
+                         std::span<const EdgeModel> models, std::size_t images,
+                         const ParticleOptions& options);
+
 // An instance the belief holds for real.
 struct ModeDetection {
   Detection detection;  // of the mode's best particle; covariance: of its refinement plus the scatter of the
@@ -47,14 +53,16 @@ struct ModeDetectionOptions {
   EvidenceOptions evidence;           // modes that compete for the same edges: the likeliest stays
 };
 
-// Best probability first. `particles` must have been weighed with these views.
+// Best probability first. `particles` must have been weighed with these views, and not been resampled since:
+// what roughening scatters is no uncertainty.
 std::vector<ModeDetection> mode_detections(std::span<const Particle> particles, std::span<const Mode> modes,
                                            std::span<const TemplateSet> sets,
                                            std::span<const EdgeModel> models,
                                            std::span<const RegisterView> views, Backend& backend,
                                            const ModeDetectionOptions& options = {});
 
-// Those at least so probable: what is known well enough to hide others (register/occluders.h).
+// Those at least so probable: known well enough to hide others (register/occluders.h) and not to be sought
+// again.
 std::vector<Hypothesis> known_objects(std::span<const ModeDetection> detections, double least_probability);
 
 // How undecided the belief is, nats: sum over modes of the entropy of "is an instance or not". Zero where

@@ -36,15 +36,17 @@ Watched watch(const Planning& planning, ThreadPool& pool, const NextViewOptions&
   for (const Particle& particle : planning.particles)
     if (particle.log_weight > -std::numeric_limits<double>::infinity())
       watched.particles.push_back(&particle);
+  // The paper's own formula: seen is what projects into an image, and the real views stand in Upsilon alone.
+  const double seen_px = options.literal ? 0 : options.seen_px;
   watched.seen.resize(watched.particles.size());
   pool.for_each(watched.particles.size(), [&](std::size_t i) {
     const Particle& particle = *watched.particles[i];
-    watched.seen[i] = seen_in(planning.tables[particle.object], particle.world_from_object,
-                              planning.real_views, options.seen_px);
+    watched.seen[i] =
+        seen_in(planning.tables[particle.object], particle.world_from_object, planning.real_views, seen_px);
   });
   for (std::size_t i = 0; i < watched.particles.size(); ++i) {
     const Particle& particle = *watched.particles[i];
-    watched.beliefs.push_back({particle.log_weight, watched.seen[i].count,
+    watched.beliefs.push_back({options.literal ? 0 : particle.log_weight, watched.seen[i].count,
                                planning.tables[particle.object].total,
                                particle.upsilon_px2 / (options.reduction * options.reduction)});
   }
@@ -116,13 +118,14 @@ std::vector<double> mutual_information(const Planning& planning, std::span<const
   return information;
 }
 
-// Sec. 6.4: sum over the candidates of psi times the number of points that no real view has seen.
+// Sec. 6.4: sum over the candidates of psi times the number of points that no real view has seen: that
+// project into none of their images.
 std::vector<double> disocclusion(const Planning& planning, std::span<const std::size_t> open,
-                                 ThreadPool& pool, const NextViewOptions& options) {
+                                 ThreadPool& pool) {
   std::vector<double> gain(open.size(), 0);
   for (const Detection& candidate : planning.candidates) {
     const TemplateTable& table = planning.tables[candidate.object];
-    const SeenPoints seen = seen_in(table, candidate.world_from_object, planning.real_views, options.seen_px);
+    const SeenPoints seen = seen_in(table, candidate.world_from_object, planning.real_views, 0);
     pool.for_each(open.size(), [&](std::size_t i) {
       for (const ParticlePoint& point : showing_points(
                table, planning.views[open[i]] * candidate.world_from_object, planning.camera, seen))
@@ -209,7 +212,7 @@ std::vector<double> information_of(const Planning& planning, std::span<const std
       return information;
     }
     case Strategy::Disocclusion:
-      return disocclusion(planning, open, backend.threads(), options);
+      return disocclusion(planning, open, backend.threads());
     case Strategy::Random:
       return random_values(planning.views.size(), open, planning.real_views.size(), options.seed);
     case Strategy::Fixed:

@@ -25,9 +25,10 @@ struct NextViewOptions {
   double cap_px = 40;      // of distances, image px; at most 15.9 map px
   double sigma_px = 4;     // of the mean distance, image px; at least cap_px / 141
   double tolerance = 0.1;  // of the largest object's diameter: nearer than that a surface hides nothing
-  bool literal = false;    // the paper's own formula (kernels/mutual_information.h)
-  double seen_px = 4;  // a template point was seen in a real view if an edge of its image lies so near, along
-                       // it; 0: if it lies inside the image. At most 8
+  bool literal = false;    // the paper's own formula (kernels/mutual_information.h), all weights equal
+  // A template point was seen in a real view if an edge of its image lies so near, along it; 0: if it lies
+  // inside the image, as in the paper's own formula and in Strategy::Disocclusion always. At most 8.
+  double seen_px = 4;
   VisibilityOptions visibility{96, 0.01};
   // What nobody knows of (undetected parts, clutter, the heap itself) hides more the lower a camera stands. A
   // line of sight is free of it with probability cos^free_sight of its angle to straight above, and a view

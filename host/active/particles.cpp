@@ -6,7 +6,6 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "host/active/modes.h"
 #include "host/core/log.h"
 #include "host/core/option_bounds.h"
 #include "host/core/order.h"
@@ -39,17 +38,19 @@ bool sees(const PoseFeatures& in_view, const ParticleOptions& options) {
 
 double squared(double x) { return x * x; }
 
-bool lives(const Particle& particle, const ParticleOptions& options) {
-  const bool seen =
-      std::ranges::any_of(particle.by_view, [&](const PoseFeatures& f) { return sees(f, options); });
-  return seen && is_finite(particle.world_from_object) &&
-         together(particle.by_view).mean_px <= options.dead_px;
+bool seen_at_all(const Particle& particle, const ParticleOptions& options) {
+  return is_finite(particle.world_from_object) &&
+         std::ranges::any_of(particle.by_view, [&](const PoseFeatures& f) { return sees(f, options); });
 }
 
-// What a view adds to Upsilon where it does not see a particle: -s log of its mean likelihood over those that
-// it sees, by the belief before it. 0 where it sees none.
-double unseen_px2(std::span<const Particle> particles, std::span<const double> log_before, std::size_t view,
-                  const ParticleOptions& options) {
+bool lives(const Particle& particle, const ParticleOptions& options) {
+  return seen_at_all(particle, options) && together(particle.by_view).mean_px <= options.dead_px;
+}
+
+// -s log of a view's mean likelihood over the particles that it sees, by the belief before it; not a number
+// where it sees none.
+double mean_likelihood_px2(std::span<const Particle> particles, std::span<const double> log_before,
+                           std::size_t view, const ParticleOptions& options) {
   std::vector<double> before, after;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const PoseFeatures& f = particles[i].by_view[view];
@@ -57,7 +58,7 @@ double unseen_px2(std::span<const Particle> particles, std::span<const double> l
     before.push_back(log_before[i]);
     after.push_back(log_before[i] - squared(f.mean_px) / options.scale_px2());
   }
-  return before.empty() ? 0 : options.scale_px2() * (log_sum_exp(before) - log_sum_exp(after));
+  return before.empty() ? std::nan("") : options.scale_px2() * (log_sum_exp(before) - log_sum_exp(after));
 }
 
 // To a sum of 1; equal where all are nothing.
@@ -176,39 +177,44 @@ void refine_particles(std::span<const EdgeModel> models, std::span<Particle> par
 }
 
 Weighing weigh_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
-                         std::span<const RegisterView> views, Backend& backend,
-                         const ParticleOptions& options) {
+                         std::vector<double>& unseen_px2, std::span<const RegisterView> views,
+                         Backend& backend, const ParticleOptions& options) {
   check(!views.empty(), "weigh_particles: at least one view");
   const std::vector<PoseFeatures> features =
       pose_features_by_view(models, poses_of(particles), views, backend, options.score, options.visibility);
-  Weighing weighing;
+  unseen_px2.resize(views.size(), std::nan(""));
   std::vector<double> logs;  // of the weights, by what has been spent and the views so far
   for (std::size_t i = 0; i < particles.size(); ++i) {
     Particle& particle = particles[i];
     particle.by_view.assign(features.begin() + i * views.size(), features.begin() + (i + 1) * views.size());
     particle.upsilon_px2 = 0;
-    const bool living = lives(particle, options);
-    weighing.living += living;
-    logs.push_back(living ? particle.spent_px2 / options.scale_px2() : NOTHING);
+    logs.push_back(seen_at_all(particle, options) ? particle.spent_px2 / options.scale_px2() : NOTHING);
   }
   std::vector<double> before_last;
   for (std::size_t v = 0; v < views.size(); ++v) {
-    const double unseen = unseen_px2(particles, logs, v, options);
+    if (std::isnan(unseen_px2[v])) unseen_px2[v] = mean_likelihood_px2(particles, logs, v, options);
+    const double unseen = std::isnan(unseen_px2[v]) ? 0 : unseen_px2[v];
     before_last = logs;
     for (std::size_t i = 0; i < particles.size(); ++i) {
-      Particle& particle = particles[i];
-      const PoseFeatures& f = particle.by_view[v];
-      if (particle.unseen_px2.size() == v) particle.unseen_px2.push_back(unseen);
-      const double counts = sees(f, options) ? squared(f.mean_px) : particle.unseen_px2[v];
-      particle.upsilon_px2 += counts;
+      const PoseFeatures& f = particles[i].by_view[v];
+      const double counts = sees(f, options) ? squared(f.mean_px) : unseen;
+      particles[i].upsilon_px2 += counts;
       logs[i] -= counts / options.scale_px2();
     }
   }
+  Weighing weighing;
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    if (lives(particles[i], options))
+      ++weighing.living;
+    else
+      logs[i] = NOTHING;
   normalise(before_last), normalise(logs);
+  double gained_nats = 0;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     particles[i].log_weight = logs[i];
-    if (logs[i] > NOTHING) weighing.gained_nats += std::exp(logs[i]) * (logs[i] - before_last[i]);
+    if (logs[i] > NOTHING) gained_nats += std::exp(logs[i]) * (logs[i] - before_last[i]);
   }
+  if (weighing.living > 0) weighing.gained_nats = std::max(0.0, gained_nats);  // rounding can take it below
   return weighing;
 }
 
@@ -220,7 +226,7 @@ double effective_sample_size(std::span<const Particle> particles) {
   return total == NOTHING ? 0 : std::exp(2 * total - log_sum_exp(squares));
 }
 
-ParticleUpdate update_particles(std::vector<Particle>& particles, std::span<const TemplateSet> sets,
+ParticleUpdate update_particles(std::vector<Particle>& particles, std::vector<double>& unseen_px2,
                                 std::span<const EdgeModel> models, std::span<const Detection> candidates,
                                 std::span<const RegisterView> views, Backend& backend,
                                 const ParticleOptions& options) {
@@ -229,25 +235,25 @@ ParticleUpdate update_particles(std::vector<Particle>& particles, std::span<cons
   ParticleUpdate update;
   const auto refine_and_weigh = [&] {
     refine_particles(models, particles, views, backend, options);
-    const Weighing weighing = weigh_particles(models, particles, views, backend, options);
+    const Weighing weighing = weigh_particles(models, particles, unseen_px2, views, backend, options);
     update.gained_nats = weighing.gained_nats;
     return weighing.living;
   };
-  if (refine_and_weigh() == 0 && !candidates.empty()) {
-    log(LogLevel::Warning, "all particles died in image " + std::to_string(views.size()) +
-                               "; drawn anew around " + std::to_string(candidates.size()) + " candidates");
-    const Spread wider{options.drawn.min, 2 * options.drawn.max};
-    particles = draw_particles(models, candidates, options.count, wider, random.split("anew"));
-    refine_and_weigh();
-    update.reseeded = true;
+  if (refine_and_weigh() == 0 && !particles.empty()) {
+    const std::string all_died = "all particles died in image " + std::to_string(views.size());
+    if (candidates.empty()) {
+      log(LogLevel::Warning, all_died + ", and there is no candidate to draw others around");
+    } else {
+      log(LogLevel::Warning,
+          all_died + "; drawn anew around " + std::to_string(candidates.size()) + " candidates");
+      const Spread wider{options.drawn.min, 2 * options.drawn.max};
+      particles = draw_particles(models, candidates, options.count, wider, random.split("anew"));
+      unseen_px2.clear();
+      if (refine_and_weigh() == 0) log(LogLevel::Warning, all_died + ", those drawn anew too");
+      update.reseeded = true;
+    }
   }
   update.effective = effective_sample_size(particles);
-  if (update.effective < options.min_effective * double(particles.size()) ||
-      particles.size() > INFORMATION_MAX_PARTICLES) {
-    particles = resample(particles, find_modes(particles, sets, models, options, backend.threads()), models,
-                         options.count, options, random.split("resample"));
-    update.resampled = true;
-  }
   return update;
 }
 

@@ -10,8 +10,8 @@
 //
 // A view that does not see a particle tells nothing about it. It counts for it like the view's mean
 // likelihood over the particles it does see, as far as they were believed in before it: then the particle's
-// share is after the view what it was before. That mean is settled when particle and view meet first
-// (`unseen_px2`): it must not change with those that die later.
+// share is after the view what it was before. That mean is settled when a view sees the first particles
+// (`unseen_px2`), and the same for those that are drawn later.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +36,6 @@ struct Particle {
   double log_weight = 0;                   // natural; weigh_particles makes the weights sum to 1
   double upsilon_px2 = 0;  // log_weight is spent_px2 - upsilon_px2, over s, up to a constant common to all
   double spent_px2 = 0;
-  std::vector<double> unseen_px2;     // one a real view: what it adds to Upsilon where it does not see this
   std::vector<PoseFeatures> by_view;  // at this pose, one a real view; empty until weighed
 };
 
@@ -91,35 +90,36 @@ void refine_particles(std::span<const EdgeModel> models, std::span<Particle> par
 
 struct Weighing {
   std::size_t living = 0;
-  // What the last of the views taught: the Kullback-Leibler divergence of the weights without it from those
-  // with it, at the poses of today. 0 where it says the same of all particles. The information expected of
-  // a view is an expectation of this one (kernels/mutual_information.h).
+  // What the last of the views taught: the Kullback-Leibler divergence of the weights with it from those
+  // without it, at the poses of today. 0 where it says the same of all particles. The information expected of
+  // a view (kernels/mutual_information.h) is the expectation of such a divergence, but for gamma.
   double gained_nats = 0;
 };
 
 // Features in every real view, Upsilon and normalised weights. A particle that is dead (no view sees it, mean
 // DCD above dead_px, pose not finite) has weight 0 (log weight -infinity); where none lives, all weights are
-// equal and nothing was gained.
+// equal and nothing was gained. `unseen_px2` has one entry for each of the views so far, which are given in
+// the same order every time, and grows with them: what a view adds to Upsilon of particles it does not see;
+// not a number while it has seen none at all.
 Weighing weigh_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
-                         std::span<const RegisterView> views, Backend& backend,
-                         const ParticleOptions& options);
+                         std::vector<double>& unseen_px2, std::span<const RegisterView> views,
+                         Backend& backend, const ParticleOptions& options);
 
 // 1 / sum w^2, between 1 and the number of particles; 0 without particles. Weights need not be normalised.
 double effective_sample_size(std::span<const Particle> particles);
 
 // What one real image did to the particles.
 struct ParticleUpdate {
-  double effective = 0;  // sample size before resampling
-  bool resampled = false;
+  double effective = 0;    // sample size before resampling
+  bool resampled = false;  // after it
   bool reseeded = false;   // all had died and were drawn anew around the candidates
   double gained_nats = 0;  // from it, before resampling
 };
 
-// Lines 15-19 of Algorithm 2, after the last of `views` was added: refine, weigh, resample with roughening
-// where the effective sample size is low or there are more than the kernels take. Where every particle died
-// they are drawn anew around the candidates, once, and a warning is logged. Deterministic from options.seed
-// and the number of views.
-ParticleUpdate update_particles(std::vector<Particle>& particles, std::span<const TemplateSet> sets,
+// Lines 15-17 of Algorithm 2, after the last of `views` was added: refine and weigh. Where every particle
+// died they are drawn anew around the candidates, once; a warning is logged, and another where these die too.
+// Deterministic from options.seed and the number of views.
+ParticleUpdate update_particles(std::vector<Particle>& particles, std::vector<double>& unseen_px2,
                                 std::span<const EdgeModel> models, std::span<const Detection> candidates,
                                 std::span<const RegisterView> views, Backend& backend,
                                 const ParticleOptions& options);

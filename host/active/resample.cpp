@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "host/active/modes.h"
-#include "kernels/error.h"
+#include "kernels/mutual_information.h"
 
 namespace edgescout {
 
@@ -85,6 +85,17 @@ std::vector<Particle> resample(std::span<const Particle> particles, std::span<co
       }
   }
   return next;
+}
+
+bool resample_where_poor(std::vector<Particle>& particles, std::span<const Mode> modes,
+                         std::span<const EdgeModel> models, std::size_t images,
+                         const ParticleOptions& options) {
+  if (effective_sample_size(particles) >= options.min_effective * double(particles.size()) &&
+      particles.size() <= INFORMATION_MAX_PARTICLES)
+    return false;
+  particles = resample(particles, modes, models, options.count, options,
+                       Random(options.seed).split("particles").split(images).split("resample"));
+  return true;
 }
 
 }  // namespace edgescout

@@ -181,14 +181,20 @@ void Scout::believe(ScoutStep& step, ScoutState& next, std::span<const RegisterV
   Stopwatch watch(step.stages);
   step.new_candidates = add_particles(next);
   step.before = next.particles;
-  step.update =
-      update_particles(next.particles, sets_, models_, next.candidates, views, backend_, options_.particles);
-  step.after = next.particles;
+  step.update = update_particles(next.particles, next.unseen_px2, models_, next.candidates, views, backend_,
+                                 options_.particles);
   done(watch, "particles");
-  next.modes = find_modes(next.particles, sets_, models_, options_.particles, backend_.threads());
-  next.entropy_nats = step.entropy_nats = belief_entropy(next.modes);
+  const auto modes = [&] {
+    return find_modes(next.particles, sets_, models_, options_.particles, backend_.threads());
+  };
+  next.modes = modes();
   next.detections = step.detections =
       mode_detections(next.particles, next.modes, sets_, models_, views, backend_, options_.detections);
+  step.update.resampled =
+      resample_where_poor(next.particles, next.modes, models_, views.size(), options_.particles);
+  if (step.update.resampled) next.modes = modes();
+  next.entropy_nats = step.entropy_nats = belief_entropy(next.modes);
+  step.after = next.particles;
   done(watch, "modes");
   std::vector<Hypothesis> objects;
   for (const ModeDetection& mode : next.detections)
@@ -233,7 +239,7 @@ ScoutDecision Scout::decide() const {
                                      state_.candidates, &combinations, state_.particles},
                                     backend_, options_.next_view);
   decision.view = best_view(decision.views).value_or(-1);
-  done(watch, "information");
+  watch.lap("information");
   return decision;
 }
 
@@ -264,7 +270,7 @@ ScoutEnd Scout::end_before_planning() const {
 }
 
 bool Scout::little_learned() const {
-  if (state_.steps.empty() || may_find_more()) return false;
+  if (options_.min_gained_nats == 0 || state_.steps.empty() || may_find_more()) return false;
   const ScoutStep& last = state_.steps.back();
   return last.new_candidates == 0 && last.update.gained_nats < options_.min_gained_nats;
 }

@@ -58,7 +58,7 @@ struct ScoutOptions {
   double min_entropy_nats = 0.01;  // less: the modes are certain
   // less expected of the best view (Strategy::Information): not worth the way
   double min_information_nats = 0;
-  double min_gained_nats = 0;       // less from the last image, and no candidate that was not known
+  double min_gained_nats = 0;       // less from the last image, and no new_candidates in it
   double max_seconds = 0;           // of computing
   std::function<bool()> cancelled;  // asked between stages, from the calling thread
   // Fewer hits and candidates an image than a detection that has but one: what an image misses, the next one

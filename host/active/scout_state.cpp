@@ -83,8 +83,7 @@ void fields(auto& io, A<Detection> auto& x) {
      x.evidence, x.unexplained_grey, x.convergence);
 }
 void fields(auto& io, A<Particle> auto& x) {
-  io(x.object, x.world_from_object, x.covariance, x.log_weight, x.upsilon_px2, x.spent_px2, x.unseen_px2,
-     x.by_view);
+  io(x.object, x.world_from_object, x.covariance, x.log_weight, x.upsilon_px2, x.spent_px2, x.by_view);
 }
 void fields(auto& io, A<ScoutDecision> auto& x) {
   io(x.view, x.strategy, x.views, x.candidates, x.likeliest, x.unlikeliest, x.stages);
@@ -94,8 +93,8 @@ void fields(auto& io, A<ScoutStep> auto& x) {
      x.agreement, x.entropy_nats, x.stages);
 }
 void fields(auto& io, A<ScoutState> auto& x) {
-  io(x.objects, x.views, x.steps, x.failed, x.candidates, x.particles, x.modes, x.detections, x.entropy_nats,
-     x.end);
+  io(x.objects, x.views, x.steps, x.failed, x.candidates, x.particles, x.unseen_px2, x.modes, x.detections,
+     x.entropy_nats, x.end);
 }
 
 double sum(const std::vector<StageSeconds>& stages) {

@@ -69,6 +69,7 @@ struct ScoutState {
   std::vector<FailedView> failed;     // never proposed again
   std::vector<Detection> candidates;  // world, best probability first
   std::vector<Particle> particles;
+  std::vector<double> unseen_px2;  // weigh_particles', one an image
   std::vector<Mode> modes;
   std::vector<ModeDetection> detections;  // the modes that are instances, best probability first
   double entropy_nats = 0;

@@ -57,7 +57,9 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
   OptionTable(verb, "Information")
       .bounded("map-reduction", o.next_view.reduction, 1.0, 16.0, "Image px a px of the distance maps")
       .bounded("chamfer-cap", o.next_view.cap_px, 0.1, 255.0, "Of distances, image px")
-      .bounded("sigma", o.next_view.sigma_px, 0.001, 1000.0, "Of the mean distance of a right pose, image px")
+      .bounded("sigma", o.next_view.sigma_px, 0.001, 1000.0,
+               "Of the mean distance of a right pose, image px, in weights and in the information; at least "
+               "1/141 of --chamfer-cap")
       .bounded("free-sight", o.next_view.free_sight, 0.0, 100.0,
                "How much lower cameras are hidden by what is unknown; 0: not at all")
       .bounded("repeat-angle", o.next_view.repeat_rad, 0.0, 100.0,
@@ -76,7 +78,7 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
       .bounded("max-candidates", o.max_candidates, 1, 10000,
                "Of all objects together, kept from image to image")
       .bounded("known-probability", o.known_probability, 0.0, 2.0,
-               "As probable instances hide what is behind them; above 1: none do")
+               "As probable instances are not sought again and hide what is behind them; above 1: none do")
       .flag("jointly,!--alone", o.detect_jointly,
             "Detect in later images with the help of those before (default), or in each alone")
       .flag("every-image,!--first-image-only", o.detect_in_every_image,

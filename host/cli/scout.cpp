@@ -68,7 +68,8 @@ void refuse_idle_options(const ScoutRequest& request, const CLI::App& verb) {
   if (o.next_view.strategy != Strategy::Fixed)
     refuse("--sequence", "--strategy " + request.strategy, "fixed");
   if (o.next_view.strategy != Strategy::Information)
-    refuse("--min-information", "--strategy " + request.strategy, "mi-max");
+    for (const char* option : {"--min-information", "--metre-cost", "--radian-cost"})
+      refuse(option, "--strategy " + request.strategy, "mi-max");
   if (o.probable_combinations) refuse("--sharpness", "--scenes-by-probability", "--scenes-by-psi");
   if (o.next_view.literal)
     for (const char* option : {"--free-sight", "--repeat-angle"})
@@ -82,6 +83,7 @@ void settle_options(ScoutRequest& request, const CLI::App& verb) {
   o.next_view.strategy = strategy_from(request.strategy);
   o.next_view.sequence = request.sequence;
   refuse_idle_options(request, verb);
+  o.particles.sigma_px = o.next_view.sigma_px;  // one model of how far right poses lie, seen or expected
   o.next_view.seed = o.combinations.seed = o.particles.seed = request.draws_seed;
   if (!request.sequence.empty() && verb.count("--first-view") == 0) o.first_view = request.sequence.front();
   o.validate();

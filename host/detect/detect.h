@@ -44,7 +44,8 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
 // (joint_scan.h), registered in all of them, and ranked by what all of them say (probability_over_views.h).
 // Of many others some are taken (helping_views.h). Refined::by_view has the given view first, then those that
 // helped. `known` are the instances of the object that need not be found again, in the world of the views:
-// they take no place among hits and candidates.
+// hits within a fifth of the diameter are not aligned (nor those of another part stacked so near on one), and
+// what ends within a tenth is no candidate.
 std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation,
                                      std::span<const Observation> others, std::span<const Se3> known,
                                      Backend& backend, const DetectOptions& options);

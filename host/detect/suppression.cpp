@@ -82,15 +82,18 @@ std::vector<std::size_t> best_different(std::span<const Se3> poses, std::span<co
   return best;
 }
 
-KnownPoses::KnownPoses(std::vector<Se3> poses, const Mesh& mesh, const Symmetries& symmetries)
-    : corners_(box_corners(mesh)) {
+KnownPoses::KnownPoses(std::span<const Se3> poses, const Mesh& mesh, const Symmetries& symmetries)
+    : corners_(box_corners(mesh)), center_m_(0.5 * (mesh.box_min_m + mesh.box_max_m)) {
   for (const Se3& pose : poses)
     for (const Se3& symmetry : symmetries.discrete) poses_.push_back(pose * symmetry);
 }
 
 bool KnownPoses::any_within(double radius_m, const Se3& pose) const {
+  const Eigen::Vector3d here = pose * center_m_;
   return std::ranges::any_of(poses_, [&](const Se3& known) {
-    return corner_distance_m(pose, known, corners_, radius_m) < radius_m;
+    // Some corner moves as far as their centre.
+    return (known * center_m_ - here).squaredNorm() < radius_m * radius_m &&
+           corner_distance_m(pose, known, corners_, radius_m) < radius_m;
   });
 }
 

@@ -28,13 +28,14 @@ std::vector<std::size_t> best_different(std::span<const Se3> poses, std::span<co
 // Poses of one object where something is known to be.
 class KnownPoses {
  public:
-  KnownPoses(std::vector<Se3> poses, const Mesh& mesh, const Symmetries& symmetries);
+  KnownPoses(std::span<const Se3> poses, const Mesh& mesh, const Symmetries& symmetries);
   // Whether one of them lies within `radius_m` (pose_distance_m).
   bool any_within(double radius_m, const Se3& pose) const;
 
  private:
   std::vector<Se3> poses_;  // each in all its symmetric forms
   std::array<Eigen::Vector3d, 8> corners_;
+  Eigen::Vector3d center_m_;
 };
 
 }  // namespace edgescout

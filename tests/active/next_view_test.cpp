@@ -169,6 +169,20 @@ TEST(ViewInformation, IsWorthLessWhereTheUnknownMayHideMore) {
   does_not_matter();
 }
 
+// Real views stand in Upsilon alone there: weights that follow from them would count them twice.
+TEST(ViewInformation, OfThePapersFormulaWeighsAllParticlesAlike) {
+  Plan t;
+  t.options.literal = true;
+  for (std::size_t i = 0; i < t.particles.size(); ++i) t.particles[i].upsilon_px2 = 0.5 * double(i);
+  const std::vector<ViewInformation> alike = t.information();
+  for (std::size_t i = 0; i < t.particles.size(); ++i) t.particles[i].log_weight = -0.1 * double(i);
+  const std::vector<ViewInformation> weighed = t.information();
+  for (std::size_t v = 1; v < alike.size(); ++v) {
+    EXPECT_GT(alike[v].information, 0);
+    EXPECT_EQ(weighed[v].information, alike[v].information);
+  }
+}
+
 // What the nearest real view is, by the angle at what all look at, has told already.
 TEST(ViewInformation, IsWorthLessNearARealView) {
   Plan t;

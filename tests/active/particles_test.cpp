@@ -119,6 +119,7 @@ struct IdealScene {
   PartScene part;
   std::vector<EdgeModel> models;
   ParticleOptions options;
+  std::vector<double> unseen_px2;
   explicit IdealScene(Random& random) : part("l_bracket", 3, random, *backend), models{part.model} {}
   Particle off_by(double distance_m, Random& random) const {
     Vector6d off = Vector6d::Zero();
@@ -134,7 +135,8 @@ TEST(WeighParticles, FollowsTheSquaredMeansOfAllViews) {
   IdealScene t(random);
   std::vector<Particle> particles;
   for (double d : {0.0, 0.001, 0.003, 0.006}) particles.push_back(t.off_by(d, random));
-  ASSERT_EQ(weigh_particles(t.models, particles, t.part.views, *t.backend, t.options).living, 4u);
+  ASSERT_EQ(weigh_particles(t.models, particles, t.unseen_px2, t.part.views, *t.backend, t.options).living,
+            4u);
   // Oracle: the registration's own mean residual in each view.
   D2coOptions still;
   still.rounds = {{LOSS_HUBER, 1000, 1, 0}};
@@ -174,13 +176,13 @@ TEST(WeighParticles, AViewThatSeesNothingOfAParticleLeavesItsShare) {
   std::vector<Particle> particles;
   for (int i = 0; i < 6; ++i) particles.push_back(t.off_by(0.001 * i, random));
   std::vector<RegisterView> views(t.part.views.begin(), t.part.views.begin() + 1);
-  weigh_particles(t.models, particles, views, *t.backend, t.options);
+  weigh_particles(t.models, particles, t.unseen_px2, views, *t.backend, t.options);
   std::vector<double> before;
   for (const Particle& p : particles) before.push_back(p.log_weight);
   // A camera that looks the other way sees none of them.
   views.push_back(t.part.views[1]);
   views[1].camera_from_world = Se3{so3_exp({0, 3, 0}), {0, 0, 0}} * views[1].camera_from_world;
-  EXPECT_EQ(weigh_particles(t.models, particles, views, *t.backend, t.options).living, 6u);
+  EXPECT_EQ(weigh_particles(t.models, particles, t.unseen_px2, views, *t.backend, t.options).living, 6u);
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(particles[i].log_weight, before[i], 1e-9);
 }
 
@@ -192,6 +194,7 @@ struct HalfSeen {
   std::vector<RegisterView> views;
   std::vector<Particle> particles;  // the first one beside the second view's image
   ParticleOptions options;
+  std::vector<double> unseen_px2;
 
   explicit HalfSeen(Random& random) {
     const Se3 truth{random.rotation(), {1, 2, 0.5}};
@@ -211,7 +214,7 @@ struct HalfSeen {
     particles.emplace_back().world_from_object = {truth.rotation, truth.translation_m + off_m};
   }
   Weighing weigh(std::size_t view_count) {
-    return weigh_particles(models, particles, {views.data(), view_count}, *backend, options);
+    return weigh_particles(models, particles, unseen_px2, {views.data(), view_count}, *backend, options);
   }
 };
 
@@ -226,11 +229,79 @@ TEST(WeighParticles, AViewThatSeesOthersLeavesAParticleItsShare) {
   EXPECT_NEAR(t.particles[0].log_weight, before[0].log_weight, 1e-9);
   EXPECT_GT(t.particles[1].log_weight, before[1].log_weight + 0.2);
   EXPECT_LT(t.particles[4].log_weight, before[4].log_weight - 0.2);
-  // Those that do not fit die: what the view counts for a particle it does not see has been settled before.
+  // Those that do not fit die, and a new one is drawn beside the image: what the view counts for a particle
+  // it does not see has been settled before.
   const double ratio = t.particles[0].log_weight - t.particles[1].log_weight;
   t.particles.resize(4);
+  t.particles.push_back(before[0]);
   t.weigh(2);
   EXPECT_NEAR(t.particles[0].log_weight - t.particles[1].log_weight, ratio, 1e-9);
+  EXPECT_EQ(t.particles[4].log_weight, t.particles[0].log_weight);
+}
+
+// However they are drawn anew, one that a view does not see has the share it had.
+TEST(WeighParticles, AnUnseenOneKeepsItsShareOverResampling) {
+  Random random = test_random();
+  HalfSeen t(random);
+  const std::vector<TemplateSet> sets{set_of(make_part("l_bracket"))};
+  t.options.roughened = {0, 0};
+  t.options.min_mode_probability = 0;
+  t.options.sigma_px = 40;
+  t.weigh(2);
+  const Eigen::Vector3d beside_m = t.particles[0].world_from_object.translation_m;
+  const auto share = [&] {
+    double sum = 0;
+    for (const Particle& p : t.particles)
+      if ((p.world_from_object.translation_m - beside_m).norm() < 1e-6) sum += std::exp(p.log_weight);
+    return sum;
+  };
+  const double before = share();
+  EXPECT_GT(before, 0.01);
+  for (int round = 0; round < 3; ++round) {
+    t.particles =
+        resample(t.particles, find_modes(t.particles, sets, t.models, t.options, t.backend->threads()),
+                 t.models, 200, t.options, random.split(round));
+    EXPECT_NEAR(share(), before, 1e-9);
+    t.weigh(2);
+    EXPECT_NEAR(share(), before, 0.02 * before);
+  }
+}
+
+// A view that sees nothing so far tells nothing; of one that is drawn into its image it tells what it shows.
+TEST(WeighParticles, AViewSettlesWhenItSeesTheFirstOnes) {
+  Random random = test_random();
+  HalfSeen t(random);
+  const std::vector<Particle> all = t.particles;
+  t.particles = {all[0], all[0]};
+  t.particles[1].world_from_object.translation_m.x() += 0.002;
+  t.weigh(1);
+  const double before = t.particles[0].log_weight;
+  t.weigh(2);
+  EXPECT_TRUE(std::isnan(t.unseen_px2[1]));
+  EXPECT_NEAR(t.particles[0].log_weight, before, 1e-12);
+  t.particles.push_back(all[1]);
+  t.weigh(2);
+  EXPECT_NEAR(t.unseen_px2[1], t.particles[2].by_view[1].mean_px * t.particles[2].by_view[1].mean_px, 1e-9);
+}
+
+// Those that a view proves wrong are what it taught most about.
+TEST(WeighParticles, LearnsFromWhatDies) {
+  Random random = test_random();
+  HalfSeen t(random);
+  const double deathless_nats = t.weigh(2).gained_nats;
+  const std::vector<Particle> deathless = t.particles;
+  std::vector<double> means;
+  for (const Particle& p : deathless) means.push_back(together(p.by_view).mean_px);
+  std::ranges::nth_element(means, means.begin() + 12);
+  t.options.dead_px = means[12];  // half of them die
+  t.unseen_px2.clear();
+  const Weighing weighing = t.weigh(2);
+  EXPECT_EQ(weighing.living, 13u);
+  EXPECT_GT(deathless_nats, 0.05);
+  EXPECT_NEAR(weighing.gained_nats, deathless_nats, 0.1 * deathless_nats);
+  for (std::size_t i = 2; i < 4; ++i)
+    EXPECT_NEAR(t.particles[i].log_weight - t.particles[1].log_weight,
+                deathless[i].log_weight - deathless[1].log_weight, 1e-9);
 }
 
 TEST(WeighParticles, TellsWhatTheLastViewTaught) {
@@ -260,12 +331,14 @@ TEST(WeighParticles, TheDeadHaveNoWeight) {
   IdealScene t(random);
   std::vector<Particle> particles{t.off_by(0.001, random), t.off_by(0.001, random), t.off_by(30, random)};
   particles[1].world_from_object.translation_m.x() = std::nan("");
-  EXPECT_EQ(weigh_particles(t.models, particles, t.part.views, *t.backend, t.options).living, 1u);
+  EXPECT_EQ(weigh_particles(t.models, particles, t.unseen_px2, t.part.views, *t.backend, t.options).living,
+            1u);
   EXPECT_NEAR(particles[0].log_weight, 0, 1e-12);
   EXPECT_EQ(particles[1].log_weight, -INFINITE);
   EXPECT_EQ(particles[2].log_weight, -INFINITE);
   particles.erase(particles.begin());
-  EXPECT_EQ(weigh_particles(t.models, particles, t.part.views, *t.backend, t.options).living, 0u);
+  EXPECT_EQ(weigh_particles(t.models, particles, t.unseen_px2, t.part.views, *t.backend, t.options).living,
+            0u);
   for (const Particle& p : particles) EXPECT_NEAR(p.log_weight, -std::log(2.0), 1e-12);
 }
 
@@ -283,7 +356,7 @@ TEST(WeighParticles, CountsNoViewTwiceAfterResampling) {
   for (Particle& p : particles)
     if (distance_between_m(p.world_from_object, t.part.truth) > 0.01)
       p.world_from_object = particles[0].world_from_object;
-  weigh_particles(t.models, particles, t.part.views, *t.backend, t.options);
+  weigh_particles(t.models, particles, t.unseen_px2, t.part.views, *t.backend, t.options);
   const auto weight_of_truth = [&] {
     double sum = 0;
     for (const Particle& p : particles)
@@ -301,7 +374,7 @@ TEST(WeighParticles, CountsNoViewTwiceAfterResampling) {
     for (Particle& p : particles)
       if (distance_between_m(p.world_from_object, t.part.truth) > 0.005)
         p.world_from_object = particles.back().world_from_object;
-    weigh_particles(t.models, particles, t.part.views, *t.backend, t.options);
+    weigh_particles(t.models, particles, t.unseen_px2, t.part.views, *t.backend, t.options);
     EXPECT_NEAR(weight_of_truth(), before, 0.02);
   }
 }
@@ -318,17 +391,30 @@ TEST(WeighParticles, LateOnesFindTheirShare) {
   const Particle late = t.off_by(0.008, random);
   std::vector<Particle> from_the_start = early;
   from_the_start.push_back(late);
-  weigh_particles(t.models, from_the_start, t.part.views, *t.backend, t.options);
+  weigh_particles(t.models, from_the_start, t.unseen_px2, t.part.views, *t.backend, t.options);
   for (int round = 0; round < 2; ++round) {
-    weigh_particles(t.models, early, t.part.views, *t.backend, t.options);
+    weigh_particles(t.models, early, t.unseen_px2, t.part.views, *t.backend, t.options);
     early = resample(early, find_modes(early, sets, t.models, t.options, t.backend->threads()), t.models, 50,
                      t.options, random.split(round));
   }
   early.push_back(late);
-  weigh_particles(t.models, early, t.part.views, *t.backend, t.options);
+  weigh_particles(t.models, early, t.unseen_px2, t.part.views, *t.backend, t.options);
   EXPECT_GT(from_the_start.back().log_weight, -6);
   EXPECT_LT(from_the_start.back().log_weight, -2.8);
   EXPECT_NEAR(early.back().log_weight, from_the_start.back().log_weight, 0.05);
+}
+
+// As a scout does it.
+ParticleUpdate updated(std::vector<Particle>& particles, std::vector<double>& unseen_px2,
+                       const RenderedScene& t, std::span<const Detection> candidates,
+                       std::span<const RegisterView> views, Backend& backend,
+                       const ParticleOptions& options) {
+  ParticleUpdate update =
+      update_particles(particles, unseen_px2, t.models, candidates, views, backend, options);
+  update.resampled =
+      resample_where_poor(particles, find_modes(particles, t.sets, t.models, options, backend.threads()),
+                          t.models, views.size(), options);
+  return update;
 }
 
 // Three parts of two kinds: their candidates some millimetres off, and two where nothing is.
@@ -342,13 +428,13 @@ TEST(UpdateParticles, FindsTheInstancesAndDropsTheRest) {
   candidates.push_back(t.false_candidate(1, {0.05, 0.03, 0.07}, random));
   ParticleOptions options;
   options.count = 40;
+  std::vector<double> unseen_px2;
   std::vector<Particle> particles =
       draw_particles(t.models, candidates, options.count, options.drawn, random);
   const std::vector<RegisterView> all = t.views(*backend);
   for (std::size_t seen = 1; seen <= 3; ++seen) {
     const std::span<const RegisterView> views(all.data(), seen);
-    const ParticleUpdate update =
-        update_particles(particles, t.sets, t.models, candidates, views, *backend, options);
+    const ParticleUpdate update = updated(particles, unseen_px2, t, candidates, views, *backend, options);
     std::printf("%zu views: effective %.1f of %zu%s\n", seen, update.effective, particles.size(),
                 update.resampled ? ", resampled" : "");
     EXPECT_FALSE(update.reseeded);
@@ -391,9 +477,10 @@ TEST(UpdateParticles, DrawsAnewWhereAllDied) {
   std::vector<Particle> particles =
       draw_particles(t.models, candidates, options.count, options.drawn, random);
   for (Particle& p : particles) p.world_from_object.translation_m.z() += 5;  // behind the camera
+  std::vector<double> unseen_px2;
   const CollectedLog log;
   const ParticleUpdate update =
-      update_particles(particles, t.sets, t.models, candidates, t.views(*backend), *backend, options);
+      updated(particles, unseen_px2, t, candidates, t.views(*backend), *backend, options);
   EXPECT_TRUE(update.reseeded);
   ASSERT_EQ(log.messages.size(), 1u);
   EXPECT_NE(log.messages[0].second.find("all particles died"), std::string::npos);
@@ -402,6 +489,30 @@ TEST(UpdateParticles, DrawsAnewWhereAllDied) {
   EXPECT_LT(distance_between_m(particles[modes[0].particles[0]].world_from_object,
                                t.scene.placed[0].world_from_object),
             0.006);
+}
+
+TEST(UpdateParticles, SaysWhereNothingCanBeDrawnAnew) {
+  Random random = test_random();
+  const RenderedScene t({"l_bracket"}, 1, 1);
+  const auto backend = make_cpu_backend(2);
+  std::vector<Detection> candidates{t.candidate(0, 0.003, 0.05, random)};
+  candidates[0].world_from_object.translation_m.z() += 5;  // behind the camera, and all around it
+  ParticleOptions options;
+  options.count = 10;
+  const auto messages = [&](std::span<const Detection> around) {
+    std::vector<Particle> particles =
+        draw_particles(t.models, candidates, options.count, options.drawn, random);
+    std::vector<double> unseen_px2;
+    const CollectedLog log;
+    update_particles(particles, unseen_px2, t.models, around, t.views(*backend), *backend, options);
+    EXPECT_EQ(particles.size(), 10u);
+    for (const Particle& p : particles) EXPECT_NEAR(p.log_weight, -std::log(10.0), 1e-12);
+    std::string all;
+    for (const auto& message : log.messages) all += message.second + "\n";
+    return all;
+  };
+  EXPECT_NE(messages(candidates).find("those drawn anew too"), std::string::npos);
+  EXPECT_NE(messages({}).find("no candidate to draw others around"), std::string::npos);
 }
 
 TEST(UpdateParticles, IsTheSameAgain) {
@@ -417,7 +528,8 @@ TEST(UpdateParticles, IsTheSameAgain) {
     options.seed = seed;
     std::vector<Particle> particles =
         draw_particles(t.models, candidates, options.count, options.drawn, Random(3));
-    update_particles(particles, t.sets, t.models, candidates, t.views(*backend), *backend, options);
+    std::vector<double> unseen_px2;
+    updated(particles, unseen_px2, t, candidates, t.views(*backend), *backend, options);
     std::vector<double> numbers;
     for (const Particle& p : particles) numbers.push_back(p.world_from_object.translation_m.x());
     return numbers;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+
 #include "host/active/scout_state.h"
 
 namespace edgescout::test {
@@ -21,12 +23,18 @@ inline void expect_same(const ScoutState& a, const ScoutState& b) {
       EXPECT_EQ(a.steps[i].decision.views[v].information, b.steps[i].decision.views[v].information);
     EXPECT_EQ(a.steps[i].image.pixels, b.steps[i].image.pixels);
     EXPECT_EQ(a.steps[i].entropy_nats, b.steps[i].entropy_nats);
+    EXPECT_EQ(a.steps[i].update.gained_nats, b.steps[i].update.gained_nats);
   }
   ASSERT_EQ(a.particles.size(), b.particles.size());
   for (std::size_t i = 0; i < a.particles.size(); ++i) {
     EXPECT_TRUE(same(a.particles[i].world_from_object, b.particles[i].world_from_object)) << i;
     EXPECT_EQ(a.particles[i].log_weight, b.particles[i].log_weight);
+    EXPECT_EQ(a.particles[i].upsilon_px2, b.particles[i].upsilon_px2);
+    EXPECT_EQ(a.particles[i].spent_px2, b.particles[i].spent_px2);
   }
+  ASSERT_EQ(a.unseen_px2.size(), b.unseen_px2.size());
+  for (std::size_t v = 0; v < a.unseen_px2.size(); ++v)  // not a number in both is the same
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(a.unseen_px2[v]), std::bit_cast<std::uint64_t>(b.unseen_px2[v]));
   ASSERT_EQ(a.detections.size(), b.detections.size());
   for (std::size_t i = 0; i < a.detections.size(); ++i) {
     EXPECT_TRUE(

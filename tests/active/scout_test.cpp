@@ -160,6 +160,27 @@ TEST(Scout, EndsByEachOfItsLimits) {
             End(ScoutEnd::NoViewLeft, 1));
 }
 
+// Copies are moved apart so that they can be told apart, not because anybody doubts their places.
+TEST(Scout, TakesNoRoughnessForUncertainty) {
+  SmallCell t;
+  SimulatedCell cell = t.source();
+  const auto found = [&](const Spread& roughened) {
+    ScoutOptions options = t.options();
+    options.max_views = 1;
+    options.particles.min_effective = 1;
+    options.particles.roughened = roughened;
+    Scout scout = t.scout(options);
+    run_scout(scout, cell);
+    EXPECT_TRUE(scout.state().steps[0].update.resampled);
+    return scout.state().detections;
+  };
+  const std::vector<ModeDetection> smooth = found({0, 0}), rough = found({0.05, 0.1});
+  ASSERT_FALSE(smooth.empty());
+  ASSERT_EQ(smooth.size(), rough.size());
+  for (std::size_t i = 0; i < smooth.size(); ++i)
+    EXPECT_EQ(smooth[i].detection.covariance, rough[i].detection.covariance);
+}
+
 // No information where nothing was found is no reason to stop looking.
 TEST(Scout, GoesOnWhereTheFirstImageShowsNothing) {
   SmallCell t;

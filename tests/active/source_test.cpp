@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "host/active/views.h"
+#include "host/detect/observation.h"
 #include "host/io/image.h"
+#include "host/io/mesh.h"
+#include "host/register/pose_features.h"
 #include "host/render/parts.h"
 #include "host/render/write_bop.h"
 #include "kernels/error.h"
@@ -163,6 +166,34 @@ TEST(RecordedViews, AreThoseOfAVispFolder) {
   expect_input_error([&] { load_recorded_views(folder, camera); }, {"Camera_002.txt", "rotation"});
   t.folder.write("castle/CameraPose/Camera_002.txt", "1 0 0 0\n0 1 0\n");
   expect_input_error([&] { load_recorded_views(folder, camera); }, {"Camera_002.txt"});
+}
+
+// The folder itself, where Debian's package visp-images-data is installed: the castle's edges lie where its
+// model has them, in every image.
+TEST(RecordedViews, AreThoseOfTheCastle) {
+  const fs::path folder = "/usr/share/visp-images-data/ViSP-images/mbt-depth/Castle-simu";
+  if (!fs::exists(folder)) GTEST_SKIP() << "visp-images-data is not installed";
+  const Camera camera{640, 480, 700, 700, 320, 240, {}};  // as its Config/chateau.xml says
+  RecordedViews source = load_recorded_views(folder, camera);
+  const std::vector<Se3> views = source.views();
+  ASSERT_EQ(views.size(), 40u);
+  const auto backend = make_cpu_backend(2);
+  const std::vector<EdgeModel> models{
+      make_edge_model(load_mesh(folder / "Models" / "chateau.cao", LengthUnit::Metre))};
+  const std::vector<Hypothesis> poses{{0, Se3{}}, {0, {Eigen::Quaterniond::Identity(), {0.01, 0.01, 0}}}};
+  double worst_px = 0;
+  for (int v = 0; v < 40; v += 3) {
+    const Shot shot = source.acquire(v);
+    const RegisterView view = observe(shot.image, camera, shot.camera_from_world,
+                                      find_edges(shot.image, {}, *backend), 1, {}, *backend)
+                                  .view;
+    const std::vector<PoseFeatures> features = pose_features(models, poses, {&view, 1}, *backend, {});
+    EXPECT_GT(features[0].points, 100) << v;
+    EXPECT_GT(features[1].mean_px, 1.5 * features[0].mean_px) << v;
+    worst_px = std::max(worst_px, features[0].mean_px);
+  }
+  std::printf("at its place %.1f px at most\n", worst_px);
+  EXPECT_LT(worst_px, 6);
 }
 
 TEST(CallbackSource, CallsBack) {

@@ -100,7 +100,10 @@ TEST(Scout, FindsThePartAndShowsHow) {
   expect_self_contained(page);
   EXPECT_EQ(count_of(page, "<svg class=hemisphere"), 3u);
   EXPECT_EQ(count_of(page, "particles before"), 3u);
+  EXPECT_EQ(count_of(page, "nats gained"), 3u);
+  EXPECT_EQ(count_of(page, "objects after this image"), 3u);
   EXPECT_EQ(count_of(page, "Likeliest scene"), 2u);
+  EXPECT_EQ(count_of(page, "nlikeliest"), 2u);
   EXPECT_EQ(page.find("http-equiv=refresh"), std::string::npos) << "it is finished";
 }
 
@@ -301,6 +304,8 @@ TEST(Scout, RefusesWhatItCannotUse) {
   refused(t.arguments({"--sequence", "1", "2"}), {"--sequence", "--strategy mi-max"});
   refused(t.arguments({"--strategy", "dis", "--min-information", "0.1"}),
           {"--min-information", "--strategy dis"});
+  refused(t.arguments({"--strategy", "random", "--metre-cost", "0.1"}),
+          {"--metre-cost", "--strategy random"});
   refused(t.arguments({"--sharpness", "2"}), {"--sharpness", "--scenes-by-psi"});
   refused(t.arguments({"--literal", "--free-sight", "1"}), {"--free-sight", "--literal"});
   refused(t.arguments({"--elevations", "120"}), {"elevation"});

@@ -128,7 +128,7 @@ TEST(KnownPoses, HoldWhatIsNearModuloSymmetry) {
     }
     EXPECT_GT(near, 40);
     EXPECT_LT(near, 360);
-    EXPECT_FALSE(KnownPoses({}, object.mesh, object.symmetries).any_within(1, known[0]));
+    EXPECT_FALSE(KnownPoses(std::span<const Se3>{}, object.mesh, object.symmetries).any_within(1, known[0]));
   }
 }
 

@@ -49,9 +49,15 @@ TEST_P(MutualInformationPaths, AgreesWithTheReference) {
     const test::ChamferScene scene = test::random_scene(rng, size);
     const std::vector<ParticleBelief> beliefs = random_beliefs(rng, scene.view().particles());
     const double least = test_cap_px * test_cap_px / INFORMATION_MAX_SHARPNESS;
-    expect_equal(
-        scene, beliefs,
-        {{least, false}, {0.5, false}, {8, false}, {300, false}, {0.5, true}, {8, true}, {300, true}});
+    expect_equal(scene, beliefs,
+                 {{least, false},
+                  {least, true},
+                  {0.5, false},
+                  {8, false},
+                  {300, false},
+                  {0.5, true},
+                  {8, true},
+                  {300, true}});
   }
   std::printf("differ by %.1e at most; up to %.3f nats\n", worst, largest);
   EXPECT_GT(largest, 0.3);
