@@ -48,9 +48,14 @@ TEST(Scout, TakesCandidatesFromADetectorOfOnesOwn) {
   off << 0.002, -0.001, 0.001, 0.02, 0.03, -0.02;
   near_truth.world_from_object = retract(t.scene.placed[0].world_from_object, off);
   near_truth.psi = 0.9;
-  options.detect = [&](int view, const Observation& observation, std::span<const Observation>,
-                       std::span<const Hypothesis>) {
+  options.known_probability = 0.2;
+  options.detect = [&](int view, const Observation& observation, std::span<const Observation> earlier,
+                       std::span<const Hypothesis> known) {
     EXPECT_EQ(observation.view.camera.width, t.camera().width);
+    EXPECT_EQ(earlier.size(), asked.size());
+    EXPECT_EQ(known.size(), asked.empty() ? 0u : 1u);
+    for (const Hypothesis& instance : known)
+      EXPECT_LT(distance_between_m(instance.world_from_object, t.scene.placed[0].world_from_object), 0.002);
     asked.push_back(view);
     return std::vector{near_truth};
   };

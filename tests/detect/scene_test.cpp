@@ -21,8 +21,8 @@ struct RenderedPart {
   std::vector<Rendering> renderings;
   std::vector<TemplateSet> sets;
 
-  explicit RenderedPart(const std::string& name, int views = 1) : part(make_part(name)) {
-    scene = make_scene(std::span(&part, 1), bare_board(1, views));
+  explicit RenderedPart(const std::string& name, int views = 1, int count = 1) : part(make_part(name)) {
+    scene = make_scene(std::span(&part, 1), bare_board(count, views));
     ThreadPool pool(2);
     renderings = render(scene, pool);
     sets.push_back(build_templates(part, near_templates(0.03), *make_cpu_backend(2)));
@@ -163,6 +163,32 @@ TEST(FindCandidates, LeavesOutWhatIsKnown) {
   EXPECT_LT(nearest({}), 0.02);
   EXPECT_GT(nearest(known), 0.1);
   EXPECT_LT(nearest(known), 1) << "others are still found";
+}
+
+// Of two parts the better one is all that is found where there is one place; known, it leaves it to the
+// other.
+TEST(FindCandidates, HaveMorePlaceWhereSomethingIsKnown) {
+  const RenderedPart t("bearing_block", 3, 2);
+  const auto backend = make_cpu_backend(2);
+  std::vector<Observation> views;
+  for (std::size_t v = 0; v < 3; ++v)
+    views.push_back(observe_prepared(t.prepared(v, t.scene.views[v].camera_from_world, *backend), t.sets,
+                                     *backend, t.options()));
+  DetectOptions options = t.options().detect;
+  options.candidates = 1;
+  const auto found = [&](std::span<const Se3> known) {
+    for (const Refined& r :
+         find_candidates(t.sets[0], views[0], std::span(views).subspan(1), known, *backend, options))
+      for (int i = 0; i < 2; ++i) {
+        const Se3 truth =
+            t.scene.views[0].camera_from_world * t.scene.placed[std::size_t(i)].world_from_object;
+        if (t.error(r.registration.world_from_object, truth).passes()) return i;
+      }
+    return -1;
+  };
+  const int first = found({});
+  ASSERT_GE(first, 0);
+  EXPECT_EQ(found(std::vector<Se3>{t.scene.placed[std::size_t(first)].world_from_object}), 1 - first);
 }
 
 }  // namespace
