@@ -22,7 +22,9 @@ constexpr const char* NEEDED[] = {"d2co-starts/ground_truth.json",
                                   "brackets/000002/scene_camera.json",
                                   "brackets/000002/scene_gt.json",
                                   "cat/scene_camera.json",
-                                  "cat/scene_gt.json"};
+                                  "cat/scene_gt.json",
+                                  "brackets/models/models_info.json",
+                                  "brackets/models/obj_000001.ply"};
 
 }  // namespace
 

@@ -25,8 +25,10 @@ struct Detector {
   const char* column;
   double sign;  // times it, the column is the higher the likelier
 };
-constexpr Detector DETECTORS[] = {
-    {"FDCM", "fdcm_px", -1}, {"FDCM (lambda 30)", "fdcm_own_px", -1}, {"LINE-2D", "line2d", 1}};
+constexpr Detector DETECTORS[] = {{"FDCM", "fdcm_px", -1},
+                                  {"FDCM (LSD edges)", "fdcm_lsd_px", -1},
+                                  {"FDCM (lambda 30)", "fdcm_own_px", -1},
+                                  {"LINE-2D", "line2d", 1}};
 static_assert(OWN_LAMBDA_PX_PER_RAD == 30, "as the detector's name says");
 
 Notes options(const ExperimentSettings& s) {
@@ -44,15 +46,19 @@ Notes options(const ExperimentSettings& s) {
 // Columns: set, image, object, instances (of the object in the image), candidate, instance (empty: of none),
 // and the scores.
 Table score_candidates(const KnownScene& scene, const ExperimentSettings& settings, Backend& backend) {
-  Table table{
-      {},
-      {"set", "image", "object", "instances", "candidate", "instance", "fdcm_px", "fdcm_own_px", "line2d"},
-      {}};
+  Table table{{},
+              {"set", "image", "object", "instances", "candidate", "instance", "fdcm_px", "fdcm_lsd_px",
+               "fdcm_own_px", "line2d"},
+              {}};
   std::vector<EdgeModel> models;
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
-  const SceneEdges edges = edges_of(scene, backend);
-  const RegisterView view = register_views(scene, edges, tensor_with(PAPER_LAMBDA_PX_PER_RAD), backend)[0],
-                     own_view = register_views(scene, edges, tensor_with(OWN_LAMBDA_PX_PER_RAD), backend)[0];
+  const SceneEdges edges = edges_of(scene, backend), lsd = edges_of(scene, backend, EdgeMethod::Lsd);
+  const auto seen_with = [&](const SceneEdges& points, float lambda) {
+    return register_views(scene, points, tensor_with(lambda), backend)[0];
+  };
+  const RegisterView view = seen_with(edges, PAPER_LAMBDA_PX_PER_RAD),
+                     lsd_view = seen_with(lsd, PAPER_LAMBDA_PX_PER_RAD),
+                     own_view = seen_with(edges, OWN_LAMBDA_PX_PER_RAD);
   for (int object = 0; object < static_cast<int>(scene.objects.size()); ++object) {
     const auto instances = std::ranges::count(scene.instances, object, &KnownInstance::object);
     if (instances == 0) continue;
@@ -62,13 +68,14 @@ Table score_candidates(const KnownScene& scene, const ExperimentSettings& settin
     for (const PoseCandidate& candidate : candidates)
       poses.push_back({object, candidate.camera_from_object, 0});
     const std::vector<double> fdcm = fdcm_scores(models, poses, view, backend);
+    const std::vector<double> lsd_fdcm = fdcm_scores(models, poses, lsd_view, backend);
     const std::vector<double> own_fdcm = fdcm_scores(models, poses, own_view, backend);
     const std::vector<double> line2d = line2d_scores(models, poses, view, backend);
     for (std::size_t i = 0; i < candidates.size(); ++i)
-      table.rows.push_back({scene.set, scene.name, scene.objects[object].mesh.name, std::to_string(instances),
-                            std::to_string(i),
-                            candidates[i].instance < 0 ? "" : scene.instances[candidates[i].instance].name,
-                            number_text(fdcm[i]), number_text(own_fdcm[i]), number_text(line2d[i])});
+      table.rows.push_back(
+          {scene.set, scene.name, scene.objects[object].mesh.name, std::to_string(instances),
+           std::to_string(i), candidates[i].instance < 0 ? "" : scene.instances[candidates[i].instance].name,
+           number_text(fdcm[i]), number_text(lsd_fdcm[i]), number_text(own_fdcm[i]), number_text(line2d[i])});
   }
   return table;
 }
@@ -180,10 +187,10 @@ std::vector<Rates> rates_of(const Scored& scored, const std::vector<CurvePoint>&
   return rates;
 }
 
-// In points of percent, FDCM's less LINE-2D's.
-std::string difference_row(const std::string& name, const std::vector<Rates>& fdcm,
+// In points of percent, an FDCM's less LINE-2D's.
+std::string difference_row(const std::string& name, const Detector& detector, const std::vector<Rates>& fdcm,
                            const std::vector<Rates>& line2d) {
-  std::string text = "| " + name + " | FDCM less LINE-2D, points";
+  std::string text = "| " + name + " | " + detector.name + " less LINE-2D, points";
   for (std::size_t i = 0; i < fdcm.size(); ++i) {
     std::vector<double> differences;
     for (std::size_t d = 0; d < fdcm[i].resampled.size(); ++d)
@@ -201,11 +208,9 @@ Report report(const ExperimentSettings& settings, const Table& table) {
       "{} candidates an image and type: {} around every instance of which at least a tenth shows, within {} "
       "rad and {:.0f} mm; all others anywhere in a cube that holds the instances. "
       "FDCM ranks by the mean distance of the tensor (with the paper's weight of the orientation, {} px/rad, "
-      "or "
-      "another), LINE-2D by the similarity of OpenCV's linemod. An instance is found where a candidate of it "
-      "is "
-      "accepted. 95 % intervals by bootstrap over images; of the difference over the same draws of "
-      "images.\n\n"
+      "or another; of this project's edges or, as in the paper, of LSD's), LINE-2D by the similarity of "
+      "OpenCV's linemod. An instance is found where a candidate of it is accepted. 95 % intervals by "
+      "bootstrap over images; of the difference over the same draws of images.\n\n"
       "| candidates | method | no false positive | 0.1 an image | 1 | 10 | instances "
       "|\n|---|---|---|---|---|---|---|\n",
       settings.candidates, CANDIDATES_AN_INSTANCE, CANDIDATE_ANGLE_RAD, 1000 * CANDIDATE_DISTANCE_M,
@@ -227,7 +232,8 @@ Report report(const ExperimentSettings& settings, const Table& table) {
                                                            static_cast<double>(scored.instances.size())));
       result.markdown += fmt::format(" | {} |\n", scored.all_instances());
     }
-    result.markdown += difference_row(part.name, of_detector.front(), of_detector.back());
+    for (std::size_t d = 0; d + 1 < of_detector.size(); ++d)
+      result.markdown += difference_row(part.name, DETECTORS[d], of_detector[d], of_detector.back());
     result.panels.push_back(std::move(panel));
   }
   return result;

@@ -38,21 +38,26 @@ Notes settings_notes(const Experiment& experiment, const ExperimentSettings& set
   return notes;
 }
 
-std::string provenance(const Table& table) {
+// Cells may be older than the program that makes a report of them.
+std::string provenance(const Table& table, const std::string& commit) {
   std::string text;
-  for (const auto& [name, value] : table.notes) text += (text.empty() ? "" : "; ") + name + " " + value;
-  return "Made with: " + text + ".\n";
+  bool same_commit = commit.empty();
+  for (const auto& [name, value] : table.notes) {
+    text += (text.empty() ? "" : "; ") + name + " " + value;
+    same_commit = same_commit || (name == "commit" && value == commit);
+  }
+  return "Made with: " + text + (same_commit ? "" : "; this report by commit " + commit) + ".\n";
 }
 
 void write_report(const Experiment& experiment, const ExperimentSettings& settings, const Table& table,
-                  const fs::path& out) {
+                  const fs::path& out, const std::string& commit) {
   const Report report = experiment.report(settings, table);
-  const std::string& name = experiment.name;
+  const std::string &name = experiment.name, made_with = provenance(table, commit);
   write_file_atomically(out / (name + ".csv"), to_csv(table));
-  write_file_atomically(out / (name + ".svg"), svg_of(report.panels, report.columns, provenance(table)));
+  write_file_atomically(out / (name + ".svg"), svg_of(report.panels, report.columns, made_with));
   write_file_atomically(out / (name + ".md"),
                         fmt::format("# {0}\n\n{1}\n![{0}]({2}.svg)\n\nRows: [{2}.csv]({2}.csv). {3}",
-                                    experiment.title, report.markdown, name, provenance(table)));
+                                    experiment.title, report.markdown, name, made_with));
 }
 
 // Lists every experiment whose report is there, of this run or of an earlier one.
@@ -106,6 +111,8 @@ std::vector<Experiment> experiments_named(const std::vector<std::string>& names)
 void run_experiments(const std::vector<Experiment>& chosen, const ExperimentSettings& settings,
                      const ExperimentRun& run) {
   settings.validate();
+  if (!settings.data.empty() && !fs::is_directory(settings.data))
+    throw InputError(settings.data.string(), "data", "no folder", "one with d2co-starts, brackets and cat");
   const std::string device_name = make_backend(run.device)->name();
   std::vector<std::vector<Cell>> cells;  // of all: data that is not there ends the run before it writes
   for (const Experiment& experiment : chosen) cells.push_back(experiment.cells(settings));
@@ -113,7 +120,7 @@ void run_experiments(const std::vector<Experiment>& chosen, const ExperimentSett
   for (std::size_t i = 0; i < chosen.size(); ++i) {
     const Notes notes = settings_notes(chosen[i], settings, device_name);
     const Table table = run_cells_of(chosen[i], cells[i], notes, run, device_name);
-    write_report(chosen[i], settings, table, run.out);
+    write_report(chosen[i], settings, table, run.out, run.commit);
     write_index(run.out);
   }
 }

@@ -120,9 +120,11 @@ KnownScene bop_scene(const std::string& set, const fs::path& scene_folder, const
   return known;
 }
 
-SceneEdges edges_of(const KnownScene& scene, Backend& backend) {
+SceneEdges edges_of(const KnownScene& scene, Backend& backend, EdgeMethod method) {
+  EdgesOptions options;
+  options.method = method;
   SceneEdges edges;
-  for (const KnownImage& view : scene.images) edges.push_back(find_edges(view.image, {}, backend));
+  for (const KnownImage& view : scene.images) edges.push_back(find_edges(view.image, options, backend));
   return edges;
 }
 

@@ -53,7 +53,7 @@ KnownScene bop_scene(const std::string& set, const std::filesystem::path& scene_
 
 // Edge points of every image, as found once for all tensors.
 using SceneEdges = std::vector<std::vector<EdgePoint>>;
-SceneEdges edges_of(const KnownScene& scene, Backend& backend);
+SceneEdges edges_of(const KnownScene& scene, Backend& backend, EdgeMethod method = EdgeMethod::Gradient);
 
 // What registration asks of the images, one view each: edges, tensors, the image itself.
 std::vector<RegisterView> register_views(const KnownScene& scene, const SceneEdges& edges,

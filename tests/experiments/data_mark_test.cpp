@@ -20,7 +20,9 @@ constexpr const char* FILES[] = {"d2co-starts/ground_truth.json",
                                  "brackets/000002/scene_camera.json",
                                  "brackets/000002/scene_gt.json",
                                  "cat/scene_camera.json",
-                                 "cat/scene_gt.json"};
+                                 "cat/scene_gt.json",
+                                 "brackets/models/models_info.json",
+                                 "brackets/models/obj_000001.ply"};
 
 void write_data(const TemporaryFolder& folder) {
   for (const char* file : FILES) folder.write(file, file);
@@ -43,13 +45,13 @@ TEST(DataMark, IsOfWhateverLiesInTheSets) {
   const TemporaryFolder folder;
   write_data(folder);
   const std::string before = data_mark(folder.path());
-  folder.write("brackets/models/models_info.json", "{}");
+  folder.write("cat/models/obj_000001.ply", "{}");
   const std::string with = data_mark(folder.path());
   EXPECT_NE(with, before);
-  folder.write("brackets/models/models_info.json", "{ }");
+  folder.write("cat/models/obj_000001.ply", "{ }");
   EXPECT_NE(data_mark(folder.path()), with);
   folder.write("elsewhere/notes.txt", "");
-  std::filesystem::remove_all(folder.path() / "brackets/models");
+  std::filesystem::remove_all(folder.path() / "cat/models");
   EXPECT_EQ(data_mark(folder.path()), before);
 }
 
