@@ -17,6 +17,12 @@ test_preset() {
   summary+=("$preset: $(grep -E 'tests passed, .* failed out of|No tests were found' "$log" || echo 'ctest did not finish')")
 }
 
+# Recorded data that lies beside the checkout; tests that need it are skipped elsewhere.
+if [ -z "${EDGESCOUT_DATA:-}" ] && [ -d ../shared/data ]; then
+  EDGESCOUT_DATA=$(realpath ../shared/data)
+  export EDGESCOUT_DATA
+fi
+
 scripts/setup.sh
 if [ "$#" -gt 0 ]; then
   for preset in "$@"; do
