@@ -216,7 +216,10 @@ void add_scout(CLI::App& app, int& exit_code) {
   add_choice_options(*verb, request->options.detections.min_probability,
                      request->options.detections.evidence);
   verb->callback([request, verb, &exit_code] {
-    request->source.cell_settings = settings_of(*verb, {"Scene", "Image", "Arm"});
+    // A run may go on with another budget and strategy: these change no image that was taken.
+    std::set<std::string> groups{"Belief", "Information", "Templates", "Edges", "Tensor", "Detection"};
+    if (request->source.source == "cell") groups.insert({"Scene", "Image", "Arm"});
+    request->source.settings = settings_of(*verb, groups);
     refuse_unused(*verb);
     refuse_beside_templates(*verb);
     exit_code = scout(*request, *verb);

@@ -37,7 +37,7 @@ ScoutSource make_cell(const SourceRequest& request, std::span<const Object> obje
   ScoutSource made;
   made.name = "a rendered cell of " + std::to_string(options.objects) + " parts, seed " +
               std::to_string(options.seed);
-  made.settings = request.cell_settings;
+  made.settings = request.settings;
   made.settings.emplace_back("source", "cell");
   made.settings.emplace_back("radius", fmt::format("{}", request.hemisphere.radius_m));  // sizes the board
   for (const PlacedObject& placed : scene.placed)
@@ -57,9 +57,10 @@ ScoutSource make_recorded(const SourceRequest& request) {
   ScoutSource made;
   const std::filesystem::path folder = std::filesystem::canonical(request.source);
   made.name = folder.filename().string();
-  made.settings = {
-      {"source", folder.string()},
-      {"camera", request.camera_file.empty() ? "its own" : checksum_text(read_file(request.camera_file))}};
+  made.settings = request.settings;
+  made.settings.emplace_back("source", folder.string());
+  made.settings.emplace_back(
+      "camera", request.camera_file.empty() ? "its own" : checksum_text(read_file(request.camera_file)));
   auto views = std::make_unique<RecordedViews>(load_recorded_views(request.source, camera));
   for (const RecordedViews::Recording& recording : views->recordings())
     made.image_files.push_back(recording.file);

@@ -16,7 +16,7 @@ struct SourceRequest {
   ArmNoise arm;
   HemisphereOptions hemisphere;  // radius 0: so that the parts fill the image
   std::vector<double> center_m{0, 0, 0};
-  Settings cell_settings;  // of scene and arm: what a cell's images depend on beside models and views
+  Settings settings;  // what a cell's images, and the belief, depend on beside models and views
 };
 
 void add_source_options(CLI::App& verb, SourceRequest& request);
@@ -28,7 +28,7 @@ void refuse_unused(const CLI::App& verb);
 struct ScoutSource {
   std::unique_ptr<ViewSource> source;
   std::string name;
-  Settings settings;              // what tells it from other sources of the same views and models
+  Settings settings;              // what tells it from other runs with the same views and models
   std::vector<TrueObject> truth;  // of a cell
   std::vector<int> image_ids;     // one a view: BOP's, else its number
   std::vector<std::filesystem::path> image_files;  // one a view; empty in a cell, whose images have none

@@ -132,6 +132,8 @@ TEST(Scout, DoesNotGoOnInAnotherCell) {
   const std::string before = content_of(t.out / "scout.json");
   expect_refused(t.arguments({"--resume", "--seed", "2"}), {"scout.json", "seed", "found 1", "expected 2"});
   expect_refused(t.arguments({"--resume", "--arm-tells"}), {"scout.json", "arm-tells"});
+  expect_refused(t.arguments({"--resume", "--sigma", "3"}), {"scout.json", "sigma", "found 4", "expected 3"});
+  expect_refused(t.arguments({"--resume", "--lambda", "50"}), {"scout.json", "lambda"});
   std::vector<std::string> farther = t.arguments({"--resume"});
   *(std::ranges::find(farther, "--radius") + 1) = "0.31";
   expect_refused(farther, {"scout.json", "radius", "0.31"});
