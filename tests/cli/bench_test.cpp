@@ -154,6 +154,8 @@ TEST(BenchExperiments, OfAnUnknownNameListTheKnownOnes) {
 TEST(BenchExperiments, NameWhatIsMissingOfTheData) {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out", data = folder.path() / "data";
+  expect_one_line(run_program(experiments(out, {"nbv", "--data", data})), {data.string(), "no folder"});
+  fs::create_directory(data);
   expect_one_line(run_program(experiments(out, {"registration", "--data", data})),
                   {(data / "d2co-starts/ground_truth.json").string()});
   folder.write("data/d2co-starts/ground_truth.json", "{}");
