@@ -18,6 +18,7 @@
 
 #include "host/detect/observation.h"
 #include "host/edge/edges.h"
+#include "host/eval/metrics.h"
 #include "host/io/files.h"
 #include "host/io/image.h"
 #include "host/io/mesh.h"
@@ -188,11 +189,10 @@ int run(int argc, char** argv) {
     for (std::size_t i = 0; i < starts.size(); ++i, ++count) {
       const Se3 pose = camera_from_world * refined[i].registration.world_from_object;
       const Se3& truth = scenes.at(image).truth.at(starts[i].object);
-      const double angle = angle_between_rad(pose, truth), distance = distance_between_m(pose, truth);
-      const bool right = angle < 0.1 && distance < 0.005;
-      levels[starts[i].level].first += right;
+      const PoseError error = pose_error(pose, truth, {});
+      levels[starts[i].level].first += error.passes();
       ++levels[starts[i].level].second;
-      if (right || a.truth) mm.push_back(1000 * distance), rad.push_back(angle);
+      if (error.passes() || a.truth) mm.push_back(1000 * error.distance_m), rad.push_back(error.angle_rad);
     }
   }
   print(a, levels, mm, rad, seconds, count);

@@ -68,7 +68,7 @@ ExperimentSettings ExperimentSettings::full_form() {
   settings.groups = 30;
   settings.starts = 20;
   settings.group_starts = 4;
-  settings.every = 9;
+  settings.every = 1;
   settings.frames_every = 1;
   settings.bins = 30;
   return settings;
