@@ -111,7 +111,7 @@ double effective_sample_size(std::span<const Particle> particles);
 // What one real image did to the particles.
 struct ParticleUpdate {
   double effective = 0;    // sample size before resampling
-  bool resampled = false;  // after it
+  bool resampled = false;  // afterwards (resample_where_poor)
   bool reseeded = false;   // all had died and were drawn anew around the candidates
   double gained_nats = 0;  // from it, before resampling
 };

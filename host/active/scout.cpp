@@ -72,6 +72,7 @@ double most_information(std::span<const ViewInformation> views) {
 Scout::Scout(std::span<const TemplateSet> sets, const Camera& camera,
              std::vector<Se3> camera_from_world_views, const ScoutOptions& options, Backend& backend)
     : sets_(sets), camera_(camera), options_(options), backend_(backend), models_(models_of(sets)) {
+  options_.particles.sigma_px = options_.next_view.sigma_px;
   options_.validate();
   if (sets.empty()) throw InputError("scout: found no object, expected at least one");
   validate(camera, "scout: camera");
@@ -188,12 +189,12 @@ void Scout::believe(ScoutStep& step, ScoutState& next, std::span<const RegisterV
     return find_modes(next.particles, sets_, models_, options_.particles, backend_.threads());
   };
   next.modes = modes();
+  next.entropy_nats = step.entropy_nats = belief_entropy(next.modes);
   next.detections = step.detections =
       mode_detections(next.particles, next.modes, sets_, models_, views, backend_, options_.detections);
   step.update.resampled =
       resample_where_poor(next.particles, next.modes, models_, views.size(), options_.particles);
   if (step.update.resampled) next.modes = modes();
-  next.entropy_nats = step.entropy_nats = belief_entropy(next.modes);
   step.after = next.particles;
   done(watch, "modes");
   std::vector<Hypothesis> objects;
@@ -270,7 +271,7 @@ ScoutEnd Scout::end_before_planning() const {
 }
 
 bool Scout::little_learned() const {
-  if (options_.min_gained_nats == 0 || state_.steps.empty() || may_find_more()) return false;
+  if (state_.steps.empty() || may_find_more()) return false;
   const ScoutStep& last = state_.steps.back();
   return last.new_candidates == 0 && last.update.gained_nats < options_.min_gained_nats;
 }

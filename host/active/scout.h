@@ -49,7 +49,7 @@ struct ScoutOptions {
   CombinationOptions combinations;
   bool probable_combinations = true;  // scenes as often as they are believed in; else by psi (Algorithm 1)
   ParticleOptions particles;
-  NextViewOptions next_view;
+  NextViewOptions next_view;  // its sigma_px is the particles' too: one model of how far right poses lie
   ModeDetectionOptions detections;
   AgreementOptions agreement;
   int first_view = 0;

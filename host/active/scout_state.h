@@ -41,7 +41,7 @@ struct ScoutStep {
   std::vector<ModeDetection> detections;
   // one a step so far: the later images' say on this and the earlier ones
   std::vector<ViewAgreement> agreement;
-  double entropy_nats = 0;           // belief_entropy of the modes after
+  double entropy_nats = 0;           // belief_entropy of the modes, before resampling
   std::vector<StageSeconds> stages;  // in the order they ran
 };
 

@@ -14,8 +14,8 @@ std::vector<double> fdcm_scores(std::span<const EdgeModel> models, std::span<con
         {to_pose(candidate.camera_from_object), std::uint32_t(points.size()), std::uint32_t(list.size()), 0});
     points.insert(points.end(), list.begin(), list.end());
   }
-  constexpr double OUTSIDE_PX = TensorOptions{}.cap_px;  // whatever the tensor's cap
   PoseScoreOptions options;
+  options.cap_px = view.view->options.cap_px;
   std::vector<PoseScore> scores(problems.size());
   backend.pose_score(std::span(&view.view, 1), points, problems, options, scores);
   std::vector<double> means;
@@ -24,7 +24,7 @@ std::vector<double> fdcm_scores(std::span<const EdgeModel> models, std::span<con
     // candidate that hardly shows.
     const double inside =
         problems[i].point_count > 0 ? double(scores[i].points) / problems[i].point_count : 0;
-    means.push_back(inside * scores[i].mean_px + (1 - inside) * OUTSIDE_PX);
+    means.push_back(inside * scores[i].mean_px + (1 - inside) * options.cap_px);
   }
   return means;
 }

@@ -57,9 +57,6 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
   OptionTable(verb, "Information")
       .bounded("map-reduction", o.next_view.reduction, 1.0, 16.0, "Image px a px of the distance maps")
       .bounded("chamfer-cap", o.next_view.cap_px, 0.1, 255.0, "Of distances, image px")
-      .bounded("sigma", o.next_view.sigma_px, 0.001, 1000.0,
-               "Of the mean distance of a right pose, image px, in weights and in the information; at least "
-               "1/141 of --chamfer-cap")
       .bounded("free-sight", o.next_view.free_sight, 0.0, 100.0,
                "How much lower cameras are hidden by what is unknown; 0: not at all")
       .bounded("repeat-angle", o.next_view.repeat_rad, 0.0, 100.0,
@@ -71,6 +68,9 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
       .flag("scenes-by-probability,!--scenes-by-psi", o.probable_combinations,
             "Imagine scenes as often as they are believed in (default), or as in the paper's Algorithm 1");
   OptionTable(verb, "Belief")
+      .bounded("sigma", o.next_view.sigma_px, 0.001, 1000.0,
+               "Of the mean distance of a right pose, image px, in weights and in the information; at least "
+               "1/141 of --chamfer-cap")
       .bounded("penetration", o.particles.penetration_m, 0.0, 1.0,
                "How far parts may reach into each other, m: else no scene has both, and the less probable is "
                "doubted")

@@ -59,7 +59,7 @@ TemplateOptions with_distances_of(TemplateOptions options, const std::vector<Se3
   return options;
 }
 
-// Options that look as if they changed something and would not.
+// Options that look as if they changed something and would not, or would set nats against points and ranks.
 void refuse_idle_options(const ScoutRequest& request, const CLI::App& verb) {
   const ScoutOptions& o = request.options;
   const auto refuse = [&](const std::string& option, const std::string& beside, const char* expected) {
@@ -83,7 +83,6 @@ void settle_options(ScoutRequest& request, const CLI::App& verb) {
   o.next_view.strategy = strategy_from(request.strategy);
   o.next_view.sequence = request.sequence;
   refuse_idle_options(request, verb);
-  o.particles.sigma_px = o.next_view.sigma_px;  // one model of how far right poses lie, seen or expected
   o.next_view.seed = o.combinations.seed = o.particles.seed = request.draws_seed;
   if (!request.sequence.empty() && verb.count("--first-view") == 0) o.first_view = request.sequence.front();
   o.validate();
@@ -207,7 +206,8 @@ void add_scout(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   OptionTable(*verb, "Run")
       .flag("watch", request->watch, "Write the page after every step, so that a browser follows it")
-      .flag("resume", request->resume, "Go on from DIR/scout.state where there is one, of the same source");
+      .flag("resume", request->resume,
+            "Go on from DIR/scout.state where there is one, of the same source and options");
   add_loop_options(*verb, *request);
   add_template_options(*verb, request->templates);
   add_edge_and_tensor_options(*verb, request->options.pipeline, request->edge_method);
@@ -216,8 +216,9 @@ void add_scout(CLI::App& app, int& exit_code) {
   add_choice_options(*verb, request->options.detections.min_probability,
                      request->options.detections.evidence);
   verb->callback([request, verb, &exit_code] {
-    // A run may go on with another budget and strategy: these change no image that was taken.
-    std::set<std::string> groups{"Belief", "Information", "Templates", "Edges", "Tensor", "Detection"};
+    // A run may go on with another budget, strategy and way to expect information: these change nothing of
+    // what was seen and believed.
+    std::set<std::string> groups{"Belief", "Templates", "Edges", "Tensor", "Detection"};
     if (request->source.source == "cell") groups.insert({"Scene", "Image", "Arm"});
     request->source.settings = settings_of(*verb, groups);
     refuse_unused(*verb);

@@ -24,7 +24,8 @@ constexpr const char* NEEDED[] = {"d2co-starts/ground_truth.json",
                                   "cat/scene_camera.json",
                                   "cat/scene_gt.json",
                                   "brackets/models/models_info.json",
-                                  "brackets/models/obj_000001.ply"};
+                                  "brackets/models/obj_000001.ply",
+                                  "cat/models/obj_000001.ply"};
 
 }  // namespace
 

@@ -86,7 +86,6 @@ ScoutOptions options_for(const ExperimentSettings& s, const Bin& bin, const Sear
                        std::span<const Hypothesis> known) {
     return detector.find(view, observation, earlier, known, search.first_type, search.count);
   };
-  options.particles.sigma_px = options.next_view.sigma_px;
   options.first_view = bin.first_view;
   const bool knows = strategy == CLAIRVOYANT;
   options.next_view.strategy = knows ? Strategy::Fixed : strategy_from(strategy);

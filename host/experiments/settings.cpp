@@ -1,7 +1,5 @@
 #include "host/experiments/settings.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -46,14 +44,12 @@ void set_camera(RenderOptions& options, int width, int height, double focal_px, 
 TensorOptions tensor_with(float lambda_px_per_rad) {
   TensorOptions options;
   options.lambda_px_per_rad = lambda_px_per_rad;
-  if (lambda_px_per_rad == PAPER_LAMBDA_PX_PER_RAD) options.cap_px = DCD_MAX_CAP_PX;
   return options;
 }
 
 std::pair<std::string, std::string> lambda_note() {
-  return {"lambda_px_per_rad", fmt::format("{} (cap {} px) and {} (cap {} px)", PAPER_LAMBDA_PX_PER_RAD,
-                                           tensor_with(PAPER_LAMBDA_PX_PER_RAD).cap_px, OWN_LAMBDA_PX_PER_RAD,
-                                           tensor_with(OWN_LAMBDA_PX_PER_RAD).cap_px)};
+  return {"lambda_px_per_rad",
+          number_text(PAPER_LAMBDA_PX_PER_RAD) + " and " + number_text(OWN_LAMBDA_PX_PER_RAD)};
 }
 
 ExperimentSettings::ExperimentSettings() {

@@ -18,7 +18,6 @@ inline constexpr char CLAIRVOYANT[] = "clairvoyant";
 // Weight of the orientation in the tensors that the paper's methods read (Sec. 6), and in edgescout's own.
 inline constexpr float PAPER_LAMBDA_PX_PER_RAD = 100;
 inline constexpr float OWN_LAMBDA_PX_PER_RAD = TensorOptions{}.lambda_px_per_rad;
-// With the paper's weight, as there, without a cap: with the largest there is.
 TensorOptions tensor_with(float lambda_px_per_rad);
 // Both as results say what they were made with: name and value.
 std::pair<std::string, std::string> lambda_note();

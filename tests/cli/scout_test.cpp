@@ -138,6 +138,12 @@ TEST(Scout, DoesNotGoOnInAnotherCell) {
   *(std::ranges::find(farther, "--radius") + 1) = "0.31";
   expect_refused(farther, {"scout.json", "radius", "0.31"});
   EXPECT_EQ(content_of(t.out / "scout.json"), before);
+  // Budget and the way to choose are free.
+  std::vector<std::string> longer = t.arguments({"--resume", "--strategy", "random"});
+  *(std::ranges::find(longer, "--max-views") + 1) = "4";
+  *(std::ranges::find(longer, "--combinations") + 1) = "100";
+  EXPECT_EQ(run_program(longer).exit_code, 0);
+  EXPECT_EQ(t.log().at("steps").size(), 4u);
 }
 
 TEST(Scout, LooksFromTheViewsOfAFile) {

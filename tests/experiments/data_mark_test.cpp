@@ -22,7 +22,8 @@ constexpr const char* FILES[] = {"d2co-starts/ground_truth.json",
                                  "cat/scene_camera.json",
                                  "cat/scene_gt.json",
                                  "brackets/models/models_info.json",
-                                 "brackets/models/obj_000001.ply"};
+                                 "brackets/models/obj_000001.ply",
+                                 "cat/models/obj_000001.ply"};
 
 void write_data(const TemporaryFolder& folder) {
   for (const char* file : FILES) folder.write(file, file);
@@ -45,13 +46,13 @@ TEST(DataMark, IsOfWhateverLiesInTheSets) {
   const TemporaryFolder folder;
   write_data(folder);
   const std::string before = data_mark(folder.path());
-  folder.write("cat/models/obj_000001.ply", "{}");
+  folder.write("cat/models/models_info.json", "{}");
   const std::string with = data_mark(folder.path());
   EXPECT_NE(with, before);
-  folder.write("cat/models/obj_000001.ply", "{ }");
+  folder.write("cat/models/models_info.json", "{ }");
   EXPECT_NE(data_mark(folder.path()), with);
   folder.write("elsewhere/notes.txt", "");
-  std::filesystem::remove_all(folder.path() / "cat/models");
+  std::filesystem::remove(folder.path() / "cat/models/models_info.json");
   EXPECT_EQ(data_mark(folder.path()), before);
 }
 
