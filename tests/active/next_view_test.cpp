@@ -183,6 +183,24 @@ TEST(ViewInformation, OfThePapersFormulaWeighsAllParticlesAlike) {
   }
 }
 
+// An image that shows no edge has shown no point, by default; in the paper what projects into it was seen.
+TEST(ViewInformation, AsksTheImagesEdgesUnlessThePaperDoesNot) {
+  const auto views_with = [](const auto& change, bool edgeless) {
+    Plan t;
+    change(t.options);
+    if (edgeless) t.real[0].edges = std::make_shared<EdgeIndex>(std::vector<EdgePoint>{}, 480, 360);
+    std::vector<double> information;
+    for (const ViewInformation& view : t.information()) information.push_back(view.information);
+    return information;
+  };
+  const auto by_default = [](NextViewOptions&) {};
+  const auto literal = [](NextViewOptions& o) { o.literal = true; };
+  const auto dis = [](NextViewOptions& o) { o.strategy = Strategy::Disocclusion; };
+  EXPECT_NE(views_with(by_default, false), views_with(by_default, true));
+  EXPECT_EQ(views_with(literal, false), views_with(literal, true));
+  EXPECT_EQ(views_with(dis, false), views_with(dis, true));
+}
+
 // What the nearest real view is, by the angle at what all look at, has told already.
 TEST(ViewInformation, IsWorthLessNearARealView) {
   Plan t;
