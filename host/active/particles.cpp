@@ -2,70 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/Eigenvalues>
 
+#include "host/active/weigh_particles.h"
 #include "host/core/log.h"
 #include "host/core/option_bounds.h"
 #include "host/core/order.h"
-#include "kernels/error.h"
 #include "kernels/mutual_information.h"
 
 namespace edgescout {
 
 namespace {
-
-constexpr double NOTHING = -std::numeric_limits<double>::infinity();
-
-double log_sum_exp(std::span<const double> logs) {
-  const double most = logs.empty() ? NOTHING : *std::ranges::max_element(logs);
-  if (most == NOTHING) return NOTHING;
-  double sum = 0;
-  for (const double x : logs) sum += std::exp(x - most);
-  return most + std::log(sum);
-}
-
-std::vector<Hypothesis> poses_of(std::span<const Particle> particles) {
-  std::vector<Hypothesis> poses;
-  for (const Particle& particle : particles) poses.push_back({particle.object, particle.world_from_object});
-  return poses;
-}
-
-bool sees(const PoseFeatures& in_view, const ParticleOptions& options) {
-  return in_view.points >= options.min_points;
-}
-
-double squared(double x) { return x * x; }
-
-bool seen_at_all(const Particle& particle, const ParticleOptions& options) {
-  return is_finite(particle.world_from_object) &&
-         std::ranges::any_of(particle.by_view, [&](const PoseFeatures& f) { return sees(f, options); });
-}
-
-bool lives(const Particle& particle, const ParticleOptions& options) {
-  return seen_at_all(particle, options) && together(particle.by_view).mean_px <= options.dead_px;
-}
-
-// -s log of a view's mean likelihood over the particles that it sees, by the belief before it; not a number
-// where it sees none.
-double mean_likelihood_px2(std::span<const Particle> particles, std::span<const double> log_before,
-                           std::size_t view, const ParticleOptions& options) {
-  std::vector<double> before, after;
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    const PoseFeatures& f = particles[i].by_view[view];
-    if (log_before[i] == NOTHING || !sees(f, options)) continue;
-    before.push_back(log_before[i]);
-    after.push_back(log_before[i] - squared(f.mean_px) / options.scale_px2());
-  }
-  return before.empty() ? std::nan("") : options.scale_px2() * (log_sum_exp(before) - log_sum_exp(after));
-}
-
-// To a sum of 1; equal where all are nothing.
-void normalise(std::span<double> logs) {
-  const double total = log_sum_exp(logs);
-  for (double& x : logs) x = total == NOTHING ? -std::log(double(logs.size())) : x - total;
-}
 
 // The candidates by psi, as many as there may be particles.
 std::vector<std::size_t> best_candidates(std::span<const Detection> candidates, int most) {
@@ -165,6 +113,12 @@ std::vector<Particle> draw_particles(std::span<const EdgeModel> models, std::spa
   return particles;
 }
 
+std::vector<Hypothesis> poses_of(std::span<const Particle> particles) {
+  std::vector<Hypothesis> poses;
+  for (const Particle& particle : particles) poses.push_back({particle.object, particle.world_from_object});
+  return poses;
+}
+
 void refine_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
                       std::span<const RegisterView> views, Backend& backend, const ParticleOptions& options) {
   const std::vector<Hypothesis> starts = poses_of(particles);
@@ -174,56 +128,6 @@ void refine_particles(std::span<const EdgeModel> models, std::span<Particle> par
     particles[i].world_from_object = registrations[i].world_from_object;
     particles[i].covariance = registrations[i].covariance;
   }
-}
-
-Weighing weigh_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
-                         std::vector<double>& unseen_px2, std::span<const RegisterView> views,
-                         Backend& backend, const ParticleOptions& options) {
-  check(!views.empty(), "weigh_particles: at least one view");
-  const std::vector<PoseFeatures> features =
-      pose_features_by_view(models, poses_of(particles), views, backend, options.score, options.visibility);
-  unseen_px2.resize(views.size(), std::nan(""));
-  std::vector<double> logs;  // of the weights, by what has been spent and the views so far
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    Particle& particle = particles[i];
-    particle.by_view.assign(features.begin() + i * views.size(), features.begin() + (i + 1) * views.size());
-    particle.upsilon_px2 = 0;
-    logs.push_back(seen_at_all(particle, options) ? particle.spent_px2 / options.scale_px2() : NOTHING);
-  }
-  std::vector<double> before_last;
-  for (std::size_t v = 0; v < views.size(); ++v) {
-    if (std::isnan(unseen_px2[v])) unseen_px2[v] = mean_likelihood_px2(particles, logs, v, options);
-    const double unseen = std::isnan(unseen_px2[v]) ? 0 : unseen_px2[v];
-    before_last = logs;
-    for (std::size_t i = 0; i < particles.size(); ++i) {
-      const PoseFeatures& f = particles[i].by_view[v];
-      const double counts = sees(f, options) ? squared(f.mean_px) : unseen;
-      particles[i].upsilon_px2 += counts;
-      logs[i] -= counts / options.scale_px2();
-    }
-  }
-  Weighing weighing;
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    if (lives(particles[i], options))
-      ++weighing.living;
-    else
-      logs[i] = NOTHING;
-  normalise(before_last), normalise(logs);
-  double gained_nats = 0;
-  for (std::size_t i = 0; i < particles.size(); ++i) {
-    particles[i].log_weight = logs[i];
-    if (logs[i] > NOTHING) gained_nats += std::exp(logs[i]) * (logs[i] - before_last[i]);
-  }
-  if (weighing.living > 0) weighing.gained_nats = std::max(0.0, gained_nats);  // rounding can take it below
-  return weighing;
-}
-
-double effective_sample_size(std::span<const Particle> particles) {
-  std::vector<double> logs, squares;
-  for (const Particle& particle : particles)
-    logs.push_back(particle.log_weight), squares.push_back(2 * particle.log_weight);
-  const double total = log_sum_exp(logs);
-  return total == NOTHING ? 0 : std::exp(2 * total - log_sum_exp(squares));
 }
 
 ParticleUpdate update_particles(std::vector<Particle>& particles, std::vector<double>& unseen_px2,

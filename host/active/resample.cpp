@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "host/active/modes.h"
+#include "host/active/weigh_particles.h"
 #include "kernels/mutual_information.h"
 
 namespace edgescout {

@@ -192,9 +192,8 @@ void Scout::believe(ScoutStep& step, ScoutState& next, std::span<const RegisterV
   next.entropy_nats = step.entropy_nats = belief_entropy(next.modes);
   next.detections = step.detections =
       mode_detections(next.particles, next.modes, sets_, models_, views, backend_, options_.detections);
-  step.update.resampled =
-      resample_where_poor(next.particles, next.modes, models_, views.size(), options_.particles);
-  if (step.update.resampled) next.modes = modes();
+  step.resampled = resample_where_poor(next.particles, next.modes, models_, views.size(), options_.particles);
+  if (step.resampled) next.modes = modes();
   step.after = next.particles;
   done(watch, "modes");
   std::vector<Hypothesis> objects;

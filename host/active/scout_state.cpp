@@ -9,7 +9,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 7, "scout state"};
+constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 8, "scout state"};
 
 template <typename T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -72,7 +72,7 @@ void fields(auto& io, A<PoseFeatures> auto& x) {
   io(x.psi, x.beside_psi, x.mean_px, x.matched, x.points, x.length_px, x.in_image, x.visible,
      x.shading.pixels, x.shading.squares, x.shading.unexplained);
 }
-void fields(auto& io, A<ParticleUpdate> auto& x) { io(x.effective, x.resampled, x.reseeded, x.gained_nats); }
+void fields(auto& io, A<ParticleUpdate> auto& x) { io(x.effective, x.reseeded, x.gained_nats); }
 void fields(auto& io, A<FailedView> auto& x) { io(x.view, x.reason, x.after_step, x.stages); }
 void fields(auto& io, A<ScoutObject> auto& x) { io(x.id, x.fingerprint); }
 void fields(auto& io, A<Image> auto& x) { io(x.width, x.height, x.pixels); }
@@ -89,8 +89,8 @@ void fields(auto& io, A<ScoutDecision> auto& x) {
   io(x.view, x.strategy, x.views, x.candidates, x.likeliest, x.unlikeliest, x.stages);
 }
 void fields(auto& io, A<ScoutStep> auto& x) {
-  io(x.decision, x.camera_from_world, x.image, x.new_candidates, x.before, x.after, x.update, x.detections,
-     x.agreement, x.entropy_nats, x.stages);
+  io(x.decision, x.camera_from_world, x.image, x.new_candidates, x.before, x.after, x.update, x.resampled,
+     x.detections, x.agreement, x.entropy_nats, x.stages);
 }
 void fields(auto& io, A<ScoutState> auto& x) {
   io(x.objects, x.views, x.steps, x.failed, x.candidates, x.particles, x.unseen_px2, x.modes, x.detections,

@@ -38,6 +38,7 @@ struct ScoutStep {
   std::vector<Particle> before;
   std::vector<Particle> after;
   ParticleUpdate update;
+  bool resampled = false;  // after `detections` were reported (resample_where_poor)
   std::vector<ModeDetection> detections;
   // one a step so far: the later images' say on this and the earlier ones
   std::vector<ViewAgreement> agreement;

@@ -85,7 +85,7 @@ json step_json(const ScoutStep& step, const ScoutReport& report) {
            {{"before", step.before.size()},
             {"after", step.after.size()},
             {"effective", step.update.effective},
-            {"resampled", step.update.resampled},
+            {"resampled", step.resampled},
             {"reseeded", step.update.reseeded}}},
           {"gained_nats", step.update.gained_nats},
           {"entropy_nats", step.entropy_nats},

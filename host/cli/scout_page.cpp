@@ -152,9 +152,9 @@ class Page {
     html += figure(particles(s.after),
                    fmt::format("and after: {}, {:.3f} nats gained, effective sample size {:.0f}{}",
                                s.after.size(), s.update.gained_nats, s.update.effective,
-                               s.update.reseeded    ? ", all had died and were drawn anew"
-                               : s.update.resampled ? ", resampled"
-                                                    : ""));
+                               s.update.reseeded ? ", all had died and were drawn anew"
+                               : s.resampled     ? ", resampled"
+                                                 : ""));
     html += "</div>";
     if (!why.likeliest.empty() || !why.unlikeliest.empty())
       html += "<div class=row>" + scenes(why) + "</div>";

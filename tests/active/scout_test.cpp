@@ -176,7 +176,7 @@ TEST(Scout, TakesNoRoughnessForUncertainty) {
     options.particles.roughened = roughened;
     Scout scout = t.scout(options);
     run_scout(scout, cell);
-    EXPECT_TRUE(scout.state().steps[0].update.resampled);
+    EXPECT_TRUE(scout.state().steps[0].resampled);
     return scout.state().detections;
   };
   const std::vector<ModeDetection> smooth = found({0, 0}), rough = found({0.05, 0.1});
