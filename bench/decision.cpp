@@ -15,7 +15,6 @@
 
 #include "host/active/combinations.h"
 #include "host/active/next_view.h"
-#include "host/detect/plausible_pairs.h"
 #include "host/experiments/bin.h"
 #include "host/experiments/machine.h"
 #include "kernels/thread_pool.h"
@@ -68,17 +67,10 @@ struct Work {
   }
 
   int decide(const Size& size, Backend& backend) const {
-    std::vector<Hypothesis> poses;
-    std::vector<double> probabilities;
-    for (const Detection& candidate : candidates) {
-      poses.push_back({candidate.object, candidate.world_from_object});
-      probabilities.push_back(candidate.probability);
-    }
     CombinationOptions combinations;
     combinations.count = size.combinations;
-    const BitMatrix scenes = sample_probable_combinations(
-        probabilities, plausible_pairs(models, poses, DEFAULT_PENETRATION_M, backend.threads()),
-        combinations);
+    const BitMatrix scenes = candidate_combinations(models, candidates, true, DEFAULT_PENETRATION_M,
+                                                    combinations, backend.threads());
     const std::vector<ViewInformation> information = view_information(
         {models, tables, camera, views, closed, real, candidates, &scenes, particles}, backend, {});
     return best_view(information).value_or(-1);

@@ -5,8 +5,12 @@
 #include <span>
 
 #include "host/core/bit_matrix.h"
+#include "host/core/types.h"
+#include "host/model/edge_model.h"
 
 namespace edgescout {
+
+class ThreadPool;
 
 struct CombinationOptions {
   int count = 1000;
@@ -31,5 +35,11 @@ BitMatrix sample_combinations(std::span<const double> psi, const BitMatrix& plau
 // Rows, `count` and `seed` as above. InputError where there is no candidate.
 BitMatrix sample_probable_combinations(std::span<const double> probabilities, const BitMatrix& plausible,
                                        const CombinationOptions& options);
+
+// The scenes that a decision imagines of refined candidates (world): by their probability, or by psi as in
+// Algorithm 1. Two of which one reaches more than `penetration_m` into the other exclude each other.
+BitMatrix candidate_combinations(std::span<const EdgeModel> models, std::span<const Detection> candidates,
+                                 bool by_probability, double penetration_m, const CombinationOptions& options,
+                                 ThreadPool& threads);
 
 }  // namespace edgescout

@@ -229,7 +229,10 @@ ScoutDecision Scout::decide() const {
   decision.candidates = state_.candidates;
   BitMatrix combinations;
   if (options_.next_view.strategy == Strategy::Information && !state_.candidates.empty()) {
-    combinations = sampled_combinations();
+    CombinationOptions options = options_.combinations;
+    options.seed += state_.steps.size();
+    combinations = candidate_combinations(models_, state_.candidates, options_.probable_combinations,
+                                          options_.particles.penetration_m, options, backend_.threads());
     keep_extremes(combinations, state_.candidates, decision);
     done(watch, "combinations");
   }
@@ -241,22 +244,6 @@ ScoutDecision Scout::decide() const {
   decision.view = best_view(decision.views).value_or(-1);
   watch.lap("information");
   return decision;
-}
-
-BitMatrix Scout::sampled_combinations() const {
-  std::vector<Hypothesis> poses;
-  std::vector<double> psi, probabilities;
-  for (const Detection& candidate : state_.candidates) {
-    poses.push_back({candidate.object, candidate.world_from_object});
-    psi.push_back(candidate.psi);
-    probabilities.push_back(candidate.probability);
-  }
-  const BitMatrix plausible =
-      plausible_pairs(models_, poses, options_.particles.penetration_m, backend_.threads());
-  CombinationOptions options = options_.combinations;
-  options.seed += state_.steps.size();
-  return options_.probable_combinations ? sample_probable_combinations(probabilities, plausible, options)
-                                        : sample_combinations(psi, plausible, options);
 }
 
 ScoutEnd Scout::end_before_planning() const {

@@ -100,7 +100,6 @@ class Scout {
   bool little_learned() const;
   int first_open_view() const;
   ScoutDecision decide() const;
-  BitMatrix sampled_combinations() const;
   void look(const Image& image, ScoutStep& step, ScoutState& next,
             std::vector<Observation>& observations) const;
   void believe(ScoutStep& step, ScoutState& next, std::span<const RegisterView> views) const;
