@@ -260,8 +260,9 @@ void NextViewOptions::validate() const {
   in("seen", seen_px, 0, EdgeIndex::CELL_PX);
   in("free_sight", free_sight, 0, 100);
   in("repeat_rad", repeat_rad, 0, 100);
-  in("motion_cost_per_m", motion_cost_per_m, 0, 1e9);
-  in("motion_cost_per_rad", motion_cost_per_rad, 0, 1e9);
+  const double dearest = strategy == Strategy::Information ? 1e9 : 0;  // the others do not count in nats
+  in("motion_cost_per_m", motion_cost_per_m, 0, dearest);
+  in("motion_cost_per_rad", motion_cost_per_rad, 0, dearest);
 }
 
 std::vector<ViewInformation> view_information(const Planning& planning, Backend& backend,

@@ -42,7 +42,8 @@ struct NextViewOptions {
   // as seen from what the views look at, has told exp(-(theta / repeat_rad)^2) already; the nearest one
   // counts. 0: every view is new, as in the paper's own formula always.
   double repeat_rad = 0.45;
-  double motion_cost_per_m = 0;  // taken off the information: for the way from the last view's camera
+  double motion_cost_per_m = 0;  // nats, taken off the information (Strategy::Information alone): for the way
+                                 // from the last view's camera
   double motion_cost_per_rad = 0;
   std::function<bool(int view)> reachable;  // empty: all are
   std::vector<int> sequence;                // of Strategy::Fixed; empty: in the order of the views

@@ -10,6 +10,7 @@
 
 #include "tests/active/plan.h"
 #include "tests/io/collected_log.h"
+#include "tests/io/expect_input_error.h"
 
 namespace edgescout::test {
 namespace {
@@ -247,6 +248,14 @@ TEST(ViewInformation, KnowsNoAboveWhereCamerasStandAllAround) {
   t.options.free_sight = 1;
   const std::vector<ViewInformation> views = t.information();
   for (std::size_t v = 1; v < views.size(); ++v) EXPECT_EQ(views[v].information, free[v].information) << v;
+}
+
+TEST(NextViewOptions, KnowsNoCostOfMotionWhereNoNatsAreCounted) {
+  NextViewOptions options;
+  options.motion_cost_per_rad = 1;
+  EXPECT_NO_THROW(options.validate());
+  options.strategy = Strategy::Disocclusion;
+  expect_input_error([&] { options.validate(); }, {"next_view.motion_cost_per_rad"});
 }
 
 TEST(ViewInformation, TakesMotionAndReachIntoAccount) {
