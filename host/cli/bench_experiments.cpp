@@ -121,7 +121,7 @@ void add_bench_experiments(CLI::App& bench, int& exit_code) {
       ->type_name("NAME");
   verb->add_option("--out", request->out, "Folder of the results")->required()->type_name("DIR");
   verb->add_option("--data", request->data,
-                   "Folder with d2co-starts, brackets and cat; without it rendered images alone")
+                   "Folder with d2co-starts, brackets, cat and triangle; without it rendered images alone")
       ->type_name("DIR");
   verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
       ->capture_default_str();

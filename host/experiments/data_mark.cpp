@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* SETS[] = {"d2co-starts", "brackets", "cat"};
+constexpr const char* SETS[] = {"d2co-starts", "brackets", "cat", "triangle"};
 constexpr const char* NEEDED[] = {"d2co-starts/ground_truth.json",
                                   "d2co-starts/starts.csv",
                                   "brackets/000001/scene_camera.json",
@@ -23,9 +23,12 @@ constexpr const char* NEEDED[] = {"d2co-starts/ground_truth.json",
                                   "brackets/000002/scene_gt.json",
                                   "cat/scene_camera.json",
                                   "cat/scene_gt.json",
+                                  "triangle/scene_camera.json",
+                                  "triangle/scene_gt.json",
                                   "brackets/models/models_info.json",
                                   "brackets/models/obj_000001.ply",
-                                  "cat/models/obj_000001.ply"};
+                                  "cat/models/obj_000001.ply",
+                                  "triangle/models/obj_000001.ply"};
 
 }  // namespace
 

@@ -31,10 +31,11 @@ void require_files(const Photographs& source) {
 
 std::vector<Photographs> photographs_in(const fs::path& data, int every) {
   if (data.empty()) return {};
-  const fs::path brackets = data / "brackets", cat = data / "cat";
+  const fs::path brackets = data / "brackets", cat = data / "cat", triangle = data / "triangle";
   const std::vector<Photographs> sources{{"brackets", brackets / "000001", brackets / "models", {1, 2, 3}},
                                          {"brackets", brackets / "000002", brackets / "models", {4}},
-                                         {"cat", cat, cat / "models", cat_frames(every)}};
+                                         {"cat", cat, cat / "models", cat_frames(every)},
+                                         {"triangle", triangle, triangle / "models", {200, 201}}};
   for (const Photographs& source : sources) require_files(source);
   return sources;
 }

@@ -1,5 +1,5 @@
 // Photographs of known poses below the data folder: brackets (three views of one pile, one image of flat
-// ones) and the cat.
+// ones), the cat, and the triangle (one part twice from nearly the same place).
 #pragma once
 
 #include "host/experiments/known_scene.h"
@@ -7,7 +7,7 @@
 namespace edgescout {
 
 struct Photographs {
-  std::string set;                      // "brackets", "cat"
+  std::string set;                      // "brackets", "cat", "triangle"
   std::filesystem::path scene, models;  // folders
   std::vector<int> images;              // ids
 };

@@ -23,7 +23,8 @@ TensorOptions tensor_with(float lambda_px_per_rad);
 std::pair<std::string, std::string> lambda_note();
 
 struct ExperimentSettings {
-  std::filesystem::path data;  // folder with d2co-starts, brackets, cat; empty: rendered scenes alone
+  std::filesystem::path
+      data;  // folder with d2co-starts, brackets, cat, triangle; empty: rendered scenes alone
   unsigned seed = 1;
   int scenes = 4;         // images with up to five parts: detection and registration
   int groups = 1;         // of three images with up to twenty parts: several views

@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <set>
 
@@ -96,6 +97,30 @@ std::vector<std::vector<Start>> by_object(const KnownScene& scene, const std::ve
   return groups;
 }
 
+struct Offset {
+  double turn_rad = 0, shift_m = 0;
+};
+
+// In random directions, so far off as `offset_of` the truth, the start's number around its instance and a
+// source of chance says.
+std::vector<Start> starts_off(const KnownScene& scene, int count, const Random& seed,
+                              const std::function<Offset(const Se3&, int, Random&)>& offset_of) {
+  std::vector<Start> starts;
+  const Random scene_random = seed.split(scene.set).split(scene.name);
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    Random random = scene_random.split(scene.instances[i].name);
+    const Se3 truth = scene.images[0].camera_from_world * scene.instances[i].world_from_object;
+    for (int k = 0; k < count; ++k) {
+      const Offset offset = offset_of(truth, k, random);
+      Vector6d step;
+      step << offset.shift_m * random.direction(), offset.turn_rad * random.direction();
+      starts.push_back(
+          {static_cast<int>(starts.size()), static_cast<int>(i), offset.turn_rad, retract(truth, step)});
+    }
+  }
+  return starts;
+}
+
 }  // namespace
 
 std::string Trial::name() const {
@@ -105,20 +130,16 @@ std::string Trial::name() const {
 }
 
 std::vector<Start> starts_around(const KnownScene& scene, int count, unsigned seed) {
-  std::vector<Start> starts;
-  const Random scene_random = Random(seed).split(scene.set).split(scene.name);
-  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-    Random random = scene_random.split(scene.instances[i].name);
-    const Se3 truth = scene.images[0].camera_from_world * scene.instances[i].world_from_object;
-    for (int k = 0; k < count; ++k) {
-      const double distance_rad = FARTHEST_START_RAD * (k + 1 - random.uniform()) / count;
-      Vector6d offset;
-      offset << METRES_PER_RADIAN * distance_rad * random.direction(), distance_rad * random.direction();
-      starts.push_back(
-          {static_cast<int>(starts.size()), static_cast<int>(i), distance_rad, retract(truth, offset)});
-    }
-  }
-  return starts;
+  return starts_off(scene, count, Random(seed), [count](const Se3&, int k, Random& random) {
+    const double distance_rad = FARTHEST_START_RAD * (k + 1 - random.uniform()) / count;
+    return Offset{distance_rad, METRES_PER_RADIAN * distance_rad};
+  });
+}
+
+std::vector<Start> starts_by_distance(const KnownScene& scene, int count, unsigned seed) {
+  return starts_off(scene, count, Random(seed).split("by distance"), [](const Se3& truth, int, Random&) {
+    return Offset{0.1, 0.02 * truth.translation_m.norm()};
+  });
 }
 
 std::vector<std::string> trial_columns() {

@@ -25,6 +25,10 @@ inline constexpr double FARTHEST_START_RAD = 0.4;
 // spread evenly over (0, FARTHEST_START_RAD].
 std::vector<Start> starts_around(const KnownScene& scene, int count, unsigned seed);
 
+// The same as far from the truth as photographs' true poses allow to ask for: 0.1 rad and two hundredths of
+// the distance from the camera.
+std::vector<Start> starts_by_distance(const KnownScene& scene, int count, unsigned seed);
+
 // A method and how many of the scene's views it uses. "edgescout" is refine_poses at its defaults; the others
 // are those of host/baselines, on tensors of this lambda (D2CO, DC-ICP).
 struct Trial {

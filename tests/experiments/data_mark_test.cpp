@@ -21,9 +21,12 @@ constexpr const char* FILES[] = {"d2co-starts/ground_truth.json",
                                  "brackets/000002/scene_gt.json",
                                  "cat/scene_camera.json",
                                  "cat/scene_gt.json",
+                                 "triangle/scene_camera.json",
+                                 "triangle/scene_gt.json",
                                  "brackets/models/models_info.json",
                                  "brackets/models/obj_000001.ply",
-                                 "cat/models/obj_000001.ply"};
+                                 "cat/models/obj_000001.ply",
+                                 "triangle/models/obj_000001.ply"};
 
 void write_data(const TemporaryFolder& folder) {
   for (const char* file : FILES) folder.write(file, file);

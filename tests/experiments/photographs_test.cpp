@@ -10,8 +10,10 @@ namespace edgescout::test {
 namespace {
 
 std::vector<std::string> files_of_all() {
-  std::vector<std::string> files{"brackets/models/obj_000001.ply", "cat/models/obj_000001.ply"};
-  for (const std::string scene : {"brackets/000001", "brackets/000002", "cat"})
+  std::vector<std::string> files{"brackets/models/obj_000001.ply", "cat/models/obj_000001.ply",
+                                 "triangle/models/obj_000001.ply", "triangle/rgb/000200.png",
+                                 "triangle/rgb/000201.png"};
+  for (const std::string scene : {"brackets/000001", "brackets/000002", "cat", "triangle"})
     for (const char* index : {"/scene_camera.json", "/scene_gt.json"}) files.push_back(scene + index);
   for (const char* image :
        {"000001/rgb/000001", "000001/rgb/000002", "000001/rgb/000003", "000002/rgb/000004"})
@@ -24,7 +26,7 @@ std::vector<std::string> files_of_all() {
 TEST(Photographs, ThatAreMissingAreNamed) {
   const TemporaryFolder folder;
   for (const std::string& file : files_of_all()) folder.write(file, "");
-  EXPECT_EQ(single_photographs(folder.path(), 1).size(), 20u);
+  EXPECT_EQ(single_photographs(folder.path(), 1).size(), 22u);
   for (const std::string& file : files_of_all()) {
     std::filesystem::remove(folder.path() / file);
     expect_input_error([&] { photographs_in(folder.path(), 1); }, {file});
@@ -36,7 +38,7 @@ TEST(Photographs, AreAskedForAsFarAsTheyAreUsed) {
   const TemporaryFolder folder;
   for (const std::string& file : files_of_all()) folder.write(file, "");
   std::filesystem::remove(folder.path() / "cat/rgb/000026.png");
-  EXPECT_EQ(single_photographs(folder.path(), 4).size(), 8u);
+  EXPECT_EQ(single_photographs(folder.path(), 4).size(), 10u);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 
 #include "host/eval/metrics.h"
 #include "host/experiments/pose_candidates.h"
@@ -47,6 +48,21 @@ TEST(Starts, LieAsFarAsTheySay) {
   }
   EXPECT_EQ(by_level, (std::map<int, int>{{0, 30}, {1, 30}, {2, 30}, {3, 30}}))
       << "spread evenly over the distances";
+}
+
+TEST(Starts, ByDistanceLieTwoHundredthsOfItAway) {
+  const KnownScene scene = empty_scene();
+  const std::vector<Start> starts = starts_by_distance(scene, 5, 1);
+  ASSERT_EQ(starts.size(), 15u);
+  std::set<double> shifts_m;
+  for (const Start& start : starts) {
+    const Se3 truth = scene.images[0].camera_from_world * scene.instances[start.instance].world_from_object;
+    EXPECT_EQ(start.distance_rad, 0.1);
+    EXPECT_NEAR(angle_between_rad(start.camera_from_object, truth), 0.1, 1e-6);
+    EXPECT_NEAR(distance_between_m(start.camera_from_object, truth), 0.02 * truth.translation_m.norm(), 1e-9);
+    shifts_m.insert(start.camera_from_object.translation_m.x() - truth.translation_m.x());
+  }
+  EXPECT_EQ(shifts_m.size(), 15u) << "each in a direction of its own";
 }
 
 TEST(Starts, DependOnTheSeedAlone) {
