@@ -20,7 +20,8 @@ namespace {
 
 std::string reason(int error) { return std::strerror(error); }
 
-// A name beside `file` that no other writer of this or another process uses.
+// A name beside `file` that no other writer uses now. A killed run may have left one: in a container every
+// run has the same process id.
 fs::path temporary_beside(const fs::path& file) {
   static std::atomic<unsigned> counter{0};
   std::ostringstream name;
@@ -28,11 +29,14 @@ fs::path temporary_beside(const fs::path& file) {
   return file.parent_path() / name.str();
 }
 
-// An open temporary file that disappears unless it is renamed into place.
+// An open temporary file beside `file` that disappears unless it is renamed into place.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(fs::path path) : path_(std::move(path)) {
-    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  explicit TemporaryFile(const fs::path& file) {
+    do {
+      path_ = temporary_beside(file);
+      descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    } while (descriptor_ < 0 && errno == EEXIST);
     created_ = descriptor_ >= 0;
     error_ = created_ ? 0 : errno;
   }
@@ -72,7 +76,7 @@ class TemporaryFile {
 
 // InputError about `folder`.
 void prove_writable(const fs::path& where, const fs::path& folder) {
-  TemporaryFile proof(temporary_beside(where / "probe"));
+  TemporaryFile proof(where / "probe");
   if (const int error = proof.write("x"))
     throw InputError(folder.string(), "output folder", reason(error), "a folder that can be written");
 }
@@ -92,7 +96,7 @@ std::string read_file(const fs::path& file) {
 }
 
 void write_file_atomically(const fs::path& file, std::string_view content) {
-  TemporaryFile temporary(temporary_beside(file));
+  TemporaryFile temporary(file);
   int error = temporary.write(content);
   if (!error) error = temporary.rename_to(file);
   if (error) throw InputError(file.string(), "output file", reason(error), "a file that can be written");

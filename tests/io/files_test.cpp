@@ -34,6 +34,21 @@ TEST(WriteFileAtomically, WritesAndReplacesAndLeavesNothingElse) {
   EXPECT_EQ(folder.entries(), 1u);
 }
 
+// In a container every run has the same process id, and counts its files from 0.
+TEST(WriteFileAtomically, PassesOverWhatAKilledRunLeft) {
+  const TemporaryFolder folder;
+  const int left = 1000;  // more than this process has written
+  for (int i = 0; i < left; ++i)
+    for (const char* name : {"result.json", "probe"})
+      folder.write(
+          "." + std::string(name) + "." + std::to_string(::getpid()) + "-" + std::to_string(i) + ".part",
+          "left");
+  write_file_atomically(folder.path() / "result.json", "new");
+  require_writable_folder(folder.path());
+  EXPECT_EQ(content_of(folder.path() / "result.json"), "new");
+  EXPECT_EQ(folder.entries(), 2u * left + 1);
+}
+
 TEST(WriteFileAtomically, FailsWhereTheFolderIsMissingOrAFile) {
   const TemporaryFolder folder;
   folder.write("plain", "");
