@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <climits>
+#include <new>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -30,6 +31,13 @@ bool is_cut_short(const std::string& bytes) {
   return end == std::string::npos || (scan != std::string::npos && end < scan);
 }
 
+// OpenCV says it in its own way.
+bool is_out_of_memory(const std::exception& error) {
+  const auto* of_opencv = dynamic_cast<const cv::Exception*>(&error);
+  return (of_opencv && of_opencv->code == cv::Error::StsNoMem) ||
+         dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
+}
+
 cv::Mat decode(const std::string& bytes, const std::string& source) {
   const InputError not_an_image(source, "image", "data that no image decoder accepts",
                                 "a PNG, JPEG or other image");
@@ -39,7 +47,8 @@ cv::Mat decode(const std::string& bytes, const std::string& source) {
   try {
     const cv::Mat view(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
     image = cv::imdecode(view, cv::IMREAD_UNCHANGED);
-  } catch (const std::exception&) {  // cv::Exception for absurd sizes, bad_alloc
+  } catch (const std::exception& error) {  // cv::Exception for absurd sizes
+    if (is_out_of_memory(error)) throw std::bad_alloc();
     throw not_an_image;
   }
   if (image.empty()) throw not_an_image;

@@ -1,8 +1,12 @@
 #include "host/io/image.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <fstream>
+#include <new>
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/io/collected_log.h"
@@ -76,6 +80,35 @@ TEST(LoadImage, RejectsWhatIsNoImage) {
   expect_input_error([&] { load_image(folder.write("empty.png", "")); }, {"empty.png", "empty"});
   expect_input_error([&] { load_image(folder.write("text.png", "this is no image\n")); },
                      {"text.png", "no image decoder"});
+}
+
+// The process may take no more than so many bytes beside what it has.
+class MemoryLimit {
+ public:
+  explicit MemoryLimit(rlim_t more_bytes) {
+    rlim_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    ::getrlimit(RLIMIT_AS, &old_);
+    const rlimit now{pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + more_bytes, old_.rlim_max};
+    ::setrlimit(RLIMIT_AS, &now);
+  }
+  MemoryLimit(const MemoryLimit&) = delete;
+  MemoryLimit& operator=(const MemoryLimit&) = delete;
+  ~MemoryLimit() { ::setrlimit(RLIMIT_AS, &old_); }
+
+ private:
+  rlimit old_{};
+};
+
+TEST(LoadImage, TellsAGoodImageThatFindsNoRoomFromABadOne) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers need memory of their own";
+#endif
+  const TemporaryFolder folder;
+  save_png(Image{8000, 8000, std::vector<std::uint8_t>(8000 * 8000, 128)}, folder.path() / "large.png");
+  EXPECT_EQ(load_image(folder.path() / "large.png").width, 8000);
+  const MemoryLimit limit(32 << 20);  // half of the pixels
+  EXPECT_THROW(load_image(folder.path() / "large.png"), std::bad_alloc);
 }
 
 TEST(LoadImage, RejectsImagesCutShort) {
