@@ -16,6 +16,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/host ${PROJECT_SOURCE_DIR}/kernels
         PATTERN point_cost.h EXCLUDE
         PATTERN se3_manifold.h EXCLUDE
         PATTERN json_fields.h EXCLUDE
+        PATTERN json_text.h EXCLUDE
         PATTERN camera_json.h EXCLUDE)
 
 configure_package_config_file(cmake/edgescout-config.cmake.in ${PROJECT_BINARY_DIR}/edgescout-config.cmake

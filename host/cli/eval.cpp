@@ -1,7 +1,9 @@
 // edgescout eval: how good the poses of a BOP results CSV are.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iostream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -13,6 +15,7 @@
 #include "host/eval/recall.h"
 #include "host/io/files.h"
 #include "host/io/image.h"
+#include "host/io/json_text.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -131,16 +134,17 @@ void save_json(const std::vector<Row>& rows, const EvalRequest& request) {
                               {"max_mspd_px", o.max_mspd_px}};
   for (const auto& [object, recalls] : rows)
     (object == "all" ? root["all"] : root["objects"][object]) = row_json(recalls);
-  using Handler = nlohmann::ordered_json::error_handler_t;
-  write_file_atomically(request.json_file, root.dump(1, ' ', false, Handler::replace) + "\n");
+  write_file_atomically(request.json_file, json_text(root));
 }
 
 void print_table(const std::vector<Row>& rows, const RecallOptions& o) {
+  const std::string estimates =
+      std::isinf(o.min_score) ? "all estimates" : fmt::format("estimates of score {} or more", o.min_score);
   std::cout << fmt::format(
-      "{} images; truths seen by at least {:.0f} %; estimates of score {} or more\n"
+      "{} images; truths seen by at least {:.0f} %; {}\n"
       "pose: below {} rad and {} mm; mspd: below {} px; fp: estimates that match no truth so, an image\n\n"
       "{:>6} {:>7} {:>9} {:>7} {:>7} {:>7} {:>9} {:>9} {:>7} {:>7}\n",
-      rows.back().second.images, 100 * o.min_visible_fraction, o.min_score, o.max_angle_rad,
+      rows.back().second.images, 100 * o.min_visible_fraction, estimates, o.max_angle_rad,
       1000 * o.max_distance_m, o.max_mspd_px, "object", "truths", "estimates", "AR", "MSSD", "MSPD", "pose",
       "pose/sym", "mspd", "fp");
   for (const auto& [object, r] : rows)
@@ -179,7 +183,8 @@ void add_eval(CLI::App& app, int& exit_code) {
   RecallOptions& o = request->recall;
   OptionTable(*verb, "Evaluation")
       .bounded("min-visible", o.min_visible_fraction, 0.0, 1.0, "Truths seen by less are ignored")
-      .bounded("min-score", o.min_score, -1e6, 1e6, "Estimates below it are dropped")
+      .bounded("min-score", o.min_score, -std::numeric_limits<double>::infinity(), 1e6,
+               "Estimates below it are dropped")
       .bounded("max-angle", o.max_angle_rad, 1e-6, 3.2, "Of a right pose, rad")
       .bounded("max-distance", o.max_distance_m, 1e-9, 100.0, "Of a right pose, m")
       .bounded("max-mspd", o.max_mspd_px, 0.01, 10000.0, "Of a true find, px");

@@ -135,7 +135,7 @@ void require(bool holds, const char* field, double found, const char* expected) 
 void RecallOptions::validate() const {
   require(min_visible_fraction >= 0 && min_visible_fraction <= 1, "min_visible_fraction",
           min_visible_fraction, "[0, 1]");
-  require(std::isfinite(min_score), "min_score", min_score, "a finite number");
+  require(min_score < std::numeric_limits<double>::infinity(), "min_score", min_score, "a number, or -inf");
   require(max_angle_rad > 0, "max_angle_rad", max_angle_rad, "above 0");
   require(max_distance_m > 0, "max_distance_m", max_distance_m, "above 0");
   require(max_mspd_px > 0, "max_mspd_px", max_mspd_px, "above 0");

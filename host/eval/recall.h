@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <map>
 #include <span>
 #include <vector>
@@ -29,8 +30,10 @@ std::vector<EvaluationImage> evaluation_images(const BopScene& scene, std::span<
 
 struct RecallOptions {
   double min_visible_fraction = 0.1;  // BOP's
-  double min_score = 0;               // estimates below it are dropped before everything, in [0, 1]
-  double max_angle_rad = 0.1;         // the paper's
+  // Estimates below it are dropped before everything. None is by default: other methods' scores may be
+  // negative.
+  double min_score = -std::numeric_limits<double>::infinity();
+  double max_angle_rad = 0.1;  // the paper's
   double max_distance_m = 0.005;
   double max_mspd_px = 10;  // of `recall_mspd` and of a true find; not scaled by the image's width
   // Throws InputError naming the field and the violated bound.
@@ -42,7 +45,7 @@ inline constexpr int RECALL_STEPS = 10;
 struct Recalls {
   int images = 0;
   int truths = 0;     // that count
-  int estimates = 0;  // above min_score
+  int estimates = 0;  // not below min_score
   // BOP: thresholds 5, 10 .. 50 % of the diameter (MSSD), 5, 10 .. 50 px times width / 640 (MSPD). As BOP
   // does, only as many estimates of an object as it has truths that count in the image are looked at, best
   // scores first, and ignored truths take none of them.

@@ -87,6 +87,16 @@ TEST(Eval, DropsWhatIsHardlyVisibleOrUnlikely) {
   EXPECT_EQ(all.at("false_positives"), 0);
 }
 
+TEST(Eval, DropsNothingUnlessAsked) {
+  std::vector<BopResult> rows = true_results(load_bop_scene(one_view()), 0);
+  for (BopResult& row : rows) row.score = -2e6;  // a log-likelihood of another method
+  const Evaluated evaluated = evaluate_rows(rows, one_view());
+  EXPECT_EQ(evaluated.figures.at("all").at("estimates"), 8);
+  EXPECT_TRUE(evaluated.figures.at("min_score").is_null());
+  EXPECT_NE(evaluated.outcome.out.find("all estimates"), std::string::npos) << evaluated.outcome.out;
+  EXPECT_EQ(evaluate_rows(rows, one_view(), {"--min-score", "0"}).figures.at("all").at("estimates"), 0);
+}
+
 TEST(Eval, RefusesWhatItCannotJudge) {
   const TemporaryFolder folder;
   const BopResult good = truth_of_both_scenes()[0];

@@ -161,6 +161,13 @@ TEST(Recall, CountsFalsePositivesAboveTheScorePerImage) {
   EXPECT_DOUBLE_EQ(recalls.false_positives_per_image, 1);
 }
 
+TEST(Recall, CountsEveryScoreByDefault) {
+  EvaluationImage one = image();
+  one.truth = {truth(1, 0)};
+  one.estimates = {estimate(1, 0, -3)};
+  EXPECT_DOUBLE_EQ(evaluate(std::vector{one}, OBJECTS, {}).recall_mspd, 1);
+}
+
 TEST(Recall, TellsRawFromSymmetric) {
   std::map<int, Object> objects = OBJECTS;
   const Se3 half_turn{so3_exp({0, 0, 3.14159265358979}), {0, 0, 0}};
@@ -263,6 +270,9 @@ TEST(Recall, RefusesWhatItCannotJudge) {
   EXPECT_THROW(evaluate(std::vector{one}, OBJECTS, {}), InputError);
   RecallOptions options;
   options.min_visible_fraction = 1.5;
+  EXPECT_THROW(options.validate(), InputError);
+  options = {};
+  options.min_score = std::nan("");
   EXPECT_THROW(options.validate(), InputError);
   options = {};
   options.max_mspd_px = 0;
