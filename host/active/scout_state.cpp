@@ -9,7 +9,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 8, "scout state"};
+constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 9, "scout state"};
 
 template <typename T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -66,7 +66,7 @@ template <typename T, typename Struct>
 concept A = std::same_as<std::remove_const_t<T>, Struct>;
 
 void fields(auto& io, A<StageSeconds> auto& x) { io(x.name, x.seconds); }
-void fields(auto& io, A<ViewInformation> auto& x) { io(x.open, x.information, x.motion_cost); }
+void fields(auto& io, A<ViewInformation> auto& x) { io(x.open, x.information, x.share, x.motion_cost); }
 void fields(auto& io, A<ViewAgreement> auto& x) { io(x.residual_px, x.objects, x.missing, x.disagrees); }
 void fields(auto& io, A<PoseFeatures> auto& x) {
   io(x.psi, x.beside_psi, x.mean_px, x.matched, x.points, x.length_px, x.in_image, x.visible,
@@ -79,7 +79,7 @@ void fields(auto& io, A<Image> auto& x) { io(x.width, x.height, x.pixels); }
 void fields(auto& io, A<Mode> auto& x) { io(x.object, x.particles, x.weight, x.probability); }
 void fields(auto& io, A<ModeDetection> auto& x) { io(x.detection, x.weight, x.supporting_views); }
 void fields(auto& io, A<Detection> auto& x) {
-  io(x.object, x.world_from_object, x.covariance, x.probability, x.psi, x.cost_px, x.visible_fraction,
+  io(x.object, x.world_from_object, x.covariance, x.probability, x.psi, x.cost_px, x.matched_fraction,
      x.evidence, x.unexplained_grey, x.convergence);
 }
 void fields(auto& io, A<Particle> auto& x) {
@@ -90,7 +90,7 @@ void fields(auto& io, A<ScoutDecision> auto& x) {
 }
 void fields(auto& io, A<ScoutStep> auto& x) {
   io(x.decision, x.camera_from_world, x.image, x.new_candidates, x.before, x.after, x.update, x.resampled,
-     x.detections, x.agreement, x.entropy_nats, x.stages);
+     x.detections, x.agreement, x.mode_probabilities, x.entropy_nats, x.stages);
 }
 void fields(auto& io, A<ScoutState> auto& x) {
   io(x.objects, x.views, x.steps, x.failed, x.candidates, x.particles, x.unseen_px2, x.modes, x.detections,

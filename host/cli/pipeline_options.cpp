@@ -46,6 +46,11 @@ void add_detection_options(CLI::App& verb, PipelineOptions& o) {
   add_search_options(verb, d);
   add_choice_options(verb, d.min_probability, d.evidence);
   OptionTable(verb, "Detection")
+      .bounded("region-x", d.scan.within.x, 0.0, 1e6,
+               "Left border of the part of the undistorted image where an object's centre may be, px")
+      .bounded("region-y", d.scan.within.y, 0.0, 1e6, "Upper border, px")
+      .bounded("region-width", d.scan.within.width, 0.0, 1e6, "px; 0: to the image's border")
+      .bounded("region-height", d.scan.within.height, 0.0, 1e6, "px; 0: to the image's border")
       .bounded("second-look", d.second_look_rad, 0.0, 1.0,
                "Turned starts around what was chosen, rad; 0: none")
       .bounded("max-detections", d.max_detections, 1, 100000, "Reported an image")

@@ -106,7 +106,7 @@ class Page {
       std::string support;
       for (const int view : mode.supporting_views) support += fmt::format(" {}", view + 1);
       html += fmt::format("<tr><td>{}<td>{:.2f}<td>{:.2f}<td>{:.0f} %<td>{:.2f} mm<td>{:.2f}°<td>{}",
-                          escaped(name_of(d)), d.probability, d.psi, 100 * d.visible_fraction, 1000 * place_m,
+                          escaped(name_of(d)), d.probability, d.psi, 100 * d.matched_fraction, 1000 * place_m,
                           turn_rad * 57.29578, support.empty() ? "none alone" : support);
       if (const auto off = distance_to_truth(d, report_))
         html += fmt::format("<td class={}>{:.1f} mm, {:.1f}°", off->right ? "right" : "wrong",

@@ -56,7 +56,7 @@ struct Detection {
   double probability = 0;                  // calibrated, [0, 1]
   double psi = 0;                          // Eq. 10, [0, 1]
   double cost_px = 0;                      // mean tensor value over visible points
-  double visible_fraction = 0;  // of the predicted edge points, those with an edge of the image near
+  double matched_fraction = 0;  // of the predicted edge points, those with an edge of the image near
   double evidence = 0;  // of gradient directions, in standard errors above chance (register/pose_features.h)
   double unexplained_grey = 1;  // of the contrast inside the silhouette, what the surface does not explain
                                 // (register/shading.h), [0, 1]

@@ -1,5 +1,7 @@
 #include "host/detect/coarse_scan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -23,21 +25,44 @@ struct Numbering {
   double distance_m(std::size_t t) const { return distances[t % distances.size()]; }
 };
 
+// Anchors in a row or column: those from `begin` on, before `end`.
+struct Anchors {
+  int begin, end;
+};
+
+// Those of a coarse image that lie between two places of the full one; at least one.
+Anchors anchors_between(double from_px, double to_px, double reduction, int coarse_px, int step) {
+  const auto place = [&](double px) { return ((px + 0.5) / reduction - 0.5) / step; };
+  const int all = (coarse_px + step - 1) / step, begin = std::min(int(std::ceil(place(from_px))), all - 1);
+  return {begin, int(std::clamp(std::ceil(place(to_px)), double(begin + 1), double(all)))};
+}
+
 struct Region {
   int x0, y0, columns, rows;  // first anchor and numbers of anchors
   Eigen::Vector2d middle;
 };
 
-std::vector<Region> cut_into_regions(const Camera& camera, const ScanOptions& options) {
+std::vector<Region> cut_into_regions(const Observation& observation, const ScanOptions& options) {
+  const Camera &full = observation.view.camera, &camera = observation.coarse_camera;
+  const ImageRegion& within = options.within;
+  if (within.x >= full.width || within.y >= full.height)
+    throw InputError("options", "detect.region", fmt::format("a corner at {}, {}", within.x, within.y),
+                     fmt::format("one in an image of {}x{}", full.width, full.height));
+  const int step = options.anchor_step;
+  const auto end_px = [](double from_px, double size_px) {
+    return size_px > 0 ? from_px + size_px : INFINITY;
+  };
+  const Anchors across = anchors_between(within.x, end_px(within.x, within.width), observation.reduction,
+                                         camera.width, step),
+                down = anchors_between(within.y, end_px(within.y, within.height), observation.reduction,
+                                       camera.height, step);
   std::vector<Region> regions;
-  const int step = options.anchor_step, across = (camera.width + step - 1) / step,
-            down = (camera.height + step - 1) / step;
-  for (int r = 0; r < down; r += options.region_rows)
-    for (int c = 0; c < across; c += options.region_columns) {
+  for (int r = down.begin; r < down.end; r += options.region_rows)
+    for (int c = across.begin; c < across.end; c += options.region_columns) {
       Region region{c * step,
                     r * step,
-                    std::min(options.region_columns, across - c),
-                    std::min(options.region_rows, down - r),
+                    std::min(options.region_columns, across.end - c),
+                    std::min(options.region_rows, down.end - r),
                     {}};
       region.middle = {std::round(region.x0 + 0.5 * step * (region.columns - 1)),
                        std::round(region.y0 + 0.5 * step * (region.rows - 1))};
@@ -130,7 +155,7 @@ std::vector<ScanHit> coarse_scan(const TemplateSet& set, const Observation& obse
   std::vector<ScanHit> found;
   Workspace work;
   for (const TemplateView& view : set.views) work.views.emplace_back(view, options.points);
-  const std::vector<Region> regions = cut_into_regions(observation.coarse_camera, options);
+  const std::vector<Region> regions = cut_into_regions(observation, options);
   const std::size_t share = (options.kept + regions.size() - 1) / regions.size();
   for (const Region& region : regions)
     scan_region(set, numbering, region, observation, backend, options, share, work, found);

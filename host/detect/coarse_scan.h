@@ -9,6 +9,11 @@
 
 namespace edgescout {
 
+// Part of an image, px: pixels from (x, y) on. A width or height of 0 reaches to the image's border.
+struct ImageRegion {
+  double x = 0, y = 0, width = 0, height = 0;
+};
+
 struct ScanOptions {
   int points = 60;          // of each template, evenly thinned
   int anchor_step = 2;      // coarse pixels between places
@@ -16,6 +21,7 @@ struct ScanOptions {
   int region_rows = 16;
   // hits, shared evenly among the regions: texture must not crowd out the rest of the image
   int kept = 10000;
+  ImageRegion within;  // of the undistorted image: where an object's centre may be
 };
 
 // Of ScanHit::rank; 0.5 finds one more of 54 rendered parts and loses four of 16 cats.
@@ -38,7 +44,8 @@ Se3 place_template(const TemplateSet& set, const TemplateView& view, double in_p
 // so the best of them lies off by an angle: by the more pixels, the nearer and larger the object. Ranked by
 // the mean alone, small templates on clutter win over large ones on their object; multiplied with the
 // distance itself it is the other way round. `rank` lies between. In each region templates are projected
-// exactly at its middle and then shifted: perspective across the image is respected.
+// exactly at its middle and then shifted: perspective across the image is respected. InputError where
+// options.within lies beside the image.
 std::vector<ScanHit> coarse_scan(const TemplateSet& set, const Observation& observation, Backend& backend,
                                  const ScanOptions& options);
 

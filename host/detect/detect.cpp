@@ -74,6 +74,10 @@ void DetectOptions::validate() const {
   in("region_rows", scan.region_rows, 1, 4096);
   in("region_columns * region_rows", double(scan.region_columns) * scan.region_rows, 1,
      TEMPLATE_SCORE_MAX_ANCHORS);
+  in("region_x", scan.within.x, 0, 1e6);
+  in("region_y", scan.within.y, 0, 1e6);
+  in("region_width", scan.within.width, 0, 1e6);
+  in("region_height", scan.within.height, 0, 1e6);
   in("scan_hits", scan.kept, 1, 1e7);
   in("aligned", aligned, 1, 1e6);
   in("aligned_jointly", aligned_jointly, 1, 1e6);
@@ -96,7 +100,7 @@ Detection to_detection(int object, const Registration& registration, const PoseF
   d.probability = pose_probability(features);
   d.psi = features.psi;
   d.cost_px = features.mean_px;
-  d.visible_fraction = features.matched;
+  d.matched_fraction = features.matched;
   d.evidence = evidence(features);
   d.unexplained_grey = unexplained_grey(features.shading);
   d.convergence = to_string(registration.reason);

@@ -4,6 +4,7 @@
 
 #include "host/io/files.h"
 #include "host/io/json_fields.h"
+#include "host/io/json_text.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -12,7 +13,7 @@ using json = nlohmann::ordered_json;  // keeps the order of the fields for who r
 
 namespace {
 
-constexpr int format_version = 1;
+constexpr int format_version = 2;
 constexpr const char* version_field = "edgescout_result";
 
 json pose_json(const Se3& pose) {
@@ -36,7 +37,7 @@ json detection_json(const Detection& detection, const ImageResult& result) {
           {"probability", detection.probability},
           {"psi", detection.psi},
           {"cost_px", detection.cost_px},
-          {"visible_fraction", detection.visible_fraction},
+          {"matched_fraction", detection.matched_fraction},
           {"evidence", detection.evidence},
           {"unexplained_grey", detection.unexplained_grey},
           {"convergence", detection.convergence},
@@ -89,7 +90,7 @@ Detection read_detection(const JsonField& field, const std::vector<ObjectName>& 
   detection.probability = number_or_nan(field.at("probability"));
   detection.psi = number_or_nan(field.at("psi"));
   detection.cost_px = number_or_nan(field.at("cost_px"));
-  detection.visible_fraction = number_or_nan(field.at("visible_fraction"));
+  detection.matched_fraction = number_or_nan(field.at("matched_fraction"));
   detection.evidence = number_or_nan(field.at("evidence"));
   detection.unexplained_grey = number_or_nan(field.at("unexplained_grey"));
   detection.convergence = field.at("convergence").text();
@@ -117,8 +118,7 @@ void save_image_result(const ImageResult& result, const std::filesystem::path& f
   root["detections"] = json::array();
   for (const Detection& detection : result.detections)
     root["detections"].push_back(detection_json(detection, result));
-  // A path or a name may hold bytes that are no UTF-8; they must not lose the result.
-  write_file_atomically(file, root.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+  write_file_atomically(file, json_text(root));
 }
 
 ImageResult load_image_result(const std::filesystem::path& file) {

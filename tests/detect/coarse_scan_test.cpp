@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "tests/detect/part_image.h"
+#include "tests/io/expect_input_error.h"
 #include "tests/test_random.h"
 
 namespace edgescout::test {
@@ -86,6 +87,45 @@ TEST(CoarseScan, FindsTheTemplateThatMadeTheEdges) {
       EXPECT_NEAR((best.camera_from_object * set.model.center_m).norm(), distance, 1e-9);
       EXPECT_LT((project(coarse, best.camera_from_object * set.model.center_m) - place).norm(), 1e-6);
     }
+  }
+}
+
+// Two of a kind: where only one of them may be, nothing else is looked at.
+TEST(CoarseScan, LooksWhereItIsToldTo) {
+  const auto backend = make_cpu_backend(2);
+  const TemplateSet set = part_templates("l_bracket", 2, 0.27, 0.33, *backend);
+  const EdgeModel dense = part_model("l_bracket", 7.5e-4);
+  const double distance = template_distances_m(set.options)[0];
+  std::vector<EdgePoint> edges;
+  for (const Eigen::Vector2d place : {Eigen::Vector2d(80, 120), {240, 120}}) {
+    const Se3 truth = place_template(set, set.views[7], 0, distance, place, small_camera());
+    for (const EdgePoint& edge : ideal_edges(dense, small_camera(), truth, *backend)) edges.push_back(edge);
+  }
+  for (const double reduction : {1.0, 3.0}) {
+    const Observation observation = observe_edges(edges, small_camera(), reduction, *backend);
+    ScanOptions options;
+    const std::size_t everywhere = coarse_scan(set, observation, *backend, options).size();
+    options.within = {200, 90, 90, 0};  // down to the border
+    const std::vector<ScanHit> hits = coarse_scan(set, observation, *backend, options);
+    EXPECT_LE(hits.size(), everywhere);
+    double least_x = 1e9, most_x = 0, least_y = 1e9, most_y = 0;
+    for (const ScanHit& hit : hits) {
+      const Eigen::Vector2d at = project(small_camera(), hit.camera_from_object * set.model.center_m);
+      least_x = std::min(least_x, at.x()), most_x = std::max(most_x, at.x());
+      least_y = std::min(least_y, at.y()), most_y = std::max(most_y, at.y());
+    }
+    EXPECT_GE(least_x, 200);
+    EXPECT_LT(most_x, 290);
+    EXPECT_GE(least_y, 90);
+    EXPECT_LT(least_x, 200 + 2 * reduction + 1);
+    EXPECT_GT(most_x, 290 - 2 * reduction - 1);
+    EXPECT_GT(most_y, 235);
+    const Eigen::Vector2d best =
+        project(small_camera(), best_of(hits).camera_from_object * set.model.center_m);
+    EXPECT_LT((best - Eigen::Vector2d(240, 120)).norm(), 3 * reduction);
+    options.within = {0, 240, 0, 0};
+    expect_input_error([&] { coarse_scan(set, observation, *backend, options); },
+                       {"detect.region", "320x240"});
   }
 }
 

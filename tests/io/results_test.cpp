@@ -22,7 +22,7 @@ Detection sample_detection(int object, double seed) {
   d.probability = 0.9;
   d.psi = 0.8;
   d.cost_px = 1.25;
-  d.visible_fraction = 0.6;
+  d.matched_fraction = 0.6;
   d.evidence = 7.5;
   d.unexplained_grey = 0.25;
   d.convergence = "small step";
@@ -75,7 +75,7 @@ TEST(ImageResult, ReadsBackWhatWasWritten) {
     EXPECT_EQ(b.probability, a.probability);
     EXPECT_EQ(b.psi, a.psi);
     EXPECT_EQ(b.cost_px, a.cost_px);
-    EXPECT_EQ(b.visible_fraction, a.visible_fraction);
+    EXPECT_EQ(b.matched_fraction, a.matched_fraction);
     EXPECT_EQ(b.evidence, a.evidence);
     EXPECT_EQ(b.unexplained_grey, a.unexplained_grey);
     EXPECT_EQ(b.convergence, a.convergence);
@@ -127,9 +127,9 @@ TEST(ImageResult, RejectsOtherVersionsAndFilesCutShort) {
     expect_input_error([&] { load_image_result(cut); }, {"cut.json"});
   }
   std::string newer = whole;
-  newer.replace(newer.find("\"edgescout_result\": 1"), 21, "\"edgescout_result\": 2");
+  newer.replace(newer.find("\"edgescout_result\": 2"), 21, "\"edgescout_result\": 3");
   expect_input_error([&] { load_image_result(folder.write("new.json", newer)); },
-                     {"new.json", "/edgescout_result", "found 2", "expected 1"});
+                     {"new.json", "/edgescout_result", "found 3", "expected 2"});
   expect_input_error([&] { load_image_result(folder.write("other.json", "{}")); },
                      {"other.json", "/edgescout_result"});
   std::string alien = whole;
@@ -182,6 +182,10 @@ TEST(StartPoses, ComeFromAPlainList) {
   EXPECT_EQ(same_ending(poses[1], "/images/x/b.png"), 1);
   EXPECT_EQ(same_ending(poses[1], "/b.png"), 1);
   EXPECT_EQ(same_ending(poses[1], "/a/x.png"), 0);
+  StartPose of_latin_1;  // as a result of the image tells it
+  of_latin_1.image = "a\xef\xbf\xbd/caf\xef\xbf\xbd.png";
+  EXPECT_TRUE(belongs_to(of_latin_1, "caf\xe9.png", std::nullopt, 0));
+  EXPECT_EQ(same_ending(of_latin_1, "/a\xe9/caf\xe9.png"), 2);
   EXPECT_FALSE(belongs_to(poses[1], "b.png", 6, 0));
   EXPECT_LT((poses[1].camera_from_object * Vector3d::UnitX() - Vector3d(0, 1, 1)).norm(), 1e-12);
   const auto bad = [&](const std::string& text) { load_start_poses(folder.write("bad.json", text)); };

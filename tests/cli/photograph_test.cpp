@@ -1,0 +1,50 @@
+// The main job on a photograph, with the CAD model that came with it: a cube on a desk.
+#include <gtest/gtest.h>
+
+#include "host/eval/metrics.h"
+#include "host/io/bop.h"
+#include "tests/cli/example_scene.h"
+
+namespace edgescout::test {
+namespace {
+
+// Where Debian's package visp-images-data is installed.
+struct Photograph : ::testing::TestWithParam<const char*> {
+  const fs::path folder = "/usr/share/visp-images-data/ViSP-images/mbt", visp = examples() / "visp";
+  // As registered from the overlay's eight corners, none of which is a pixel off; mm.
+  const Se3 cube{Eigen::Quaterniond((Eigen::Matrix3d() << -0.545640, -0.837721, 0.022351,  //
+                                     -0.585324, 0.361885, -0.725559,                       //
+                                     0.599728, -0.408976, -0.687797)
+                                        .finished()),
+                 {0.04585, 0.03015, 0.59731}};
+
+  void SetUp() override {
+    if (!fs::exists(folder)) GTEST_SKIP() << "visp-images-data is not installed";
+    if (std::string(GetParam()) == "vulkan" && run_program({"devices", "--device", "vulkan"}).exit_code != 0)
+      GTEST_SKIP() << "no Vulkan device";
+  }
+};
+
+TEST_P(Photograph, ShowsACubeThatIsFound) {
+  const TemporaryFolder out;
+  const Outcome outcome = run_program(joined(
+      {{"detect", folder / "cube/image0000.pgm", "--out", out.path(), "--device", GetParam()},
+       {"--model", folder / "cube.cao", "--unit", "m", "--models-info", visp / "cube_models_info.json"},
+       {"--camera", visp / "cube_camera.yaml", "--distance-min", "0.4", "--distance-max", "0.8"},
+       {"--viewpoints", "3", "--aligned", "300", "--candidates", "10", "--max-detections", "1"},
+       {"--region-x", "250", "--region-y", "150", "--region-width", "250", "--region-height", "250"}}));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::vector<BopResult> found = load_bop_results(out.path() / "results.csv");
+  ASSERT_EQ(found.size(), 1u);
+  const PoseError error = pose_error(found[0].camera_from_object, cube,
+                                     load_symmetries(visp / "cube_models_info.json").at(1));
+  EXPECT_LT(error.distance_m, 0.002);
+  EXPECT_LT(error.angle_rad, 0.01);
+  EXPECT_TRUE(fs::exists(out.path() / "image0000_overlay.png"));
+}
+
+INSTANTIATE_TEST_SUITE_P(On, Photograph, ::testing::Values("cpu", "vulkan"),
+                         [](const auto& device) { return std::string(device.param); });
+
+}  // namespace
+}  // namespace edgescout::test
