@@ -150,32 +150,51 @@ class Detector {
       usable.push_back(std::move(prepared.images[i]));
     }
     if (usable.empty()) return;
-    Detections found;
-    try {
-      found = options_.joint ? detect_jointly(usable, sets_, backend_, options_.pipeline)
-                             : detect_objects(usable[0], sets_, backend_, options_.pipeline);
-    } catch (const InputError& error) {  // an image too large for the device
-      for (const InputImage* input : good.images)
-        list_failure(*input, input->file.string() + ": " + error.what());
-      return;
-    }
-    for (const StageSeconds& stage : found.stages) summary.stage_seconds[stage.name] += stage.seconds;
-    for (std::size_t i = 0; i < usable.size(); ++i) {
-      if (options_.overlays) write_overlay(*good.images[i], usable[i], found, models_, backend_, options_);
-      ImageResult result = result_of(*good.images[i], usable[i], found, sets_, backend_, options_.joint);
-      result.settings = settings_.of(*good.images[i], group.views);
-      save_image_result(result, json_of(options_.out, *good.images[i]));
-      summary.finished.insert(good.images[i]->name);
-      ++summary.done;
-    }
+    const std::optional<Detections> found = detect(good, usable);
+    if (found) write(good, usable, *found, group.views);
+  }
+
+  // Where no image can be used, the last one's error is that of the request.
+  void require_any_usable() const {
+    if (failed_ > 0 && failed_ == summary.images) throw InputError(last_failure_);
   }
 
   BatchSummary summary;
 
  private:
+  // Nothing where the device cannot: an image too large for it.
+  std::optional<Detections> detect(const Group& group, std::span<const PreparedImage> images) {
+    try {
+      return options_.joint ? detect_jointly(images, sets_, backend_, options_.pipeline)
+                            : detect_objects(images[0], sets_, backend_, options_.pipeline);
+    } catch (const InputError& error) {
+      for (const InputImage* input : group.images)
+        list_failure(*input, input->file.string() + ": " + error.what());
+      return std::nullopt;
+    }
+  }
+
+  // InputError: a folder that cannot be written.
+  void write(const Group& group, std::span<const PreparedImage> images, const Detections& found,
+             const std::string& views) {
+    require_writable_folder(options_.out);
+    for (const StageSeconds& stage : found.stages) summary.stage_seconds[stage.name] += stage.seconds;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      const InputImage& input = *group.images[i];
+      if (options_.overlays) write_overlay(input, images[i], found, models_, backend_, options_);
+      ImageResult result = result_of(input, images[i], found, sets_, backend_, options_.joint);
+      result.settings = settings_.of(input, views);
+      save_image_result(result, json_of(options_.out, input));
+      summary.finished.insert(input.name);
+      ++summary.done;
+    }
+  }
+
+  // The last of a batch where all failed is thrown, not logged.
   void list_failure(const InputImage& input, const std::string& message) {
     summary.failures[input.file.string()] = message;
-    log(LogLevel::Warning, message);
+    last_failure_ = message;
+    if (++failed_ < summary.images) log(LogLevel::Warning, message);
   }
 
   std::span<const TemplateSet> sets_;
@@ -183,6 +202,8 @@ class Detector {
   const BatchOptions& options_;
   const BatchSettings& settings_;
   std::vector<EdgeModel> models_;
+  int failed_ = 0;
+  std::string last_failure_;
 };
 
 void work_through(const std::vector<Group>& open, Preparer& preparer, Detector& detector) {
@@ -200,17 +221,21 @@ void work_through(const std::vector<Group>& open, Preparer& preparer, Detector& 
 
 }  // namespace
 
-void require_world_poses(std::span<const InputImage> images) {
-  for (const InputImage& image : images)
+void require_joinable(std::span<const InputImage> images) {
+  std::set<std::filesystem::path> places;
+  for (const InputImage& image : images) {
     if (!image.camera_from_world)
       throw InputError(image.file.string(), "world pose", "none",
                        "cam_R_w2c and cam_t_w2c of every view with --joint");
+    if (!places.insert(place_of(image)).second)
+      throw InputError(image.file.string(), "view", "it twice", "every view once with --joint");
+  }
 }
 
 BatchSummary run_batch(std::span<const InputImage> images, std::span<const TemplateSet> sets,
                        Backend& backend, const BatchOptions& options) {
   const auto start = Clock::now();
-  if (options.joint) require_world_poses(images);
+  if (options.joint) require_joinable(images);
   const BatchSettings settings = settings_of(sets, options);
   Preparer preparer(options, settings.camera);
   Detector detector(sets, backend, options, settings);
@@ -223,13 +248,16 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
     else
       open.push_back(std::move(group));
   }
-  require_writable_folder(options.out);
+  require_writable_place(options.out);
   try {
     work_through(open, preparer, detector);
-  } catch (...) {
-    write_csv_of_ended(images, summary, options.out);
+  } catch (const std::exception& error) {
+    summary.error = error.what();
+    summary.seconds = seconds_since(start);
+    write_ended(images, summary, backend.name(), options.out);
     throw;
   }
+  detector.require_any_usable();
   summary.seconds = seconds_since(start);
   write_csv(images, summary, options.out);
   write_summary(summary, backend.name(), options.out);

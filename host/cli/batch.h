@@ -22,11 +22,13 @@ struct BatchOptions {
   Settings settings;  // of the verb, for a resumed batch to compare; models and cameras are added
 };
 
-// InputError naming the first image without a world pose: what `joint` asks for.
-void require_world_poses(std::span<const InputImage> images);
+// What `joint` asks for. InputError naming the first image without a world pose or given twice: the same view
+// again is no evidence of its own.
+void require_joinable(std::span<const InputImage> images);
 
 // Writes into `out`: NAME.json and NAME_overlay.png an image, results.csv (BOP) and summary.json. A bad image
-// is listed and the batch goes on; any other error ends it, and results.csv holds what was finished. With
+// is listed and the batch goes on; where all are bad the last one's error is thrown and nothing is written.
+// Any other error ends the batch; results.csv holds what was finished and summary.json the error too. With
 // `resume` images whose result is there are skipped; InputError, and nothing is written, where one of these
 // was made with other models, cameras, views or settings. Another image's result of the same name is none of
 // these.

@@ -1,11 +1,13 @@
 #include "host/cli/batch_results.h"
 
 #include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "host/core/log.h"
 #include "host/io/bop.h"
 #include "host/io/files.h"
+#include "host/io/json_text.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -27,7 +29,7 @@ bool is_done(const std::filesystem::path& out, const InputImage& input, const Se
   } catch (const InputError&) {
     return false;  // cut short, of an older format or another file: done again
   }
-  if (result.image != place_of(input) || result.scene_id != input.scene_id ||
+  if (result.image.string() != as_in_json(place_of(input).string()) || result.scene_id != input.scene_id ||
       result.image_id != input.image_id)
     return false;
   require_same(result.settings, settings, file.string());
@@ -50,15 +52,6 @@ void write_csv(std::span<const InputImage> images, const BatchSummary& summary,
   save_bop_results(rows, out / "results.csv");
 }
 
-void write_csv_of_ended(std::span<const InputImage> images, const BatchSummary& summary,
-                        const std::filesystem::path& out) {
-  try {
-    write_csv(images, summary, out);
-  } catch (const std::exception& error) {
-    log(LogLevel::Warning, error.what());
-  }
-}
-
 void write_summary(const BatchSummary& summary, const std::string& device, const std::filesystem::path& out) {
   nlohmann::ordered_json json{
       {"images", summary.images},
@@ -70,10 +63,27 @@ void write_summary(const BatchSummary& summary, const std::string& device, const
       {"images_per_second", summary.seconds > 0 ? summary.done / summary.seconds : 0.0}};
   for (const auto& [stage, seconds] : summary.stage_seconds)
     json["mean_ms_per_image"][stage] = 1000 * seconds / std::max(1, summary.done);
+  if (!summary.error.empty()) json["error"] = summary.error;
   json["failures"] = nlohmann::ordered_json::array();
   for (const auto& [file, message] : summary.failures)
     json["failures"].push_back({{"file", file}, {"error", message}});
-  write_file_atomically(out / "summary.json", json.dump(2) + "\n");
+  write_file_atomically(out / "summary.json", json_text(json, 2));
+}
+
+void write_ended(std::span<const InputImage> images, const BatchSummary& summary, const std::string& device,
+                 const std::filesystem::path& out) {
+  const auto try_to = [](const std::function<void()>& write) {
+    try {
+      write();
+    } catch (const std::exception& error) {
+      log(LogLevel::Warning, error.what());
+    }
+  };
+  try_to([&] {
+    require_writable_folder(out);  // not there before the first result
+    write_csv(images, summary, out);
+  });
+  try_to([&] { write_summary(summary, device, out); });
 }
 
 }  // namespace edgescout

@@ -19,6 +19,7 @@ struct BatchSummary {
   std::map<std::string, std::string> failures;  // message by file
   std::map<std::string, double> stage_seconds;  // of all images done, by stage
   double seconds = 0;
+  std::string error;  // that ended the batch; empty where none did
 };
 
 std::filesystem::path json_of(const std::filesystem::path& out, const InputImage& input);
@@ -35,11 +36,12 @@ bool is_done(const std::filesystem::path& out, const InputImage& input, const Se
 void write_csv(std::span<const InputImage> images, const BatchSummary& summary,
                const std::filesystem::path& out);
 
-// The same for a batch that an error ends. Failing to write is logged: the error itself is what must be told.
-void write_csv_of_ended(std::span<const InputImage> images, const BatchSummary& summary,
-                        const std::filesystem::path& out);
-
-// summary.json: counts, throughput, mean time of every stage, failures.
+// summary.json: counts, throughput, mean time of every stage, failures, the error of a batch that one ended.
 void write_summary(const BatchSummary& summary, const std::string& device, const std::filesystem::path& out);
+
+// Both for a batch that an error ends: those of an earlier run would lie. Failing to write is logged: the
+// error itself is what must be told.
+void write_ended(std::span<const InputImage> images, const BatchSummary& summary, const std::string& device,
+                 const std::filesystem::path& out);
 
 }  // namespace edgescout

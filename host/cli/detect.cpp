@@ -49,9 +49,9 @@ std::vector<TemplateSet> template_sets(const DetectRequest& request, std::span<c
                                        Backend& backend) {
   const KnownModels known = load_models(request.models);
   const Camera camera = first_camera(request, images);
-  if (request.batch.joint) require_world_poses(images);
+  if (request.batch.joint) require_joinable(images);
   require_other_folder(images, request.batch.out);
-  require_writable_folder(request.batch.out);
+  require_writable_place(request.batch.out);
   return template_sets_of(known, request.templates, camera, backend);
 }
 

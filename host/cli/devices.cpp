@@ -6,6 +6,7 @@
 
 #include "host/cli/exit_codes.h"
 #include "host/cli/verbs.h"
+#include "host/io/json_text.h"
 #include "kernels/backend.h"
 
 namespace edgescout {
@@ -33,8 +34,7 @@ void list_devices(const DevicesOptions& options) {
   if (options.as_json) {
     nlohmann::json list = nlohmann::json::array();
     for (const DeviceInfo& device : devices) list.push_back(device_json(device));
-    std::cout << nlohmann::json{{"devices", list}, {"asked", options.device}, {"taken", taken}}.dump(1)
-              << "\n";
+    std::cout << json_text(nlohmann::json{{"devices", list}, {"asked", options.device}, {"taken", taken}});
     return;
   }
   for (const DeviceInfo& device : devices)

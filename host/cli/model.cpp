@@ -8,6 +8,7 @@
 #include "host/cli/exit_codes.h"
 #include "host/cli/model_verbs.h"
 #include "host/cli/verbs.h"
+#include "host/io/json_text.h"
 #include "host/io/mesh.h"
 
 namespace edgescout {
@@ -79,7 +80,7 @@ void inspect(const InspectOptions& options) {
     else
       print_inspection(options.files[i], meshes[i], edges);
   }
-  if (options.as_json) std::cout << list.dump(1) << "\n";
+  if (options.as_json) std::cout << json_text(list);
 }
 
 void add_inspect(CLI::App& model, int& exit_code) {

@@ -265,13 +265,18 @@ RegisterSummary run_register(std::span<const RegisterJob> jobs, std::span<const 
   summary.images = static_cast<int>(images.size());
   const std::vector<const RegisterJob*> open = skip_done(jobs, registrar, options.resume);
   require_writable_place(options.out);
+  const auto write_with = [&](const std::exception& error) {
+    summary.error = error.what();
+    summary.seconds = seconds_since(start);
+    write_ended(images, summary, backend.name(), options.out);
+  };
   try {
     work_through(open, registrar);
-  } catch (const InputError&) {  // where no image can be used nothing is written
-    if (!summary.finished.empty()) write_csv_of_ended(images, summary, options.out);
+  } catch (const InputError& error) {  // where no image can be used nothing is written
+    if (!summary.finished.empty()) write_with(error);
     throw;
-  } catch (...) {
-    if (std::filesystem::exists(options.out)) write_csv_of_ended(images, summary, options.out);
+  } catch (const std::exception& error) {
+    if (std::filesystem::exists(options.out)) write_with(error);
     throw;
   }
   summary.seconds = seconds_since(start);

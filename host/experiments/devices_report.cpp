@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/experiments/devices.h"
+#include "host/io/json_text.h"
 
 namespace edgescout {
 
@@ -114,7 +115,7 @@ std::string devices_json(const DevicesReport& report) {
   for (const auto& [name, value] : report.settings) json["options"][name] = value;
   for (const DeviceTimes& device : report.devices)
     json["devices"].push_back(device_json(device, report.devices[0]));
-  return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 std::string devices_markdown(const DevicesReport& report) {

@@ -2,6 +2,7 @@
 
 #include "host/io/bop.h"
 #include "host/io/json_fields.h"
+#include "host/io/json_text.h"
 #include "host/io/results.h"
 #include "kernels/error.h"
 
@@ -58,12 +59,13 @@ std::vector<StartPose> load_start_poses(const std::filesystem::path& file) {
 bool belongs_to(const StartPose& pose, const std::filesystem::path& image, std::optional<int> scene_id,
                 int image_id) {
   if (pose.scene_id && scene_id && *pose.scene_id != *scene_id) return false;
-  return pose.image.empty() ? pose.image_id == image_id : pose.image.filename() == image.filename();
+  if (pose.image.empty()) return pose.image_id == image_id;
+  return pose.image.filename() == as_in_json(image.filename().string());
 }
 
 int same_ending(const StartPose& pose, const std::filesystem::path& image) {
   const std::filesystem::path a = pose.image.lexically_normal(),
-                              b = std::filesystem::absolute(image).lexically_normal();
+                              b = as_in_json(std::filesystem::absolute(image).lexically_normal().string());
   int count = 0;
   for (auto i = a.end(), j = b.end(); i != a.begin() && j != b.begin() && *--i == *--j;) ++count;
   return count;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "host/io/results.h"
 #include "kernels/error.h"
 #include "tests/cli/small_scene.h"
@@ -85,6 +87,7 @@ struct Batch : SmallScene {
     options.pipeline.detect.candidates = 10;
   }
   fs::path json(int i) const { return out / ("000003_00000" + std::to_string(i) + ".json"); }
+  nlohmann::json summary() const { return nlohmann::json::parse(content_of(out / "summary.json")); }
   std::set<int> listed() const {
     std::set<int> ids;
     for (const BopResult& row : load_bop_results(out / "results.csv")) ids.insert(row.image_id);
@@ -115,6 +118,18 @@ TEST(RunBatch, ListsNoOlderResultWhenTheDeviceIsLost) {
   FailingBackend backend(views_per_image, [] { throw GpuError("make_view: VK_ERROR_DEVICE_LOST"); });
   EXPECT_THROW(run_batch(t.images, t.sets, backend, t.options), GpuError);
   EXPECT_EQ(t.listed(), std::set<int>{0});
+}
+
+TEST(RunBatch, SumsUpWhatEndedItInPlaceOfAnEarlierRun) {
+  const Batch t;
+  run_batch(t.images, t.sets, *make_cpu_backend(2), t.options);
+  ASSERT_EQ(t.summary().at("done"), 3);
+  EXPECT_FALSE(t.summary().contains("error"));
+  FailingBackend backend(views_per_image, [] { throw GpuError("make_view: VK_ERROR_DEVICE_LOST"); });
+  EXPECT_THROW(run_batch(t.images, t.sets, backend, t.options), GpuError);
+  EXPECT_EQ(t.summary().at("done"), 1);
+  EXPECT_EQ(t.summary().at("device"), "failing");
+  EXPECT_EQ(t.summary().at("error"), "make_view: VK_ERROR_DEVICE_LOST");
 }
 
 TEST(RunBatch, TellsOfTheLostDeviceWhereTheListCannotBeWritten) {
@@ -162,12 +177,36 @@ TEST(RunBatch, NamesTheImageThatIsTooLarge) {
   save_png(Image{32767, 120, std::vector<std::uint8_t>(32767 * 120, 128)}, wide);
   t.options.camera_file =
       t.folder.write("lens.yaml", "K: [400, 0, 159.5, 0, 400, 119.5, 0, 0, 1]\nD: [0.1, 0, 0, 0, 0]\n");
-  const BatchSummary summary =
-      run_batch(list_images({wide.string()}), t.sets, *make_cpu_backend(1), t.options);
-  ASSERT_EQ(summary.failures.size(), 1u);
-  EXPECT_NE(summary.failures.begin()->second.find("wide.png: image: size: found 32767x120"),
-            std::string::npos)
-      << summary.failures.begin()->second;
+  expect_input_error(
+      [&] { run_batch(list_images({wide.string()}), t.sets, *make_cpu_backend(1), t.options); },
+      {"wide.png: image: size: found 32767x120"});
+  EXPECT_FALSE(fs::exists(t.out)) << "something was written";
+}
+
+TEST(RunBatch, RefusesWhereTheDeviceCanWorkOnNoImage) {
+  const Batch t;
+  FailingBackend backend(0, [] { throw InputError("image", "size", "320x240", "less"); });
+  const std::vector<InputImage> one(t.images.begin(), t.images.begin() + 1);
+  const CollectedLog log;
+  expect_input_error([&] { run_batch(one, t.sets, backend, t.options); },
+                     {"000000.png: image: size: found 320x240, expected less"});
+  EXPECT_TRUE(log.messages.empty()) << "told twice";
+  EXPECT_FALSE(fs::exists(t.out)) << "something was written";
+}
+
+// A Latin-1 name, as file systems hold them.
+TEST(RunBatch, TakesFileNamesThatAreNoUtf8) {
+  Batch t;
+  const fs::path folder = t.folder.path() / "images";
+  t.folder.write("images/bad\xe9.png", "no image");
+  fs::copy_file(t.image(), folder / "caf\xe9.png");
+  t.options.camera_file = t.camera();
+  const std::vector<InputImage> images = list_images({folder});
+  EXPECT_EQ(run_batch(images, t.sets, *make_cpu_backend(2), t.options).done, 1);
+  const std::string bad = t.summary().at("failures").at(0).at("file");
+  EXPECT_TRUE(bad.ends_with("bad\xef\xbf\xbd.png")) << bad;
+  t.options.resume = true;
+  EXPECT_EQ(run_batch(images, t.sets, *make_cpu_backend(2), t.options).skipped, 1);
 }
 
 TEST(RunBatch, JoinsOnlyViewsOfKnownPlace) {
@@ -176,6 +215,18 @@ TEST(RunBatch, JoinsOnlyViewsOfKnownPlace) {
   t.options.joint = true;
   expect_input_error([&] { run_batch(t.images, t.sets, *make_cpu_backend(1), t.options); },
                      {"000001.png", "world pose", "--joint"});
+  EXPECT_FALSE(fs::exists(t.out));
+}
+
+// The same view again is no evidence of its own.
+TEST(RunBatch, JoinsEveryViewOnce) {
+  Batch t;
+  t.options.joint = true;
+  expect_input_error(
+      [&] {
+        run_batch(list_images({t.scene, t.scene}), t.sets, *make_cpu_backend(1), t.options);
+      },
+      {"000000.png", "view: found it twice", "--joint"});
   EXPECT_FALSE(fs::exists(t.out));
 }
 

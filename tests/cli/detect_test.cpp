@@ -31,7 +31,7 @@ void expect_sound(const ImageResult& result, const fs::path& image) {
     EXPECT_TRUE(d.world_from_object.translation_m.allFinite());
     EXPECT_NEAR(d.world_from_object.rotation.norm(), 1, 1e-9);
     EXPECT_TRUE(d.covariance.allFinite());
-    for (double value : {d.probability, d.psi, d.visible_fraction})
+    for (double value : {d.probability, d.psi, d.matched_fraction})
       EXPECT_TRUE(value >= 0 && value <= 1) << value;
     EXPECT_TRUE(d.cost_px >= 0 && d.cost_px <= 60) << d.cost_px;
     EXPECT_FALSE(d.convergence.empty());
@@ -194,6 +194,32 @@ TEST(Detect, RefusesWhereEveryImageIsBad) {
   t.folder.write("bad/b.png", "");
   expect_refused(t.detect(t.folder.path() / "bad", joined({bracket(), {"--camera", t.camera()}})),
                  {"b.png", "empty"});
+  EXPECT_FALSE(fs::exists(t.out));
+}
+
+// Only the detection finds out.
+TEST(Detect, RefusesTheOnlyImageWhereItIsTooLarge) {
+  const SmallScene t;
+  const fs::path wide = t.folder.path() / "wide.png";
+  save_png(Image{32767, 120, std::vector<std::uint8_t>(32767 * 120, 128)}, wide);
+  const std::string lens =
+      t.folder.write("lens.yaml", "K: [400, 0, 159.5, 0, 400, 119.5, 0, 0, 1]\nD: [0.1, 0, 0, 0, 0]\n");
+  const Outcome outcome = run_program(t.detect(wide, joined({bracket(), {"--camera", lens}})));
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+  const std::size_t error = outcome.err.find("edgescout: error: ");
+  ASSERT_NE(error, std::string::npos) << outcome.err;
+  EXPECT_TRUE(is_one_line_error(outcome.err.substr(error))) << outcome.err;
+  EXPECT_NE(outcome.err.find("wide.png: image: size: found 32767x120", error), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(outcome.err.find("edgescout: warning: "), std::string::npos) << "told twice: " << outcome.err;
+  EXPECT_FALSE(fs::exists(t.out)) << "something was written";
+}
+
+TEST(Detect, RefusesViewsThatAreJoinedTwice) {
+  const SmallScene t;
+  expect_refused(
+      joined({{"detect", t.scene, t.scene, "--joint", "--out", t.out, "--device", "cpu"}, bracket()}),
+      {"000000.png", "view", "twice"});
   EXPECT_FALSE(fs::exists(t.out));
 }
 

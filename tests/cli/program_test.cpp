@@ -89,6 +89,15 @@ TEST(ModelInspect, MeasuresABox) {
   EXPECT_EQ(list.at(0).at("open_border_edges"), 0);
 }
 
+TEST(ModelInspect, TakesFileNamesThatAreNoUtf8) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("caf\xe9.stl", binary_stl(box(30, 40, 120)));
+  const Outcome outcome = run_program({"model", "inspect", file, "--unit", "mm", "--json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string name = nlohmann::json::parse(outcome.out).at(0).at("file");
+  EXPECT_TRUE(name.ends_with("caf\xef\xbf\xbd.stl")) << name;
+}
+
 TEST(ModelInspect, CountsOpenBordersAndWarnsOfTheUnit) {
   const TemporaryFolder folder;
   Triangles open = box(30, 40, 120);

@@ -306,6 +306,24 @@ TEST(Register, EndsWhereAResultCannotBeWritten) {
   EXPECT_FALSE(fs::exists(out / "summary.json"));
 }
 
+// The folder holds the summary of an earlier run.
+TEST(Register, SumsUpWhatEndedIt) {
+  const TemporaryFolder folder;
+  const BopScene scene = load_bop_scene(two_views());
+  save_bop_results({true_results(scene, 0)[0], true_results(scene, 1)[0]}, folder.path() / "starts.csv");
+  const fs::path out = folder.path() / "out", blocked = out / "000001_000001.json";
+  const std::vector<std::string> call = register_in(two_views(), folder.path() / "starts.csv", out,
+                                                    {"--search-rotation", "0", "--no-overlays"});
+  ASSERT_EQ(run_program(call).exit_code, 0);
+  fs::remove(blocked);
+  fs::create_directories(blocked);
+  ASSERT_EQ(run_program(call).exit_code, 2);
+  const auto summary = nlohmann::json::parse(content_of(out / "summary.json"));
+  EXPECT_EQ(summary.at("done"), 1);
+  EXPECT_NE(summary.at("error").get<std::string>().find("000001_000001.json: output file"), std::string::npos)
+      << summary;
+}
+
 TEST(Register, RefusesOptionsDevicesAndFolders) {
   const Refused t;
   const std::string starts = t.starts(good_start());
