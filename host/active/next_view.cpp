@@ -187,30 +187,29 @@ double unrepeated(const Eigen::Vector3d& direction, std::span<const Eigen::Vecto
   return left;
 }
 
-// Takes off the information what cannot be seen and what is known.
-void discount(std::span<double> information, std::span<const std::size_t> open, const Planning& planning,
-              const NextViewOptions& options) {
+// What is left of the information where some cannot be seen and some has been told, one an open view.
+std::vector<double> shares_left(std::span<const std::size_t> open, const Planning& planning,
+                                const NextViewOptions& options) {
+  std::vector<double> shares(open.size(), 1);
   const std::optional<Eigen::Vector3d> center_m = looked_at_m(planning.views);
-  if (!center_m) return;
+  if (!center_m || options.strategy != Strategy::Information || options.literal) return shares;
   std::vector<Se3> taken;
   for (const RegisterView& view : planning.real_views) taken.push_back(view.camera_from_world);
   const std::vector<Eigen::Vector3d> directions = directions_to(planning.views, *center_m),
                                      real = directions_to(taken, *center_m);
   const std::vector<double> free = free_sights(directions, options.free_sight);
   for (std::size_t i = 0; i < open.size(); ++i) {
-    information[i] *= free[open[i]];
-    if (options.repeat_rad > 0) information[i] *= unrepeated(directions[open[i]], real, options.repeat_rad);
+    shares[i] = free[open[i]];
+    if (options.repeat_rad > 0) shares[i] *= unrepeated(directions[open[i]], real, options.repeat_rad);
   }
+  return shares;
 }
 
 std::vector<double> information_of(const Planning& planning, std::span<const std::size_t> open,
                                    Backend& backend, const NextViewOptions& options) {
   switch (options.strategy) {
-    case Strategy::Information: {
-      std::vector<double> information = mutual_information(planning, open, backend, options);
-      if (!options.literal) discount(information, open, planning, options);
-      return information;
-    }
+    case Strategy::Information:
+      return mutual_information(planning, open, backend, options);
     case Strategy::Disocclusion:
       return disocclusion(planning, open, backend.threads());
     case Strategy::Random:
@@ -263,6 +262,7 @@ void NextViewOptions::validate() const {
   const double dearest = strategy == Strategy::Information ? 1e9 : 0;  // the others do not count in nats
   in("motion_cost_per_m", motion_cost_per_m, 0, dearest);
   in("motion_cost_per_rad", motion_cost_per_rad, 0, dearest);
+  visibility.validate();
 }
 
 std::vector<ViewInformation> view_information(const Planning& planning, Backend& backend,
@@ -280,8 +280,10 @@ std::vector<ViewInformation> view_information(const Planning& planning, Backend&
   }
   if (open.empty()) return views;
   const std::vector<double> information = information_of(planning, open, backend, options);
+  const std::vector<double> shares = shares_left(open, planning, options);
   for (std::size_t i = 0; i < open.size(); ++i)
-    views[open[i]] = {true, information[i], motion_cost(planning, planning.views[open[i]], options)};
+    views[open[i]] = {true, shares[i] * information[i], shares[i],
+                      motion_cost(planning, planning.views[open[i]], options)};
   if (std::ranges::none_of(information, [](double x) { return x > 0; }))
     log(LogLevel::Warning,
         "no view promises any information: nothing is known that it could be about, or no view sees it");

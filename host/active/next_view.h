@@ -69,6 +69,7 @@ struct ViewInformation {
   bool open = false;       // may be chosen; else the rest is 0
   double information = 0;  // Information: nats; Disocclusion: sum of psi times new visible points; Random: a
                            // draw from [0, 1); Fixed: falls along the sequence
+  double share = 0;        // that free_sight and repeat_rad leave: information is so much of the mutual one
   double motion_cost = 0;  // from the last real view
   double value() const { return information - motion_cost; }
 };

@@ -59,6 +59,7 @@ void ParticleOptions::validate() const {
   in("min_points", min_points, 1, 1e5);
   d2co.validate();
   polish_options.validate();
+  visibility.validate();
 }
 
 Detection candidate_in_world(const Detection& in_camera, const Se3& camera_from_world) {

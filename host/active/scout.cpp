@@ -189,6 +189,7 @@ void Scout::believe(ScoutStep& step, ScoutState& next, std::span<const RegisterV
     return find_modes(next.particles, sets_, models_, options_.particles, backend_.threads());
   };
   next.modes = modes();
+  for (const Mode& mode : next.modes) step.mode_probabilities.push_back(mode.probability);
   next.entropy_nats = step.entropy_nats = belief_entropy(next.modes);
   next.detections = step.detections =
       mode_detections(next.particles, next.modes, sets_, models_, views, backend_, options_.detections);
@@ -222,7 +223,11 @@ std::size_t Scout::add_particles(ScoutState& next) const {
 
 // Lines 4 to 10 and 13. No view is left where the decision's is negative.
 ScoutDecision Scout::decide() const {
-  if (state_.steps.empty()) return without_expectations(first_open_view(), options_.next_view.strategy);
+  // A fixed sequence, and chance, go on where the first view failed.
+  const bool needs_belief = options_.next_view.strategy == Strategy::Information ||
+                            options_.next_view.strategy == Strategy::Disocclusion;
+  if (state_.steps.empty() && (state_.failed.empty() || needs_belief))
+    return without_expectations(first_open_view(), options_.next_view.strategy);
   ScoutDecision decision;
   decision.strategy = options_.next_view.strategy;
   Stopwatch watch(decision.stages);

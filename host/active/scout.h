@@ -52,7 +52,7 @@ struct ScoutOptions {
   NextViewOptions next_view;  // its sigma_px is the particles' too: one model of how far right poses lie
   ModeDetectionOptions detections;
   AgreementOptions agreement;
-  int first_view = 0;
+  int first_view = 0;  // whatever the strategy: of a fixed sequence give its first
   // The end, whichever comes first. A limit of 0 is none.
   int max_views = 5;               // images
   double min_entropy_nats = 0.01;  // less: the modes are certain

@@ -42,8 +42,9 @@ struct ScoutStep {
   std::vector<ModeDetection> detections;
   // one a step so far: the later images' say on this and the earlier ones
   std::vector<ViewAgreement> agreement;
-  double entropy_nats = 0;           // belief_entropy of the modes, before resampling
-  std::vector<StageSeconds> stages;  // in the order they ran
+  std::vector<double> mode_probabilities;  // of all modes, before resampling; heaviest mode first
+  double entropy_nats = 0;                 // belief_entropy of these
+  std::vector<StageSeconds> stages;        // in the order they ran
 };
 
 struct FailedView {

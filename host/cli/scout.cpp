@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "host/cli/batch_settings.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/pipeline_options.h"
 #include "host/cli/scout_report.h"
@@ -137,7 +138,8 @@ int scout(ScoutRequest& request, const CLI::App& verb) {
   settle_options(request, verb);
   const std::unique_ptr<Backend> backend = make_backend(request.device);
   const KnownModels known = load_models(request.models);
-  const ScoutSource source = make_source(request.source, objects_of(known), backend->threads());
+  ScoutSource source = make_source(request.source, objects_of(known), backend->threads());
+  std::ranges::copy(settings_of(known.sets), std::back_inserter(source.settings));
   const std::vector<Se3> views = source.source->views();
   require_known_views(request.options, views.size());
   const fs::path saved = fs::path(request.out) / "scout.state";

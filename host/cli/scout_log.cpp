@@ -9,6 +9,7 @@
 #include "host/io/bop.h"
 #include "host/io/files.h"
 #include "host/io/json_fields.h"
+#include "host/io/json_text.h"
 #include "host/io/results.h"
 
 namespace edgescout {
@@ -58,6 +59,12 @@ json information_json(const std::vector<ViewInformation>& views) {
   return list;
 }
 
+json shares_json(const std::vector<ViewInformation>& views) {
+  json list = json::array();
+  for (const ViewInformation& view : views) list.push_back(view.open ? json(view.share) : json());
+  return list;
+}
+
 json costs_json(const std::vector<ViewInformation>& views) {
   json list = json::array();
   for (const ViewInformation& view : views) list.push_back(view.open ? json(view.motion_cost) : json());
@@ -75,6 +82,7 @@ json step_json(const ScoutStep& step, const ScoutReport& report) {
           {"strategy", to_string(step.decision.strategy)},
           {"information", information_json(step.decision.views)},
           {"information_unit", unit_of(step.decision.strategy)},
+          {"information_share", shares_json(step.decision.views)},
           {"motion_cost", costs_json(step.decision.views)},
           {"decision_ms", stages_json(step.decision.stages)},
           {"camera_from_world", pose_json(step.camera_from_world)},
@@ -88,6 +96,7 @@ json step_json(const ScoutStep& step, const ScoutReport& report) {
             {"resampled", step.resampled},
             {"reseeded", step.update.reseeded}}},
           {"gained_nats", step.update.gained_nats},
+          {"mode_probabilities", step.mode_probabilities},
           {"entropy_nats", step.entropy_nats},
           {"agreement", agreement},
           {"modes", modes_json(step.detections, report)}};
@@ -160,8 +169,7 @@ void save_scout_log(const ScoutState& state, const ScoutReport& report, const st
                             {"world_from_object", pose_json(there.world_from_object)}});
   log["seconds"] = state.seconds();
   log["end"] = to_string(state.end);
-  write_file_atomically(folder / "scout.json",
-                        log.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
+  write_file_atomically(folder / "scout.json", json_text(log));
 }
 
 void remove_scout_results(const std::filesystem::path& folder) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/error.h"
+#include "host/core/option_bounds.h"
 #include "kernels/thread_pool.h"
 
 namespace edgescout {
@@ -106,6 +106,12 @@ Pose to_pose(const Se3& b_from_a) {
     pose.m[4 * i + 3] = float(b_from_a.translation_m[i]);
   }
   return pose;
+}
+
+void VisibilityOptions::validate() const {
+  const OptionBounds in("visibility");
+  in("depth_map_size", depth_map_size_px, 8, 4096);
+  in("tolerance", tolerance, 0, 10);
 }
 
 std::vector<std::vector<ModelPoint>> visible_edges(const EdgeModel& model,

@@ -18,6 +18,7 @@ namespace edgescout {
 struct VisibilityOptions {
   int depth_map_size_px = 200;
   double tolerance = 0.01;  // of the object's diameter
+  void validate() const;    // InputError naming the field and the violated bound
 };
 
 // Raster points in the object frame, one list a pose; each pose must have the object in front of the camera

@@ -128,6 +128,7 @@ void D2coOptions::validate() const {
   }
   in("min_step_m", min_step_m, 0, 1e9);
   in("min_step_rad", min_step_rad, 0, 1e9);
+  visibility.validate();
 }
 
 std::string to_string(Convergence reason) {

@@ -219,6 +219,8 @@ TEST(ViewInformation, IsWorthLessNearARealView) {
     const double cosine = std::max(direction(v).dot(direction(0)), direction(v).dot(direction(3)));
     const double share = 1 - std::exp(-std::pow(std::acos(cosine) / 0.8, 2));
     EXPECT_NEAR(views[v].information, all_new[v].information * share, 1e-6) << v;
+    EXPECT_NEAR(views[v].share, share, 1e-9) << v;
+    EXPECT_EQ(all_new[v].share, 1);
     least = std::min(least, share), most = std::max(most, share);
   }
   EXPECT_LT(least, 0.8);

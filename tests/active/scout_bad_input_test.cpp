@@ -33,6 +33,30 @@ TEST(Scout, GoesOnPastAFailedAcquisition) {
   EXPECT_EQ(t.found(state), 1);
 }
 
+// Where the first view cannot be had, a strategy that asks nothing of the belief goes on by its own rule.
+TEST(Scout, KeepsToItsStrategyWhereTheFirstViewFails) {
+  SmallCell t;
+  SimulatedCell cell = t.source();
+  const auto views_of = [&](Strategy strategy) {
+    std::vector<int> asked;
+    CallbackSource stuck(t.camera(), t.views, [&](int view) {
+      asked.push_back(view);
+      if (asked.size() == 1) throw AcquisitionError("timeout");
+      return cell.acquire(view);
+    });
+    ScoutOptions options = t.options();
+    options.max_views = 1;
+    options.first_view = 3;
+    options.next_view.strategy = strategy;
+    options.next_view.sequence = {3, 1, 4};
+    Scout scout = t.scout(options);
+    run_scout(scout, stuck);
+    return asked;
+  };
+  EXPECT_EQ(views_of(Strategy::Fixed), (std::vector<int>{3, 1}));
+  EXPECT_EQ(views_of(Strategy::Information), (std::vector<int>{3, 4})) << "nothing is known: the next one";
+}
+
 // A driver's fault must not end the run.
 TEST(Scout, GoesOnPastAShotThatCannotBeUsed) {
   SmallCell t;
@@ -132,6 +156,10 @@ TEST(Scout, RefusesWhatItCannotUse) {
   };
   expect_refused("region_columns", [](ScoutOptions& o) { o.pipeline.detect.scan.region_columns = 0; });
   expect_refused("region_rows", [](ScoutOptions& o) { o.pipeline.detect.scan.region_rows = 0; });
+  expect_refused("visibility.depth_map_size",
+                 [](ScoutOptions& o) { o.particles.visibility.depth_map_size_px = 4; });
+  expect_refused("visibility.tolerance", [](ScoutOptions& o) { o.next_view.visibility.tolerance = NAN; });
+  expect_refused("visibility.tolerance", [](ScoutOptions& o) { o.particles.d2co.visibility.tolerance = -1; });
   expect_refused("polish.rounds", [](ScoutOptions& o) { o.particles.polish_options.rounds.clear(); });
   expect_refused("polish.radius",
                  [](ScoutOptions& o) { o.pipeline.detect.refine.polish_options.rounds[0].radius_px = 8.5f; });

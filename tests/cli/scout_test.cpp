@@ -72,6 +72,7 @@ TEST(Scout, FindsThePartAndShowsHow) {
   for (int i : {1, 2}) {
     const nlohmann::json& step = log["steps"][i];
     ASSERT_EQ(step.at("information").size(), 8u);
+    ASSERT_EQ(step.at("information_share").size(), 8u);
     const double chosen = step["information"].at(step.at("view").get<std::size_t>());
     int taken = 0;
     for (const nlohmann::json& information : step["information"]) {
@@ -144,6 +145,35 @@ TEST(Scout, DoesNotGoOnInAnotherCell) {
   *(std::ranges::find(longer, "--combinations") + 1) = "100";
   EXPECT_EQ(run_program(longer).exit_code, 0);
   EXPECT_EQ(t.log().at("steps").size(), 4u);
+}
+
+// Nor with what was built to look for another way: what was not found then might be now.
+TEST(Scout, DoesNotGoOnWithOtherTemplates) {
+  const TemporaryFolder folder;
+  const auto build = [&](const char* name, const char* viewpoints) {
+    const std::string file = folder.path() / name;
+    EXPECT_EQ(run_program({"model", "build", part_file(1), "--unit", "mm", "--out", file, "--device", "cpu",
+                           "--viewpoints", viewpoints, "--in-plane-steps", "8", "--distance-min", "0.27",
+                           "--distance-max", "0.33"})
+                  .exit_code,
+              0);
+    return file;
+  };
+  const auto arguments = [&](const std::string& templates, const std::vector<std::string>& more) {
+    return joined({{"scout",        "cell", "--out",        folder.path() / "out",
+                    "--device",     "cpu",  "--templates",  templates,
+                    "--width",      "320",  "--height",     "240",
+                    "--focal",      "400",  "--objects",    "1",
+                    "--clutter",    "0",    "--radius",     "0.3",
+                    "--view-count", "4",    "--max-views",  "1",
+                    "--aligned",    "100",  "--candidates", "4",
+                    "--particles",  "20"},
+                   more});
+  };
+  const std::string coarse = build("coarse.est", "1"), fine = build("fine.est", "2");
+  ASSERT_EQ(run_program(arguments(coarse, {})).exit_code, 0);
+  expect_refused(arguments(fine, {"--resume"}), {"scout.json", "templates of object 1", "frequency 1"});
+  EXPECT_EQ(run_program(arguments(coarse, {"--resume"})).exit_code, 0);
 }
 
 TEST(Scout, LooksFromTheViewsOfAFile) {
