@@ -43,7 +43,7 @@ struct Work {
     for (const EdgeModel& model : models)
       tables.push_back(make_template_table(model, bin_views().radius_m, backend));
     HemisphereOptions hemisphere = bin_views();
-    hemisphere.count = size.views;
+    hemisphere.count = size.views + 1;  // one was taken
     views = hemisphere_views(hemisphere);
     closed.assign(views.size(), 0);
     closed[0] = 1;

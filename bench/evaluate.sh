@@ -15,10 +15,21 @@ say() { printf '\n== %s\n' "$*"; }
 say "detection on rendered scenes: 10 scenes, 3 parts, 6 instances each, clutter and occlusion"
 "$edgescout" render --part l_bracket bearing_block u_channel --scenes 10 --objects 6 --clutter 1 --pile 0.4 --width 800 --height 600 \
   --focal 950 --min-distance 0.35 --max-distance 0.6 --seed 100 --out "$out/rendered"
-"$edgescout" detect "$out/rendered" --model "$out"/rendered/models/*.ply --unit mm --models-info "$out/rendered/models/models_info.json" \
-  --distance-min 0.33 --distance-max 0.66 --min-probability 0.05 --device "$device" --out "$out/rendered_results"
-"$edgescout" eval "$out/rendered_results/results.csv" "$out/rendered" --model "$out"/rendered/models/*.ply --unit mm \
-  --models-info "$out/rendered/models/models_info.json" --min-visible 0.7
+for edges in gradient lsd; do
+  say "with edges of $edges; summary.json has the time of every stage"
+  "$edgescout" detect "$out/rendered" --model "$out"/rendered/models/*.ply --unit mm --models-info "$out/rendered/models/models_info.json" \
+    --distance-min 0.33 --distance-max 0.66 --min-probability 0.05 --edges $edges --device "$device" --out "$out/rendered_$edges"
+  "$edgescout" eval "$out/rendered_$edges/results.csv" "$out/rendered" --model "$out"/rendered/models/*.ply --unit mm \
+    --models-info "$out/rendered/models/models_info.json" --min-visible 0.7
+done
+
+say "time and peak memory of one detection in 1024x768"
+"$edgescout" render --part l_bracket --objects 4 --clutter 1 --width 1024 --height 768 --focal 1200 --min-distance 0.4 --max-distance 0.6 \
+  --seed 7 --out "$out/one"
+measure=(/usr/bin/time -f '%e s, %U s of CPU time, %M KiB at most')
+[ -x /usr/bin/time ] || { say "not measured: /usr/bin/time (package time) is missing"; measure=(); }
+"${measure[@]}" "$edgescout" detect "$out/one" --model "$out"/one/models/*.ply --unit mm \
+  --models-info "$out/one/models/models_info.json" --distance-min 0.35 --distance-max 0.7 --device "$device" --out "$out/one_results"
 
 if [ -z "$data" ]; then
   say "skipped: registration, brackets and cat (no DATA given)"
