@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "host/core/random.h"
+#include "kernels/error.h"
 
 namespace edgescout {
 
@@ -52,6 +55,26 @@ Interval bootstrap_interval(std::span<const Cluster> clusters, int resamples, st
     rates.push_back(rate(drawn));
   }
   return resampled_interval(std::move(rates), static_cast<double>(with_trials.size()));
+}
+
+Interval paired_difference_interval(std::span<const Cluster> a, std::span<const Cluster> b, int resamples,
+                                    std::uint64_t seed) {
+  check(a.size() == b.size(), "paired_difference_interval: the same clusters");
+  std::vector<std::pair<Cluster, Cluster>> pairs;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    check(a[i].trials == b[i].trials, "paired_difference_interval: the same trials");
+    if (a[i].trials > 0) pairs.emplace_back(a[i], b[i]);
+  }
+  if (pairs.empty()) return {-1, 1};
+  Random random(seed);
+  std::vector<double> differences;
+  std::vector<Cluster> drawn_a(pairs.size()), drawn_b(pairs.size());
+  for (int i = 0; i < resamples; ++i) {
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+      std::tie(drawn_a[k], drawn_b[k]) = pairs[random.below(static_cast<int>(pairs.size()))];
+    differences.push_back(rate(drawn_a) - rate(drawn_b));
+  }
+  return percentile_interval(std::move(differences));
 }
 
 }  // namespace edgescout

@@ -35,4 +35,9 @@ Interval resampled_interval(std::vector<double> rates, double clusters);
 // interval is resampled_interval()'s. [0, 1] without trials.
 Interval bootstrap_interval(std::span<const Cluster> clusters, int resamples = 2000, std::uint64_t seed = 1);
 
+// Of rate(a) less rate(b), of two methods on the same clusters in the same order: percentiles over draws that
+// both share. [-1, 1] without trials.
+Interval paired_difference_interval(std::span<const Cluster> a, std::span<const Cluster> b,
+                                    int resamples = 2000, std::uint64_t seed = 1);
+
 }  // namespace edgescout

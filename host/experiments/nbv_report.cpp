@@ -73,6 +73,25 @@ std::string cell_of(const Outcome& outcome) {
                      100 * rate(outcome.shown));
 }
 
+// "+4.9 [+0.4, +9.4]", times `unit`.
+std::string difference_of(const std::vector<Cluster>& a, const std::vector<Cluster>& b, double unit) {
+  const Interval interval = paired_difference_interval(a, b);
+  return fmt::format("{:+.{}f} [{:+.{}f}, {:+.{}f}]", unit * (rate(a) - rate(b)), unit > 1 ? 1 : 2,
+                     unit * interval.low, unit > 1 ? 1 : 2, unit * interval.high, unit > 1 ? 1 : 2);
+}
+
+// What the first strategy has more than another, over the same draws of bins.
+std::string difference_row(const Table& first, const Table& other, const std::string& name,
+                           const std::vector<std::string>& views) {
+  std::string text = fmt::format("| {} |", name);
+  for (const std::string& count : views) {
+    const Outcome a = outcome_of(first, count), b = outcome_of(other, count);
+    text += fmt::format(" {}; {} |", difference_of(a.correct, b.correct, 100),
+                        difference_of(a.wrong, b.wrong, 1));
+  }
+  return text + "\n";
+}
+
 std::string table_of(const Table& table, const Searched& searched, const std::vector<std::string>& strategies,
                      const std::vector<std::string>& views) {
   std::string text = "| strategy |", line = "|---|";
@@ -85,6 +104,10 @@ std::string table_of(const Table& table, const Searched& searched, const std::ve
     for (const std::string& count : views) text += fmt::format(" {} |", cell_of(outcome_of(rows, count)));
     text += "\n";
   }
+  const Table first = rows_of(table, searched, strategies[0]);
+  for (std::size_t i = 1; i < strategies.size(); ++i)
+    text += difference_row(first, rows_of(table, searched, strategies[i]),
+                           fmt::format("{} less {}", name_of(strategies[0]), name_of(strategies[i])), views);
   double instances = 0;  // the same for every strategy
   for (const Cluster& bin : outcome_of(rows_of(table, searched, strategies[0]), views[0]).correct)
     instances += bin.trials;
@@ -125,7 +148,9 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
   report.columns = std::max(1, static_cast<int>(searches.size()));
   report.markdown = fmt::format(
       "Bins: {}. Instances correctly localised (below 0.1 rad and 5 mm) after so many views; false positives "
-      "a bin; instances of which some image so far showed more than 70 %.\n\n",
+      "a bin; instances of which some image so far showed more than 70 %. Differences: points of percent; "
+      "false "
+      "positives a bin; intervals over the same draws of bins.\n\n",
       values_of(table, "bin").size());
   for (const Searched& searched : searches) report.markdown += table_of(table, searched, strategies, views);
   for (const Measure measure : {Measure::Correct, Measure::Wrong})

@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "kernels/error.h"
+
 namespace edgescout {
 namespace {
 
@@ -78,6 +80,20 @@ TEST(Resampled, WithoutSpreadIsWilsons) {
   EXPECT_EQ(resampled_interval({}, 4).high, 1);
   EXPECT_EQ(resampled_interval({2, 2}, 4).low, 2) << "a mean number, no rate";
   EXPECT_EQ(resampled_interval({2, 2}, 4).high, 2);
+}
+
+// Clusters that are easy are so for both: their difference is better known than either.
+TEST(PairedDifference, IsOverTheSameDraws) {
+  const std::vector<Cluster> a{{1, 10}, {5, 10}, {9, 10}, {0, 0}}, b{{0, 10}, {4, 10}, {8, 10}, {0, 0}};
+  EXPECT_NEAR(paired_difference_interval(a, b).low, 0.1, 1e-12);
+  EXPECT_NEAR(paired_difference_interval(a, b).high, 0.1, 1e-12);
+  EXPECT_GT(bootstrap_interval(a).high - bootstrap_interval(a).low, 0.5);
+  // Two clusters: drawn twice, once each, the other twice.
+  const std::vector<Cluster> c{{3, 4}, {1, 6}}, d{{1, 4}, {3, 6}};
+  EXPECT_DOUBLE_EQ(paired_difference_interval(c, d).low, -2.0 / 6);
+  EXPECT_DOUBLE_EQ(paired_difference_interval(c, d).high, 2.0 / 4);
+  EXPECT_EQ(paired_difference_interval(std::vector<Cluster>{}, std::vector<Cluster>{}).low, -1);
+  EXPECT_THROW(paired_difference_interval(c, a), LogicError);
 }
 
 TEST(Percentiles, HoldNineteenOfTwenty) {

@@ -122,6 +122,10 @@ TEST(NbvReport, CountsInstancesAndFalseOnesByViews) {
   EXPECT_NE(report.markdown.find("| Random | 30 % [25, 33]; 1.50; 60 % | 40 % [33, 50]; 3.50; 60 % |"),
             std::string::npos)
       << report.markdown;
+  EXPECT_NE(report.markdown.find("| MI-MAX less Random | +0.0 [+0.0, +0.0]; +0.00 [+0.00, +0.00] | "
+                                 "+50.0 [+50.0, +50.0]; -3.00 [-4.00, -2.00] |"),
+            std::string::npos)
+      << report.markdown;
   EXPECT_NE(report.markdown.find("1.5 s (median)"), std::string::npos);
   ASSERT_EQ(report.panels.size(), 2u);
   EXPECT_EQ(report.panels[0].lines[0].name, "MI-MAX");
