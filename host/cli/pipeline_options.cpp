@@ -47,7 +47,7 @@ void add_detection_options(CLI::App& verb, PipelineOptions& o) {
   add_choice_options(verb, d.min_probability, d.evidence);
   OptionTable(verb, "Detection")
       .bounded("region-x", d.scan.within.x, 0.0, 1e6,
-               "Left border of the part of the undistorted image where an object's centre may be, px")
+               "Left border of the part of every undistorted image where objects' centres are looked for, px")
       .bounded("region-y", d.scan.within.y, 0.0, 1e6, "Upper border, px")
       .bounded("region-width", d.scan.within.width, 0.0, 1e6, "px; 0: to the image's border")
       .bounded("region-height", d.scan.within.height, 0.0, 1e6, "px; 0: to the image's border")

@@ -188,9 +188,9 @@ class Registrar {
       result.settings = settings_of_view(job, view);
       save_image_result(result, json_of(options_.out, job.views[view]));
       summary.finished.insert(job.views[view].name);
+      ++summary.done;
     }
     for (const StageSeconds& stage : found.stages) summary.stage_seconds[stage.name] += stage.seconds;
-    summary.done += static_cast<int>(views_with_starts(job).size());
     summary.poses += static_cast<int>(found.detections.size());
   }
 

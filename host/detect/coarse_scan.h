@@ -21,7 +21,8 @@ struct ScanOptions {
   int region_rows = 16;
   // hits, shared evenly among the regions: texture must not crowd out the rest of the image
   int kept = 10000;
-  ImageRegion within;  // of the undistorted image: where an object's centre may be
+  ImageRegion within;  // of the undistorted image: where objects' centres are looked for; from there
+                       // registration may lead a pixel or two out of it
 };
 
 // Of ScanHit::rank; 0.5 finds one more of 54 rendered parts and loses four of 16 cats.

@@ -86,6 +86,10 @@ std::string difference_row(const Table& first, const Table& other, const std::st
   std::string text = fmt::format("| {} |", name);
   for (const std::string& count : views) {
     const Outcome a = outcome_of(first, count), b = outcome_of(other, count);
+    if (a.correct.size() != b.correct.size()) {  // one of them has ended before, in some bins
+      text += " |";
+      continue;
+    }
     text += fmt::format(" {}; {} |", difference_of(a.correct, b.correct, 100),
                         difference_of(a.wrong, b.wrong, 1));
   }

@@ -48,7 +48,8 @@ cv::Mat decode(const std::string& bytes, const std::string& source) {
     const cv::Mat view(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
     image = cv::imdecode(view, cv::IMREAD_UNCHANGED);
   } catch (const std::exception& error) {  // cv::Exception for absurd sizes
-    if (is_out_of_memory(error)) throw std::bad_alloc();
+    if (is_out_of_memory(error))
+      throw InputError(source, "image", "more pixels than there is memory for", "one that fits");
     throw not_an_image;
   }
   if (image.empty()) throw not_an_image;

@@ -36,10 +36,10 @@ struct ImageResult {
   std::vector<Detection> detections;
 };
 
-// Atomically. The fields: edgescout_result (version of the format, 1), image, scene_id, image_id, device,
+// Atomically. The fields: edgescout_result (version of the format, 2), image, scene_id, image_id, device,
 // camera, settings {name: text} (optional), camera_from_world (optional), timings_ms [{stage, ms}], objects
 // [{id, name}], detections [{object_id, object, world_from_object, camera_from_object, covariance,
-// probability, psi, cost_px, visible_fraction, evidence, unexplained_grey, convergence}]. A number that is
+// probability, psi, cost_px, matched_fraction, evidence, unexplained_grey, convergence}]. A number that is
 // not finite becomes null.
 void save_image_result(const ImageResult& result, const std::filesystem::path& file);
 

@@ -101,6 +101,7 @@ void PolishOptions::validate() const {
     in("scale", round.scale_px, 1e-3, 1000);
     in("iterations", round.iterations, 1, 1000);
   }
+  visibility.validate();
   in("max_turn", max_turn_rad, 0, 3.15);
   in("min_matched", min_matched, 0, 1);
   in("max_points", max_points, 0, 1e6);

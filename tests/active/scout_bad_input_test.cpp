@@ -37,7 +37,7 @@ TEST(Scout, GoesOnPastAFailedAcquisition) {
 TEST(Scout, KeepsToItsStrategyWhereTheFirstViewFails) {
   SmallCell t;
   SimulatedCell cell = t.source();
-  const auto views_of = [&](Strategy strategy) {
+  const auto views_of = [&](Strategy strategy, std::uint64_t seed = 1) {
     std::vector<int> asked;
     CallbackSource stuck(t.camera(), t.views, [&](int view) {
       asked.push_back(view);
@@ -49,11 +49,15 @@ TEST(Scout, KeepsToItsStrategyWhereTheFirstViewFails) {
     options.first_view = 3;
     options.next_view.strategy = strategy;
     options.next_view.sequence = {3, 1, 4};
+    options.next_view.seed = seed;
     Scout scout = t.scout(options);
     run_scout(scout, stuck);
     return asked;
   };
   EXPECT_EQ(views_of(Strategy::Fixed), (std::vector<int>{3, 1}));
+  std::set<int> seconds;
+  for (const std::uint64_t seed : {1, 2, 3, 4}) seconds.insert(views_of(Strategy::Random, seed)[1]);
+  EXPECT_GT(seconds.size(), 1u);
   EXPECT_EQ(views_of(Strategy::Information), (std::vector<int>{3, 4})) << "nothing is known: the next one";
 }
 

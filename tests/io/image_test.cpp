@@ -108,7 +108,7 @@ TEST(LoadImage, TellsAGoodImageThatFindsNoRoomFromABadOne) {
   save_png(Image{8000, 8000, std::vector<std::uint8_t>(8000 * 8000, 128)}, folder.path() / "large.png");
   EXPECT_EQ(load_image(folder.path() / "large.png").width, 8000);
   const MemoryLimit limit(32 << 20);  // half of the pixels
-  EXPECT_THROW(load_image(folder.path() / "large.png"), std::bad_alloc);
+  expect_input_error([&] { load_image(folder.path() / "large.png"); }, {"large.png", "memory"});
 }
 
 TEST(LoadImage, RejectsImagesCutShort) {
