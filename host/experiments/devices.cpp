@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "host/detect/coarse_scan.h"
+#include "host/experiments/decision.h"
 #include "host/experiments/known_scene.h"
 #include "host/experiments/rates.h"
 #include "host/experiments/settings.h"
@@ -27,7 +28,7 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-constexpr int PARTS = 5, POSES = 40;
+constexpr int PARTS = 5, POSES = 40, DECISION_BIN = 2;
 constexpr double ENOUGH_MS = 120000;  // a device that took so long is not asked again
 constexpr int LEAST_REPETITIONS = 3;
 
@@ -37,6 +38,7 @@ struct Work {
   std::vector<TemplateSet> sets;
   std::vector<EdgeModel> models;
   std::vector<Hypothesis> starts, truths;  // of registration and of scoring, camera frame
+  DecisionWork decision;                   // of the next view
   PipelineOptions options;                 // of the whole pipeline
 };
 
@@ -65,6 +67,8 @@ Work make_work(const DevicesOptions& o, Backend& cpu) {
   if (templates.distance_max_m == 0) templates.distance_max_m = 1.15 * farthest_m;
   work.sets.push_back(build_templates(work.scene.objects[0], templates, cpu));
   work.models = models_of(work.sets);
+  work.decision = make_decision_work(
+      make_bin(bin_types(), ExperimentSettings::full_form(), DECISION_BIN, cpu.threads()), {}, cpu);
   const int each = (POSES + static_cast<int>(work.scene.instances.size()) - 1) /
                    static_cast<int>(work.scene.instances.size());
   for (const Start& start : starts_around(work.scene, each, o.seed)) {
@@ -111,6 +115,7 @@ void run_stages(const Work& work, Backend& backend, std::vector<StageSamples>& s
   stages.time("scoring", [&] {
     return pose_features(work.models, work.truths, views, backend, work.options.detect.refine.score);
   });
+  stages.time("next view", [&] { return decide(work.decision, backend); });
   stages.time("image to poses", [&] {
     return detect_objects(prepare_image(image.image, image.camera, Se3{}, backend, work.options), work.sets,
                           backend, work.options);

@@ -1,4 +1,5 @@
-// Every stage from an image to poses, timed on every device beside the CPU in one run.
+// Every stage from an image to poses, and the decision where to look next, timed on every device beside the
+// CPU in one run.
 #pragma once
 
 #include <functional>
@@ -33,7 +34,7 @@ struct StageSamples {
 struct DeviceTimes {
   std::string choice, name, driver;
   bool is_software = false;  // a rasteriser on the processor: right, but no measure of a graphics card
-  // "edges", "tensors", "scan", "registration", "scoring", "image to poses"
+  // "edges", "tensors", "scan", "registration", "scoring", "next view", "image to poses"
   std::vector<StageSamples> stages;
   // of the whole process while an image was searched, with what the devices before it keep
   std::size_t peak_host_bytes = 0;

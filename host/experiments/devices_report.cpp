@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "host/experiments/decision.h"
 #include "host/experiments/devices.h"
 #include "host/io/json_text.h"
 
@@ -122,10 +123,12 @@ std::string devices_markdown(const DevicesReport& report) {
   std::string text = fmt::format(
       "# Devices\n\nOne rendered image of {} x {} with {} instances of one part; {} templates; {} poses "
       "registered "
-      "and scored. Medians of {} repetitions (fewer where a device is slow), "
+      "and scored; one decision among {} views with {} candidates, {} particles and {} scenes. Medians of {} "
+      "repetitions (fewer where a device is slow), "
       "devices in turn within one run. {} threads, load average {:.2f}, {:.0f} % of the processors to be had "
       "before. Seed {}, commit {}.\n\n",
-      report.width, report.height, report.instances, report.templates, report.poses,
+      report.width, report.height, report.instances, report.templates, report.poses, DecisionSize{}.views,
+      DecisionSize{}.candidates, DecisionSize{}.particles, DecisionSize{}.combinations,
       report.options.repetitions, report.load.threads, report.load.load_average, 100 * report.load.share,
       report.options.seed, report.commit);
   for (const std::string& warning : report.warnings) text += "**Warning:** " + warning + "\n\n";

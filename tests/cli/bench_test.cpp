@@ -233,7 +233,7 @@ TEST(BenchDevices, TimesEveryStageBesideTheCpu) {
       EXPECT_LE(stage.at("median_ms"), stage.at("max_ms"));
     }
     EXPECT_EQ(stages, (std::vector<std::string>{"edges", "tensors", "scan", "registration", "scoring",
-                                                "image to poses"}));
+                                                "next view", "image to poses"}));
     EXPECT_GT(parts_ms, 0);
     EXPECT_NEAR(device.at("images_per_second").get<double>() * whole_ms, 1000, 1);
   }
