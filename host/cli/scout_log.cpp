@@ -53,21 +53,10 @@ json modes_json(const std::vector<ModeDetection>& modes, const ScoutReport& repo
   return list;
 }
 
-json information_json(const std::vector<ViewInformation>& views) {
+// One of the numbers of every view; null where a view was not open.
+json of_open_views(const std::vector<ViewInformation>& views, double ViewInformation::*number) {
   json list = json::array();
-  for (const ViewInformation& view : views) list.push_back(view.open ? json(view.information) : json());
-  return list;
-}
-
-json shares_json(const std::vector<ViewInformation>& views) {
-  json list = json::array();
-  for (const ViewInformation& view : views) list.push_back(view.open ? json(view.share) : json());
-  return list;
-}
-
-json costs_json(const std::vector<ViewInformation>& views) {
-  json list = json::array();
-  for (const ViewInformation& view : views) list.push_back(view.open ? json(view.motion_cost) : json());
+  for (const ViewInformation& view : views) list.push_back(view.open ? json(view.*number) : json());
   return list;
 }
 
@@ -80,10 +69,10 @@ json step_json(const ScoutStep& step, const ScoutReport& report) {
                          {"disagrees", view.disagrees}});
   return {{"view", step.decision.view},
           {"strategy", to_string(step.decision.strategy)},
-          {"information", information_json(step.decision.views)},
+          {"information", of_open_views(step.decision.views, &ViewInformation::information)},
           {"information_unit", unit_of(step.decision.strategy)},
-          {"information_share", shares_json(step.decision.views)},
-          {"motion_cost", costs_json(step.decision.views)},
+          {"information_share", of_open_views(step.decision.views, &ViewInformation::share)},
+          {"motion_cost", of_open_views(step.decision.views, &ViewInformation::motion_cost)},
           {"decision_ms", stages_json(step.decision.stages)},
           {"camera_from_world", pose_json(step.camera_from_world)},
           {"timings_ms", stages_json(step.stages)},
