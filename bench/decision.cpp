@@ -42,7 +42,7 @@ void run(const std::string& device, int repetitions, bool growth) {
               repetitions);
   std::printf("%5s %10s %9s %12s %9s %9s\n", "views", "candidates", "particles", "combinations", "seconds",
               "peak, MB");
-  const Bin bin = make_bin(bin_types(), ExperimentSettings::full_form(), 2, backend->threads());
+  const Bin bin = decision_bin(backend->threads());
   report(bin, {}, *backend, repetitions);
   for (const int by : {3, 10})
     for (int DecisionSize::*const number : {&DecisionSize::views, &DecisionSize::candidates,

@@ -20,6 +20,7 @@
 #include "host/detect/suppression.h"
 #include "host/eval/metrics.h"
 #include "host/experiments/bin.h"
+#include "host/experiments/bin_types.h"
 #include "host/register/occluders.h"
 
 namespace {
@@ -123,7 +124,7 @@ int main(int argc, char** argv) {
   try {
     const int first = std::stoi(argv[1]), last = std::stoi(argv[2]);
     const auto backend = make_cpu_backend(0);
-    const std::vector<TemplateSet> sets = bin_templates(*backend);
+    const std::vector<TemplateSet> sets = bin_templates(bin_types(), *backend);
     std::puts("bin,views,right,speaking,log_evidence,log_over_beside,unexplained_grey");
     for (int number = first; number <= last; ++number) print_bin(number, sets, *backend);
     return 0;

@@ -30,6 +30,7 @@ constexpr std::pair<const char*, int ExperimentSettings::*> SIZES[] = {
     {"starts", &ExperimentSettings::starts},         {"group-starts", &ExperimentSettings::group_starts},
     {"every", &ExperimentSettings::every},           {"frames-every", &ExperimentSettings::frames_every},
     {"candidates", &ExperimentSettings::candidates}, {"bins", &ExperimentSettings::bins},
+    {"cad-bins", &ExperimentSettings::cad_bins},
 };
 
 ExperimentSettings settings_of(const ExperimentsRequest& request, const CLI::App& verb) {
@@ -107,6 +108,7 @@ void add_sizes(CLI::App& verb, ExperimentsRequest& r) {
       .bounded("frames-every", s.frames_every, 1, 100, "Of the cat's photographs one in so many")
       .bounded("candidates", s.candidates, 1, 100000, "Of the detection, in every image and for every type")
       .bounded("bins", s.bins, 1, 10000, "Of piled parts, for the next best view")
+      .bounded("cad-bins", s.cad_bins, 0, 10000, "The same with parts of DIR/cad, where there is --data")
       .bounded("image-scale", s.image_scale, 0.1, 2.0, "Of the paper's image sizes")
       .bounded("supersampling", s.supersampling, 1, 7, "Samples a pixel and axis of rendered images; odd");
 }
@@ -121,7 +123,7 @@ void add_bench_experiments(CLI::App& bench, int& exit_code) {
       ->type_name("NAME");
   verb->add_option("--out", request->out, "Folder of the results")->required()->type_name("DIR");
   verb->add_option("--data", request->data,
-                   "Folder with d2co-starts, brackets, cat and triangle; without it rendered images alone")
+                   "Folder with d2co-starts, brackets, cat, triangle and cad; without it rendered images alone")
       ->type_name("DIR");
   verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
       ->capture_default_str();
@@ -133,7 +135,7 @@ void add_bench_experiments(CLI::App& bench, int& exit_code) {
       .flag("times,!--no-times", request->settings.times,
             "Measured times among the rows (default); without, two runs give the same bytes");
   add_sizes(*verb, *request);
-  verb->add_option("--only-bins", request->settings.only_bins, "These, in place of the first --bins")
+  verb->add_option("--only-bins", request->settings.only_bins, "These, in place of the first --bins and --cad-bins")
       ->type_name("NUMBER,..")
       ->delimiter(',')
       ->allow_extra_args(false)

@@ -1,7 +1,6 @@
 #include "host/experiments/bin.h"
 
 #include "host/core/random.h"
-#include "host/render/parts.h"
 #include "host/render/renderer.h"
 
 namespace edgescout {
@@ -38,21 +37,6 @@ const std::vector<double>& BinCell::visible(int view) {
 }
 
 HemisphereOptions bin_views() { return {}; }
-
-const std::vector<Object>& bin_types() {
-  static const std::vector<Object> parts{make_part("l_bracket"), make_part("bearing_block"),
-                                         make_part("u_channel")};
-  return parts;
-}
-
-std::vector<TemplateSet> bin_templates(Backend& backend) {
-  TemplateOptions options;
-  options.distance_min_m = bin_views().radius_m - BIN_DEPTH_MARGIN_M;
-  options.distance_max_m = bin_views().radius_m + BIN_DEPTH_MARGIN_M;
-  std::vector<TemplateSet> sets;
-  for (const Object& type : bin_types()) sets.push_back(build_templates(type, options, backend));
-  return sets;
-}
 
 std::vector<int> fixed_sequence(const Bin& bin) {
   constexpr int stride = 13;

@@ -10,7 +10,6 @@
 #include "host/active/source.h"
 #include "host/active/views.h"
 #include "host/experiments/settings.h"
-#include "host/model/template_set.h"
 
 namespace edgescout {
 
@@ -53,9 +52,6 @@ HemisphereOptions bin_views();
 // The parts' distances from every view lie in this range.
 inline constexpr double BIN_DEPTH_MARGIN_M = 0.16;  // on either side of the hemisphere's radius
 
-// What the bins hold beside foreign parts, and what is searched for in them, at any distance from the views.
-const std::vector<Object>& bin_types();
-std::vector<TemplateSet> bin_templates(Backend& backend);
 // Around the hemisphere and through its rings from the first view, as somebody would lay it out.
 std::vector<int> fixed_sequence(const Bin& bin);
 // Views that show as much as they can of `sought`, one after the other, first view and all. What an image

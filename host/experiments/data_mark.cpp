@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* SETS[] = {"d2co-starts", "brackets", "cat", "triangle"};
+constexpr const char* SETS[] = {"d2co-starts", "brackets", "cat", "triangle", "cad"};
 constexpr const char* NEEDED[] = {"d2co-starts/ground_truth.json",
                                   "d2co-starts/starts.csv",
                                   "brackets/000001/scene_camera.json",
@@ -28,7 +28,10 @@ constexpr const char* NEEDED[] = {"d2co-starts/ground_truth.json",
                                   "brackets/models/models_info.json",
                                   "brackets/models/obj_000001.ply",
                                   "cat/models/obj_000001.ply",
-                                  "triangle/models/obj_000001.ply"};
+                                  "triangle/models/obj_000001.ply",
+                                  "cad/AX-01_bearing_box.stl",
+                                  "cad/flange.stl",
+                                  "cad/t13.stl"};
 
 }  // namespace
 

@@ -7,7 +7,7 @@
 namespace edgescout {
 
 // What tells the data below a folder from others, wherever the folder lies: a checksum of all files of its
-// three sets. InputError naming one of those that no set can do without (truths, cameras, starts).
+// sets. InputError naming one of those that no set can do without (truths, cameras, starts, meshes).
 std::string data_mark(const std::filesystem::path& data);
 
 }  // namespace edgescout

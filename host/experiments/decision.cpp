@@ -3,6 +3,7 @@
 #include "host/active/combinations.h"
 #include "host/active/views.h"
 #include "host/detect/plausible_pairs.h"
+#include "host/experiments/bin_types.h"
 
 namespace edgescout {
 
@@ -19,6 +20,10 @@ Detection candidate_near(const BinInstance& instance, double diameter_m, Random&
 }
 
 }  // namespace
+
+Bin decision_bin(ThreadPool& pool) {
+  return make_bin(bin_types(), ExperimentSettings::full_form(), 2, pool);
+}
 
 DecisionWork make_decision_work(const Bin& bin, const DecisionSize& size, Backend& backend) {
   DecisionWork work;

@@ -25,6 +25,9 @@ struct DecisionWork {
   DecisionSize size;
 };
 
+// Of the full experiments, the one that decisions are timed on.
+Bin decision_bin(ThreadPool& pool);
+// `bin` holds the project's own parts.
 DecisionWork make_decision_work(const Bin& bin, const DecisionSize& size, Backend& backend);
 
 // Which candidates exclude each other, scenes, visible edges and surfaces of every candidate in every view,

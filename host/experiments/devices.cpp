@@ -28,7 +28,7 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-constexpr int PARTS = 5, POSES = 40, DECISION_BIN = 2;
+constexpr int PARTS = 5, POSES = 40;
 constexpr double ENOUGH_MS = 120000;  // a device that took so long is not asked again
 constexpr int LEAST_REPETITIONS = 3;
 
@@ -67,8 +67,7 @@ Work make_work(const DevicesOptions& o, Backend& cpu) {
   if (templates.distance_max_m == 0) templates.distance_max_m = 1.15 * farthest_m;
   work.sets.push_back(build_templates(work.scene.objects[0], templates, cpu));
   work.models = models_of(work.sets);
-  work.decision = make_decision_work(
-      make_bin(bin_types(), ExperimentSettings::full_form(), DECISION_BIN, cpu.threads()), {}, cpu);
+  work.decision = make_decision_work(decision_bin(cpu.threads()), {}, cpu);
   const int each = (POSES + static_cast<int>(work.scene.instances.size()) - 1) /
                    static_cast<int>(work.scene.instances.size());
   for (const Start& start : starts_around(work.scene, each, o.seed)) {

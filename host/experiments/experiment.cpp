@@ -113,7 +113,7 @@ void run_experiments(const std::vector<Experiment>& chosen, const ExperimentSett
   settings.validate();
   if (!settings.data.empty() && !fs::is_directory(settings.data))
     throw InputError(settings.data.string(), "data", "no folder",
-                     "one with d2co-starts, brackets, cat and triangle");
+                     "one with d2co-starts, brackets, cat, triangle and cad");
   const std::string device_name = make_backend(run.device)->name();
   std::vector<std::vector<Cell>> cells;  // of all: data that is not there ends the run before it writes
   for (const Experiment& experiment : chosen) cells.push_back(experiment.cells(settings));

@@ -6,6 +6,8 @@
 
 #include "host/active/candidates.h"
 #include "host/experiments/bin_judge.h"
+#include "host/experiments/bin_types.h"
+#include "host/experiments/data_mark.h"
 
 namespace edgescout {
 
@@ -56,21 +58,32 @@ class Detector {
   std::map<std::tuple<int, int, double>, std::vector<Detection>> found_;
 };
 
+// The types of a bin's parts, and the name they have among the rows.
+struct BinParts {
+  std::string name;
+  std::vector<Object> types;
+};
+
+BinParts own_parts() { return {"own", bin_types()}; }
+BinParts cad_parts(const std::filesystem::path& data) { return {"cad", cad_bin_types(data)}; }
+
 // What is searched for in a bin: `count` types from the one whose turn it is.
 struct Search {
+  std::string parts;
   int count = 0, first_type = 0;
   std::span<const TemplateSet> sets;
   std::span<const Object> objects;
   std::vector<BinInstance> instances;  // objects counted from first_type
 };
 
-Search make_search(const Bin& bin, int count, std::span<const TemplateSet> sets) {
+Search make_search(const Bin& bin, const BinParts& parts, int count, std::span<const TemplateSet> sets) {
   Search search;
+  search.parts = parts.name;
   search.count = count;
   const int all = static_cast<int>(sets.size());
   search.first_type = count == all ? 0 : bin.number % all;
   search.sets = sets.subspan(static_cast<std::size_t>(search.first_type), static_cast<std::size_t>(count));
-  search.objects = std::span(bin_types())
+  search.objects = std::span(parts.types)
                        .subspan(static_cast<std::size_t>(search.first_type), static_cast<std::size_t>(count));
   for (BinInstance instance : bin.instances) {
     instance.object -= search.first_type;
@@ -120,7 +133,7 @@ void add_rows(Table& table, const ExperimentSettings& s, const Bin& bin, const S
         judge(instances, step, search.objects, bin.cell->camera(), state.steps[0].camera_from_world);
     for (const auto& [group, tally] : {std::pair{"light", judgement.light}, {"heavy", judgement.heavy}})
       table.rows.push_back(
-          {std::to_string(bin.number), std::to_string(bin.parts), std::to_string(search.count), strategy,
+          {std::to_string(bin.number), search.parts, std::to_string(bin.parts), std::to_string(search.count), strategy,
            std::to_string(i + 1), std::to_string(step.decision.view), group, std::to_string(tally.instances),
            std::to_string(tally.correct), std::to_string(tally.correct_px), std::to_string(tally.wrong),
            std::to_string(tally.wrong_px), std::to_string(tally.followed), std::to_string(tally.shown),
@@ -145,23 +158,23 @@ void run_search(Table& table, const ExperimentSettings& s, const Bin& bin, const
   }
 }
 
-Table run_bin(const ExperimentSettings& s, int number, Backend& backend) {
+Table run_bin(const ExperimentSettings& s, const BinParts& parts, int number, Backend& backend) {
   Table table{{},
-              {"bin", "parts", "sought", "strategy", "views", "view", "group", "instances", "correct",
+              {"bin", "types", "parts", "sought", "strategy", "views", "view", "group", "instances", "correct",
                "correct_px", "wrong", "wrong_px", "followed", "shown", "entropy_nats", "seconds"},
               {}};
-  const std::vector<TemplateSet> sets = bin_templates(backend);
-  const Bin bin = make_bin(bin_types(), s, number, backend.threads());
+  const std::vector<TemplateSet> sets = bin_templates(parts.types, backend);
+  const Bin bin = make_bin(parts.types, s, number, backend.threads());
   Detector detector(sets, s.scout.pipeline.detect, backend);
   for (const int count : {1, static_cast<int>(sets.size())})
-    run_search(table, s, bin, make_search(bin, count, sets), detector, backend);
+    run_search(table, s, bin, make_search(bin, parts, count, sets), detector, backend);
   return table;
 }
 
 Notes options(const ExperimentSettings& s) {
   const ScoutOptions& o = s.scout;
   // Not the number of bins: more of them may be added to a finished run.
-  return {{"image_scale", number_text(s.image_scale)},
+  Notes notes{{"image_scale", number_text(s.image_scale)},
           {"supersampling", std::to_string(s.supersampling)},
           {"strategies", fmt::format("{}", fmt::join(s.strategies, " "))},
           {"images", std::to_string(o.max_views)},
@@ -183,13 +196,20 @@ Notes options(const ExperimentSettings& s) {
           {"repeat_rad", number_text(o.next_view.repeat_rad)},
           {"formula", o.next_view.literal ? "literal" : "mutual information"},
           {"min_probability", number_text(o.detections.min_probability)}};
+  if (!s.data.empty()) notes.emplace_back("data", data_mark(s.data));
+  return notes;
 }
 
 std::vector<Cell> cells(const ExperimentSettings& s) {
   std::vector<Cell> list;
-  for (const int number : s.bin_numbers())
-    list.push_back({fmt::format("bin_{:03}", number),
-                    [s, number](Backend& backend) { return run_bin(s, number, backend); }});
+  const auto add = [&](const std::string& name, const BinParts& parts, const std::vector<int>& numbers) {
+    for (const int number : numbers)
+      list.push_back(
+          {fmt::format("{}_{:03}", name, number),
+           [s, parts, number](Backend& backend) { return run_bin(s, parts, number, backend); }});
+  };
+  add("bin", own_parts(), s.bin_numbers(s.bins));
+  if (!s.data.empty()) add("cad_bin", cad_parts(s.data), s.bin_numbers(s.cad_bins));
   return list;
 }
 

@@ -10,7 +10,7 @@ namespace edgescout {
 namespace {
 
 struct Searched {
-  std::string sought, group, title;
+  std::string types, sought, group, title;
 };
 
 struct Outcome {
@@ -26,23 +26,29 @@ std::string name_of(const std::string& strategy) {
 
 Table rows_of(const Table& table, const Searched& searched, const std::string& strategy) {
   return rows_where(table, [&](const Table& t, std::size_t row) {
-    return text_in(t, row, "sought") == searched.sought && text_in(t, row, "group") == searched.group &&
-           text_in(t, row, "strategy") == strategy;
+    return text_in(t, row, "types") == searched.types && text_in(t, row, "sought") == searched.sought &&
+           text_in(t, row, "group") == searched.group && text_in(t, row, "strategy") == strategy;
   });
 }
 
+Table rows_of_types(const Table& table, const std::string& types) {
+  return rows_where(
+      table, [&](const Table& t, std::size_t row) { return text_in(t, row, "types") == types; });
+}
+
 // Those of which there are instances.
-std::vector<Searched> searches_in(const Table& table) {
+std::vector<Searched> searches_in(const Table& table, const std::string& types) {
   std::vector<Searched> list;
   for (const std::string& sought : values_of(table, "sought"))
     for (const auto& [group, text] : {std::pair{"light", "lightly occluded"}, {"heavy", "highly occluded"}}) {
       const Table rows = rows_where(table, [&, g = group](const Table& t, std::size_t row) {
-        return text_in(t, row, "sought") == sought && text_in(t, row, "group") == g &&
-               number_in(t, row, "instances") > 0;
+        return text_in(t, row, "types") == types && text_in(t, row, "sought") == sought &&
+               text_in(t, row, "group") == g && number_in(t, row, "instances") > 0;
       });
       if (!rows.rows.empty())
-        list.push_back(
-            {sought, group, fmt::format("{}, {}", sought == "1" ? "one type" : sought + " types", text)});
+        list.push_back({types, sought, group,
+                        fmt::format("{}{}, {}", types == "own" ? "" : "CAD parts, ",
+                                    sought == "1" ? "one type" : sought + " types", text)});
     }
   return list;
 }
@@ -118,6 +124,15 @@ std::string table_of(const Table& table, const Searched& searched, const std::ve
   return fmt::format("## {}\n\n{:.0f} instances.\n\n{}\n", searched.title, instances, text);
 }
 
+std::string bins_text(const Table& table) {
+  std::string text;
+  for (const std::string& types : values_of(table, "types"))
+    text += fmt::format("{}{}{}", text.empty() ? "" : " and ",
+                        values_of(rows_of_types(table, types), "bin").size(),
+                        types == "own" ? "" : " of CAD parts");
+  return text;
+}
+
 enum class Measure { Correct, Wrong };
 
 Panel panel_of(const Table& table, const Searched& searched, const std::vector<std::string>& strategies,
@@ -146,20 +161,22 @@ Panel panel_of(const Table& table, const Searched& searched, const std::vector<s
 
 // Figure 15's order: (a) to (d) rates, (e) to (h) false positives.
 Report nbv_report(const ExperimentSettings&, const Table& table) {
-  const std::vector<Searched> searches = searches_in(table);
   const std::vector<std::string> strategies = values_of(table, "strategy"), views = values_of(table, "views");
   Report report;
-  report.columns = std::max(1, static_cast<int>(searches.size()));
+  report.columns = 1;
   report.markdown = fmt::format(
       "Bins: {}. Instances correctly localised (below 0.1 rad and 5 mm) after so many views; false positives "
       "a bin; instances of which some image so far showed more than 70 %. Differences: points of percent; "
-      "false "
-      "positives a bin; intervals over the same draws of bins.\n\n",
-      values_of(table, "bin").size());
-  for (const Searched& searched : searches) report.markdown += table_of(table, searched, strategies, views);
-  for (const Measure measure : {Measure::Correct, Measure::Wrong})
-    for (const Searched& searched : searches)
-      report.panels.push_back(panel_of(table, searched, strategies, views, measure));
+      "false positives a bin; intervals over the same draws of bins.\n\n",
+      bins_text(table));
+  for (const std::string& types : values_of(table, "types")) {
+    const std::vector<Searched> searches = searches_in(table, types);
+    report.columns = std::max(report.columns, static_cast<int>(searches.size()));
+    for (const Searched& searched : searches) report.markdown += table_of(table, searched, strategies, views);
+    for (const Measure measure : {Measure::Correct, Measure::Wrong})
+      for (const Searched& searched : searches)
+        report.panels.push_back(panel_of(table, searched, strategies, views, measure));
+  }
   std::vector<double> seconds;
   for (std::size_t row = 0; row < table.rows.size(); ++row)
     if (text_in(table, row, "group") == "light" && text_in(table, row, "views") != "1" &&

@@ -67,12 +67,13 @@ ExperimentSettings ExperimentSettings::full_form() {
   settings.every = 1;
   settings.frames_every = 1;
   settings.bins = 30;
+  settings.cad_bins = 10;
   return settings;
 }
 
-std::vector<int> ExperimentSettings::bin_numbers() const {
+std::vector<int> ExperimentSettings::bin_numbers(int first) const {
   if (!only_bins.empty()) return only_bins;
-  std::vector<int> numbers(static_cast<std::size_t>(bins));
+  std::vector<int> numbers(static_cast<std::size_t>(first));
   std::iota(numbers.begin(), numbers.end(), 0);
   return numbers;
 }
@@ -86,6 +87,7 @@ void ExperimentSettings::validate() const {
   require(frames_every >= 1, "frames_every", frames_every, "at least 1");
   require(candidates >= 1 && candidates <= 100000, "candidates", candidates, "1 to 100000");
   require(bins >= 1 && bins <= 10000, "bins", bins, "1 to 10000");
+  require(cad_bins >= 0 && cad_bins <= 10000, "cad_bins", cad_bins, "0 to 10000");
   for (const int bin : only_bins) {
     require(bin >= 0 && bin < 10000, "only_bins", bin, "0 to 9999");
     if (std::ranges::count(only_bins, bin) > 1)

@@ -24,7 +24,7 @@ std::pair<std::string, std::string> lambda_note();
 
 struct ExperimentSettings {
   std::filesystem::path
-      data;  // folder with d2co-starts, brackets, cat, triangle; empty: rendered scenes alone
+      data;  // folder with d2co-starts, brackets, cat, triangle, cad; empty: rendered scenes alone
   unsigned seed = 1;
   int scenes = 4;         // images with up to five parts: detection and registration
   int groups = 1;         // of three images with up to twenty parts: several views
@@ -34,7 +34,8 @@ struct ExperimentSettings {
   int frames_every = 4;   // of the cat's photographs one in so many is used
   int candidates = 1260;  // of the detection, in every image and for every type
   int bins = 1;           // of the next best view: piled parts, looked at from a hemisphere
-  // The bins of these numbers in place of the first `bins`.
+  int cad_bins = 1;       // the same with parts of data/cad, where there is data
+  // The bins of these numbers, of both, in place of the first ones.
   std::vector<int> only_bins;
   // In the bins, by name; all from one belief, so that none changes what another finds. Beside these there is
   // CLAIRVOYANT.
@@ -46,7 +47,7 @@ struct ExperimentSettings {
   ExperimentSettings();
   static ExperimentSettings short_form();  // minutes on two cores
   static ExperimentSettings full_form();   // the paper's numbers of images; some two hours on two cores
-  std::vector<int> bin_numbers() const;
+  std::vector<int> bin_numbers(int first) const;  // of the bins that are run: the first ones, or only_bins
   void validate() const;  // InputError naming the field and the violated bound
 };
 

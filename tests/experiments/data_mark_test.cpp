@@ -26,7 +26,10 @@ constexpr const char* FILES[] = {"d2co-starts/ground_truth.json",
                                  "brackets/models/models_info.json",
                                  "brackets/models/obj_000001.ply",
                                  "cat/models/obj_000001.ply",
-                                 "triangle/models/obj_000001.ply"};
+                                 "triangle/models/obj_000001.ply",
+                                 "cad/AX-01_bearing_box.stl",
+                                 "cad/flange.stl",
+                                 "cad/t13.stl"};
 
 void write_data(const TemporaryFolder& folder) {
   for (const char* file : FILES) folder.write(file, file);
@@ -72,7 +75,7 @@ TEST(DataMark, IsNotedByEveryExperimentThatReadsData) {
   write_data(folder);
   ExperimentSettings settings;
   settings.data = folder.path();
-  for (const Experiment& experiment : experiments_named({"detection", "registration", "multiview"})) {
+  for (const Experiment& experiment : experiments_named({"detection", "registration", "multiview", "nbv"})) {
     const Notes notes = experiment.options(settings);
     EXPECT_NE(std::ranges::find(notes, std::pair<std::string, std::string>("data", data_mark(folder.path()))),
               notes.end())

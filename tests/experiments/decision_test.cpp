@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "host/experiments/bin_types.h"
 #include "kernels/thread_pool.h"
 
 namespace edgescout::test {
