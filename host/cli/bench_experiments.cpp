@@ -122,8 +122,9 @@ void add_bench_experiments(CLI::App& bench, int& exit_code) {
   verb->add_option("names", request->names, "Of the experiments: " + names_text() + "; default: all")
       ->type_name("NAME");
   verb->add_option("--out", request->out, "Folder of the results")->required()->type_name("DIR");
-  verb->add_option("--data", request->data,
-                   "Folder with d2co-starts, brackets, cat, triangle and cad; without it rendered images alone")
+  verb->add_option(
+          "--data", request->data,
+          "Folder with d2co-starts, brackets, cat, triangle and cad; without it rendered images alone")
       ->type_name("DIR");
   verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
       ->capture_default_str();
@@ -135,8 +136,17 @@ void add_bench_experiments(CLI::App& bench, int& exit_code) {
       .flag("times,!--no-times", request->settings.times,
             "Measured times among the rows (default); without, two runs give the same bytes");
   add_sizes(*verb, *request);
-  verb->add_option("--only-bins", request->settings.only_bins, "These, in place of the first --bins and --cad-bins")
+  verb->add_option("--only-bins", request->settings.only_bins,
+                   "These, in place of the first --bins and --cad-bins")
       ->type_name("NUMBER,..")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->group("Bins");
+  verb->add_option(
+          "--searches", request->settings.searches,
+          "In the bins: of one (type, another from bin to bin), each (type by itself) and all (together); "
+          "default: one,all")
+      ->type_name("NAME,..")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->group("Bins");

@@ -21,9 +21,7 @@ Detection candidate_near(const BinInstance& instance, double diameter_m, Random&
 
 }  // namespace
 
-Bin decision_bin(ThreadPool& pool) {
-  return make_bin(bin_types(), ExperimentSettings::full_form(), 2, pool);
-}
+Bin decision_bin(ThreadPool& pool) { return make_bin(bin_types(), ExperimentSettings::full_form(), 2, pool); }
 
 DecisionWork make_decision_work(const Bin& bin, const DecisionSize& size, Backend& backend) {
   DecisionWork work;

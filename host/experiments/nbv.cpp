@@ -67,21 +67,22 @@ struct BinParts {
 BinParts own_parts() { return {"own", bin_types()}; }
 BinParts cad_parts(const std::filesystem::path& data) { return {"cad", cad_bin_types(data)}; }
 
-// What is searched for in a bin: `count` types from the one whose turn it is.
+// What is searched for in a bin: `count` types from the first one.
 struct Search {
-  std::string parts;
+  std::string name, parts;
   int count = 0, first_type = 0;
   std::span<const TemplateSet> sets;
   std::span<const Object> objects;
   std::vector<BinInstance> instances;  // objects counted from first_type
 };
 
-Search make_search(const Bin& bin, const BinParts& parts, int count, std::span<const TemplateSet> sets) {
+Search make_search(const std::string& name, const Bin& bin, const BinParts& parts, int first_type, int count,
+                   std::span<const TemplateSet> sets) {
   Search search;
+  search.name = name;
   search.parts = parts.name;
   search.count = count;
-  const int all = static_cast<int>(sets.size());
-  search.first_type = count == all ? 0 : bin.number % all;
+  search.first_type = first_type;
   search.sets = sets.subspan(static_cast<std::size_t>(search.first_type), static_cast<std::size_t>(count));
   search.objects = std::span(parts.types)
                        .subspan(static_cast<std::size_t>(search.first_type), static_cast<std::size_t>(count));
@@ -90,6 +91,27 @@ Search make_search(const Bin& bin, const BinParts& parts, int count, std::span<c
     if (instance.object >= 0 && instance.object < count) search.instances.push_back(instance);
   }
   return search;
+}
+
+// By the names of ExperimentSettings::searches.
+std::vector<Search> searches_of(const ExperimentSettings& s, const Bin& bin, const BinParts& parts,
+                                std::span<const TemplateSet> sets) {
+  const int types = static_cast<int>(sets.size());
+  std::vector<Search> searches;
+  for (const std::string& name : s.searches) {
+    if (name == "one") searches.push_back(make_search(name, bin, parts, bin.number % types, 1, sets));
+    if (name == "all") searches.push_back(make_search(name, bin, parts, 0, types, sets));
+    for (int type = 0; name == "each" && type < types; ++type)
+      searches.push_back(make_search(name, bin, parts, type, 1, sets));
+  }
+  return searches;
+}
+
+// The BOP ids of what is sought.
+std::string sought_text(const Search& search) {
+  std::vector<int> ids;
+  for (const Object& object : search.objects) ids.push_back(object.id);
+  return fmt::format("{}", fmt::join(ids, " "));
 }
 
 ScoutOptions options_for(const ExperimentSettings& s, const Bin& bin, const Search& search,
@@ -132,12 +154,13 @@ void add_rows(Table& table, const ExperimentSettings& s, const Bin& bin, const S
     const Judgement judgement =
         judge(instances, step, search.objects, bin.cell->camera(), state.steps[0].camera_from_world);
     for (const auto& [group, tally] : {std::pair{"light", judgement.light}, {"heavy", judgement.heavy}})
-      table.rows.push_back(
-          {std::to_string(bin.number), search.parts, std::to_string(bin.parts), std::to_string(search.count), strategy,
-           std::to_string(i + 1), std::to_string(step.decision.view), group, std::to_string(tally.instances),
-           std::to_string(tally.correct), std::to_string(tally.correct_px), std::to_string(tally.wrong),
-           std::to_string(tally.wrong_px), std::to_string(tally.followed), std::to_string(tally.shown),
-           number_text(step.entropy_nats), s.times ? number_text(seconds_of(step)) : ""});
+      table.rows.push_back({std::to_string(bin.number), search.parts, std::to_string(bin.parts), search.name,
+                            sought_text(search), strategy, std::to_string(i + 1),
+                            std::to_string(step.decision.view), group, std::to_string(tally.instances),
+                            std::to_string(tally.correct), std::to_string(tally.correct_px),
+                            std::to_string(tally.wrong), std::to_string(tally.wrong_px),
+                            std::to_string(tally.followed), std::to_string(tally.shown),
+                            number_text(step.entropy_nats), s.times ? number_text(seconds_of(step)) : ""});
   }
 }
 
@@ -160,14 +183,14 @@ void run_search(Table& table, const ExperimentSettings& s, const Bin& bin, const
 
 Table run_bin(const ExperimentSettings& s, const BinParts& parts, int number, Backend& backend) {
   Table table{{},
-              {"bin", "types", "parts", "sought", "strategy", "views", "view", "group", "instances", "correct",
-               "correct_px", "wrong", "wrong_px", "followed", "shown", "entropy_nats", "seconds"},
+              {"bin", "types", "parts", "search", "sought", "strategy", "views", "view", "group", "instances",
+               "correct", "correct_px", "wrong", "wrong_px", "followed", "shown", "entropy_nats", "seconds"},
               {}};
   const std::vector<TemplateSet> sets = bin_templates(parts.types, backend);
   const Bin bin = make_bin(parts.types, s, number, backend.threads());
   Detector detector(sets, s.scout.pipeline.detect, backend);
-  for (const int count : {1, static_cast<int>(sets.size())})
-    run_search(table, s, bin, make_search(bin, parts, count, sets), detector, backend);
+  for (const Search& search : searches_of(s, bin, parts, sets))
+    run_search(table, s, bin, search, detector, backend);
   return table;
 }
 
@@ -175,27 +198,28 @@ Notes options(const ExperimentSettings& s) {
   const ScoutOptions& o = s.scout;
   // Not the number of bins: more of them may be added to a finished run.
   Notes notes{{"image_scale", number_text(s.image_scale)},
-          {"supersampling", std::to_string(s.supersampling)},
-          {"strategies", fmt::format("{}", fmt::join(s.strategies, " "))},
-          {"images", std::to_string(o.max_views)},
-          {"detection", o.detect_in_every_image ? "every image" : "first image"},
-          {"jointly", o.detect_jointly ? "yes" : "no"},
-          {"aligned", std::to_string(o.pipeline.detect.aligned)},
-          {"registered", std::to_string(o.pipeline.detect.candidates)},
-          {"max_candidates", std::to_string(o.max_candidates)},
-          {"particles", std::to_string(o.particles.count)},
-          {"combinations", std::to_string(o.combinations.count)},
-          {"scenes_by", o.probable_combinations ? "probability" : "psi"},
-          {"sharpness", number_text(o.combinations.sharpness)},
-          {"penetration_m", number_text(o.particles.penetration_m)},
-          {"known_probability", number_text(o.known_probability)},
-          {"map_reduction", number_text(o.next_view.reduction)},
-          {"chamfer_cap_px", number_text(o.next_view.cap_px)},
-          {"sigma_px", number_text(o.next_view.sigma_px)},
-          {"free_sight", number_text(o.next_view.free_sight)},
-          {"repeat_rad", number_text(o.next_view.repeat_rad)},
-          {"formula", o.next_view.literal ? "literal" : "mutual information"},
-          {"min_probability", number_text(o.detections.min_probability)}};
+              {"supersampling", std::to_string(s.supersampling)},
+              {"searches", fmt::format("{}", fmt::join(s.searches, " "))},
+              {"strategies", fmt::format("{}", fmt::join(s.strategies, " "))},
+              {"images", std::to_string(o.max_views)},
+              {"detection", o.detect_in_every_image ? "every image" : "first image"},
+              {"jointly", o.detect_jointly ? "yes" : "no"},
+              {"aligned", std::to_string(o.pipeline.detect.aligned)},
+              {"registered", std::to_string(o.pipeline.detect.candidates)},
+              {"max_candidates", std::to_string(o.max_candidates)},
+              {"particles", std::to_string(o.particles.count)},
+              {"combinations", std::to_string(o.combinations.count)},
+              {"scenes_by", o.probable_combinations ? "probability" : "psi"},
+              {"sharpness", number_text(o.combinations.sharpness)},
+              {"penetration_m", number_text(o.particles.penetration_m)},
+              {"known_probability", number_text(o.known_probability)},
+              {"map_reduction", number_text(o.next_view.reduction)},
+              {"chamfer_cap_px", number_text(o.next_view.cap_px)},
+              {"sigma_px", number_text(o.next_view.sigma_px)},
+              {"free_sight", number_text(o.next_view.free_sight)},
+              {"repeat_rad", number_text(o.next_view.repeat_rad)},
+              {"formula", o.next_view.literal ? "literal" : "mutual information"},
+              {"min_probability", number_text(o.detections.min_probability)}};
   if (!s.data.empty()) notes.emplace_back("data", data_mark(s.data));
   return notes;
 }
@@ -204,9 +228,8 @@ std::vector<Cell> cells(const ExperimentSettings& s) {
   std::vector<Cell> list;
   const auto add = [&](const std::string& name, const BinParts& parts, const std::vector<int>& numbers) {
     for (const int number : numbers)
-      list.push_back(
-          {fmt::format("{}_{:03}", name, number),
-           [s, parts, number](Backend& backend) { return run_bin(s, parts, number, backend); }});
+      list.push_back({fmt::format("{}_{:03}", name, number),
+                      [s, parts, number](Backend& backend) { return run_bin(s, parts, number, backend); }});
   };
   add("bin", own_parts(), s.bin_numbers(s.bins));
   if (!s.data.empty()) add("cad_bin", cad_parts(s.data), s.bin_numbers(s.cad_bins));

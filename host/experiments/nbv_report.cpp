@@ -10,11 +10,11 @@ namespace edgescout {
 namespace {
 
 struct Searched {
-  std::string types, sought, group, title;
+  std::string types, search, group, title;
 };
 
 struct Outcome {
-  std::vector<Cluster> correct, wrong, shown;  // by bin; `wrong` counts bins as trials
+  std::vector<Cluster> correct, wrong, shown;  // by bin; `wrong` counts searches as trials
 };
 
 std::string name_of(const std::string& strategy) {
@@ -24,43 +24,58 @@ std::string name_of(const std::string& strategy) {
   return strategy == "random" ? "Random" : "Fixed";
 }
 
+std::string title_of(const std::string& search) {
+  if (search == "each") return "each type by itself";
+  return search == "one" ? "one type" : "three types";
+}
+
 Table rows_of(const Table& table, const Searched& searched, const std::string& strategy) {
   return rows_where(table, [&](const Table& t, std::size_t row) {
-    return text_in(t, row, "types") == searched.types && text_in(t, row, "sought") == searched.sought &&
+    return text_in(t, row, "types") == searched.types && text_in(t, row, "search") == searched.search &&
            text_in(t, row, "group") == searched.group && text_in(t, row, "strategy") == strategy;
   });
 }
 
 Table rows_of_types(const Table& table, const std::string& types) {
-  return rows_where(
-      table, [&](const Table& t, std::size_t row) { return text_in(t, row, "types") == types; });
+  return rows_where(table,
+                    [&](const Table& t, std::size_t row) { return text_in(t, row, "types") == types; });
 }
 
 // Those of which there are instances.
 std::vector<Searched> searches_in(const Table& table, const std::string& types) {
   std::vector<Searched> list;
-  for (const std::string& sought : values_of(table, "sought"))
+  for (const std::string& search : values_of(table, "search"))
     for (const auto& [group, text] : {std::pair{"light", "lightly occluded"}, {"heavy", "highly occluded"}}) {
       const Table rows = rows_where(table, [&, g = group](const Table& t, std::size_t row) {
-        return text_in(t, row, "types") == types && text_in(t, row, "sought") == sought &&
+        return text_in(t, row, "types") == types && text_in(t, row, "search") == search &&
                text_in(t, row, "group") == g && number_in(t, row, "instances") > 0;
       });
       if (!rows.rows.empty())
-        list.push_back({types, sought, group,
-                        fmt::format("{}{}, {}", types == "own" ? "" : "CAD parts, ",
-                                    sought == "1" ? "one type" : sought + " types", text)});
+        list.push_back(
+            {types, search, group,
+             fmt::format("{}{}, {}", types == "own" ? "" : "CAD parts, ", title_of(search), text)});
     }
   return list;
 }
 
-// After so many views.
+void add(Cluster& cluster, double hits, double trials) {
+  cluster.hits += hits;
+  cluster.trials += trials;
+}
+
+// After so many views. Searches in one bin succeed and fail together.
 Outcome outcome_of(const Table& rows, const std::string& views) {
   Outcome outcome;
+  std::string bin;
   for (std::size_t row = 0; row < rows.rows.size(); ++row) {
     if (text_in(rows, row, "views") != views) continue;
-    outcome.correct.push_back({number_in(rows, row, "correct"), number_in(rows, row, "instances")});
-    outcome.wrong.push_back({number_in(rows, row, "wrong"), 1});
-    outcome.shown.push_back({number_in(rows, row, "shown"), number_in(rows, row, "instances")});
+    if (outcome.correct.empty() || text_in(rows, row, "bin") != bin)
+      for (std::vector<Cluster>* clusters : {&outcome.correct, &outcome.wrong, &outcome.shown})
+        clusters->emplace_back();
+    bin = text_in(rows, row, "bin");
+    add(outcome.correct.back(), number_in(rows, row, "correct"), number_in(rows, row, "instances"));
+    add(outcome.wrong.back(), number_in(rows, row, "wrong"), 1);
+    add(outcome.shown.back(), number_in(rows, row, "shown"), number_in(rows, row, "instances"));
   }
   return outcome;
 }
@@ -139,7 +154,7 @@ Panel panel_of(const Table& table, const Searched& searched, const std::vector<s
                const std::vector<std::string>& views, Measure measure) {
   Panel panel{searched.title,
               "views",
-              measure == Measure::Correct ? "correct localisations" : "false positives a bin",
+              measure == Measure::Correct ? "correct localisations" : "false positives a search",
               {},
               0,
               1,
@@ -166,8 +181,8 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
   report.columns = 1;
   report.markdown = fmt::format(
       "Bins: {}. Instances correctly localised (below 0.1 rad and 5 mm) after so many views; false positives "
-      "a bin; instances of which some image so far showed more than 70 %. Differences: points of percent; "
-      "false positives a bin; intervals over the same draws of bins.\n\n",
+      "a search; instances of which some image so far showed more than 70 %. Differences: points of percent; "
+      "false positives a search; intervals over the same draws of bins.\n\n",
       bins_text(table));
   for (const std::string& types : values_of(table, "types")) {
     const std::vector<Searched> searches = searches_in(table, types);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <string_view>
 
 #include "host/core/random.h"
@@ -13,10 +14,25 @@ namespace edgescout {
 namespace {
 
 constexpr std::string_view STRATEGIES[] = {"mi-max", "random", "dis", "fixed", CLAIRVOYANT};
+constexpr std::string_view SEARCHES[] = {"one", "each", "all"};
 constexpr int MOST_PARTS = 5, MOST_PARTS_IN_GROUP = 20, VIEWS_OF_GROUP = 3;
 
 void require(bool holds, const char* field, double found, const char* expected) {
   if (!holds) throw InputError("experiments", field, number_text(found), expected);
+}
+
+// At least one of the known words, none twice.
+void require_words(const std::vector<std::string>& words, std::span<const std::string_view> known,
+                   const char* field) {
+  std::string list;
+  for (const std::string_view word : known) list += (list.empty() ? "" : ", ") + std::string(word);
+  require(!words.empty(), field, 0, "at least one");
+  for (const std::string& word : words) {
+    if (std::ranges::find(known, word) == known.end())
+      throw InputError("experiments", field, word, "one of " + list);
+    if (std::ranges::count(words, word) > 1)
+      throw InputError("experiments", field, word + " twice", "each once");
+  }
 }
 
 // Every second image has a cluttered board, as "many images" of the paper do; how many parts there are and
@@ -93,13 +109,8 @@ void ExperimentSettings::validate() const {
     if (std::ranges::count(only_bins, bin) > 1)
       throw InputError("experiments", "only_bins", std::to_string(bin) + " twice", "each once");
   }
-  require(!strategies.empty(), "strategies", 0, "at least one");
-  for (const std::string& strategy : strategies) {
-    if (std::ranges::find(STRATEGIES, strategy) == std::end(STRATEGIES))
-      throw InputError("experiments", "strategies", strategy, "mi-max, random, dis, fixed or clairvoyant");
-    if (std::ranges::count(strategies, strategy) > 1)
-      throw InputError("experiments", "strategies", strategy + " twice", "each once");
-  }
+  require_words(searches, SEARCHES, "searches");
+  require_words(strategies, STRATEGIES, "strategies");
   scout.validate();
   require(image_scale >= 0.1 && image_scale <= 2, "image_scale", image_scale, "0.1 to 2");
   require(supersampling % 2 == 1 && supersampling >= 1 && supersampling <= 7, "supersampling", supersampling,

@@ -37,6 +37,9 @@ struct ExperimentSettings {
   int cad_bins = 1;       // the same with parts of data/cad, where there is data
   // The bins of these numbers, of both, in place of the first ones.
   std::vector<int> only_bins;
+  // What is sought in a bin: one type (another from bin to bin), each type by itself, or all of them
+  // together.
+  std::vector<std::string> searches{"one", "all"};
   // In the bins, by name; all from one belief, so that none changes what another finds. Beside these there is
   // CLAIRVOYANT.
   std::vector<std::string> strategies{"mi-max", "random", "dis", "fixed"};
@@ -48,7 +51,7 @@ struct ExperimentSettings {
   static ExperimentSettings short_form();  // minutes on two cores
   static ExperimentSettings full_form();   // the paper's numbers of images; some two hours on two cores
   std::vector<int> bin_numbers(int first) const;  // of the bins that are run: the first ones, or only_bins
-  void validate() const;  // InputError naming the field and the violated bound
+  void validate() const;                          // InputError naming the field and the violated bound
 };
 
 // Of a bin's camera and light; how many parts there are and where differs from bin to bin (bin.h).

@@ -117,6 +117,8 @@ TEST(BenchExperiments, RunChosenStrategiesAlone) {
   EXPECT_EQ(rows, std::multiset(found.rows.begin(), found.rows.end()));
   expect_one_line(run_program(experiments(folder.path() / "none", {"nbv", "--strategies", "best"})),
                   {"strategies", "best", "mi-max", "clairvoyant"});
+  expect_one_line(run_program(experiments(folder.path() / "none", {"nbv", "--searches", "some"})),
+                  {"searches", "some", "one, each, all"});
   expect_one_line(run_program(experiments(folder.path() / "none", {"nbv", "--strategies", "dis,fixed,dis"})),
                   {"strategies", "dis twice", "each once"});
 }

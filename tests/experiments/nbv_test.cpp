@@ -104,22 +104,40 @@ TEST(ClairvoyantSequence, TakesTheViewThatShowsMost) {
 // Of both sets of parts each by itself, though their bins have the same numbers.
 TEST(NbvReport, KeepsCadPartsApart) {
   Table table;
-  table.columns = {"bin",       "types",   "sought", "strategy", "views",  "group",
+  table.columns = {"bin",       "types",   "search", "strategy", "views",  "group",
                    "instances", "correct", "wrong",  "shown",    "seconds"};
   for (const auto& [bin, types, correct] :
        {std::tuple{"0", "own", "4"}, {"1", "own", "2"}, {"0", "cad", "1"}, {"1", "cad", "0"}})
     for (const char* group : {"light", "heavy"})
-      table.rows.push_back({bin, types, "3", "mi-max", "1", group, "4", correct, "0", "4", ""});
+      table.rows.push_back({bin, types, "all", "mi-max", "1", group, "4", correct, "0", "4", ""});
   const Report report = nbv_report({}, table);
   EXPECT_NE(report.markdown.find("Bins: 2 and 2 of CAD parts."), std::string::npos) << report.markdown;
-  EXPECT_NE(report.markdown.find("## 3 types, highly occluded\n\n8 instances."), std::string::npos);
+  EXPECT_NE(report.markdown.find("## three types, highly occluded\n\n8 instances."), std::string::npos);
   EXPECT_NE(report.markdown.find("| MI-MAX | 75 %"), std::string::npos) << report.markdown;
-  EXPECT_NE(report.markdown.find("## CAD parts, 3 types, highly occluded\n\n8 instances."), std::string::npos);
+  EXPECT_NE(report.markdown.find("## CAD parts, three types, highly occluded\n\n8 instances."),
+            std::string::npos);
   EXPECT_NE(report.markdown.find("| MI-MAX | 12.5 %"), std::string::npos) << report.markdown;
   ASSERT_EQ(report.panels.size(), 8u);
   EXPECT_EQ(report.columns, 2) << "a row a set and measure";
-  EXPECT_EQ(report.panels[4].title, "CAD parts, 3 types, lightly occluded");
+  EXPECT_EQ(report.panels[4].title, "CAD parts, three types, lightly occluded");
   EXPECT_DOUBLE_EQ(report.panels[4].lines[0].points[0].y, 0.125);
+}
+
+// Searches for each type in one bin are one cluster: of two bins that agree, the interval is Wilson's of two
+// trials.
+TEST(NbvReport, CountsSearchesOfOneBinTogether) {
+  Table table;
+  table.columns = {"bin",       "types",   "search", "strategy", "views",  "group",
+                   "instances", "correct", "wrong",  "shown",    "seconds"};
+  for (const auto& [bin, correct, wrong] :
+       {std::tuple{"0", "4", "0"}, {"0", "1", "3"}, {"1", "4", "0"}, {"1", "1", "3"}})
+    table.rows.push_back({bin, "own", "each", "mi-max", "1", "light", "4", correct, wrong, "4", ""});
+  const Report report = nbv_report({}, table);
+  EXPECT_NE(report.markdown.find("## each type by itself, lightly occluded\n\n16 instances."),
+            std::string::npos)
+      << report.markdown;
+  EXPECT_NE(report.markdown.find("| MI-MAX | 62.5 % [14, 94]; 1.50; 100 % |"), std::string::npos)
+      << report.markdown;
 }
 
 // Meshes of other hands, where they are: about the middle of their boxes, and as symmetric as they are said
@@ -147,7 +165,8 @@ TEST(CadBinTypes, AreCentredAndAsSymmetricAsTheyAreSaidToBe) {
       bool is_said = false;
       for (const Se3& symmetry : type.symmetries.discrete)
         is_said |= std::abs(symmetry.rotation.dot(turn)) > 0.999;
-      EXPECT_EQ(worst_m < 0.004, is_said) << type.mesh.name << " about " << axis.transpose() << ": " << worst_m;
+      EXPECT_EQ(worst_m < 0.004, is_said)
+          << type.mesh.name << " about " << axis.transpose() << ": " << worst_m;
     }
   }
 }
@@ -155,12 +174,13 @@ TEST(CadBinTypes, AreCentredAndAsSymmetricAsTheyAreSaidToBe) {
 // Two bins of two views, counted by hand.
 TEST(NbvReport, CountsInstancesAndFalseOnesByViews) {
   Table table;
-  table.columns = {"bin",       "types",   "sought", "strategy", "views",  "group",
+  table.columns = {"bin",       "types",   "search", "strategy", "views",  "group",
                    "instances", "correct", "wrong",  "shown",    "seconds"};
   const auto add = [&](const char* bin, const char* strategy, const char* views, const char* instances,
                        const char* correct, const char* wrong) {
-    table.rows.push_back({bin, "own", "1", strategy, views, "light", instances, correct, wrong, "3", "1.5"});
-    table.rows.push_back({bin, "own", "1", strategy, views, "heavy", "0", "0", "0", "0", "1.5"});
+    table.rows.push_back(
+        {bin, "own", "one", strategy, views, "light", instances, correct, wrong, "3", "1.5"});
+    table.rows.push_back({bin, "own", "one", strategy, views, "heavy", "0", "0", "0", "0", "1.5"});
   };
   add("0", "mi-max", "1", "4", "1", "2"), add("0", "mi-max", "2", "4", "4", "0");
   add("1", "mi-max", "1", "6", "2", "1"), add("1", "mi-max", "2", "6", "5", "1");
