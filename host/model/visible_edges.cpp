@@ -117,8 +117,8 @@ void VisibilityOptions::validate() const {
 std::vector<std::vector<ModelPoint>> visible_edges(const EdgeModel& model,
                                                    std::span<const Se3> camera_from_object, Backend& backend,
                                                    const VisibilityOptions& options) {
+  options.validate();
   const int size = options.depth_map_size_px;
-  check(size >= 8 && size <= 4096, "visible_edges: depth map size");
   // Bounded memory however many poses there are.
   constexpr std::size_t chunk = 64;
   std::vector<float> depth;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -37,6 +38,30 @@ std::vector<std::string> experiments(const fs::path& out, const std::vector<std:
                                      "--combinations",  "50"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
+}
+
+// Photographs, recorded starts and meshes of other hands, where EDGESCOUT_DATA names the folder they lie in.
+TEST(BenchExperiments, RunOnRealDataWhereThereIsSome) {
+  const char* data = std::getenv("EDGESCOUT_DATA");
+  if (!data) GTEST_SKIP() << "no EDGESCOUT_DATA";
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  const Outcome outcome = run_program(experiments(
+      out, {"--data", data, "--every", "400", "--frames-every", "16", "--strategies", "fixed"}, 1, 1));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto sets_of = [&](const char* name) {
+    const Table rows = load_table(out / (std::string(name) + ".csv"));
+    std::set<std::string> sets;
+    for (std::size_t row = 0; row < rows.rows.size(); ++row)
+      sets.insert(text_in(rows, row, std::string(name) == "nbv" ? "types" : "set"));
+    return sets;
+  };
+  using Sets = std::set<std::string>;
+  EXPECT_EQ(sets_of("detection"), (Sets{"rendered", "d2co-starts", "brackets", "cat", "triangle"}));
+  EXPECT_EQ(sets_of("registration"), (Sets{"rendered", "d2co-starts", "brackets", "brackets by distance",
+                                           "cat", "cat by distance", "triangle", "triangle by distance"}));
+  EXPECT_EQ(sets_of("multiview"), (Sets{"rendered", "d2co-starts", "brackets"}));
+  EXPECT_EQ(sets_of("nbv"), (Sets{"own", "cad"}));
 }
 
 // What a killed writer leaves behind under a hidden name is no file of the results.
