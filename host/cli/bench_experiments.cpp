@@ -107,7 +107,7 @@ void add_sizes(CLI::App& verb, ExperimentsRequest& r) {
       .bounded("every", s.every, 1, 10000, "Of the recorded starts those whose number this divides")
       .bounded("frames-every", s.frames_every, 1, 100, "Of the cat's photographs one in so many")
       .bounded("candidates", s.candidates, 1, 100000, "Of the detection, in every image and for every type")
-      .bounded("bins", s.bins, 1, 10000, "Of piled parts, for the next best view")
+      .bounded("bins", s.bins, 0, 10000, "Of piled parts, for the next best view")
       .bounded("cad-bins", s.cad_bins, 0, 10000, "The same with parts of DIR/cad, where there is --data")
       .bounded("image-scale", s.image_scale, 0.1, 2.0, "Of the paper's image sizes")
       .bounded("supersampling", s.supersampling, 1, 7, "Samples a pixel and axis of rendered images; odd");

@@ -167,6 +167,7 @@ TEST(BenchExperiments, RunChosenBinsAlone) {
   ASSERT_FALSE(table.rows.empty());
   for (const std::vector<std::string>& row : table.rows) EXPECT_EQ(row[0], "2");
   expect_one_line(run({"--only-bins", "2,1,2"}), {"only_bins", "2 twice"});
+  expect_one_line(run({"--bins", "0"}), {"bins", "at least one"});
   expect_one_line(run({"--only-bins", "-1"}), {"only_bins", "-1"});
   expect_one_line(run({"--only-bins", "1", "--bins", "2"}), {"--bins, --only-bins", "both"});
 }
