@@ -72,16 +72,17 @@ Detection candidate_in_world(const Detection& in_camera, const Se3& camera_from_
   return in_world;
 }
 
-Se3 perturbed(const Se3& pose, const Matrix6d& covariance, double diameter_m, const Spread& spread,
+Se3 perturbed(const Se3& pose, const Matrix6d& covariance, const EdgeModel& model, const Spread& spread,
               Random& random) {
+  const double diameter_m = model.mesh.diameter_m;
   // Rotations as the way they move a point at half the diameter: all six in metres.
   Vector6d metres = Vector6d::Ones();
   metres.tail<3>().setConstant(0.5 * diameter_m);
   Vector6d deviations = Vector6d::Constant(spread.max * diameter_m);
   Matrix6d axes = Matrix6d::Identity();
   if (covariance.allFinite()) {
-    const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(metres.asDiagonal() * covariance *
-                                                         metres.asDiagonal());
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(
+        metres.asDiagonal() * covariance_about(pose, model.center_m, covariance) * metres.asDiagonal());
     axes = solver.eigenvectors();
     deviations = solver.eigenvalues()
                      .cwiseMax(0)
@@ -92,7 +93,7 @@ Se3 perturbed(const Se3& pose, const Matrix6d& covariance, double diameter_m, co
   Vector6d step;
   for (int i = 0; i < 6; ++i) step[i] = deviations[i] * random.normal();
   step = (axes * step).cwiseQuotient(metres);
-  return retract(pose, step);
+  return retract_about(pose, model.center_m, step);
 }
 
 std::vector<Particle> draw_particles(std::span<const EdgeModel> models, std::span<const Detection> candidates,
@@ -107,7 +108,7 @@ std::vector<Particle> draw_particles(std::span<const EdgeModel> models, std::spa
     particle.world_from_object = candidate.world_from_object;
     if (i >= int(chosen.size()))
       particle.world_from_object = perturbed(candidate.world_from_object, candidate.covariance,
-                                             models[candidate.object].mesh.diameter_m, spread, random);
+                                             models[candidate.object], spread, random);
     particle.log_weight = -std::log(double(count));
     particles.push_back(std::move(particle));
   }

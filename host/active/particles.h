@@ -69,8 +69,9 @@ Detection candidate_in_world(const Detection& in_camera, const Se3& camera_from_
 std::vector<Particle> draw_particles(std::span<const EdgeModel> models, std::span<const Detection> candidates,
                                      int count, const Spread& spread, Random random);
 
-// A pose near another, from a Gaussian in its tangent.
-Se3 perturbed(const Se3& pose, const Matrix6d& covariance, double diameter_m, const Spread& spread,
+// A pose near another, from a Gaussian in its tangent, turned about the middle of the model wherever its
+// origin lies.
+Se3 perturbed(const Se3& pose, const Matrix6d& covariance, const EdgeModel& model, const Spread& spread,
               Random& random);
 
 std::vector<Hypothesis> poses_of(std::span<const Particle> particles);

@@ -76,9 +76,8 @@ std::vector<Particle> resample(std::span<const Particle> particles, std::span<co
       for (int copy = 0; copy < times[k]; ++copy) {
         Particle particle = particles[mode.particles[k]];
         if (copy > 0)
-          particle.world_from_object =
-              perturbed(particle.world_from_object, particle.covariance,
-                        models[particle.object].mesh.diameter_m, options.roughened, random);
+          particle.world_from_object = perturbed(particle.world_from_object, particle.covariance,
+                                                 models[particle.object], options.roughened, random);
         particle.log_weight = std::log(mode.weight / total / quota[m]);
         particle.spent_px2 =
             particle.upsilon_px2 + options.scale_px2() * (std::log(mode.weight / quota[m]) + log_norm);

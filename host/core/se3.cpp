@@ -54,6 +54,20 @@ Se3 retract(const Se3& b_from_a, const Vector6d& delta) {
           b_from_a.translation_m + delta.head<3>()};
 }
 
+Se3 retract_about(const Se3& b_from_a, const Eigen::Vector3d& center_m, const Vector6d& delta) {
+  Se3 moved = retract(b_from_a, delta);
+  moved.translation_m += b_from_a.rotation * center_m - moved.rotation * center_m;
+  return moved;
+}
+
+Matrix6d covariance_about(const Se3& b_from_a, const Eigen::Vector3d& center_m, const Matrix6d& covariance) {
+  const Eigen::Vector3d lever_m = b_from_a.rotation * center_m;
+  Matrix6d about = Matrix6d::Identity();  // the centre moves by the translation plus turn x lever
+  about.topRightCorner<3, 3>() << 0, lever_m.z(), -lever_m.y(), -lever_m.z(), 0, lever_m.x(), lever_m.y(),
+      -lever_m.x(), 0;
+  return about * covariance * about.transpose();
+}
+
 Vector6d local_coordinates(const Se3& from, const Se3& to) {
   Vector6d delta;
   delta << to.translation_m - from.translation_m, so3_log(to.rotation * from.rotation.conjugate());

@@ -31,6 +31,11 @@ Eigen::Quaterniond so3_exp(const Eigen::Vector3d& rotation_rad);
 Eigen::Vector3d so3_log(const Eigen::Quaterniond& rotation);  // angle in [0, pi]
 
 Se3 retract(const Se3& b_from_a, const Vector6d& delta);
+// As retract, but turned about `center_m` of the object's own frame, which moves by delta.head<3>(): for an
+// object whose origin lies anywhere, what retract is for one with its origin in its middle.
+Se3 retract_about(const Se3& b_from_a, const Eigen::Vector3d& center_m, const Vector6d& delta);
+// The covariance of such a delta, from that of a delta of retract.
+Matrix6d covariance_about(const Se3& b_from_a, const Eigen::Vector3d& center_m, const Matrix6d& covariance);
 // The d with retract(from, d) == to.
 Vector6d local_coordinates(const Se3& from, const Se3& to);
 

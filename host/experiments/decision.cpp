@@ -9,11 +9,11 @@ namespace edgescout {
 
 namespace {
 
-Detection candidate_near(const BinInstance& instance, double diameter_m, Random& random) {
+Detection candidate_near(const BinInstance& instance, const EdgeModel& model, Random& random) {
   Detection candidate;
   candidate.object = instance.object;
   candidate.world_from_object =
-      perturbed(instance.world_from_object, Matrix6d::Zero(), diameter_m, {0.02, 0.02}, random);
+      perturbed(instance.world_from_object, Matrix6d::Zero(), model, {0.02, 0.02}, random);
   candidate.psi = random.uniform(0.6, 0.95);
   candidate.probability = random.uniform(0.05, 0.95);
   return candidate;
@@ -42,7 +42,7 @@ DecisionWork make_decision_work(const Bin& bin, const DecisionSize& size, Backen
   for (int i = 0; i < size.candidates; ++i) {
     const BinInstance& instance = bin.instances[static_cast<std::size_t>(i) % bin.instances.size()];
     const EdgeModel& model = work.models[static_cast<std::size_t>(instance.object)];
-    work.candidates.push_back(candidate_near(instance, model.mesh.diameter_m, random));
+    work.candidates.push_back(candidate_near(instance, model, random));
   }
   work.particles =
       draw_particles(work.models, work.candidates, size.particles, {0.02, 0.1}, random.split("particles"));

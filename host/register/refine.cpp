@@ -10,8 +10,10 @@ namespace edgescout {
 
 namespace {
 
-// The start itself first, then turned about the axes and the diagonals of the first view's camera frame.
-std::vector<Hypothesis> spread(const Hypothesis& start, const Se3& camera_from_world, double rotation_rad) {
+// The start itself first, then turned in its place about the axes and the diagonals of the first view's
+// camera frame.
+std::vector<Hypothesis> spread(const Hypothesis& start, const EdgeModel& model, const Se3& camera_from_world,
+                               double rotation_rad) {
   std::vector<Hypothesis> starts{start};
   for (int x = -1; x <= 1; ++x)
     for (int y = -1; y <= 1; ++y)
@@ -21,13 +23,14 @@ std::vector<Hypothesis> spread(const Hypothesis& start, const Se3& camera_from_w
         Vector6d turn = Vector6d::Zero();
         turn.tail<3>() =
             camera_from_world.rotation.conjugate() * Eigen::Vector3d(x, y, z).normalized() * rotation_rad;
-        starts.push_back({start.object, retract(start.world_from_object, turn)});
+        starts.push_back({start.object, retract_about(start.world_from_object, model.center_m, turn)});
       }
   return starts;
 }
 
-bool same_pose(const Se3& a, const Se3& b, double diameter_m) {
-  return distance_between_m(a, b) < 0.03 * diameter_m && angle_between_rad(a, b) < 0.06;
+bool same_pose(const Se3& a, const Se3& b, const EdgeModel& model) {
+  return (a * model.center_m - b * model.center_m).norm() < 0.03 * model.mesh.diameter_m &&
+         angle_between_rad(a, b) < 0.06;
 }
 
 std::vector<RegisterView> coarse_views(std::span<const RegisterView> views) {
@@ -48,8 +51,8 @@ Searched search(std::span<const EdgeModel> models, std::span<const Hypothesis> h
                 std::span<const RegisterView> views, Backend& backend, const RefineOptions& options) {
   std::vector<Hypothesis> starts;
   for (const Hypothesis& hypothesis : hypotheses)
-    for (const Hypothesis& start :
-         spread(hypothesis, views[0].camera_from_world, options.search.rotation_rad))
+    for (const Hypothesis& start : spread(hypothesis, models[hypothesis.object], views[0].camera_from_world,
+                                          options.search.rotation_rad))
       starts.push_back(start);
   const std::size_t turned = starts.size();
   std::vector<Hypothesis> poses = as_hypotheses(
@@ -69,10 +72,9 @@ Searched search(std::span<const EdgeModel> models, std::span<const Hypothesis> h
     const std::size_t first = found.poses.size();
     for (std::size_t i : order) {
       if (int(found.poses.size() - first) >= options.search.survivors) break;
-      const double diameter = models[poses[i].object].mesh.diameter_m;
       const bool known =
           std::any_of(found.poses.begin() + first, found.poses.end(), [&](const Hypothesis& other) {
-            return same_pose(other.world_from_object, poses[i].world_from_object, diameter);
+            return same_pose(other.world_from_object, poses[i].world_from_object, models[poses[i].object]);
           });
       if (known) continue;
       found.poses.push_back(poses[i]);

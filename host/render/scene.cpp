@@ -85,6 +85,21 @@ std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
   return order;
 }
 
+// Where the middle of the mesh lies in its own frame, if not at its origin.
+Eigen::Vector3d middle_m(const Mesh& mesh) {
+  const Eigen::Vector3d middle_m = (mesh.box_min_m + mesh.box_max_m) / 2;
+  return middle_m.norm() < 1e-6 * mesh.diameter_m ? Eigen::Vector3d::Zero() : middle_m;
+}
+
+// The table puts origins into its circle and turns parts about them.
+Se3 place_by_middle(PileTable& table, Mesh mesh, double radius_m, bool alone, Random& random) {
+  const Eigen::Vector3d middle = middle_m(mesh);
+  for (Eigen::Vector3d& vertex_m : mesh.vertices_m) vertex_m -= middle;
+  Se3 pose = table.place(mesh, radius_m, alone, random);
+  pose.translation_m -= pose.rotation * middle;
+  return pose;
+}
+
 void lay_out(Scene& scene, double diameter_m, Random random) {
   const double crowd = std::sqrt(static_cast<double>(scene.placed.size()));
   const double radius = diameter_m * crowd * (0.65 - 0.35 * scene.options.pile);
@@ -92,17 +107,19 @@ void lay_out(Scene& scene, double diameter_m, Random random) {
   for (const std::size_t i : shuffled(scene.placed.size(), random)) {
     PlacedObject& part = scene.placed[i];
     const bool alone = random.uniform() >= scene.options.pile;
-    part.world_from_object = table.place(scene.objects[part.object].mesh, radius, alone, random);
+    part.world_from_object = place_by_middle(table, scene.objects[part.object].mesh, radius, alone, random);
   }
 }
 
 // Radius about the origin that holds all targets' centres and half their size.
 double reach_m(const Scene& scene) {
   double reach = 0;
-  for (const PlacedObject& part : scene.placed)
+  for (const PlacedObject& part : scene.placed) {
+    const Mesh& mesh = scene.objects[part.object].mesh;
     if (part.target)
-      reach = std::max(reach, part.world_from_object.translation_m.head<2>().norm() +
-                                  0.5 * scene.objects[part.object].mesh.diameter_m);
+      reach =
+          std::max(reach, (part.world_from_object * middle_m(mesh)).head<2>().norm() + 0.5 * mesh.diameter_m);
+  }
   return reach;
 }
 

@@ -42,7 +42,8 @@ TEST(CandidateInWorld, TurnsPoseAndCovariance) {
 
 TEST(Perturbed, HasTheCovarianceWithinItsBounds) {
   Random random = test_random();
-  const double diameter = 0.1;
+  EdgeModel model;
+  model.mesh.diameter_m = 0.1;
   Matrix6d covariance = Matrix6d::Zero();
   covariance.diagonal() << 1e-4, 4e-6, 1e-12, 1e-3, 4e-4,
       1.0;  // deviations: 10, 2, 0 mm; 1.6, 1, 50 mm at half the diameter
@@ -52,18 +53,55 @@ TEST(Perturbed, HasTheCovarianceWithinItsBounds) {
   const int count = 20000;
   const Se3 pose{random.rotation(), {1, 2, 3}};
   for (int i = 0; i < count; ++i) {
-    const Vector6d off = local_coordinates(pose, perturbed(pose, covariance, diameter, spread, random));
+    const Vector6d off = local_coordinates(pose, perturbed(pose, covariance, model, spread, random));
     sum += off * off.transpose() / count;
   }
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(std::sqrt(sum(i, i)), expected[i], 0.03 * expected[i]) << i;
   covariance.diagonal().setConstant(INFINITE);
   double unknown = 0;
   for (int i = 0; i < 2000; ++i)
-    unknown += local_coordinates(pose, perturbed(pose, covariance, diameter, spread, random))
-                   .head<3>()
-                   .squaredNorm() /
-               2000;
+    unknown +=
+        local_coordinates(pose, perturbed(pose, covariance, model, spread, random)).head<3>().squaredNorm() /
+        2000;
   EXPECT_NEAR(std::sqrt(unknown / 3), 6e-3, 3e-4);
+}
+
+// CAD files have their origin anywhere: the same part, told from another origin, moves in the same way.
+TEST(Perturbed, MovesAPartTheSameWayWhereverItsOriginLies) {
+  Random random = test_random();
+  EdgeModel model, elsewhere;
+  model.mesh.diameter_m = elsewhere.mesh.diameter_m = 0.1;
+  elsewhere.center_m = {0.2, -0.1, 0.3};
+  const Se3 pose{random.rotation(), {1, 2, 3}};
+  const Se3 pose_elsewhere = pose * Se3{Eigen::Quaterniond::Identity(), -elsewhere.center_m};
+  Matrix6d root;
+  for (double& x : root.reshaped()) x = 0.003 * random.normal();
+  root.bottomRows<3>() *= 10;
+  const Matrix6d covariance = root * root.transpose();
+  const Matrix6d covariance_elsewhere = covariance_about(pose_elsewhere, -elsewhere.center_m, covariance);
+  EXPECT_GT((covariance - covariance_elsewhere).norm(), 0.2 * covariance.norm()) << "the origin swings";
+  for (const Matrix6d& unknown : {Matrix6d(Matrix6d::Constant(INFINITE)), Matrix6d(Matrix6d::Zero())}) {
+    Random a = random.split("draws"), b = a;
+    for (int i = 0; i < 20; ++i) {
+      const Se3 here = perturbed(pose, unknown, model, {0.02, 0.1}, a);
+      const Se3 there = perturbed(pose_elsewhere, unknown, elsewhere, {0.02, 0.1}, b);
+      EXPECT_LT((here * Eigen::Vector3d::Zero() - there * elsewhere.center_m).norm(), 1e-12);
+      EXPECT_LT(angle_between_rad(here, there), 1e-7);
+    }
+  }
+  // Known ones: eigenvectors may have either sign, so the scatter is compared.
+  Matrix6d scatter = Matrix6d::Zero(), scatter_elsewhere = Matrix6d::Zero();
+  const int count = 20000;
+  for (int i = 0; i < count; ++i) {
+    const Vector6d off = local_coordinates(pose, perturbed(pose, covariance, model, {0.0, 10}, random));
+    const Se3 back{Eigen::Quaterniond::Identity(), elsewhere.center_m};
+    const Vector6d off_elsewhere = local_coordinates(
+        pose, perturbed(pose_elsewhere, covariance_elsewhere, elsewhere, {0.0, 10}, random) * back);
+    scatter += off * off.transpose() / count;
+    scatter_elsewhere += off_elsewhere * off_elsewhere.transpose() / count;
+  }
+  EXPECT_LT((scatter - covariance).norm(), 0.05 * covariance.norm());
+  EXPECT_LT((scatter_elsewhere - covariance).norm(), 0.05 * covariance.norm());
 }
 
 TEST(DrawParticles, SharesThemAmongTheCandidates) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "host/eval/metrics.h"
+#include "host/io/mesh.h"
 #include "kernels/error.h"
 #include "tests/register/scene.h"
 #include "tests/test_random.h"
@@ -49,6 +50,33 @@ TEST(Refine, DoesNotDependOnHowManyAreRefinedTogether) {
       }
     }
   }
+}
+
+// CAD files have their origin anywhere. A part told from an origin some diameters off is found from the same
+// far starts.
+TEST(Refine, FindsAPartWhereverItsOriginLies) {
+  Random random = test_random();
+  const auto backend = make_cpu_backend(2);
+  const PartScene scene("l_bracket", 2, random, *backend);
+  const Eigen::Vector3d shift_m(0.15, -0.05, 0.1);
+  Mesh shifted = scene.model.mesh;
+  for (Eigen::Vector3d& vertex_m : shifted.vertices_m) vertex_m += shift_m;
+  const EdgeModel elsewhere = make_edge_model(make_mesh("shifted", shifted.vertices_m, shifted.triangles));
+  const Se3 shifted_from_part{Eigen::Quaterniond::Identity(), shift_m};
+  RefineOptions options;
+  options.polish = false;  // these views have no edge index
+  std::vector<Hypothesis> starts = starts_around(scene.truth, 24, 0.02, 0.9, random), starts_elsewhere;
+  for (const Hypothesis& start : starts)
+    starts_elsewhere.push_back({0, start.world_from_object * inverse(shifted_from_part)});
+  const auto right = [&](const EdgeModel& model, const std::vector<Hypothesis>& from, const Se3& back) {
+    int count = 0;
+    for (const Refined& refined : refine_poses({&model, 1}, from, scene.views, *backend, options))
+      count += pose_error(refined.registration.world_from_object * back, scene.truth, {}).passes(0.02, 0.001);
+    return count;
+  };
+  const int here = right(scene.model, starts, Se3{});
+  EXPECT_GE(here, 10);
+  EXPECT_GE(right(elsewhere, starts_elsewhere, shifted_from_part), here - 1);
 }
 
 TEST(Refine, RefusesBlocksOfNothing) {

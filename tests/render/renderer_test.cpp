@@ -237,6 +237,34 @@ TEST(Scene, DealsInstancesEvenly) {
   for (const int count : counts) EXPECT_TRUE(count == 2 || count == 3);
 }
 
+// CAD files have their origin anywhere: parts lie in the same heap, before the same cameras.
+TEST(Scene, LaysPartsTheSameWhereverTheirOriginLies) {
+  RenderOptions options = small_options();
+  options.objects = 6;
+  options.pile = 0.7;
+  const std::vector<Object> here = objects();
+  std::vector<Object> elsewhere = here;
+  const Eigen::Vector3d shift_m(0.3, -0.2, 0.25);
+  for (Object& object : elsewhere) {
+    for (Eigen::Vector3d& vertex_m : object.mesh.vertices_m) vertex_m += shift_m;
+    object.mesh.box_min_m += shift_m, object.mesh.box_max_m += shift_m;
+  }
+  const Scene a = make_scene(here, options), b = make_scene(elsewhere, options);
+  ASSERT_EQ(a.placed.size(), b.placed.size());
+  for (std::size_t i = 0; i < a.placed.size(); ++i) {
+    if (!a.placed[i].target) continue;
+    // rounding moves contact by a cell at most
+    EXPECT_LT(
+        (a.placed[i].world_from_object * Eigen::Vector3d::Zero() - b.placed[i].world_from_object * shift_m)
+            .norm(),
+        0.25 * here[static_cast<std::size_t>(a.placed[i].object)].mesh.diameter_m)
+        << i;
+  }
+  EXPECT_NEAR(a.views[0].camera_from_world.translation_m.norm(),
+              b.views[0].camera_from_world.translation_m.norm(),
+              0.1 * a.views[0].camera_from_world.translation_m.norm());
+}
+
 TEST(Scene, KeepsCamerasWhereAsked) {
   RenderOptions options = small_options();
   options.views = 12;
