@@ -1,13 +1,22 @@
-# Writes OUTPUT, a header with the commit of SOURCE, when it changed, "+changes" where files under PATHS differ from it. Run at every build: the
-# configure step's answer would be stale.
+# Writes OUTPUT, a header with the commit of SOURCE, when it changed. Where files under PATHS differ from it, "+changes" and a mark of how: results of
+# two such states are not of one program. Run at every build: the configure step's answer would be stale.
 execute_process(COMMAND git -C ${SOURCE} rev-parse --short=12 HEAD
                 OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE failed)
 if(failed)
   set(commit "unknown")
 else()
-  execute_process(COMMAND git -C ${SOURCE} diff --quiet HEAD -- ${PATHS} RESULT_VARIABLE changed ERROR_QUIET)
-  if(changed)
-    string(APPEND commit "+changes")
+  execute_process(COMMAND git -C ${SOURCE} diff HEAD -- ${PATHS} OUTPUT_VARIABLE changes ERROR_QUIET)
+  execute_process(COMMAND git -C ${SOURCE} ls-files --others --exclude-standard -- ${PATHS}
+                  OUTPUT_VARIABLE untracked OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+  string(REPLACE "\n" ";" untracked "${untracked}")
+  foreach(file IN LISTS untracked)
+    file(SHA1 ${SOURCE}/${file} mark)
+    string(APPEND changes "${file} ${mark}\n")
+  endforeach()
+  if(changes)
+    string(SHA1 mark "${changes}")
+    string(SUBSTRING ${mark} 0 8 mark)
+    string(APPEND commit "+changes-${mark}")
   endif()
 endif()
 file(CONFIGURE OUTPUT ${OUTPUT} CONTENT "#pragma once\n#define EDGESCOUT_COMMIT \"${commit}\"\n")

@@ -15,10 +15,12 @@ Tally& group_of(Judgement& judgement, const BinInstance& instance) {
   return instance.visible > LIGHTLY_OCCLUDED ? judgement.light : judgement.heavy;
 }
 
-const BinInstance& nearest(std::span<const BinInstance> instances, const Se3& pose) {
-  return *std::ranges::min_element(instances, {}, [&](const BinInstance& instance) {
+// Of the instance that is nearest to a wrong pose; where there is none at all, highly occluded.
+Tally& group_near(Judgement& judgement, std::span<const BinInstance> instances, const Se3& pose) {
+  if (instances.empty()) return judgement.heavy;
+  return group_of(judgement, *std::ranges::min_element(instances, {}, [&](const BinInstance& instance) {
     return distance_between_m(instance.world_from_object, pose);
-  });
+  }));
 }
 
 // `error`: of a detection at an instance of its object, 1 or more where it is not right.
@@ -31,8 +33,8 @@ void match(std::span<const BinInstance> instances, std::span<const ModeDetection
       errors.push_back(instance.object == mode.detection.object ? error(mode.detection, instance) : INFINITY);
   const std::vector<int> matched = match_in_order(errors, static_cast<int>(instances.size()), 1);
   for (std::size_t d = 0; d < detections.size(); ++d) {
-    if (matched[d] == UNMATCHED) {
-      ++(group_of(judgement, nearest(instances, detections[d].detection.world_from_object)).*wrong);
+    if (matched.empty() || matched[d] == UNMATCHED) {
+      ++(group_near(judgement, instances, detections[d].detection.world_from_object).*wrong);
     } else if (const BinInstance& found = instances[static_cast<std::size_t>(matched[d])];
                found.visible >= LEAST_VISIBLE) {
       ++(group_of(judgement, found).*correct);
@@ -68,7 +70,6 @@ Judgement judge(std::span<const BinInstance> instances, const ScoutStep& step,
     tally.shown += instance.most_visible > LIGHTLY_OCCLUDED;
     tally.followed += is_followed(instance, step.after, object_of(instance.object));
   }
-  if (instances.empty()) return judgement;
   match(instances, step.detections, judgement, &Tally::correct, &Tally::wrong,
         [&](const Detection& found, const BinInstance& instance) {
           return error_of(found.world_from_object, instance, object_of(found.object));

@@ -13,7 +13,8 @@ namespace edgescout {
 // An instance of which less than LEAST_VISIBLE shows: not finding it is no miss, finding it is not wrong. A
 // pose is right below 0.1 rad and 5 mm modulo symmetry; "_px": where no vertex of it is 10 px or more from
 // its place in the first view. Detections, best first, each take the free instance they fit best. Wrong ones
-// belong to the group of the instance that is nearest to them, ignored ones being highly occluded.
+// belong to the group of the instance that is nearest to them, ignored ones being highly occluded; so are all
+// wrong ones where there is no instance.
 struct Tally {
   int instances = 0;  // that count
   int correct = 0, correct_px = 0;

@@ -68,6 +68,13 @@ TEST(BinJudge, AnInstanceIsFoundOnceAndByItsOwnType) {
   EXPECT_EQ(other.light.wrong, 1);
 }
 
+TEST(BinJudge, AllAreWrongWhereThereIsNoInstance) {
+  const Judgement none = judged({}, reporting({{0, at(0, 0)}, {1, at(0.1, 0)}}));
+  EXPECT_EQ(none.heavy.wrong, 2);
+  EXPECT_EQ(none.heavy.wrong_px, 2);
+  EXPECT_EQ(none.light.wrong + none.light.instances + none.heavy.instances, 0);
+}
+
 TEST(BinJudge, AFalseOneBelongsToItsNearestInstance) {
   const std::vector<BinInstance> instances{{0, at(0, 0), 1}, {0, at(0.2, 0), 0.4}};
   const Judgement judgement = judged(instances, reporting({{0, at(0.15, 0)}}));
