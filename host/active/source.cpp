@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <map>
 
 #include "host/core/option_bounds.h"
 #include "host/core/random.h"
@@ -70,14 +72,21 @@ std::string digits(int number, std::size_t width) {
   return std::string(width - std::min(width, text.size()), '0') + text;
 }
 
-// Every image that has a pose; an image that is not there is found missing when the camera is sent to it.
+// Every image that has a pose, by rising number, whatever numbers are left out; an image that is not there is
+// found missing when the camera is sent to it.
 std::vector<RecordedViews::Recording> visp_recordings(const fs::path& folder) {
-  std::vector<RecordedViews::Recording> recordings;
-  for (int i = 1;; ++i) {
-    const fs::path pose = folder / "CameraPose" / ("Camera_" + digits(i, 3) + ".txt");
-    if (!fs::exists(pose)) return recordings;
-    recordings.push_back({folder / "Images" / ("Image_" + digits(i, 4) + ".pgm"), read_matrix(pose)});
+  std::map<int, fs::path> poses;
+  for (const auto& entry : fs::directory_iterator(folder / "CameraPose")) {
+    int number = 0;
+    if (const std::string name = entry.path().filename().string();
+        std::sscanf(name.c_str(), "Camera_%d", &number) == 1 &&
+        name == "Camera_" + digits(number, 3) + ".txt")
+      poses.emplace(number, entry.path());
   }
+  std::vector<RecordedViews::Recording> recordings;
+  for (const auto& [number, pose] : poses)
+    recordings.push_back({folder / "Images" / ("Image_" + digits(number, 4) + ".pgm"), read_matrix(pose)});
+  return recordings;
 }
 
 }  // namespace

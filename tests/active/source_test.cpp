@@ -162,6 +162,13 @@ TEST(RecordedViews, AreThoseOfAVispFolder) {
   EXPECT_THROW(source.acquire(0), AcquisitionError);
   EXPECT_EQ(source.acquire(1).image.pixels, t.renderings[0].image.pixels);
   expect_input_error([&] { load_recorded_views(folder); }, {"castle", "camera"});
+  // Numbers may be left out.
+  t.folder.write("castle/CameraPose/Camera_017.txt", "1 0 0 7\n0 1 0 0\n0 0 1 0.5\n0 0 0 1\n");
+  const RecordedViews gap = load_recorded_views(folder, camera);
+  ASSERT_EQ(gap.views().size(), 3u);
+  EXPECT_EQ(gap.recordings()[2].file.filename(), "Image_0017.pgm");
+  EXPECT_EQ(gap.views()[2].translation_m.x(), 7);
+  fs::remove(folder / "CameraPose/Camera_017.txt");
   t.folder.write("castle/CameraPose/Camera_002.txt", "1 0 0 0\n0 2 0 0\n0 0 1 0.5\n0 0 0 1\n");
   expect_input_error([&] { load_recorded_views(folder, camera); }, {"Camera_002.txt", "rotation"});
   t.folder.write("castle/CameraPose/Camera_002.txt", "1 0 0 0\n0 1 0\n");
