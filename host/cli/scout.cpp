@@ -99,9 +99,10 @@ void require_known_views(const ScoutOptions& options, std::size_t count) {
   for (const int view : options.next_view.sequence) require("--sequence", view);
 }
 
-// Says on standard error what each step brought.
+// Says on standard error what an image brought. Of a view that failed the scout has told.
 void tell(const ScoutState& state) {
-  if (state.steps.empty()) return;
+  const bool just_failed = !state.failed.empty() && state.failed.back().after_step == state.steps.size();
+  if (state.steps.empty() || just_failed) return;
   const ScoutStep& step = state.steps.back();
   log(LogLevel::Info,
       fmt::format("image {} from view {}: {} objects, entropy {:.3f} nats", state.steps.size(),

@@ -127,12 +127,13 @@ const char* unit_of(Strategy strategy) {
 
 std::optional<DistanceToTruth> distance_to_truth(const Detection& detection, const ScoutReport& report) {
   std::optional<DistanceToTruth> nearest;
-  for (const TrueObject& there : report.truth) {
+  for (std::size_t i = 0; i < report.truth.size(); ++i) {
+    const TrueObject& there = report.truth[i];
     if (there.object != detection.object) continue;
     const PoseError error = pose_error(detection.world_from_object, there.world_from_object,
                                        report.sets[static_cast<std::size_t>(there.object)].symmetries);
     if (!nearest || error.distance_m < nearest->distance_m)
-      nearest = {error.angle_rad, error.distance_m, error.passes()};
+      nearest = {i, error.angle_rad, error.distance_m, error.passes()};
   }
   return nearest;
 }

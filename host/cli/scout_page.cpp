@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "host/cli/drawings.h"
 #include "host/cli/page_style.h"
@@ -80,11 +81,13 @@ class Page {
     return html + tile(state_.end == ScoutEnd::No ? "looking …" : to_string(state_.end), "state") + "</div>";
   }
 
-  int right_ones() const {
-    return static_cast<int>(std::ranges::count_if(state_.detections, [&](const ModeDetection& mode) {
-      const auto off = distance_to_truth(mode.detection, report_);
-      return off && off->right;
-    }));
+  // Each instance once, however many detections are right about it.
+  std::size_t right_ones() const {
+    std::set<std::size_t> instances;
+    for (const ModeDetection& mode : state_.detections)
+      if (const auto off = distance_to_truth(mode.detection, report_); off && off->right)
+        instances.insert(off->instance);
+    return instances.size();
   }
 
   // Referred to by every picture of particles.

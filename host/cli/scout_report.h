@@ -38,6 +38,7 @@ const char* unit_of(Strategy strategy);
 
 // How far a detection lies from the nearest instance of its object; nothing where no truth is known.
 struct DistanceToTruth {
+  std::size_t instance = 0;  // index into the report's truth
   double angle_rad = 0, distance_m = 0;
   bool right = false;  // below 0.1 rad and 5 mm, the paper's criterion
 };
