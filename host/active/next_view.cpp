@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "host/active/candidate_scene.h"
 #include "host/active/seen_points.h"
@@ -291,9 +292,10 @@ std::vector<ViewInformation> view_information(const Planning& planning, Backend&
 }
 
 std::optional<int> best_view(std::span<const ViewInformation> views) {
+  const auto rank = [&](int v) { return std::pair(views[v].value(), views[v].share); };
   std::optional<int> best;
   for (int v = 0; v < int(views.size()); ++v)
-    if (views[v].open && (!best || views[v].value() > views[*best].value())) best = v;
+    if (views[v].open && (!best || rank(v) > rank(*best))) best = v;
   return best;
 }
 

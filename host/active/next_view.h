@@ -79,7 +79,8 @@ struct ViewInformation {
 std::vector<ViewInformation> view_information(const Planning& planning, Backend& backend,
                                               const NextViewOptions& options);
 
-// The open view of most value, the first of equals; nothing where none is open.
+// The open view of most value, of equals the one of most share: where nothing is known that information could
+// be about, far from the views taken and high. Nothing where none is open.
 std::optional<int> best_view(std::span<const ViewInformation> views);
 
 }  // namespace edgescout

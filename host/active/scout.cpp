@@ -61,12 +61,6 @@ ScoutDecision without_expectations(int view, Strategy strategy) {
   return decision;
 }
 
-double most_information(std::span<const ViewInformation> views) {
-  double most = 0;
-  for (const ViewInformation& view : views) most = std::max(most, view.information);
-  return most;
-}
-
 }  // namespace
 
 Scout::Scout(std::span<const TemplateSet> sets, const Camera& camera,
@@ -86,28 +80,37 @@ Scout::Scout(std::span<const TemplateSet> sets, const Camera& camera,
                        "one of " + std::to_string(camera_from_world_views.size()) + " views");
   tables_ = tables_of(sets, backend);
   state_.objects = objects_of(sets);
+  state_.camera = camera_;
   state_.views = std::move(camera_from_world_views);
 }
 
 // Line 13: where to look next.
 std::optional<ScoutDecision> Scout::propose() {
   if (proposal_) return proposal_;
-  state_.end = end_before_planning();
-  if (state_.end != ScoutEnd::No) return {};
+  if (const ScoutEnd end = end_before_planning(); end != ScoutEnd::No) {
+    state_.end = end;
+    return {};
+  }
   ScoutDecision decision = decide();
   if (decision.view < 0) {
     state_.end = ScoutEnd::NoViewLeft;
-  } else if (options_.next_view.strategy == Strategy::Information && !may_find_more() &&
-             most_information(decision.views) < options_.min_information_nats) {
+  } else if (little_to_learn(decision)) {
     state_.end = ScoutEnd::LittleToLearn;
   } else {
+    state_.end = ScoutEnd::No;
     proposal_ = std::move(decision);
   }
   return proposal_;
 }
 
 // Without candidates there is nothing that information could be about, and everything to find.
-bool Scout::may_find_more() const { return state_.candidates.empty() && options_.detect_in_every_image; }
+bool Scout::may_find_more() const { return state_.candidates.empty(); }
+
+bool Scout::little_to_learn(const ScoutDecision& decision) const {
+  return options_.next_view.strategy == Strategy::Information && options_.min_information_nats > 0 &&
+         !may_find_more() &&
+         decision.views[static_cast<std::size_t>(decision.view)].value() < options_.min_information_nats;
+}
 
 void Scout::give(int view, const Image& image) {
   check(view >= 0 && view < static_cast<int>(state_.views.size()), "Scout::give: no such view");
@@ -155,7 +158,7 @@ void Scout::look(const Image& image, ScoutStep& step, ScoutState& next,
   const std::vector<Hypothesis> known = known_objects(next.detections, options_.known_probability);
   hide_behind(known, observations);
   done(watch, "tensors");
-  if (next.steps.empty() || options_.detect_in_every_image) {
+  if (next.candidates.empty() || options_.detect_in_every_image) {
     const Observation& newest = observations.back();
     const std::span<const Observation> earlier(observations.data(),
                                                options_.detect_jointly ? observations.size() - 1 : 0);
@@ -247,7 +250,7 @@ ScoutDecision Scout::decide() const {
                                      state_.candidates, &combinations, state_.particles},
                                     backend_, options_.next_view);
   decision.view = best_view(decision.views).value_or(-1);
-  watch.lap("information");
+  done(watch, "information");
   return decision;
 }
 
@@ -255,16 +258,24 @@ ScoutEnd Scout::end_before_planning() const {
   const std::vector<char> closed = state_.closed();
   if (static_cast<int>(state_.steps.size()) >= options_.max_views) return ScoutEnd::ViewBudget;
   if (std::ranges::find(closed, 0) == closed.end()) return ScoutEnd::NoViewLeft;
-  if (!state_.detections.empty() && state_.entropy_nats < options_.min_entropy_nats) return ScoutEnd::Certain;
+  if (certain()) return ScoutEnd::Certain;
   if (little_learned()) return ScoutEnd::LittleLearned;
   if (options_.max_seconds > 0 && state_.seconds() >= options_.max_seconds) return ScoutEnd::TimeSpent;
   return ScoutEnd::No;
 }
 
+// An image that shows what none had shown may be followed by others.
+bool Scout::certain() const {
+  if (state_.detections.empty() || state_.entropy_nats >= options_.min_entropy_nats) return false;
+  return !options_.detect_in_every_image || state_.steps.back().new_candidates == 0;
+}
+
+// Particles that died and were drawn anew have gained nothing, and have everything to learn.
 bool Scout::little_learned() const {
   if (state_.steps.empty() || may_find_more()) return false;
   const ScoutStep& last = state_.steps.back();
-  return last.new_candidates == 0 && last.update.gained_nats < options_.min_gained_nats;
+  return last.new_candidates == 0 && !last.update.reseeded &&
+         last.update.gained_nats < options_.min_gained_nats;
 }
 
 int Scout::first_open_view() const {

@@ -32,7 +32,7 @@ class Cancelled : public std::runtime_error {
 struct ScoutOptions {
   PipelineOptions pipeline = quick_looks();
   int max_candidates = 40;            // kept of all objects together (the paper's N_obj)
-  bool detect_in_every_image = true;  // else in the first alone, as in the paper
+  bool detect_in_every_image = true;  // else until there are candidates: in the first alone, as in the paper
   // A detector of one's own in place of candidates_in_image (candidates.h): what may be in the image of this
   // view, in the world. `earlier` are the images before it, as far as detection may use them, `known` the
   // instances that need not be found again.
@@ -55,12 +55,14 @@ struct ScoutOptions {
   int first_view = 0;  // whatever the strategy: of a fixed sequence give its first
   // The end, whichever comes first. A limit of 0 is none.
   int max_views = 5;               // images
-  double min_entropy_nats = 0.01;  // less: the modes are certain
-  // less expected of the best view (Strategy::Information): not worth the way
+  double min_entropy_nats = 0.01;  // less: the modes are certain; and no new candidates in the last image
+  // less expected of the best view, what its way costs taken off (Strategy::Information): not worth it
   double min_information_nats = 0;
-  double min_gained_nats = 0;       // less from the last image, and no new_candidates in it
-  double max_seconds = 0;           // of computing
-  std::function<bool()> cancelled;  // asked between stages, from the calling thread
+  double min_gained_nats = 0;  // less from the last image, and no new candidates in it
+  double max_seconds = 0;      // of computing
+  // Asked between stages, from the calling thread. The longest are the detection of all objects in an image
+  // and a decision: seconds, on a software device up to a minute.
+  std::function<bool()> cancelled;
   // Fewer hits and candidates an image than a detection that has but one: what an image misses, the next one
   // shows, in half the time (docs/evaluation.md).
   static PipelineOptions quick_looks();
@@ -97,6 +99,8 @@ class Scout {
   void require_open(int view) const;
   ScoutEnd end_before_planning() const;
   bool may_find_more() const;
+  bool certain() const;
+  bool little_to_learn(const ScoutDecision& decision) const;
   bool little_learned() const;
   int first_open_view() const;
   ScoutDecision decide() const;

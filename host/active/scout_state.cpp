@@ -9,7 +9,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 9, "scout state"};
+constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 10, "scout state"};
 
 template <typename T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -26,6 +26,9 @@ class Put {
   void put(const Se3& pose) { out_.put_pose(pose); }
   void put(const Matrix6d& matrix) {
     for (int i = 0; i < matrix.size(); ++i) out_.put(matrix.data()[i]);
+  }
+  void put(const std::array<double, 8>& numbers) {
+    for (const double number : numbers) out_.put(number);
   }
   template <typename T>
   void put(const std::vector<T>& list) {
@@ -49,6 +52,9 @@ class Get {
   void get(Se3& pose) { pose = in_.get_pose(); }
   void get(Matrix6d& matrix) {
     for (int i = 0; i < matrix.size(); ++i) matrix.data()[i] = in_.get<double>();
+  }
+  void get(std::array<double, 8>& numbers) {
+    for (double& number : numbers) number = in_.get<double>();
   }
   template <typename T>
   void get(std::vector<T>& list) {
@@ -75,6 +81,7 @@ void fields(auto& io, A<PoseFeatures> auto& x) {
 void fields(auto& io, A<ParticleUpdate> auto& x) { io(x.effective, x.reseeded, x.gained_nats); }
 void fields(auto& io, A<FailedView> auto& x) { io(x.view, x.reason, x.after_step, x.stages); }
 void fields(auto& io, A<ScoutObject> auto& x) { io(x.id, x.fingerprint); }
+void fields(auto& io, A<Camera> auto& x) { io(x.width, x.height, x.fx, x.fy, x.cx, x.cy, x.distortion); }
 void fields(auto& io, A<Image> auto& x) { io(x.width, x.height, x.pixels); }
 void fields(auto& io, A<Mode> auto& x) { io(x.object, x.particles, x.weight, x.probability); }
 void fields(auto& io, A<ModeDetection> auto& x) { io(x.detection, x.weight, x.supporting_views); }
@@ -93,8 +100,8 @@ void fields(auto& io, A<ScoutStep> auto& x) {
      x.detections, x.agreement, x.mode_probabilities, x.entropy_nats, x.stages);
 }
 void fields(auto& io, A<ScoutState> auto& x) {
-  io(x.objects, x.views, x.steps, x.failed, x.candidates, x.particles, x.unseen_px2, x.modes, x.detections,
-     x.entropy_nats, x.end);
+  io(x.objects, x.camera, x.views, x.steps, x.failed, x.candidates, x.particles, x.unseen_px2, x.modes,
+     x.detections, x.entropy_nats, x.end);
 }
 
 double sum(const std::vector<StageSeconds>& stages) {

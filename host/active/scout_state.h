@@ -12,6 +12,7 @@
 #include "host/active/next_view.h"
 #include "host/active/particles.h"
 #include "host/active/view_agreement.h"
+#include "host/core/camera.h"
 #include "host/core/stopwatch.h"
 
 namespace edgescout {
@@ -66,6 +67,7 @@ struct ScoutObject {
 
 struct ScoutState {
   std::vector<ScoutObject> objects;  // that are sought, in their order
+  Camera camera;                     // that takes every image
   std::vector<Se3> views;            // camera_from_world of all possible views
   std::vector<ScoutStep> steps;
   std::vector<FailedView> failed;     // never proposed again
@@ -88,7 +90,8 @@ struct ScoutState {
 void save_scout_state(const ScoutState& state, const std::filesystem::path& file);
 ScoutState load_scout_state(const std::filesystem::path& file);
 
-// InputError naming `source`: `saved` has other views or objects than `run`, or speaks of one that is none.
+// InputError naming `source`: `saved` has another camera, other views or objects than `run`, or speaks of one
+// that is none.
 void require_same_run(const ScoutState& saved, const ScoutState& run, const std::string& source);
 
 }  // namespace edgescout

@@ -46,6 +46,26 @@ TEST(ViewInformation, IsTheSameOnEveryDevice) {
     EXPECT_NEAR(fast[v].information, device[v].information, 5e-3 * (1 + fast[v].information));
 }
 
+// More candidates than maps of all views fit at once: judged in blocks, and the same as each by itself.
+TEST(ViewInformation, OfManyViewsIsThatOfEachByItself) {
+  Plan t;
+  const std::vector<Detection> few = t.candidates;
+  for (std::size_t i = 0; t.candidates.size() < 300; ++i) {
+    t.candidates.push_back(few[i % few.size()]);
+    t.candidates.back().world_from_object.translation_m.x() += 1e-4 * static_cast<double>(i);
+  }
+  t.draw_combinations();
+  const std::vector<ViewInformation> all = t.information();
+  for (const int alone : {1, 5, 7, 9}) {
+    t.closed.assign(t.views.size(), 1);
+    t.closed[static_cast<std::size_t>(alone)] = 0;
+    EXPECT_GT(all[static_cast<std::size_t>(alone)].information, 0);
+    EXPECT_EQ(t.information()[static_cast<std::size_t>(alone)].information,
+              all[static_cast<std::size_t>(alone)].information)
+        << alone;
+  }
+}
+
 // Nothing to tell apart: one particle, or all candidates in every combination.
 TEST(ViewInformation, IsZeroWhereNothingIsOpen) {
   Plan t;
@@ -75,6 +95,12 @@ TEST(ViewInformation, OfViewsThatSeeNothingIsZero) {
   ASSERT_EQ(log.messages.size(), 1u);
   EXPECT_NE(log.messages[0].second.find("no view promises"), std::string::npos);
   EXPECT_EQ(best_view(blind), 1);
+  // Of equals the one of most share.
+  std::vector<ViewInformation> equal(4, {true, 0, 0.5, 0});
+  equal[2].share = 0.9, equal[3] = {false, 0, 1, 0};
+  EXPECT_EQ(best_view(equal), 2);
+  equal[1].information = 1e-6;
+  EXPECT_EQ(best_view(equal), 1);
 }
 
 TEST(ViewInformation, WithoutCandidatesOrParticlesIsZero) {

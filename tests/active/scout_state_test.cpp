@@ -51,6 +51,33 @@ TEST(ScoutState, GoesOnWithWhatHidesOthers) {
   expect_goes_on(t, options, t.source(), {2});
 }
 
+// Whatever a log or a page reads from it comes back, too.
+TEST(ScoutState, IsWrittenTheSameAfterItWasRead) {
+  SmallCell t;
+  const TemporaryFolder folder;
+  SimulatedCell cell = t.source();
+  Scout scout = t.scout();
+  run_scout(scout, cell);
+  const ScoutStep& last = scout.state().steps.back();
+  EXPECT_FALSE(last.before.empty() || last.after.empty() || last.mode_probabilities.empty() ||
+               last.decision.likeliest.empty() || last.agreement.empty());
+  const auto first = folder.path() / "first", second = folder.path() / "second";
+  save_scout_state(scout.state(), first);
+  const ScoutState loaded = load_scout_state(first);
+  save_scout_state(loaded, second);
+  EXPECT_EQ(content_of(first), content_of(second));
+  const ScoutStep& read = loaded.steps.back();
+  EXPECT_EQ(read.before.size(), last.before.size());
+  EXPECT_EQ(read.after.size(), last.after.size());
+  EXPECT_EQ(read.mode_probabilities, last.mode_probabilities);
+  EXPECT_EQ(read.decision.likeliest, last.decision.likeliest);
+  EXPECT_EQ(read.decision.unlikeliest, last.decision.unlikeliest);
+  EXPECT_EQ(read.agreement.size(), last.agreement.size());
+  EXPECT_EQ(read.new_candidates, last.new_candidates);
+  EXPECT_EQ(read.resampled, last.resampled);
+  EXPECT_EQ(loaded.camera.fx, t.camera().fx);
+}
+
 TEST(ScoutState, OfAnotherRunOrDamagedIsRefused) {
   SmallCell t;
   const TemporaryFolder folder;
@@ -81,6 +108,11 @@ TEST(ScoutState, OfAnotherRunOrDamagedIsRefused) {
   wrong = scout.state();
   wrong.failed.push_back({-1, "", 0, {}});
   expect_input_error([&] { same.resume(wrong, file); }, {"scout.state", "indices"});
+  // Calibrated anew: the saved images were made for another camera.
+  Camera calibrated = t.camera();
+  calibrated.fx *= 1.01;
+  Scout sees_else(t.sets, calibrated, t.views, options, *t.backend);
+  expect_input_error([&] { sees_else.resume(load_scout_state(file), file); }, {"scout.state", "camera"});
   t.views.pop_back();
   Scout other = t.scout();
   expect_input_error([&] { other.resume(load_scout_state(file), file); }, {"scout.state", "views"});

@@ -149,9 +149,27 @@ TEST(Scout, EndsByEachOfItsLimits) {
   };
   using End = std::pair<ScoutEnd, std::size_t>;
   EXPECT_EQ(ended([](ScoutOptions& o) { o.max_views = 1; }), End(ScoutEnd::ViewBudget, 1));
-  EXPECT_EQ(ended([](ScoutOptions& o) { o.min_entropy_nats = 1000; }), End(ScoutEnd::Certain, 1));
+  // Certain of what was found: what an image shows for the first time may not be the last.
+  Detection there;
+  there.world_from_object = t.scene.placed[0].world_from_object;
+  there.psi = 0.9;
+  const auto always_there = [&](ScoutOptions& o) {
+    o.min_entropy_nats = 1000;
+    o.detect = [&](int, const Observation&, std::span<const Observation>, std::span<const Hypothesis>) {
+      return std::vector{there};
+    };
+  };
+  EXPECT_EQ(ended(always_there), End(ScoutEnd::Certain, 2));
+  EXPECT_EQ(ended([&](ScoutOptions& o) { always_there(o), o.detect_in_every_image = false; }),
+            End(ScoutEnd::Certain, 1))
+      << "no other image can show more";
   EXPECT_EQ(ended([](ScoutOptions& o) { o.max_seconds = 1e-6; }), End(ScoutEnd::TimeSpent, 1));
   EXPECT_EQ(ended([](ScoutOptions& o) { o.min_information_nats = 1000; }), End(ScoutEnd::LittleToLearn, 1));
+  const auto dear = [](ScoutOptions& o) { o.next_view.motion_cost_per_m = 1000; };
+  EXPECT_EQ(ended(dear), End(ScoutEnd::ViewBudget, 3)) << "without a limit no way is too far";
+  EXPECT_EQ(ended([&](ScoutOptions& o) { dear(o), o.min_information_nats = 1e-9; }),
+            End(ScoutEnd::LittleToLearn, 1))
+      << "what the way costs is taken off";
   // The first image's candidates are all new; the later ones find the same.
   const auto found_once = [](ScoutOptions& o) {
     o.detect_in_every_image = false;
@@ -163,6 +181,21 @@ TEST(Scout, EndsByEachOfItsLimits) {
             End(ScoutEnd::ViewBudget, 3));
   EXPECT_EQ(ended([](ScoutOptions& o) { o.next_view.reachable = [](int view) { return view == 3; }; }),
             End(ScoutEnd::NoViewLeft, 1));
+}
+
+// All particles are dead at once and again when drawn anew: nothing was gained, and nothing is settled.
+TEST(Scout, DoesNotTakeACollapseForTheEnd) {
+  SmallCell t;
+  SimulatedCell cell = t.source();
+  ScoutOptions options = t.options();
+  options.detect_in_every_image = false;
+  options.min_gained_nats = 1000;
+  options.particles.dead_px = 1e-3;
+  Scout scout = t.scout(options);
+  run_scout(scout, cell);
+  ASSERT_FALSE(scout.state().candidates.empty());
+  EXPECT_TRUE(scout.state().steps.back().update.reseeded);
+  EXPECT_EQ(scout.state().end, ScoutEnd::ViewBudget);
 }
 
 // Copies are moved apart so that they can be told apart, not because anybody doubts their places.
@@ -199,6 +232,32 @@ TEST(Scout, GoesOnWhereTheFirstImageShowsNothing) {
   run_scout(scout, cell);
   EXPECT_EQ(scout.state().end, ScoutEnd::ViewBudget);
   EXPECT_EQ(scout.state().steps.size(), 3u);
+  // With nothing to know about, from where no neighbour of the first view stands, and the heap hides least.
+  const auto eye = [&](int view) { return inverse(t.views[static_cast<std::size_t>(view)]).translation_m; };
+  const std::vector<int> views = views_of(scout.state());
+  for (int view = 0; view < static_cast<int>(t.views.size()); ++view)
+    EXPECT_LE(eye(view).z(), eye(views[1]).z() + 1e-9) << "on the upper ring";
+  EXPECT_GT((eye(views[1]) - eye(views[0])).norm(), 0.2);
+}
+
+// As in the paper one image is searched, but the first one that shows anything.
+TEST(Scout, SearchesUntilThereAreCandidates) {
+  SmallCell t;
+  ScoutOptions options = t.options();
+  options.detect_in_every_image = false;
+  Detection there;
+  there.world_from_object = t.scene.placed[0].world_from_object;
+  there.psi = 0.9;
+  int asked = 0;
+  options.detect = [&](int, const Observation&, std::span<const Observation>, std::span<const Hypothesis>) {
+    return ++asked == 1 ? std::vector<Detection>{} : std::vector{there};
+  };
+  Scout scout = t.scout(options);
+  SimulatedCell cell = t.source();
+  run_scout(scout, cell);
+  EXPECT_EQ(asked, 2);
+  EXPECT_EQ(scout.state().steps.size(), 3u);
+  EXPECT_EQ(t.found(scout.state()), 1);
 }
 
 TEST(Scout, ProposesTheSameUntilThereIsNews) {
