@@ -10,6 +10,7 @@
 #include "host/active/views.h"
 #include "host/io/json_fields.h"
 #include "host/io/results.h"
+#include "kernels/backend.h"
 #include "tests/cli/small_scene.h"
 
 namespace edgescout::test {
@@ -18,12 +19,12 @@ namespace {
 struct SmallScout {
   TemporaryFolder folder;
   fs::path out = folder.path() / "out";
-  std::string min_probability = "0.1";
+  std::string min_probability = "0.1", device = "cpu";
 
   // A bracket in a rendered cell, three images of eight views, few of everything.
   std::vector<std::string> arguments(const std::vector<std::string>& more = {}) const {
     return joined(
-        {{"scout", "cell", "--out", out, "--device", "cpu", "--model", part_file(1), "--unit", "mm"},
+        {{"scout", "cell", "--out", out, "--device", device, "--model", part_file(1), "--unit", "mm"},
          {"--width", "320", "--height", "240", "--focal", "400", "--objects", "1", "--clutter", "0"},
          {"--radius", "0.3", "--view-count", "8", "--elevations", "40", "70", "--max-views", "3",
           "--min-entropy", "0"},
@@ -106,6 +107,41 @@ TEST(Scout, FindsThePartAndShowsHow) {
   EXPECT_EQ(count_of(page, "Likeliest scene"), 2u);
   EXPECT_EQ(count_of(page, "nlikeliest"), 2u);
   EXPECT_EQ(page.find("http-equiv=refresh"), std::string::npos) << "it is finished";
+}
+
+TEST(Scout, FindsThePartOnAVulkanDevice) {
+  if (vulkan_devices().empty()) GTEST_SKIP() << "no Vulkan device";
+  SmallScout t;
+  t.device = "vulkan:0";
+  const Outcome outcome = run_program(t.arguments());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const nlohmann::json log = t.log();
+  ASSERT_EQ(log.at("steps").size(), 3u);
+  EXPECT_NE(log.at("device"), "cpu");
+  ASSERT_EQ(log.at("detections").size(), 1u);
+  EXPECT_TRUE(log["detections"][0].at("off_truth").at("right"));
+}
+
+// Recorded views of a model whose origin lies outside it, as its CAD file has it: the castle stands where the
+// recording says, at the world's origin.
+TEST(Scout, FindsTheCastleOfVisp) {
+  const fs::path folder = "/usr/share/visp-images-data/ViSP-images/mbt-depth/Castle-simu";
+  if (!fs::exists(folder)) GTEST_SKIP() << "visp-images-data is not installed";
+  const TemporaryFolder out;
+  const Outcome outcome = run_program(joined({{"scout", folder, "--out", out.path(), "--device", "cpu"},
+                                              {"--camera", examples() / "visp/castle_simu_camera.yaml"},
+                                              {"--model", folder / "Models/chateau.cao", "--unit", "m"},
+                                              {"--max-views", "3"}}));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const nlohmann::json log = nlohmann::json::parse(content_of(out.path() / "scout.json"));
+  EXPECT_EQ(log.at("steps").size(), 3u);
+  ASSERT_FALSE(log.at("detections").empty());
+  const nlohmann::json& best = log["detections"][0];
+  EXPECT_GT(best.at("probability").get<double>(), 0.9);
+  const JsonField pose{best.at("world_from_object"), "scout.json", ""};
+  const Se3 castle = pose_from(pose.at("R"), pose.at("t"), 1);
+  EXPECT_LT(castle.translation_m.norm(), 0.002);
+  EXPECT_LT(angle_between_rad(castle, Se3{}), 0.01);
 }
 
 TEST(Scout, KilledItGoesOnToTheSameEnd) {
