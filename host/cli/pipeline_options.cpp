@@ -66,6 +66,10 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
                "How much lower cameras are hidden by what is unknown; 0: not at all")
       .bounded("repeat-angle", o.next_view.repeat_rad, 0.0, 100.0,
                "Within which views tell much the same, rad; 0: every view is new")
+      .bounded(
+          "seen", o.next_view.seen_px, 0.0, 8.0,
+          "A part's point was seen in an image whose edges lie so near, px; 0: wherever it lies in one, as "
+          "in the paper")
       .flag("literal", o.next_view.literal, "The paper's own formula for the information")
       .bounded("combinations", o.combinations.count, 1, 1000000, "Scenes imagined for a decision")
       .bounded("sharpness", o.combinations.sharpness, 0.0, 500.0,
@@ -87,7 +91,7 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
       .flag("jointly,!--alone", o.detect_jointly,
             "Detect in later images with the help of those before (default), or in each alone")
       .flag("every-image,!--first-image-only", o.detect_in_every_image,
-            "Detect in every image (default), or in the first only, as in the paper");
+            "Detect in every image (default), or until something is found, as in the paper");
 }
 
 void add_template_options(CLI::App& verb, TemplateOptions& o) {

@@ -218,6 +218,7 @@ Notes options(const ExperimentSettings& s) {
               {"sigma_px", number_text(o.next_view.sigma_px)},
               {"free_sight", number_text(o.next_view.free_sight)},
               {"repeat_rad", number_text(o.next_view.repeat_rad)},
+              {"seen_px", number_text(o.next_view.seen_px)},
               {"formula", o.next_view.literal ? "literal" : "mutual information"},
               {"min_probability", number_text(o.detections.min_probability)}};
   if (!s.data.empty()) notes.emplace_back("data", data_mark(s.data));

@@ -55,11 +55,12 @@ Case template_case(Backend& backend, const Scale& s, std::uint32_t columns, std:
       random_templates(rng, s.coarse_width, s.coarse_height, options.bins, s.templates, columns, rows);
   const auto hits = std::make_shared<std::vector<TemplateHit>>(work.jobs.size());
   constexpr int step = 2;
-  return {"template_score",
-          std::to_string(s.templates) + " templates at " + std::to_string(columns * rows) + " anchors",
-          work.points.size() * columns * rows * sizeof(std::uint16_t), [&backend, view, work, hits] {
-            backend.template_score(*view, work.points, work.jobs, step, *hits);
-          }};
+  return {
+      "template_score",
+      std::to_string(s.templates) + " templates at " + std::to_string(columns * rows) + " anchors",
+      tensor_bytes(s.coarse_width, s.coarse_height, options.bins) +
+          work.points.size() * sizeof(TemplatePoint) + work.jobs.size() * sizeof(TemplateHit),
+      [&backend, view, work, hits] { backend.template_score(*view, work.points, work.jobs, step, *hits); }};
 }
 
 struct PoseInput {

@@ -14,6 +14,18 @@ double now_ms() {
 
 }  // namespace
 
+std::optional<double> Row::on_device_ms() const {
+  double seconds = 0;
+  bool has_host_beside = false;
+  for (const StageTime& stage : stages)
+    if (stage.name == HOST_STAGE)
+      has_host_beside = true;
+    else
+      seconds += stage.seconds;
+  if (!has_host_beside || repetitions == 0) return {};
+  return 1000 * seconds / repetitions;
+}
+
 Row measure(Backend& backend, const Case& timed, int repetitions) {
   constexpr double enough_ms = 20000;
   timed.run();  // warm-up: caches, pages, the driver's compiler

@@ -237,7 +237,7 @@ class VulkanBackend : public Backend {
       rest -= time.seconds;
     }
     rest += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    add_time("vulkan_host", std::max(0.0, rest));
+    add_time(HOST_STAGE, std::max(0.0, rest));
   }
 
   std::shared_ptr<const Device> device_;

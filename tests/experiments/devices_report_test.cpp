@@ -29,8 +29,16 @@ DevicesReport report() {
   card.stages = {{"edges", {1, 1.5, 2}}, {"image to poses", {100, 50, 40}}};
   card.peak_device_bytes = 64u << 20;
   card.copy_bytes_per_s = 2e9;
-  // 4 MB at 2 GB/s take 2 ms; the kernel took 5.
-  card.kernels = {{"dcd_tensor", "64x48", 3, 5, 4, 6, 4000000, {}}};
+  // 4 MB at 2 GB/s take 2 ms; of the call's 5 the kernel took 4, as three repetitions' 12 say.
+  card.kernels = {{"dcd_tensor",
+                   "64x48",
+                   3,
+                   5,
+                   4,
+                   6,
+                   4000000,
+                   {{"stamp", 0.009, 3}, {"pass", 0.003, 3}, {HOST_STAGE, 0.003, 3}}},
+                  {"pose_score", "40", 3, 5, 4, 6, 4000000, {}}};
   report.devices = {cpu, card};
   return report;
 }
@@ -49,7 +57,9 @@ TEST(DevicesReport, AsJsonHasMediansRatiosAndFloors) {
   EXPECT_EQ(card.at("stages").at(1).at("times_cpu"), 0.1);
   EXPECT_EQ(card.at("images_per_second"), 20);
   EXPECT_EQ(card.at("kernels").at(0).at("floor_ms"), 2);
-  EXPECT_EQ(card.at("kernels").at(0).at("times_floor"), 2.5);
+  EXPECT_DOUBLE_EQ(card.at("kernels").at(0).at("kernel_ms").get<double>(), 4);
+  EXPECT_DOUBLE_EQ(card.at("kernels").at(0).at("times_floor").get<double>(), 2);
+  EXPECT_EQ(card.at("kernels").at(1).at("times_floor"), 2.5) << "without a clock of its own the whole call";
   EXPECT_FALSE(cpu.contains("kernels"));
 }
 
@@ -59,7 +69,7 @@ TEST(DevicesReport, AsMarkdownHasARowAStageADeviceAndAKernel) {
        {"| edges | 3.0 (2.0 to 4.0) | 1.00 | 1.5 (1.0 to 2.0) | 0.50 |",
         "| image to poses | 500.0 (400.0 to 800.0) | 1.00 | 50.0 (40.0 to 100.0) | 0.10 |",
         "| cpu |  | 2.00 | 300 | 0 |  |", "| vulkan:0 card | driver 1 | 20.00 | 0 | 64 | 2.0 |",
-        "| dcd_tensor | 64x48 | 5.000 | 2.000 | 2.5 |", "**Warning:** something is odd"})
+        "| dcd_tensor | 64x48 | 5.000 | 4.000 | 2.000 | 2.0 |", "**Warning:** something is odd"})
     EXPECT_NE(text.find(row), std::string::npos) << row << " not in\n" << text;
 }
 
