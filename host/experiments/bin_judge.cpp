@@ -19,8 +19,8 @@ Tally& group_of(Judgement& judgement, const BinInstance& instance) {
 Tally& group_near(Judgement& judgement, std::span<const BinInstance> instances, const Se3& pose) {
   if (instances.empty()) return judgement.heavy;
   return group_of(judgement, *std::ranges::min_element(instances, {}, [&](const BinInstance& instance) {
-    return distance_between_m(instance.world_from_object, pose);
-  }));
+                    return distance_between_m(instance.world_from_object, pose);
+                  }));
 }
 
 // `error`: of a detection at an instance of its object, 1 or more where it is not right.

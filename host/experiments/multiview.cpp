@@ -79,12 +79,29 @@ std::vector<Cell> cells(const ExperimentSettings& s) {
   return list;
 }
 
+std::string name_of(const Trial& trial) {
+  return fmt::format("{}, {}", trial.name(),
+                     trial.views == 1 ? "one view" : fmt::format("{} views", trial.views));
+}
+
+// Three views less one of every method, and of D2CO the paper's lambda less edgescout's own.
+std::vector<Comparison> comparisons() {
+  std::vector<Comparison> list;
+  for (const Trial& several : trials()) {
+    if (several.views == 1) continue;
+    Trial single = several;
+    single.views = 1;
+    list.emplace_back(name_of(several), name_of(single));
+  }
+  list.emplace_back(name_of({"d2co", VIEWS, PAPER_LAMBDA_PX_PER_RAD}),
+                    name_of({"d2co", VIEWS, OWN_LAMBDA_PX_PER_RAD}));
+  return list;
+}
+
 std::vector<Series> series() {
   std::vector<Series> list;
   for (const Trial& trial : trials())
-    list.push_back({fmt::format("{}, {}", trial.name(),
-                                trial.views == 1 ? "one view" : fmt::format("{} views", trial.views)),
-                    [trial](const Table& table, std::size_t row) {
+    list.push_back({name_of(trial), [trial](const Table& table, std::size_t row) {
                       return text_in(table, row, "method") == trial.name() &&
                              text_in(table, row, "views") == std::to_string(trial.views);
                     }});
@@ -99,7 +116,7 @@ Report report(const ExperimentSettings&, const Table& table) {
   const auto add = [&](const std::string& title, const Table& rows, const Criterion& criterion) {
     if (rows.rows.empty()) return;
     result.markdown += fmt::format("## {}\n\nCorrect is {}.\n\n{}\n", title, criterion.text,
-                                   rate_table(rows, series(), criterion));
+                                   rate_table(rows, series(), criterion, comparisons()));
     result.panels.push_back(rate_panel(title, rows, series(), criterion));
   };
   const auto is_rendered = [](const Table& t, std::size_t row) {

@@ -54,6 +54,22 @@ double trials_of(const std::vector<Cluster>& clusters) {
   return trials;
 }
 
+// Points of percent; empty where the two did not run from the same starts.
+std::string difference_text(const std::vector<Cluster>& a, const std::vector<Cluster>& b) {
+  const auto trials = [](const Cluster& cluster) { return cluster.trials; };
+  if (a.empty() || !std::ranges::equal(a, b, {}, trials, trials)) return "";
+  const Interval interval = paired_difference_interval(a, b);
+  return fmt::format("{:+.1f} [{:+.1f}, {:+.1f}]", 100 * (rate(a) - rate(b)), 100 * interval.low,
+                     100 * interval.high);
+}
+
+std::string difference_row(const std::string& name, const LevelRates& first, const LevelRates& other) {
+  std::string text = "| " + name;
+  for (std::size_t level = 0; level < std::size(LEVELS_RAD); ++level)
+    text += " | " + difference_text(first.clusters[level], other.clusters[level]);
+  return text + " | " + difference_text(first.all, other.all) + " | | |\n";
+}
+
 // Recorded starts lie at the levels' ends; drawn ones anywhere.
 double step_rad(const Table& table) {
   const auto is_end = [](const std::string& distance) {
@@ -99,34 +115,41 @@ int level_of(double distance_rad) {
 }
 
 LevelRates rates_of(const Table& table, const Series& series, const Criterion& criterion) {
-  Clusters levels[std::size(LEVELS_RAD)];
+  Clusters levels[std::size(LEVELS_RAD)], all;
   const ClusterKeys keys(table);
   LevelRates rates;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     if (!series.has(table, row)) continue;
     count(levels[level_of(number_in(table, row, "distance_rad")) - 1], keys, table, row, criterion);
+    count(all, keys, table, row, criterion);
     if (!text_in(table, row, "ms").empty()) rates.ms.push_back(number_in(table, row, "ms"));
   }
   for (std::size_t level = 0; level < std::size(LEVELS_RAD); ++level)
     rates.clusters[level] = as_list(levels[level]);
+  rates.all = as_list(all);
   return rates;
 }
 
-std::string rate_table(const Table& table, const std::vector<Series>& series, const Criterion& criterion) {
+std::string rate_table(const Table& table, const std::vector<Series>& series, const Criterion& criterion,
+                       const std::vector<Comparison>& compared) {
   std::string text =
       "| method | up to 0.1 rad, 5 mm | 0.2 / 10 | 0.3 / 15 | 0.4 / 20 | all | starts | ms (median) "
       "|\n|---|---|---|---|---|---|---|---|\n";
+  std::map<std::string, LevelRates> known;
+  const auto rate_text = [](const std::vector<Cluster>& clusters) {
+    return trials_of(clusters) > 0 ? percent(rate(clusters), bootstrap_interval(clusters)) : "";
+  };
   for (const Series& one : series) {
     const LevelRates rates = rates_of(table, one, criterion);
-    std::vector<Cluster> all;
     text += "| " + one.name;
-    for (const std::vector<Cluster>& level : rates.clusters) {
-      text += " | " + (trials_of(level) > 0 ? percent(rate(level), bootstrap_interval(level)) : "");
-      all.insert(all.end(), level.begin(), level.end());
-    }
-    text += fmt::format(" | {} | {:.0f} | {} |\n", trials_of(all) > 0 ? percent(rate(all)) : "",
-                        trials_of(all), rates.ms.empty() ? "" : fmt::format("{:.1f}", median(rates.ms)));
+    for (const std::vector<Cluster>& level : rates.clusters) text += " | " + rate_text(level);
+    text += fmt::format(" | {} | {:.0f} | {} |\n", rate_text(rates.all), trials_of(rates.all),
+                        rates.ms.empty() ? "" : fmt::format("{:.1f}", median(rates.ms)));
+    known.emplace(one.name, rates);
   }
+  for (const auto& [first, other] : compared)
+    if (known.contains(first) && known.contains(other))
+      text += difference_row(first + " less " + other, known.at(first), known.at(other));
   return text;
 }
 

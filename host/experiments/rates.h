@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "host/eval/intervals.h"
@@ -33,13 +34,18 @@ int level_of(double distance_rad);
 // Registrations of a series that fall together, the images as clusters.
 struct LevelRates {
   std::vector<Cluster> clusters[4];  // by level
+  std::vector<Cluster> all;          // of all levels together
   std::vector<double> ms;            // of every registration whose time is known
 };
 LevelRates rates_of(const Table& table, const Series& series, const Criterion& criterion);
 
+// Two series by their names: what the first has more than the other.
+using Comparison = std::pair<std::string, std::string>;
+
 // Markdown: a row a series, a column a level with its 95 % interval (bootstrap over images), starts and
-// median milliseconds.
-std::string rate_table(const Table& table, const std::vector<Series>& series, const Criterion& criterion);
+// median milliseconds; then a row a comparison of series that ran from the same starts, over the same draws.
+std::string rate_table(const Table& table, const std::vector<Series>& series, const Criterion& criterion,
+                       const std::vector<Comparison>& compared = {});
 // The rate over the start's distance, in steps of 0.05 rad, or of 0.1 where all starts lie at the levels'
 // ends.
 Panel rate_panel(const std::string& title, const Table& table, const std::vector<Series>& series,

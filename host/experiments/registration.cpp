@@ -88,6 +88,15 @@ std::vector<Series> series_in(const Table& table) {
   return list;
 }
 
+// The paper's first two, each lambda by itself, and what the search adds.
+std::vector<Comparison> comparisons() {
+  std::vector<Comparison> list;
+  for (const float lambda : {PAPER_LAMBDA_PX_PER_RAD, OWN_LAMBDA_PX_PER_RAD})
+    list.emplace_back(Trial{"d2co", 1, lambda}.name(), Trial{"dc-icp", 1, lambda}.name());
+  list.emplace_back("edgescout", Trial{"d2co", 1, OWN_LAMBDA_PX_PER_RAD}.name());
+  return list;
+}
+
 Table rows_of_set(const Table& table, const std::string& set) {
   return rows_where(table, [&](const Table& t, std::size_t row) { return text_in(t, row, "set") == set; });
 }
@@ -119,7 +128,7 @@ std::string recorded_text(const Table& ran, const ExperimentSettings& settings) 
   std::string text =
       "## Recorded starts (d2co-starts)\n\nStarts at exactly 0.1 rad / 5 mm, 0.2 / 10, 0.3 / 15, 0.4 / 20; "
       "correct is " +
-      pose_criterion().text + ".\n\n" + rate_table(ran, series_in(ran), pose_criterion());
+      pose_criterion().text + ".\n\n" + rate_table(ran, series_in(ran), pose_criterion(), comparisons());
   const fs::path folder = settings.data / "d2co-starts/original_results";
   for (const auto& [file, what] : {std::pair{"all_methods_l6.csv", "as shipped (LSD edges, lambda 6)"},
                                    {"all_methods_l100.csv", "with lambda 100"},
@@ -178,7 +187,7 @@ Report report(const ExperimentSettings& settings, const Table& table) {
       "## Rendered images\n\n{} images, {} starts around every instance of which at least a tenth shows; "
       "correct is {} modulo symmetry. 95 % intervals by bootstrap over images.\n\n{}\n{}",
       settings.scenes, settings.starts, pose_criterion().text,
-      rate_table(rendered, series_in(table), pose_criterion()), time_table(rendered));
+      rate_table(rendered, series_in(table), pose_criterion(), comparisons()), time_table(rendered));
   result.panels.push_back(rate_panel("rendered, all types", rendered, series_in(table), pose_criterion()));
   for (const std::string& type : values_of(rendered, "object")) {
     const Table rows = rows_where(
@@ -195,7 +204,7 @@ Report report(const ExperimentSettings& settings, const Table& table) {
     const Criterion criterion = image_criterion();
     result.markdown +=
         fmt::format("\n## Photographs: {}\n\nCorrect is {}: what is known of the true poses.\n\n{}", set,
-                    criterion.text, rate_table(rows, series_in(table), criterion));
+                    criterion.text, rate_table(rows, series_in(table), criterion, comparisons()));
     result.markdown +=
         "\n" + by_distance_table(rows_of_set(table, set + std::string(BY_DISTANCE)), criterion);
     result.panels.push_back(

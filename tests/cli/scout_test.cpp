@@ -382,6 +382,7 @@ TEST(Scout, RefusesWhatItCannotUse) {
           {"--metre-cost", "--strategy random"});
   refused(t.arguments({"--sharpness", "2"}), {"--sharpness", "--scenes-by-psi"});
   refused(t.arguments({"--literal", "--free-sight", "1"}), {"--free-sight", "--literal"});
+  refused(t.arguments({"--literal", "--seen", "0"}), {"--seen", "--literal"});
   refused(t.arguments({"--elevations", "120"}), {"elevation"});
   refused(t.arguments({"--arm-shift", "nan"}), {"--arm-shift", "nan"});
   refused(t.arguments({"--sharpness", "501"}), {"--sharpness", "501", "0 to 500"});

@@ -54,10 +54,26 @@ TEST(Rates, AreATableWithARowAMethod) {
   const std::string text = rate_table(trials(), {series("one"), series("two")}, pose_criterion());
   // Of two images with 2 of 2 and 0 of 1 a bootstrap draws 0 % and 100 %; of one image Wilson's interval
   // stands, 0 of 1.
-  EXPECT_NE(text.find("| one | 66.7 % [0, 100] |  |  | 0 % [0, 79] | 50 % | 4 | 2.0 |\n"), std::string::npos)
+  EXPECT_NE(text.find("| one | 66.7 % [0, 100] |  |  | 0 % [0, 79] | 50 % [0, 100] | 4 | 2.0 |\n"),
+            std::string::npos)
       << text;
-  EXPECT_NE(text.find("| two | 0 % [0, 79] |  |  | 100 % [21, 100] | 50 % | 2 |  |\n"), std::string::npos)
+  EXPECT_NE(text.find("| two | 0 % [0, 79] |  |  | 100 % [21, 100] | 50 % [0, 100] | 2 |  |\n"),
+            std::string::npos)
       << text;
+}
+
+// Of two images in one of which the first method is right and the other wrong, the draws' differences are 0,
+// a half and 1; where the methods ran from different starts there is nothing to compare.
+TEST(Rates, AreComparedOverTheSameDraws) {
+  Table table{{},
+              trial_columns(),
+              {row("a", "0.1", "one", "1"), row("b", "0.1", "one", "1"), row("a", "0.1", "two", "0"),
+               row("b", "0.1", "two", "1"), row("a", "0.3", "one", "1")}};
+  const std::string text =
+      rate_table(table, {series("one"), series("two")}, pose_criterion(), {{"one", "two"}, {"one", "three"}});
+  EXPECT_NE(text.find("| one less two | +50.0 [+0.0, +100.0] |  |  |  |  | | |\n"), std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("three"), std::string::npos) << "a method that never ran";
 }
 
 TEST(Rates, ArePlottedInTheMiddleOfTheirBins) {
