@@ -158,5 +158,35 @@ TEST(Cells, OfAFailureAmongManyEndTheRun) {
   EXPECT_LT(t.ran, 40);
 }
 
+// One cell's own file cannot be written while others are at work: the run ends with its name, what is
+// finished stays, nothing half written lies about, and it goes on from there.
+TEST(Cells, OfWhichOneCannotBeWrittenKeepTheOthers) {
+  std::vector<std::string> names;
+  for (int i = 0; i < 12; ++i) names.push_back("cell_" + std::to_string(i));
+  Trial t(names);
+  t.run.workers = 3;
+  const fs::path in_the_way = t.run.folder / "cell_5.csv";
+  const auto run = t.cells[5].run;
+  t.cells[5].run = [&](Backend& backend) {
+    fs::create_directories(in_the_way / "full");
+    return run(backend);
+  };
+  expect_input_error([&] { t.go(); }, {"cell_5.csv"});
+  const std::map<std::string, std::string> left = t.files();
+  EXPECT_GE(left.size(), 5u);
+  EXPECT_LT(left.size(), 12u);
+  for (const auto& [file, content] : left) {
+    EXPECT_TRUE(file.ends_with(".csv")) << file;
+    EXPECT_NE(content.find("\nname\ncell_"), std::string::npos) << "whole: " << file;
+  }
+  fs::remove_all(in_the_way);
+  t.cells[5].run = run;
+  t.run.resume = true;
+  t.ran = 0;
+  t.go();
+  EXPECT_EQ(t.ran, 12 - static_cast<int>(left.size()));
+  EXPECT_EQ(t.files().size(), 12u);
+}
+
 }  // namespace
 }  // namespace edgescout::test
