@@ -90,6 +90,8 @@ void add_bin_options(CLI::App& verb, ScoutOptions& o) {
   OptionTable(verb, "Bins")
       .bounded("max-views", o.max_views, 1, 32, "Images")
       .bounded("aligned", o.pipeline.detect.aligned, 1, 1000000, "Hits of an image and type that are aligned")
+      .bounded("aligned-jointly", o.pipeline.detect.aligned_jointly, 1, 1000000,
+               "The same where earlier images help")
       .bounded("registered", o.pipeline.detect.candidates, 1, 100000,
                "Candidates of an image and type that are registered");
   add_belief_options(verb, o);

@@ -205,6 +205,7 @@ Notes options(const ExperimentSettings& s) {
               {"detection", o.detect_in_every_image ? "every image" : "first image"},
               {"jointly", o.detect_jointly ? "yes" : "no"},
               {"aligned", std::to_string(o.pipeline.detect.aligned)},
+              {"aligned_jointly", std::to_string(o.pipeline.detect.aligned_jointly)},
               {"registered", std::to_string(o.pipeline.detect.candidates)},
               {"max_candidates", std::to_string(o.max_candidates)},
               {"particles", std::to_string(o.particles.count)},
