@@ -190,8 +190,10 @@ TEST(BenchExperiments, NameWhatIsMissingOfTheData) {
   folder.write("data/d2co-starts/starts.csv", "start_id,image,object_id,level,r00,tz\n");
   expect_one_line(run_program(experiments(out, {"registration", "--data", data})),
                   {(data / "brackets/000001/scene_camera.json").string()});
-  expect_one_line(run_program(experiments(out, {"nbv", "multiview", "--data", data})),
+  expect_one_line(run_program(experiments(out, {"multiview", "nbv", "--data", data})),
                   {(data / "brackets/000001/scene_camera.json").string()});
+  expect_one_line(run_program(experiments(out, {"nbv", "--data", data})),
+                  {(data / "cad/AX-01_bearing_box.stl").string()});
   EXPECT_FALSE(fs::exists(out));
 }
 
