@@ -173,10 +173,12 @@ void add_loop_options(CLI::App& verb, ScoutRequest& r) {
   ScoutOptions& o = r.options;
   OptionTable(verb, "Budget")
       .bounded("max-views", o.max_views, 1, 1000000, "Images at most")
-      .bounded("min-entropy", o.min_entropy_nats, 0.0, 1e6,
-               "Ends where the modes are as certain as that, nats; 0: never")
+      .bounded(
+          "min-entropy", o.min_entropy_nats, 0.0, 1e6,
+          "Ends where the modes are as certain as that and the last image showed no new candidate, nats; 0: "
+          "never")
       .bounded("min-information", o.min_information_nats, 0.0, 1e6,
-               "Ends where no view is expected to tell as much, nats; 0: never")
+               "Ends where the best view, its way's cost taken off, is expected to tell less, nats; 0: never")
       .bounded("min-gained", o.min_gained_nats, 0.0, 1e6,
                "Ends where the last image told less and showed no new candidate, nats; 0: never")
       .bounded("max-seconds", o.max_seconds, 0.0, 1e9, "Of computing; 0: no limit");
