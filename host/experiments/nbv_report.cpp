@@ -14,7 +14,8 @@ struct Searched {
 };
 
 struct Outcome {
-  std::vector<Cluster> correct, wrong, shown;  // by bin; `wrong` counts searches as trials
+  std::vector<std::string> bins;
+  std::vector<Cluster> correct, wrong, shown;  // one a bin; `wrong` counts searches as trials
 };
 
 std::string name_of(const std::string& strategy) {
@@ -66,13 +67,14 @@ void add(Cluster& cluster, double hits, double trials) {
 // After so many views. Searches in one bin succeed and fail together.
 Outcome outcome_of(const Table& rows, const std::string& views) {
   Outcome outcome;
-  std::string bin;
   for (std::size_t row = 0; row < rows.rows.size(); ++row) {
     if (text_in(rows, row, "views") != views) continue;
-    if (outcome.correct.empty() || text_in(rows, row, "bin") != bin)
+    if (const std::string& bin = text_in(rows, row, "bin");
+        outcome.bins.empty() || outcome.bins.back() != bin) {
+      outcome.bins.push_back(bin);
       for (std::vector<Cluster>* clusters : {&outcome.correct, &outcome.wrong, &outcome.shown})
         clusters->emplace_back();
-    bin = text_in(rows, row, "bin");
+    }
     add(outcome.correct.back(), number_in(rows, row, "correct"), number_in(rows, row, "instances"));
     add(outcome.wrong.back(), number_in(rows, row, "wrong"), 1);
     add(outcome.shown.back(), number_in(rows, row, "shown"), number_in(rows, row, "instances"));
@@ -107,7 +109,7 @@ std::string difference_row(const Table& first, const Table& other, const std::st
   std::string text = fmt::format("| {} |", name);
   for (const std::string& count : views) {
     const Outcome a = outcome_of(first, count), b = outcome_of(other, count);
-    if (a.correct.size() != b.correct.size()) {  // one of them has ended before, in some bins
+    if (a.bins != b.bins) {  // one of them has ended before, in some bins
       text += " |";
       continue;
     }

@@ -175,8 +175,11 @@ std::string time_table(const Table& rendered) {
                         ? " | "
                         : fmt::format("{:.0f} | {:.1f}", paper->second, paper->second / PAPER_MS[0].second));
   }
-  return "## Time of one registration\n\nOne thread's own time, tensors and distance transforms not "
-         "included, rendered images.\n\n" +
+  return "## Time of one registration\n\nOn a CPU one thread's own time; on a device the time that passes, "
+         "and of the "
+         "methods that only a CPU runs theirs on its threads. Tensors and distance transforms not included, "
+         "rendered "
+         "images.\n\n" +
          text + "\n";
 }
 

@@ -123,6 +123,23 @@ TEST(NbvReport, KeepsCadPartsApart) {
   EXPECT_DOUBLE_EQ(report.panels[4].lines[0].points[0].y, 0.125);
 }
 
+// Strategies that ended early, each in another bin, have nothing to be compared over.
+TEST(NbvReport, ComparesStrategiesInTheSameBinsAlone) {
+  Table table;
+  table.columns = {"bin",       "types",   "search", "strategy", "views",  "group",
+                   "instances", "correct", "wrong",  "shown",    "seconds"};
+  const auto add = [&](const char* bin, const char* strategy, const char* views) {
+    table.rows.push_back({bin, "own", "all", strategy, views, "light", "4", "2", "0", "4", ""});
+  };
+  for (const char* bin : {"0", "1"})
+    for (const char* strategy : {"mi-max", "random"}) add(bin, strategy, "1");
+  add("0", "mi-max", "2"), add("1", "random", "2");
+  const Report report = nbv_report({}, table);
+  EXPECT_NE(report.markdown.find("| MI-MAX less Random | +0.0 [+0.0, +0.0]; +0.00 [+0.00, +0.00] | |\n"),
+            std::string::npos)
+      << report.markdown;
+}
+
 // Searches for each type in one bin are one cluster: of two bins that agree, the interval is Wilson's of two
 // trials.
 TEST(NbvReport, CountsSearchesOfOneBinTogether) {
