@@ -195,9 +195,7 @@ std::string difference_row(const std::string& name, const Detector& detector, co
     std::vector<double> differences;
     for (std::size_t d = 0; d < fdcm[i].resampled.size(); ++d)
       differences.push_back(fdcm[i].resampled[d] - line2d[i].resampled[d]);
-    const Interval interval = percentile_interval(std::move(differences));
-    text += fmt::format(" | {:+.1f} [{:+.1f}, {:+.1f}]", 100 * (fdcm[i].rate - line2d[i].rate),
-                        100 * interval.low, 100 * interval.high);
+    text += " | " + points(fdcm[i].rate - line2d[i].rate, percentile_interval(std::move(differences)));
   }
   return text + " | |\n";
 }

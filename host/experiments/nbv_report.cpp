@@ -10,7 +10,7 @@ namespace edgescout {
 namespace {
 
 struct Searched {
-  std::string types, search, group, title;
+  std::string search, group, title;
 };
 
 struct Outcome {
@@ -32,8 +32,8 @@ std::string title_of(const std::string& search) {
 
 Table rows_of(const Table& table, const Searched& searched, const std::string& strategy) {
   return rows_where(table, [&](const Table& t, std::size_t row) {
-    return text_in(t, row, "types") == searched.types && text_in(t, row, "search") == searched.search &&
-           text_in(t, row, "group") == searched.group && text_in(t, row, "strategy") == strategy;
+    return text_in(t, row, "search") == searched.search && text_in(t, row, "group") == searched.group &&
+           text_in(t, row, "strategy") == strategy;
   });
 }
 
@@ -42,18 +42,18 @@ Table rows_of_types(const Table& table, const std::string& types) {
                     [&](const Table& t, std::size_t row) { return text_in(t, row, "types") == types; });
 }
 
-// Those of which there are instances.
+// Of one kind of parts, those of which there are instances.
 std::vector<Searched> searches_in(const Table& table, const std::string& types) {
   std::vector<Searched> list;
   for (const std::string& search : values_of(table, "search"))
     for (const auto& [group, text] : {std::pair{"light", "lightly occluded"}, {"heavy", "highly occluded"}}) {
       const Table rows = rows_where(table, [&, g = group](const Table& t, std::size_t row) {
-        return text_in(t, row, "types") == types && text_in(t, row, "search") == search &&
-               text_in(t, row, "group") == g && number_in(t, row, "instances") > 0;
+        return text_in(t, row, "search") == search && text_in(t, row, "group") == g &&
+               number_in(t, row, "instances") > 0;
       });
       if (!rows.rows.empty())
         list.push_back(
-            {types, search, group,
+            {search, group,
              fmt::format("{}{}, {}", types == "own" ? "" : "CAD parts, ", title_of(search), text)});
     }
   return list;
@@ -96,13 +96,6 @@ std::string cell_of(const Outcome& outcome) {
                      100 * rate(outcome.shown));
 }
 
-// "+4.9 [+0.4, +9.4]", times `unit`.
-std::string difference_of(const std::vector<Cluster>& a, const std::vector<Cluster>& b, double unit) {
-  const Interval interval = paired_difference_interval(a, b);
-  return fmt::format("{:+.{}f} [{:+.{}f}, {:+.{}f}]", unit * (rate(a) - rate(b)), unit > 1 ? 1 : 2,
-                     unit * interval.low, unit > 1 ? 1 : 2, unit * interval.high, unit > 1 ? 1 : 2);
-}
-
 // What the first strategy has more than another, over the same draws of bins.
 std::string difference_row(const Table& first, const Table& other, const std::string& name,
                            const std::vector<std::string>& views) {
@@ -113,8 +106,11 @@ std::string difference_row(const Table& first, const Table& other, const std::st
       text += " |";
       continue;
     }
-    text += fmt::format(" {}; {} |", difference_of(a.correct, b.correct, 100),
-                        difference_of(a.wrong, b.wrong, 1));
+    const Interval wrong = paired_difference_interval(a.wrong, b.wrong);
+    text += fmt::format(
+        " {}; {:+.2f} [{:+.2f}, {:+.2f}] |",
+        points(rate(a.correct) - rate(b.correct), paired_difference_interval(a.correct, b.correct)),
+        rate(a.wrong) - rate(b.wrong), wrong.low, wrong.high);
   }
   return text + "\n";
 }
@@ -187,12 +183,13 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
       "false positives a search; intervals over the same draws of bins.\n\n",
       bins_text(table));
   for (const std::string& types : values_of(table, "types")) {
-    const std::vector<Searched> searches = searches_in(table, types);
+    const Table rows = rows_of_types(table, types);
+    const std::vector<Searched> searches = searches_in(rows, types);
     report.columns = std::max(report.columns, static_cast<int>(searches.size()));
-    for (const Searched& searched : searches) report.markdown += table_of(table, searched, strategies, views);
+    for (const Searched& searched : searches) report.markdown += table_of(rows, searched, strategies, views);
     for (const Measure measure : {Measure::Correct, Measure::Wrong})
       for (const Searched& searched : searches)
-        report.panels.push_back(panel_of(table, searched, strategies, views, measure));
+        report.panels.push_back(panel_of(rows, searched, strategies, views, measure));
   }
   std::vector<double> seconds;
   for (std::size_t row = 0; row < table.rows.size(); ++row)

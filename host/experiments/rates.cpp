@@ -58,9 +58,7 @@ double trials_of(const std::vector<Cluster>& clusters) {
 std::string difference_text(const std::vector<Cluster>& a, const std::vector<Cluster>& b) {
   const auto trials = [](const Cluster& cluster) { return cluster.trials; };
   if (a.empty() || !std::ranges::equal(a, b, {}, trials, trials)) return "";
-  const Interval interval = paired_difference_interval(a, b);
-  return fmt::format("{:+.1f} [{:+.1f}, {:+.1f}]", 100 * (rate(a) - rate(b)), 100 * interval.low,
-                     100 * interval.high);
+  return points(rate(a) - rate(b), paired_difference_interval(a, b));
 }
 
 std::string difference_row(const std::string& name, const LevelRates& first, const LevelRates& other) {
@@ -187,6 +185,10 @@ std::string percent(double rate) {
 
 std::string percent(double rate, const Interval& interval) {
   return fmt::format("{} [{:.0f}, {:.0f}]", percent(rate), 100 * interval.low, 100 * interval.high);
+}
+
+std::string points(double difference, const Interval& interval) {
+  return fmt::format("{:+.1f} [{:+.1f}, {:+.1f}]", 100 * difference, 100 * interval.low, 100 * interval.high);
 }
 
 double median(std::vector<double> values) {

@@ -58,7 +58,9 @@ std::vector<std::string> values_of(const Table& table, std::string_view column);
 
 std::string percent(double rate);                            // "87 %", "66.7 %"
 std::string percent(double rate, const Interval& interval);  // "87 % [82, 91]"
-double median(std::vector<double> values);                   // 0 of none
-double mean(const std::vector<double>& values);              // 0 of none
+// A difference of rates in points of percent: "+4.9 [+0.4, +9.4]".
+std::string points(double difference, const Interval& interval);
+double median(std::vector<double> values);       // 0 of none
+double mean(const std::vector<double>& values);  // 0 of none
 
 }  // namespace edgescout

@@ -101,11 +101,17 @@ TEST(ClairvoyantSequence, TakesTheViewThatShowsMost) {
     EXPECT_TRUE(view == bin.first_view || shown(view) <= shown(sequence[1])) << view;
 }
 
+// The columns that the report reads.
+Table no_rows() {
+  return {{},
+          {"bin", "types", "search", "strategy", "views", "group", "instances", "correct", "wrong", "shown",
+           "seconds"},
+          {}};
+}
+
 // Of both sets of parts each by itself, though their bins have the same numbers.
 TEST(NbvReport, KeepsCadPartsApart) {
-  Table table;
-  table.columns = {"bin",       "types",   "search", "strategy", "views",  "group",
-                   "instances", "correct", "wrong",  "shown",    "seconds"};
+  Table table = no_rows();
   for (const auto& [bin, types, correct] :
        {std::tuple{"0", "own", "4"}, {"1", "own", "2"}, {"0", "cad", "1"}, {"1", "cad", "0"}})
     for (const char* group : {"light", "heavy"})
@@ -125,9 +131,7 @@ TEST(NbvReport, KeepsCadPartsApart) {
 
 // Strategies that ended early, each in another bin, have nothing to be compared over.
 TEST(NbvReport, ComparesStrategiesInTheSameBinsAlone) {
-  Table table;
-  table.columns = {"bin",       "types",   "search", "strategy", "views",  "group",
-                   "instances", "correct", "wrong",  "shown",    "seconds"};
+  Table table = no_rows();
   const auto add = [&](const char* bin, const char* strategy, const char* views) {
     table.rows.push_back({bin, "own", "all", strategy, views, "light", "4", "2", "0", "4", ""});
   };
@@ -143,9 +147,7 @@ TEST(NbvReport, ComparesStrategiesInTheSameBinsAlone) {
 // Searches for each type in one bin are one cluster: of two bins that agree, the interval is Wilson's of two
 // trials.
 TEST(NbvReport, CountsSearchesOfOneBinTogether) {
-  Table table;
-  table.columns = {"bin",       "types",   "search", "strategy", "views",  "group",
-                   "instances", "correct", "wrong",  "shown",    "seconds"};
+  Table table = no_rows();
   for (const auto& [bin, correct, wrong] :
        {std::tuple{"0", "4", "0"}, {"0", "1", "3"}, {"1", "4", "0"}, {"1", "1", "3"}})
     table.rows.push_back({bin, "own", "each", "mi-max", "1", "light", "4", correct, wrong, "4", ""});
@@ -190,9 +192,7 @@ TEST(CadBinTypes, AreCentredAndAsSymmetricAsTheyAreSaidToBe) {
 
 // Two bins of two views, counted by hand.
 TEST(NbvReport, CountsInstancesAndFalseOnesByViews) {
-  Table table;
-  table.columns = {"bin",       "types",   "search", "strategy", "views",  "group",
-                   "instances", "correct", "wrong",  "shown",    "seconds"};
+  Table table = no_rows();
   const auto add = [&](const char* bin, const char* strategy, const char* views, const char* instances,
                        const char* correct, const char* wrong) {
     table.rows.push_back(
