@@ -87,8 +87,8 @@ std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
 
 // Where the middle of the mesh lies in its own frame, if not at its origin.
 Eigen::Vector3d middle_m(const Mesh& mesh) {
-  const Eigen::Vector3d middle_m = (mesh.box_min_m + mesh.box_max_m) / 2;
-  return middle_m.norm() < 1e-6 * mesh.diameter_m ? Eigen::Vector3d::Zero() : middle_m;
+  const Eigen::Vector3d box_m = (mesh.box_min_m + mesh.box_max_m) / 2;
+  return box_m.norm() < 1e-6 * mesh.diameter_m ? Eigen::Vector3d::Zero() : box_m;
 }
 
 // The table puts origins into its circle and turns parts about them.
