@@ -48,10 +48,10 @@ class BackendChamfer {
 };
 using ChamferHandle = std::shared_ptr<const BackendChamfer>;
 
-// Wall time of one kernel or batch since the last call of take_timings(), by name.
 // Name of what a device's host spent beside the device's own stages.
 inline constexpr char HOST_STAGE[] = "vulkan_host";
 
+// Wall time of one kernel or batch since the last call of take_timings(), by name.
 struct StageTime {
   std::string name;
   double seconds = 0;
