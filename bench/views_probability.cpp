@@ -80,12 +80,16 @@ void print_bin(int number, std::span<const TemplateSet> sets, Backend& backend) 
   const PipelineOptions pipeline = options.pipeline;
   std::vector<Detection> found;
   std::vector<RegisterView> views;
-  options.detect = [&](int, const Observation& observation, std::span<const Observation> earlier,
+  std::vector<decltype(Observation::hits)> hits;
+  options.detect = [&](std::span<const int>, std::span<const Observation> images,
                        std::span<const Hypothesis>) {
-    const std::vector<Detection> here =
-        candidates_in_image(sets, observation, earlier, {}, backend, pipeline.detect);
+    std::vector<Observation> scanned(images.begin(), images.end());
+    for (std::size_t i = 0; i < hits.size(); ++i) scanned[i].hits = hits[i];
+    scan_for(sets, scanned.back(), backend, pipeline.detect.scan);
+    hits.push_back(scanned.back().hits);
+    const std::vector<Detection> here = candidates_in_images(sets, scanned, {}, backend, pipeline.detect);
     found.insert(found.end(), here.begin(), here.end());
-    views.push_back(observation.view);
+    views.push_back(scanned.back().view);
     return here;
   };
   options.first_view = bin.first_view;

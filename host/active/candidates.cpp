@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "host/detect/joint_scan.h"
 #include "host/detect/probability_over_views.h"
 #include "host/detect/suppression.h"
+#include "kernels/error.h"
 
 namespace edgescout {
 
@@ -37,21 +39,34 @@ std::vector<Detection> different_ones(const std::vector<Detection>& detections,
   return kept;
 }
 
+std::vector<ScanHit> hits_of(const TemplateSet& set, std::size_t object, std::span<const Observation> images,
+                             Backend& backend, const DetectOptions& options) {
+  std::vector<std::span<const ScanHit>> hits;
+  for (const Observation& image : images) {
+    check(object < image.hits.size(), "candidates_in_images: an image that was not scanned");
+    hits.push_back(*image.hits[object]);
+  }
+  return pooled_hits(set, images, hits, options.helping_views, backend, options.scan);
+}
+
 }  // namespace
 
-std::vector<Detection> candidates_in_image(std::span<const TemplateSet> sets, const Observation& observation,
-                                           std::span<const Observation> earlier,
-                                           std::span<const Hypothesis> known, Backend& backend,
-                                           const DetectOptions& options) {
+std::vector<Detection> candidates_in_images(std::span<const TemplateSet> sets,
+                                            std::span<const Observation> images,
+                                            std::span<const Hypothesis> known, Backend& backend,
+                                            const DetectOptions& options) {
+  const Observation& newest = images.back();
   std::vector<Detection> found;
-  for (int object = 0; object < static_cast<int>(sets.size()); ++object) {
+  for (std::size_t object = 0; object < sets.size(); ++object) {
     std::vector<Se3> same;
     for (const Hypothesis& instance : known)
-      if (instance.object == object) same.push_back(instance.world_from_object);
-    for (const Refined& candidate : find_candidates(sets[static_cast<std::size_t>(object)], observation,
-                                                    earlier, same, backend, options)) {
-      found.push_back(candidate_in_world(to_detection(object, candidate.registration, candidate.features),
-                                         observation.view.camera_from_world));
+      if (instance.object == static_cast<int>(object)) same.push_back(instance.world_from_object);
+    for (const Refined& candidate :
+         find_candidates(sets[object], hits_of(sets[object], object, images, backend, options), newest,
+                         images.first(images.size() - 1), same, backend, options)) {
+      found.push_back(candidate_in_world(
+          to_detection(static_cast<int>(object), candidate.registration, candidate.features),
+          newest.view.camera_from_world));
       found.back().probability = probability_over_views(candidate.by_view);
     }
   }

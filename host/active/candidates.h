@@ -10,12 +10,13 @@
 
 namespace edgescout {
 
-// Of all objects in one image, with the help of the images before it (none: alone), in the world; the most
-// probable first. Without the instances that are known.
-std::vector<Detection> candidates_in_image(std::span<const TemplateSet> sets, const Observation& observation,
-                                           std::span<const Observation> earlier,
-                                           std::span<const Hypothesis> known, Backend& backend,
-                                           const DetectOptions& options);
+// Of all objects, in the world; the most probable first. Without the instances that are known. The images
+// have been scanned for the objects (Observation::hits); the last one is new: what several of them say is
+// registered in it and in those that help it (detect/helping_views.h).
+std::vector<Detection> candidates_in_images(std::span<const TemplateSet> sets,
+                                            std::span<const Observation> images,
+                                            std::span<const Hypothesis> known, Backend& backend,
+                                            const DetectOptions& options);
 
 // Registers candidates over all views (Eq. 11), gives them the probability that the views' features together
 // amount to (detect/probability_over_views.h), drops those that lie on no edge at all and duplicates; the

@@ -159,13 +159,7 @@ void Scout::look(const Image& image, ScoutStep& step, ScoutState& next,
   hide_behind(known, observations);
   done(watch, "tensors");
   if (next.candidates.empty() || options_.detect_in_every_image) {
-    const Observation& newest = observations.back();
-    const std::span<const Observation> earlier(observations.data(),
-                                               options_.detect_jointly ? observations.size() - 1 : 0);
-    const std::vector<Detection> found =
-        options_.detect
-            ? options_.detect(step.decision.view, newest, earlier, known)
-            : candidates_in_image(sets_, newest, earlier, known, backend_, options_.pipeline.detect);
+    const std::vector<Detection> found = detect(step, known, observations);
     next.candidates.insert(next.candidates.end(), found.begin(), found.end());
     done(watch, "detection");
   }
@@ -173,6 +167,20 @@ void Scout::look(const Image& image, ScoutStep& step, ScoutState& next,
                                        static_cast<std::size_t>(options_.max_candidates), backend_,
                                        options_.pipeline.detect);
   done(watch, "candidates");
+}
+
+// In all images or, each alone, in the newest.
+std::vector<Detection> Scout::detect(const ScoutStep& step, std::span<const Hypothesis> known,
+                                     std::span<Observation> observations) const {
+  const std::span<Observation> images = options_.detect_jointly ? observations : observations.last(1);
+  if (!options_.detect) {
+    for (Observation& image : images) scan_for(sets_, image, backend_, options_.pipeline.detect.scan);
+    return candidates_in_images(sets_, images, known, backend_, options_.pipeline.detect);
+  }
+  std::vector<int> views;
+  for (const ScoutStep& before : state_.steps) views.push_back(before.decision.view);
+  views.push_back(step.decision.view);
+  return options_.detect(std::span(views).last(images.size()), images, known);
 }
 
 void Scout::hide_behind(std::span<const Hypothesis> known, std::span<Observation> observations) const {
@@ -331,6 +339,7 @@ void Scout::resume(ScoutState state, const std::string& source) {
 
 PipelineOptions ScoutOptions::quick_looks() {
   PipelineOptions options;
+  options.detect.scan.kept = 40000;
   options.detect.aligned = 600;
   options.detect.candidates = 25;
   return options;

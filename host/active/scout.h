@@ -33,14 +33,13 @@ struct ScoutOptions {
   PipelineOptions pipeline = quick_looks();
   int max_candidates = 40;            // kept of all objects together (the paper's N_obj)
   bool detect_in_every_image = true;  // else until there are candidates: in the first alone, as in the paper
-  // A detector of one's own in place of candidates_in_image (candidates.h): what may be in the image of this
-  // view, in the world. `earlier` are the images before it, as far as detection may use them, `known` the
-  // instances that need not be found again.
-  std::function<std::vector<Detection>(int view, const Observation& observation,
-                                       std::span<const Observation> earlier,
+  // A detector of one's own in place of candidates_in_images (candidates.h): what may be in the images of
+  // these views, in the world. The last one is new, the others are those before it, as far as detection may
+  // use them; `known` are the instances that need not be found again.
+  std::function<std::vector<Detection>(std::span<const int> views, std::span<const Observation> images,
                                        std::span<const Hypothesis> known)>
       detect;
-  // later images are searched with the help of those before (detect/joint_scan.h); else each alone
+  // later images are searched together with those before (detect/joint_scan.h); else each alone
   bool detect_jointly = true;
   // Instances as probable as this are known: they are not sought in later images, and hide what is behind
   // them (register/occluders.h): what they cover counts neither for nor against other poses, but leaves
@@ -63,8 +62,8 @@ struct ScoutOptions {
   // Asked between stages, from the calling thread. The longest are the detection of all objects in an image
   // and a decision: seconds, on a software device up to a minute.
   std::function<bool()> cancelled;
-  // Fewer hits and candidates an image than a detection that has but one: what an image misses, the next one
-  // shows, in half the time (docs/evaluation.md).
+  // More hits an image than a detection that has but one, since later images judge them again; fewer of them
+  // aligned and registered: what an image misses, the next one shows, in half the time (docs/evaluation.md).
   static PipelineOptions quick_looks();
   void validate() const;  // InputError naming the field and the violated bound
 };
@@ -108,6 +107,8 @@ class Scout {
             std::vector<Observation>& observations) const;
   void believe(ScoutStep& step, ScoutState& next, std::span<const RegisterView> views) const;
   std::size_t add_particles(ScoutState& next) const;
+  std::vector<Detection> detect(const ScoutStep& step, std::span<const Hypothesis> known,
+                                std::span<Observation> observations) const;
   void hide_behind(std::span<const Hypothesis> known, std::span<Observation> observations) const;
   void done(Stopwatch& watch, const char* stage) const;
 

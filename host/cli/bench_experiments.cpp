@@ -92,6 +92,10 @@ void add_bin_options(CLI::App& verb, ScoutOptions& o) {
       .bounded("aligned", o.pipeline.detect.aligned, 1, 1000000, "Hits of an image and type that are aligned")
       .bounded("aligned-jointly", o.pipeline.detect.aligned_jointly, 1, 1000000,
                "The same where earlier images help")
+      .bounded("scan-hits", o.pipeline.detect.scan.kept, 1, 10000000,
+               "Hits of an image and type that all images judge")
+      .bounded("promising", o.pipeline.detect.promising, 1, 1000000,
+               "Of those aligned where earlier images help, how many go on")
       .bounded("registered", o.pipeline.detect.candidates, 1, 100000,
                "Candidates of an image and type that are registered");
   add_belief_options(verb, o);

@@ -29,6 +29,7 @@ void add_search_options(CLI::App& verb, DetectOptions& d) {
       .bounded("aligned", d.aligned, 1, 1000000, "Hits aligned on the coarse tensor")
       .bounded("aligned-jointly", d.aligned_jointly, 1, 1000000,
                "Of several images of one scene: hits that are aligned in them")
+      .bounded("promising", d.promising, 1, 1000000, "The best of these, aligned in full resolution")
       .bounded("helping-views", d.helping_views, 1, 10000,
                "Other images of the scene that help to search one")
       .bounded("candidates", d.candidates, 1, 100000, "Candidates registered in full");

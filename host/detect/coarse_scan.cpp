@@ -162,4 +162,12 @@ std::vector<ScanHit> coarse_scan(const TemplateSet& set, const Observation& obse
   return found;
 }
 
+void scan_for(std::span<const TemplateSet> sets, Observation& observation, Backend& backend,
+              const ScanOptions& options) {
+  if (!observation.hits.empty()) return;
+  for (const TemplateSet& set : sets)
+    observation.hits.push_back(
+        std::make_shared<std::vector<ScanHit>>(coarse_scan(set, observation, backend, options)));
+}
+
 }  // namespace edgescout

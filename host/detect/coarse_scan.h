@@ -50,4 +50,8 @@ Se3 place_template(const TemplateSet& set, const TemplateView& view, double in_p
 std::vector<ScanHit> coarse_scan(const TemplateSet& set, const Observation& observation, Backend& backend,
                                  const ScanOptions& options);
 
+// Observation::hits of these objects, unless they are there.
+void scan_for(std::span<const TemplateSet> sets, Observation& observation, Backend& backend,
+              const ScanOptions& options);
+
 }  // namespace edgescout

@@ -29,6 +29,12 @@ std::vector<Hypothesis> hypotheses_at(std::span<const Se3> poses, std::span<cons
   return out;
 }
 
+std::vector<Se3> poses_of(std::span<const Hypothesis> hypotheses) {
+  std::vector<Se3> poses;
+  for (const Hypothesis& h : hypotheses) poses.push_back(h.world_from_object);
+  return poses;
+}
+
 KnownPoses in_camera(std::span<const Se3> known_in_world, const TemplateSet& set,
                      const Observation& observation) {
   std::vector<Se3> poses;
@@ -46,12 +52,43 @@ std::vector<RegisterView> views_around(const Observation& observation, std::span
   return views;
 }
 
+// What a pose that several views were aligned in costs where it lies; wide of all images, more than any.
+double cost_of(const Registration& registration) {
+  return registration.points > 0 ? registration.cost_px2 / registration.points : INFINITY;
+}
+
 std::vector<RegisterView> coarse_of(std::vector<RegisterView> views) {
   for (RegisterView& view : views) view.view = view.coarse;
   return views;
 }
 
+// Those of the hits that are worth a look in full resolution, aligned on the coarse tensors.
+std::vector<Hypothesis> aligned_hits(const TemplateSet& set, std::span<const ScanHit> hits,
+                                     std::span<const RegisterView> coarse, Backend& backend,
+                                     const DetectOptions& options) {
+  const bool jointly = coarse.size() > 1;
+  std::vector<Se3> poses;
+  for (const ScanHit& hit : hits) poses.push_back(hit.camera_from_object);
+  const std::vector<Hypothesis> starts = hypotheses_at(
+      poses, best_of(poses, set, std::size_t(jointly ? options.aligned_jointly : options.aligned),
+                     [&](std::size_t i) { return hits[i].rank; }));
+  const std::vector<Registration> registrations = register_poses(
+      {&set.model, 1}, starts, coarse, backend, jointly ? options.glance : options.refine.search.coarse);
+  const std::vector<Hypothesis> aligned = as_hypotheses(starts, registrations);
+  if (!jointly) return aligned;
+  poses = poses_of(aligned);
+  return hypotheses_at(poses, best_of(poses, set, std::size_t(options.promising),
+                                      [&](std::size_t i) { return cost_of(registrations[i]); }));
+}
+
 }  // namespace
+
+D2coOptions DetectOptions::glance_defaults() {
+  D2coOptions options;
+  options.rounds = {{LOSS_GEMAN_MCCLURE, 10, 8, 60}};
+  options.visibility.depth_map_size_px = 96;
+  return options;
+}
 
 D2coOptions DetectOptions::touch_up_defaults() {
   D2coOptions options;
@@ -81,12 +118,14 @@ void DetectOptions::validate() const {
   in("scan_hits", scan.kept, 1, 1e7);
   in("aligned", aligned, 1, 1e6);
   in("aligned_jointly", aligned_jointly, 1, 1e6);
+  in("promising", promising, 1, 1e6);
   in("helping_views", helping_views, 1, 1e4);
   in("candidates", candidates, 1, 1e5);
   in("min_probability", min_probability, 0, 1);
   in("second_look", second_look_rad, 0, 1);
   in("max_detections", max_detections, 1, 1e5);
   in("penetration", penetration_m, 0, 1);
+  glance.validate();
   touch_up.validate();
   refine.validate();
   evidence.validate();
@@ -113,32 +152,33 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
 }
 
 std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation,
-                                     std::span<const Observation> all_others, std::span<const Se3> known,
+                                     std::span<const Observation> others, std::span<const Se3> known,
                                      Backend& backend, const DetectOptions& options) {
+  const std::vector<Observation> helping =
+      helping_views(observation, others, std::size_t(options.helping_views));
+  return find_candidates(set,
+                         judged_by_all(set, coarse_scan(set, observation, backend, options.scan), observation,
+                                       helping, backend, options.scan),
+                         observation, others, known, backend, options);
+}
+
+std::vector<Refined> find_candidates(const TemplateSet& set, std::vector<ScanHit> hits,
+                                     const Observation& observation, std::span<const Observation> all_others,
+                                     std::span<const Se3> known, Backend& backend,
+                                     const DetectOptions& options) {
   const std::vector<Observation> others =
       helping_views(observation, all_others, std::size_t(options.helping_views));
   const std::span<const EdgeModel> models(&set.model, 1);
-  const std::vector<RegisterView> full = views_around(observation, others), coarse = coarse_of(full);
+  const std::vector<RegisterView> full = views_around(observation, others);
   const KnownPoses known_here = in_camera(known, set, observation);
   const auto is_known = [&](const Se3& pose, double radius) {
     return known_here.any_within(radius * set.model.mesh.diameter_m, pose);
   };
-  std::vector<ScanHit> hits = judged_by_all(set, coarse_scan(set, observation, backend, options.scan),
-                                            observation, others, backend, options.scan);
   std::erase_if(hits, [&](const ScanHit& hit) { return is_known(hit.camera_from_object, DRAWN_TO); });
-  std::vector<Se3> poses;
-  for (const ScanHit& hit : hits) poses.push_back(hit.camera_from_object);
-  const int aligned = others.empty() ? options.aligned : std::min(options.aligned, options.aligned_jointly);
-  const std::vector<std::size_t> starts =
-      best_of(poses, set, std::size_t(aligned), [&](std::size_t i) { return hits[i].rank; });
-
-  std::vector<Hypothesis> hypotheses = hypotheses_at(poses, starts);
-  hypotheses = as_hypotheses(
-      hypotheses, register_poses(models, hypotheses, coarse, backend, options.refine.search.coarse));
+  std::vector<Hypothesis> hypotheses = aligned_hits(set, hits, coarse_of(full), backend, options);
   hypotheses = as_hypotheses(hypotheses, register_poses(models, hypotheses, full, backend, options.touch_up));
   std::erase_if(hypotheses, [&](const Hypothesis& h) { return is_known(h.world_from_object, SAME_POSE); });
-  poses.clear();
-  for (const Hypothesis& h : hypotheses) poses.push_back(h.world_from_object);
+  const std::vector<Se3> poses = poses_of(hypotheses);
   const std::vector<PoseFeatures> features = pose_features_by_view(
       models, hypotheses, full, backend, options.refine.score, options.touch_up.visibility);
   const auto of_pose = [&](std::size_t i) {

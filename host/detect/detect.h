@@ -13,9 +13,13 @@ namespace edgescout {
 
 struct DetectOptions {
   ScanOptions scan;
-  int aligned_jointly = 150;  // where other images helped to rank the hits (joint_scan.h)
-  int helping_views = 4;      // of other images that help to search one (helping_views.h)
-  int aligned = 2500;         // different ones among the scan's hits that are aligned, roughly and cheaply
+  int helping_views = 4;  // of other images that help to search one (helping_views.h)
+  int aligned = 2500;     // different ones among the scan's hits that are aligned, roughly and cheaply
+  // The same where other images helped to rank the hits (joint_scan.h): more roughly still, by `glance`, and
+  // the `promising` ones that fit best then go on.
+  int aligned_jointly = 1000;
+  int promising = 250;
+  D2coOptions glance = glance_defaults();
   // different ones among those that are registered in full (the paper's object candidates)
   int candidates = 60;
   D2coOptions touch_up = touch_up_defaults();  // on the full tensor after the coarse one, before Psi can
@@ -29,6 +33,7 @@ struct DetectOptions {
   double min_probability = 0.05;  // of what is reported; docs/evaluation.md has the reliability
   int max_detections = 100;
   static RefineOptions refine_defaults();
+  static D2coOptions glance_defaults();
   static D2coOptions touch_up_defaults();
   void validate() const;
 };
@@ -49,5 +54,12 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
 std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation,
                                      std::span<const Observation> others, std::span<const Se3> known,
                                      Backend& backend, const DetectOptions& options);
+
+// The same of hits in the observation's camera frame that all images have judged already (joint_scan.h),
+// whatever image they come from.
+std::vector<Refined> find_candidates(const TemplateSet& set, std::vector<ScanHit> judged,
+                                     const Observation& observation, std::span<const Observation> others,
+                                     std::span<const Se3> known, Backend& backend,
+                                     const DetectOptions& options);
 
 }  // namespace edgescout

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "host/detect/helping_views.h"
 #include "host/detect/template_projection.h"
 #include "host/register/occluders.h"
 #include "kernels/thread_pool.h"
@@ -12,13 +13,14 @@ namespace edgescout {
 
 namespace {
 
-constexpr int STEPS = 5;  // distances tried, evenly over the gap between templates
+constexpr int STEPS = 5;               // distances tried, evenly over the gap between templates
+constexpr std::size_t AT_ONCE = 4096;  // hits: 10 MB of points
 constexpr double CHANCE_PX = TEMPLATE_SCORE_OUTSIDE / 4.0;
 
-// A viewpoint's points, and the pose at which they are what a camera sees.
+// A viewpoint's points, and which of a pose's equal ones a camera sees them at.
 struct SeenTemplate {
   const ThinnedView* view = nullptr;
-  Se3 camera_from_object;
+  const Se3* symmetry = nullptr;
 };
 
 // A template set as other views see it: the points of the viewpoint nearest to theirs. A set holds viewpoints
@@ -40,7 +42,7 @@ class NearestViews {
       for (std::size_t v = 0; v < views_.size(); ++v)
         if (const double cosine = towards_camera_[v].dot(to_camera); cosine > largest) {
           largest = cosine;
-          best = {&views_[v], equal};
+          best = {&views_[v], &symmetry};
         }
     }
     return best;
@@ -52,11 +54,9 @@ class NearestViews {
   std::vector<Eigen::Vector3d> towards_camera_;
 };
 
-double rank_of(double mean_px, double distance_m) { return mean_px * std::pow(distance_m, SCAN_SIZE_WEIGHT); }
-
 // What a view says of a hit: `rank`, as ScanHit's, of what known objects leave of it, and how much that is.
 struct Say {
-  double rank = 0, weight = 1;
+  double rank = 1, weight = 1;
 };
 
 // Known objects before the points of one tensor's pixels. One pixel of their map is looked at, where
@@ -90,7 +90,7 @@ int keep_unhidden(const Hiding& hiding, const ThinnedView& seen, const Pose& cam
   return kept;
 }
 
-// What this view says of the poses, in the frame of its camera.
+// What this view says of the poses, in the frame of its camera: STEPS of every hit, side by side.
 std::vector<Say> says_of(const Observation& view, const TemplateSet& set, const NearestViews& templates,
                          std::span<const Se3> camera_from_object, Backend& backend,
                          const ScanOptions& options) {
@@ -99,40 +99,40 @@ std::vector<Say> says_of(const Observation& view, const TemplateSet& set, const 
   std::vector<TemplatePoint> points(camera_from_object.size() * width);
   std::vector<TemplateJob> jobs(camera_from_object.size());
   std::vector<int> shown(jobs.size());  // points; none: chance, or hidden
-  std::vector<double> weights(jobs.size(), 1);
+  std::vector<Say> says(jobs.size());
   const Hiding hiding(view, occlusion_tolerance_m(set.model));
-  constexpr std::size_t chunk = 256;
-  backend.threads().for_each((jobs.size() + chunk - 1) / chunk, [&](std::size_t c) {
-    for (std::size_t j = c * chunk; j < std::min(jobs.size(), (c + 1) * chunk); ++j) {
-      const auto [seen, pose] = templates.seen_at(camera_from_object[j]);
-      TemplatePoint* to = points.data() + j * width;
-      if (seen->count() > 0 && seen->project(to_pose(pose), salient.intrinsics, 0, 0, salient.shape.bins,
-                                             float(0.1 * set.model.radius_m), to)) {
-        shown[j] = hiding.any() ? keep_unhidden(hiding, *seen, to_pose(pose), to) : seen->count();
-        weights[j] = double(shown[j]) / seen->count();
-      }
-      if (shown[j] == 0) to[0] = {};  // a job needs a point; its answer is not read
-      jobs[j] = {std::uint32_t(j * width), std::uint32_t(std::max(1, shown[j])), 0, 0, 1, 1};
+  const auto look = [&](std::size_t j, const SeenTemplate& seen) {
+    const Pose pose = to_pose(camera_from_object[j] * *seen.symmetry);
+    TemplatePoint* to = points.data() + j * width;
+    if (seen.view->count() > 0 && seen.view->project(pose, salient.intrinsics, 0, 0, salient.shape.bins,
+                                                     float(0.1 * set.model.radius_m), to)) {
+      shown[j] = hiding.any() ? keep_unhidden(hiding, *seen.view, pose, to) : seen.view->count();
+      says[j].weight = double(shown[j]) / seen.view->count();
+    }
+    if (shown[j] == 0) to[0] = {};  // a job needs a point; its answer is not read
+    says[j].rank = std::pow((camera_from_object[j] * set.model.center_m).norm(), SCAN_SIZE_WEIGHT);
+    jobs[j] = {std::uint32_t(j * width), std::uint32_t(std::max(1, shown[j])), 0, 0, 1, 1};
+  };
+  constexpr std::size_t chunk = 64;
+  const std::size_t count = jobs.size() / STEPS;
+  backend.threads().for_each((count + chunk - 1) / chunk, [&](std::size_t c) {
+    for (std::size_t h = c * chunk; h < std::min(count, (c + 1) * chunk); ++h) {
+      // three degrees at most between the steps, where viewpoints stand eleven apart
+      const SeenTemplate seen = templates.seen_at(camera_from_object[h * STEPS + STEPS / 2]);
+      for (int step = 0; step < STEPS; ++step) look(h * STEPS + std::size_t(step), seen);
     }
   });
   std::vector<TemplateHit> hits(jobs.size());
   backend.template_score(salient, points, jobs, 1, hits);
-  std::vector<Say> says;
-  for (std::size_t j = 0; j < jobs.size(); ++j) {
-    const double mean_px = shown[j] > 0 ? hits[j].sum / (4.0 * jobs[j].point_count) : CHANCE_PX;
-    says.push_back({rank_of(mean_px, (camera_from_object[j] * set.model.center_m).norm()), weights[j]});
-  }
+  for (std::size_t j = 0; j < jobs.size(); ++j)
+    says[j].rank *= shown[j] > 0 ? hits[j].sum / (4.0 * jobs[j].point_count) : CHANCE_PX;
   return says;
 }
 
-}  // namespace
-
-std::vector<ScanHit> judged_by_all(const TemplateSet& set, std::span<const ScanHit> hits,
-                                   const Observation& own, std::span<const Observation> others,
-                                   Backend& backend, const ScanOptions& options) {
-  std::vector<ScanHit> judged(hits.begin(), hits.end());
-  if (others.empty()) return judged;
-  const NearestViews templates(set, options.points);
+// In place.
+void judge(const TemplateSet& set, const NearestViews& templates, std::span<ScanHit> hits,
+           const Observation& own, std::span<const Observation> others, Backend& backend,
+           const ScanOptions& options) {
   std::vector<Se3> moved;
   for (const ScanHit& hit : hits)
     for (int step = 0; step < STEPS; ++step) {
@@ -151,14 +151,46 @@ std::vector<ScanHit> judged_by_all(const TemplateSet& set, std::span<const ScanH
     for (std::size_t i = 0; i < sums.size(); ++i)
       sums[i] += says[i].weight * says[i].rank, weights[i] += says[i].weight;
   }
-  for (std::size_t h = 0; h < judged.size(); ++h) {
+  for (std::size_t h = 0; h < hits.size(); ++h) {
     std::size_t best = h * STEPS;
     for (std::size_t i = best; i < (h + 1) * STEPS; ++i)
       if (sums[i] / weights[i] < sums[best] / weights[best]) best = i;
-    judged[h].camera_from_object = moved[best];
-    judged[h].rank = sums[best] / weights[best];
+    hits[h].camera_from_object = moved[best];
+    hits[h].rank = sums[best] / weights[best];
   }
+}
+
+}  // namespace
+
+std::vector<ScanHit> judged_by_all(const TemplateSet& set, std::span<const ScanHit> hits,
+                                   const Observation& own, std::span<const Observation> others,
+                                   Backend& backend, const ScanOptions& options) {
+  std::vector<ScanHit> judged(hits.begin(), hits.end());
+  if (others.empty()) return judged;
+  const NearestViews templates(set, options.points);
+  for (std::size_t begin = 0; begin < judged.size(); begin += AT_ONCE)
+    judge(set, templates, std::span(judged).subspan(begin, std::min(AT_ONCE, judged.size() - begin)), own,
+          others, backend, options);
   return judged;
+}
+
+std::vector<ScanHit> pooled_hits(const TemplateSet& set, std::span<const Observation> images,
+                                 std::span<const std::span<const ScanHit>> hits, int helping,
+                                 Backend& backend, const ScanOptions& options) {
+  std::vector<ScanHit> pooled;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    std::vector<Observation> others(images.begin(), images.end());
+    others.erase(others.begin() + std::ptrdiff_t(i));
+    const Se3 last_from_own =
+        images.back().view.camera_from_world * inverse(images[i].view.camera_from_world);
+    for (ScanHit hit :
+         judged_by_all(set, hits[i], images[i], helping_views(images[i], others, std::size_t(helping)),
+                       backend, options)) {
+      hit.camera_from_object = last_from_own * hit.camera_from_object;
+      pooled.push_back(hit);
+    }
+  }
+  return pooled;
 }
 
 }  // namespace edgescout

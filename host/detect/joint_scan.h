@@ -6,16 +6,28 @@
 // the one that all images together like best (docs/evaluation.md: what that is worth).
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "host/detect/coarse_scan.h"
 
 namespace edgescout {
 
 // The hits of a scan of `own`, moved along their rays, with `rank` the mean over all views of what
-// ScanHit::rank is in one; mean_px stays that of their own view. Other views in which a hit lies behind the
-// camera or in no image count as chance; of what known objects hide there (RegisterView::occluders) a view
-// says nothing, and counts the less. `points` as for the scan. In the order given.
+// ScanHit::rank is in one; mean_px stays that of their own view. Another view sees the points of the
+// viewpoint nearest to the hit's. Other views in which a hit lies behind the camera or in no image count as
+// chance; of what known objects hide there (RegisterView::occluders) a view says nothing, and counts the
+// less. `points` as for the scan. In the order given.
 std::vector<ScanHit> judged_by_all(const TemplateSet& set, std::span<const ScanHit> hits,
                                    const Observation& own, std::span<const Observation> others,
                                    Backend& backend, const ScanOptions& options);
+
+// The hits of all images, `hits[i]` of images[i], each judged by all images (of many others by as many as
+// `helping_views`, helping_views.h), in the camera frame of the last one. What an image shows may be no more
+// than one among thousands of hits there, and not be seen in the next image at all: with each further image
+// to judge them the hits of earlier ones tell more.
+std::vector<ScanHit> pooled_hits(const TemplateSet& set, std::span<const Observation> images,
+                                 std::span<const std::span<const ScanHit>> hits, int helping_views,
+                                 Backend& backend, const ScanOptions& options);
 
 }  // namespace edgescout

@@ -2,17 +2,24 @@
 // one reduced.
 #pragma once
 
+#include <memory>
+#include <vector>
+
 #include "host/core/types.h"
 #include "host/edge/edges.h"
 #include "host/register/d2co.h"
 
 namespace edgescout {
 
+struct ScanHit;
+
 struct Observation {
   RegisterView view;   // full and coarse tensors, camera, edge index
   ViewHandle salient;  // the coarse tensor of the salient edges alone, for the scan (edge/salient_edges.h)
   Camera coarse_camera;
   double reduction = 1;  // image pixels to a coarse pixel
+  // What scans of the image found of each object, where they have been made (scan_for, coarse_scan.h).
+  std::vector<std::shared_ptr<const std::vector<ScanHit>>> hits;
 };
 
 // Reduction at which something of `size_px` in the image spans about 48 coarse pixels: in [1, 8], whole

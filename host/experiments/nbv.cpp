@@ -13,49 +13,39 @@ namespace edgescout {
 
 namespace {
 
-// What is found in the images of a bin: where no earlier image helps, once for all searches and strategies
+// What is found in the images of a bin: each is scanned for each type once, for all searches and strategies
 // that look there.
 class Detector {
  public:
   Detector(const std::vector<TemplateSet>& sets, const DetectOptions& options, Backend& backend)
       : sets_(sets), options_(options), backend_(backend) {}
-  // Objects are counted from `first_type`.
-  std::vector<Detection> find(int view, const Observation& observation, std::span<const Observation> earlier,
+  // Of `count` types from `first_type` on, from which objects are counted.
+  std::vector<Detection> find(std::span<const int> views, std::span<const Observation> images,
                               std::span<const Hypothesis> known, int first_type, int count) {
-    std::vector<Detection> all;
-    for (int i = 0; i < count; ++i) {
-      std::vector<Hypothesis> same;
-      for (const Hypothesis& instance : known)
-        if (instance.object == i) same.push_back({0, instance.world_from_object});
-      for (Detection detection : of_type(view, observation, earlier, same, first_type + i)) {
-        detection.object = i;
-        all.push_back(std::move(detection));
-      }
-    }
-    return all;
+    std::vector<Observation> scanned(images.begin(), images.end());
+    for (std::size_t i = 0; i < scanned.size(); ++i)
+      for (int type = first_type; type < first_type + count; ++type)
+        scanned[i].hits.push_back(hits(views[i], images[i], static_cast<std::size_t>(type)));
+    return candidates_in_images(
+        std::span(sets_).subspan(static_cast<std::size_t>(first_type), static_cast<std::size_t>(count)),
+        scanned, known, backend_, options_);
   }
 
  private:
-  std::vector<Detection> of_type(int view, const Observation& observation,
-                                 std::span<const Observation> earlier, std::span<const Hypothesis> known,
-                                 int type) {
-    const auto search = [&] {
-      return candidates_in_image(std::span(&sets_[static_cast<std::size_t>(type)], 1), observation, earlier,
-                                 known, backend_, options_);
-    };
-    // what was seen before differs from strategy to strategy
-    if (!earlier.empty() || !known.empty() || observation.view.occluders) return search();
+  using Hits = std::shared_ptr<const std::vector<ScanHit>>;
+  Hits hits(int view, const Observation& observation, std::size_t type) {
     // coarser tensors where only large types are sought
-    const auto key = std::tuple(view, type, observation.reduction);
-    auto before = found_.find(key);
-    if (before == found_.end()) before = found_.emplace(key, search()).first;
-    return before->second;
+    Hits& known = hits_[std::tuple(view, type, observation.reduction)];
+    if (!known)
+      known = std::make_shared<std::vector<ScanHit>>(
+          coarse_scan(sets_[type], observation, backend_, options_.scan));
+    return known;
   }
 
   const std::vector<TemplateSet>& sets_;
   DetectOptions options_;
   Backend& backend_;
-  std::map<std::tuple<int, int, double>, std::vector<Detection>> found_;
+  std::map<std::tuple<int, std::size_t, double>, Hits> hits_;
 };
 
 // The types of a bin's parts, and the name they have among the rows.
@@ -117,9 +107,9 @@ std::string sought_text(const Search& search) {
 ScoutOptions options_for(const ExperimentSettings& s, const Bin& bin, const Search& search,
                          Detector& detector, const std::string& strategy) {
   ScoutOptions options = s.scout;
-  options.detect = [&](int view, const Observation& observation, std::span<const Observation> earlier,
+  options.detect = [&](std::span<const int> views, std::span<const Observation> images,
                        std::span<const Hypothesis> known) {
-    return detector.find(view, observation, earlier, known, search.first_type, search.count);
+    return detector.find(views, images, known, search.first_type, search.count);
   };
   options.first_view = bin.first_view;
   const bool knows = strategy == CLAIRVOYANT;
@@ -204,8 +194,10 @@ Notes options(const ExperimentSettings& s) {
               {"images", std::to_string(o.max_views)},
               {"detection", o.detect_in_every_image ? "every image" : "first image"},
               {"jointly", o.detect_jointly ? "yes" : "no"},
+              {"scan_hits", std::to_string(o.pipeline.detect.scan.kept)},
               {"aligned", std::to_string(o.pipeline.detect.aligned)},
               {"aligned_jointly", std::to_string(o.pipeline.detect.aligned_jointly)},
+              {"promising", std::to_string(o.pipeline.detect.promising)},
               {"registered", std::to_string(o.pipeline.detect.candidates)},
               {"max_candidates", std::to_string(o.max_candidates)},
               {"particles", std::to_string(o.particles.count)},

@@ -49,14 +49,15 @@ TEST(Scout, TakesCandidatesFromADetectorOfOnesOwn) {
   near_truth.world_from_object = retract(t.scene.placed[0].world_from_object, off);
   near_truth.psi = 0.9;
   options.known_probability = 0.2;
-  options.detect = [&](int view, const Observation& observation, std::span<const Observation> earlier,
+  options.detect = [&](std::span<const int> views, std::span<const Observation> images,
                        std::span<const Hypothesis> known) {
-    EXPECT_EQ(observation.view.camera.width, t.camera().width);
-    EXPECT_EQ(earlier.size(), asked.size());
+    EXPECT_EQ(images.back().view.camera.width, t.camera().width);
+    EXPECT_EQ(images.size(), asked.size() + 1);
+    EXPECT_EQ(std::vector(views.begin(), views.end() - 1), asked);
     EXPECT_EQ(known.size(), asked.empty() ? 0u : 1u);
     for (const Hypothesis& instance : known)
       EXPECT_LT(distance_between_m(instance.world_from_object, t.scene.placed[0].world_from_object), 0.002);
-    asked.push_back(view);
+    asked.push_back(views.back());
     return std::vector{near_truth};
   };
   Scout scout = t.scout(options);
@@ -155,7 +156,7 @@ TEST(Scout, EndsByEachOfItsLimits) {
   there.psi = 0.9;
   const auto always_there = [&](ScoutOptions& o) {
     o.min_entropy_nats = 1000;
-    o.detect = [&](int, const Observation&, std::span<const Observation>, std::span<const Hypothesis>) {
+    o.detect = [&](std::span<const int>, std::span<const Observation>, std::span<const Hypothesis>) {
       return std::vector{there};
     };
   };
@@ -224,7 +225,7 @@ TEST(Scout, GoesOnWhereTheFirstImageShowsNothing) {
   SmallCell t;
   ScoutOptions options = t.options();
   options.min_information_nats = 0.05;
-  options.detect = [](int, const Observation&, std::span<const Observation>, std::span<const Hypothesis>) {
+  options.detect = [](std::span<const int>, std::span<const Observation>, std::span<const Hypothesis>) {
     return std::vector<Detection>{};
   };
   Scout scout = t.scout(options);
@@ -249,7 +250,7 @@ TEST(Scout, SearchesUntilThereAreCandidates) {
   there.world_from_object = t.scene.placed[0].world_from_object;
   there.psi = 0.9;
   int asked = 0;
-  options.detect = [&](int, const Observation&, std::span<const Observation>, std::span<const Hypothesis>) {
+  options.detect = [&](std::span<const int>, std::span<const Observation>, std::span<const Hypothesis>) {
     return ++asked == 1 ? std::vector<Detection>{} : std::vector{there};
   };
   Scout scout = t.scout(options);

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
+#include "host/detect/helping_views.h"
 #include "host/register/occluders.h"
 #include "tests/detect/part_image.h"
 #include "tests/test_random.h"
@@ -58,21 +60,22 @@ struct SeenPart {
     return judged_by_all(set, hits, views[0], others(), *backend, ScanOptions{});
   }
 
-  // Mean of a pose's points, as seen from the viewpoint nearest to the camera's modulo symmetry, in this
-  // view, weighted as ScanHit::rank; of the points in columns from `first_column` on, and the fraction that
-  // they are.
-  double rank_in(const Observation& view, Se3 pose, double first_column = -INFINITY,
+  // Mean of a pose's points, as seen from the viewpoint nearest to where the camera sees `hit` from modulo
+  // symmetry, in this view, weighted as ScanHit::rank; of the points in columns from `first_column` on, and
+  // the fraction that they are.
+  double rank_in(const Observation& view, const Se3& hit, Se3 pose, double first_column = -INFINITY,
                  double* fraction = nullptr) const {
     const TemplateView* nearest = nullptr;
     double largest = -2;
-    const Se3 given = pose;
+    Se3 nearest_symmetry;
     for (const TemplateView& candidate : set.views)
       for (const Se3& symmetry : set.symmetries.discrete) {
-        const Se3 equal = given * symmetry;
+        const Se3 equal = hit * symmetry;
         const Eigen::Vector3d eye = (inverse(equal).translation_m - set.model.center_m).normalized();
         const double cosine = (candidate.camera_from_object.inverse() * -Eigen::Vector3d::UnitZ()).dot(eye);
-        if (cosine > largest) largest = cosine, nearest = &candidate, pose = equal;
+        if (cosine > largest) largest = cosine, nearest = &candidate, nearest_symmetry = symmetry;
       }
+    pose = pose * nearest_symmetry;
     const TensorShape& shape = view.salient->shape;
     const std::vector<std::uint16_t> tensor = view.salient->tensor();
     const int count = std::min<int>(ScanOptions{}.points, int(nearest->points.size()));
@@ -122,9 +125,10 @@ TEST(JointScan, EqualsTheBestSumOverDistances) {
       Se3 pose = hits[i].camera_from_object;
       pose.translation_m += further * (pose * t.set.model.center_m);
       double sum = hits[i].rank;
-      for (const Observation& other : t.others())
-        sum += t.rank_in(other,
-                         other.view.camera_from_world * inverse(t.views[0].view.camera_from_world) * pose);
+      for (const Observation& other : t.others()) {
+        const Se3 other_from_own = other.view.camera_from_world * inverse(t.views[0].view.camera_from_world);
+        sum += t.rank_in(other, other_from_own * hits[i].camera_from_object, other_from_own * pose);
+      }
       lowest = std::min(lowest, sum / 3);
     }
     EXPECT_NEAR(judged[i].rank, lowest, 0.02) << "a point or two of sixty round the other way";
@@ -212,9 +216,10 @@ TEST(JointScan, WhatKnownObjectsHideHasNoSay) {
     for (const double further : {-0.05, -0.025, 0.0, 0.025, 0.05}) {
       Se3 pose = hits[i].camera_from_object;
       pose.translation_m += further * (pose * t.set.model.center_m);
-      const Se3 there = t.views[1].view.camera_from_world * inverse(t.views[0].view.camera_from_world) * pose;
+      const Se3 there = t.views[1].view.camera_from_world * inverse(t.views[0].view.camera_from_world);
       double shown = 0;
-      const double rank = t.rank_in(t.views[1], there, 160, &shown);
+      const double rank =
+          t.rank_in(t.views[1], there * hits[i].camera_from_object, there * pose, 160, &shown);
       lowest = std::min(lowest, (hits[i].rank + (shown > 0 ? shown * rank : 0)) / (1 + shown));
     }
     EXPECT_NEAR(half[i].rank, lowest, 0.04) << "a point or two of sixty round the other way";
@@ -232,6 +237,64 @@ TEST(JointScan, BehindAnotherCameraItCountsAsChance) {
   const Se3 in_other = t.views[1].view.camera_from_world * t.truth;
   EXPECT_LT((in_other * t.set.model.center_m).z(), 0);
   EXPECT_NEAR(judged[0].rank, (2 + 3.25 * std::pow(0.5, 0.25)) / 2, 0.05);
+}
+
+// The hits of every image as the others judge them, seen from the last camera.
+TEST(JointScan, PoolsWhatEveryImageHas) {
+  Random random = test_random();
+  const SeenPart t(4, 300, random);
+  std::vector<std::vector<ScanHit>> hits(4);
+  for (std::size_t v = 0; v < 4; ++v)
+    for (std::size_t i = 0; i < 5 * v; ++i) {  // none in the first
+      Vector6d off;
+      off << 0.03 * random.direction(), 0.5 * random.direction();
+      hits[v].push_back(hit_at(retract(t.views[v].view.camera_from_world * t.truth, off), 2));
+    }
+  const std::vector<std::span<const ScanHit>> spans(hits.begin(), hits.end());
+  for (const int helping : {3, 1}) {
+    const std::vector<ScanHit> pooled =
+        pooled_hits(t.set, t.views, spans, helping, *t.backend, ScanOptions{});
+    ASSERT_EQ(pooled.size(), 30u);
+    std::size_t next = 0;
+    for (std::size_t v = 0; v < 4; ++v) {
+      std::vector<Observation> others = t.views;
+      others.erase(others.begin() + int(v));
+      const std::vector<ScanHit> judged =
+          judged_by_all(t.set, hits[v], t.views[v], helping_views(t.views[v], others, std::size_t(helping)),
+                        *t.backend, ScanOptions{});
+      for (const ScanHit& own : judged) {
+        const ScanHit& hit = pooled[next++];
+        EXPECT_EQ(hit.rank, own.rank);
+        const Se3 in_world = inverse(t.views[v].view.camera_from_world) * own.camera_from_object,
+                  pooled_in_world = inverse(t.views[3].view.camera_from_world) * hit.camera_from_object;
+        EXPECT_LT((in_world.translation_m - pooled_in_world.translation_m).norm(), 1e-12);
+        EXPECT_LT(in_world.rotation.angularDistance(pooled_in_world.rotation), 1e-7);
+      }
+    }
+  }
+}
+
+// A part that the newest image does not show is a hit of the first one alone, where chance ranks better.
+TEST(JointScan, AnEarlierHitComesFirstOnceOtherImagesShowIt) {
+  Random random = test_random();
+  for (int i = 0; i < 5; ++i) {
+    const SeenPart t(3, 300, random);
+    std::vector<std::vector<ScanHit>> hits(3);
+    for (std::size_t v = 0; v < 3; ++v)
+      for (int wrong = 0; wrong < 100; ++wrong)
+        hits[v].push_back(
+            hit_at({random.rotation(),
+                    (t.views[v].view.camera_from_world * t.truth).translation_m + 0.05 * random.direction()},
+                   1));
+    hits[0].push_back(hit_at(t.views[0].view.camera_from_world * t.truth, 1.5));
+    const std::vector<ScanHit> pooled =
+        pooled_hits(t.set, t.views, std::vector<std::span<const ScanHit>>(hits.begin(), hits.end()), 4,
+                    *t.backend, ScanOptions{});
+    const ScanHit& best = *std::ranges::min_element(pooled, {}, &ScanHit::rank);
+    const Se3 truth = t.views[2].view.camera_from_world * t.truth;
+    EXPECT_LT((best.camera_from_object.translation_m - truth.translation_m).norm(), 0.02);
+    EXPECT_LT(best.camera_from_object.rotation.angularDistance(truth.rotation), 1e-6);
+  }
 }
 
 }  // namespace
