@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/core/stopwatch.h"
+#include "host/detect/helping_views.h"
 #include "host/detect/joint.h"
 #include "host/io/image.h"
 #include "kernels/error.h"
@@ -95,8 +96,7 @@ Detections detect_jointly(std::span<const PreparedImage> views, std::span<const 
   watch.lap("tensors");
   std::vector<std::vector<std::vector<Refined>>> candidates(observations.size());  // [view][object]
   for (std::size_t v = 0; v < observations.size(); ++v) {
-    std::vector<Observation> others = observations;
-    others.erase(others.begin() + std::ptrdiff_t(v));
+    const std::vector<Observation> others = all_but(observations, v);
     for (const TemplateSet& set : sets)
       candidates[v].push_back(find_candidates(set, observations[v], others, {}, backend, options.detect));
   }

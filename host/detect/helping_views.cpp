@@ -30,4 +30,10 @@ std::vector<Observation> helping_views(const Observation& own, std::span<const O
   return helping;
 }
 
+std::vector<Observation> all_but(std::span<const Observation> images, std::size_t own) {
+  std::vector<Observation> others(images.begin(), images.end());
+  others.erase(others.begin() + std::ptrdiff_t(own));
+  return others;
+}
+
 }  // namespace edgescout

@@ -14,4 +14,7 @@ namespace edgescout {
 std::vector<Observation> helping_views(const Observation& own, std::span<const Observation> others,
                                        std::size_t most);
 
+// All images but this one, in the order given.
+std::vector<Observation> all_but(std::span<const Observation> images, std::size_t own);
+
 }  // namespace edgescout

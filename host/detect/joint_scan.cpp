@@ -179,8 +179,7 @@ std::vector<ScanHit> pooled_hits(const TemplateSet& set, std::span<const Observa
                                  Backend& backend, const ScanOptions& options) {
   std::vector<ScanHit> pooled;
   for (std::size_t i = 0; i < images.size(); ++i) {
-    std::vector<Observation> others(images.begin(), images.end());
-    others.erase(others.begin() + std::ptrdiff_t(i));
+    const std::vector<Observation> others = all_but(images, i);
     const Se3 last_from_own =
         images.back().view.camera_from_world * inverse(images[i].view.camera_from_world);
     for (ScanHit hit :
