@@ -211,6 +211,28 @@ TemplateHit best_of_job(const Planes& planes, const TensorShape& shape, std::spa
   return hit;
 }
 
+bool is_plain(const TemplateJob& job) { return job.columns == 1 && job.rows == 1; }
+
+// Of jobs of one anchor each, where planes and blocks would be read for one value of many. Returns the
+// largest bin.
+int score_plainly(std::span<const std::uint16_t> tensor, const TensorShape& shape,
+                  std::span<const TemplatePoint> points, std::span<const TemplateJob> jobs,
+                  std::span<TemplateHit> hits) {
+  int largest = 0;
+  for (std::size_t j = 0; j < jobs.size(); ++j) {
+    std::uint32_t sum = 0;
+    for (const TemplatePoint& point : points.subspan(jobs[j].first_point, jobs[j].point_count)) {
+      const int x = jobs[j].x0 + point.dx_px, y = jobs[j].y0 + point.dy_px;
+      largest = std::max<int>(largest, point.bin);
+      const bool inside =
+          x >= 0 && x < shape.width && y >= 0 && y < shape.height && int(point.bin) < shape.bins;
+      sum += inside ? capped(tensor[shape.index(x, y, point.bin)]) : outside;
+    }
+    hits[j] = {sum, jobs[j].x0, jobs[j].y0};
+  }
+  return largest;
+}
+
 // All but what points hold.
 void check_jobs(std::size_t points, std::span<const TemplateJob> jobs, int anchor_step, std::size_t hits) {
   check(anchor_step >= 1 && anchor_step <= 16, "template_score: anchor step in [1, 16]");
@@ -260,10 +282,20 @@ void template_score_fast(std::span<const std::uint16_t> tensor, const TensorShap
                          int anchor_step, std::span<TemplateHit> hits, ThreadPool& pool) {
   check_jobs(points.size(), jobs, anchor_step, hits.size());
   if (jobs.empty()) return;
+  const std::size_t chunks = (jobs.size() + chunk_jobs - 1) / chunk_jobs;
+  if (std::ranges::all_of(jobs, is_plain)) {
+    std::vector<int> bins(chunks);
+    pool.for_each(chunks, [&](std::size_t c) {
+      const std::size_t first = c * chunk_jobs, count = std::min(chunk_jobs, jobs.size() - first);
+      bins[c] = score_plainly(tensor, shape, points, jobs.subspan(first, count), hits.subspan(first, count));
+    });
+    check(std::ranges::max(bins) < shape.bins, BIN_OUT_OF_RANGE);
+    return;
+  }
   const Bounds bounds = touched(shape, points, jobs, anchor_step, pool);
   check(bounds.bin_max < shape.bins, BIN_OUT_OF_RANGE);
   const Planes planes = make_planes(tensor, shape, bounds, anchor_step, pool);
-  pool.for_each((jobs.size() + chunk_jobs - 1) / chunk_jobs, [&](std::size_t c) {
+  pool.for_each(chunks, [&](std::size_t c) {
     for (std::size_t j = c * chunk_jobs; j < std::min(jobs.size(), (c + 1) * chunk_jobs); ++j)
       hits[j] = best_of_job(planes, shape, points, jobs[j]);
   });

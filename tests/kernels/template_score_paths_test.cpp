@@ -19,7 +19,7 @@ struct Work {
   std::vector<TemplateJob> jobs;
 };
 
-Work random_work(std::mt19937& rng, const TensorShape& shape, int count, int max_columns) {
+Work random_work(std::mt19937& rng, const TensorShape& shape, int count, int max_columns, int max_rows) {
   const auto in = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(rng); };
   Work work;
   for (int t = 0; t < count; ++t) {
@@ -32,7 +32,7 @@ Work random_work(std::mt19937& rng, const TensorShape& shape, int count, int max
     work.jobs.push_back({again ? last.first_point : first, again ? last.point_count : points,
                          in(-9, shape.width) + away, in(-9, shape.height) - away,
                          static_cast<std::uint32_t>(in(1, max_columns)),
-                         static_cast<std::uint32_t>(in(1, 12))});
+                         static_cast<std::uint32_t>(in(1, max_rows))});
     if (again) continue;
     for (std::uint32_t p = 0; p < points; ++p)
       work.points.push_back({static_cast<std::int16_t>(in(-20, 20)), static_cast<std::int16_t>(in(-20, 20)),
@@ -42,26 +42,28 @@ Work random_work(std::mt19937& rng, const TensorShape& shape, int count, int max
 }
 
 struct Case {
-  int width, height, edges, jobs, max_columns, step;
+  int width, height, edges, jobs, max_columns, max_rows, step;
 };
 
 class TemplateScorePaths : public test::PathTest {};
 
 TEST_P(TemplateScorePaths, EqualsTheReference) {
   std::mt19937 rng = test::test_rng();
-  for (const Case& c : std::vector<Case>{{1, 1, 1, 3, 1, 1},
-                                         {7, 5, 3, 20, 1, 1},
-                                         {33, 17, 30, 40, 5, 2},
-                                         {70, 100, 120, 60, 40, 1},
-                                         {70, 100, 20, 60, 7, 3},
-                                         {70, 100, 0, 10, 3, 4},
-                                         {20, 20, 5, 0, 1, 1}}) {
+  for (const Case& c : std::vector<Case>{{1, 1, 1, 3, 1, 12, 1},
+                                         {7, 5, 3, 20, 1, 12, 1},
+                                         {33, 17, 30, 40, 5, 12, 2},
+                                         {70, 100, 120, 60, 40, 12, 1},
+                                         {70, 100, 20, 60, 7, 12, 3},
+                                         {70, 100, 0, 10, 3, 12, 4},
+                                         {70, 100, 120, 300, 1, 1, 1},  // one anchor each
+                                         {7, 5, 3, 300, 1, 1, 2},
+                                         {20, 20, 5, 0, 1, 12, 1}}) {
     SCOPED_TRACE(std::to_string(c.width) + "x" + std::to_string(c.height) + ", " + std::to_string(c.jobs) +
                  " jobs");
     const std::vector<EdgePoint> edges = test::random_edges(rng, c.width, c.height, c.edges);
     const ViewHandle view = tested->make_view(edges, c.width, c.height, {}, {}, {});
     const ViewHandle truth = reference->make_view(edges, c.width, c.height, {}, {}, {});
-    const Work work = random_work(rng, view->shape, c.jobs, c.max_columns);
+    const Work work = random_work(rng, view->shape, c.jobs, c.max_columns, c.max_rows);
     std::vector<TemplateHit> hits(work.jobs.size()), expected(work.jobs.size());
     tested->template_score(*view, work.points, work.jobs, c.step, hits);
     reference->template_score(*truth, work.points, work.jobs, c.step, expected);
@@ -92,8 +94,12 @@ TEST_P(TemplateScorePaths, PointsFarAwayAreOutside) {
   std::vector<TemplateHit> hits(2);
   tested->template_score(*view, points,
                          std::vector<TemplateJob>{{0, 4, 8, 4, 3, 2}, {2, 1, -20000, 30000, 40, 9}}, 2, hits);
-  EXPECT_EQ(hits[0], (TemplateHit{4 * TEMPLATE_SCORE_OUTSIDE, 8, 4}));
-  EXPECT_EQ(hits[1], (TemplateHit{TEMPLATE_SCORE_OUTSIDE, -20000, 30000}));
+  const std::vector<TemplateHit> expected{{4 * TEMPLATE_SCORE_OUTSIDE, 8, 4},
+                                          {TEMPLATE_SCORE_OUTSIDE, -20000, 30000}};
+  EXPECT_EQ(hits, expected);
+  tested->template_score(*view, points,
+                         std::vector<TemplateJob>{{0, 4, 8, 4, 1, 1}, {2, 1, -20000, 30000, 1, 1}}, 2, hits);
+  EXPECT_EQ(hits, expected);
 }
 
 TEST_P(TemplateScorePaths, BrokenJobsAreOurBugs) {
@@ -104,6 +110,7 @@ TEST_P(TemplateScorePaths, BrokenJobsAreOurBugs) {
     tested->template_score(*view, std::span(points).first(count), {&job, 1}, 1, hits);
   };
   EXPECT_THROW(score(2, {0, 2, 0, 0, 1, 1}), LogicError);  // a bin that is not there
+  EXPECT_THROW(score(2, {0, 2, 0, 0, 2, 1}), LogicError);
   EXPECT_THROW(score(1, {0, 2, 0, 0, 1, 1}), LogicError);  // points beyond the list
   EXPECT_THROW(score(1, {0, 0, 0, 0, 1, 1}), LogicError);  // no points
   EXPECT_THROW(score(1, {0, 1, 0, 0, 0, 1}), LogicError);  // no anchors
