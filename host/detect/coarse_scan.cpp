@@ -115,8 +115,7 @@ void scan_region(const TemplateSet& set, const Numbering& numbering, const Regio
     return double(work.hits[t].sum) / (4.0 * work.jobs[t].point_count);
   };
   std::vector<double> weights;  // by distance
-  for (const double distance_m : numbering.distances)
-    weights.push_back(std::pow(distance_m, SCAN_SIZE_WEIGHT));
+  for (const double distance_m : numbering.distances) weights.push_back(scan_size_weight(distance_m));
   const auto rank = [&](std::size_t t) { return mean(t) * weights[t % weights.size()]; };
   std::vector<std::size_t> order;
   for (std::size_t t = 0; t < templates; ++t)

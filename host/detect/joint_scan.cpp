@@ -27,10 +27,11 @@ struct SeenTemplate {
 // modulo symmetry: the nearest may belong to another of the object's equal poses.
 class NearestViews {
  public:
-  NearestViews(const TemplateSet& set, int points) : set_(set) {
+  NearestViews(const TemplateSet& set, int points) : set_(set), towards_camera_(set.views.size(), 3) {
     for (const TemplateView& view : set.views) {
+      towards_camera_.row(Eigen::Index(views_.size())) =
+          view.camera_from_object.inverse() * -Eigen::Vector3d::UnitZ();
       views_.emplace_back(view, points);
-      towards_camera_.push_back(view.camera_from_object.inverse() * -Eigen::Vector3d::UnitZ());
     }
   }
   SeenTemplate seen_at(const Se3& camera_from_object) const {
@@ -39,11 +40,9 @@ class NearestViews {
     for (const Se3& symmetry : set_.symmetries.discrete) {
       const Se3 equal = camera_from_object * symmetry;
       const Eigen::Vector3d to_camera = (inverse(equal).translation_m - set_.model.center_m).normalized();
-      for (std::size_t v = 0; v < views_.size(); ++v)
-        if (const double cosine = towards_camera_[v].dot(to_camera); cosine > largest) {
-          largest = cosine;
-          best = {&views_[v], &symmetry};
-        }
+      Eigen::Index nearest = 0;
+      const double cosine = (towards_camera_ * to_camera).maxCoeff(&nearest);
+      if (cosine > largest) largest = cosine, best = {&views_[std::size_t(nearest)], &symmetry};
     }
     return best;
   }
@@ -51,7 +50,17 @@ class NearestViews {
  private:
   const TemplateSet& set_;
   std::vector<ThinnedView> views_;
-  std::vector<Eigen::Vector3d> towards_camera_;
+  Eigen::MatrixX3d towards_camera_;  // one row a view
+};
+
+// A hit in the camera frame of one of the images, and the distances it is tried at.
+struct MovedHit {
+  Se3 camera_from_object;
+  Eigen::Vector3d towards_m;  // from its own camera to its middle
+  Se3 at(int step, double distance_ratio) const {
+    const double further = (distance_ratio - 1) * (step / double(STEPS - 1) - 0.5);
+    return {camera_from_object.rotation, camera_from_object.translation_m + further * towards_m};
+  }
 };
 
 // What a view says of a hit: `rank`, as ScanHit's, of what known objects leave of it, and how much that is.
@@ -90,41 +99,51 @@ int keep_unhidden(const Hiding& hiding, const ThinnedView& seen, const Pose& cam
   return kept;
 }
 
-// What this view says of the poses, in the frame of its camera: STEPS of every hit, side by side.
+Pose moved_to(Pose pose, const Eigen::Vector3d& translation_m) {
+  for (int i = 0; i < 3; ++i) pose.m[4 * i + 3] = float(translation_m[i]);
+  return pose;
+}
+
+// What this view says of the hits, in the frame of its camera: STEPS of every one, side by side.
 std::vector<Say> says_of(const Observation& view, const TemplateSet& set, const NearestViews& templates,
-                         std::span<const Se3> camera_from_object, Backend& backend,
-                         const ScanOptions& options) {
+                         std::span<const MovedHit> moved, Backend& backend, const ScanOptions& options) {
   const auto& salient = *view.salient;
-  const std::size_t width = std::size_t(options.points);
-  std::vector<TemplatePoint> points(camera_from_object.size() * width);
-  std::vector<TemplateJob> jobs(camera_from_object.size());
-  std::vector<int> shown(jobs.size());  // points; none: chance, or hidden
-  std::vector<Say> says(jobs.size());
+  const std::size_t width = std::size_t(options.points), count = moved.size() * STEPS;
+  std::vector<TemplatePoint> points(count * width);
+  std::vector<TemplateJob> jobs(count);
+  std::vector<int> shown(count);  // points; none: chance, or hidden
+  std::vector<Say> says(count);
   const Hiding hiding(view, occlusion_tolerance_m(set.model));
-  const auto look = [&](std::size_t j, const SeenTemplate& seen) {
-    const Pose pose = to_pose(camera_from_object[j] * *seen.symmetry);
+  const auto look = [&](std::size_t j, const Pose& pose, const ThinnedView& seen) {
     TemplatePoint* to = points.data() + j * width;
-    if (seen.view->count() > 0 && seen.view->project(pose, salient.intrinsics, 0, 0, salient.shape.bins,
-                                                     float(0.1 * set.model.radius_m), to)) {
-      shown[j] = hiding.any() ? keep_unhidden(hiding, *seen.view, pose, to) : seen.view->count();
-      says[j].weight = double(shown[j]) / seen.view->count();
+    if (seen.count() > 0 && seen.project(pose, salient.intrinsics, 0, 0, salient.shape.bins,
+                                         float(0.1 * set.model.radius_m), to)) {
+      shown[j] = hiding.any() ? keep_unhidden(hiding, seen, pose, to) : seen.count();
+      says[j].weight = double(shown[j]) / seen.count();
     }
     if (shown[j] == 0) to[0] = {};  // a job needs a point; its answer is not read
-    says[j].rank = std::pow((camera_from_object[j] * set.model.center_m).norm(), SCAN_SIZE_WEIGHT);
     jobs[j] = {std::uint32_t(j * width), std::uint32_t(std::max(1, shown[j])), 0, 0, 1, 1};
   };
-  constexpr std::size_t chunk = 64;
-  const std::size_t count = jobs.size() / STEPS;
-  backend.threads().for_each((count + chunk - 1) / chunk, [&](std::size_t c) {
-    for (std::size_t h = c * chunk; h < std::min(count, (c + 1) * chunk); ++h) {
-      // three degrees at most between the steps, where viewpoints stand eleven apart
-      const SeenTemplate seen = templates.seen_at(camera_from_object[h * STEPS + STEPS / 2]);
-      for (int step = 0; step < STEPS; ++step) look(h * STEPS + std::size_t(step), seen);
+  const auto look_all_steps = [&](std::size_t h) {
+    // three degrees at most between the steps, where viewpoints stand eleven apart
+    const SeenTemplate seen = templates.seen_at(moved[h].at(STEPS / 2, set.options.distance_ratio));
+    const Pose turned = to_pose(moved[h].camera_from_object * *seen.symmetry);
+    const Eigen::Vector3d middle_m = moved[h].camera_from_object.rotation * set.model.center_m,
+                          place_m = moved[h].camera_from_object.rotation * seen.symmetry->translation_m;
+    for (int step = 0; step < STEPS; ++step) {
+      const Eigen::Vector3d at_m = moved[h].at(step, set.options.distance_ratio).translation_m;
+      const std::size_t j = h * STEPS + std::size_t(step);
+      says[j].rank = scan_size_weight((at_m + middle_m).norm());
+      look(j, moved_to(turned, at_m + place_m), *seen.view);
     }
+  };
+  constexpr std::size_t chunk = 64;
+  backend.threads().for_each((moved.size() + chunk - 1) / chunk, [&](std::size_t c) {
+    for (std::size_t h = c * chunk; h < std::min(moved.size(), (c + 1) * chunk); ++h) look_all_steps(h);
   });
-  std::vector<TemplateHit> hits(jobs.size());
+  std::vector<TemplateHit> hits(count);
   backend.template_score(salient, points, jobs, 1, hits);
-  for (std::size_t j = 0; j < jobs.size(); ++j)
+  for (std::size_t j = 0; j < count; ++j)
     says[j].rank *= shown[j] > 0 ? hits[j].sum / (4.0 * jobs[j].point_count) : CHANCE_PX;
   return says;
 }
@@ -133,21 +152,18 @@ std::vector<Say> says_of(const Observation& view, const TemplateSet& set, const 
 void judge(const TemplateSet& set, const NearestViews& templates, std::span<ScanHit> hits,
            const Observation& own, std::span<const Observation> others, Backend& backend,
            const ScanOptions& options) {
-  std::vector<Se3> moved;
+  std::vector<MovedHit> moved;
   for (const ScanHit& hit : hits)
-    for (int step = 0; step < STEPS; ++step) {
-      const double further = (set.options.distance_ratio - 1) * (step / double(STEPS - 1) - 0.5);
-      moved.push_back(
-          {hit.camera_from_object.rotation,
-           hit.camera_from_object.translation_m + further * (hit.camera_from_object * set.model.center_m)});
-    }
-  std::vector<double> sums(moved.size()), weights(moved.size(), 1);  // its own view's say is whole
+    moved.push_back({hit.camera_from_object, hit.camera_from_object * set.model.center_m});
+  std::vector<double> sums(moved.size() * STEPS), weights(sums.size(), 1);  // its own view's say is whole
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = hits[i / STEPS].rank;
-  std::vector<Se3> poses(moved.size());
+  std::vector<MovedHit> there(moved.size());
   for (const Observation& other : others) {
     const Se3 other_from_own = other.view.camera_from_world * inverse(own.view.camera_from_world);
-    std::ranges::transform(moved, poses.begin(), [&](const Se3& pose) { return other_from_own * pose; });
-    const std::vector<Say> says = says_of(other, set, templates, poses, backend, options);
+    std::ranges::transform(moved, there.begin(), [&](const MovedHit& hit) {
+      return MovedHit{other_from_own * hit.camera_from_object, other_from_own.rotation * hit.towards_m};
+    });
+    const std::vector<Say> says = says_of(other, set, templates, there, backend, options);
     for (std::size_t i = 0; i < sums.size(); ++i)
       sums[i] += says[i].weight * says[i].rank, weights[i] += says[i].weight;
   }
@@ -155,7 +171,7 @@ void judge(const TemplateSet& set, const NearestViews& templates, std::span<Scan
     std::size_t best = h * STEPS;
     for (std::size_t i = best; i < (h + 1) * STEPS; ++i)
       if (sums[i] / weights[i] < sums[best] / weights[best]) best = i;
-    hits[h].camera_from_object = moved[best];
+    hits[h].camera_from_object = moved[h].at(int(best % STEPS), set.options.distance_ratio);
     hits[h].rank = sums[best] / weights[best];
   }
 }
