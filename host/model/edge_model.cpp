@@ -104,6 +104,8 @@ EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options) {
   for (const auto& [edge, sides] : faces)
     if (!is_smooth(mesh, sides, cos_crease))
       model.creases.push_back({mesh.vertices_m[edge.first], mesh.vertices_m[edge.second]});
+  for (const EdgeModel::Segment& crease : model.creases)
+    add_raster_points(crease.from_m, crease.to_m, model.raster_step_m, model.crease_points);
   model.corner_normals = average_normals(mesh, faces, cos_crease);
   for (int t = 0; t < int(mesh.triangles.size()); ++t)
     if (is_curved(model.corner_normals[t])) model.curved.push_back(t);
@@ -112,6 +114,19 @@ EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options) {
   for (const auto& triangle : mesh.triangles)
     for (int corner : triangle) model.triangles.push_back(static_cast<std::uint32_t>(corner));
   return model;
+}
+
+void add_raster_points(const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m, double raster_step_m,
+                       std::vector<RasterPoint>& points) {
+  const Eigen::Vector3d along = to_m - from_m;
+  const double length = along.norm();
+  if (length <= 0) return;
+  const Eigen::Vector3d tangent = along / length;
+  const double place =
+      std::abs(from_m.dot(Eigen::Vector3d(12.9898, 78.233, 37.719)) / raster_step_m) * 43.7585453;
+  const double dither = place - std::floor(place);
+  const int count = static_cast<int>(length / raster_step_m + dither);
+  for (int i = 0; i < count; ++i) points.push_back({from_m + along * ((i + 0.5) / count), tangent});
 }
 
 std::uint64_t fingerprint(const EdgeModel& model) {

@@ -16,12 +16,18 @@ struct EdgeModelOptions {
   void validate() const;     // throws InputError naming the field and the violated bound
 };
 
+// A point of the paper's raster template, and the edge's unit direction there; object frame.
+struct RasterPoint {
+  Eigen::Vector3d point_m, tangent;
+};
+
 struct EdgeModel {
   // A sharp or open edge of the mesh, each once however many faces share it.
   struct Segment {
     Eigen::Vector3d from_m, to_m;
   };
   std::vector<Segment> creases;
+  std::vector<RasterPoint> crease_points;  // along them
   // Normals at the corners of every triangle, averaged by area over the smooth surface around the vertex:
   // they stay apart across a crease. Only triangles whose corner normals differ can carry a contour; `curved`
   // lists them.
@@ -40,6 +46,12 @@ struct EdgeModel {
 };
 
 EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options = {});
+
+// Appends what an edge from one place to another is sampled to. Short segments (a finely tessellated curve)
+// get a point with the probability of their length, decided by where they lie, so that curves are sampled as
+// densely as straight edges and equally in every run.
+void add_raster_points(const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m, double raster_step_m,
+                       std::vector<RasterPoint>& points);
 
 // Of its mesh, creases and raster step: what was made with a model of another one is not taken up with this
 // (a batch's results, an active detection's state).

@@ -25,41 +25,36 @@ struct Window {
   const float* depth;
   int size;
   Intrinsics k;
-  // Farthest surface in the 3 x 3 pixels around the projection.
-  double farthest_around(const Eigen::Vector3d& p) const {
-    const int u = int(std::lround(k.fx * p.x() / p.z() + k.cx)),
-              v = int(std::lround(k.fy * p.y() / p.z() + k.cy));
-    float farthest = 0;
-    for (int y = v - 1; y <= v + 1; ++y)
-      for (int x = u - 1; x <= u + 1; ++x) {
-        if (x < 0 || y < 0 || x >= size || y >= size) return DEPTH_EMPTY;
-        farthest = std::max(farthest, depth[std::size_t(y) * size + x]);
-      }
-    return farthest;
+  // Whether a surface in the 3 x 3 pixels around the projection, or none, lies as far as the point.
+  bool shows(const Eigen::Vector3d& p, double tolerance_m) const {
+    const double u = k.fx * p.x() / p.z() + k.cx + 0.5, v = k.fy * p.y() / p.z() + k.cy + 0.5;
+    if (!(u >= 1 && v >= 1 && u < size - 1 && v < size - 1)) return true;
+    const float* middle = depth + std::size_t(v) * std::size_t(size) + std::size_t(u);
+    const double nearest_m = p.z() - tolerance_m;
+    if (*middle >= nearest_m) return true;
+    for (const float* row : {middle - size, middle, middle + size})
+      for (int x = -1; x <= 1; ++x)
+        if (row[x] >= nearest_m) return true;
+    return false;
   }
 };
 
-void sample_segment(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const EdgeModel& model,
-                    const Se3& pose, const Window& window, double tolerance_m,
-                    std::vector<ModelPoint>& points) {
-  const Eigen::Vector3d along = to - from;
-  const double length = along.norm();
-  if (length <= 0) return;
-  const Eigen::Vector3d tangent = along / length;
-  // Short segments (a finely tessellated curve) get a point with the probability of their length, decided by
-  // where they lie, so that curves are sampled as densely as straight edges and equally in every run.
-  const double exact = length / model.raster_step_m;
-  const double dither = std::fmod(
-      std::abs(from.dot(Eigen::Vector3d(12.9898, 78.233, 37.719)) / model.raster_step_m) * 43.7585453, 1.0);
-  const int count = static_cast<int>(std::floor(exact + dither));
-  for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d x = from + along * ((i + 0.5) / count);
-    const Eigen::Vector3d in_camera = pose * x;
-    if (in_camera.z() <= 0 || in_camera.z() > window.farthest_around(in_camera) + tolerance_m) continue;
-    points.push_back({float(x.x()), float(x.y()), float(x.z()), float(tangent.x()), float(tangent.y()),
-                      float(tangent.z())});
+// Where the points of a template are taken from, and what is left of them.
+struct Looking {
+  Eigen::Matrix3d turn;
+  Eigen::Vector3d shift_m;
+  Window window;
+  double tolerance_m;
+  std::vector<ModelPoint> points;
+  void add_visible(std::span<const RasterPoint> from) {
+    for (const auto& [point_m, tangent] : from) {
+      const Eigen::Vector3d in_camera = turn * point_m + shift_m;
+      if (in_camera.z() > 0 && window.shows(in_camera, tolerance_m))
+        points.push_back({float(point_m.x()), float(point_m.y()), float(point_m.z()), float(tangent.x()),
+                          float(tangent.y()), float(tangent.z())});
+    }
   }
-}
+};
 
 // The contour of a curved surface inside one triangle: where the interpolated normal is perpendicular to the
 // line of sight.
@@ -82,16 +77,17 @@ bool contour_in_triangle(const EdgeModel& model, int triangle, const Eigen::Vect
 
 std::vector<ModelPoint> points_of_pose(const EdgeModel& model, const Se3& pose, const Window& window,
                                        double tolerance_m) {
-  std::vector<ModelPoint> points;
-  for (const EdgeModel::Segment& crease : model.creases)
-    sample_segment(crease.from_m, crease.to_m, model, pose, window, tolerance_m, points);
+  Looking looking{pose.rotation.toRotationMatrix(), pose.translation_m, window, tolerance_m, {}};
+  looking.add_visible(model.crease_points);
   const Eigen::Vector3d eye = inverse(pose).translation_m;
+  std::vector<RasterPoint> contours;
   for (int triangle : model.curved) {
     Eigen::Vector3d ends[2];
     if (contour_in_triangle(model, triangle, eye, ends))
-      sample_segment(ends[0], ends[1], model, pose, window, tolerance_m, points);
+      add_raster_points(ends[0], ends[1], model.raster_step_m, contours);
   }
-  return points;
+  looking.add_visible(contours);
+  return std::move(looking.points);
 }
 
 }  // namespace
