@@ -53,14 +53,15 @@ struct EdgeBound {
   int side;  // +1: x >= bound; -1: x <= bound; 0: a level edge, inside where bound >= 0
 };
 
-EdgeBound edge_bound(double ua, double va, double ub, double vb, double winding) {
+[[gnu::always_inline]] inline EdgeBound edge_bound(double ua, double va, double ub, double vb,
+                                                   double winding) {
   const double a = winding * (va - vb), b = winding * (ub - ua), c = -a * ua - b * va;
   if (a == 0) return {b, c, 0};
   return {-b / a, -c / a, a > 0 ? 1 : -1};
 }
 
 // Narrows [first, last] to the pixels of row y inside the edge.
-inline void narrow(const EdgeBound& edge, int y, double& first, double& last) {
+[[gnu::always_inline]] inline void narrow(const EdgeBound& edge, int y, double& first, double& last) {
   const double bound = edge.at_zero + edge.slope * y;
   if (edge.side > 0)
     first = std::max(first, std::ceil(bound));
@@ -72,16 +73,17 @@ inline void narrow(const EdgeBound& edge, int y, double& first, double& last) {
 
 // Lowers depth[0, count) to 1 / (start + i * step). The bounds are those of the triangle's corners: on a
 // sliver the plane's slope is rounding noise.
-EDGESCOUT_SIMD_CLONES
-void fill_span(float* depth, int count, float start, float step, float least, float most) {
+[[gnu::always_inline]] inline void fill_span(float* depth, int count, float start, float step, float least,
+                                             float most) {
   for (int i = 0; i < count; ++i) {
     const float inverse_z = std::min(most, std::max(least, start + step * static_cast<float>(i)));
     depth[i] = std::min(depth[i], 1 / inverse_z);
   }
 }
 
-void draw_triangle(const std::array<double, 3>& u, const std::array<double, 3>& v,
-                   const std::array<double, 3>& w, const Band& band) {
+[[gnu::always_inline]] inline void draw_triangle(const std::array<double, 3>& u,
+                                                 const std::array<double, 3>& v,
+                                                 const std::array<double, 3>& w, const Band& band) {
   const double du1 = u[1] - u[0], dv1 = v[1] - v[0], du2 = u[2] - u[0], dv2 = v[2] - v[0];
   const double area = du1 * dv2 - dv1 * du2;
   if (area == 0) return;
@@ -110,6 +112,17 @@ void draw_triangle(const std::array<double, 3>& u, const std::array<double, 3>& 
   }
 }
 
+// One clone holds it all: rounding is one instruction there, and a triangle of a fine mesh covers a pixel.
+EDGESCOUT_SIMD_CLONES
+void draw_triangles(const TriangleMesh& mesh, const Projected& at, const Band& band) {
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+    const std::uint32_t a = mesh.triangles[i], b = mesh.triangles[i + 1], c = mesh.triangles[i + 2];
+    if (at.inverse_z[a] == 0 || at.inverse_z[b] == 0 || at.inverse_z[c] == 0) continue;
+    draw_triangle({at.u[a], at.u[b], at.u[c]}, {at.v[a], at.v[b], at.v[c]},
+                  {at.inverse_z[a], at.inverse_z[b], at.inverse_z[c]}, band);
+  }
+}
+
 void draw_band(const TriangleMesh& mesh, const DepthJob& job, const Band& band) {
   thread_local Projected at;
   const std::size_t vertices = mesh.vertices_m.size() / 3;
@@ -117,12 +130,7 @@ void draw_band(const TriangleMesh& mesh, const DepthJob& job, const Band& band) 
   project_vertices(job, mesh.vertices_m.data(), vertices, at.u.data(), at.v.data(), at.inverse_z.data());
   std::fill(band.depth + std::size_t(band.y0) * band.width, band.depth + std::size_t(band.y1) * band.width,
             DEPTH_EMPTY);
-  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
-    const std::uint32_t a = mesh.triangles[i], b = mesh.triangles[i + 1], c = mesh.triangles[i + 2];
-    if (at.inverse_z[a] == 0 || at.inverse_z[b] == 0 || at.inverse_z[c] == 0) continue;
-    draw_triangle({at.u[a], at.u[b], at.u[c]}, {at.v[a], at.v[b], at.v[c]},
-                  {at.inverse_z[a], at.inverse_z[b], at.inverse_z[c]}, band);
-  }
+  draw_triangles(mesh, at, band);
 }
 
 }  // namespace
