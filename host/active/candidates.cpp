@@ -39,14 +39,19 @@ std::vector<Detection> different_ones(const std::vector<Detection>& detections,
   return kept;
 }
 
+// Of 40,000 an image, of which the known instances' are left out.
+constexpr std::size_t HITS_JUDGED = 20000;
+
 std::vector<ScanHit> hits_of(const TemplateSet& set, std::size_t object, std::span<const Observation> images,
-                             Backend& backend, const DetectOptions& options) {
+                             std::span<const Se3> known, Backend& backend, const DetectOptions& options) {
   std::vector<std::span<const ScanHit>> hits;
   for (const Observation& image : images) {
     check(object < image.hits.size(), "candidates_in_images: an image that was not scanned");
     hits.push_back(*image.hits[object]);
   }
-  return pooled_hits(set, images, hits, options.helping_views, backend, options.scan);
+  return pooled_hits(set, images, hits, options.helping_views,
+                     drawn_to(known, set, images.back().view.camera_from_world), HITS_JUDGED, backend,
+                     options.scan);
 }
 
 }  // namespace
@@ -62,7 +67,7 @@ std::vector<Detection> candidates_in_images(std::span<const TemplateSet> sets,
     for (const Hypothesis& instance : known)
       if (instance.object == static_cast<int>(object)) same.push_back(instance.world_from_object);
     for (const Refined& candidate :
-         find_candidates(sets[object], hits_of(sets[object], object, images, backend, options), newest,
+         find_candidates(sets[object], hits_of(sets[object], object, images, same, backend, options), newest,
                          images.first(images.size() - 1), same, backend, options)) {
       found.push_back(candidate_in_world(
           to_detection(static_cast<int>(object), candidate.registration, candidate.features),

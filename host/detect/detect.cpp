@@ -2,7 +2,6 @@
 
 #include "host/core/option_bounds.h"
 #include "host/detect/helping_views.h"
-#include "host/detect/joint_scan.h"
 #include "host/detect/probability_over_views.h"
 #include "host/detect/suppression.h"
 
@@ -36,9 +35,9 @@ std::vector<Se3> poses_of(std::span<const Hypothesis> hypotheses) {
 }
 
 KnownPoses in_camera(std::span<const Se3> known_in_world, const TemplateSet& set,
-                     const Observation& observation) {
+                     const Se3& camera_from_world) {
   std::vector<Se3> poses;
-  for (const Se3& pose : known_in_world) poses.push_back(observation.view.camera_from_world * pose);
+  for (const Se3& pose : known_in_world) poses.push_back(camera_from_world * pose);
   return {poses, set.model.mesh, set.symmetries};
 }
 
@@ -146,6 +145,14 @@ Detection to_detection(int object, const Registration& registration, const PoseF
   return d;
 }
 
+UnwantedPose drawn_to(std::span<const Se3> known_in_world, const TemplateSet& set,
+                      const Se3& camera_from_world) {
+  return [known = in_camera(known_in_world, set, camera_from_world),
+          radius_m = DRAWN_TO * set.model.mesh.diameter_m](const Se3& camera_from_object) {
+    return known.any_within(radius_m, camera_from_object);
+  };
+}
+
 std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation, Backend& backend,
                                      const DetectOptions& options) {
   return find_candidates(set, observation, {}, {}, backend, options);
@@ -170,14 +177,15 @@ std::vector<Refined> find_candidates(const TemplateSet& set, std::vector<ScanHit
       helping_views(observation, all_others, std::size_t(options.helping_views));
   const std::span<const EdgeModel> models(&set.model, 1);
   const std::vector<RegisterView> full = views_around(observation, others);
-  const KnownPoses known_here = in_camera(known, set, observation);
-  const auto is_known = [&](const Se3& pose, double radius) {
-    return known_here.any_within(radius * set.model.mesh.diameter_m, pose);
+  const UnwantedPose unwanted = drawn_to(known, set, observation.view.camera_from_world);
+  std::erase_if(hits, [&](const ScanHit& hit) { return unwanted(hit.camera_from_object); });
+  const KnownPoses known_here = in_camera(known, set, observation.view.camera_from_world);
+  const auto is_known = [&](const Se3& pose) {
+    return known_here.any_within(SAME_POSE * set.model.mesh.diameter_m, pose);
   };
-  std::erase_if(hits, [&](const ScanHit& hit) { return is_known(hit.camera_from_object, DRAWN_TO); });
   std::vector<Hypothesis> hypotheses = aligned_hits(set, hits, coarse_of(full), backend, options);
   hypotheses = as_hypotheses(hypotheses, register_poses(models, hypotheses, full, backend, options.touch_up));
-  std::erase_if(hypotheses, [&](const Hypothesis& h) { return is_known(h.world_from_object, SAME_POSE); });
+  std::erase_if(hypotheses, [&](const Hypothesis& h) { return is_known(h.world_from_object); });
   const std::vector<Se3> poses = poses_of(hypotheses);
   const std::vector<PoseFeatures> features = pose_features_by_view(
       models, hypotheses, full, backend, options.refine.score, options.touch_up.visibility);
@@ -191,8 +199,7 @@ std::vector<Refined> find_candidates(const TemplateSet& set, std::vector<ScanHit
   if (!others.empty())
     refine.search.rotation_rad = 0;  // several views leave no doubt that a search could settle
   std::vector<Refined> refined = refine_poses(models, hypotheses_at(poses, chosen), full, backend, refine);
-  std::erase_if(refined,
-                [&](const Refined& r) { return is_known(r.registration.world_from_object, SAME_POSE); });
+  std::erase_if(refined, [&](const Refined& r) { return is_known(r.registration.world_from_object); });
   std::vector<Se3> final_poses;
   for (const Refined& r : refined) final_poses.push_back(r.registration.world_from_object);
   std::vector<Refined> different;

@@ -5,6 +5,7 @@
 
 #include "host/detect/coarse_scan.h"
 #include "host/detect/evidence.h"
+#include "host/detect/joint_scan.h"
 #include "host/detect/plausible_pairs.h"
 #include "host/detect/probability.h"
 #include "host/register/refine.h"
@@ -40,6 +41,11 @@ struct DetectOptions {
 
 Detection to_detection(int object, const Registration& registration, const PoseFeatures& features);
 
+// Whether a pose in the frame of this camera lies so near a known instance, within a fifth of the diameter,
+// that the alignment would draw it there.
+UnwantedPose drawn_to(std::span<const Se3> known_in_world, const TemplateSet& set,
+                      const Se3& camera_from_world);
+
 // The registered candidates of one object in one view (world: its camera frame), highest log-odds first,
 // duplicates merged.
 std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation, Backend& backend,
@@ -49,7 +55,7 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
 // (joint_scan.h), registered in all of them, and ranked by what all of them say (probability_over_views.h).
 // Of many others some are taken (helping_views.h). Refined::by_view has the given view first, then those that
 // helped. `known` are the instances of the object that need not be found again, in the world of the views:
-// hits within a fifth of the diameter are not aligned (nor those of another part stacked so near on one), and
+// hits that are drawn to them are not aligned (nor those of another part stacked so near on one), and
 // what ends within a tenth is no candidate.
 std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation,
                                      std::span<const Observation> others, std::span<const Se3> known,

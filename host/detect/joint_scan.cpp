@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "host/detect/helping_views.h"
 #include "host/detect/template_projection.h"
@@ -13,9 +14,19 @@ namespace edgescout {
 
 namespace {
 
-constexpr int STEPS = 5;               // distances tried, evenly over the gap between templates
 constexpr std::size_t AT_ONCE = 4096;  // hits: 10 MB of points
 constexpr double CHANCE_PX = TEMPLATE_SCORE_OUTSIDE / 4.0;
+
+// How closely a hit is looked at: points of its template, and distances tried, evenly over the gap between
+// templates.
+struct Care {
+  int points, steps;
+  double further(int step, double distance_ratio) const {
+    return (distance_ratio - 1) * (step / double(steps - 1) - 0.5);
+  }
+};
+constexpr int STEPS = 5;
+constexpr Care QUICK{20, 3};
 
 // A viewpoint's points, and which of a pose's equal ones a camera sees them at.
 struct SeenTemplate {
@@ -53,12 +64,11 @@ class NearestViews {
   Eigen::MatrixX3d towards_camera_;  // one row a view
 };
 
-// A hit in the camera frame of one of the images, and the distances it is tried at.
+// A hit in the camera frame of one of the images, and the way it is moved along.
 struct MovedHit {
   Se3 camera_from_object;
   Eigen::Vector3d towards_m;  // from its own camera to its middle
-  Se3 at(int step, double distance_ratio) const {
-    const double further = (distance_ratio - 1) * (step / double(STEPS - 1) - 0.5);
+  Se3 at(double further) const {
     return {camera_from_object.rotation, camera_from_object.translation_m + further * towards_m};
   }
 };
@@ -104,11 +114,12 @@ Pose moved_to(Pose pose, const Eigen::Vector3d& translation_m) {
   return pose;
 }
 
-// What this view says of the hits, in the frame of its camera: STEPS of every one, side by side.
+// What this view says of the hits, in the frame of its camera: all steps of every one, side by side.
 std::vector<Say> says_of(const Observation& view, const TemplateSet& set, const NearestViews& templates,
-                         std::span<const MovedHit> moved, Backend& backend, const ScanOptions& options) {
+                         std::span<const MovedHit> moved, Backend& backend, const Care& care) {
   const auto& salient = *view.salient;
-  const std::size_t width = std::size_t(options.points), count = moved.size() * STEPS;
+  const std::size_t width = std::size_t(care.points), steps = std::size_t(care.steps),
+                    count = moved.size() * steps;
   std::vector<TemplatePoint> points(count * width);
   std::vector<TemplateJob> jobs(count);
   std::vector<int> shown(count);  // points; none: chance, or hidden
@@ -126,13 +137,14 @@ std::vector<Say> says_of(const Observation& view, const TemplateSet& set, const 
   };
   const auto look_all_steps = [&](std::size_t h) {
     // three degrees at most between the steps, where viewpoints stand eleven apart
-    const SeenTemplate seen = templates.seen_at(moved[h].at(STEPS / 2, set.options.distance_ratio));
+    const SeenTemplate seen = templates.seen_at(moved[h].camera_from_object);
     const Pose turned = to_pose(moved[h].camera_from_object * *seen.symmetry);
     const Eigen::Vector3d middle_m = moved[h].camera_from_object.rotation * set.model.center_m,
                           place_m = moved[h].camera_from_object.rotation * seen.symmetry->translation_m;
-    for (int step = 0; step < STEPS; ++step) {
-      const Eigen::Vector3d at_m = moved[h].at(step, set.options.distance_ratio).translation_m;
-      const std::size_t j = h * STEPS + std::size_t(step);
+    for (std::size_t step = 0; step < steps; ++step) {
+      const Eigen::Vector3d at_m =
+          moved[h].at(care.further(int(step), set.options.distance_ratio)).translation_m;
+      const std::size_t j = h * steps + step;
       says[j].rank = scan_size_weight((at_m + middle_m).norm());
       look(j, moved_to(turned, at_m + place_m), *seen.view);
     }
@@ -150,30 +162,80 @@ std::vector<Say> says_of(const Observation& view, const TemplateSet& set, const 
 
 // In place.
 void judge(const TemplateSet& set, const NearestViews& templates, std::span<ScanHit> hits,
-           const Observation& own, std::span<const Observation> others, Backend& backend,
-           const ScanOptions& options) {
+           const Observation& own, std::span<const Observation> others, Backend& backend, const Care& care) {
+  const std::size_t steps = std::size_t(care.steps);
   std::vector<MovedHit> moved;
   for (const ScanHit& hit : hits)
     moved.push_back({hit.camera_from_object, hit.camera_from_object * set.model.center_m});
-  std::vector<double> sums(moved.size() * STEPS), weights(sums.size(), 1);  // its own view's say is whole
-  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = hits[i / STEPS].rank;
+  std::vector<double> sums(moved.size() * steps), weights(sums.size(), 1);  // its own view's say is whole
+  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = hits[i / steps].rank;
   std::vector<MovedHit> there(moved.size());
   for (const Observation& other : others) {
     const Se3 other_from_own = other.view.camera_from_world * inverse(own.view.camera_from_world);
     std::ranges::transform(moved, there.begin(), [&](const MovedHit& hit) {
       return MovedHit{other_from_own * hit.camera_from_object, other_from_own.rotation * hit.towards_m};
     });
-    const std::vector<Say> says = says_of(other, set, templates, there, backend, options);
+    const std::vector<Say> says = says_of(other, set, templates, there, backend, care);
     for (std::size_t i = 0; i < sums.size(); ++i)
       sums[i] += says[i].weight * says[i].rank, weights[i] += says[i].weight;
   }
   for (std::size_t h = 0; h < hits.size(); ++h) {
-    std::size_t best = h * STEPS;
-    for (std::size_t i = best; i < (h + 1) * STEPS; ++i)
+    std::size_t best = h * steps;
+    for (std::size_t i = best; i < (h + 1) * steps; ++i)
       if (sums[i] / weights[i] < sums[best] / weights[best]) best = i;
-    hits[h].camera_from_object = moved[h].at(int(best % STEPS), set.options.distance_ratio);
+    hits[h].camera_from_object = moved[h].at(care.further(int(best % steps), set.options.distance_ratio));
     hits[h].rank = sums[best] / weights[best];
   }
+}
+
+// In the order given.
+std::vector<ScanHit> judged(const TemplateSet& set, std::span<const ScanHit> hits, const Observation& own,
+                            std::span<const Observation> others, Backend& backend, const Care& care) {
+  std::vector<ScanHit> judged(hits.begin(), hits.end());
+  if (others.empty()) return judged;
+  const NearestViews templates(set, care.points);
+  for (std::size_t begin = 0; begin < judged.size(); begin += AT_ONCE)
+    judge(set, templates, std::span(judged).subspan(begin, std::min(AT_ONCE, judged.size() - begin)), own,
+          others, backend, care);
+  return judged;
+}
+
+// What the hits of each image are judged by, and where they lie for the last image.
+struct Judges {
+  std::vector<std::vector<Observation>> others;
+  std::vector<Se3> last_from_own;
+  Judges(std::span<const Observation> images, int helping) {
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      others.push_back(helping_views(images[i], all_but(images, i), std::size_t(helping)));
+      last_from_own.push_back(images.back().view.camera_from_world *
+                              inverse(images[i].view.camera_from_world));
+    }
+  }
+};
+
+// The hits of each image that are among the `most` which a quick look ranks best.
+std::vector<std::vector<ScanHit>> worth_judging(const TemplateSet& set, std::span<const Observation> images,
+                                                std::span<const std::span<const ScanHit>> hits,
+                                                const Judges& judges, const UnwantedPose& unwanted,
+                                                std::size_t most, Backend& backend) {
+  std::vector<std::vector<double>> ranks(images.size());
+  std::vector<double> all;
+  for (std::size_t i = 0; i < images.size(); ++i)
+    for (const ScanHit& hit : judged(set, hits[i], images[i], judges.others[i], backend, QUICK)) {
+      const bool left_out = unwanted(judges.last_from_own[i] * hit.camera_from_object);
+      ranks[i].push_back(left_out ? INFINITY : hit.rank);
+      if (!left_out) all.push_back(hit.rank);
+    }
+  double limit = std::numeric_limits<double>::max();
+  if (images.size() > 1 && all.size() > most) {
+    std::ranges::nth_element(all, all.begin() + std::ptrdiff_t(most));
+    limit = all[most];
+  }
+  std::vector<std::vector<ScanHit>> worth(images.size());
+  for (std::size_t i = 0; i < images.size(); ++i)
+    for (std::size_t h = 0; h < hits[i].size(); ++h)
+      if (ranks[i][h] <= limit) worth[i].push_back(hits[i][h]);
+  return worth;
 }
 
 }  // namespace
@@ -181,30 +243,22 @@ void judge(const TemplateSet& set, const NearestViews& templates, std::span<Scan
 std::vector<ScanHit> judged_by_all(const TemplateSet& set, std::span<const ScanHit> hits,
                                    const Observation& own, std::span<const Observation> others,
                                    Backend& backend, const ScanOptions& options) {
-  std::vector<ScanHit> judged(hits.begin(), hits.end());
-  if (others.empty()) return judged;
-  const NearestViews templates(set, options.points);
-  for (std::size_t begin = 0; begin < judged.size(); begin += AT_ONCE)
-    judge(set, templates, std::span(judged).subspan(begin, std::min(AT_ONCE, judged.size() - begin)), own,
-          others, backend, options);
-  return judged;
+  return judged(set, hits, own, others, backend, {options.points, STEPS});
 }
 
 std::vector<ScanHit> pooled_hits(const TemplateSet& set, std::span<const Observation> images,
                                  std::span<const std::span<const ScanHit>> hits, int helping,
-                                 Backend& backend, const ScanOptions& options) {
+                                 const UnwantedPose& unwanted, std::size_t most, Backend& backend,
+                                 const ScanOptions& options) {
+  const Judges judges(images, helping);
+  const std::vector<std::vector<ScanHit>> worth =
+      worth_judging(set, images, hits, judges, unwanted, most, backend);
   std::vector<ScanHit> pooled;
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    const std::vector<Observation> others = all_but(images, i);
-    const Se3 last_from_own =
-        images.back().view.camera_from_world * inverse(images[i].view.camera_from_world);
-    for (ScanHit hit :
-         judged_by_all(set, hits[i], images[i], helping_views(images[i], others, std::size_t(helping)),
-                       backend, options)) {
-      hit.camera_from_object = last_from_own * hit.camera_from_object;
-      pooled.push_back(hit);
+  for (std::size_t i = 0; i < images.size(); ++i)
+    for (ScanHit hit : judged_by_all(set, worth[i], images[i], judges.others[i], backend, options)) {
+      hit.camera_from_object = judges.last_from_own[i] * hit.camera_from_object;
+      if (!unwanted(hit.camera_from_object)) pooled.push_back(hit);
     }
-  }
   return pooled;
 }
 

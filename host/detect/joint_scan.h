@@ -6,6 +6,7 @@
 // the one that all images together like best (docs/evaluation.md: what that is worth).
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -22,12 +23,18 @@ std::vector<ScanHit> judged_by_all(const TemplateSet& set, std::span<const ScanH
                                    const Observation& own, std::span<const Observation> others,
                                    Backend& backend, const ScanOptions& options);
 
+// Poses, in the camera frame of the last image, that are not looked for.
+using UnwantedPose = std::function<bool(const Se3& camera_from_object)>;
+
 // The hits of all images, `hits[i]` of images[i], each judged by all images (of many others by as many as
 // `helping_views`, helping_views.h), in the camera frame of the last one. What an image shows may be no more
 // than one among thousands of hits there, and not be seen in the next image at all: with each further image
-// to judge them the hits of earlier ones tell more.
+// to judge them the hits of earlier ones tell more. A quick look, at a third of the points and three of the
+// five distances, leaves `most` of those that are not unwanted, of ties all; what it says is not returned. An
+// only image's hits stay as they are.
 std::vector<ScanHit> pooled_hits(const TemplateSet& set, std::span<const Observation> images,
                                  std::span<const std::span<const ScanHit>> hits, int helping_views,
-                                 Backend& backend, const ScanOptions& options);
+                                 const UnwantedPose& unwanted, std::size_t most, Backend& backend,
+                                 const ScanOptions& options);
 
 }  // namespace edgescout

@@ -101,6 +101,8 @@ struct SeenPart {
   }
 };
 
+const UnwantedPose nothing_unwanted = [](const Se3&) { return false; };
+
 ScanHit hit_at(const Se3& pose, double rank) {
   ScanHit hit;
   hit.camera_from_object = pose;
@@ -253,7 +255,7 @@ TEST(JointScan, PoolsWhatEveryImageHas) {
   const std::vector<std::span<const ScanHit>> spans(hits.begin(), hits.end());
   for (const int helping : {3, 1}) {
     const std::vector<ScanHit> pooled =
-        pooled_hits(t.set, t.views, spans, helping, *t.backend, ScanOptions{});
+        pooled_hits(t.set, t.views, spans, helping, nothing_unwanted, 30, *t.backend, ScanOptions{});
     ASSERT_EQ(pooled.size(), 30u);
     std::size_t next = 0;
     for (std::size_t v = 0; v < 4; ++v) {
@@ -289,12 +291,52 @@ TEST(JointScan, AnEarlierHitComesFirstOnceOtherImagesShowIt) {
     hits[0].push_back(hit_at(t.views[0].view.camera_from_world * t.truth, 1.5));
     const std::vector<ScanHit> pooled =
         pooled_hits(t.set, t.views, std::vector<std::span<const ScanHit>>(hits.begin(), hits.end()), 4,
-                    *t.backend, ScanOptions{});
+                    nothing_unwanted, 60, *t.backend, ScanOptions{});
     const ScanHit& best = *std::ranges::min_element(pooled, {}, &ScanHit::rank);
     const Se3 truth = t.views[2].view.camera_from_world * t.truth;
     EXPECT_LT((best.camera_from_object.translation_m - truth.translation_m).norm(), 0.02);
     EXPECT_LT(best.camera_from_object.rotation.angularDistance(truth.rotation), 1e-6);
   }
+}
+
+// What a quick look leaves is the best of what all would be, and nothing unwanted takes a place among it.
+TEST(JointScan, AQuickLookKeepsTheBestThatAreWanted) {
+  Random random = test_random();
+  const SeenPart t(3, 300, random);
+  std::vector<std::vector<ScanHit>> hits(3);
+  for (std::size_t v = 0; v < 3; ++v)
+    for (int i = 0; i < 400; ++i) {
+      Vector6d off;
+      off << 0.03 * random.uniform() * random.direction(), 0.8 * random.uniform() * random.direction();
+      hits[v].push_back(
+          hit_at(retract(t.views[v].view.camera_from_world * t.truth, off), random.uniform(1, 2)));
+    }
+  const std::vector<std::span<const ScanHit>> spans(hits.begin(), hits.end());
+  const auto pooled = [&](const UnwantedPose& unwanted, std::size_t most) {
+    std::vector<ScanHit> found =
+        pooled_hits(t.set, t.views, spans, 4, unwanted, most, *t.backend, ScanOptions{});
+    std::ranges::sort(found, {}, &ScanHit::rank);
+    return found;
+  };
+  const std::vector<ScanHit> all = pooled(nothing_unwanted, 1200), some = pooled(nothing_unwanted, 300);
+  ASSERT_EQ(all.size(), 1200u);
+  EXPECT_GE(some.size(), 300u);
+  EXPECT_LT(some.size(), 330u) << "of ties all";
+  const auto among = [](const ScanHit& hit, const std::vector<ScanHit>& others) {
+    return std::ranges::any_of(others, [&](const ScanHit& other) {
+      return other.rank == hit.rank &&
+             other.camera_from_object.translation_m == hit.camera_from_object.translation_m;
+    });
+  };
+  int kept = 0;
+  for (std::size_t i = 0; i < 60; ++i) kept += among(all[i], some);
+  EXPECT_GE(kept, 58) << "of the best twentieth in the best quarter";
+  const Eigen::Vector3d middle_m = t.views[2].view.camera_from_world * Eigen::Vector3d::Zero();
+  const auto is_high = [&](const Se3& pose) { return (pose * t.set.model.center_m).y() < middle_m.y(); };
+  const std::vector<ScanHit> low = pooled(is_high, 300);
+  EXPECT_GE(low.size(), 250u) << "what the unwanted leave free is taken; a closer look moves some among them";
+  for (const ScanHit& hit : low) EXPECT_FALSE(is_high(hit.camera_from_object));
+  EXPECT_TRUE(pooled([](const Se3&) { return true; }, 300).empty());
 }
 
 }  // namespace
