@@ -188,20 +188,28 @@ double unrepeated(const Eigen::Vector3d& direction, std::span<const Eigen::Vecto
   return left;
 }
 
-// What is left of the information where some cannot be seen and some has been told, one an open view.
-std::vector<double> shares_left(std::span<const std::size_t> open, const Planning& planning,
+// What is left of a view's information where some cannot be seen and some has been told; the same of what is
+// unknown.
+struct Shares {
+  double known = 1, unknown = 1;
+};
+
+// One an open view.
+std::vector<Shares> shares_left(std::span<const std::size_t> open, const Planning& planning,
                                 const NextViewOptions& options) {
-  std::vector<double> shares(open.size(), 1);
+  std::vector<Shares> shares(open.size());
   const std::optional<Eigen::Vector3d> center_m = looked_at_m(planning.views);
-  if (!center_m || options.strategy != Strategy::Information || options.literal) return shares;
+  if (!center_m) return shares;
   std::vector<Se3> taken;
   for (const RegisterView& view : planning.real_views) taken.push_back(view.camera_from_world);
   const std::vector<Eigen::Vector3d> directions = directions_to(planning.views, *center_m),
                                      real = directions_to(taken, *center_m);
   const std::vector<double> free = free_sights(directions, options.free_sight);
   for (std::size_t i = 0; i < open.size(); ++i) {
-    shares[i] = free[open[i]];
-    if (options.repeat_rad > 0) shares[i] *= unrepeated(directions[open[i]], real, options.repeat_rad);
+    const auto left = [&](double repeat_rad) {
+      return free[open[i]] * (repeat_rad > 0 ? unrepeated(directions[open[i]], real, repeat_rad) : 1);
+    };
+    shares[i] = {left(options.repeat_rad), left(options.unknown_repeat_rad)};
   }
   return shares;
 }
@@ -260,6 +268,8 @@ void NextViewOptions::validate() const {
   in("seen", seen_px, 0, EdgeIndex::CELL_PX);
   in("free_sight", free_sight, 0, 100);
   in("repeat_rad", repeat_rad, 0, 100);
+  in("unknown_nats", unknown_nats, 0, 1e3);
+  in("unknown_repeat_rad", unknown_repeat_rad, 0, 100);
   const double dearest = strategy == Strategy::Information ? 1e9 : 0;  // the others do not count in nats
   in("motion_cost_per_m", motion_cost_per_m, 0, dearest);
   in("motion_cost_per_rad", motion_cost_per_rad, 0, dearest);
@@ -281,9 +291,13 @@ std::vector<ViewInformation> view_information(const Planning& planning, Backend&
   }
   if (open.empty()) return views;
   const std::vector<double> information = information_of(planning, open, backend, options);
-  const std::vector<double> shares = shares_left(open, planning, options);
+  const bool in_nats = options.strategy == Strategy::Information && !options.literal;
+  const std::vector<Shares> shares =
+      in_nats ? shares_left(open, planning, options) : std::vector<Shares>(open.size());
+  const double unknown_nats = in_nats ? options.unknown_nats : 0;
   for (std::size_t i = 0; i < open.size(); ++i)
-    views[open[i]] = {true, shares[i] * information[i], shares[i],
+    views[open[i]] = {true, shares[i].known * information[i], shares[i].known,
+                      unknown_nats * shares[i].unknown,
                       motion_cost(planning, planning.views[open[i]], options)};
   if (std::ranges::none_of(information, [](double x) { return x > 0; }))
     log(LogLevel::Warning,

@@ -42,6 +42,12 @@ struct NextViewOptions {
   // as seen from what the views look at, has told exp(-(theta / repeat_rad)^2) already; the nearest one
   // counts. 0: every view is new, as in the paper's own formula always.
   double repeat_rad = 0.45;
+  // What no candidate is for may lie wherever no view has looked yet: a view that is new and open is expected
+  // to tell so many nats of it (ViewInformation::discovery). Little beside what a second view promises about
+  // the candidates; what is left to gain once they are settled. 0: no information but about candidates, as in
+  // the paper, and in its own formula always.
+  double unknown_nats = 0.5;
+  double unknown_repeat_rad = 1;  // as repeat_rad, of what is unknown
   double motion_cost_per_m = 0;  // nats, taken off the information (Strategy::Information alone): for the way
                                  // from the last view's camera
   double motion_cost_per_rad = 0;
@@ -70,8 +76,10 @@ struct ViewInformation {
   double information = 0;  // Information: nats; Disocclusion: sum of psi times new visible points; Random: a
                            // draw from [0, 1); Fixed: falls along the sequence
   double share = 0;        // that free_sight and repeat_rad leave: information is so much of the mutual one
+  double discovery = 0;    // nats expected of what is unknown; Strategy::Information alone
   double motion_cost = 0;  // from the last real view
-  double value() const { return information - motion_cost; }
+  double expected() const { return information + discovery; }
+  double value() const { return expected() - motion_cost; }
 };
 
 // One a view. Without particles, candidates or combinations, and for views that see nothing of them, the

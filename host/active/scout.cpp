@@ -106,10 +106,13 @@ std::optional<ScoutDecision> Scout::propose() {
 // Without candidates there is nothing that information could be about, and everything to find.
 bool Scout::may_find_more() const { return state_.candidates.empty(); }
 
+// About the candidates: what is unknown promises something as long as views are left.
 bool Scout::little_to_learn(const ScoutDecision& decision) const {
-  return options_.next_view.strategy == Strategy::Information && options_.min_information_nats > 0 &&
-         !may_find_more() &&
-         decision.views[static_cast<std::size_t>(decision.view)].value() < options_.min_information_nats;
+  if (options_.next_view.strategy != Strategy::Information || options_.min_information_nats <= 0 ||
+      may_find_more())
+    return false;
+  const ViewInformation& chosen = decision.views[static_cast<std::size_t>(decision.view)];
+  return chosen.information - chosen.motion_cost < options_.min_information_nats;
 }
 
 void Scout::give(int view, const Image& image) {

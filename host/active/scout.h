@@ -55,7 +55,8 @@ struct ScoutOptions {
   // The end, whichever comes first. A limit of 0 is none.
   int max_views = 5;               // images
   double min_entropy_nats = 0.01;  // less: the modes are certain; and no new candidates in the last image
-  // less expected of the best view, what its way costs taken off (Strategy::Information): not worth it
+  // less expected of the best view about the candidates, what its way costs taken off
+  // (Strategy::Information): not worth it
   double min_information_nats = 0;
   double min_gained_nats = 0;  // less from the last image, and no new candidates in it
   double max_seconds = 0;      // of computing

@@ -9,7 +9,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 10, "scout state"};
+constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 11, "scout state"};
 
 template <typename T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -72,7 +72,9 @@ template <typename T, typename Struct>
 concept A = std::same_as<std::remove_const_t<T>, Struct>;
 
 void fields(auto& io, A<StageSeconds> auto& x) { io(x.name, x.seconds); }
-void fields(auto& io, A<ViewInformation> auto& x) { io(x.open, x.information, x.share, x.motion_cost); }
+void fields(auto& io, A<ViewInformation> auto& x) {
+  io(x.open, x.information, x.share, x.discovery, x.motion_cost);
+}
 void fields(auto& io, A<ViewAgreement> auto& x) { io(x.residual_px, x.objects, x.missing, x.disagrees); }
 void fields(auto& io, A<PoseFeatures> auto& x) {
   io(x.psi, x.beside_psi, x.mean_px, x.matched, x.points, x.length_px, x.in_image, x.visible,

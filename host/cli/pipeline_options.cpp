@@ -67,6 +67,10 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
                "How much lower cameras are hidden by what is unknown; 0: not at all")
       .bounded("repeat-angle", o.next_view.repeat_rad, 0.0, 100.0,
                "Within which views tell much the same, rad; 0: every view is new")
+      .bounded("unknown", o.next_view.unknown_nats, 0.0, 1000.0,
+               "Expected of a view about what is no candidate yet, nats")
+      .bounded("unknown-angle", o.next_view.unknown_repeat_rad, 0.0, 100.0,
+               "As --repeat-angle, of what is unknown")
       .bounded(
           "seen", o.next_view.seen_px, 0.0, 8.0,
           "A part's point was seen in an image whose edges lie so near, px; 0: wherever it lies in one, as "

@@ -73,7 +73,7 @@ void refuse_idle_options(const ScoutRequest& request, const CLI::App& verb) {
       refuse(option, "--strategy " + request.strategy, "mi-max");
   if (o.probable_combinations) refuse("--sharpness", "--scenes-by-probability", "--scenes-by-psi");
   if (o.next_view.literal)
-    for (const char* option : {"--free-sight", "--repeat-angle", "--seen"})
+    for (const char* option : {"--free-sight", "--repeat-angle", "--seen", "--unknown", "--unknown-angle"})
       refuse(option, "--literal", "the information by default");
 }
 

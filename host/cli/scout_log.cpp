@@ -72,6 +72,7 @@ json step_json(const ScoutStep& step, const ScoutReport& report) {
           {"information", of_open_views(step.decision.views, &ViewInformation::information)},
           {"information_unit", unit_of(step.decision.strategy)},
           {"information_share", of_open_views(step.decision.views, &ViewInformation::share)},
+          {"discovery", of_open_views(step.decision.views, &ViewInformation::discovery)},
           {"motion_cost", of_open_views(step.decision.views, &ViewInformation::motion_cost)},
           {"decision_ms", stages_json(step.decision.stages)},
           {"camera_from_world", pose_json(step.camera_from_world)},

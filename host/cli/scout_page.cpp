@@ -139,9 +139,9 @@ class Page {
     const ScoutDecision& why = s.decision;
     std::string html = fmt::format(
         "<section><h2>Image {} <small>view {}{}</small></h2>{}<div class=row>", i + 1, why.view,
-        why.views.empty()
-            ? ""
-            : fmt::format(", {:.3f} {} expected", why.views[why.view].information, unit_of(why.strategy)),
+        why.views.empty() ? ""
+                          : fmt::format(", {:.3f} {} expected{}", why.views[why.view].expected(),
+                                        unit_of(why.strategy), of_the_unknown(why.views[why.view])),
         warnings(s));
     html +=
         figure(hemisphere(i),
@@ -164,6 +164,10 @@ class Page {
     return html + numbers(s) + "</section>";
   }
 
+  static std::string of_the_unknown(const ViewInformation& view) {
+    return view.discovery > 0 ? fmt::format(", {:.3f} of them of what is unknown", view.discovery) : "";
+  }
+
   // Of this image and of earlier ones, on which this one has had its say.
   static std::string warnings(const ScoutStep& s) {
     std::string html;
@@ -181,7 +185,7 @@ class Page {
     std::vector<DrawnView> drawn;
     for (const Se3& view : state_.views) drawn.push_back({view, {}, 0, false, false});
     for (std::size_t v = 0; v < why.views.size(); ++v)
-      if (why.views[v].open) drawn[v].information = why.views[v].information;
+      if (why.views[v].open) drawn[v].information = why.views[v].expected();
     for (std::size_t k = 0; k < step; ++k)
       drawn[state_.steps[k].decision.view].taken = static_cast<int>(k) + 1;
     for (const FailedView& failed : state_.failed)

@@ -211,6 +211,8 @@ Notes options(const ExperimentSettings& s) {
               {"sigma_px", number_text(o.next_view.sigma_px)},
               {"free_sight", number_text(o.next_view.free_sight)},
               {"repeat_rad", number_text(o.next_view.repeat_rad)},
+              {"unknown_nats", number_text(o.next_view.unknown_nats)},
+              {"unknown_repeat_rad", number_text(o.next_view.unknown_repeat_rad)},
               {"seen_px", number_text(o.next_view.seen_px)},
               {"formula", o.next_view.literal ? "literal" : "mutual information"},
               {"min_probability", number_text(o.detections.min_probability)}};

@@ -96,8 +96,8 @@ TEST(ViewInformation, OfViewsThatSeeNothingIsZero) {
   EXPECT_NE(log.messages[0].second.find("no view promises"), std::string::npos);
   EXPECT_EQ(best_view(blind), 1);
   // Of equals the one of most share.
-  std::vector<ViewInformation> equal(4, {true, 0, 0.5, 0});
-  equal[2].share = 0.9, equal[3] = {false, 0, 1, 0};
+  std::vector<ViewInformation> equal(4, {true, 0, 0.5});
+  equal[2].share = 0.9, equal[3] = {false, 0, 1};
   EXPECT_EQ(best_view(equal), 2);
   equal[1].information = 1e-6;
   EXPECT_EQ(best_view(equal), 1);
@@ -256,6 +256,37 @@ TEST(ViewInformation, IsWorthLessNearARealView) {
   t.options.repeat_rad = 0;
   const std::vector<ViewInformation> all = t.information();
   for (std::size_t v = 1; v < views.size(); ++v) EXPECT_EQ(some[v].information, all[v].information);
+}
+
+// What no candidate is for is expected where no view has looked yet, whatever is expected of the candidates.
+TEST(ViewInformation, ExpectsSomethingOfTheUnknownFarFromRealViews) {
+  Plan t;
+  t.options.free_sight = 0.5;
+  const std::vector<ViewInformation> known = t.information();
+  t.options.unknown_nats = 0.7;
+  t.options.unknown_repeat_rad = 1.2;
+  const std::vector<ViewInformation> views = t.information();
+  const auto direction = [&](const Se3& view) {
+    return Eigen::Vector3d((inverse(view).translation_m - Eigen::Vector3d(0, 0, 0.02)).normalized());
+  };
+  for (std::size_t v = 1; v < views.size(); ++v) {
+    const Eigen::Vector3d here = direction(t.views[v]);
+    const double angle = std::acos(std::min(1.0, here.dot(direction(t.views[0]))));
+    EXPECT_EQ(known[v].discovery, 0);
+    EXPECT_EQ(views[v].information, known[v].information);
+    EXPECT_NEAR(views[v].discovery, 0.7 * std::sqrt(here.z()) * (1 - std::exp(-std::pow(angle / 1.2, 2))),
+                1e-6);
+    EXPECT_DOUBLE_EQ(views[v].value(), views[v].information + views[v].discovery);
+  }
+  EXPECT_EQ(views[0].discovery, 0) << "taken";
+  // Ranks, draws and the paper's own formula have no nats to add.
+  for (const Strategy strategy : {Strategy::Disocclusion, Strategy::Random, Strategy::Fixed}) {
+    t.options.strategy = strategy;
+    for (const ViewInformation& view : t.information()) EXPECT_EQ(view.discovery, 0);
+  }
+  t.options.strategy = Strategy::Information;
+  t.options.literal = true;
+  for (const ViewInformation& view : t.information()) EXPECT_EQ(view.discovery, 0);
 }
 
 TEST(ViewInformation, OfNoViewsIsNone) {

@@ -166,6 +166,11 @@ TEST(Scout, EndsByEachOfItsLimits) {
       << "no other image can show more";
   EXPECT_EQ(ended([](ScoutOptions& o) { o.max_seconds = 1e-6; }), End(ScoutEnd::TimeSpent, 1));
   EXPECT_EQ(ended([](ScoutOptions& o) { o.min_information_nats = 1000; }), End(ScoutEnd::LittleToLearn, 1));
+  const auto hopeful = [](ScoutOptions& o) {
+    o.next_view.unknown_nats = 1000;
+    o.min_information_nats = 100;
+  };
+  EXPECT_EQ(ended(hopeful), End(ScoutEnd::LittleToLearn, 1)) << "it is about what is known to be there";
   const auto dear = [](ScoutOptions& o) { o.next_view.motion_cost_per_m = 1000; };
   EXPECT_EQ(ended(dear), End(ScoutEnd::ViewBudget, 3)) << "without a limit no way is too far";
   EXPECT_EQ(ended([&](ScoutOptions& o) { dear(o), o.min_information_nats = 1e-9; }),

@@ -74,11 +74,15 @@ TEST(Scout, FindsThePartAndShowsHow) {
     const nlohmann::json& step = log["steps"][i];
     ASSERT_EQ(step.at("information").size(), 8u);
     ASSERT_EQ(step.at("information_share").size(), 8u);
-    const double chosen = step["information"].at(step.at("view").get<std::size_t>());
+    ASSERT_EQ(step.at("discovery").size(), 8u);
+    const auto expected = [&](std::size_t view) {
+      return step["information"][view].get<double>() + step["discovery"][view].get<double>();
+    };
+    const double chosen = expected(step.at("view").get<std::size_t>());
     int taken = 0;
-    for (const nlohmann::json& information : step["information"]) {
-      taken += information.is_null();
-      EXPECT_TRUE(information.is_null() || information.get<double>() <= chosen);
+    for (std::size_t view = 0; view < 8; ++view) {
+      taken += step["information"][view].is_null();
+      EXPECT_TRUE(step["information"][view].is_null() || expected(view) <= chosen);
     }
     EXPECT_EQ(taken, i);
     EXPECT_FALSE(step.at("decision_ms").empty());
