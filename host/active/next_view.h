@@ -87,8 +87,9 @@ struct ViewInformation {
 std::vector<ViewInformation> view_information(const Planning& planning, Backend& backend,
                                               const NextViewOptions& options);
 
-// The open view of most value, of equals the one of most share: where nothing is known that information could
-// be about, far from the views taken and high. Nothing where none is open.
+// The open view of most value, of equals the one of most share: far from the views taken and high, where
+// nothing is known that information could be about and nothing expected of what is unknown. Nothing where
+// none is open.
 std::optional<int> best_view(std::span<const ViewInformation> views);
 
 }  // namespace edgescout
