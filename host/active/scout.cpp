@@ -6,7 +6,6 @@
 #include "host/active/candidates.h"
 #include "host/active/views.h"
 #include "host/core/log.h"
-#include "host/core/option_bounds.h"
 #include "host/io/binary_file.h"
 #include "host/register/occluders.h"
 #include "kernels/error.h"
@@ -101,18 +100,6 @@ std::optional<ScoutDecision> Scout::propose() {
     proposal_ = std::move(decision);
   }
   return proposal_;
-}
-
-// Without candidates there is nothing that information could be about, and everything to find.
-bool Scout::may_find_more() const { return state_.candidates.empty(); }
-
-// About the candidates: what is unknown promises something as long as views are left.
-bool Scout::little_to_learn(const ScoutDecision& decision) const {
-  if (options_.next_view.strategy != Strategy::Information || options_.min_information_nats <= 0 ||
-      may_find_more())
-    return false;
-  const ViewInformation& chosen = decision.views[static_cast<std::size_t>(decision.view)];
-  return chosen.information - chosen.motion_cost < options_.min_information_nats;
 }
 
 void Scout::give(int view, const Image& image) {
@@ -265,30 +252,6 @@ ScoutDecision Scout::decide() const {
   return decision;
 }
 
-ScoutEnd Scout::end_before_planning() const {
-  const std::vector<char> closed = state_.closed();
-  if (static_cast<int>(state_.steps.size()) >= options_.max_views) return ScoutEnd::ViewBudget;
-  if (std::ranges::find(closed, 0) == closed.end()) return ScoutEnd::NoViewLeft;
-  if (certain()) return ScoutEnd::Certain;
-  if (little_learned()) return ScoutEnd::LittleLearned;
-  if (options_.max_seconds > 0 && state_.seconds() >= options_.max_seconds) return ScoutEnd::TimeSpent;
-  return ScoutEnd::No;
-}
-
-// An image that shows what none had shown may be followed by others.
-bool Scout::certain() const {
-  if (state_.detections.empty() || state_.entropy_nats >= options_.min_entropy_nats) return false;
-  return !options_.detect_in_every_image || state_.steps.back().new_candidates == 0;
-}
-
-// Particles that died and were drawn anew have gained nothing, and have everything to learn.
-bool Scout::little_learned() const {
-  if (state_.steps.empty() || may_find_more()) return false;
-  const ScoutStep& last = state_.steps.back();
-  return last.new_candidates == 0 && !last.update.reseeded &&
-         last.update.gained_nats < options_.min_gained_nats;
-}
-
 int Scout::first_open_view() const {
   const std::vector<char> closed = state_.closed();
   const int count = static_cast<int>(closed.size());
@@ -338,39 +301,6 @@ void Scout::resume(ScoutState state, const std::string& source) {
   state_ = std::move(state);
   observations_ = std::move(observations);
   proposal_.reset();
-}
-
-PipelineOptions ScoutOptions::quick_looks() {
-  PipelineOptions options;
-  options.detect.scan.kept = 40000;
-  options.detect.aligned = 600;
-  options.detect.candidates = 25;
-  return options;
-}
-
-void ScoutOptions::validate() const {
-  const OptionBounds in("scout");
-  in("max_candidates", max_candidates, 1, 10000);
-  in("known_probability", known_probability, 0, 2);
-  in("first_view", first_view, 0, 1e6);
-  in("max_views", max_views, 1, 1e6);
-  in("min_entropy_nats", min_entropy_nats, 0, 1e6);
-  in("min_information_nats", min_information_nats, 0, 1e6);
-  in("min_gained_nats", min_gained_nats, 0, 1e6);
-  in("max_seconds", max_seconds, 0, 1e9);
-  in("detections.min_probability", detections.min_probability, 0, 1);
-  in("detections.support_probability", detections.support_probability, 0, 1);
-  in("agreement.max_residual_px", agreement.max_residual_px, 0, 1e9);
-  in("agreement.min_probability", agreement.min_probability, 0, 1);
-  in("agreement.absent_probability", agreement.absent_probability, 0, agreement.min_probability);
-  in("agreement.max_missing", agreement.max_missing, 0, 1e9);
-  detections.evidence.validate();
-  agreement.joint.validate();
-  agreement.single.validate();
-  pipeline.validate();
-  combinations.validate();
-  particles.validate();
-  next_view.validate();
 }
 
 namespace {

@@ -1,0 +1,39 @@
+#include "host/active/scout.h"
+#include "host/core/option_bounds.h"
+
+namespace edgescout {
+
+PipelineOptions ScoutOptions::quick_looks() {
+  PipelineOptions options;
+  options.detect.scan.kept = 40000;
+  options.detect.aligned = 600;
+  options.detect.candidates = 25;
+  return options;
+}
+
+void ScoutOptions::validate() const {
+  const OptionBounds in("scout");
+  in("max_candidates", max_candidates, 1, 10000);
+  in("known_probability", known_probability, 0, 2);
+  in("first_view", first_view, 0, 1e6);
+  in("max_views", max_views, 1, 1e6);
+  in("min_entropy_nats", min_entropy_nats, 0, 1e6);
+  in("min_information_nats", min_information_nats, 0, 1e6);
+  in("min_gained_nats", min_gained_nats, 0, 1e6);
+  in("max_seconds", max_seconds, 0, 1e9);
+  in("detections.min_probability", detections.min_probability, 0, 1);
+  in("detections.support_probability", detections.support_probability, 0, 1);
+  in("agreement.max_residual_px", agreement.max_residual_px, 0, 1e9);
+  in("agreement.min_probability", agreement.min_probability, 0, 1);
+  in("agreement.absent_probability", agreement.absent_probability, 0, agreement.min_probability);
+  in("agreement.max_missing", agreement.max_missing, 0, 1e9);
+  detections.evidence.validate();
+  agreement.joint.validate();
+  agreement.single.validate();
+  pipeline.validate();
+  combinations.validate();
+  particles.validate();
+  next_view.validate();
+}
+
+}  // namespace edgescout
