@@ -164,13 +164,14 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
                                      Backend& backend, const DetectOptions& options) {
   const std::vector<Observation> helping =
       helping_views(observation, others, std::size_t(options.helping_views));
-  return find_candidates(set,
-                         judged_by_all(set, coarse_scan(set, observation, backend, options.scan), observation,
-                                       helping, backend, options.scan),
-                         observation, others, known, backend, options);
+  std::vector<ScanHit> hits = judged_by_all(set, coarse_scan(set, observation, backend, options.scan),
+                                            observation, helping, backend, options.scan);
+  std::erase_if(hits, [unwanted = drawn_to(known, set, observation.view.camera_from_world)](
+                          const ScanHit& hit) { return unwanted(hit.camera_from_object); });
+  return find_candidates(set, hits, observation, others, known, backend, options);
 }
 
-std::vector<Refined> find_candidates(const TemplateSet& set, std::vector<ScanHit> hits,
+std::vector<Refined> find_candidates(const TemplateSet& set, std::span<const ScanHit> hits,
                                      const Observation& observation, std::span<const Observation> all_others,
                                      std::span<const Se3> known, Backend& backend,
                                      const DetectOptions& options) {
@@ -178,8 +179,6 @@ std::vector<Refined> find_candidates(const TemplateSet& set, std::vector<ScanHit
       helping_views(observation, all_others, std::size_t(options.helping_views));
   const std::span<const EdgeModel> models(&set.model, 1);
   const std::vector<RegisterView> full = views_around(observation, others);
-  const UnwantedPose unwanted = drawn_to(known, set, observation.view.camera_from_world);
-  std::erase_if(hits, [&](const ScanHit& hit) { return unwanted(hit.camera_from_object); });
   const KnownPoses known_here = in_camera(known, set, observation.view.camera_from_world);
   const auto is_known = [&](const Se3& pose) {
     return known_here.any_within(SAME_POSE * set.model.mesh.diameter_m, pose);

@@ -61,9 +61,9 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
                                      std::span<const Observation> others, std::span<const Se3> known,
                                      Backend& backend, const DetectOptions& options);
 
-// The same of hits in the observation's camera frame that all images have judged already (joint_scan.h),
-// whatever image they come from.
-std::vector<Refined> find_candidates(const TemplateSet& set, std::vector<ScanHit> judged,
+// The same of hits in the observation's camera frame, whatever image they come from, that all images have
+// judged already and of which none is drawn to a known instance (pooled_hits, joint_scan.h).
+std::vector<Refined> find_candidates(const TemplateSet& set, std::span<const ScanHit> judged,
                                      const Observation& observation, std::span<const Observation> others,
                                      std::span<const Se3> known, Backend& backend,
                                      const DetectOptions& options);
