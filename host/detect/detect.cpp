@@ -4,6 +4,7 @@
 #include "host/detect/helping_views.h"
 #include "host/detect/probability_over_views.h"
 #include "host/detect/suppression.h"
+#include "host/detect/template_points.h"
 
 namespace edgescout {
 
@@ -12,6 +13,9 @@ namespace {
 // Of the object's diameter: poses closer than that are the same, and a hit so near to a known instance is
 // drawn to it by the alignment.
 constexpr double SAME_POSE = 0.1, DRAWN_TO = 0.2;
+
+// Of a template, before known objects hide some of them.
+constexpr int GLANCE_POINTS = 120;
 
 // Of one object, in metres and modulo its symmetry; `key` of an index is lower for better ones.
 std::vector<std::size_t> best_of(std::span<const Se3> poses, const TemplateSet& set, std::size_t most,
@@ -71,11 +75,12 @@ std::vector<Hypothesis> aligned_hits(const TemplateSet& set, std::span<const Sca
   const std::vector<Hypothesis> starts = hypotheses_at(
       poses, best_of(poses, set, std::size_t(jointly ? options.aligned_jointly : options.aligned),
                      [&](std::size_t i) { return hits[i].rank; }));
-  const std::vector<Registration> registrations = register_poses(
-      {&set.model, 1}, starts, coarse, backend, jointly ? options.glance : options.refine.search.coarse);
-  const std::vector<Hypothesis> aligned = as_hypotheses(starts, registrations);
-  if (!jointly) return aligned;
-  poses = poses_of(aligned);
+  if (!jointly)
+    return as_hypotheses(
+        starts, register_poses({&set.model, 1}, starts, coarse, backend, options.refine.search.coarse));
+  const std::vector<Registration> registrations = register_seen(
+      starts, coarse, template_points(set, coarse, GLANCE_POINTS, backend), backend, options.glance);
+  poses = poses_of(as_hypotheses(starts, registrations));
   return hypotheses_at(poses, best_of(poses, set, std::size_t(options.promising),
                                       [&](std::size_t i) { return cost_of(registrations[i]); }));
 }
@@ -86,7 +91,6 @@ D2coOptions DetectOptions::glance_defaults() {
   D2coOptions options;
   // By a cost this sharp they are told apart: what is hidden costs no more than what is a little off.
   options.rounds = {{LOSS_GEMAN_MCCLURE, 10, 8, 60}, {LOSS_GEMAN_MCCLURE, 1, 4, 60}};
-  options.visibility.depth_map_size_px = 96;
   return options;
 }
 

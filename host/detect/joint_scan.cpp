@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "host/detect/helping_views.h"
+#include "host/detect/nearest_viewpoint.h"
 #include "host/detect/template_projection.h"
 #include "host/register/occluders.h"
 #include "kernels/thread_pool.h"
@@ -25,8 +26,8 @@ struct Care {
     return (distance_ratio - 1) * (step / double(steps - 1) - 0.5);
   }
 };
-constexpr int STEPS = 5;
 constexpr Care QUICK{20, 3};
+Care careful(const ScanOptions& options) { return {options.points, 5}; }
 
 // A viewpoint's points, and which of a pose's equal ones a camera sees them at.
 struct SeenTemplate {
@@ -34,34 +35,20 @@ struct SeenTemplate {
   const Se3* symmetry = nullptr;
 };
 
-// A template set as other views see it: the points of the viewpoint nearest to theirs. A set holds viewpoints
-// modulo symmetry: the nearest may belong to another of the object's equal poses.
+// A template set as other views see it.
 class NearestViews {
  public:
-  NearestViews(const TemplateSet& set, int points) : set_(set), towards_camera_(set.views.size(), 3) {
-    for (const TemplateView& view : set.views) {
-      towards_camera_.row(Eigen::Index(views_.size())) =
-          view.camera_from_object.inverse() * -Eigen::Vector3d::UnitZ();
-      views_.emplace_back(view, points);
-    }
+  NearestViews(const TemplateSet& set, int points) : nearest_(set) {
+    for (const TemplateView& view : set.views) views_.emplace_back(view, points);
   }
   SeenTemplate seen_at(const Se3& camera_from_object) const {
-    SeenTemplate best;
-    double largest = -2;
-    for (const Se3& symmetry : set_.symmetries.discrete) {
-      const Se3 equal = camera_from_object * symmetry;
-      const Eigen::Vector3d to_camera = (inverse(equal).translation_m - set_.model.center_m).normalized();
-      Eigen::Index nearest = 0;
-      const double cosine = (towards_camera_ * to_camera).maxCoeff(&nearest);
-      if (cosine > largest) largest = cosine, best = {&views_[std::size_t(nearest)], &symmetry};
-    }
-    return best;
+    const auto [view, symmetry] = nearest_.of(camera_from_object);
+    return {&views_[view], symmetry};
   }
 
  private:
-  const TemplateSet& set_;
+  NearestViewpoint nearest_;
   std::vector<ThinnedView> views_;
-  Eigen::MatrixX3d towards_camera_;  // one row a view
 };
 
 // A hit in the camera frame of one of the images, and the way it is moved along.
@@ -243,7 +230,7 @@ std::vector<std::vector<ScanHit>> worth_judging(const TemplateSet& set, std::spa
 std::vector<ScanHit> judged_by_all(const TemplateSet& set, std::span<const ScanHit> hits,
                                    const Observation& own, std::span<const Observation> others,
                                    Backend& backend, const ScanOptions& options) {
-  return judged(set, hits, own, others, backend, {options.points, STEPS});
+  return judged(set, hits, own, others, backend, careful(options));
 }
 
 std::vector<ScanHit> pooled_hits(const TemplateSet& set, std::span<const Observation> images,

@@ -8,6 +8,7 @@
 
 #include "host/core/option_bounds.h"
 #include "host/register/pose_track.h"
+#include "host/register/register_seen.h"
 #include "host/register/visible_in_views.h"
 #include "kernels/error.h"
 
@@ -21,14 +22,15 @@ struct PointSets {
   std::vector<std::uint32_t> first, count;  // [hypothesis * views + view]
 };
 
-PointSets collect_points(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
-                         std::span<const PoseTrack> tracks, std::span<const RegisterView> views,
-                         Backend& backend, const D2coOptions& options, int most) {
+PointSets collect_points(std::span<const Hypothesis> hypotheses, std::span<const PoseTrack> tracks,
+                         const PointsInViews& points, std::size_t views, int most) {
   std::vector<Hypothesis> poses;
   for (std::size_t h = 0; h < hypotheses.size(); ++h) poses.push_back({hypotheses[h].object, tracks[h].pose});
+  const std::vector<std::vector<ModelPoint>> in_views = points(poses);
+  check(in_views.size() == poses.size() * views, "register_seen: one list of points a pose and view");
   PointSets sets;
-  for (const VisibleInView& seen : visible_in_views(models, poses, views, backend, options.visibility)) {
-    const std::vector<ModelPoint> kept = thinned(seen.points, most);
+  for (const std::vector<ModelPoint>& seen : in_views) {
+    const std::vector<ModelPoint> kept = thinned(seen, most);
     sets.first.push_back(static_cast<std::uint32_t>(sets.points.size()));
     sets.count.push_back(static_cast<std::uint32_t>(kept.size()));
     sets.points.insert(sets.points.end(), kept.begin(), kept.end());
@@ -157,13 +159,25 @@ std::vector<Registration> register_poses(std::span<const EdgeModel> models,
                                          std::span<const Hypothesis> hypotheses,
                                          std::span<const RegisterView> views, Backend& backend,
                                          const D2coOptions& options) {
-  options.validate();
   check_problem(hypotheses, models.size(), views);
+  const auto drawn = [&](std::span<const Hypothesis> poses) {
+    std::vector<std::vector<ModelPoint>> points;
+    for (VisibleInView& seen : visible_in_views(models, poses, views, backend, options.visibility))
+      points.push_back(std::move(seen.points));
+    return points;
+  };
+  return register_seen(hypotheses, views, drawn, backend, options);
+}
+
+std::vector<Registration> register_seen(std::span<const Hypothesis> hypotheses,
+                                        std::span<const RegisterView> views, const PointsInViews& points,
+                                        Backend& backend, const D2coOptions& options) {
+  options.validate();
+  check_problem(hypotheses, std::numeric_limits<std::size_t>::max(), views);
   std::vector<PoseTrack> tracks(hypotheses.size());
   for (std::size_t h = 0; h < hypotheses.size(); ++h) tracks[h].pose = hypotheses[h].world_from_object;
   for (const D2coRound& round : options.rounds) {
-    const PointSets sets =
-        collect_points(models, hypotheses, tracks, views, backend, options, round.max_points);
+    const PointSets sets = collect_points(hypotheses, tracks, points, views.size(), round.max_points);
     Evaluator evaluator(sets, views, backend, {round.loss, round.scale_px});
     run_round(tracks, evaluator, round, options);
   }

@@ -51,6 +51,13 @@ bool Occluders::may_hide(const Eigen::Vector3d& in_camera, double tolerance_m) c
   return nearer_around(*this, in_camera, tolerance_m) > 0;
 }
 
+void remove_hidden(std::vector<ModelPoint>& points, const Occluders& occluders, const Se3& camera_from_object,
+                   double tolerance_m) {
+  std::erase_if(points, [&](const ModelPoint& p) {
+    return occluders.hide(camera_from_object * Eigen::Vector3d(p.x_m, p.y_m, p.z_m), tolerance_m);
+  });
+}
+
 std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> models,
                                                 std::span<const Hypothesis> known, const RegisterView& view,
                                                 Backend& backend) {

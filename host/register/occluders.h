@@ -24,6 +24,10 @@ struct Occluders {
   bool may_hide(const Eigen::Vector3d& in_camera, double tolerance_m) const;
 };
 
+// Leaves the points of an object that the occluders do not hide.
+void remove_hidden(std::vector<ModelPoint>& points, const Occluders& occluders, const Se3& camera_from_object,
+                   double tolerance_m);
+
 // Nothing where `known` is empty. The view's own occluders play no part.
 std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> models,
                                                 std::span<const Hypothesis> known, const RegisterView& view,

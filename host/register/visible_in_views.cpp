@@ -5,17 +5,6 @@
 
 namespace edgescout {
 
-namespace {
-
-void remove_hidden(std::vector<ModelPoint>& points, const Occluders& occluders, const Se3& camera_from_object,
-                   double tolerance_m) {
-  std::erase_if(points, [&](const ModelPoint& p) {
-    return occluders.hide(camera_from_object * Eigen::Vector3d(p.x_m, p.y_m, p.z_m), tolerance_m);
-  });
-}
-
-}  // namespace
-
 std::vector<VisibleInView> visible_in_views(std::span<const EdgeModel> models,
                                             std::span<const Hypothesis> poses,
                                             std::span<const RegisterView> views, Backend& backend,

@@ -1,0 +1,94 @@
+// Points looked up: against those that a depth map of the same pose shows.
+#include "host/detect/template_points.h"
+
+#include <gtest/gtest.h>
+
+#include "host/register/occluders.h"
+#include "host/register/visible_in_views.h"
+#include "tests/detect/part_image.h"
+#include "tests/test_random.h"
+
+namespace edgescout::test {
+namespace {
+
+Eigen::Vector3d place(const ModelPoint& p) { return {p.x_m, p.y_m, p.z_m}; }
+Eigen::Vector3d along(const ModelPoint& p) { return {p.tx, p.ty, p.tz}; }
+
+// Of `points`, how many have one of `others` within `near_m` that runs the same way.
+double fraction_near(const std::vector<ModelPoint>& points, const std::vector<ModelPoint>& others,
+                     double near_m) {
+  const auto beside = [&](const ModelPoint& a) {
+    return std::ranges::any_of(others, [&](const ModelPoint& b) {
+      return (place(a) - place(b)).norm() < near_m && std::abs(along(a).dot(along(b))) > 0.9;
+    });
+  };
+  return double(std::ranges::count_if(points, beside)) / double(points.size());
+}
+
+struct LookedAt {
+  std::unique_ptr<Backend> backend = make_cpu_backend(2);
+  TemplateSet set;
+  std::vector<RegisterView> views{2};
+  std::vector<Hypothesis> poses;
+
+  LookedAt(const char* part, Random& random) : set(part_templates(part, 5, 0.28, 0.34, *backend)) {
+    for (RegisterView& view : views) {
+      view.camera = small_camera();
+      view.camera_from_world = camera_looking_at(0.31 * random.direction(), Eigen::Vector3d::Zero());
+    }
+    for (int i = 0; i < 12; ++i) poses.push_back({0, {random.rotation(), 0.01 * random.direction()}});
+  }
+  std::vector<std::vector<ModelPoint>> points(int most) const {
+    return template_points(set, views, most, *backend)(poses);
+  }
+};
+
+// One of the parts looks the same after a half turn, and its set has viewpoints on one side only.
+TEST(TemplatePoints, AreThoseThatShow) {
+  Random random = test_random();
+  bool symmetric = false;
+  for (const char* part : {"l_bracket", "bearing_block", "u_channel"}) {
+    const LookedAt t(part, random);
+    symmetric |= t.set.symmetries.discrete.size() > 1;
+    const std::vector<VisibleInView> shown =
+        visible_in_views({&t.set.model, 1}, t.poses, t.views, *t.backend);
+    const std::vector<std::vector<ModelPoint>> all = t.points(0);
+    ASSERT_EQ(all.size(), shown.size());
+    const double near_m = 0.03 * t.set.model.mesh.diameter_m;
+    double right = 0, found = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      right += fraction_near(all[i], shown[i].points, near_m) / double(all.size());
+      found += fraction_near(shown[i].points, all[i], near_m) / double(all.size());
+    }
+    EXPECT_GT(right, 0.93) << part;
+    EXPECT_GT(found, 0.93) << part;
+  }
+  EXPECT_TRUE(symmetric);
+}
+
+TEST(TemplatePoints, AreThinnedEvenlyAndLackWhatIsHidden) {
+  Random random = test_random();
+  LookedAt t("l_bracket", random);
+  const std::vector<std::vector<ModelPoint>> all = t.points(0), some = t.points(50);
+  const Hypothesis cover{0, inverse(t.views[1].camera_from_world) * Se3{random.rotation(), {0, 0, 0.2}}};
+  t.views[1].occluders = make_occluders({&t.set.model, 1}, {&cover, 1}, t.views[1], *t.backend);
+  const std::vector<std::vector<ModelPoint>> left = t.points(50);
+  std::size_t hidden = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    std::vector<ModelPoint> expected = thinned(all[i], 50);
+    ASSERT_EQ(some[i].size(), expected.size());
+    for (std::size_t p = 0; p < expected.size(); ++p) EXPECT_EQ(place(some[i][p]), place(expected[p]));
+    if (i % 2 == 1)
+      hidden += std::erase_if(expected, [&](const ModelPoint& p) {
+        return t.views[1].occluders->hide(
+            t.views[1].camera_from_world * t.poses[i / 2].world_from_object * place(p),
+            occlusion_tolerance_m(t.set.model));
+      });
+    ASSERT_EQ(left[i].size(), expected.size());
+    for (std::size_t p = 0; p < expected.size(); ++p) EXPECT_EQ(place(left[i][p]), place(expected[p]));
+  }
+  EXPECT_GT(hidden, 50u);
+}
+
+}  // namespace
+}  // namespace edgescout::test
