@@ -18,8 +18,8 @@ struct DetectOptions {
   int aligned = 2500;     // different ones among the scan's hits that are aligned, roughly and cheaply
   // The same where other images helped to rank the hits (joint_scan.h): more roughly still, by `glance`, and
   // the `promising` ones that fit best then go on.
-  int aligned_jointly = 1000;
-  int promising = 250;
+  int aligned_jointly = 3000;
+  int promising = 200;
   D2coOptions glance = glance_defaults();
   // different ones among those that are registered in full (the paper's object candidates)
   int candidates = 60;
