@@ -37,13 +37,27 @@ Table rows_of(const Table& table, const Searched& searched, const std::string& s
   });
 }
 
-Table rows_of_types(const Table& table, const std::string& types) {
-  return rows_where(table,
-                    [&](const Table& t, std::size_t row) { return text_in(t, row, "types") == types; });
+// A set of bins that a report has tables of: of one kind of parts, or all.
+struct BinSet {
+  std::string types, prefix;  // `types` empty: all
+};
+
+std::vector<BinSet> sets_in(const Table& table) {
+  std::vector<BinSet> sets;
+  for (const std::string& types : values_of(table, "types"))
+    sets.push_back({types, types == "own" ? "" : "CAD parts, "});
+  if (sets.size() > 1) sets.push_back({"", "all bins, "});
+  return sets;
 }
 
-// Of one kind of parts, those of which there are instances.
-std::vector<Searched> searches_in(const Table& table, const std::string& types) {
+Table rows_of_set(const Table& table, const std::string& types) {
+  return rows_where(table, [&](const Table& t, std::size_t row) {
+    return types.empty() || text_in(t, row, "types") == types;
+  });
+}
+
+// Those of which there are instances.
+std::vector<Searched> searches_in(const Table& table, const BinSet& set) {
   std::vector<Searched> list;
   for (const std::string& search : values_of(table, "search"))
     for (const auto& [group, text] : {std::pair{"light", "lightly occluded"}, {"heavy", "highly occluded"}}) {
@@ -52,9 +66,7 @@ std::vector<Searched> searches_in(const Table& table, const std::string& types) 
                number_in(t, row, "instances") > 0;
       });
       if (!rows.rows.empty())
-        list.push_back(
-            {search, group,
-             fmt::format("{}{}, {}", types == "own" ? "" : "CAD parts, ", title_of(search), text)});
+        list.push_back({search, group, fmt::format("{}{}, {}", set.prefix, title_of(search), text)});
     }
   return list;
 }
@@ -69,7 +81,8 @@ Outcome outcome_of(const Table& rows, const std::string& views) {
   Outcome outcome;
   for (std::size_t row = 0; row < rows.rows.size(); ++row) {
     if (text_in(rows, row, "views") != views) continue;
-    if (const std::string& bin = text_in(rows, row, "bin");
+    // bins of other parts have the same numbers
+    if (const std::string bin = text_in(rows, row, "types") + " " + text_in(rows, row, "bin");
         outcome.bins.empty() || outcome.bins.back() != bin) {
       outcome.bins.push_back(bin);
       for (std::vector<Cluster>* clusters : {&outcome.correct, &outcome.wrong, &outcome.shown})
@@ -140,9 +153,9 @@ std::string table_of(const Table& table, const Searched& searched, const std::ve
 std::string bins_text(const Table& table) {
   std::string text;
   for (const std::string& types : values_of(table, "types"))
-    text += fmt::format("{}{}{}", text.empty() ? "" : " and ",
-                        values_of(rows_of_types(table, types), "bin").size(),
-                        types == "own" ? "" : " of CAD parts");
+    text +=
+        fmt::format("{}{}{}", text.empty() ? "" : " and ", values_of(rows_of_set(table, types), "bin").size(),
+                    types == "own" ? "" : " of CAD parts");
   return text;
 }
 
@@ -182,9 +195,9 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
       "a search; instances of which some image so far showed more than 70 %. Differences: points of percent; "
       "false positives a search; intervals over the same draws of bins.\n\n",
       bins_text(table));
-  for (const std::string& types : values_of(table, "types")) {
-    const Table rows = rows_of_types(table, types);
-    const std::vector<Searched> searches = searches_in(rows, types);
+  for (const BinSet& set : sets_in(table)) {
+    const Table rows = rows_of_set(table, set.types);
+    const std::vector<Searched> searches = searches_in(rows, set);
     report.columns = std::max(report.columns, static_cast<int>(searches.size()));
     for (const Searched& searched : searches) report.markdown += table_of(rows, searched, strategies, views);
     for (const Measure measure : {Measure::Correct, Measure::Wrong})

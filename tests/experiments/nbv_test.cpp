@@ -109,8 +109,8 @@ Table no_rows() {
           {}};
 }
 
-// Of both sets of parts each by itself, though their bins have the same numbers.
-TEST(NbvReport, KeepsCadPartsApart) {
+// Of both sets of parts each by itself, then of all bins, though those of both have the same numbers.
+TEST(NbvReport, KeepsCadPartsApartAndAddsThemUp) {
   Table table = no_rows();
   for (const auto& [bin, types, correct] :
        {std::tuple{"0", "own", "4"}, {"1", "own", "2"}, {"0", "cad", "1"}, {"1", "cad", "0"}})
@@ -123,7 +123,11 @@ TEST(NbvReport, KeepsCadPartsApart) {
   EXPECT_NE(report.markdown.find("## CAD parts, three types, highly occluded\n\n8 instances."),
             std::string::npos);
   EXPECT_NE(report.markdown.find("| MI-MAX | 12.5 %"), std::string::npos) << report.markdown;
-  ASSERT_EQ(report.panels.size(), 8u);
+  EXPECT_NE(report.markdown.find("## all bins, three types, highly occluded\n\n16 instances."),
+            std::string::npos);
+  EXPECT_NE(report.markdown.find("| MI-MAX | 43.8 %"), std::string::npos) << report.markdown;
+  ASSERT_EQ(report.panels.size(), 12u);
+  EXPECT_DOUBLE_EQ(report.panels[8].lines[0].points[0].y, 7.0 / 16);
   EXPECT_EQ(report.columns, 2) << "a row a set and measure";
   EXPECT_EQ(report.panels[4].title, "CAD parts, three types, lightly occluded");
   EXPECT_DOUBLE_EQ(report.panels[4].lines[0].points[0].y, 0.125);
