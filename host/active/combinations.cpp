@@ -119,4 +119,23 @@ BitMatrix candidate_combinations(std::span<const EdgeModel> models, std::span<co
                         : sample_combinations(psi, plausible, options);
 }
 
+CombinationExtremes extreme_combinations(const BitMatrix& combinations,
+                                         std::span<const double> probabilities) {
+  check(combinations.columns == probabilities.size(), "extreme_combinations: a probability a candidate");
+  CombinationExtremes extremes;
+  double most = -INFINITY, least = INFINITY;
+  for (std::size_t row = 0; row < combinations.rows; ++row) {
+    std::vector<int> members;
+    double log_probability = 0;
+    for (std::size_t c = 0; c < probabilities.size(); ++c) {
+      const double p = std::clamp(probabilities[c], 0.001, 0.999);
+      log_probability += std::log(combinations.has(row, c) ? p : 1 - p);
+      if (combinations.has(row, c)) members.push_back(static_cast<int>(c));
+    }
+    if (log_probability > most) most = log_probability, extremes.likeliest = members;
+    if (log_probability < least) least = log_probability, extremes.unlikeliest = members;
+  }
+  return extremes;
+}
+
 }  // namespace edgescout

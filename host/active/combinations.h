@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "host/core/bit_matrix.h"
 #include "host/core/types.h"
@@ -41,5 +42,13 @@ BitMatrix sample_probable_combinations(std::span<const double> probabilities, co
 BitMatrix candidate_combinations(std::span<const EdgeModel> models, std::span<const Detection> candidates,
                                  bool by_probability, double penetration_m, const CombinationOptions& options,
                                  ThreadPool& threads);
+
+// The most and the least probable of the rows, each candidate being there or not by its own probability; of
+// equal ones the first. Empty where there is no row.
+struct CombinationExtremes {
+  std::vector<int> likeliest, unlikeliest;  // indices of candidates, rising
+};
+CombinationExtremes extreme_combinations(const BitMatrix& combinations,
+                                         std::span<const double> probabilities);
 
 }  // namespace edgescout

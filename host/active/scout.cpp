@@ -14,26 +14,6 @@ namespace edgescout {
 
 namespace {
 
-// The most and the least probable of the combinations, each candidate being there or not by its own
-// probability.
-void keep_extremes(const BitMatrix& combinations, std::span<const Detection> candidates,
-                   ScoutDecision& decision) {
-  double best = -INFINITY, worst = INFINITY;
-  for (std::size_t row = 0; row < combinations.rows; ++row) {
-    std::vector<int> members;
-    double log_probability = 0;
-    for (std::size_t c = 0; c < candidates.size(); ++c) {
-      const double p = std::clamp(candidates[c].probability, 0.001, 0.999);
-      log_probability += std::log(combinations.has(row, c) ? p : 1 - p);
-      if (combinations.has(row, c)) members.push_back(static_cast<int>(c));
-    }
-    if (log_probability > best) decision.likeliest = members;
-    if (log_probability < worst) decision.unlikeliest = members;
-    best = std::max(best, log_probability);
-    worst = std::min(worst, log_probability);
-  }
-}
-
 std::vector<TemplateTable> tables_of(std::span<const TemplateSet> sets, Backend& backend) {
   std::vector<TemplateTable> tables;
   for (const TemplateSet& set : sets)
@@ -239,7 +219,11 @@ ScoutDecision Scout::decide() const {
     options.seed += state_.steps.size();
     combinations = candidate_combinations(models_, state_.candidates, options_.probable_combinations,
                                           options_.particles.penetration_m, options, backend_.threads());
-    keep_extremes(combinations, state_.candidates, decision);
+    std::vector<double> probabilities;
+    for (const Detection& candidate : state_.candidates) probabilities.push_back(candidate.probability);
+    const CombinationExtremes extremes = extreme_combinations(combinations, probabilities);
+    decision.likeliest = extremes.likeliest;
+    decision.unlikeliest = extremes.unlikeliest;
     done(watch, "combinations");
   }
   const std::vector<char> closed = state_.closed();

@@ -198,5 +198,34 @@ TEST(SampleCombinations, NeedsACandidate) {
       {"combinations.sharpness"});
 }
 
+// Probabilities of all eight scenes of three candidates, multiplied out: 0.9 or 0.1, 0.3 or 0.7, 0.6 or 0.4.
+TEST(ExtremeCombinations, AreTheMostAndTheLeastProbable) {
+  const std::vector<double> probabilities{0.9, 0.3, 0.6};
+  const auto extremes = [&](std::initializer_list<std::uint32_t> rows) {
+    BitMatrix combinations(rows.size(), 3);
+    std::copy(rows.begin(), rows.end(), combinations.words.begin());
+    return extreme_combinations(combinations, probabilities);
+  };
+  const CombinationExtremes all = extremes({0, 1, 2, 3, 4, 5, 6, 7});
+  EXPECT_EQ(all.likeliest, (std::vector{0, 2})) << "0.9 * 0.7 * 0.6";
+  EXPECT_EQ(all.unlikeliest, (std::vector{1})) << "0.1 * 0.3 * 0.4";
+  const CombinationExtremes some = extremes({6, 3, 0, 1});  // 0.018, 0.108, 0.028, 0.252
+  EXPECT_EQ(some.likeliest, (std::vector{0}));
+  EXPECT_EQ(some.unlikeliest, (std::vector{1, 2}));
+  const CombinationExtremes none = extremes({0, 2});
+  EXPECT_TRUE(none.likeliest.empty()) << "a scene without objects";
+  EXPECT_EQ(none.unlikeliest, (std::vector{1}));
+  EXPECT_TRUE(extremes({}).likeliest.empty() && extremes({}).unlikeliest.empty());
+}
+
+// One nobody doubts and one nobody believes in leave the others to decide.
+TEST(ExtremeCombinations, BearCertainty) {
+  BitMatrix combinations(3, 3);
+  combinations.words = {0b001, 0b101, 0b011};
+  const CombinationExtremes extremes = extreme_combinations(combinations, std::vector{1.0, 0.0, 0.8});
+  EXPECT_EQ(extremes.likeliest, (std::vector{0, 2}));
+  EXPECT_EQ(extremes.unlikeliest, (std::vector{0, 1}));
+}
+
 }  // namespace
 }  // namespace edgescout::test
