@@ -7,12 +7,13 @@
 #include "tests/active/small_cell.h"
 #include "tests/io/expect_input_error.h"
 #include "tests/io/temporary_folder.h"
+#include "tests/lens.h"
 
 namespace edgescout::test {
 namespace {
 
 // Stopped after so many images, saved, loaded and gone on with: the same to the end as without a stop.
-void expect_goes_on(SmallCell& t, const ScoutOptions& options, SimulatedCell cell,
+void expect_goes_on(SmallCell& t, const ScoutOptions& options, ViewSource& cell,
                     std::initializer_list<int> stops) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "state";
@@ -39,7 +40,8 @@ void expect_goes_on(SmallCell& t, const ScoutOptions& options, SimulatedCell cel
 
 TEST(ScoutState, GoesOnFromASavedStateAsIfNothingHadHappened) {
   SmallCell t;
-  expect_goes_on(t, SmallCell::options(), t.source({0.0005, 0.001, true, 3}), {1, 2});
+  SimulatedCell cell = t.source({0.0005, 0.001, true, 3});
+  expect_goes_on(t, SmallCell::options(), cell, {1, 2});
 }
 
 // Parts on a heap, of which every reported one hides what is behind it: the next image's registrations depend
@@ -48,7 +50,49 @@ TEST(ScoutState, GoesOnWithWhatHidesOthers) {
   SmallCell t(4, 1);
   ScoutOptions options = SmallCell::options();
   options.known_probability = 0;
-  expect_goes_on(t, options, t.source(), {2});
+  SimulatedCell cell = t.source();
+  expect_goes_on(t, options, cell, {2});
+}
+
+// The cell as a lens shows it.
+class BehindLens : public ViewSource {
+ public:
+  BehindLens(SimulatedCell cell, const Camera& camera) : cell_(std::move(cell)), camera_(camera) {}
+  Camera camera() const override { return camera_; }
+  std::vector<Se3> views() const override { return cell_.views(); }
+  Shot acquire(int view) override {
+    Shot shot = cell_.acquire(view);
+    const Image ideal = shot.image;
+    for (int y = 0; y < ideal.height; ++y)
+      for (int x = 0; x < ideal.width; ++x) {
+        const Eigen::Vector2d from = undistort_point(camera_, {x, y});
+        const int left = std::clamp(int(std::floor(from.x())), 0, ideal.width - 2),
+                  above = std::clamp(int(std::floor(from.y())), 0, ideal.height - 2);
+        const double right = std::clamp(from.x() - left, 0.0, 1.0),
+                     below = std::clamp(from.y() - above, 0.0, 1.0);
+        shot.image.pixels[std::size_t(y) * std::size_t(ideal.width) + std::size_t(x)] =
+            std::uint8_t(std::lround(
+                (1 - below) * ((1 - right) * ideal.at(left, above) + right * ideal.at(left + 1, above)) +
+                below * ((1 - right) * ideal.at(left, above + 1) + right * ideal.at(left + 1, above + 1))));
+      }
+    return shot;
+  }
+
+ private:
+  SimulatedCell cell_;
+  Camera camera_;
+};
+
+// A saved state has images without the distortion, which must not be taken out twice.
+TEST(ScoutState, GoesOnBehindALens) {
+  SmallCell t;
+  SimulatedCell straight = t.source();
+  t.scene.views[0].camera.distortion = {-0.25, 0.08, 0.001, -0.002};
+  BehindLens cell(std::move(straight), t.camera());
+  expect_goes_on(t, SmallCell::options(), cell, {2});
+  Scout scout = t.scout();
+  run_scout(scout, cell);
+  EXPECT_EQ(t.found(scout.state()), 1);
 }
 
 // Whatever a log or a page reads from it comes back, too.

@@ -12,6 +12,7 @@
 #include "tests/io/collected_log.h"
 #include "tests/io/expect_input_error.h"
 #include "tests/io/temporary_folder.h"
+#include "tests/lens.h"
 
 namespace edgescout::test {
 namespace {
@@ -129,21 +130,6 @@ TEST(LoadImage, RejectsImagesCutShort) {
 
 // A smooth scene seen through the lens: the grey value at a distorted pixel is f(undistorted pixel).
 double scene(double x, double y) { return 128 + 60 * std::sin(0.05 * x) + 60 * std::cos(0.04 * y); }
-
-// Brown-Conrady forward model, written out.
-Eigen::Vector2d distort(const Camera& c, double u, double v) {
-  const double x = (u - c.cx) / c.fx, y = (v - c.cy) / c.fy, r2 = x * x + y * y;
-  const auto& [k1, k2, p1, p2, k3, k4, k5, k6] = c.distortion;
-  const double radial = (1 + r2 * (k1 + r2 * (k2 + r2 * k3))) / (1 + r2 * (k4 + r2 * (k5 + r2 * k6)));
-  return {c.fx * (x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x)) + c.cx,
-          c.fy * (y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y) + c.cy};
-}
-
-Eigen::Vector2d undistort_point(const Camera& camera, const Eigen::Vector2d& seen) {
-  Eigen::Vector2d ideal = seen;
-  for (int i = 0; i < 100; ++i) ideal += seen - distort(camera, ideal.x(), ideal.y());
-  return ideal;
-}
 
 TEST(Undistort, TakesTheLensOutOfASmoothScene) {
   Camera camera{200, 160, 220, 210, 98.5, 82, {-0.2, 0.05, 0.002, -0.001, 0.01, 0.01, 0.005, 0.002}};
