@@ -87,15 +87,9 @@ std::string names_text() {
 }
 
 void add_bin_options(CLI::App& verb, ScoutOptions& o) {
+  OptionTable(verb, "Bins").bounded("max-views", o.max_views, 1, 32, "Images");
+  add_hit_options(verb, "Bins", o.pipeline.detect);
   OptionTable(verb, "Bins")
-      .bounded("max-views", o.max_views, 1, 32, "Images")
-      .bounded("aligned", o.pipeline.detect.aligned, 1, 1000000, "Hits of an image and type that are aligned")
-      .bounded("aligned-jointly", o.pipeline.detect.aligned_jointly, 1, 1000000,
-               "The same where earlier images help")
-      .bounded("scan-hits", o.pipeline.detect.scan.kept, 1, 10000000,
-               "Hits of an image and type that all images judge")
-      .bounded("promising", o.pipeline.detect.promising, 1, 1000000,
-               "Of those aligned where earlier images help, how many go on")
       .bounded("registered", o.pipeline.detect.candidates, 1, 100000,
                "Candidates of an image and type that are registered");
   add_belief_options(verb, o);

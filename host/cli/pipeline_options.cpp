@@ -21,15 +21,23 @@ void add_edge_and_tensor_options(CLI::App& verb, PipelineOptions& o, std::string
       .bounded("cap", o.tensor.cap_px, 1.0f, 255.0f, "Largest distance, px");
 }
 
+void add_hit_options(CLI::App& verb, const std::string& group, DetectOptions& d) {
+  OptionTable(verb, group)
+      .bounded("scan-hits", d.scan.kept, 1, 10000000,
+               "Of an image and type; other images of the scene judge all of them")
+      .bounded("aligned", d.aligned, 1, 1000000, "Of these, aligned on the coarse tensor")
+      .bounded("aligned-jointly", d.aligned_jointly, 1, 1000000,
+               "The same where other images of the scene help")
+      .bounded("promising", d.promising, 1, 1000000,
+               "The best of those aligned jointly, aligned in full resolution");
+}
+
 void add_search_options(CLI::App& verb, DetectOptions& d) {
   OptionTable(verb, "Detection")
       .bounded("template-points", d.scan.points, 4, 256, "Of each template in the scan")
-      .bounded("anchor-step", d.scan.anchor_step, 1, 16, "Between places of the scan, coarse px")
-      .bounded("scan-hits", d.scan.kept, 1, 10000000, "Looked at in full resolution")
-      .bounded("aligned", d.aligned, 1, 1000000, "Hits aligned on the coarse tensor")
-      .bounded("aligned-jointly", d.aligned_jointly, 1, 1000000,
-               "Of several images of one scene: hits that are aligned in them")
-      .bounded("promising", d.promising, 1, 1000000, "The best of these, aligned in full resolution")
+      .bounded("anchor-step", d.scan.anchor_step, 1, 16, "Between places of the scan, coarse px");
+  add_hit_options(verb, "Detection", d);
+  OptionTable(verb, "Detection")
       .bounded("helping-views", d.helping_views, 1, 10000,
                "Other images of the scene that help to search one")
       .bounded("candidates", d.candidates, 1, 100000, "Candidates registered in full");

@@ -13,6 +13,7 @@ void add_edge_and_tensor_options(CLI::App& verb, PipelineOptions& options, std::
 void add_detection_options(CLI::App& verb, PipelineOptions& options);
 // Its parts that others have too.
 void add_search_options(CLI::App& verb, DetectOptions& options);
+void add_hit_options(CLI::App& verb, const std::string& group, DetectOptions& options);
 void add_choice_options(CLI::App& verb, double& min_probability, EvidenceOptions& evidence);
 void add_template_options(CLI::App& verb, TemplateOptions& options);
 // What is imagined of a next view, and what is followed from image to image.
