@@ -150,12 +150,28 @@ std::string table_of(const Table& table, const Searched& searched, const std::ve
   return fmt::format("## {}\n\n{:.0f} instances.\n\n{}\n", searched.title, instances, text);
 }
 
+// Rising: "0 to 3, 7".
+std::string ranges_text(const std::vector<int>& numbers) {
+  std::string text;
+  for (std::size_t first = 0, last = 0; first < numbers.size(); first = ++last) {
+    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
+    text += fmt::format("{}{}", text.empty() ? "" : ", ", numbers[first]);
+    if (last > first) text += fmt::format(" to {}", numbers[last]);
+  }
+  return text;
+}
+
+// How many there are of each kind of parts, and by what numbers they come again.
 std::string bins_text(const Table& table) {
   std::string text;
-  for (const std::string& types : values_of(table, "types"))
-    text +=
-        fmt::format("{}{}{}", text.empty() ? "" : " and ", values_of(rows_of_set(table, types), "bin").size(),
-                    types == "own" ? "" : " of CAD parts");
+  for (const std::string& types : values_of(table, "types")) {
+    std::vector<int> numbers;
+    for (const std::string& bin : values_of(rows_of_set(table, types), "bin"))
+      numbers.push_back(std::stoi(bin));
+    std::ranges::sort(numbers);
+    text += fmt::format("{}{}{} (numbers {})", text.empty() ? "" : " and ", numbers.size(),
+                        types == "own" ? "" : " of CAD parts", ranges_text(numbers));
+  }
   return text;
 }
 

@@ -117,7 +117,9 @@ TEST(NbvReport, KeepsCadPartsApartAndAddsThemUp) {
     for (const char* group : {"light", "heavy"})
       table.rows.push_back({bin, types, "all", "mi-max", "1", group, "4", correct, "0", "4", ""});
   const Report report = nbv_report({}, table);
-  EXPECT_NE(report.markdown.find("Bins: 2 and 2 of CAD parts."), std::string::npos) << report.markdown;
+  EXPECT_NE(report.markdown.find("Bins: 2 (numbers 0 to 1) and 2 of CAD parts (numbers 0 to 1)."),
+            std::string::npos)
+      << report.markdown;
   EXPECT_NE(report.markdown.find("## three types, highly occluded\n\n8 instances."), std::string::npos);
   EXPECT_NE(report.markdown.find("| MI-MAX | 75 %"), std::string::npos) << report.markdown;
   EXPECT_NE(report.markdown.find("## CAD parts, three types, highly occluded\n\n8 instances."),
@@ -204,11 +206,11 @@ TEST(NbvReport, CountsInstancesAndFalseOnesByViews) {
     table.rows.push_back({bin, "own", "one", strategy, views, "heavy", "0", "0", "0", "0", "1.5"});
   };
   add("0", "mi-max", "1", "4", "1", "2"), add("0", "mi-max", "2", "4", "4", "0");
-  add("1", "mi-max", "1", "6", "2", "1"), add("1", "mi-max", "2", "6", "5", "1");
+  add("3", "mi-max", "1", "6", "2", "1"), add("3", "mi-max", "2", "6", "5", "1");
   add("0", "random", "1", "4", "1", "2"), add("0", "random", "2", "4", "2", "4");
-  add("1", "random", "1", "6", "2", "1"), add("1", "random", "2", "6", "2", "3");
+  add("3", "random", "1", "6", "2", "1"), add("3", "random", "2", "6", "2", "3");
   const Report report = nbv_report({}, table);
-  EXPECT_NE(report.markdown.find("Bins: 2."), std::string::npos);
+  EXPECT_NE(report.markdown.find("Bins: 2 (numbers 0, 3)."), std::string::npos);
   EXPECT_NE(report.markdown.find("10 instances."), std::string::npos) << report.markdown;
   EXPECT_EQ(report.markdown.find("highly"), std::string::npos) << "no instances: no table";
   EXPECT_NE(report.markdown.find("| MI-MAX | 30 % [25, 33]; 1.50; 60 % | 90 % [83, 100]; 0.50; 60 % |"),
