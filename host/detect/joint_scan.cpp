@@ -9,6 +9,7 @@
 #include "host/detect/nearest_viewpoint.h"
 #include "host/detect/template_projection.h"
 #include "host/register/occluders.h"
+#include "kernels/error.h"
 #include "kernels/thread_pool.h"
 
 namespace edgescout {
@@ -26,7 +27,7 @@ struct Care {
     return (distance_ratio - 1) * (step / double(steps - 1) - 0.5);
   }
 };
-constexpr Care QUICK{20, 3};
+Care quick(const ScanOptions& options) { return {std::max(1, options.points / 3), 3}; }
 Care careful(const ScanOptions& options) { return {options.points, 5}; }
 
 // A viewpoint's points, and which of a pose's equal ones a camera sees them at.
@@ -123,16 +124,19 @@ std::vector<Say> says_of(const Observation& view, const TemplateSet& set, const 
     jobs[j] = {std::uint32_t(j * width), std::uint32_t(std::max(1, shown[j])), 0, 0, 1, 1};
   };
   const auto look_all_steps = [&](std::size_t h) {
-    // three degrees at most between the steps, where viewpoints stand eleven apart
+    // at the default distances three degrees at most between the steps, where viewpoints stand eleven apart
     const SeenTemplate seen = templates.seen_at(moved[h].camera_from_object);
     const Pose turned = to_pose(moved[h].camera_from_object * *seen.symmetry);
     const Eigen::Vector3d middle_m = moved[h].camera_from_object.rotation * set.model.center_m,
                           place_m = moved[h].camera_from_object.rotation * seen.symmetry->translation_m;
+    // one weight for all steps, or where nothing shows the step nearest to this camera would fit best
+    const double size_weight =
+        scan_size_weight((moved[h].camera_from_object.translation_m + middle_m).norm());
     for (std::size_t step = 0; step < steps; ++step) {
       const Eigen::Vector3d at_m =
           moved[h].at(care.further(int(step), set.options.distance_ratio)).translation_m;
       const std::size_t j = h * steps + step;
-      says[j].rank = scan_size_weight((at_m + middle_m).norm());
+      says[j].rank = size_weight;
       look(j, moved_to(turned, at_m + place_m), *seen.view);
     }
   };
@@ -167,8 +171,8 @@ void judge(const TemplateSet& set, const NearestViews& templates, std::span<Scan
       sums[i] += says[i].weight * says[i].rank, weights[i] += says[i].weight;
   }
   for (std::size_t h = 0; h < hits.size(); ++h) {
-    std::size_t best = h * steps;
-    for (std::size_t i = best; i < (h + 1) * steps; ++i)
+    std::size_t best = h * steps + steps / 2;  // where it is, unless another is better
+    for (std::size_t i = h * steps; i < (h + 1) * steps; ++i)
       if (sums[i] / weights[i] < sums[best] / weights[best]) best = i;
     hits[h].camera_from_object = moved[h].at(care.further(int(best % steps), set.options.distance_ratio));
     hits[h].rank = sums[best] / weights[best];
@@ -204,19 +208,20 @@ struct Judges {
 std::vector<std::vector<ScanHit>> worth_judging(const TemplateSet& set, std::span<const Observation> images,
                                                 std::span<const std::span<const ScanHit>> hits,
                                                 const Judges& judges, const UnwantedPose& unwanted,
-                                                std::size_t most, Backend& backend) {
+                                                std::size_t most, Backend& backend,
+                                                const ScanOptions& options) {
   std::vector<std::vector<double>> ranks(images.size());
   std::vector<double> all;
   for (std::size_t i = 0; i < images.size(); ++i)
-    for (const ScanHit& hit : judged(set, hits[i], images[i], judges.others[i], backend, QUICK)) {
+    for (const ScanHit& hit : judged(set, hits[i], images[i], judges.others[i], backend, quick(options))) {
       const bool left_out = unwanted(judges.last_from_own[i] * hit.camera_from_object);
       ranks[i].push_back(left_out ? INFINITY : hit.rank);
       if (!left_out) all.push_back(hit.rank);
     }
   double limit = std::numeric_limits<double>::max();
   if (images.size() > 1 && all.size() > most) {
-    std::ranges::nth_element(all, all.begin() + std::ptrdiff_t(most));
-    limit = all[most];
+    std::ranges::nth_element(all, all.begin() + std::ptrdiff_t(most - 1));
+    limit = all[most - 1];
   }
   std::vector<std::vector<ScanHit>> worth(images.size());
   for (std::size_t i = 0; i < images.size(); ++i)
@@ -237,9 +242,10 @@ std::vector<ScanHit> pooled_hits(const TemplateSet& set, std::span<const Observa
                                  std::span<const std::span<const ScanHit>> hits, int helping,
                                  const UnwantedPose& unwanted, std::size_t most, Backend& backend,
                                  const ScanOptions& options) {
+  check(most >= 1, "pooled_hits: at least one hit");
   const Judges judges(images, helping);
   const std::vector<std::vector<ScanHit>> worth =
-      worth_judging(set, images, hits, judges, unwanted, most, backend);
+      worth_judging(set, images, hits, judges, unwanted, most, backend, options);
   std::vector<ScanHit> pooled;
   for (std::size_t i = 0; i < images.size(); ++i)
     for (ScanHit hit : judged_by_all(set, worth[i], images[i], judges.others[i], backend, options)) {

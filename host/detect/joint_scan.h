@@ -18,7 +18,8 @@ namespace edgescout {
 // ScanHit::rank is in one; mean_px stays that of their own view. Another view sees the points of the
 // viewpoint nearest to the hit's. Other views in which a hit lies behind the camera or in no image count as
 // chance; of what known objects hide there (RegisterView::occluders) a view says nothing, and counts the
-// less. `points` as for the scan. In the order given.
+// less. A hit about whose distance nothing is said stays where it is. `points` as for the scan. In the order
+// given.
 std::vector<ScanHit> judged_by_all(const TemplateSet& set, std::span<const ScanHit> hits,
                                    const Observation& own, std::span<const Observation> others,
                                    Backend& backend, const ScanOptions& options);
@@ -31,7 +32,7 @@ using UnwantedPose = std::function<bool(const Se3& camera_from_object)>;
 // than one among thousands of hits there, and not be seen in the next image at all: with each further image
 // to judge them the hits of earlier ones tell more. A quick look, at a third of the points and three of the
 // five distances, leaves `most` of those that are not unwanted, of ties all; what it says is not returned. An
-// only image's hits stay as they are.
+// only image's hits stay as they are, those that are not unwanted, however many. `most` from 1 up.
 std::vector<ScanHit> pooled_hits(const TemplateSet& set, std::span<const Observation> images,
                                  std::span<const std::span<const ScanHit>> hits, int helping_views,
                                  const UnwantedPose& unwanted, std::size_t most, Backend& backend,
