@@ -55,9 +55,11 @@ std::vector<RegisterView> views_around(const Observation& observation, std::span
   return views;
 }
 
-// What a pose that several views were aligned in costs where it lies; wide of all images, more than any.
+// What a pose that several views were aligned in costs where it lies. Few points, of what hardly shows, can
+// be fitted to anything.
 double cost_of(const Registration& registration) {
-  return registration.points > 0 ? registration.cost_px2 / registration.points : INFINITY;
+  constexpr int least_points = 12;
+  return registration.points >= least_points ? registration.cost_px2 / registration.points : INFINITY;
 }
 
 std::vector<RegisterView> coarse_of(std::vector<RegisterView> views) {

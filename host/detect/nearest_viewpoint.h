@@ -1,5 +1,6 @@
 // Which of a set's viewpoints stands nearest to a camera: what shows from there is what the camera sees, to
-// within half the angle between viewpoints (some six degrees, TemplateOptions::frequency).
+// within ICOSPHERE_GAP_RAD / frequency (viewpoints.h; nine degrees at the default, five in the mean). A set
+// whose range leaves directions out gives the nearest there is, however far.
 #pragma once
 
 #include <Eigen/Core>

@@ -7,7 +7,8 @@
 namespace edgescout {
 
 // Of poses of the set's object: the points of the viewpoint nearest to each view's, at most `most`, evenly
-// thinned, without those that the view's occluders hide. The set and the views must outlive what is returned.
+// thinned, without those that lie outside the view's image or that its occluders hide. The set, the views and
+// the backend must outlive what is returned.
 PointsInViews template_points(const TemplateSet& set, std::span<const RegisterView> views, int most,
                               Backend& backend);
 
