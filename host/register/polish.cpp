@@ -71,13 +71,18 @@ LineSystem system_at(const Se3& pose, std::span<const RegisterView> views,
   return sum;
 }
 
+bool enough(const LineSystem& system, const PolishOptions& options) {
+  constexpr int least_matched = 12;  // twice the unknowns
+  return system.matched >= least_matched && system.matched >= options.min_matched * system.points;
+}
+
 void polish_one(Registration& registration, std::span<const RegisterView> views,
                 std::span<const VisibleInView> seen, const PolishOptions& options) {
   Se3 pose = registration.world_from_object;
   for (const PolishRound& round : options.rounds)
     for (int i = 0; i < round.iterations; ++i) {
       LineSystem system = system_at(pose, views, seen, round, options.max_turn_rad);
-      if (system.matched < options.min_matched * system.points || system.matched < 12) return;
+      if (!enough(system, options)) return;
       system.hessian.diagonal() *= 1 + 1e-4;  // keeps directions no edge sees where they are
       const Vector6d step = -system.hessian.ldlt().solve(system.gradient);
       if (!step.allFinite()) return;
@@ -85,7 +90,7 @@ void polish_one(Registration& registration, std::span<const RegisterView> views,
       if (step.head<3>().norm() < options.min_step_m && step.tail<3>().norm() < options.min_step_rad) break;
     }
   const LineSystem final_system = system_at(pose, views, seen, options.rounds.back(), options.max_turn_rad);
-  if (final_system.matched < options.min_matched * final_system.points) return;
+  if (!enough(final_system, options)) return;
   registration.world_from_object = pose;
   registration.covariance = pose_covariance(
       final_system.hessian, final_system.weighted_square / std::max(1.0, final_system.weight - 6));
