@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/edge/salient_edges.h"
+#include "kernels/error.h"
 
 namespace edgescout {
 
@@ -12,6 +13,7 @@ double reduction_for(double size_px) { return std::clamp(std::round(size_px / 48
 Observation observe(const Image& image, const Camera& camera, const Se3& camera_from_world,
                     std::span<const EdgePoint> edges, double reduction, const TensorOptions& tensor,
                     Backend& backend) {
+  check(is_finite(camera_from_world), "observe: a camera pose that is not finite");
   Observation o;
   o.reduction = reduction;
   o.coarse_camera = scaled(camera, 1 / reduction);
