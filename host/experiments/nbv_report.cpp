@@ -205,20 +205,24 @@ Panel panel_of(const Table& table, const Searched& searched, const std::vector<s
 Report nbv_report(const ExperimentSettings&, const Table& table) {
   const std::vector<std::string> strategies = values_of(table, "strategy"), views = values_of(table, "views");
   Report report;
-  report.columns = 1;
   report.markdown = fmt::format(
       "Bins: {}. Instances correctly localised (below 0.1 rad and 5 mm) after so many views; false positives "
       "a search; instances of which some image so far showed more than 70 %. Differences: points of percent; "
       "false positives a search; intervals over the same draws of bins.\n\n",
       bins_text(table));
+  const auto rows_in = [&](const BinSet& set) { return rows_of_set(table, set.types); };
+  std::size_t columns = 1;
+  for (const BinSet& set : sets_in(table)) columns = std::max(columns, searches_in(rows_in(set), set).size());
+  report.columns = static_cast<int>(columns);
   for (const BinSet& set : sets_in(table)) {
-    const Table rows = rows_of_set(table, set.types);
+    const Table rows = rows_in(set);
     const std::vector<Searched> searches = searches_in(rows, set);
-    report.columns = std::max(report.columns, static_cast<int>(searches.size()));
     for (const Searched& searched : searches) report.markdown += table_of(rows, searched, strategies, views);
-    for (const Measure measure : {Measure::Correct, Measure::Wrong})
+    for (const Measure measure : {Measure::Correct, Measure::Wrong}) {
       for (const Searched& searched : searches)
         report.panels.push_back(panel_of(rows, searched, strategies, views, measure));
+      report.panels.resize((report.panels.size() + columns - 1) / columns * columns);  // each in its row
+    }
   }
   std::vector<double> seconds;
   for (std::size_t row = 0; row < table.rows.size(); ++row)
@@ -227,8 +231,9 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
       seconds.push_back(number_in(table, row, "seconds"));
   if (!seconds.empty())
     report.markdown += fmt::format(
-        "A step took {:.1f} s (median): the decision, and what its image brings, while other bins ran "
-        "beside.\n",
+        "A step took {:.1f} s (median): the decision, and what its image brings. (On a CPU as many bins run "
+        "side "
+        "by side as it has threads.)\n",
         median(seconds));
   return report;
 }

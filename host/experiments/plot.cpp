@@ -217,6 +217,7 @@ std::string svg_of(std::span<const Panel> panels, int columns, const std::string
   if (!description.empty()) svg += "<desc>" + escaped(description) + "</desc>\n";
   for (int i = 0; i < count; ++i) {
     const Panel& panel = panels[i];
+    if (panel.lines.empty() && panel.title.empty()) continue;
     const Axes axes(panel, MARGIN + WIDTH * (i % across), MARGIN + HEIGHT * (i / across));
     svg += frame(panel, axes);
     const auto style = [&](const PlotLine& line) {

@@ -29,8 +29,8 @@ struct Panel {
 // or below low, the last at or above high.
 std::vector<double> tick_values(double low, double high, int most = 6);
 
-// A whole SVG file, at most `columns` panels a row, with a description for whoever opens it as text. Numbers
-// that are not finite are left out.
+// A whole SVG file, at most `columns` panels a row, of one without title and lines the place left free, with
+// a description for whoever opens it as text. Numbers that are not finite are left out.
 std::string svg_of(std::span<const Panel> panels, int columns = 3, const std::string& description = "");
 
 }  // namespace edgescout

@@ -135,6 +135,22 @@ TEST(NbvReport, KeepsCadPartsApartAndAddsThemUp) {
   EXPECT_DOUBLE_EQ(report.panels[4].lines[0].points[0].y, 0.125);
 }
 
+// A set with fewer tables than another does not move the panels of the next one into its rows.
+TEST(NbvReport, KeepsARowASetAndMeasure) {
+  Table table = no_rows();
+  for (const auto& [types, group] : {std::pair{"own", "light"}, {"own", "heavy"}, {"cad", "heavy"}})
+    table.rows.push_back({"0", types, "all", "mi-max", "1", group, "4", "2", "0", "4", ""});
+  const Report report = nbv_report({}, table);
+  EXPECT_EQ(report.columns, 2);
+  std::vector<std::string> titles;
+  for (const Panel& panel : report.panels) titles.push_back(panel.title);
+  const std::string light = "three types, lightly occluded", heavy = "three types, highly occluded";
+  EXPECT_EQ(titles,
+            (std::vector<std::string>{light, heavy, light, heavy, "CAD parts, " + heavy, "",
+                                      "CAD parts, " + heavy, "", "all bins, " + light, "all bins, " + heavy,
+                                      "all bins, " + light, "all bins, " + heavy}));
+}
+
 // Strategies that ended early, each in another bin, have nothing to be compared over.
 TEST(NbvReport, ComparesStrategiesInTheSameBinsAlone) {
   Table table = no_rows();
