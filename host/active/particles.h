@@ -29,7 +29,7 @@ struct Particle {
 };
 
 // How far drawn poses lie from where they were drawn around: a Gaussian of the covariance, its standard
-// deviations (rotations times the object's radius) clamped to these fractions of the diameter. The lower
+// deviations (rotations times half the diameter) clamped to these fractions of the diameter. The lower
 // bound keeps particles of one place apart, the upper one holds them where nothing is known.
 struct Spread {
   double min = 0.005;

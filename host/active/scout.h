@@ -8,8 +8,8 @@
 //   }
 //   scout.state().detections;
 //
-// No thread of its own, no global state, no clock but for timings: the same images in the same order give the
-// same result. Each call leaves the state as it was where it throws.
+// No thread of its own, no global state, no clock but for timings and max_seconds: the same images in the
+// same order give the same result. Each call leaves the state as it was where it throws.
 #pragma once
 
 #include <functional>
@@ -52,7 +52,7 @@ struct ScoutOptions {
   ModeDetectionOptions detections;
   AgreementOptions agreement;
   int first_view = 0;  // whatever the strategy: of a fixed sequence give its first
-  // The end, whichever comes first. A limit of 0 is none.
+  // The end, whichever comes first. Of all but the images a limit of 0 is none.
   int max_views = 5;               // images
   double min_entropy_nats = 0.01;  // less: the modes are certain; and no new candidates in the last image
   // less expected of the best view about the candidates, what its way costs taken off
@@ -81,18 +81,18 @@ class Scout {
   std::optional<ScoutDecision> propose();
 
   // The image from a view, taken where it was planned or where the camera truly was. It need not be the
-  // proposed one. InputError: a view taken before, what require_fitting refuses.
+  // proposed one. InputError: a view taken or given up before, what require_fitting refuses.
   void give(int view, const Image& image);
   void give(int view, const Image& image, const Se3& camera_from_world);
   // Whether `give` would take it. InputError: another size than the camera's, other pixels than its size
   // says, a pose that is not rigid.
   void require_fitting(const Image& image, const Se3& camera_from_world) const;
-  // The view failed; it is never proposed again.
+  // The view failed; it is never proposed again. InputError: a view taken or given up before.
   void unreachable(int view, const std::string& reason);
 
   const ScoutState& state() const { return state_; }
-  // Goes on from a saved state, as if these steps had been made here. InputError naming `source`: other views
-  // or objects than this scout's, images of another size.
+  // Goes on from a saved state, as if these steps had been made here. InputError naming `source`: another
+  // camera, other views or objects than this scout's, images that require_fitting refuses.
   void resume(ScoutState state, const std::string& source);
 
  private:

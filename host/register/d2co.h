@@ -42,9 +42,9 @@ struct RegisterView {
   ViewHandle view;
   Camera camera;
   Se3 camera_from_world;                   // identity where the world is the camera frame
-  std::shared_ptr<const EdgeIndex> edges;  // the edge points themselves; needed by polish_poses only
+  std::shared_ptr<const EdgeIndex> edges;  // the edge points themselves; register_poses does without
   ViewHandle coarse;  // the same edges on a reduced tensor: a wider basin for the search (refine.h)
-  std::shared_ptr<const Image> image;          // undistorted; needed by shading (shading.h) only
+  std::shared_ptr<const Image> image;  // undistorted; for shading (shading.h) and baselines that look at grey
   std::shared_ptr<const Occluders> occluders;  // what known objects hide here; none: nothing
 };
 

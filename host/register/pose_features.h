@@ -37,8 +37,8 @@ double evidence(const PoseFeatures& features);
 double evidence_over_beside(const PoseFeatures& features);
 
 // Log-odds that the pose is right: a linear function of the logarithm of the evidence, the mean distance and
-// the unexplained grey, fitted on rendered scenes (docs/evaluation.md says how). What candidates are ranked
-// by.
+// the unexplained grey, fitted on rendered scenes (docs/evaluation.md says how). What candidates of one
+// view are ranked by; of several views: merit (detect/probability_over_views.h).
 double log_odds(const PoseFeatures& features);
 
 // One entry a pose and view, views of one pose side by side.

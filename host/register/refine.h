@@ -12,8 +12,8 @@
 namespace edgescout {
 
 // Search: besides the start itself, starts turned by `rotation_rad` about the 6 axis directions and 8 cube
-// diagonals of the camera frame are registered coarsely (few points, wide loss); those with the highest
-// log-odds (pose_features.h) go on.
+// diagonals of the camera frame are registered coarsely (few points, wide loss); of those and
+// the start as it was given the ones with the highest log-odds (pose_features.h) go on.
 struct SearchOptions {
   double rotation_rad = 0.3;  // 0: no search, the start alone; in [0, 1]
   int survivors = 4;          // different poses that go on to the full registration
