@@ -1,7 +1,6 @@
 #include "host/detect/template_points.h"
 
 #include "host/register/occluders.h"
-#include "kernels/pose_geometry.h"
 #include "kernels/thread_pool.h"
 
 namespace edgescout {
@@ -12,12 +11,6 @@ ModelPoint moved(const Se3& to_from_object, const ModelPoint& p) {
   const Eigen::Vector3d at = to_from_object * Eigen::Vector3d(p.x_m, p.y_m, p.z_m),
                         along = to_from_object.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz);
   return {float(at.x()), float(at.y()), float(at.z()), float(along.x()), float(along.y()), float(along.z())};
-}
-
-bool in_image(const Camera& camera, const Se3& camera_from_object, const ModelPoint& point) {
-  const PosedPoint<double> posed = pose_point<double>(to_pose(camera_from_object), point);
-  return can_be_seen(posed.point) &&
-         on_image(project_edge(posed, intrinsics_of(camera)), camera.width, camera.height);
 }
 
 class Lookup {
@@ -41,7 +34,6 @@ class Lookup {
     const auto [viewpoint, symmetry] = nearest_.of(camera_from_object);
     std::vector<ModelPoint> points;
     for (const ModelPoint& point : points_[viewpoint]) points.push_back(moved(*symmetry, point));
-    std::erase_if(points, [&](const ModelPoint& p) { return !in_image(view.camera, camera_from_object, p); });
     if (view.occluders) remove_hidden(points, *view.occluders, camera_from_object, tolerance_m_);
     return points;
   }

@@ -90,30 +90,5 @@ TEST(TemplatePoints, AreThinnedEvenlyAndLackWhatIsHidden) {
   EXPECT_GT(hidden, 50u);
 }
 
-// A part across the border, as a larger image of the same camera shows all of it.
-TEST(TemplatePoints, LieInTheImage) {
-  Random random = test_random();
-  LookedAt t("u_channel", random);
-  Camera large = small_camera();
-  large.width = 960, large.height = 720, large.cx += 320, large.cy += 240;
-  for (RegisterView& view : t.views) view.camera_from_world.translation_m.x() += 0.12;
-  const std::vector<std::vector<ModelPoint>> left = t.points(80);
-  for (RegisterView& view : t.views) view.camera = large;
-  std::vector<std::vector<ModelPoint>> whole = t.points(80);
-  std::size_t outside = 0, inside = 0;
-  for (std::size_t i = 0; i < whole.size(); ++i) {
-    outside += std::erase_if(whole[i], [&](const ModelPoint& p) {
-      const Eigen::Vector2d pixel = project(
-          small_camera(), t.views[i % 2].camera_from_world * t.poses[i / 2].world_from_object * place(p));
-      return pixel.x() >= 319.5;
-    });
-    inside += whole[i].size();
-    ASSERT_EQ(left[i].size(), whole[i].size());
-    for (std::size_t p = 0; p < left[i].size(); ++p) EXPECT_EQ(place(left[i][p]), place(whole[i][p]));
-  }
-  EXPECT_GT(outside, 200u);
-  EXPECT_GT(inside, 200u);
-}
-
 }  // namespace
 }  // namespace edgescout::test
