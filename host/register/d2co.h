@@ -58,7 +58,8 @@ std::string to_string(Convergence reason);
 
 struct Registration {
   Se3 world_from_object;
-  // inverse of the final J'WJ, times the residual variance; infinite where singular
+  // inverse of the final J'WJ, times the residual variance: points taken for independent; of a polished pose
+  // that of edge_covariance.h; infinite where singular
   Matrix6d covariance = Matrix6d::Zero();
   double cost_px2 = 0;  // final sum of rho over all points and views
   double mean_px = 0;   // mean residual

@@ -1,8 +1,11 @@
 #include "host/register/polish.h"
 
+#include <numbers>
+
 #include <Eigen/Cholesky>
 
 #include "host/core/option_bounds.h"
+#include "host/register/edge_covariance.h"
 #include "host/register/image_motion.h"
 #include "host/register/visible_in_views.h"
 #include "host/register/world_system.h"
@@ -16,6 +19,7 @@ namespace {
 // One model point against its edge point: signed distance to the edge's tangent line, px, and its derivative
 // by the camera's tangent.
 struct LineResidual {
+  double nx, ny;  // normal of the line
   double value;
   Vector6d jacobian;
 };
@@ -23,44 +27,94 @@ struct LineResidual {
 LineResidual residual_to(const EdgePoint& edge, const PosedPoint<double>& p,
                          const ProjectedEdge<double>& projected, const Intrinsics& k) {
   const double nx = -std::sin(edge.theta_rad), ny = std::cos(edge.theta_rad);
-  return {nx * (projected.u - edge.x_px) + ny * (projected.v - edge.y_px), image_motion(nx, ny, p, k)};
+  return {nx, ny, nx * (projected.u - edge.x_px) + ny * (projected.v - edge.y_px),
+          image_motion(nx, ny, p, k)};
 }
 
-struct LineSystem {
-  Matrix6d hessian = Matrix6d::Zero();
-  Vector6d gradient = Vector6d::Zero();
-  double weighted_square = 0, weight = 0;
+struct Counts {
   int points = 0, matched = 0;
 };
 
-void add_points(LineSystem& sum, const RegisterView& view, const Se3& world_from_object,
-                std::span<const ModelPoint> points, const PolishRound& round, float max_turn_rad) {
+// Calls visit(residual, weight, projected point) for every point that finds an edge. Derivatives are by the
+// camera's tangent.
+template <typename Visit>
+Counts match_points(const RegisterView& view, const Se3& world_from_object,
+                    std::span<const ModelPoint> points, const PolishRound& round, float max_turn_rad,
+                    const Visit& visit) {
   const Pose pose = to_pose(view.camera_from_world * world_from_object);
   const Intrinsics& k = view.view->intrinsics;
-  Matrix6d hessian = Matrix6d::Zero();  // by the camera's tangent
-  Vector6d gradient = Vector6d::Zero();
+  Counts counts;
   for (const ModelPoint& model : points) {
     const PosedPoint<double> posed = pose_point<double>(pose, model);
     if (!can_be_seen(posed.point)) continue;
-    ++sum.points;
+    ++counts.points;
     const ProjectedEdge<double> projected = project_edge(posed, k);
     const EdgePoint* edge =
         view.edges->nearest(float(projected.u), float(projected.v),
                             float(orientation(projected.dx, projected.dy)), round.radius_px, max_turn_rad);
     if (!edge) continue;
-    ++sum.matched;
+    ++counts.matched;
     const LineResidual r = residual_to(*edge, posed, projected, k);
-    const double s2 = round.scale_px * round.scale_px, q = s2 / (s2 + r.value * r.value), weight = q * q;
-    hessian += weight * r.jacobian * r.jacobian.transpose();
-    gradient += weight * r.value * r.jacobian;
-    sum.weighted_square += weight * r.value * r.value;
-    sum.weight += weight;
+    const double s2 = round.scale_px * round.scale_px, q = s2 / (s2 + r.value * r.value);
+    visit(r, q * q, projected);
   }
-  Matrix6d to_camera = Matrix6d::Zero();
-  to_camera.topLeftCorner<3, 3>() = to_camera.bottomRightCorner<3, 3>() =
+  return counts;
+}
+
+// [R, 0; 0, R]: from the world's tangent to the camera's (world_system.h).
+Matrix6d camera_tangent(const RegisterView& view) {
+  Matrix6d camera_from_world = Matrix6d::Zero();
+  camera_from_world.topLeftCorner<3, 3>() = camera_from_world.bottomRightCorner<3, 3>() =
       view.camera_from_world.rotation.toRotationMatrix();
+  return camera_from_world;
+}
+
+struct LineSystem {
+  Matrix6d hessian = Matrix6d::Zero();
+  Vector6d gradient = Vector6d::Zero();
+  Counts counts;
+};
+
+void add_points(LineSystem& sum, const RegisterView& view, const Se3& world_from_object,
+                std::span<const ModelPoint> points, const PolishRound& round, float max_turn_rad) {
+  Matrix6d hessian = Matrix6d::Zero();
+  Vector6d gradient = Vector6d::Zero();
+  const Counts counts = match_points(view, world_from_object, points, round, max_turn_rad,
+                                     [&](const LineResidual& r, double weight, const auto&) {
+                                       hessian += weight * r.jacobian * r.jacobian.transpose();
+                                       gradient += weight * r.value * r.jacobian;
+                                     });
+  const Matrix6d to_camera = camera_tangent(view);
   sum.hessian += to_camera.transpose() * hessian * to_camera;
   sum.gradient += to_camera.transpose() * gradient;
+  sum.counts.points += counts.points;
+  sum.counts.matched += counts.matched;
+}
+
+// Points on one straight line of a view share a number, those of a curve one for every 15 degrees of it.
+std::uint64_t line_number(std::size_t view, double theta_rad, double offset_px) {
+  constexpr double arc_rad = std::numbers::pi / 12, width_px = 4;
+  constexpr std::int64_t arcs = 16, offsets = 1 << 24;  // more than there are of either
+  const auto arc = std::int64_t(theta_rad / arc_rad), offset = std::int64_t(std::floor(offset_px / width_px));
+  return std::uint64_t((std::int64_t(view) * arcs + arc) * offsets + offset + offsets / 2);
+}
+
+Matrix6d covariance_at(const Se3& pose, std::span<const RegisterView> views,
+                       std::span<const VisibleInView> seen, const PolishRound& round, float max_turn_rad) {
+  EdgeCovariance sum;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    if (!views[v].edges) continue;
+    const Matrix6d to_camera = camera_tangent(views[v]);
+    match_points(views[v], pose, seen[v].points, round, max_turn_rad,
+                 [&](const LineResidual& r, double weight, const ProjectedEdge<double>& p) {
+                   const double theta = orientation(p.dx, p.dy), nx = -std::sin(theta), ny = std::cos(theta);
+                   // The edge's direction may have wrapped where the point's has not.
+                   const double sign = r.nx * nx + r.ny * ny < 0 ? -1 : 1;
+                   sum.add(line_number(v, theta, nx * p.u + ny * p.v), sign * r.value, weight,
+                           sign * to_camera.transpose() * r.jacobian);
+                 });
+  }
+  return sum.covariance();
 }
 
 LineSystem system_at(const Se3& pose, std::span<const RegisterView> views,
@@ -73,7 +127,8 @@ LineSystem system_at(const Se3& pose, std::span<const RegisterView> views,
 
 bool enough(const LineSystem& system, const PolishOptions& options) {
   constexpr int least_matched = 12;  // twice the unknowns
-  return system.matched >= least_matched && system.matched >= options.min_matched * system.points;
+  return system.counts.matched >= least_matched &&
+         system.counts.matched >= options.min_matched * system.counts.points;
 }
 
 void polish_one(Registration& registration, std::span<const RegisterView> views,
@@ -92,8 +147,7 @@ void polish_one(Registration& registration, std::span<const RegisterView> views,
   const LineSystem final_system = system_at(pose, views, seen, options.rounds.back(), options.max_turn_rad);
   if (!enough(final_system, options)) return;
   registration.world_from_object = pose;
-  registration.covariance = pose_covariance(
-      final_system.hessian, final_system.weighted_square / std::max(1.0, final_system.weight - 6));
+  registration.covariance = covariance_at(pose, views, seen, options.rounds.back(), options.max_turn_rad);
 }
 
 }  // namespace

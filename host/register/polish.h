@@ -30,7 +30,8 @@ struct PolishOptions {
   void validate() const;  // throws InputError naming the field and the violated bound
 };
 
-// Improves pose and covariance of every registration in place. Views without an edge index do not take part.
+// Improves the pose of every registration in place and gives it the covariance of edge_covariance.h. Views
+// without an edge index do not take part. Where there are too few edges all stays as it is.
 void polish_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
                   std::span<const RegisterView> views, Backend& backend, const PolishOptions& options,
                   std::span<Registration> registrations);

@@ -1,0 +1,48 @@
+#include "host/register/edge_covariance.h"
+
+#include <algorithm>
+
+#include "host/register/d2co.h"
+
+namespace edgescout {
+
+void EdgeCovariance::add(std::uint64_t edge, double distance_px, double weight, const Vector6d& jacobian) {
+  Sums& sums = edges_[edge];
+  sums.jacobian += weight * jacobian;
+  sums.distance_px += weight * distance_px;
+  sums.weight += weight;
+  ++sums.points;
+  hessian_ += weight * jacobian * jacobian.transpose();
+  squares_px2_ += weight * distance_px * distance_px;
+}
+
+Matrix6d EdgeCovariance::covariance() const {
+  const Matrix6d inverse = pose_covariance(hessian_, 1);
+  if (!inverse.allFinite()) return inverse;
+  Matrix6d by_edge = Matrix6d::Zero(), by_weighted_edge = Matrix6d::Zero();
+  double weight = 0, squared_weight = 0, explained_px2 = 0, between_px2 = 0, free_within = 0;
+  for (const auto& [edge, sums] : edges_) {
+    by_edge += sums.jacobian * sums.jacobian.transpose();
+    by_weighted_edge += sums.weight * sums.jacobian * sums.jacobian.transpose();
+    weight += sums.weight;
+    squared_weight += sums.weight * sums.weight;
+    explained_px2 += sums.distance_px * sums.distance_px / sums.weight;
+    between_px2 += sums.distance_px * sums.distance_px;
+    free_within += sums.weight * (1 - 1.0 / sums.points);
+  }
+  // E[within] = b free_within; E[between] = a free_between + b own_between, with the pose at its optimum.
+  const double own_px2 = std::max(0.0, squares_px2_ - explained_px2) / std::max(1.0, free_within);
+  const Matrix6d taken = inverse * by_edge;
+  const double own_between = std::max(0.0, weight - taken.trace()),
+               free_between = std::max(
+                   0.0, squared_weight - 2 * (inverse * by_weighted_edge).trace() + (taken * taken).trace());
+  const double expected_free = EXPECTED_FROM_EDGES * squared_weight / double(edges_.size()),
+               expected_px2 = EXPECTED_DISPLACEMENT_PX * EXPECTED_DISPLACEMENT_PX;
+  const double shared_px2 =
+      (expected_free * expected_px2 + std::max(0.0, between_px2 - own_between * own_px2)) /
+      (expected_free + free_between);
+  const Matrix6d covariance = own_px2 * inverse + shared_px2 * taken * inverse;
+  return COMMON_TO_EDGES * 0.5 * (covariance + covariance.transpose());
+}
+
+}  // namespace edgescout
