@@ -25,7 +25,8 @@ struct Lanes {
 struct Group {
   Lanes active, arm[3], point[3], tangent[3];
   Lanes u, v, dx, dy, turn;  // turn: orientation in bins
-  Lanes value, slope[3];     // of the tensor, slope by u, v, bins
+  int x0[lanes], y0[lanes], bin[lanes];
+  Lanes value, slope[3];  // of the tensor, slope by u, v, bins
 };
 
 inline __attribute__((always_inline)) void load_points(const ModelPoint* models, int count, const Pose& pose,
@@ -62,24 +63,51 @@ inline __attribute__((always_inline)) void load_points(const ModelPoint* models,
   }
 }
 
-inline __attribute__((always_inline)) void read_tensor(const TensorView& view, Group& g) {
-  const TensorShape& s = view.shape;
-  const std::uint16_t* tensor = view.tensor.data();
-  const int tiles = s.tiles_per_row(), last_x = s.width - 1, last_y = s.height - 1;
+// Where the tensor is: rows of tiles, of every tile all bins (kernels/tensor_layout.h).
+struct Layout {
+  const std::uint16_t* tensor;
+  std::size_t tile, row;
+  int bins, last_x, last_y;
+  explicit Layout(const TensorView& view)
+      : tensor(view.tensor.data()),
+        tile(std::size_t(view.shape.bins) * DCD_TILE),
+        row(std::size_t(view.shape.tiles_per_row()) * tile),
+        bins(view.shape.bins),
+        last_x(view.shape.width - 1),
+        last_y(view.shape.height - 1) {}
+  const std::uint16_t* at(int x, int y) const {
+    return tensor + std::size_t(y) * row + std::size_t(x / int(DCD_TILE)) * tile + x % int(DCD_TILE);
+  }
+  std::size_t down(int y) const { return y < last_y ? row : 0; }
+  std::size_t bin(int k) const { return std::size_t(k) * DCD_TILE; }
+  std::size_t bin_after(int k) const { return bin(k + 1 == bins ? 0 : k + 1); }
+};
+
+// The tensor is many times a cache: of a whole group the reads are under way before the first is waited for.
+inline __attribute__((always_inline)) void fetch(const Layout& layout, Group& g) {
+  for (int i = 0; i < lanes; ++i) {
+    g.x0[i] = std::min(int(std::clamp(g.u[i], 0.0f, float(layout.last_x))), std::max(0, layout.last_x - 1));
+    g.y0[i] = std::min(int(std::clamp(g.v[i], 0.0f, float(layout.last_y))), std::max(0, layout.last_y - 1));
+    g.bin[i] = std::min(int(g.turn[i]), layout.bins - 1);
+  }
+  for (int i = 0; i < lanes; ++i) {
+    const std::uint16_t* place = layout.at(g.x0[i], g.y0[i]);
+    for (const std::uint16_t* line : {place, place + layout.down(g.y0[i])}) {
+      __builtin_prefetch(line + layout.bin(g.bin[i]));
+      __builtin_prefetch(line + layout.bin_after(g.bin[i]));
+    }
+  }
+}
+
+inline __attribute__((always_inline)) void read_tensor(const Layout& layout, Group& g) {
   constexpr float unit = 1.0f / DCD_UNITS_PER_PX;
   for (int i = 0; i < lanes; ++i) {
-    const float x = std::clamp(g.u[i], 0.0f, float(last_x)), y = std::clamp(g.v[i], 0.0f, float(last_y));
-    const int x0 = std::min(int(x), std::max(0, last_x - 1)), y0 = std::min(int(y), std::max(0, last_y - 1));
-    const int x1 = std::min(x0 + 1, last_x), y1 = std::min(y0 + 1, last_y);
-    const int k0 = std::min(int(g.turn[i]), s.bins - 1), k1 = k0 + 1 == s.bins ? 0 : k0 + 1;
+    const float x = std::clamp(g.u[i], 0.0f, float(layout.last_x)),
+                y = std::clamp(g.v[i], 0.0f, float(layout.last_y));
+    const int x0 = g.x0[i], y0 = g.y0[i], k0 = g.bin[i];
     const float ax = x - float(x0), ay = y - float(y0), ak = g.turn[i] - float(k0);
-    const std::size_t row = std::size_t(tiles) * s.bins * DCD_TILE;
-    const auto line = [&](int px) {
-      return std::size_t(px / int(DCD_TILE)) * s.bins * DCD_TILE + px % int(DCD_TILE);
-    };
-    const std::uint16_t *left = tensor + y0 * row + line(x0), *right = tensor + y0 * row + line(x1);
-    const std::size_t down = std::size_t(y1 - y0) * row, a = std::size_t(k0) * DCD_TILE,
-                      b = std::size_t(k1) * DCD_TILE;
+    const std::uint16_t *left = layout.at(x0, y0), *right = layout.at(std::min(x0 + 1, layout.last_x), y0);
+    const std::size_t down = layout.down(y0), a = layout.bin(k0), b = layout.bin_after(k0);
     const float s00 = float(left[b]) - float(left[a]), s10 = float(right[b]) - float(right[a]);
     const float s01 = float(left[down + b]) - float(left[down + a]),
                 s11 = float(right[down + b]) - float(right[down + a]);
@@ -137,13 +165,18 @@ EDGESCOUT_SIMD_CLONES
 void sum_problem(const TensorView& view, const ModelPoint* models, std::uint32_t count, const Pose& pose,
                  const PoseLoss& loss, float* totals) {
   const float bins_per_rad = float(view.shape.bins) / 3.14159265f;
+  const Layout layout(view);
   Lanes sums[sum_count] = {};
-  for (std::uint32_t first = 0; first < count; first += lanes) {
-    Group group;
-    load_points(models + first, static_cast<int>(std::min<std::uint32_t>(lanes, count - first)), pose,
-                view.intrinsics, bins_per_rad, group);
-    read_tensor(view, group);
-    accumulate(group, view.intrinsics, bins_per_rad, loss, sums);
+  Group groups[2];
+  for (std::uint32_t first = 0, i = 0; first < count + lanes; first += lanes, i ^= 1) {
+    if (first < count) {
+      load_points(models + first, static_cast<int>(std::min<std::uint32_t>(lanes, count - first)), pose,
+                  view.intrinsics, bins_per_rad, groups[i]);
+      fetch(layout, groups[i]);
+    }
+    if (first == 0) continue;
+    read_tensor(layout, groups[i ^ 1]);
+    accumulate(groups[i ^ 1], view.intrinsics, bins_per_rad, loss, sums);
   }
   for (int e = 0; e < sum_count; ++e) {
     totals[e] = 0;
