@@ -30,7 +30,8 @@ const std::vector<double>& BinCell::visible(int view) {
   if (known == visible_.end()) {
     Scene scene = scene_;
     scene.views = {{camera(), views()[static_cast<std::size_t>(view)]}};
-    scene.options.supersampling = 1;  // the truth at the pixels' centres alone
+    scene.options.supersampling = 1;  // the truth at the pixels' centres alone, and no picture
+    scene.lights.clear();
     known = visible_.emplace(view, render(scene, pool_)[0].visible_fraction).first;
   }
   return known->second;
