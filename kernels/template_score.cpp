@@ -173,11 +173,21 @@ std::uint32_t sum_block(const std::uint8_t* planes, const std::size_t* sources, 
   return least;
 }
 
+bool holds(const Sums& even, const Sums& odd, std::uint16_t wanted) {
+  const auto same = (even == wanted) | (odd == wanted);
+  std::uint64_t words[sizeof same / sizeof(std::uint64_t)], any = 0;
+  std::memcpy(words, &same, sizeof same);
+  for (const std::uint64_t word : words) any |= word;
+  return any != 0;
+}
+
 // Row and column of the first of these sums, row by row.
 std::pair<int, int> first_in_block(const BlockSums& sums, std::uint32_t wanted) {
-  for (int r = 0; r < block_rows; ++r)
+  for (int r = 0; r < block_rows; ++r) {
+    if (!holds(sums.even[r], sums.odd[r], static_cast<std::uint16_t>(wanted))) continue;
     for (int c = 0; c < block_columns; ++c)
       if (sums.at(r, c) == wanted) return {r, c};
+  }
   throw LogicError("template_score: a lowest sum that is nowhere");
 }
 
