@@ -99,8 +99,16 @@ void Scout::give(int view, const Image& image, const Se3& camera_from_world) {
                       : without_expectations(view, options_.next_view.strategy);
   if (proposal_) step.decision.stages = proposal_->stages;  // spent, whether followed or not
   step.camera_from_world = camera_from_world;
-  look(image, step, next, observations);
-  believe(step, next, views_of(observations));
+  look(image, step, observations);
+  const auto known = [&] { return known_objects(next.detections, options_.known_probability); };
+  std::size_t known_before = 0;
+  do {
+    known_before = known().size();
+    search(known(), step, next, observations);
+    believe(step, next, views_of(observations));
+  } while (options_.detect_in_every_image && step.searches < options_.max_searches &&
+           known().size() > known_before);
+  conclude(step, next, views_of(observations));
   next.steps.push_back(std::move(step));
   state_ = std::move(next);
   observations_ = std::move(observations);
@@ -115,22 +123,26 @@ void Scout::unreachable(int view, const std::string& reason) {
   proposal_.reset();
 }
 
-// Lines 1 to 3: the image's edges and tensors, and what may be in it, refined over all images.
-void Scout::look(const Image& image, ScoutStep& step, ScoutState& next,
-                 std::vector<Observation>& observations) const {
+// Line 1: the image's edges and tensors.
+void Scout::look(const Image& image, ScoutStep& step, std::vector<Observation>& observations) const {
   const PreparedImage prepared =
       prepare_image(image, camera_, step.camera_from_world, backend_, options_.pipeline);
   step.image = prepared.image;
   step.stages = prepared.stages;
   Stopwatch watch(step.stages);
   observations.push_back(observe_prepared(prepared, sets_, backend_, options_.pipeline));
-  // nothing is known before the second image
-  const std::vector<Hypothesis> known = known_objects(next.detections, options_.known_probability);
-  hide_behind(known, observations);
   done(watch, "tensors");
+}
+
+// Lines 2 and 3: what may be in the image beside and behind the known, refined over all images.
+void Scout::search(std::span<const Hypothesis> known, ScoutStep& step, ScoutState& next,
+                   std::span<Observation> observations) const {
+  Stopwatch watch(step.stages);
+  hide_behind(known, observations);
   if (next.candidates.empty() || options_.detect_in_every_image) {
     const std::vector<Detection> found = detect(step, known, observations);
     next.candidates.insert(next.candidates.end(), found.begin(), found.end());
+    ++step.searches;
     done(watch, "detection");
   }
   next.candidates = refined_candidates(sets_, models_, next.candidates, views_of(observations),
@@ -158,24 +170,30 @@ void Scout::hide_behind(std::span<const Hypothesis> known, std::span<Observation
     observation.view.occluders = make_occluders(models_, known, observation.view, backend_);
 }
 
-// Lines 11 and 15 to 19: the particles after this image, and the instances they amount to.
+// Lines 11 and 15 to 17: the particles after this image, and the instances they amount to.
 void Scout::believe(ScoutStep& step, ScoutState& next, std::span<const RegisterView> views) const {
   Stopwatch watch(step.stages);
-  step.new_candidates = add_particles(next);
-  step.before = next.particles;
+  add_particles(step, next);
+  const bool reseeded = step.update.reseeded;
   step.update = update_particles(next.particles, next.unseen_px2, models_, next.candidates, views, backend_,
                                  options_.particles);
+  step.update.reseeded |= reseeded;
   done(watch, "particles");
-  const auto modes = [&] {
-    return find_modes(next.particles, sets_, models_, options_.particles, backend_.threads());
-  };
-  next.modes = modes();
+  next.modes = find_modes(next.particles, sets_, models_, options_.particles, backend_.threads());
+  step.mode_probabilities.clear();
   for (const Mode& mode : next.modes) step.mode_probabilities.push_back(mode.probability);
   next.entropy_nats = step.entropy_nats = belief_entropy(next.modes);
   next.detections = step.detections =
       mode_detections(next.particles, next.modes, sets_, models_, views, backend_, options_.detections);
+  done(watch, "modes");
+}
+
+// Lines 18 and 19: the particles for the next image, and what the images say to the instances.
+void Scout::conclude(ScoutStep& step, ScoutState& next, std::span<const RegisterView> views) const {
+  Stopwatch watch(step.stages);
   step.resampled = resample_where_poor(next.particles, next.modes, models_, views.size(), options_.particles);
-  if (step.resampled) next.modes = modes();
+  if (step.resampled)
+    next.modes = find_modes(next.particles, sets_, models_, options_.particles, backend_.threads());
   step.after = next.particles;
   done(watch, "modes");
   std::vector<Hypothesis> objects;
@@ -187,19 +205,22 @@ void Scout::believe(ScoutStep& step, ScoutState& next, std::span<const RegisterV
 
 // Around the first image's candidates all of them; later a share around each candidate that no particle is
 // near.
-std::size_t Scout::add_particles(ScoutState& next) const {
+void Scout::add_particles(ScoutStep& step, ScoutState& next) const {
   const ParticleOptions& o = options_.particles;
   const bool first = next.particles.empty();
+  if (step.before.empty()) step.before = next.particles;
   const std::vector<Detection> unknown = first ? next.candidates
                                                : without_particles(next.candidates, next.particles, sets_,
                                                                    o.mode_radius, o.min_mode_probability);
-  if (unknown.empty()) return 0;
+  if (unknown.empty()) return;
+  const Random random = Random(o.seed).split("new").split(next.steps.size());
   const std::size_t share = static_cast<std::size_t>(o.count) * unknown.size() / next.candidates.size();
   const std::vector<Particle> drawn =
       draw_particles(models_, unknown, std::max(1, static_cast<int>(share)), o.drawn,
-                     Random(o.seed).split("new").split(next.steps.size()));
+                     step.searches > 1 ? random.split(static_cast<std::uint64_t>(step.searches)) : random);
   next.particles.insert(next.particles.end(), drawn.begin(), drawn.end());
-  return unknown.size();
+  step.before.insert(step.before.end(), drawn.begin(), drawn.end());
+  step.new_candidates += unknown.size();
 }
 
 // Lines 4 to 10 and 13. No view is left where the decision's is negative.

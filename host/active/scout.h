@@ -45,6 +45,10 @@ struct ScoutOptions {
   // them (register/occluders.h): what they cover counts neither for nor against other poses, but leaves
   // fewer edges to be certain by. Above 1: none are.
   double known_probability = 0.9;
+  // Of one image. While what the last search of it found makes more instances known, it is searched once more
+  // for what is behind and beside them, the places of the best hits being free then. Only where
+  // detect_in_every_image is. 1: as in the paper.
+  int max_searches = 2;
   CombinationOptions combinations;
   bool probable_combinations = true;  // scenes as often as they are believed in; else by psi (Algorithm 1)
   ParticleOptions particles;
@@ -104,10 +108,12 @@ class Scout {
   bool little_learned() const;
   int first_open_view() const;
   ScoutDecision decide() const;
-  void look(const Image& image, ScoutStep& step, ScoutState& next,
-            std::vector<Observation>& observations) const;
+  void look(const Image& image, ScoutStep& step, std::vector<Observation>& observations) const;
+  void search(std::span<const Hypothesis> known, ScoutStep& step, ScoutState& next,
+              std::span<Observation> observations) const;
   void believe(ScoutStep& step, ScoutState& next, std::span<const RegisterView> views) const;
-  std::size_t add_particles(ScoutState& next) const;
+  void conclude(ScoutStep& step, ScoutState& next, std::span<const RegisterView> views) const;
+  void add_particles(ScoutStep& step, ScoutState& next) const;
   std::vector<Detection> detect(const ScoutStep& step, std::span<const Hypothesis> known,
                                 std::span<Observation> observations) const;
   void hide_behind(std::span<const Hypothesis> known, std::span<Observation> observations) const;

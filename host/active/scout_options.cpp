@@ -15,6 +15,7 @@ void ScoutOptions::validate() const {
   const OptionBounds in("scout");
   in("max_candidates", max_candidates, 1, 10000);
   in("known_probability", known_probability, 0, 2);
+  in("max_searches", max_searches, 1, 100);
   in("first_view", first_view, 0, 1e6);
   in("max_views", max_views, 1, 1e6);
   in("min_entropy_nats", min_entropy_nats, 0, 1e6);

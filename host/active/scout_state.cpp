@@ -9,7 +9,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 11, "scout state"};
+constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 12, "scout state"};
 
 template <typename T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -98,8 +98,8 @@ void fields(auto& io, A<ScoutDecision> auto& x) {
   io(x.view, x.strategy, x.views, x.candidates, x.likeliest, x.unlikeliest, x.stages);
 }
 void fields(auto& io, A<ScoutStep> auto& x) {
-  io(x.decision, x.camera_from_world, x.image, x.new_candidates, x.before, x.after, x.update, x.resampled,
-     x.detections, x.agreement, x.mode_probabilities, x.entropy_nats, x.stages);
+  io(x.decision, x.camera_from_world, x.image, x.searches, x.new_candidates, x.before, x.after, x.update,
+     x.resampled, x.detections, x.agreement, x.mode_probabilities, x.entropy_nats, x.stages);
 }
 void fields(auto& io, A<ScoutState> auto& x) {
   io(x.objects, x.camera, x.views, x.steps, x.failed, x.candidates, x.particles, x.unseen_px2, x.modes,

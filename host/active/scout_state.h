@@ -34,6 +34,7 @@ struct ScoutStep {
   ScoutDecision decision;
   Se3 camera_from_world;           // as given
   Image image;                     // undistorted
+  int searches = 0;                // of this image: ScoutOptions::max_searches
   std::size_t new_candidates = 0;  // that no particle had been near
   // before this image's say, those drawn around its new candidates included
   std::vector<Particle> before;
@@ -45,7 +46,7 @@ struct ScoutStep {
   std::vector<ViewAgreement> agreement;
   std::vector<double> mode_probabilities;  // of all modes, before resampling; heaviest mode first
   double entropy_nats = 0;                 // belief_entropy of these
-  std::vector<StageSeconds> stages;        // in the order they ran
+  std::vector<StageSeconds> stages;        // in the order they ran first, those of all searches together
 };
 
 struct FailedView {

@@ -101,6 +101,8 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
                "Of all objects together, kept from image to image")
       .bounded("known-probability", o.known_probability, 0.0, 2.0,
                "As probable instances are not sought again and hide what is behind them; above 1: none do")
+      .bounded("max-searches", o.max_searches, 1, 100,
+               "Of one image: again while the last one made more instances known")
       .flag("jointly,!--alone", o.detect_jointly,
             "Detect in later images with the help of those before (default), or in each alone")
       .flag("every-image,!--first-image-only", o.detect_in_every_image,

@@ -78,6 +78,7 @@ json step_json(const ScoutStep& step, const ScoutReport& report) {
           {"camera_from_world", pose_json(step.camera_from_world)},
           {"timings_ms", stages_json(step.stages)},
           {"candidates", step.decision.candidates.size()},
+          {"searches", step.searches},
           {"new_candidates", step.new_candidates},
           {"particles",
            {{"before", step.before.size()},

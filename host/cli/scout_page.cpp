@@ -226,9 +226,11 @@ class Page {
       return cells;
     };
     return fmt::format(
-        "<p class=numbers>entropy <b>{:.3f} nats</b> · {} new candidates · decision {} {}· image {} {}</p>",
-        s.entropy_nats, s.new_candidates, seconds_of(s.decision.stages), row(s.decision.stages),
-        seconds_of(s.stages), row(s.stages));
+        "<p class=numbers>entropy <b>{:.3f} nats</b> · {} new candidates in {} · decision {} {}· image {} "
+        "{}</p>",
+        s.entropy_nats, s.new_candidates,
+        s.searches == 1 ? "one search" : fmt::format("{} searches", s.searches),
+        seconds_of(s.decision.stages), row(s.decision.stages), seconds_of(s.stages), row(s.stages));
   }
 
   std::string failures_after(std::size_t step) const {

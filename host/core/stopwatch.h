@@ -1,6 +1,7 @@
 // Where the time goes: seconds by named stage.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <vector>
@@ -12,13 +13,15 @@ struct StageSeconds {
   double seconds = 0;
 };
 
-// Names the time between two calls.
+// Names the time between two calls; a name that comes again adds to its stage.
 class Stopwatch {
  public:
   explicit Stopwatch(std::vector<StageSeconds>& stages) : stages_(stages) {}
   void lap(const char* stage) {
     const auto now = std::chrono::steady_clock::now();
-    stages_.push_back({stage, std::chrono::duration<double>(now - last_).count()});
+    const auto known = std::ranges::find(stages_, stage, &StageSeconds::name);
+    StageSeconds& lapped = known == stages_.end() ? stages_.emplace_back(StageSeconds{stage}) : *known;
+    lapped.seconds += std::chrono::duration<double>(now - last_).count();
     last_ = now;
   }
 

@@ -206,6 +206,7 @@ Notes options(const ExperimentSettings& s) {
               {"sharpness", number_text(o.combinations.sharpness)},
               {"penetration_m", number_text(o.particles.penetration_m)},
               {"known_probability", number_text(o.known_probability)},
+              {"max_searches", std::to_string(o.max_searches)},
               {"map_reduction", number_text(o.next_view.reduction)},
               {"chamfer_cap_px", number_text(o.next_view.cap_px)},
               {"sigma_px", number_text(o.next_view.sigma_px)},

@@ -117,6 +117,7 @@ TEST(ScoutState, IsWrittenTheSameAfterItWasRead) {
   EXPECT_EQ(read.decision.likeliest, last.decision.likeliest);
   EXPECT_EQ(read.decision.unlikeliest, last.decision.unlikeliest);
   EXPECT_EQ(read.agreement.size(), last.agreement.size());
+  EXPECT_EQ(read.searches, last.searches);
   EXPECT_EQ(read.new_candidates, last.new_candidates);
   EXPECT_EQ(read.resampled, last.resampled);
   EXPECT_EQ(loaded.camera.fx, t.camera().fx);
