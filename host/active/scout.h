@@ -68,7 +68,7 @@ struct ScoutOptions {
   // and a decision: seconds, on a software device up to a minute.
   std::function<bool()> cancelled;
   // More hits an image than a detection that has but one, since later images judge them again; fewer of them
-  // aligned and registered: what an image misses, the next one shows, in half the time (docs/evaluation.md).
+  // aligned and registered: what an image misses, the next one shows, in half the time (docs/next_view.md).
   static PipelineOptions quick_looks();
   void validate() const;  // InputError naming the field and the violated bound
 };

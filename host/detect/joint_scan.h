@@ -3,7 +3,7 @@
 // In one image thousands of places fit a template as well as an object does that is half hidden. Where other
 // images show the same static scene, the right pose fits there too and a chance one does not. A hit's
 // distance is what its own image knows least, so each is tried at several distances along its ray and keeps
-// the one that all images together like best (docs/evaluation.md: what that is worth).
+// the one that all images together like best (docs/next_view.md: what that is worth).
 #pragma once
 
 #include <functional>
