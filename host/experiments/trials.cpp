@@ -2,6 +2,7 @@
 
 #include <time.h>
 
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <map>
@@ -101,6 +102,26 @@ struct Offset {
   double turn_rad = 0, shift_m = 0;
 };
 
+Se3 nearest_equal(const Se3& truth, const Symmetries& symmetries, const Se3& pose) {
+  return truth * *std::ranges::min_element(symmetries.discrete, {}, [&](const Se3& symmetry) {
+           return angle_between_rad(pose, truth * symmetry);
+         });
+}
+
+// Turned by as much as the step says from the nearest pose that looks like the truth: of a turn about the
+// axis of a shaft nothing is left, so what is left sets the direction.
+Se3 moved_off(Se3 truth, const Symmetries& symmetries, Vector6d step) {
+  constexpr int corrections = 10;
+  const double turn_rad = step.tail<3>().norm();
+  Se3 start = retract(truth, step);
+  for (int i = 0; i < corrections && symmetries.discrete.size() > 1; ++i) {
+    truth = nearest_equal(truth, symmetries, start);
+    step.tail<3>() = turn_rad * local_coordinates(truth, start).tail<3>().normalized();
+    start = retract(truth, step);
+  }
+  return start;
+}
+
 // In random directions, so far off as `offset_of` the truth, the start's number around its instance and a
 // source of chance says.
 std::vector<Start> starts_off(const KnownScene& scene, int count, const Random& seed,
@@ -109,13 +130,14 @@ std::vector<Start> starts_off(const KnownScene& scene, int count, const Random& 
   const Random scene_random = seed.split(scene.set).split(scene.name);
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     Random random = scene_random.split(scene.instances[i].name);
+    const Object& object = scene.objects[static_cast<std::size_t>(scene.instances[i].object)];
     const Se3 truth = scene.images[0].camera_from_world * scene.instances[i].world_from_object;
     for (int k = 0; k < count; ++k) {
       const Offset offset = offset_of(truth, k, random);
       Vector6d step;
       step << offset.shift_m * random.direction(), offset.turn_rad * random.direction();
-      starts.push_back(
-          {static_cast<int>(starts.size()), static_cast<int>(i), offset.turn_rad, retract(truth, step)});
+      starts.push_back({static_cast<int>(starts.size()), static_cast<int>(i), offset.turn_rad,
+                        moved_off(truth, object.symmetries, step)});
     }
   }
   return starts;

@@ -10,7 +10,8 @@
 
 namespace edgescout {
 
-// A start and how far from the truth it lies; 0.1 rad go with 5 mm, as in the paper's criterion.
+// A start and how far from the truth it lies, of its equal ones the nearest; 0.1 rad go with 5 mm, as in the
+// paper's criterion.
 struct Start {
   int number = 0;
   int instance = 0;

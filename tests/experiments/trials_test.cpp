@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -63,6 +64,26 @@ TEST(Starts, ByDistanceLieTwoHundredthsOfItAway) {
     shifts_m.insert(start.camera_from_object.translation_m.x() - truth.translation_m.x());
   }
   EXPECT_EQ(shifts_m.size(), 15u) << "each in a direction of its own";
+}
+
+// A shaft turned about its axis has not moved.
+TEST(Starts, LieAsFarFromAllPosesThatLookAlike) {
+  KnownScene scene = empty_scene();
+  scene.objects = rendered_types();
+  const auto shaft = std::ranges::max_element(
+      scene.objects, {}, [](const Object& object) { return object.symmetries.discrete.size(); });
+  ASSERT_GT(shaft->symmetries.discrete.size(), 30u);
+  scene.instances.resize(1);
+  scene.instances[0].object = static_cast<int>(shaft - scene.objects.begin());
+  const Se3 truth = scene.images[0].camera_from_world * scene.instances[0].world_from_object;
+  for (const Start& start : starts_around(scene, 200, 1)) {
+    double nearest_rad = INFINITY;
+    for (const Se3& symmetry : shaft->symmetries.discrete)
+      nearest_rad = std::min(nearest_rad, angle_between_rad(start.camera_from_object, truth * symmetry));
+    EXPECT_NEAR(nearest_rad, start.distance_rad, 1e-6);
+    EXPECT_NEAR(distance_between_m(start.camera_from_object, truth), METRES_PER_RADIAN * start.distance_rad,
+                1e-9);
+  }
 }
 
 TEST(Starts, DependOnTheSeedAlone) {
