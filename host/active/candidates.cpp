@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/core/order.h"
 #include "host/detect/joint_scan.h"
 #include "host/detect/probability_over_views.h"
 #include "host/detect/suppression.h"
@@ -37,6 +38,14 @@ std::vector<Detection> different_ones(const std::vector<Detection>& detections,
   }
   sort_by_probability(kept);
   return kept;
+}
+
+std::vector<double> capped_probabilities(std::span<const Detection> detections) {
+  constexpr double surest = 0.98;  // what that excludes stays ahead of what has hardly a chance
+  std::vector<double> probabilities;
+  for (const Detection& detection : detections)
+    probabilities.push_back(std::min(detection.probability, surest));
+  return probabilities;
 }
 
 // Of 40,000 an image, of which the known instances' are left out.
@@ -96,9 +105,24 @@ std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets,
     detections.push_back(to_detection(starts[i].object, refined[i].registration, refined[i].features));
     detections.back().probability = probability_over_views(refined[i].by_view);
   }
-  detections = different_ones(detections, sets);
-  if (detections.size() > most) detections.resize(most);
-  return detections;
+  return best_beside_others(different_ones(detections, sets), most, models, options.penetration_m,
+                            backend.threads());
+}
+
+std::vector<Detection> best_beside_others(const std::vector<Detection>& candidates, std::size_t most,
+                                          std::span<const EdgeModel> models, double penetration_m,
+                                          ThreadPool& pool) {
+  if (candidates.size() <= most) return candidates;
+  std::vector<Hypothesis> poses;
+  for (const Detection& detection : candidates)
+    poses.push_back({detection.object, detection.world_from_object});
+  std::vector<std::size_t> chosen = largest_first(exclusive_probabilities(
+      capped_probabilities(candidates), plausible_pairs(models, poses, penetration_m, pool)));
+  chosen.resize(most);
+  std::ranges::sort(chosen);
+  std::vector<Detection> kept;
+  for (const std::size_t i : chosen) kept.push_back(candidates[i]);
+  return kept;
 }
 
 std::vector<Detection> without_particles(std::span<const Detection> candidates,

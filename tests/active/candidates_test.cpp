@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "kernels/error.h"
 #include "tests/active/small_cell.h"
 
@@ -53,6 +55,33 @@ TEST(Candidates, NeedImagesThatWereScanned) {
   const auto hits = t.images[0].hits;
   scan_for(t.sets, t.images[0], *t.backend, t.options.scan);
   EXPECT_EQ(t.images[0].hits, hits) << "once";
+}
+
+// However certain their views make what stands in one another's way.
+TEST(Candidates, KeepAPlaceForWhatHasNobodyInItsWay) {
+  const SmallCell t;
+  const std::vector<EdgeModel> models = models_of(t.sets);
+  const auto at = [&](double diameters, double probability) {
+    Detection candidate;
+    candidate.world_from_object.translation_m.x() = diameters * models[0].mesh.diameter_m;
+    candidate.probability = probability;
+    return candidate;
+  };
+  const std::vector<Detection> candidates{at(0, 0.999), at(0.1, 0.99), at(-0.1, 0.99), at(0.15, 0.98),
+                                          at(3, 0.3),   at(6, 0.1),    at(9, 1e-4)};
+  const auto kept = [&](std::size_t most) {
+    std::vector<double> places;
+    for (const Detection& c : best_beside_others(
+             candidates, most, models, t.options().pipeline.detect.penetration_m, t.backend->threads()))
+      places.push_back(std::round(c.world_from_object.translation_m.x() / models[0].mesh.diameter_m * 100) /
+                       100);
+    return places;
+  };
+  EXPECT_EQ(kept(1), (std::vector<double>{0}));
+  EXPECT_EQ(kept(3), (std::vector<double>{0, 3, 6}));
+  EXPECT_EQ(kept(4), (std::vector<double>{0, 0.1, 3, 6})) << "before what has hardly a chance";
+  EXPECT_EQ(kept(7).size(), 7u);
+  EXPECT_EQ(kept(9).size(), 7u);
 }
 
 }  // namespace
