@@ -93,9 +93,7 @@ std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets,
                                           std::span<const Detection> candidates,
                                           std::span<const RegisterView> views, std::size_t most,
                                           Backend& backend, const DetectOptions& options) {
-  std::vector<Hypothesis> starts;
-  for (const Detection& candidate : candidates)
-    starts.push_back({candidate.object, candidate.world_from_object});
+  const std::vector<Hypothesis> starts = poses_of(candidates);
   RefineOptions refine = options.refine;
   refine.search.rotation_rad = 0;  // the search around them was made in their own images
   const std::vector<Refined> refined = refine_poses(models, starts, views, backend, refine);
@@ -113,11 +111,8 @@ std::vector<Detection> best_beside_others(const std::vector<Detection>& candidat
                                           std::span<const EdgeModel> models, double penetration_m,
                                           ThreadPool& pool) {
   if (candidates.size() <= most) return candidates;
-  std::vector<Hypothesis> poses;
-  for (const Detection& detection : candidates)
-    poses.push_back({detection.object, detection.world_from_object});
   std::vector<std::size_t> chosen = largest_first(exclusive_probabilities(
-      capped_probabilities(candidates), plausible_pairs(models, poses, penetration_m, pool)));
+      capped_probabilities(candidates), plausible_pairs(models, poses_of(candidates), penetration_m, pool)));
   chosen.resize(most);
   std::ranges::sort(chosen);
   std::vector<Detection> kept;

@@ -121,6 +121,13 @@ std::vector<Hypothesis> poses_of(std::span<const Particle> particles) {
   return poses;
 }
 
+std::vector<Hypothesis> poses_of(std::span<const Detection> candidates) {
+  std::vector<Hypothesis> poses;
+  for (const Detection& candidate : candidates)
+    poses.push_back({candidate.object, candidate.world_from_object});
+  return poses;
+}
+
 void refine_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
                       std::span<const RegisterView> views, Backend& backend, const ParticleOptions& options) {
   const std::vector<Hypothesis> starts = poses_of(particles);

@@ -75,6 +75,7 @@ Se3 perturbed(const Se3& pose, const Matrix6d& covariance, const EdgeModel& mode
               Random& random);
 
 std::vector<Hypothesis> poses_of(std::span<const Particle> particles);
+std::vector<Hypothesis> poses_of(std::span<const Detection> candidates);
 
 // Multi-view D2CO (Eq. 11) of all particles over all real views side by side: poses and covariances.
 void refine_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
