@@ -49,7 +49,7 @@ struct ExperimentSettings {
   bool times = true;       // off: columns of times stay empty, so that two runs give the same bytes
   ExperimentSettings();
   static ExperimentSettings short_form();  // minutes on two cores
-  static ExperimentSettings full_form();   // the paper's numbers of images; some two hours on two cores
+  static ExperimentSettings full_form();   // the paper's numbers of images; some three hours on two cores
   std::vector<int> bin_numbers(int first) const;  // of the bins that are run: the first ones, or only_bins
   void validate() const;                          // InputError naming the field and the violated bound
 };
