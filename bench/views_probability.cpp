@@ -80,7 +80,7 @@ void print_bin(int number, std::span<const TemplateSet> sets, Backend& backend) 
   const PipelineOptions pipeline = options.pipeline;
   std::vector<Detection> found;
   std::vector<RegisterView> views;
-  std::vector<decltype(Observation::hits)> hits;
+  std::vector<std::vector<ScanHits>> hits;
   options.detect = [&](std::span<const int>, std::span<const Observation> images,
                        std::span<const Hypothesis>) {
     std::vector<Observation> scanned(images.begin(), images.end());

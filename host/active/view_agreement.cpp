@@ -100,8 +100,8 @@ void warn(std::size_t view, const ViewAgreement& found) {
           ? fmt::format("the camera pose of image {} disagrees with it: {:.1f} px between what all images "
                         "say and what it shows",
                         view + 1, found.residual_px)
-          : fmt::format("the camera pose of image {} disagrees with it: it shows none of {} objects that "
-                        "other images show",
+          : fmt::format("image {} shows none of {} objects that other images show: its camera pose is "
+                        "wrong, or something unknown hides them",
                         view + 1, found.missing));
 }
 

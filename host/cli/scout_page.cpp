@@ -175,8 +175,9 @@ class Page {
       if (const ViewAgreement& view = s.agreement[i]; view.disagrees)
         html += fmt::format(
             "<p class=warning>The camera pose of image {} disagrees with the others: {}.</p>", i + 1,
-            view.missing > 0 ? fmt::format("it shows none of {} objects", view.missing)
-                             : fmt::format("the objects lie {:.1f} px off", view.residual_px));
+            view.missing > 0
+                ? fmt::format("it shows none of {} objects, or something unknown hides them", view.missing)
+                : fmt::format("the objects lie {:.1f} px off", view.residual_px));
     return html;
   }
 

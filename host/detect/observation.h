@@ -12,6 +12,8 @@
 namespace edgescout {
 
 struct ScanHit;
+// Of one object in one image; all who look there share them.
+using ScanHits = std::shared_ptr<const std::vector<ScanHit>>;
 
 struct Observation {
   RegisterView view;   // full and coarse tensors, camera, edge index
@@ -19,7 +21,7 @@ struct Observation {
   Camera coarse_camera;
   double reduction = 1;  // image pixels to a coarse pixel
   // What scans of the image found of each object, where they have been made (scan_for, coarse_scan.h).
-  std::vector<std::shared_ptr<const std::vector<ScanHit>>> hits;
+  std::vector<ScanHits> hits;
 };
 
 // Reduction at which something of `size_px` in the image spans about 48 coarse pixels: in [1, 8], whole

@@ -32,10 +32,9 @@ class Detector {
   }
 
  private:
-  using Hits = std::shared_ptr<const std::vector<ScanHit>>;
-  Hits hits(int view, const Observation& observation, std::size_t type) {
+  ScanHits hits(int view, const Observation& observation, std::size_t type) {
     // coarser tensors where only large types are sought
-    Hits& known = hits_[std::tuple(view, type, observation.reduction)];
+    ScanHits& known = hits_[std::tuple(view, type, observation.reduction)];
     if (!known)
       known = std::make_shared<std::vector<ScanHit>>(
           coarse_scan(sets_[type], observation, backend_, options_.scan));
@@ -45,7 +44,7 @@ class Detector {
   const std::vector<TemplateSet>& sets_;
   DetectOptions options_;
   Backend& backend_;
-  std::map<std::tuple<int, std::size_t, double>, Hits> hits_;
+  std::map<std::tuple<int, std::size_t, double>, ScanHits> hits_;
 };
 
 // The types of a bin's parts, and the name they have among the rows.
