@@ -157,6 +157,9 @@ void add_bench_experiments(CLI::App& bench, int& exit_code) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->group("Bins");
+  OptionTable(*verb, "Bins")
+      .bounded("random-draws", request->settings.random_draws, 1, 100,
+               "Of random in a bin: those after the first look once more each, for the mean at two views");
   add_bin_options(*verb, request->settings.scout);
   verb->callback([request, verb, &exit_code] {
     run(*request, *verb);

@@ -2,9 +2,11 @@
 
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <tuple>
 
 #include "host/active/candidates.h"
+#include "host/core/random.h"
 #include "host/experiments/bin_judge.h"
 #include "host/experiments/bin_types.h"
 #include "host/experiments/data_mark.h"
@@ -103,8 +105,9 @@ std::string sought_text(const Search& search) {
   return fmt::format("{}", fmt::join(ids, " "));
 }
 
+// Of what is drawn more than once, `draw` counts from 0.
 ScoutOptions options_for(const ExperimentSettings& s, const Bin& bin, const Search& search,
-                         Detector& detector, const std::string& strategy) {
+                         Detector& detector, const std::string& strategy, int draw) {
   ScoutOptions options = s.scout;
   options.detect = [&](std::span<const int> views, std::span<const Observation> images,
                        std::span<const Hypothesis> known) {
@@ -115,6 +118,10 @@ ScoutOptions options_for(const ExperimentSettings& s, const Bin& bin, const Sear
   options.next_view.strategy = knows ? Strategy::Fixed : strategy_from(strategy);
   options.next_view.seed = options.combinations.seed = options.particles.seed =
       static_cast<std::uint64_t>(bin.number) + 1;
+  if (draw > 0) {
+    options.next_view.seed = Random(options.next_view.seed).split(static_cast<std::uint64_t>(draw)).bits();
+    options.max_views = std::min(options.max_views, 2);
+  }
   options.next_view.sequence =
       knows ? clairvoyant_sequence(bin, search.instances, s.scout.max_views) : fixed_sequence(bin);
   return options;
@@ -133,18 +140,20 @@ void look_from(int view, const Bin& bin, std::vector<BinInstance>& instances) {
     instance.most_visible = std::max(instance.most_visible, visible[instance.placed]);
 }
 
-// Two a step, which chose and used an image.
+// Two a step, which chose and used an image. The first image, of which all draws know the same, is the first
+// draw's.
 void add_rows(Table& table, const ExperimentSettings& s, const Bin& bin, const Search& search,
-              const std::string& strategy, const ScoutState& state) {
+              const std::string& strategy, int draw, const ScoutState& state) {
   std::vector<BinInstance> instances = search.instances;
   for (std::size_t i = 0; i < state.steps.size(); ++i) {
     const ScoutStep& step = state.steps[i];
     look_from(step.decision.view, bin, instances);
+    if (draw > 0 && i == 0) continue;
     const Judgement judgement =
         judge(instances, step, search.objects, bin.cell->camera(), state.steps[0].camera_from_world);
     for (const auto& [group, tally] : {std::pair{"light", judgement.light}, {"heavy", judgement.heavy}})
       table.rows.push_back({std::to_string(bin.number), search.parts, std::to_string(bin.parts), search.name,
-                            sought_text(search), strategy, std::to_string(i + 1),
+                            sought_text(search), strategy, std::to_string(draw), std::to_string(i + 1),
                             std::to_string(step.decision.view), group, std::to_string(tally.instances),
                             std::to_string(tally.correct), std::to_string(tally.correct_px),
                             std::to_string(tally.wrong), std::to_string(tally.wrong_px),
@@ -153,28 +162,34 @@ void add_rows(Table& table, const ExperimentSettings& s, const Bin& bin, const S
   }
 }
 
+int draws_of(const ExperimentSettings& s, const std::string& strategy) {
+  return strategy == "random" ? s.random_draws : 1;
+}
+
 // The first image once, then every strategy from what was known after it.
 void run_search(Table& table, const ExperimentSettings& s, const Bin& bin, const Search& search,
                 Detector& detector, Backend& backend) {
-  const auto scout_for = [&](const std::string& strategy) {
+  const auto scout_for = [&](const std::string& strategy, int draw) {
     return Scout(search.sets, bin.cell->camera(), bin.cell->views(),
-                 options_for(s, bin, search, detector, strategy), backend);
+                 options_for(s, bin, search, detector, strategy, draw), backend);
   };
-  Scout first = scout_for(s.strategies[0]);
+  Scout first = scout_for(s.strategies[0], 0);
   first.give(bin.first_view, bin.cell->acquire(bin.first_view).image);
-  for (const std::string& strategy : s.strategies) {
-    Scout scout = scout_for(strategy);
-    scout.resume(first.state(), "first image");
-    run_scout(scout, *bin.cell);
-    add_rows(table, s, bin, search, strategy, scout.state());
-  }
+  for (const std::string& strategy : s.strategies)
+    for (int draw = 0; draw < draws_of(s, strategy); ++draw) {
+      Scout scout = scout_for(strategy, draw);
+      scout.resume(first.state(), "first image");
+      run_scout(scout, *bin.cell);
+      add_rows(table, s, bin, search, strategy, draw, scout.state());
+    }
 }
 
 Table run_bin(const ExperimentSettings& s, const BinParts& parts, int number, Backend& backend) {
-  Table table{{},
-              {"bin", "types", "parts", "search", "sought", "strategy", "views", "view", "group", "instances",
-               "correct", "correct_px", "wrong", "wrong_px", "followed", "shown", "entropy_nats", "seconds"},
-              {}};
+  Table table{
+      {},
+      {"bin", "types", "parts", "search", "sought", "strategy", "draw", "views", "view", "group", "instances",
+       "correct", "correct_px", "wrong", "wrong_px", "followed", "shown", "entropy_nats", "seconds"},
+      {}};
   const std::vector<TemplateSet> sets = bin_templates(parts.types, backend);
   const Bin bin = make_bin(parts.types, s, number, backend.threads());
   Detector detector(sets, s.scout.pipeline.detect, backend);
@@ -190,6 +205,7 @@ Notes options(const ExperimentSettings& s) {
               {"supersampling", std::to_string(s.supersampling)},
               {"searches", fmt::format("{}", fmt::join(s.searches, " "))},
               {"strategies", fmt::format("{}", fmt::join(s.strategies, " "))},
+              {"random_draws", std::to_string(s.random_draws)},
               {"images", std::to_string(o.max_views)},
               {"detection", o.detect_in_every_image ? "every image" : "first image"},
               {"jointly", o.detect_jointly ? "yes" : "no"},

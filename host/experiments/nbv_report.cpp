@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "host/experiments/nbv.h"
 #include "host/experiments/rates.h"
@@ -76,22 +77,30 @@ void add(Cluster& cluster, double hits, double trials) {
   cluster.trials += trials;
 }
 
-// After so many views. Searches in one bin succeed and fail together.
+// After so many views. Searches in one bin succeed and fail together; of several draws there the mean counts.
 Outcome outcome_of(const Table& rows, const std::string& views) {
   Outcome outcome;
+  std::vector<std::set<std::string>> draws;  // one a bin
   for (std::size_t row = 0; row < rows.rows.size(); ++row) {
     if (text_in(rows, row, "views") != views) continue;
     // bins of other parts have the same numbers
     if (const std::string bin = text_in(rows, row, "types") + " " + text_in(rows, row, "bin");
         outcome.bins.empty() || outcome.bins.back() != bin) {
       outcome.bins.push_back(bin);
+      draws.emplace_back();
       for (std::vector<Cluster>* clusters : {&outcome.correct, &outcome.wrong, &outcome.shown})
         clusters->emplace_back();
     }
+    draws.back().insert(text_in(rows, row, "draw"));
     add(outcome.correct.back(), number_in(rows, row, "correct"), number_in(rows, row, "instances"));
     add(outcome.wrong.back(), number_in(rows, row, "wrong"), 1);
     add(outcome.shown.back(), number_in(rows, row, "shown"), number_in(rows, row, "instances"));
   }
+  for (std::vector<Cluster>* clusters : {&outcome.correct, &outcome.wrong, &outcome.shown})
+    for (std::size_t bin = 0; bin < draws.size(); ++bin) {
+      (*clusters)[bin].hits /= static_cast<double>(draws[bin].size());
+      (*clusters)[bin].trials /= static_cast<double>(draws[bin].size());
+    }
   return outcome;
 }
 
@@ -161,6 +170,16 @@ std::string ranges_text(const std::vector<int>& numbers) {
   return text;
 }
 
+// Where some strategy has more than one.
+std::string draws_text(const Table& table) {
+  const std::size_t draws = values_of(table, "draw").size();
+  return draws < 2
+             ? ""
+             : fmt::format(
+                   " Random's second view is the mean of {} draws a bin, later ones those of the first.",
+                   draws);
+}
+
 // How many there are of each kind of parts, and by what numbers they come again.
 std::string bins_text(const Table& table) {
   std::string text;
@@ -208,8 +227,8 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
   report.markdown = fmt::format(
       "Bins: {}. Instances correctly localised (below 0.1 rad and 5 mm) after so many views; false positives "
       "a search; instances of which some image so far showed more than 70 %. Differences: points of percent; "
-      "false positives a search; intervals over the same draws of bins.\n\n",
-      bins_text(table));
+      "false positives a search; intervals over the same draws of bins.{}\n\n",
+      bins_text(table), draws_text(table));
   const auto rows_in = [&](const BinSet& set) { return rows_of_set(table, set.types); };
   std::size_t columns = 1;
   for (const BinSet& set : sets_in(table)) columns = std::max(columns, searches_in(rows_in(set), set).size());

@@ -113,6 +113,7 @@ void ExperimentSettings::validate() const {
   }
   require_words(searches, SEARCHES, "searches");
   require_words(strategies, STRATEGIES, "strategies");
+  require(random_draws >= 1 && random_draws <= 100, "random_draws", random_draws, "1 to 100");
   scout.validate();
   require(image_scale >= 0.1 && image_scale <= 2, "image_scale", image_scale, "0.1 to 2");
   require(supersampling % 2 == 1 && supersampling >= 1 && supersampling <= 7, "supersampling", supersampling,

@@ -43,6 +43,9 @@ struct ExperimentSettings {
   // In the bins, by name; all from one belief, so that none changes what another finds. Beside these there is
   // CLAIRVOYANT.
   std::vector<std::string> strategies{"mi-max", "random", "dis", "fixed"};
+  // Of Random, whose one draw a bin says little of its mean: every draw after the first chooses a second view
+  // and ends there.
+  int random_draws = 1;
   ScoutOptions scout;      // in the bins; strategy, sequence, seeds and first view are the experiment's
   double image_scale = 1;  // of the paper's image sizes; the bins' are 640x480
   int supersampling = 3;   // of the renderer; odd

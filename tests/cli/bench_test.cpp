@@ -148,6 +148,42 @@ TEST(BenchExperiments, RunChosenStrategiesAlone) {
                   {"strategies", "dis twice", "each once"});
 }
 
+// The first draw goes on as if it were the only one; the others choose a second view each, and no other
+// strategy draws.
+TEST(BenchExperiments, LetRandomChooseManySecondViews) {
+  const TemporaryFolder folder;
+  const auto rows_with = [&](const std::string& draws) {
+    const fs::path out = folder.path() / draws;
+    std::vector<std::string> arguments = experiments(
+        out,
+        {"nbv", "--no-times", "--strategies", "random,fixed", "--searches", "one", "--random-draws", draws});
+    *std::next(std::ranges::find(arguments, "--max-views")) = "3";
+    const Outcome outcome = run_program(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return load_table(out / "nbv.csv");
+  };
+  const Table once = rows_with("1"), often = rows_with("5");
+  std::vector<std::vector<std::string>> first_draws;
+  std::map<std::string, std::string> second_views;  // by draw
+  for (std::size_t row = 0; row < often.rows.size(); ++row) {
+    const std::string draw = text_in(often, row, "draw");
+    if (draw == "0") {
+      first_draws.push_back(often.rows[row]);
+      continue;
+    }
+    EXPECT_EQ(text_in(often, row, "strategy"), "random");
+    EXPECT_EQ(text_in(often, row, "views"), "2");
+    second_views[draw] = text_in(often, row, "view");
+  }
+  EXPECT_EQ(first_draws, once.rows);
+  EXPECT_EQ(second_views.size(), 4u);
+  std::set<std::string> different;
+  for (const auto& [draw, view] : second_views) different.insert(view);
+  EXPECT_GT(different.size(), 1u) << "of 31 views";
+  expect_one_line(run_program(experiments(folder.path() / "none", {"nbv", "--random-draws", "0"})),
+                  {"random-draws"});
+}
+
 // A bin is the same whichever others there are.
 TEST(BenchExperiments, RunChosenBinsAlone) {
   const TemporaryFolder folder;

@@ -104,8 +104,8 @@ TEST(ClairvoyantSequence, TakesTheViewThatShowsMost) {
 // The columns that the report reads.
 Table no_rows() {
   return {{},
-          {"bin", "types", "search", "strategy", "views", "group", "instances", "correct", "wrong", "shown",
-           "seconds"},
+          {"bin", "types", "search", "strategy", "draw", "views", "group", "instances", "correct", "wrong",
+           "shown", "seconds"},
           {}};
 }
 
@@ -115,7 +115,7 @@ TEST(NbvReport, KeepsCadPartsApartAndAddsThemUp) {
   for (const auto& [bin, types, correct] :
        {std::tuple{"0", "own", "4"}, {"1", "own", "2"}, {"0", "cad", "1"}, {"1", "cad", "0"}})
     for (const char* group : {"light", "heavy"})
-      table.rows.push_back({bin, types, "all", "mi-max", "1", group, "4", correct, "0", "4", ""});
+      table.rows.push_back({bin, types, "all", "mi-max", "0", "1", group, "4", correct, "0", "4", ""});
   const Report report = nbv_report({}, table);
   EXPECT_NE(report.markdown.find("Bins: 2 (numbers 0 to 1) and 2 of CAD parts (numbers 0 to 1)."),
             std::string::npos)
@@ -139,7 +139,7 @@ TEST(NbvReport, KeepsCadPartsApartAndAddsThemUp) {
 TEST(NbvReport, KeepsARowASetAndMeasure) {
   Table table = no_rows();
   for (const auto& [types, group] : {std::pair{"own", "light"}, {"own", "heavy"}, {"cad", "heavy"}})
-    table.rows.push_back({"0", types, "all", "mi-max", "1", group, "4", "2", "0", "4", ""});
+    table.rows.push_back({"0", types, "all", "mi-max", "0", "1", group, "4", "2", "0", "4", ""});
   const Report report = nbv_report({}, table);
   EXPECT_EQ(report.columns, 2);
   std::vector<std::string> titles;
@@ -155,7 +155,7 @@ TEST(NbvReport, KeepsARowASetAndMeasure) {
 TEST(NbvReport, ComparesStrategiesInTheSameBinsAlone) {
   Table table = no_rows();
   const auto add = [&](const char* bin, const char* strategy, const char* views) {
-    table.rows.push_back({bin, "own", "all", strategy, views, "light", "4", "2", "0", "4", ""});
+    table.rows.push_back({bin, "own", "all", strategy, "0", views, "light", "4", "2", "0", "4", ""});
   };
   for (const char* bin : {"0", "1"})
     for (const char* strategy : {"mi-max", "random"}) add(bin, strategy, "1");
@@ -166,13 +166,39 @@ TEST(NbvReport, ComparesStrategiesInTheSameBinsAlone) {
       << report.markdown;
 }
 
+// Three draws in one bin and two in the other: each bin counts once, by the mean over its draws.
+TEST(NbvReport, TakesTheMeanOverDraws) {
+  Table table = no_rows();
+  const auto add = [&](const char* bin, const char* strategy, const char* draw, const char* views,
+                       const char* correct, const char* wrong) {
+    table.rows.push_back({bin, "own", "all", strategy, draw, views, "light", "4", correct, wrong, "4", ""});
+  };
+  for (const char* bin : {"0", "1"})
+    for (const char* strategy : {"mi-max", "random"}) {
+      add(bin, strategy, "0", "1", "1", "0");
+      add(bin, strategy, "0", "2", "3", "1");
+      if (strategy == std::string("mi-max")) continue;
+      add(bin, strategy, "1", "2", "2", "3");
+      if (bin == std::string("0")) add(bin, strategy, "2", "2", "4", "2");
+    }
+  const Report report = nbv_report({}, table);
+  EXPECT_NE(report.markdown.find("Random's second view is the mean of 3 draws a bin"), std::string::npos);
+  EXPECT_NE(report.markdown.find("| 68.8 % [62, 75]; 2.00; 100 % |"), std::string::npos)
+      << "3, 2, 4 and 3, 2 of 4\n"
+      << report.markdown;
+  EXPECT_NE(report.markdown.find("; -1.00 [-1.00, -1.00] |"), std::string::npos)
+      << "1, 3, 2 and 1, 3 false ones instead of one\n"
+      << report.markdown;
+  EXPECT_NE(report.markdown.find("8 instances."), std::string::npos);
+}
+
 // Searches for each type in one bin are one cluster: of two bins that agree, the interval is Wilson's of two
 // trials.
 TEST(NbvReport, CountsSearchesOfOneBinTogether) {
   Table table = no_rows();
   for (const auto& [bin, correct, wrong] :
        {std::tuple{"0", "4", "0"}, {"0", "1", "3"}, {"1", "4", "0"}, {"1", "1", "3"}})
-    table.rows.push_back({bin, "own", "each", "mi-max", "1", "light", "4", correct, wrong, "4", ""});
+    table.rows.push_back({bin, "own", "each", "mi-max", "0", "1", "light", "4", correct, wrong, "4", ""});
   const Report report = nbv_report({}, table);
   EXPECT_NE(report.markdown.find("## each type by itself, lightly occluded\n\n16 instances."),
             std::string::npos)
@@ -218,8 +244,8 @@ TEST(NbvReport, CountsInstancesAndFalseOnesByViews) {
   const auto add = [&](const char* bin, const char* strategy, const char* views, const char* instances,
                        const char* correct, const char* wrong) {
     table.rows.push_back(
-        {bin, "own", "one", strategy, views, "light", instances, correct, wrong, "3", "1.5"});
-    table.rows.push_back({bin, "own", "one", strategy, views, "heavy", "0", "0", "0", "0", "1.5"});
+        {bin, "own", "one", strategy, "0", views, "light", instances, correct, wrong, "3", "1.5"});
+    table.rows.push_back({bin, "own", "one", strategy, "0", views, "heavy", "0", "0", "0", "0", "1.5"});
   };
   add("0", "mi-max", "1", "4", "1", "2"), add("0", "mi-max", "2", "4", "4", "0");
   add("3", "mi-max", "1", "6", "2", "1"), add("3", "mi-max", "2", "6", "5", "1");
