@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "candidate_map_push.h"
+#include "finite.glsl"
 
 layout(local_size_x = CANDIDATE_GROUP) in;
 layout(push_constant) uniform Push { CandidateMapPush push; };
@@ -31,7 +32,7 @@ void pick(uint first_edge, uint begin, uint end, ivec2 low, ivec2 high) {
   [[dont_unroll]] for (uint e = begin + gl_LocalInvocationID.x; e < end; e += CANDIDATE_GROUP) {
     const uint at = (first_edge + e) * MAP_EDGE_WORDS;
     const vec2 p = vec2(edges[at], edges[at + 1]);
-    if (!in_image(p)) continue;
+    if (!finite(p.x) || !finite(p.y) || !in_image(p)) continue;
     const ivec2 place = ivec2(floor(p * float(STEPS) + 0.5));
     if (reaches(place, low, high)) picked[atomicAdd(picked_count, 1u)] = ivec3(place, int(e));
   }

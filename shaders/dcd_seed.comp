@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "dcd_seed.h"
+#include "finite.glsl"
 
 layout(constant_id = 0) const uint PASS = DCD_SEED_MARK;
 layout(local_size_x = DCD_SEED_GROUP) in;
@@ -13,8 +14,6 @@ layout(binding = 4) buffer Slots { uint slots[]; };
 layout(binding = 5) buffer Placed { uint placed; };
 
 const uint NO_SLOT = 0xffffffffu;
-
-bool finite(float v) { return (floatBitsToUint(v) & 0x7f800000u) != 0x7f800000u; }
 
 // Half away from zero, exact: adding 0.5 would round twice.
 float round_away(float v) {
@@ -30,11 +29,10 @@ bool seed_of(vec4 point, out uvec2 pixel, out uint bin) {
   const vec2 at = vec2(round_away(point.x), round_away(point.y));
   if (!(at.x >= 0.0 && at.x < float(push.width) && at.y >= 0.0 && at.y < float(push.height))) return false;
   precise float turns = point.z * push.bins_per_rad;
-  const int n = int(push.bins);
-  int k = int(round_away(turns)) % n;
-  if (k < 0) k += n;
+  const int k = int(round_away(turns));
   pixel = uvec2(at);
-  bin = uint(k);
+  // the remainder of a negative number is undefined, and not the same on all drivers
+  bin = k >= 0 ? uint(k) % push.bins : push.bins - 1u - uint(-(k + 1)) % push.bins;
   return true;
 }
 

@@ -16,7 +16,7 @@ layout(binding = 6) writeonly buffer Results { float results[]; };
 const uint STRIDE = POSE_GROUP + 1u;
 shared float sums[POSE_SYSTEM_SUMS * STRIDE];
 
-float word(uint problem, uint i) { return uintBitsToFloat(problems[problem * POSE_PROBLEM_WORDS + i]); }
+#include "pose_problem.glsl"
 
 // Derivative of the value by the pose: through the projection and through the orientation.
 float[6] jacobian_of(PosedPoint p, ProjectedEdge edge, vec3 slope) {
@@ -43,9 +43,9 @@ vec2 apply_loss(float r) {
 void main() {
   const uint lane = gl_LocalInvocationID.x, part = gl_WorkGroupID.x;
   const uint problem = push.first_problem + gl_WorkGroupID.y;
-  const mat3 rotation = mat3(word(problem, 0), word(problem, 4), word(problem, 8), word(problem, 1), word(problem, 5),
-                             word(problem, 9), word(problem, 2), word(problem, 6), word(problem, 10));
-  const vec3 translation_m = vec3(word(problem, 3), word(problem, 7), word(problem, 11));
+  const mat3 rotation = rotation_of(problem);
+  const vec3 translation_m = translation_of(problem);
+  const bool somewhere = is_somewhere(problem);
   const uint first = problems[problem * POSE_PROBLEM_WORDS + 12], count = problems[problem * POSE_PROBLEM_WORDS + 13];
 
   float total[POSE_SYSTEM_SUMS];
@@ -54,7 +54,7 @@ void main() {
     const uint at = (first + i) * POSE_POINT_WORDS;
     const PosedPoint p = pose_point(rotation, translation_m, vec3(points[at], points[at + 1], points[at + 2]),
                                     vec3(points[at + 3], points[at + 4], points[at + 5]));
-    if (!can_be_seen(p.point, push.camera)) {
+    if (!somewhere || !can_be_seen(p.point, push.camera)) {
       total[31] += 1.0;
       continue;
     }

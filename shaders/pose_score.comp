@@ -16,7 +16,7 @@ layout(binding = 7) readonly buffer Gradient { uint gradient_x2[]; };
 const uint STRIDE = POSE_GROUP + 1u;
 shared float sums[POSE_SCORE_SUMS * STRIDE];
 
-float word(uint problem, uint i) { return uintBitsToFloat(problems[problem * POSE_PROBLEM_WORDS + i]); }
+#include "pose_problem.glsl"
 
 // |n . g| / |g| of Eq. 10, n the normal of the projected edge; 0 where the gradient is too weak to have a direction.
 float direction_agreement(ProjectedEdge edge) {
@@ -35,9 +35,9 @@ bool in_image(vec2 at) {
 void main() {
   const uint lane = gl_LocalInvocationID.x, part = gl_WorkGroupID.x;
   const uint problem = push.first_problem + gl_WorkGroupID.y;
-  const mat3 rotation = mat3(word(problem, 0), word(problem, 4), word(problem, 8), word(problem, 1), word(problem, 5),
-                             word(problem, 9), word(problem, 2), word(problem, 6), word(problem, 10));
-  const vec3 translation_m = vec3(word(problem, 3), word(problem, 7), word(problem, 11));
+  const mat3 rotation = rotation_of(problem);
+  const vec3 translation_m = translation_of(problem);
+  const bool somewhere = is_somewhere(problem);
   const uint first = problems[problem * POSE_PROBLEM_WORDS + 12], count = problems[problem * POSE_PROBLEM_WORDS + 13];
 
   vec4 total = vec4(0.0);  // values, direction agreements, matched, points
@@ -45,7 +45,7 @@ void main() {
     const uint at = (first + i) * POSE_POINT_WORDS;
     const PosedPoint p = pose_point(rotation, translation_m, vec3(points[at], points[at + 1], points[at + 2]),
                                     vec3(points[at + 3], points[at + 4], points[at + 5]));
-    if (!can_be_seen(p.point, push.camera)) continue;
+    if (!somewhere || !can_be_seen(p.point, push.camera)) continue;
     const ProjectedEdge edge = project_edge(p, push.camera);
     if (!in_image(edge.at)) continue;
     const float value = tensor_lookup(push.grid, edge.at, undirected_angle(edge.direction)).value;
