@@ -41,7 +41,7 @@ std::array<int, 2> pixel_range(double a, double b, double c, int size) {
 
 void draw_triangle(const std::array<Vertex, 3>& t, int width, int height, float* depth) {
   const double area = edge_function(t[0], t[1], t[2].u, t[2].v);
-  if (area == 0) return;
+  if (area == 0 || !std::isfinite(area)) return;
   const auto [x0, x1] = pixel_range(t[0].u, t[1].u, t[2].u, width);
   const auto [y0, y1] = pixel_range(t[0].v, t[1].v, t[2].v, height);
   for (int y = y0; y <= y1; ++y)

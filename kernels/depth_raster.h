@@ -2,8 +2,8 @@
 //
 // Pixel (x, y) of a job's map holds the smallest camera-frame z, metres, of the triangles whose projection
 // covers the pixel centre (edge functions >= 0, both windings), or DEPTH_EMPTY. Depth is interpolated as 1/z.
-// Triangles with a vertex nearer than DEPTH_NEAR_M are dropped: callers keep the object in front of the
-// camera. Triangles seen exactly edge-on cover nothing.
+// Triangles with a vertex nearer than DEPTH_NEAR_M, or nowhere (not finite), are dropped: callers keep the
+// object in front of the camera. Triangles seen exactly edge-on cover nothing.
 //
 // Agreement: a pixel centre within 1/64 px of a triangle's edge may fall on either side; elsewhere depths
 // agree to 1e-5 relative, as long as no triangle spans more than a factor of 30 in depth. LogicError: an

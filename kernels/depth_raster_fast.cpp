@@ -86,7 +86,7 @@ struct EdgeBound {
                                                  const std::array<double, 3>& w, const Band& band) {
   const double du1 = u[1] - u[0], dv1 = v[1] - v[0], du2 = u[2] - u[0], dv2 = v[2] - v[0];
   const double area = du1 * dv2 - dv1 * du2;
-  if (area == 0) return;
+  if (area == 0 || !std::isfinite(area)) return;
   const double winding = area > 0 ? 1 : -1;
   const double top = std::max<double>(band.y0, std::ceil(std::min({v[0], v[1], v[2]})));
   const double bottom = std::min<double>(band.y1 - 1, std::floor(std::max({v[0], v[1], v[2]})));

@@ -28,6 +28,15 @@ vec3 corner(uint job, uint triangle, uint k) {
               dot(vec3(jobs[j + 8], jobs[j + 9], jobs[j + 10]), p) + jobs[j + 11]);
 }
 
+// Zero on the plane through the camera and the edge a b, positive to the left of it. The two triangles at an
+// edge must compute the same plane, to the last bit, or a pixel between them belongs to neither: from the end
+// of the lower number on.
+vec3 edge_plane(vec3 a, vec3 b, bool is_rising) {
+  precise const vec3 from = is_rising ? a : b, along = is_rising ? b - a : a - b;
+  precise const vec3 plane = cross(from, along);
+  return is_rising ? plane : -plane;
+}
+
 vec2 focal_of(uint job) { return vec2(jobs[job * DEPTH_JOB_WORDS + 12], jobs[job * DEPTH_JOB_WORDS + 13]); }
 vec2 centre_of(uint job) { return vec2(jobs[job * DEPTH_JOB_WORDS + 14], jobs[job * DEPTH_JOB_WORDS + 15]); }
 
@@ -40,9 +49,10 @@ Triangle set_up(uint job, uint triangle) {
   const float volume = dot(a, cross(b - a, c - a));
   if (volume == 0.0) return t;
   const float winding = volume < 0.0 ? -1.0 : 1.0;
-  t.plane[0] = winding * cross(b, c - b);
-  t.plane[1] = winding * cross(c, a - c);
-  t.plane[2] = winding * cross(a, b - a);
+  const uvec3 number = uvec3(triangles[3u * triangle], triangles[3u * triangle + 1u], triangles[3u * triangle + 2u]);
+  t.plane[0] = winding * edge_plane(b, c, number.y < number.z);
+  t.plane[1] = winding * edge_plane(c, a, number.z < number.x);
+  t.plane[2] = winding * edge_plane(a, b, number.x < number.y);
   const vec2 focal = focal_of(job), centre = centre_of(job), last = vec2(push.width, push.height) - 1.0;
   const vec2 pa = focal * a.xy / a.z + centre, pb = focal * b.xy / b.z + centre, pc = focal * c.xy / c.z + centre;
   t.low = ivec2(ceil(clamp(min(pa, min(pb, pc)), vec2(0.0), last + 1.0)));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <vector>
 
 #include "depth_raster.spv.h"
 #include "kernels/depth_raster_push.h"
@@ -14,6 +16,16 @@ static_assert(sizeof(DepthJob) == 4 * DEPTH_JOB_WORDS);
 
 constexpr std::size_t max_depth_bytes = std::size_t{64} << 20;
 constexpr std::size_t max_groups_y = 1u << 15;
+
+// A pose that is nowhere shows nothing. Shaders need not tell a NaN from a number, so it goes behind the
+// camera here.
+std::vector<DepthJob> with_poses_somewhere(std::span<const DepthJob> jobs) {
+  std::vector<DepthJob> out(jobs.begin(), jobs.end());
+  for (DepthJob& job : out)
+    if (!std::ranges::all_of(job.camera_from_object.m, [](float v) { return std::isfinite(v); }))
+      job.camera_from_object = {};
+  return out;
+}
 
 }  // namespace
 
@@ -36,7 +48,7 @@ void DepthRaster::record(Batch& batch, const TriangleMesh& mesh, std::span<const
   depth_.reserve(device_, depth.size(), "depth maps");
   batch.upload(vertices_, mesh.vertices_m);
   batch.upload(triangles_, mesh.triangles);
-  batch.upload(jobs_, jobs);
+  batch.upload<DepthJob>(jobs_, with_poses_somewhere(jobs));
   batch.fill(depth_, std::bit_cast<std::uint32_t>(DEPTH_EMPTY));
   batch.barrier();
   const auto rows = static_cast<std::uint32_t>(height);

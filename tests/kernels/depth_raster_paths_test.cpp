@@ -1,6 +1,7 @@
 // depth_raster on every path against the reference (depth_raster.h).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kernels/error.h"
 #include "tests/kernels/paths.h"
@@ -140,6 +141,66 @@ TEST_P(DepthRasterPaths, LargeTrianglesFillLargeMaps) {
   std::size_t empty = 0;
   for (const float d : depth) empty += !(std::abs(d - 0.5f) < 1e-5f);
   EXPECT_EQ(empty, 0u);
+}
+
+// A hilly square of many triangles under many poses: of the pixels inside its outline none is empty, however
+// close to an edge between two triangles it lies.
+TEST_P(DepthRasterPaths, EdgesBetweenTrianglesLeaveNoHoles) {
+  std::mt19937 rng = test::test_rng();
+  std::uniform_real_distribution<float> hill(-0.004f, 0.004f), angle(-0.4f, 0.4f), shift(-0.3f, 0.3f);
+  constexpr std::uint32_t cells = 24, side = cells + 1;
+  Soup hills;
+  for (std::uint32_t y = 0; y < side; ++y)
+    for (std::uint32_t x = 0; x < side; ++x) {
+      const bool inside = x > 0 && y > 0 && x < cells && y < cells;
+      for (float c : {0.01f * float(x) - 0.12f, 0.01f * float(y) - 0.12f, inside ? hill(rng) : 0.0f})
+        hills.vertices.push_back(c);
+    }
+  for (std::uint32_t y = 0; y < cells; ++y)
+    for (std::uint32_t x = 0; x < cells; ++x) {
+      const std::uint32_t a = y * side + x, b = a + 1, c = a + side, d = c + 1;
+      for (std::uint32_t i : {b, a, d, c, d, a}) hills.triangles.push_back(i);
+    }
+  constexpr int size = 96;
+  std::vector<DepthJob> jobs;
+  for (int j = 0; j < 200; ++j)
+    jobs.push_back(job_at(angle(rng), 0.4f, 180, 47.5f + shift(rng), 47.5f + shift(rng)));
+  std::vector<float> depth(jobs.size() * size * size);
+  tested->depth_raster(hills.mesh(), jobs, size, size, depth);
+  std::size_t looked_at = 0, empty = 0;
+  for (std::size_t j = 0; j < jobs.size(); ++j) {
+    Point corner[4];
+    for (int k = 0; k < 4; ++k) {
+      const std::uint32_t at[] = {0, cells, side * side - 1, cells * side};
+      corner[k] = project(jobs[j], hills.vertices.data() + 3 * at[k]);
+    }
+    for (int y = 0; y < size; ++y)
+      for (int x = 0; x < size; ++x) {
+        bool inside = true;
+        for (int k = 0; k < 4; ++k) {
+          const Point &a = corner[k], &b = corner[(k + 1) % 4];
+          inside &= (b.u - a.u) * (y - a.v) - (b.v - a.v) * (x - a.u) > std::hypot(b.u - a.u, b.v - a.v) / 16;
+        }
+        looked_at += inside;
+        empty += inside && depth[(j * size + std::size_t(y)) * size + std::size_t(x)] == DEPTH_EMPTY;
+      }
+  }
+  EXPECT_GT(looked_at, 100000u);
+  EXPECT_EQ(empty, 0u);
+}
+
+TEST_P(DepthRasterPaths, PosesThatAreNoneShowNothing) {
+  const Soup triangle{{-1, -1, 0, 1, -1, 0, 0, 1, 0}, {0, 1, 2}};
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
+    for (const int word : {0, 3, 10, 11}) {
+      DepthJob job = job_at(0, 0.3f, 8, 2, 2);
+      job.camera_from_object.m[word] = bad;
+      for (Backend* backend : {tested.get(), reference.get()}) {
+        std::vector<float> found(20, -1);
+        backend->depth_raster(triangle.mesh(), {&job, 1}, 5, 4, found);
+        for (const float d : found) EXPECT_EQ(d, DEPTH_EMPTY) << word;
+      }
+    }
 }
 
 TEST_P(DepthRasterPaths, EmptyMeshLeavesEmptyMaps) {
