@@ -11,7 +11,7 @@ namespace edgescout::gpu {
 
 namespace {
 
-constexpr std::uint32_t max_timed = 64;  // dispatches beyond it are not timed one by one
+constexpr std::uint32_t timed_per_pool = 64;
 constexpr std::uint32_t sets_per_pool = 32;
 constexpr std::uint32_t bindings_per_set = 8;
 
@@ -54,11 +54,10 @@ VkCommandBuffer begin_commands(const Device& device, VkCommandPool pool) {
 }
 
 Handle<VkQueryPool> create_queries(const Device& device) {
-  if (device.seconds_per_tick() == 0) return {};
   VkQueryPoolCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
   info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-  info.queryCount = 2 * max_timed;
+  info.queryCount = 2 * timed_per_pool;
   VkQueryPool queries = VK_NULL_HANDLE;
   require(vkCreateQueryPool(device.get(), &info, nullptr, &queries), "vkCreateQueryPool");
   return {device.get(), queries, vkDestroyQueryPool};
@@ -95,10 +94,7 @@ Batch::Batch(const Device& device, std::string name)
     : device_(device),
       name_(std::move(name)),
       pool_(create_pool(device)),
-      commands_(begin_commands(device, pool_.get())),
-      queries_(create_queries(device)) {
-  if (queries_.get() != VK_NULL_HANDLE) vkCmdResetQueryPool(commands_, queries_.get(), 0, 2 * max_timed);
-}
+      commands_(begin_commands(device, pool_.get())) {}
 
 Batch::~Batch() {
   for (RawBuffer& buffer : staging_) device_.staging().give_back(std::move(buffer));
@@ -202,28 +198,42 @@ void Batch::dispatch_bytes(const Kernel& kernel, Groups groups, std::span<const 
   vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1, &set, 0, nullptr);
   vkCmdPushConstants(commands_, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                      static_cast<std::uint32_t>(push.size()), push.data());
-  const bool timed = queries_.get() != VK_NULL_HANDLE && timed_.size() < max_timed;
-  const auto query = static_cast<std::uint32_t>(2 * timed_.size());
-  if (timed) vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries_.get(), query);
+  write_timestamp(0);
   vkCmdDispatch(commands_, groups.x, groups.y, groups.z);
-  if (!timed) return;
-  vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries_.get(), query + 1);
-  timed_.push_back({kernel.name(), query});
+  write_timestamp(1);
+  dispatched_.push_back(kernel.name());
+}
+
+// Before (0) or after (1) the dispatch that comes next.
+void Batch::write_timestamp(std::uint32_t which) {
+  if (device_.seconds_per_tick() == 0) return;
+  const auto number = static_cast<std::uint32_t>(dispatched_.size() % timed_per_pool);
+  if (which == 0 && number == 0) {
+    query_pools_.push_back(create_queries(device_));
+    vkCmdResetQueryPool(commands_, query_pools_.back().get(), 0, 2 * timed_per_pool);
+  }
+  vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, query_pools_.back().get(),
+                      2 * number + which);
 }
 
 std::vector<StageTime> Batch::read_times() const {
-  if (timed_.empty()) return {};
-  std::vector<std::uint64_t> ticks(2 * timed_.size());
-  require(vkGetQueryPoolResults(device_.get(), queries_.get(), 0, static_cast<std::uint32_t>(ticks.size()),
-                                ticks.size() * sizeof ticks[0], ticks.data(), sizeof ticks[0],
-                                VK_QUERY_RESULT_64_BIT),
-          name_ + ": vkGetQueryPoolResults");
   std::vector<StageTime> times;
-  for (const Timed& timed : timed_) {
-    auto row = std::ranges::find(times, timed.name, &StageTime::name);
-    if (row == times.end()) row = times.insert(row, StageTime{timed.name, 0, 0});
-    row->seconds += device_.seconds_between(ticks[timed.first_query], ticks[timed.first_query + 1]);
-    ++row->calls;
+  for (std::size_t p = 0; p < query_pools_.size(); ++p) {
+    const std::span<const std::string> names =
+        std::span(dispatched_)
+            .subspan(p * timed_per_pool)
+            .first(std::min<std::size_t>(timed_per_pool, dispatched_.size() - p * timed_per_pool));
+    std::vector<std::uint64_t> ticks(2 * names.size());
+    require(vkGetQueryPoolResults(device_.get(), query_pools_[p].get(), 0,
+                                  static_cast<std::uint32_t>(ticks.size()), ticks.size() * sizeof ticks[0],
+                                  ticks.data(), sizeof ticks[0], VK_QUERY_RESULT_64_BIT),
+            name_ + ": vkGetQueryPoolResults");
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      auto row = std::ranges::find(times, names[i], &StageTime::name);
+      if (row == times.end()) row = times.insert(row, StageTime{names[i], 0, 0});
+      row->seconds += device_.seconds_between(ticks[2 * i], ticks[2 * i + 1]);
+      ++row->calls;
+    }
   }
   return times;
 }

@@ -92,10 +92,6 @@ class Batch {
     const std::byte* from;
     std::span<std::byte> to;
   };
-  struct Timed {
-    std::string name;
-    std::uint32_t first_query;
-  };
 
   void upload_bytes(const RawBuffer& to, std::span<const std::byte> bytes);
   void download_bytes(const RawBuffer& from, std::span<std::byte> to);
@@ -105,14 +101,15 @@ class Batch {
   void check_dispatch(const Kernel& kernel, Groups groups, std::span<const Bound> bound) const;
   const RawBuffer& stage(VkDeviceSize bytes, Memory memory, const RawBuffer& other_end);
   void copy_bytes(VkBuffer from, VkBuffer to, VkDeviceSize bytes);
+  void write_timestamp(std::uint32_t which);
   std::vector<StageTime> read_times() const;
 
   const Device& device_;
   std::string name_;
   Handle<VkCommandPool> pool_;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
-  Handle<VkQueryPool> queries_;
-  std::vector<Timed> timed_;
+  std::vector<Handle<VkQueryPool>> query_pools_;  // two timestamps a dispatch, in their order
+  std::vector<std::string> dispatched_;           // kernels
   std::vector<Handle<VkDescriptorPool>> descriptor_pools_;
   std::uint32_t sets_left_ = 0;
   std::deque<RawBuffer> staging_;

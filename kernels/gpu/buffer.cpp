@@ -43,9 +43,12 @@ VkDeviceMemory allocate(const Device& device, const VkMemoryRequirements& needs,
   info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
   info.allocationSize = needs.size;
   info.memoryTypeIndex = device.memory_type(needs.memoryTypeBits, property_flags(device, memory));
-  VkDeviceMemory result = VK_NULL_HANDLE;
-  require(vkAllocateMemory(device.get(), &info, nullptr, &result), "vkAllocateMemory for " + what);
-  return result;
+  VkDeviceMemory allocated = VK_NULL_HANDLE;
+  const VkResult result = vkAllocateMemory(device.get(), &info, nullptr, &allocated);
+  if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
+    throw OutOfDeviceMemory("vkAllocateMemory for " + what + ": " + result_name(result));
+  require(result, "vkAllocateMemory for " + what);
+  return allocated;
 }
 
 }  // namespace
@@ -60,7 +63,7 @@ RawBuffer::RawBuffer(const Device& device, VkDeviceSize bytes, Memory memory, st
   VkMemoryRequirements needs;
   vkGetBufferMemoryRequirements(device.get(), get(), &needs);
   memory_ = {device.get(), allocate(device, needs, memory, what), vkFreeMemory};
-  counted_ = CountedMemory(needs.size);
+  if (memory == Memory::device) counted_ = CountedMemory(needs.size);
   require(vkBindBufferMemory(device.get(), get(), memory_.get(), 0), "vkBindBufferMemory for " + what);
   if (memory == Memory::device && !device.unified_memory()) return;
   void* address = nullptr;

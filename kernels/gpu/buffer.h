@@ -8,10 +8,17 @@
 #include <vulkan/vulkan.h>
 
 #include "kernels/device_memory.h"
+#include "kernels/error.h"
 #include "kernels/gpu/device.h"
 #include "kernels/gpu/handle.h"
 
 namespace edgescout::gpu {
+
+// The device has the memory, but others hold it.
+class OutOfDeviceMemory : public GpuError {
+ public:
+  using GpuError::GpuError;
+};
 
 enum class Memory {
   device,    // read and written by kernels
@@ -22,7 +29,8 @@ enum class Memory {
 class RawBuffer {
  public:
   RawBuffer() = default;
-  // Throws GpuError naming buffer and size where the memory is not to be had. At least 4 bytes are allocated.
+  // Throws GpuError naming buffer and size where the memory is not to be had, OutOfDeviceMemory where it is
+  // at another time. At least 4 bytes are allocated.
   RawBuffer(const Device& device, VkDeviceSize bytes, Memory memory, std::string name);
 
   VkBuffer get() const { return buffer_.get(); }

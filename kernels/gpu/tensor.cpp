@@ -8,13 +8,16 @@ namespace edgescout::gpu {
 
 namespace {
 
-[[noreturn]] void too_large(const Device& device, const TensorShape& shape, VkDeviceSize most) {
+[[noreturn]] void too_large(const TensorShape& shape, const std::string& room) {
   throw InputError("image", "size",
                    std::to_string(shape.width) + "x" + std::to_string(shape.height) + " with " +
                        std::to_string(shape.bins) + " bins: a tensor of " + std::to_string(2 * shape.size()) +
                        " bytes",
-                   "at most " + std::to_string(most) + " bytes on " + device.info().name +
-                       " (a smaller image, fewer bins, or --device cpu)");
+                   room + " (a smaller image, fewer bins, or --device cpu)");
+}
+
+std::string at_most(VkDeviceSize bytes, const Device& device) {
+  return "at most " + std::to_string(bytes) + " bytes on " + device.info().name;
 }
 
 }  // namespace
@@ -31,10 +34,15 @@ DeviceTensor::DeviceTensor(const Device& device, const TensorShape& shape) : sha
       range / row_bytes_ / TENSOR_BAND_ROW_STEP * TENSOR_BAND_ROW_STEP * row_bytes_;
   const VkDeviceSize most =
       std::min<VkDeviceSize>(device.max_allocation_bytes(), TENSOR_MAX_BANDS * band_bytes);
-  if (band_rows_ == 0) too_large(device, shape, range);
+  if (band_rows_ == 0) too_large(shape, at_most(range, device));
   bands_ = static_cast<std::uint32_t>((height + band_rows_ - 1) / band_rows_);
-  if (bands_ > TENSOR_MAX_BANDS || bytes > device.max_allocation_bytes()) too_large(device, shape, most);
-  buffer_ = RawBuffer(device, bytes, Memory::device, "tensor");
+  if (bands_ > TENSOR_MAX_BANDS || bytes > device.max_allocation_bytes())
+    too_large(shape, at_most(most, device));
+  try {
+    buffer_ = RawBuffer(device, bytes, Memory::device, "tensor");
+  } catch (const OutOfDeviceMemory&) {
+    too_large(shape, "no more than " + device.info().name + " has free");
+  }
 }
 
 std::uint32_t DeviceTensor::row_count(std::uint32_t band) const {

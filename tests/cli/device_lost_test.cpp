@@ -1,5 +1,5 @@
 // A device that is lost in the middle of a batch: an error that names it, finished images on disk, the rest
-// done by a resumed run.
+// done by a resumed run. And one whose memory others hold: an image that is refused.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -28,12 +28,13 @@ struct LostDevice : ::testing::Test {
                    bracket(),
                    more});
   }
-  // ASan insists on being first; the shim replaces one function of the loader, not of the C library.
-  Outcome run_on_device_lost_after(int submits, const std::vector<std::string>& arguments) const {
-    return run_program(arguments,
-                       "ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD='" EDGESCOUT_FAILING_DEVICE
-                       "' SUBMITS_FILE='" +
-                           submits_file.string() + "' FAIL_AFTER_SUBMITS=" + std::to_string(submits));
+  // ASan insists on being first; the shim replaces two functions of the loader, none of the C library.
+  Outcome run_on_device_lost_after(int submits, const std::vector<std::string>& arguments,
+                                   const std::string& more_environment = "") const {
+    return run_program(
+        arguments,
+        "ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD='" EDGESCOUT_FAILING_DEVICE "' SUBMITS_FILE='" +
+            submits_file.string() + "' FAIL_AFTER_SUBMITS=" + std::to_string(submits) + more_environment);
   }
   int submits_of(const std::vector<std::string>& arguments) const {
     const Outcome alone = run_on_device_lost_after(std::numeric_limits<int>::max(), arguments);
@@ -41,6 +42,15 @@ struct LostDevice : ::testing::Test {
     return std::stoi(content_of(submits_file));
   }
 };
+
+// The tensor of a 320x240 image has 9 MB.
+TEST_F(LostDevice, RefusesATensorThatFindsNoMemory) {
+  const Outcome outcome =
+      run_on_device_lost_after(std::numeric_limits<int>::max(), detect(), " FREE_BYTES=8000000");
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+  for (const char* word : {"a.png", "a tensor of", "has free", "--device cpu"})
+    EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+}
 
 TEST_F(LostDevice, KeepsWhatWasFinished) {
   const int submits_of_one = submits_of(detect());

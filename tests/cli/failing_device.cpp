@@ -1,5 +1,6 @@
-// A Vulkan device that is lost: preloaded before the loader, it lets FAIL_AFTER_SUBMITS submissions pass and
-// fails every one after them. How many were asked for is left in SUBMITS_FILE.
+// A Vulkan device that is lost or full: preloaded before the loader, it lets FAIL_AFTER_SUBMITS submissions
+// pass and fails every one after them, and has no memory for more than FREE_BYTES at once, where that is set.
+// How many submissions were asked for is left in SUBMITS_FILE.
 #include <dlfcn.h>
 #include <vulkan/vulkan.h>
 
@@ -18,4 +19,13 @@ extern "C" VkResult vkQueueSubmit(VkQueue queue, std::uint32_t count, const VkSu
     std::fclose(file);
   }
   return number <= limit ? submit(queue, count, submits, fence) : VK_ERROR_DEVICE_LOST;
+}
+
+extern "C" VkResult vkAllocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
+                                     const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory) {
+  static const char* free_bytes = std::getenv("FREE_BYTES");
+  static const auto allocate = reinterpret_cast<PFN_vkAllocateMemory>(dlsym(RTLD_NEXT, "vkAllocateMemory"));
+  if (free_bytes && info->allocationSize > std::strtoull(free_bytes, nullptr, 10))
+    return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  return allocate(device, info, callbacks, memory);
 }
