@@ -27,6 +27,12 @@ std::unique_ptr<Backend> make_vulkan_backend(int index, bool) {
 }
 #endif
 
+int usual_vulkan_device() {
+  for (const DeviceInfo& device : vulkan_devices())
+    if (device.hardware) return device.index;
+  return 0;
+}
+
 namespace {
 
 constexpr const char* vulkan_prefix = "vulkan:";
@@ -62,7 +68,7 @@ std::unique_ptr<Backend> make_backend(const std::string& choice) {
   if (choice == "auto") return make_automatic();
   if (choice == "cpu") return make_cpu_backend();
   if (choice == "cpu-reference") return make_reference_backend();
-  if (choice == "vulkan") return make_checked_vulkan(0, choice);
+  if (choice == "vulkan") return make_checked_vulkan(usual_vulkan_device(), choice);
   if (choice.starts_with(vulkan_prefix)) {
     const char *first = choice.data() + std::char_traits<char>::length(vulkan_prefix),
                *last = choice.data() + choice.size();

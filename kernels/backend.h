@@ -119,8 +119,12 @@ std::unique_ptr<Backend> make_reference_backend();
 // Throws GpuError where the device is missing or lacks a feature the kernels need.
 std::unique_ptr<Backend> make_vulkan_backend(int device_index, bool validation = false);
 
-// "auto", "cpu", "cpu-reference", "vulkan" or "vulkan:INDEX"; auto takes the first hardware Vulkan device,
-// else the fast CPU path. Throws InputError on another word and where the device asked for does not exist.
+// The first hardware device, else the first of all.
+int usual_vulkan_device();
+
+// "auto", "cpu", "cpu-reference", "vulkan" (the usual device) or "vulkan:INDEX"; auto takes the first
+// hardware Vulkan device, else the fast CPU path. Throws InputError on another word and where the device
+// asked for does not exist.
 std::unique_ptr<Backend> make_backend(const std::string& choice);
 
 }  // namespace edgescout

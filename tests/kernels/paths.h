@@ -50,6 +50,7 @@ inline constexpr std::uint64_t test_band_bytes = 3 * 60 * 64 * 32;
 #ifdef EDGESCOUT_VULKAN
 inline gpu::DeviceOptions device_options(Path path) {
   gpu::DeviceOptions options;
+  options.index = usual_vulkan_device();
   options.validation = true;
   options.staging = path == Path::vulkan_staging;
   options.max_band_bytes = path == Path::vulkan_bands ? test_band_bytes : 0;
@@ -88,6 +89,7 @@ class PathTest : public ::testing::TestWithParam<Path> {
   void SetUp() override {
     tested = make_path(GetParam());
     if (!tested) GTEST_SKIP() << "no Vulkan device";
+    RecordProperty("device", tested->name());
     reference = make_reference_backend();
   }
   void TearDown() override {
