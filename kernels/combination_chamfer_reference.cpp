@@ -35,8 +35,9 @@ class Realization {
       const CandidateMap& map = view_.candidates[c];
       if (!map.window.contains(x, y)) continue;
       const std::uint32_t word = view_.nearest[map.first_pixel + map.window.index(x, y)];
-      if (word == CANDIDATE_MAP_EMPTY || edge_hidden(c, view_.edges[map.first_edge + (word & 0xffffu)]))
-        continue;
+      if (word == CANDIDATE_MAP_EMPTY) continue;
+      check((word & 0xffffu) < map.edge_count, "combination_chamfer: a nearest edge point that is none");
+      if (edge_hidden(c, view_.edges[map.first_edge + (word & 0xffffu)])) continue;
       least = std::min(least, chamfer_steps(word));
     }
     return least;

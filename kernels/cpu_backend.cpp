@@ -103,6 +103,7 @@ class CpuBackend : public Backend {
 
   ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height, const ImageView& image,
                        const Intrinsics& intrinsics, const TensorOptions& options) override {
+    options.validate();
     check(width > 0 && height > 0, "make_view: an image without pixels");
     check(image.width == 0 || (image.width == width && image.height == height),
           "make_view: image of another size");

@@ -11,10 +11,11 @@
 // exp(-upsilon_i / s), not normalised (Eq. 19 and 20). It is still >= 0, but no mutual information: it falls
 // with every real view and where all is unlikely, and has no bound of this kind; below exp(-745) it is 0.
 //
-// Agreement: the reference and the fast path to 1e-9 (1 + I), Vulkan, in float, to 1e-4 (1 + I) for
-// scale_px2 of at least cap_px^2 / INFORMATION_MAX_SHARPNESS. LogicError: no particles or no realizations,
-// more than INFORMATION_MAX_PARTICLES, beliefs of another number than the particles, a total of 0, a log
-// weight that is no number or +infinity, or all weights 0.
+// Agreement: the reference and the fast path to 1e-9 (1 + I), Vulkan, in float, to 1e-4 (1 + I) + 1e-6 q for
+// scale_px2 of at least cap_px^2 / INFORMATION_MAX_SHARPNESS, q = cap_px^2 / scale_px2 being the most nats
+// that mu^2 / s comes to (a device may be off by 3e-7 of a quotient, and squares it). LogicError: no
+// particles or no realizations, more than INFORMATION_MAX_PARTICLES, beliefs of another number than the
+// particles, a total of 0, a log weight that is no number or +infinity, or all weights 0.
 #pragma once
 
 #include <cstdint>

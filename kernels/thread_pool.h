@@ -27,6 +27,7 @@ class ThreadPool {
  private:
   void work();
   void drain();
+  void stop();
 
   std::vector<std::thread> workers_;
   std::mutex loop_mutex_;  // held for the length of one loop

@@ -93,6 +93,11 @@ TEST_P(CombinationChamferPaths, BrokenInputIsOurBug) {
   EXPECT_NO_THROW(run([](auto&) {}));
   EXPECT_THROW(run([](auto& s) { s.words.pop_back(); }), LogicError);
   EXPECT_THROW(run([](auto& s) { s.surface_m.pop_back(); }), LogicError);
+  EXPECT_THROW(run([](auto& s) {
+                 for (std::uint32_t& word : s.nearest) word |= word == CANDIDATE_MAP_EMPTY ? 0 : 0xffffu;
+               }),
+               LogicError)
+      << "maps of other edge points";
   EXPECT_THROW(run([](auto& s) { s.points.pop_back(); }), LogicError);
   EXPECT_THROW(run([](auto& s) { s.points.back().fresh = 2; }), LogicError);
   EXPECT_THROW(run([](auto& s) { s.first_point = {5, 3}; }), LogicError);

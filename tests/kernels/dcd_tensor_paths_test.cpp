@@ -91,14 +91,20 @@ TEST_P(DcdTensorPaths, ScratchIsReused) {
 }
 
 TEST_P(DcdTensorPaths, BadOptionsNameTheField) {
+  const auto expect_bad = [&](const TensorOptions& options, const char* field) {
+    try {
+      tested->make_view({}, 8, 8, {}, {}, options);
+      ADD_FAILURE() << field << " was accepted";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(field), std::string::npos) << error.what();
+    }
+  };
   TensorOptions options;
   options.cap_px = 256;
-  try {
-    tested->make_view({}, 8, 8, {}, {}, options);
-    FAIL() << "a cap of 256 px was taken";
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("cap"), std::string::npos) << error.what();
-  }
+  expect_bad(options, "cap");
+  options = {};
+  options.bins = -4;
+  expect_bad(options, "tensor.bins");
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, DcdTensorPaths, test::all_paths, test::param_name);

@@ -25,12 +25,15 @@ class MutualInformationPaths : public test::PathTest {
     constexpr ChamferOptions chamfer{0.03f, test_cap_px};
     const ChamferHandle own = tested->combination_chamfer(scene.view(), scene.combinations(), chamfer);
     const auto cells = own->cells();  // those of the reference, says combination_chamfer's own test
-    const double tolerance = tested->is_gpu() ? 1e-4 : 1e-9;
+    const auto tolerance = [&](double expected, double scale_px2) {
+      return tested->is_gpu() ? 1e-4 * (1 + expected) + 1e-6 * test_cap_px * test_cap_px / scale_px2
+                              : 1e-9 * (1 + expected);
+    };
     for (const InformationOptions& options : all_options) {
       const double expected = mutual_information_reference(
           {own->particles, own->realizations, chamfer.cap_px, cells}, beliefs, options);
       const double found = tested->mutual_information(*own, beliefs, options);
-      EXPECT_NEAR(found, expected, tolerance * (1 + expected))
+      EXPECT_NEAR(found, expected, tolerance(expected, options.scale_px2))
           << "scale " << options.scale_px2 << (options.literal ? ", literal" : "");
       EXPECT_GE(found, 0);
       worst = std::max(worst, std::abs(found - expected) / (1 + expected));
