@@ -14,6 +14,7 @@
 #include <string>
 
 #include "host/active/candidates.h"
+#include "host/active/particles.h"
 #include "host/active/scout.h"
 #include "host/detect/plausible_pairs.h"
 #include "host/detect/probability_over_views.h"
@@ -103,8 +104,7 @@ void print_bin(int number, std::span<const TemplateSet> sets, Backend& backend) 
     const std::vector<Hypothesis> known = known_objects(state.detections, options.known_probability);
     std::vector<RegisterView> seen = views;
     for (RegisterView& view : seen) view.occluders = make_occluders(models, known, view, backend);
-    Candidates all;
-    for (const Detection& d : found) all.poses.push_back({d.object, d.world_from_object});
+    Candidates all{poses_of(found), {}};
     RefineOptions refine = pipeline.detect.refine;
     refine.search.rotation_rad = 0;
     const std::vector<Refined> refined = refine_poses(models, all.poses, seen, backend, refine);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <string>
 
+#include "host/active/particles.h"
 #include "host/core/order.h"
 #include "host/core/random.h"
 #include "host/detect/plausible_pairs.h"
@@ -107,14 +108,12 @@ BitMatrix sample_probable_combinations(std::span<const double> probabilities, co
 BitMatrix candidate_combinations(std::span<const EdgeModel> models, std::span<const Detection> candidates,
                                  bool by_probability, double penetration_m, const CombinationOptions& options,
                                  ThreadPool& threads) {
-  std::vector<Hypothesis> poses;
   std::vector<double> psi, probabilities;
   for (const Detection& candidate : candidates) {
-    poses.push_back({candidate.object, candidate.world_from_object});
     psi.push_back(candidate.psi);
     probabilities.push_back(candidate.probability);
   }
-  const BitMatrix plausible = plausible_pairs(models, poses, penetration_m, threads);
+  const BitMatrix plausible = plausible_pairs(models, poses_of(candidates), penetration_m, threads);
   return by_probability ? sample_probable_combinations(probabilities, plausible, options)
                         : sample_combinations(psi, plausible, options);
 }

@@ -53,12 +53,7 @@ struct Plan {
     draw_combinations();
   }
   void draw_combinations() {
-    std::vector<Hypothesis> poses;
-    std::vector<double> psi;
-    for (const Detection& c : candidates)
-      poses.push_back({c.object, c.world_from_object}), psi.push_back(c.psi);
-    combinations =
-        sample_combinations(psi, plausible_pairs(models, poses, 0.002, backend->threads()), {60, 1, 1});
+    combinations = candidate_combinations(models, candidates, false, 0.002, {60, 1, 1}, backend->threads());
   }
   Planning planning() const {
     return {models, tables, test_camera(), views, closed, real, candidates, &combinations, particles};
