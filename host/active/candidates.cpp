@@ -120,22 +120,36 @@ std::vector<Detection> best_beside_others(const std::vector<Detection>& candidat
   return kept;
 }
 
+namespace {
+
+// Particles or candidates.
+bool near_any(const Detection& candidate, const auto& others, std::span<const TemplateSet> sets,
+              double radius) {
+  const TemplateSet& set = sets[static_cast<std::size_t>(candidate.object)];
+  return std::ranges::any_of(others, [&](const auto& other) {
+    return other.object == candidate.object &&
+           pose_distance_m(other.world_from_object, candidate.world_from_object, set.model.mesh,
+                           set.symmetries) < radius * set.model.mesh.diameter_m;
+  });
+}
+
+}  // namespace
+
 std::vector<Detection> without_particles(std::span<const Detection> candidates,
                                          std::span<const Particle> particles,
                                          std::span<const TemplateSet> sets, double radius,
                                          double min_probability) {
   std::vector<Detection> unknown;
-  for (const Detection& candidate : candidates) {
-    const TemplateSet& set = sets[static_cast<std::size_t>(candidate.object)];
-    const auto is_near = [&](const Particle& particle) {
-      return particle.object == candidate.object &&
-             pose_distance_m(particle.world_from_object, candidate.world_from_object, set.model.mesh,
-                             set.symmetries) < radius * set.model.mesh.diameter_m;
-    };
-    if (candidate.probability >= min_probability && std::ranges::none_of(particles, is_near))
+  for (const Detection& candidate : candidates)
+    if (candidate.probability >= min_probability && !near_any(candidate, particles, sets, radius))
       unknown.push_back(candidate);
-  }
   return unknown;
+}
+
+std::size_t count_new(std::span<const Detection> candidates, std::span<const Detection> before,
+                      std::span<const TemplateSet> sets, double radius) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      candidates, [&](const Detection& candidate) { return !near_any(candidate, before, sets, radius); }));
 }
 
 }  // namespace edgescout

@@ -42,4 +42,8 @@ std::vector<Detection> without_particles(std::span<const Detection> candidates,
                                          std::span<const TemplateSet> sets, double radius,
                                          double min_probability);
 
+// Of those how many lie near no candidate there was before, within the same radius.
+std::size_t count_new(std::span<const Detection> candidates, std::span<const Detection> before,
+                      std::span<const TemplateSet> sets, double radius);
+
 }  // namespace edgescout

@@ -124,7 +124,7 @@ std::vector<ModeDetection> mode_detections(std::span<const Particle> particles, 
     detection.detection.covariance += scatter(particles, mode, sets[mode.object]);
     for (std::size_t v = 0; v < views.size(); ++v)
       if (pose_probability(best.by_view[v]) >= options.support_probability)
-        detection.supporting_views.push_back(int(v));
+        detection.supporting_images.push_back(int(v));
     found.push_back(std::move(detection));
   }
   std::ranges::stable_sort(found, [](const ModeDetection& a, const ModeDetection& b) {

@@ -43,7 +43,8 @@ struct ModeDetection {
   Detection detection;  // of the mode's best particle; covariance: of its refinement plus the scatter of the
                         // mode's particles
   double weight = 0;    // of the mode
-  std::vector<int> supporting_views;  // real views whose features alone make the pose probable
+  // images so far, counted from 0, whose features alone make the pose probable
+  std::vector<int> supporting_images;
 };
 
 struct ModeDetectionOptions {

@@ -25,7 +25,9 @@ struct Particle {
   double log_weight = 0;                   // natural; weigh_particles makes the weights sum to 1
   double upsilon_px2 = 0;  // log_weight is spent_px2 - upsilon_px2, over s, up to a constant common to all
   double spent_px2 = 0;
-  std::vector<PoseFeatures> by_view;  // at this pose, one a real view; empty until weighed
+  // Where it was weighed, one a real view, and so is upsilon_px2: what resampling has moved since keeps them.
+  // Empty until weighed.
+  std::vector<PoseFeatures> by_view;
 };
 
 // How far drawn poses lie from where they were drawn around: a Gaussian of the covariance, its standard

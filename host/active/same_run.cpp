@@ -9,33 +9,49 @@ namespace edgescout {
 
 namespace {
 
-// The largest object and view that a state speaks of.
+// The largest object and view that a state speaks of, and whether its decisions fit themselves.
 struct Mentioned {
   int object = -1, view = -1;
+  bool fits = true;
 
-  explicit Mentioned(const ScoutState& state) {
+  explicit Mentioned(const ScoutState& state) : views_(state.views.size()) {
     objects_in(state.candidates);
     objects_in(state.particles);
-    objects_in(state.modes);
     objects_in(state.detections);
+    decided(state.last_decision);
     for (const ScoutStep& step : state.steps) {
-      objects_in(step.decision.candidates);
+      decided(step.decision);
       objects_in(step.before);
       objects_in(step.after);
       objects_in(step.detections);
       note(view, step.decision.view);
     }
+    fits = fits && is_one_of(state.end, ScoutEnd::TimeSpent);
     for (const FailedView& failed : state.failed) note(view, failed.view);
   }
 
  private:
   // A negative one is none either.
   static void note(int& most, int index) { most = std::max(most, index < 0 ? INT_MAX : index); }
+  template <typename Enum>
+  static bool is_one_of(Enum value, Enum last) {
+    return static_cast<int>(value) >= 0 && value <= last;
+  }
+  void decided(const ScoutDecision& decision) {
+    objects_in(decision.candidates);
+    for (const std::vector<int>* members : {&decision.likeliest, &decision.unlikeliest})
+      for (const int member : *members)
+        fits = fits && member >= 0 && member < static_cast<int>(decision.candidates.size());
+    fits = fits && is_one_of(decision.strategy, Strategy::Fixed);
+    fits = fits && (decision.views.empty() || decision.views.size() == views_);
+  }
   static int object_of(const ModeDetection& x) { return x.detection.object; }
   static int object_of(const auto& x) { return x.object; }
   void objects_in(const auto& list) {
     for (const auto& x : list) note(object, object_of(x));
   }
+
+  std::size_t views_;
 };
 
 bool same_place(const Se3& a, const Se3& b) {
@@ -57,8 +73,8 @@ void require_same_run(const ScoutState& saved, const ScoutState& run, const std:
   if (saved.objects != run.objects) throw InputError(source, "objects", "others", "those of this run");
   const Mentioned mentioned(saved);
   if (mentioned.object >= static_cast<int>(run.objects.size()) ||
-      mentioned.view >= static_cast<int>(run.views.size()))
-    throw InputError(source, "indices", "an object or view that is none", "those of this run");
+      mentioned.view >= static_cast<int>(run.views.size()) || !mentioned.fits)
+    throw InputError(source, "indices", "an object, view or candidate that is none", "those of this run");
 }
 
 }  // namespace edgescout

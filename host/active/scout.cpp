@@ -46,6 +46,7 @@ Scout::Scout(std::span<const TemplateSet> sets, const Camera& camera,
              std::vector<Se3> camera_from_world_views, const ScoutOptions& options, Backend& backend)
     : sets_(sets), camera_(camera), options_(options), backend_(backend), models_(models_of(sets)) {
   options_.particles.sigma_px = options_.next_view.sigma_px;
+  options_.pipeline.detect.penetration_m = options_.particles.penetration_m;
   options_.validate();
   if (sets.empty()) throw InputError("scout: found no object, expected at least one");
   validate(camera, "scout: camera");
@@ -65,20 +66,20 @@ Scout::Scout(std::span<const TemplateSet> sets, const Camera& camera,
 
 // Line 13: where to look next.
 std::optional<ScoutDecision> Scout::propose() {
-  if (proposal_) return proposal_;
+  if (proposal_ || has_ended_) return proposal_;
   if (const ScoutEnd end = end_before_planning(); end != ScoutEnd::No) {
     state_.end = end;
     return {};
   }
   ScoutDecision decision = decide();
-  if (decision.view < 0) {
-    state_.end = ScoutEnd::NoViewLeft;
-  } else if (little_to_learn(decision)) {
-    state_.end = ScoutEnd::LittleToLearn;
-  } else {
-    state_.end = ScoutEnd::No;
+  state_.end = decision.view < 0           ? ScoutEnd::NoViewLeft
+               : little_to_learn(decision) ? ScoutEnd::LittleToLearn
+                                           : ScoutEnd::No;
+  has_ended_ = state_.end != ScoutEnd::No;
+  if (has_ended_)
+    state_.last_decision = std::move(decision);
+  else
     proposal_ = std::move(decision);
-  }
   return proposal_;
 }
 
@@ -102,17 +103,19 @@ void Scout::give(int view, const Image& image, const Se3& camera_from_world) {
   look(image, step, observations);
   const auto known = [&] { return known_objects(next.detections, options_.known_probability); };
   std::size_t known_before = 0;
+  std::vector<Mode> modes;
   do {
     known_before = known().size();
     search(known(), step, next, observations);
-    believe(step, next, views_of(observations));
+    modes = believe(step, next, views_of(observations));
   } while (options_.detect_in_every_image && step.searches < options_.max_searches &&
            known().size() > known_before);
-  conclude(step, next, views_of(observations));
+  conclude(step, next, modes, views_of(observations));
   next.steps.push_back(std::move(step));
+  next.last_decision = {};
   state_ = std::move(next);
   observations_ = std::move(observations);
-  proposal_.reset();
+  forget_answer();
 }
 
 void Scout::unreachable(int view, const std::string& reason) {
@@ -120,7 +123,13 @@ void Scout::unreachable(int view, const std::string& reason) {
   log(LogLevel::Warning, "view " + std::to_string(view) + " cannot be had: " + reason);
   state_.failed.push_back(
       {view, reason, state_.steps.size(), proposal_ ? proposal_->stages : std::vector<StageSeconds>{}});
+  state_.last_decision = {};
+  forget_answer();
+}
+
+void Scout::forget_answer() {
   proposal_.reset();
+  has_ended_ = false;
 }
 
 // Line 1: the image's edges and tensors.
@@ -162,7 +171,16 @@ std::vector<Detection> Scout::detect(const ScoutStep& step, std::span<const Hypo
   std::vector<int> views;
   for (const ScoutStep& before : state_.steps) views.push_back(before.decision.view);
   views.push_back(step.decision.view);
-  return options_.detect(std::span(views).last(images.size()), images, known);
+  std::vector<Detection> found = options_.detect(std::span(views).last(images.size()), images, known);
+  for (const Detection& candidate : found) {
+    if (candidate.object < 0 || candidate.object >= static_cast<int>(sets_.size()))
+      throw InputError("scout", "detected object", std::to_string(candidate.object),
+                       "one of " + std::to_string(sets_.size()));
+    if (const Se3& pose = candidate.world_from_object;
+        !is_finite(pose) || std::abs(pose.rotation.norm() - 1) > 1e-3)
+      throw InputError("scout", "detected pose", "none", "a rigid transform");
+  }
+  return found;
 }
 
 void Scout::hide_behind(std::span<const Hypothesis> known, std::span<Observation> observations) const {
@@ -171,7 +189,8 @@ void Scout::hide_behind(std::span<const Hypothesis> known, std::span<Observation
 }
 
 // Lines 11 and 15 to 17: the particles after this image, and the instances they amount to.
-void Scout::believe(ScoutStep& step, ScoutState& next, std::span<const RegisterView> views) const {
+std::vector<Mode> Scout::believe(ScoutStep& step, ScoutState& next,
+                                 std::span<const RegisterView> views) const {
   Stopwatch watch(step.stages);
   add_particles(step, next);
   const bool reseeded = step.update.reseeded;
@@ -179,27 +198,27 @@ void Scout::believe(ScoutStep& step, ScoutState& next, std::span<const RegisterV
                                  options_.particles);
   step.update.reseeded |= reseeded;
   done(watch, "particles");
-  next.modes = find_modes(next.particles, sets_, models_, options_.particles, backend_.threads());
+  const std::vector<Mode> modes =
+      find_modes(next.particles, sets_, models_, options_.particles, backend_.threads());
   step.mode_probabilities.clear();
-  for (const Mode& mode : next.modes) step.mode_probabilities.push_back(mode.probability);
-  next.entropy_nats = step.entropy_nats = belief_entropy(next.modes);
+  for (const Mode& mode : modes) step.mode_probabilities.push_back(mode.probability);
+  next.entropy_nats = step.entropy_nats = belief_entropy(modes);
   next.detections = step.detections =
-      mode_detections(next.particles, next.modes, sets_, models_, views, backend_, options_.detections);
+      mode_detections(next.particles, modes, sets_, models_, views, backend_, options_.detections);
   done(watch, "modes");
+  return modes;
 }
 
 // Lines 18 and 19: the particles for the next image, and what the images say to the instances.
-void Scout::conclude(ScoutStep& step, ScoutState& next, std::span<const RegisterView> views) const {
+void Scout::conclude(ScoutStep& step, ScoutState& next, std::span<const Mode> modes,
+                     std::span<const RegisterView> views) const {
   Stopwatch watch(step.stages);
-  step.resampled = resample_where_poor(next.particles, next.modes, models_, views.size(), options_.particles);
-  if (step.resampled)
-    next.modes = find_modes(next.particles, sets_, models_, options_.particles, backend_.threads());
+  step.resampled = resample_where_poor(next.particles, modes, models_, views.size(), options_.particles);
   step.after = next.particles;
   done(watch, "modes");
-  std::vector<Hypothesis> objects;
-  for (const ModeDetection& mode : next.detections)
-    objects.push_back({mode.detection.object, mode.detection.world_from_object});
-  step.agreement = view_agreement(models_, objects, views, backend_, options_.agreement);
+  step.agreement =
+      view_agreement(models_, known_objects(next.detections, 0), views, backend_, options_.agreement);
+  warn_of(step.agreement, next.steps.empty() ? std::vector<ViewAgreement>{} : next.steps.back().agreement);
   done(watch, "agreement");
 }
 
@@ -220,7 +239,7 @@ void Scout::add_particles(ScoutStep& step, ScoutState& next) const {
                      step.searches > 1 ? random.split(static_cast<std::uint64_t>(step.searches)) : random);
   next.particles.insert(next.particles.end(), drawn.begin(), drawn.end());
   step.before.insert(step.before.end(), drawn.begin(), drawn.end());
-  step.new_candidates += unknown.size();
+  step.new_candidates += count_new(unknown, state_.candidates, sets_, o.mode_radius);
 }
 
 // Lines 4 to 10 and 13. No view is left where the decision's is negative.
@@ -305,7 +324,7 @@ void Scout::resume(ScoutState state, const std::string& source) {
   }
   state_ = std::move(state);
   observations_ = std::move(observations);
-  proposal_.reset();
+  forget_answer();
 }
 
 namespace {

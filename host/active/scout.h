@@ -35,7 +35,8 @@ struct ScoutOptions {
   bool detect_in_every_image = true;  // else until there are candidates: in the first alone, as in the paper
   // A detector of one's own in place of candidates_in_images (candidates.h): what may be in the images of
   // these views, in the world. The last one is new, the others are those before it, as far as detection may
-  // use them; `known` are the instances that need not be found again.
+  // use them; `known` are the instances that need not be found again. InputError from give(): an object that
+  // is none, a pose that is not rigid.
   std::function<std::vector<Detection>(std::span<const int> views, std::span<const Observation> images,
                                        std::span<const Hypothesis> known)>
       detect;
@@ -51,7 +52,7 @@ struct ScoutOptions {
   int max_searches = 2;
   CombinationOptions combinations;
   bool probable_combinations = true;  // scenes as often as they are believed in; else by psi (Algorithm 1)
-  ParticleOptions particles;
+  ParticleOptions particles;  // its penetration_m is the candidates', too: one measure of what excludes what
   NextViewOptions next_view;  // its sigma_px is the particles' too: one model of how far right poses lie
   ModeDetectionOptions detections;
   AgreementOptions agreement;
@@ -59,8 +60,8 @@ struct ScoutOptions {
   // The end, whichever comes first. Of all but the images a limit of 0 is none.
   int max_views = 5;               // images
   double min_entropy_nats = 0.01;  // less: the modes are certain; and no new candidates in the last image
-  // less expected of the best view about the candidates, what its way costs taken off
-  // (Strategy::Information): not worth it
+  // less expected of every view about the candidates, what its way costs taken off
+  // (Strategy::Information): none is worth it
   double min_information_nats = 0;
   double min_gained_nats = 0;  // less from the last image, and no new candidates in it
   double max_seconds = 0;      // of computing
@@ -101,6 +102,7 @@ class Scout {
 
  private:
   void require_open(int view) const;
+  void forget_answer();
   ScoutEnd end_before_planning() const;
   bool may_find_more() const;
   bool certain() const;
@@ -111,8 +113,9 @@ class Scout {
   void look(const Image& image, ScoutStep& step, std::vector<Observation>& observations) const;
   void search(std::span<const Hypothesis> known, ScoutStep& step, ScoutState& next,
               std::span<Observation> observations) const;
-  void believe(ScoutStep& step, ScoutState& next, std::span<const RegisterView> views) const;
-  void conclude(ScoutStep& step, ScoutState& next, std::span<const RegisterView> views) const;
+  std::vector<Mode> believe(ScoutStep& step, ScoutState& next, std::span<const RegisterView> views) const;
+  void conclude(ScoutStep& step, ScoutState& next, std::span<const Mode> modes,
+                std::span<const RegisterView> views) const;
   void add_particles(ScoutStep& step, ScoutState& next) const;
   std::vector<Detection> detect(const ScoutStep& step, std::span<const Hypothesis> known,
                                 std::span<Observation> observations) const;
@@ -127,7 +130,9 @@ class Scout {
   std::vector<TemplateTable> tables_;
   ScoutState state_;
   std::vector<Observation> observations_;  // of the images so far
-  std::optional<ScoutDecision> proposal_;  // until there is news
+  // What propose() answered, until there is news.
+  std::optional<ScoutDecision> proposal_;
+  bool has_ended_ = false;  // by a decision, which need not be made again
 };
 
 // Drives the loop to its end: views that cannot be acquired, or whose shot does not fit the camera, are

@@ -32,13 +32,14 @@ bool Scout::little_learned() const {
 // Without candidates there is nothing that information could be about, and everything to find.
 bool Scout::may_find_more() const { return state_.candidates.empty(); }
 
-// About the candidates: what is unknown promises something as long as views are left.
+// About the candidates, from whichever view: what is unknown promises something as long as views are left.
 bool Scout::little_to_learn(const ScoutDecision& decision) const {
   if (options_.next_view.strategy != Strategy::Information || options_.min_information_nats <= 0 ||
       may_find_more())
     return false;
-  const ViewInformation& chosen = decision.views[static_cast<std::size_t>(decision.view)];
-  return chosen.information - chosen.motion_cost < options_.min_information_nats;
+  return std::ranges::all_of(decision.views, [&](const ViewInformation& view) {
+    return !view.open || view.information - view.motion_cost < options_.min_information_nats;
+  });
 }
 
 }  // namespace edgescout

@@ -9,7 +9,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 12, "scout state"};
+constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 13, "scout state"};
 
 template <typename T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -48,6 +48,7 @@ class Get {
 
  private:
   void get(Number auto& value) { value = in_.get<std::remove_reference_t<decltype(value)>>(); }
+  void get(bool& value) { value = in_.get<std::uint8_t>() != 0; }
   void get(std::string& text) { text = in_.get_text(); }
   void get(Se3& pose) { pose = in_.get_pose(); }
   void get(Matrix6d& matrix) {
@@ -85,8 +86,7 @@ void fields(auto& io, A<FailedView> auto& x) { io(x.view, x.reason, x.after_step
 void fields(auto& io, A<ScoutObject> auto& x) { io(x.id, x.fingerprint); }
 void fields(auto& io, A<Camera> auto& x) { io(x.width, x.height, x.fx, x.fy, x.cx, x.cy, x.distortion); }
 void fields(auto& io, A<Image> auto& x) { io(x.width, x.height, x.pixels); }
-void fields(auto& io, A<Mode> auto& x) { io(x.object, x.particles, x.weight, x.probability); }
-void fields(auto& io, A<ModeDetection> auto& x) { io(x.detection, x.weight, x.supporting_views); }
+void fields(auto& io, A<ModeDetection> auto& x) { io(x.detection, x.weight, x.supporting_images); }
 void fields(auto& io, A<Detection> auto& x) {
   io(x.object, x.world_from_object, x.covariance, x.probability, x.psi, x.cost_px, x.matched_fraction,
      x.evidence, x.unexplained_grey, x.convergence);
@@ -102,8 +102,8 @@ void fields(auto& io, A<ScoutStep> auto& x) {
      x.resampled, x.detections, x.agreement, x.mode_probabilities, x.entropy_nats, x.stages);
 }
 void fields(auto& io, A<ScoutState> auto& x) {
-  io(x.objects, x.camera, x.views, x.steps, x.failed, x.candidates, x.particles, x.unseen_px2, x.modes,
-     x.detections, x.entropy_nats, x.end);
+  io(x.objects, x.camera, x.views, x.steps, x.failed, x.candidates, x.particles, x.unseen_px2, x.detections,
+     x.entropy_nats, x.end, x.last_decision);
 }
 
 double sum(const std::vector<StageSeconds>& stages) {
@@ -145,7 +145,7 @@ double ScoutState::seconds() const {
   double seconds = 0;
   for (const ScoutStep& step : steps) seconds += sum(step.stages) + sum(step.decision.stages);
   for (const FailedView& view : failed) seconds += sum(view.stages);
-  return seconds;
+  return seconds + sum(last_decision.stages);
 }
 
 void save_scout_state(const ScoutState& state, const std::filesystem::path& file) {

@@ -35,7 +35,7 @@ struct ScoutStep {
   Se3 camera_from_world;           // as given
   Image image;                     // undistorted
   int searches = 0;                // of this image: ScoutOptions::max_searches
-  std::size_t new_candidates = 0;  // that no particle had been near
+  std::size_t new_candidates = 0;  // that no particle is near, nor any candidate there was before this image
   // before this image's say, those drawn around its new candidates included
   std::vector<Particle> before;
   std::vector<Particle> after;
@@ -74,11 +74,11 @@ struct ScoutState {
   std::vector<FailedView> failed;     // never proposed again
   std::vector<Detection> candidates;  // world, best probability first
   std::vector<Particle> particles;
-  std::vector<double> unseen_px2;  // weigh_particles', one an image
-  std::vector<Mode> modes;
+  std::vector<double> unseen_px2;         // weigh_particles', one an image
   std::vector<ModeDetection> detections;  // the modes that are instances, best probability first
   double entropy_nats = 0;
   ScoutEnd end = ScoutEnd::No;
+  ScoutDecision last_decision;  // that no image followed: of an end that was decided on (LittleToLearn)
 
   // One a view: nonzero where it was taken or cannot be reached.
   std::vector<char> closed() const;

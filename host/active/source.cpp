@@ -28,7 +28,7 @@ const Se3& pose_of(const std::vector<Se3>& poses, int view) {
 // The camera moved about itself: what an arm does not do exactly.
 Se3 missed(const Se3& camera_from_world, const ArmNoise& noise, Random random) {
   const auto error = [&](double sigma) {
-    return Eigen::Vector3d(sigma * random.normal(), sigma * random.normal(), sigma * random.normal());
+    return Eigen::Vector3d{sigma * random.normal(), sigma * random.normal(), sigma * random.normal()};
   };
   const Eigen::Vector3d shift_m = error(noise.translation_m), turn_rad = error(noise.rotation_rad);
   return Se3{so3_exp(turn_rad), shift_m} * camera_from_world;

@@ -138,9 +138,13 @@ std::vector<ViewAgreement> view_agreement(std::span<const EdgeModel> models,
     if (worst == views.size()) break;
     agreement[worst].disagrees = true;
     std::erase(open, worst);
-    warn(worst, agreement[worst]);
   }
   return agreement;
+}
+
+void warn_of(std::span<const ViewAgreement> agreement, std::span<const ViewAgreement> before) {
+  for (std::size_t v = 0; v < agreement.size(); ++v)
+    if (agreement[v].disagrees && !(v < before.size() && before[v].disagrees)) warn(v, agreement[v]);
 }
 
 }  // namespace edgescout

@@ -33,12 +33,14 @@ struct AgreementOptions {
 // One a view. The worst view above max_residual_px is flagged and left out, then the rest are judged again:
 // one wrong pose spoils the joint registration for all others. Of two views that disagree with each other the
 // later is flagged. So is one that shows not a trace of several objects that it should: its pose is so wrong
-// that registration does not find them. Each flag is logged as a warning. Fewer than two views or no objects:
-// nothing can disagree; a scene of one object, or of two views, does not tell a grossly wrong pose from an
-// object that is hidden.
+// that registration does not find them. Fewer than two views or no objects: nothing can disagree; a scene of
+// one object, or of two views, does not tell a grossly wrong pose from an object that is hidden.
 std::vector<ViewAgreement> view_agreement(std::span<const EdgeModel> models,
                                           std::span<const Hypothesis> objects,
                                           std::span<const RegisterView> views, Backend& backend,
                                           const AgreementOptions& options = {});
+
+// A warning in the log for each flag that `before`, the same of the images so far, did not have.
+void warn_of(std::span<const ViewAgreement> agreement, std::span<const ViewAgreement> before = {});
 
 }  // namespace edgescout

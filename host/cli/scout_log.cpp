@@ -44,7 +44,7 @@ json modes_json(const std::vector<ModeDetection>& modes, const ScoutReport& repo
                {"psi", d.psi},
                {"world_from_object", pose_json(d.world_from_object)},
                {"covariance", std::vector<double>(transposed.data(), transposed.data() + transposed.size())},
-               {"supporting_images", mode.supporting_views}};
+               {"supporting_images", mode.supporting_images}};
     if (const auto off = distance_to_truth(d, report))
       entry["off_truth"] = {
           {"angle_rad", off->angle_rad}, {"distance_m", off->distance_m}, {"right", off->right}};
@@ -77,7 +77,7 @@ json step_json(const ScoutStep& step, const ScoutReport& report) {
           {"decision_ms", stages_json(step.decision.stages)},
           {"camera_from_world", pose_json(step.camera_from_world)},
           {"timings_ms", stages_json(step.stages)},
-          {"candidates", step.decision.candidates.size()},
+          {"candidates_before", step.decision.candidates.size()},
           {"searches", step.searches},
           {"new_candidates", step.new_candidates},
           {"particles",
@@ -159,6 +159,11 @@ void save_scout_log(const ScoutState& state, const ScoutReport& report, const st
   for (const TrueObject& there : report.truth)
     log["truth"].push_back({{"object_id", report.sets[static_cast<std::size_t>(there.object)].object_id},
                             {"world_from_object", pose_json(there.world_from_object)}});
+  if (!state.last_decision.stages.empty())
+    log["last_decision"] = {
+        {"information", of_open_views(state.last_decision.views, &ViewInformation::information)},
+        {"motion_cost", of_open_views(state.last_decision.views, &ViewInformation::motion_cost)},
+        {"decision_ms", stages_json(state.last_decision.stages)}};
   log["seconds"] = state.seconds();
   log["end"] = to_string(state.end);
   write_file_atomically(folder / "scout.json", json_text(log));

@@ -107,7 +107,7 @@ class Page {
       const double place_m = std::sqrt(d.covariance.topLeftCorner<3, 3>().trace() / 3),
                    turn_rad = std::sqrt(d.covariance.bottomRightCorner<3, 3>().trace() / 3);
       std::string support;
-      for (const int view : mode.supporting_views) support += fmt::format(" {}", view + 1);
+      for (const int image : mode.supporting_images) support += fmt::format(" {}", image + 1);
       html += fmt::format("<tr><td>{}<td>{:.2f}<td>{:.2f}<td>{:.0f} %<td>{:.2f} mm<td>{:.2f}°<td>{}",
                           escaped(name_of(d)), d.probability, d.psi, 100 * d.matched_fraction, 1000 * place_m,
                           turn_rad * 57.29578, support.empty() ? "none alone" : support);
@@ -137,16 +137,9 @@ class Page {
   std::string step(std::size_t i) const {
     const ScoutStep& s = state_.steps[i];
     const ScoutDecision& why = s.decision;
-    std::string html = fmt::format(
-        "<section><h2>Image {} <small>view {}{}</small></h2>{}<div class=row>", i + 1, why.view,
-        why.views.empty() ? ""
-                          : fmt::format(", {:.3f} {} expected{}", why.views[why.view].expected(),
-                                        unit_of(why.strategy), of_the_unknown(why.views[why.view])),
-        warnings(s));
-    html +=
-        figure(hemisphere(i),
-               i == 0 ? "The views, from above. Nothing is known before the first image."
-                      : "Every view by the information expected of it, from above. Ringed: the one chosen.");
+    std::string html = fmt::format("<section><h2>Image {} <small>view {}{}</small></h2>{}<div class=row>",
+                                   i + 1, why.view, promise(why), warnings(s));
+    html += figure(hemisphere(i), hemisphere_caption(why));
     html +=
         png_figure(overlay(i, s.detections), fmt::format("{} objects after this image", s.detections.size()));
     html +=
@@ -162,6 +155,26 @@ class Page {
     if (!why.likeliest.empty() || !why.unlikeliest.empty())
       html += "<div class=row>" + scenes(why) + "</div>";
     return html + numbers(s) + "</section>";
+  }
+
+  // Where a view was chosen for what it promises.
+  static std::string promise(const ScoutDecision& why) {
+    if (why.views.empty()) return "";
+    const ViewInformation& chosen = why.views[static_cast<std::size_t>(why.view)];
+    if (why.strategy == Strategy::Information)
+      return fmt::format(", {:.3f} nats expected{}", chosen.expected(), of_the_unknown(chosen));
+    if (why.strategy == Strategy::Disocclusion)
+      return fmt::format(", {:.0f} points that no image has shown", chosen.expected());
+    return "";
+  }
+
+  static std::string hemisphere_caption(const ScoutDecision& why) {
+    if (why.views.empty()) return "The views, from above. Nothing is known before the first image.";
+    const char* by = why.strategy == Strategy::Information    ? "the information expected of it"
+                     : why.strategy == Strategy::Disocclusion ? "the points it shows that no image has shown"
+                     : why.strategy == Strategy::Random       ? "its draw"
+                                                              : "its place in the sequence";
+    return fmt::format("Every view by {}, from above. Ringed: the one chosen.", by);
   }
 
   static std::string of_the_unknown(const ViewInformation& view) {

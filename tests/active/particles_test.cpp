@@ -190,7 +190,7 @@ TEST(UpdateParticles, FindsTheInstancesAndDropsTheRest) {
   }
   for (const ModeDetection& d : found) {
     EXPECT_GT(d.detection.probability, 0.5);
-    EXPECT_GE(d.supporting_views.size(), 2u);
+    EXPECT_GE(d.supporting_images.size(), 2u);
     EXPECT_TRUE(d.detection.covariance.allFinite());
     EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6d>(d.detection.covariance).eigenvalues().minCoeff(), 0);
   }

@@ -40,7 +40,7 @@ inline void expect_same(const ScoutState& a, const ScoutState& b) {
     EXPECT_TRUE(
         same(a.detections[i].detection.world_from_object, b.detections[i].detection.world_from_object));
     EXPECT_EQ(a.detections[i].detection.probability, b.detections[i].detection.probability);
-    EXPECT_EQ(a.detections[i].supporting_views, b.detections[i].supporting_views);
+    EXPECT_EQ(a.detections[i].supporting_images, b.detections[i].supporting_images);
   }
   EXPECT_EQ(a.failed.size(), b.failed.size());
   EXPECT_EQ(a.end, b.end);

@@ -1,6 +1,7 @@
 // Sources that fail, images that show nothing, cameras that are not where they say, options out of range.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <set>
 
 #include "tests/active/small_cell.h"
@@ -31,6 +32,33 @@ TEST(Scout, GoesOnPastAFailedAcquisition) {
   EXPECT_EQ(state.failed[1].after_step, 0u);
   EXPECT_EQ(std::set<int>(asked.begin(), asked.end()).size(), 4u) << "none is asked for twice";
   EXPECT_EQ(t.found(state), 1);
+}
+
+// A detector of the user's own is input like an image.
+TEST(Scout, RefusesWhatADetectorCannotHaveFound) {
+  SmallCell t;
+  SimulatedCell cell = t.source();
+  Detection found;
+  found.world_from_object = t.scene.placed[0].world_from_object;
+  ScoutOptions options = t.options();
+  options.detect = [&](std::span<const int>, std::span<const Observation>, std::span<const Hypothesis>) {
+    return std::vector{found};
+  };
+  Scout scout = t.scout(options);
+  const auto refuses = [&](const char* word) {
+    expect_input_error([&] { scout.give(0, cell.acquire(0).image); }, {"detected", word});
+    EXPECT_TRUE(scout.state().steps.empty());
+  };
+  found.object = 1;
+  refuses("object");
+  found.object = -1;
+  refuses("object");
+  found.object = 0;
+  found.world_from_object.translation_m.x() = std::numeric_limits<double>::quiet_NaN();
+  refuses("pose");
+  found.world_from_object = {};
+  found.world_from_object.rotation.coeffs() *= 2;
+  refuses("pose");
 }
 
 // Where the first view cannot be had, a strategy that asks nothing of the belief goes on by its own rule.

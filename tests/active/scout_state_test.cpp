@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "tests/active/same_state.h"
 #include "tests/active/small_cell.h"
 #include "tests/io/expect_input_error.h"
@@ -42,6 +44,44 @@ TEST(ScoutState, GoesOnFromASavedStateAsIfNothingHadHappened) {
   SmallCell t;
   SimulatedCell cell = t.source({0.0005, 0.001, true, 3});
   expect_goes_on(t, SmallCell::options(), cell, {1, 2});
+}
+
+// A view that failed before the first image and one after it are not proposed again.
+TEST(ScoutState, GoesOnPastViewsThatFailed) {
+  SmallCell t;
+  SimulatedCell cell = t.source();
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "state";
+  Scout whole = t.scout(), saved = t.scout();
+  for (Scout* scout : {&whole, &saved}) {
+    const auto first = scout->propose();
+    ASSERT_TRUE(first);
+    scout->unreachable(first->view, "the arm does not get there");
+    const auto second = scout->propose();
+    ASSERT_TRUE(second);
+    scout->give(second->view, cell.acquire(second->view).image);
+    const auto third = scout->propose();
+    ASSERT_TRUE(third);
+    scout->unreachable(third->view, "no image in time");
+  }
+  save_scout_state(saved.state(), file);
+  Scout resumed = t.scout();
+  resumed.resume(load_scout_state(file), file.string());
+  const std::vector<FailedView>&failed = resumed.state().failed, expected = saved.state().failed;
+  ASSERT_EQ(failed.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(failed[i].view, expected[i].view);
+    EXPECT_EQ(failed[i].reason, expected[i].reason);
+    EXPECT_EQ(failed[i].after_step, i);
+    ASSERT_EQ(failed[i].stages.size(), expected[i].stages.size());
+  }
+  EXPECT_FALSE(failed[1].stages.empty()) << "a decision was made for it";
+  EXPECT_EQ(resumed.state().seconds(), saved.state().seconds());
+  run_scout(whole, cell);
+  run_scout(resumed, cell);
+  expect_same(whole.state(), resumed.state());
+  for (const int view : views_of(resumed.state()))
+    for (const FailedView& f : failed) EXPECT_NE(view, f.view);
 }
 
 // Parts on a heap, of which every reported one hides what is behind it: the next image's registrations depend
@@ -150,6 +190,17 @@ TEST(ScoutState, OfAnotherRunOrDamagedIsRefused) {
   ScoutState wrong = scout.state();
   wrong.steps[0].after[0].object = 1;
   expect_input_error([&] { same.resume(wrong, file); }, {"scout.state", "indices"});
+  const auto refused = [&](const std::function<void(ScoutState&)>& spoil) {
+    wrong = scout.state();
+    spoil(wrong);
+    expect_input_error([&] { same.resume(wrong, file); }, {"scout.state", "indices"});
+  };
+  refused([](ScoutState& s) { s.steps[0].decision.likeliest = {99}; });
+  refused([](ScoutState& s) { s.steps[0].decision.unlikeliest = {-1}; });
+  refused([](ScoutState& s) { s.steps[0].decision.views.resize(1); });
+  refused([](ScoutState& s) { s.steps[0].decision.strategy = Strategy(7); });
+  refused([](ScoutState& s) { s.last_decision.views.resize(1); });
+  refused([](ScoutState& s) { s.end = ScoutEnd(77); });
   wrong = scout.state();
   wrong.failed.push_back({-1, "", 0, {}});
   expect_input_error([&] { same.resume(wrong, file); }, {"scout.state", "indices"});

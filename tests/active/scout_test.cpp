@@ -257,6 +257,79 @@ TEST(Scout, EndsByEachOfItsLimits) {
             End(ScoutEnd::NoViewLeft, 1));
 }
 
+// What is unknown sends the camera to a view that tells little about the candidates, while another would tell
+// more: that is not the end.
+TEST(Scout, GoesOnWhileAnyViewTellsEnough) {
+  SmallCell t;
+  SimulatedCell cell = t.source();
+  ScoutOptions options = t.options();
+  options.next_view.unknown_nats = 100;
+  const auto proposed = [&] {
+    Scout scout = t.scout(options);
+    scout.give(0, cell.acquire(0).image);
+    return scout.propose();
+  };
+  const auto free = proposed();
+  ASSERT_TRUE(free);
+  double most = 0;
+  for (const ViewInformation& view : free->views)
+    if (view.open) most = std::max(most, view.information);
+  const double chosen = free->views[std::size_t(free->view)].information;
+  ASSERT_LT(chosen, 0.99 * most);
+  options.min_information_nats = 0.5 * (chosen + most);
+  const auto limited = proposed();
+  ASSERT_TRUE(limited);
+  EXPECT_EQ(limited->view, free->view);
+  options.min_information_nats = 1.01 * most;
+  EXPECT_FALSE(proposed());
+}
+
+// The decision that ends a run is made once, and is there to be read.
+TEST(Scout, KeepsTheDecisionThatEndsIt) {
+  SmallCell t;
+  SimulatedCell cell = t.source();
+  ScoutOptions options = t.options();
+  options.min_information_nats = 1000;
+  Scout scout = t.scout(options);
+  scout.give(0, cell.acquire(0).image);
+  const double before = scout.state().seconds();
+  EXPECT_FALSE(scout.propose());
+  EXPECT_EQ(scout.state().end, ScoutEnd::LittleToLearn);
+  EXPECT_EQ(scout.state().last_decision.views.size(), t.views.size());
+  const double after = scout.state().seconds();
+  EXPECT_GT(after, before);
+  EXPECT_FALSE(scout.propose());
+  EXPECT_EQ(scout.state().seconds(), after) << "nothing was computed again";
+  scout.give(1, cell.acquire(1).image);  // the user knows better
+  EXPECT_TRUE(scout.state().last_decision.views.empty());
+}
+
+// Candidates that there were too few particles for are not new with every image.
+TEST(Scout, CountsACandidateAsNewOnce) {
+  SmallCell t{2};
+  SimulatedCell cell = t.source();
+  ScoutOptions options = t.options();
+  options.detect_in_every_image = false;
+  options.next_view.strategy = Strategy::Fixed;
+  options.particles.count = 1;
+  options.max_views = 2;
+  options.detect = [&](std::span<const int>, std::span<const Observation>, std::span<const Hypothesis>) {
+    std::vector<Detection> found(2);
+    for (std::size_t i = 0; i < 2; ++i) {
+      found[i].psi = 0.9;
+      found[i].world_from_object = t.scene.placed[i].world_from_object;
+    }
+    return found;
+  };
+  Scout scout = t.scout(options);
+  run_scout(scout, cell);
+  ASSERT_EQ(scout.state().steps.size(), 2u);
+  EXPECT_EQ(scout.state().steps[0].new_candidates, 2u);
+  EXPECT_GT(scout.state().steps[1].before.size(), scout.state().steps[0].after.size())
+      << "the one left out before has its particle now";
+  EXPECT_EQ(scout.state().steps[1].new_candidates, 0u);
+}
+
 // All particles are dead at once and again when drawn anew: nothing was gained, and nothing is settled.
 TEST(Scout, DoesNotTakeACollapseForTheEnd) {
   SmallCell t;

@@ -25,7 +25,9 @@ struct Objects {
       poses.push_back({part.object, part.world_from_object});
   }
   std::vector<ViewAgreement> judge(const std::vector<RegisterView>& views) {
-    return view_agreement(scene.models, poses, views, *backend);
+    const std::vector<ViewAgreement> agreement = view_agreement(scene.models, poses, views, *backend);
+    warn_of(agreement);
+    return agreement;
   }
 };
 
@@ -33,6 +35,21 @@ void print(const std::vector<ViewAgreement>& views) {
   for (const ViewAgreement& v : views)
     std::printf("%.2f px by %d objects, %d missing%s\n", v.residual_px, v.objects, v.missing,
                 v.disagrees ? ", disagrees" : "");
+}
+
+TEST(ViewAgreement, IsWarnedOfOnce) {
+  const CollectedLog log;
+  std::vector<ViewAgreement> before(2), now(3);
+  now[1] = {7.5, 2, 0, true};
+  warn_of(now, before);
+  ASSERT_EQ(log.messages.size(), 1u);
+  before[1] = now[1];
+  warn_of(now, before);
+  EXPECT_EQ(log.messages.size(), 1u) << "it was known";
+  now[2] = {0, 0, 3, true};
+  warn_of(now, before);
+  ASSERT_EQ(log.messages.size(), 2u);
+  EXPECT_NE(log.messages[1].second.find("image 3"), std::string::npos) << log.messages[1].second;
 }
 
 TEST(ViewAgreement, RightPosesAgree) {

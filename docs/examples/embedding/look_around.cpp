@@ -9,7 +9,11 @@
 
 using namespace edgescout;
 
-int main(int, char** argv) {
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::cerr << "usage: look_around BOP_SCENE MESH_MM\n";
+    return 2;
+  }
   RecordedViews robot = load_recorded_views(argv[1]);
 
   TemplateOptions templates;
@@ -35,6 +39,8 @@ int main(int, char** argv) {
           next->view);  // move there, take an image; and where the arm knows better: its true pose
       scout.give(next->view, shot.image, shot.camera_from_world);
     } catch (const AcquisitionError& error) {
+      scout.unreachable(next->view, error.what());  // another view is proposed in its place
+    } catch (const InputError& error) {             // an image of another size, a pose that is none
       scout.unreachable(next->view, error.what());
     }
     std::cout << "view " << next->view << ": " << scout.state().entropy_nats << " nats undecided\n";
