@@ -37,10 +37,10 @@ Interval percentile_interval(std::vector<double> values) {
 Interval resampled_interval(std::vector<double> rates, double clusters) {
   constexpr double ROUNDING = 1e-12;
   if (rates.empty()) return {};
-  const auto [least, most] = std::ranges::minmax(rates);
-  if (most - least < ROUNDING && most <= 1 + ROUNDING)
-    return wilson_interval(std::min(1.0, most) * clusters, clusters);
-  return percentile_interval(std::move(rates));
+  const Interval interval = percentile_interval(std::move(rates));
+  if (interval.high - interval.low < ROUNDING && interval.high <= 1 + ROUNDING)
+    return wilson_interval(std::min(1.0, interval.high) * clusters, clusters);
+  return interval;
 }
 
 Interval bootstrap_interval(std::span<const Cluster> clusters, int resamples, std::uint64_t seed) {

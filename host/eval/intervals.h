@@ -26,9 +26,9 @@ double rate(std::span<const Cluster> clusters);
 // What holds 95 % of these values; [0, 1] without any.
 Interval percentile_interval(std::vector<double> values);
 
-// The same of a rate that was resampled over so many clusters. Where all values are alike nothing shows a
-// spread: Wilson's interval then, each cluster as one trial (of a mean number above 1, which is no rate, the
-// value).
+// The same of a rate that was resampled over so many clusters. Where 95 % of the values are alike nothing
+// shows a spread: Wilson's interval then, each cluster as one trial (of a mean number above 1, which is no
+// rate, the value).
 Interval resampled_interval(std::vector<double> rates, double clusters);
 
 // Percentile bootstrap of `rate` over clusters: as many are drawn with replacement, `resamples` times; the

@@ -76,6 +76,9 @@ TEST(Bootstrap, OfOneClusterIsOneTrial) {
 
 TEST(Resampled, WithoutSpreadIsWilsons) {
   EXPECT_DOUBLE_EQ(resampled_interval({1, 1, 1}, 4).low, wilson_interval(4, 4).low);
+  std::vector<double> nearly_all(1999, 1.0);  // fewer differ than an interval tells
+  nearly_all.push_back(0.9);
+  EXPECT_DOUBLE_EQ(resampled_interval(nearly_all, 4).low, wilson_interval(4, 4).low);
   EXPECT_EQ(resampled_interval({0, 1}, 4).low, 0);
   EXPECT_EQ(resampled_interval({}, 4).high, 1);
   EXPECT_EQ(resampled_interval({2, 2}, 4).low, 2) << "a mean number, no rate";
