@@ -36,8 +36,11 @@ constexpr std::pair<const char*, int ExperimentSettings::*> SIZES[] = {
 ExperimentSettings settings_of(const ExperimentsRequest& request, const CLI::App& verb) {
   if (request.is_short && request.is_full)
     throw InputError("command line", "--short, --full", "both", "one of the two");
-  if (verb.count("--bins") > 0 && verb.count("--only-bins") > 0)
-    throw InputError("command line", "--bins, --only-bins", "both", "one of the two");
+  for (const auto& [name, count] :
+       {std::pair{"--bins", request.settings.bins}, {"--cad-bins", request.settings.cad_bins}})
+    if (verb.count(name) > 0 && count > 0 && verb.count("--only-bins") > 0)
+      throw InputError("command line", std::string(name) + ", --only-bins", "both",
+                       "one of the two, or " + std::string(name) + " 0");
   ExperimentSettings settings = request.settings;
   const ExperimentSettings form =
       request.is_full ? ExperimentSettings::full_form() : ExperimentSettings::short_form();
@@ -137,7 +140,7 @@ void add_bench_experiments(CLI::App& bench, int& exit_code) {
             "Measured times among the rows (default); without, two runs give the same bytes");
   add_sizes(*verb, *request);
   verb->add_option("--only-bins", request->settings.only_bins,
-                   "These, in place of the first --bins and --cad-bins")
+                   "These, in place of the first --bins and --cad-bins; of a kind that is given as 0 none")
       ->type_name("NUMBER,..")
       ->delimiter(',')
       ->allow_extra_args(false)

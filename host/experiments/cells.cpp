@@ -38,8 +38,8 @@ void require_same_settings(const Table& finished, const CellRun& run, const std:
                      run.commit + " as in this run, --any-commit, or another output folder");
 }
 
-// What an earlier run left of a cell.
-std::optional<Table> finished_cell(const Cell& cell, const CellRun& run) {
+// What an earlier run left of a cell. A damaged one is done again, of which `warn` says.
+std::optional<Table> finished_cell(const Cell& cell, const CellRun& run, bool warn) {
   const fs::path file = file_of(cell, run);
   if (!fs::exists(file)) return std::nullopt;
   if (!run.resume)
@@ -49,7 +49,7 @@ std::optional<Table> finished_cell(const Cell& cell, const CellRun& run) {
   try {
     table = load_table(file);
   } catch (const InputError& error) {
-    log(LogLevel::Warning, std::string(error.what()) + "; done again");
+    if (warn) log(LogLevel::Warning, std::string(error.what()) + "; done again");
     return std::nullopt;
   }
   require_same_settings(table, run, file.string());
@@ -128,9 +128,13 @@ class Workers {
 
 }  // namespace
 
+void require_resumable(std::span<const Cell> cells, const CellRun& run) {
+  for (const Cell& cell : cells) finished_cell(cell, run, false);
+}
+
 std::vector<Table> run_cells(std::span<const Cell> cells, const CellRun& run) {
   std::vector<std::optional<Table>> tables;
-  for (const Cell& cell : cells) tables.push_back(finished_cell(cell, run));
+  for (const Cell& cell : cells) tables.push_back(finished_cell(cell, run, true));
   for (const std::optional<Table>& table : tables)
     if (table) require_same_columns(cells, run, tables, *table);
   require_writable_folder(run.folder);

@@ -39,4 +39,7 @@ struct CellRun {
 // cannot be written. Whatever ends the run, finished cells stay.
 std::vector<Table> run_cells(std::span<const Cell> cells, const CellRun& run);
 
+// InputError where run_cells would throw one for finished cells, without running any.
+void require_resumable(std::span<const Cell> cells, const CellRun& run);
+
 }  // namespace edgescout

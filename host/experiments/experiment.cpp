@@ -70,8 +70,8 @@ void write_index(const fs::path& out) {
   write_file_atomically(out / "index.md", text);
 }
 
-Table run_cells_of(const Experiment& experiment, const std::vector<Cell>& cells, const Notes& settings,
-                   const ExperimentRun& run, const std::string& device_name) {
+CellRun cell_run_of(const Experiment& experiment, const Notes& settings, const ExperimentRun& run,
+                    const std::string& device_name) {
   CellRun cell_run;
   cell_run.folder = run.out / "cells" / experiment.name;
   cell_run.settings = settings;
@@ -79,12 +79,14 @@ Table run_cells_of(const Experiment& experiment, const std::vector<Cell>& cells,
   cell_run.resume = run.resume;
   cell_run.any_commit = run.any_commit;
   cell_run.workers = workers_on(device_name);
-  cell_run.make_backend = [&] {
-    return backend_of_cell(run.device == "auto" && device_name == "cpu" ? "cpu" : run.device);
+  cell_run.make_backend = [device = run.device == "auto" && device_name == "cpu" ? "cpu" : run.device] {
+    return backend_of_cell(device);
   };
   if (run.progress)
-    cell_run.progress = [&](std::size_t done, std::size_t all) { run.progress(experiment.name, done, all); };
-  return joined(run_cells(cells, cell_run));
+    cell_run.progress = [progress = run.progress, name = experiment.name](std::size_t done, std::size_t all) {
+      progress(name, done, all);
+    };
+  return cell_run;
 }
 
 }  // namespace
@@ -103,6 +105,8 @@ std::vector<Experiment> experiments_named(const std::vector<std::string>& names)
   for (const std::string& name : names) {
     const auto found = std::ranges::find(experiments(), name, &Experiment::name);
     if (found == experiments().end()) throw InputError("experiments", "name", name, "one of " + known);
+    if (std::ranges::count(names, name) > 1)
+      throw InputError("experiments", "name", name + " twice", "each once");
     chosen.push_back(*found);
   }
   return chosen;
@@ -115,12 +119,18 @@ void run_experiments(const std::vector<Experiment>& chosen, const ExperimentSett
     throw InputError(settings.data.string(), "data", "no folder",
                      "one with d2co-starts, brackets, cat, triangle and cad");
   const std::string device_name = make_backend(run.device)->name();
-  std::vector<std::vector<Cell>> cells;  // of all: data that is not there ends the run before it writes
-  for (const Experiment& experiment : chosen) cells.push_back(experiment.cells(settings));
+  // Of all: what is not there, or in the way, ends the run before it writes.
+  std::vector<std::vector<Cell>> cells;
+  std::vector<CellRun> runs;
+  for (const Experiment& experiment : chosen) {
+    cells.push_back(experiment.cells(settings));
+    runs.push_back(
+        cell_run_of(experiment, settings_notes(experiment, settings, device_name), run, device_name));
+    require_resumable(cells.back(), runs.back());
+  }
   require_writable_folder(run.out);
   for (std::size_t i = 0; i < chosen.size(); ++i) {
-    const Notes notes = settings_notes(chosen[i], settings, device_name);
-    const Table table = run_cells_of(chosen[i], cells[i], notes, run, device_name);
+    const Table table = joined(run_cells(cells[i], runs[i]));
     write_report(chosen[i], settings, table, run.out, run.commit);
     write_index(run.out);
   }

@@ -18,7 +18,7 @@ constexpr int VIEWS = 3;  // the first and N_v = 2 more
 
 // Of the recorded starts more are taken than in one view, on the one pile of photographs more starts: there
 // are few images of which there are others.
-int recorded_every(const ExperimentSettings& s) { return std::max(1, s.every / 3); }
+int recorded_every(const ExperimentSettings& s) { return (s.every + 2) / 3; }
 int pile_starts(const ExperimentSettings& s) { return 5 * s.group_starts; }
 
 std::vector<Trial> trials() {

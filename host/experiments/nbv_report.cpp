@@ -246,13 +246,14 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
   std::vector<double> seconds;
   for (std::size_t row = 0; row < table.rows.size(); ++row)
     if (text_in(table, row, "group") == "light" && text_in(table, row, "views") != "1" &&
-        !text_in(table, row, "seconds").empty())
+        text_in(table, row, "draw") == "0" && !text_in(table, row, "seconds").empty())
       seconds.push_back(number_in(table, row, "seconds"));
   if (!seconds.empty())
     report.markdown += fmt::format(
         "A step took {:.1f} s (median): the decision, and what its image brings. (On a CPU as many bins run "
         "side "
-        "by side as it has threads.)\n",
+        "by side as it has threads; an image's scan is the step's of the strategy that looked from there "
+        "first.)\n",
         median(seconds));
   return report;
 }

@@ -60,6 +60,27 @@ Table load_starts(const fs::path& folder) {
   return table;
 }
 
+bool is_target(const JsonField& object) {
+  const JsonField target = object.at("target");
+  if (!target.value.is_boolean()) target.fail(target.value.dump(), "true or false");
+  return target.value.get<bool>();
+}
+
+// InputError naming the first image or mesh of the set that is not there.
+void require_files_of(const fs::path& folder) {
+  const fs::path file = folder / "ground_truth.json";
+  const nlohmann::json json = read_json(file);
+  const auto require = [&](const JsonField& name, const char* what) {
+    if (const fs::path named = folder / name.text(); !fs::exists(named))
+      throw InputError(named.string(), "file", "nothing", std::string(what) + " of the set d2co-starts");
+  };
+  for (const JsonField& entry : JsonField{json, file.string(), ""}.at("images").elements()) {
+    require(entry.at("file"), "an image");
+    for (const JsonField& object : entry.at("objects").elements())
+      if (is_target(object)) require(object.at("cad"), "a mesh");
+  }
+}
+
 // Images of one scene have a name in common up to "_v".
 std::string scene_name(const std::string& image) { return image.substr(0, image.find("_v")); }
 
@@ -77,12 +98,6 @@ KnownImage load_known_image(const fs::path& folder, const JsonField& entry) {
                      std::to_string(image.width) + " x " + std::to_string(image.height),
                      "that of ground_truth.json");
   return {image, camera, pose_of(entry.at("R_cam_world").numbers(9), entry.at("t_cam_world").numbers(3))};
-}
-
-bool is_target(const JsonField& object) {
-  const JsonField target = object.at("target");
-  if (!target.value.is_boolean()) target.fail(target.value.dump(), "true or false");
-  return target.value.get<bool>();
 }
 
 // Targets of the image; their types are loaded as they appear.
@@ -137,6 +152,7 @@ std::vector<std::string> recorded_images(const fs::path& folder) {
   for (const std::string& name : names)
     if (const fs::path file = folder / "images" / (name + ".png"); !fs::exists(file))
       throw InputError(file.string(), "file", "nothing", "an image of the set d2co-starts");
+  require_files_of(folder);
   return names;
 }
 

@@ -87,9 +87,9 @@ ExperimentSettings ExperimentSettings::full_form() {
   return settings;
 }
 
-std::vector<int> ExperimentSettings::bin_numbers(int first) const {
-  if (!only_bins.empty()) return only_bins;
-  std::vector<int> numbers(static_cast<std::size_t>(first));
+std::vector<int> ExperimentSettings::bin_numbers(int count) const {
+  if (!only_bins.empty()) return count > 0 ? only_bins : std::vector<int>{};
+  std::vector<int> numbers(static_cast<std::size_t>(count));
   std::iota(numbers.begin(), numbers.end(), 0);
   return numbers;
 }

@@ -35,7 +35,7 @@ struct ExperimentSettings {
   int candidates = 1260;  // of the detection, in every image and for every type
   int bins = 1;           // of the next best view: piled parts, looked at from a hemisphere
   int cad_bins = 1;       // the same with parts of data/cad, where there is data
-  // The bins of these numbers, of both, in place of the first ones.
+  // The bins of these numbers, of both kinds, in place of the first ones; of none whose number above is 0.
   std::vector<int> only_bins;
   // What is sought in a bin: one type (another from bin to bin), each type by itself, or all of them
   // together.
@@ -53,7 +53,7 @@ struct ExperimentSettings {
   ExperimentSettings();
   static ExperimentSettings short_form();  // minutes on two cores
   static ExperimentSettings full_form();   // the paper's numbers of images; some three hours on two cores
-  std::vector<int> bin_numbers(int first) const;  // of the bins that are run: the first ones, or only_bins
+  std::vector<int> bin_numbers(int count) const;  // of the bins that are run: the first ones, or only_bins
   void validate() const;                          // InputError naming the field and the violated bound
 };
 

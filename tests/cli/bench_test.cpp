@@ -205,7 +205,9 @@ TEST(BenchExperiments, RunChosenBinsAlone) {
   expect_one_line(run({"--only-bins", "2,1,2"}), {"only_bins", "2 twice"});
   expect_one_line(run({"--bins", "0"}), {"bins", "at least one"});
   expect_one_line(run({"--only-bins", "-1"}), {"only_bins", "-1"});
-  expect_one_line(run({"--only-bins", "1", "--bins", "2"}), {"--bins, --only-bins", "both"});
+  for (const std::string kind : {"--bins", "--cad-bins"})
+    expect_one_line(run({"--only-bins", "1", kind, "2"}), {kind + ", --only-bins", "both"});
+  expect_one_line(run({"--only-bins", "1", "--bins", "0"}), {"bins", "at least one"});
 }
 
 TEST(BenchExperiments, OfAnUnknownNameListTheKnownOnes) {
@@ -222,8 +224,15 @@ TEST(BenchExperiments, NameWhatIsMissingOfTheData) {
   fs::create_directory(data);
   expect_one_line(run_program(experiments(out, {"registration", "--data", data})),
                   {(data / "d2co-starts/ground_truth.json").string()});
-  folder.write("data/d2co-starts/ground_truth.json", "{}");
+  folder.write(
+      "data/d2co-starts/ground_truth.json",
+      R"({"images": [{"file": "images/a.png", "objects": [{"target": true, "cad": "cad/a.stl"}]}]})");
   folder.write("data/d2co-starts/starts.csv", "start_id,image,object_id,level,r00,tz\n");
+  for (const char* file : {"images/a.png", "cad/a.stl"}) {
+    expect_one_line(run_program(experiments(out, {"registration", "--data", data})),
+                    {(data / "d2co-starts" / file).string()});
+    folder.write(std::string("data/d2co-starts/") + file, "");
+  }
   expect_one_line(run_program(experiments(out, {"registration", "--data", data})),
                   {(data / "brackets/000001/scene_camera.json").string()});
   expect_one_line(run_program(experiments(out, {"multiview", "nbv", "--data", data})),
@@ -243,7 +252,11 @@ TEST(BenchExperiments, OfOtherSettingsAreNotMixed) {
                   {"scene_000.csv", "seed", "found 1", "expected 2"});
   expect_one_line(run_program(experiments(out, {"registration", "--resume"}, 3, 3)),
                   {"scene_000.csv", "starts", "found 2", "expected 3"});
-  EXPECT_EQ(files_in(out), before);
+  expect_one_line(run_program(experiments(out, {"detection", "registration"})),
+                  {"scene_000.csv", "--resume"});
+  expect_one_line(run_program(experiments(out, {"detection", "registration", "detection"})),
+                  {"detection twice", "each once"});
+  EXPECT_EQ(files_in(out), before) << "what comes first was not begun either";
 }
 
 TEST(BenchExperiments, OnAFullDiskKeepWhatIsFinished) {
