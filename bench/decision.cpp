@@ -3,15 +3,13 @@
 // One whole decision where to look next (host/experiments/decision.h): from refined candidates and particles
 // of a rendered bin to the best of all views. With --growth also each of its four numbers three and ten times
 // as large.
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <memory>
 #include <string>
 
+#include "bench/arguments.h"
 #include "host/experiments/decision.h"
 #include "host/experiments/machine.h"
 #include "kernels/thread_pool.h"
@@ -57,17 +55,9 @@ void run(const std::string& device, int repetitions, bool growth) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string device = "cpu";
-  int repetitions = 5;
-  bool growth = false;
-  for (int i = 1; i < argc; ++i) {
-    if (std::strcmp(argv[i], "--growth") == 0) growth = true;
-    if (i + 1 == argc) continue;
-    if (std::strcmp(argv[i], "--device") == 0) device = argv[i + 1];
-    if (std::strcmp(argv[i], "--repetitions") == 0) repetitions = std::max(1, std::atoi(argv[i + 1]));
-  }
   try {
-    run(device, repetitions, growth);
+    const bench::Arguments a = bench::parse_arguments(argc, argv, {"cpu", 5, false}, "--growth");
+    run(a.device, a.repetitions, a.flag);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "edgescout_bench_decision: %s\n", error.what());

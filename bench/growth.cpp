@@ -4,11 +4,11 @@
 // times as large.
 #include <chrono>
 #include <cstdio>
-#include <cstring>
 #include <ctime>
 #include <exception>
 #include <string>
 
+#include "bench/arguments.h"
 #include "kernels/backend.h"
 #include "kernels/cases/hypotheses.h"
 #include "kernels/thread_pool.h"
@@ -80,14 +80,9 @@ void run(const std::string& device, int repetitions) {
 }  // namespace edgescout::bench
 
 int main(int argc, char** argv) {
-  std::string device = "cpu";
-  int repetitions = 3;
-  for (int i = 1; i + 1 < argc; i += 2) {
-    if (std::strcmp(argv[i], "--device") == 0) device = argv[i + 1];
-    if (std::strcmp(argv[i], "--repetitions") == 0) repetitions = std::max(1, std::atoi(argv[i + 1]));
-  }
   try {
-    edgescout::bench::run(device, repetitions);
+    const auto a = edgescout::bench::parse_arguments(argc, argv, {"cpu", 3, false});
+    edgescout::bench::run(a.device, a.repetitions);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "edgescout_bench_growth: %s\n", error.what());

@@ -60,9 +60,14 @@ Arguments parse(int argc, char** argv) {
       a.lambda = std::stod(next());
     else if (word == "--truth")
       a.truth = true;
+    else if (word.starts_with("--") || !a.folder.empty())
+      throw InputError("command line", "argument", word,
+                       "one folder, --device, --every, --views, --search, --lambda or --truth");
     else
       a.folder = word;
   }
+  if (a.views != 1 && a.views != 3)
+    throw InputError("command line", "--views", std::to_string(a.views), "1 or 3");
   if (a.folder.empty()) throw InputError("command line", "FOLDER", "nothing", "the folder of the starts");
   return a;
 }
