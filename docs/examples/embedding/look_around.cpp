@@ -6,6 +6,7 @@
 
 #include "host/active/scout.h"
 #include "host/io/mesh.h"
+#include "kernels/error.h"
 
 using namespace edgescout;
 
