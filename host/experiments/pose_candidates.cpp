@@ -41,9 +41,12 @@ int instance_at(const KnownScene& scene, int object, const Se3& pose) {
 }
 
 Se3 near_pose(const Se3& truth, Random& random) {
+  const Eigen::Vector3d shift = random.direction();
+  const double distance_m = CANDIDATE_DISTANCE_M * random.uniform();
+  const Eigen::Vector3d axis = random.direction();
+  const double angle_rad = CANDIDATE_ANGLE_RAD * random.uniform();
   Vector6d offset;
-  offset << CANDIDATE_DISTANCE_M * random.uniform() * random.direction(),
-      CANDIDATE_ANGLE_RAD * random.uniform() * random.direction();
+  offset << distance_m * shift, angle_rad * axis;
   return retract(truth, offset);
 }
 
@@ -55,7 +58,8 @@ bool is_seen(const Se3& pose, const Camera& camera, double diameter_m) {
 
 Se3 far_pose(const Cube& cube, const Camera& camera, double diameter_m, Random& random) {
   for (;;) {
-    const Eigen::Vector3d offset(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    Eigen::Vector3d offset;
+    for (const int axis : {2, 1, 0}) offset[axis] = random.uniform(-1, 1);
     if (const Se3 pose{random.rotation(), cube.middle_m + cube.half_side_m * offset};
         is_seen(pose, camera, diameter_m))
       return pose;

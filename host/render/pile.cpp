@@ -174,8 +174,8 @@ Se3 PileTable::settle(const Mesh& mesh, Se3 pose, double radius_m, Random& rando
   for (int trial = 0; trial < TRIALS; ++trial) {
     const double scale = std::pow(0.97, trial);
     Se3 moved = pose;
-    moved.rotation =
-        (so3_exp(0.25 * scale * random.uniform() * random.direction()) * pose.rotation).normalized();
+    const Eigen::Vector3d turn_axis = random.direction();
+    moved.rotation = (so3_exp(0.25 * scale * random.uniform() * turn_axis) * pose.rotation).normalized();
     for (int axis = 0; axis < 2; ++axis)
       moved.translation_m[axis] += 0.08 * scale * mesh.diameter_m * random.normal();
     if (moved.translation_m.head<2>().norm() > radius_m) continue;

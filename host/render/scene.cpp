@@ -42,8 +42,10 @@ Mesh foreign_part(double diameter_m, Random& random) {
   switch (random.below(4)) {
     case 0:
       return make_bar(size * random.uniform(0.08, 0.25), size);
-    case 1:
-      return make_ring(0.5 * size, 0.5 * size * random.uniform(0.4, 0.8), size * random.uniform(0.15, 0.4));
+    case 1: {
+      const double height = size * random.uniform(0.15, 0.4);
+      return make_ring(0.5 * size, 0.5 * size * random.uniform(0.4, 0.8), height);
+    }
     case 2:
       return make_box({size * 1.2, size * random.uniform(0.15, 0.35), size * random.uniform(0.1, 0.25)});
     default:
@@ -149,7 +151,8 @@ void add_views(Scene& scene, Random random) {
     const double azimuth = first_azimuth + i * PI * (3 - std::sqrt(5.0)) + random.uniform(-0.2, 0.2);
     const double elevation = random.uniform(o.min_elevation_deg, o.max_elevation_deg) * PI / 180;
     const double distance = random.uniform(low, high);
-    const Eigen::Vector3d target(0.1 * reach * random.normal(), 0.1 * reach * random.normal(), 0);
+    const double target_y = 0.1 * reach * random.normal();
+    const Eigen::Vector3d target(0.1 * reach * random.normal(), target_y, 0);
     SceneView view;
     view.camera.width = o.width;
     view.camera.height = o.height;
@@ -166,7 +169,8 @@ void add_views(Scene& scene, Random random) {
 void add_lamp(Scene& scene, double irradiance, double reach, Random& random) {
   constexpr int POINTS = 8;
   const double distance = reach * random.uniform(4, 9);
-  const Eigen::Vector3d centre = distance * on_sphere(random.uniform(0, 2 * PI), random.uniform(0.6, 1.35));
+  const double elevation = random.uniform(0.6, 1.35);
+  const Eigen::Vector3d centre = distance * on_sphere(random.uniform(0, 2 * PI), elevation);
   const double width = distance * random.uniform(0.03, 0.15);
   for (int i = 0; i < POINTS; ++i)
     scene.lights.push_back({centre + width * random.direction(), irradiance / POINTS, 640});
