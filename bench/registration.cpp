@@ -3,25 +3,17 @@
 //   edgescout_bench_registration FOLDER [--device D] [--every N] [--search RAD] [--views 1|3] [--truth]
 //   [--lambda L]
 //
-// FOLDER holds ground_truth.json, starts.csv, starts_gt.csv, cad/ and images/ (docs/evaluation.md describes
-// the set). Prints the rate of correct registrations (below 0.1 rad and 5 mm) by level, quantiles of the
+// FOLDER is the set (host/experiments/recorded_starts.h). --truth: from every instance's true pose instead.
+// Prints the rate of correct registrations (below 0.1 rad and 5 mm) by level, quantiles of the
 // errors and the time of one registration.
-#include <Eigen/SVD>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <map>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
-#include "host/detect/observation.h"
-#include "host/edge/edges.h"
 #include "host/eval/metrics.h"
-#include "host/io/files.h"
-#include "host/io/image.h"
-#include "host/io/mesh.h"
+#include "host/experiments/recorded_starts.h"
 #include "host/register/refine.h"
 #include "kernels/error.h"
 
@@ -72,135 +64,87 @@ Arguments parse(int argc, char** argv) {
   return a;
 }
 
-// Files give rotations to 12 digits in places, to 6 in others: the nearest rotation is taken. Millimetres
-// become metres.
-Se3 pose_of(const std::vector<double>& rotation, const std::vector<double>& translation_mm) {
-  Eigen::Matrix3d r;
-  for (int i = 0; i < 9; ++i) r(i / 3, i % 3) = rotation[i];
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(r, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return se3_from_matrix(svd.matrixU() * svd.matrixV().transpose(),
-                         1e-3 * Eigen::Vector3d(translation_mm[0], translation_mm[1], translation_mm[2]));
-}
-
-struct Scene {
-  RegisterView view;
-  std::map<std::string, Se3> truth;  // camera_from_object by object id
-};
-
-std::map<std::string, Scene> load_scenes(const Arguments& a, double diameter_m, Backend& backend) {
-  const auto json = nlohmann::json::parse(read_file(a.folder + "/ground_truth.json"));
-  std::map<std::string, Scene> scenes;
-  for (const auto& entry : json["images"]) {
-    const Image image = load_image(a.folder + "/" + entry["file"].get<std::string>());
-    const Camera camera{entry["width"], entry["height"], entry["fx"], entry["fy"],
-                        entry["cx"],    entry["cy"],     {}};
-    const std::vector<EdgePoint> edges = find_edges(image, {}, backend);
-    TensorOptions tensor;
-    tensor.lambda_px_per_rad = float(a.lambda);
-    Scene& scene = scenes[entry["name"]];
-    double nearest = 1e9;
-    for (const auto& object : entry["objects"]) {
-      scene.truth[object["id"]] = pose_of(object["R"], object["t"]);
-      nearest = std::min(nearest, scene.truth[object["id"]].translation_m.z());
-    }
-    scene.view = observe(image, camera, pose_of(entry["R_cam_world"], entry["t_cam_world"]), edges,
-                         reduction_for(camera.fx * diameter_m / nearest), tensor, backend)
-                     .view;
-  }
-  return scenes;
-}
-
-struct Start {
-  std::string object;
-  int level;
-  Hypothesis camera_from_object;
-};
-
-std::map<std::string, std::vector<Start>> load_starts(const Arguments& a) {
-  std::istringstream file(read_file(a.folder + (a.truth ? "/starts_gt.csv" : "/starts.csv")));
-  std::map<std::string, std::vector<Start>> starts;
-  std::string line, cell;
-  std::getline(file, line);
-  for (int row = 0; std::getline(file, line); ++row) {
-    if (row % a.every != 0) continue;
-    std::vector<std::string> cells;
-    for (std::istringstream stream(line); std::getline(stream, cell, ',');) cells.push_back(cell);
-    std::vector<double> numbers;
-    for (std::size_t i = 7; i < cells.size(); ++i) numbers.push_back(std::stod(cells[i]));
-    starts[cells[1]].push_back(
-        {cells[2],
-         std::stoi(cells[4]),
-         {cells[3] == "AX-01" ? 0 : 1,
-          pose_of({numbers.begin(), numbers.begin() + 9}, {numbers.begin() + 9, numbers.end()})}});
-  }
+// At the truth one start an instance, of level 1.
+std::vector<RecordedStart> starts_of(const Arguments& a, const KnownScene& scene) {
+  if (!a.truth) return recorded_starts(a.folder, scene, a.every);
+  std::vector<RecordedStart> starts;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i)
+    starts.push_back({static_cast<int>(i), static_cast<int>(i), 1,
+                      scene.images[0].camera_from_world * scene.instances[i].world_from_object});
   return starts;
 }
 
-// The image's own view first; with three views, the scene's others after it.
-std::vector<RegisterView> views_of(const std::string& image, const std::map<std::string, Scene>& scenes,
-                                   int views) {
-  std::vector<RegisterView> list{scenes.at(image).view};
-  if (views == 1) return list;
-  for (const auto& [name, scene] : scenes)
-    if (name != image && name.substr(0, 3) == image.substr(0, 3)) list.push_back(scene.view);
-  return list;
-}
+struct Tally {
+  std::map<int, std::pair<int, int>> levels;  // right ones and all
+  std::vector<double> mm, rad;                // errors of those that are right; at the truth of all
+  double seconds = 0;
+  int count = 0;
+};
 
 double quantile(std::vector<double> values, double q) {
   if (values.empty()) return 0;
   std::ranges::sort(values);
-  return values[std::min(values.size() - 1, std::size_t(q * values.size()))];
+  return values[std::min(values.size() - 1,
+                         static_cast<std::size_t>(q * static_cast<double>(values.size())))];
 }
 
-void print(const Arguments& a, const std::map<int, std::pair<int, int>>& levels,
-           const std::vector<double>& mm, const std::vector<double>& rad, double seconds, int count) {
+void print(const Arguments& a, const Tally& tally) {
   int right = 0;
-  for (const auto& [level, tally] : levels) {
-    std::printf("level %d: %.1f %% of %d   ", level, 100.0 * tally.first / tally.second, tally.second);
-    right += tally.first;
+  for (const auto& [level, of_level] : tally.levels) {
+    std::printf("level %d: %.1f %% of %d   ", level, 100.0 * of_level.first / of_level.second,
+                of_level.second);
+    right += of_level.first;
   }
-  std::printf("all: %.1f %% of %d\n", 100.0 * right / count, count);
+  std::printf("all: %.1f %% of %d\n", 100.0 * right / tally.count, tally.count);
   std::printf(
       "%s: median %.2f mm %.4f rad, 95 %% %.2f mm %.4f rad, largest %.2f mm %.4f rad; %.2f ms a "
       "registration\n",
-      a.truth ? "errors of all" : "errors of the correct ones", quantile(mm, 0.5), quantile(rad, 0.5),
-      quantile(mm, 0.95), quantile(rad, 0.95), quantile(mm, 1), quantile(rad, 1), 1000 * seconds / count);
+      a.truth ? "errors of all" : "errors of the correct ones", quantile(tally.mm, 0.5),
+      quantile(tally.rad, 0.5), quantile(tally.mm, 0.95), quantile(tally.rad, 0.95), quantile(tally.mm, 1),
+      quantile(tally.rad, 1), 1000 * tally.seconds / tally.count);
+}
+
+// All starts of one image, in one batch.
+void register_in(const std::string& image, const Arguments& a, Backend& backend, Tally& tally) {
+  const KnownScene scene = recorded_scene(a.folder, image, a.views - 1);
+  TensorOptions tensor;
+  tensor.lambda_px_per_rad = static_cast<float>(a.lambda);
+  const std::vector<RegisterView> views = register_views(scene, edges_of(scene, backend), tensor, backend);
+  std::vector<EdgeModel> models;
+  for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
+  const std::vector<RecordedStart> starts = starts_of(a, scene);
+  const Se3& camera_from_world = scene.images[0].camera_from_world;
+  std::vector<Hypothesis> hypotheses;
+  for (const RecordedStart& start : starts)
+    hypotheses.push_back({scene.instances[static_cast<std::size_t>(start.instance)].object,
+                          inverse(camera_from_world) * start.camera_from_object});
+  RefineOptions options;
+  options.search.rotation_rad = a.search_rad;
+  const auto begin = Clock::now();
+  const std::vector<Refined> refined = refine_poses(models, hypotheses, views, backend, options);
+  tally.seconds += seconds_since(begin);
+  for (std::size_t i = 0; i < starts.size(); ++i, ++tally.count) {
+    const KnownInstance& instance = scene.instances[static_cast<std::size_t>(starts[i].instance)];
+    const PoseError error = pose_error(refined[i].registration.world_from_object, instance.world_from_object,
+                                       scene.objects[static_cast<std::size_t>(instance.object)].symmetries);
+    auto& [right, all] = tally.levels[starts[i].level];
+    right += error.passes();
+    ++all;
+    if (!error.passes() && !a.truth) continue;
+    tally.mm.push_back(1000 * error.distance_m);
+    tally.rad.push_back(error.angle_rad);
+  }
 }
 
 int run(int argc, char** argv) {
   const Arguments a = parse(argc, argv);
   const std::unique_ptr<Backend> backend = make_backend(a.device);
-  const std::vector<EdgeModel> models{
-      make_edge_model(load_mesh(a.folder + "/cad/AX-01.stl", LengthUnit::Millimetre)),
-      make_edge_model(load_mesh(a.folder + "/cad/AX-01b.stl", LengthUnit::Millimetre))};
-  const std::map<std::string, Scene> scenes = load_scenes(a, models[0].mesh.diameter_m, *backend);
-  RefineOptions options;
-  options.search.rotation_rad = a.search_rad;
-  std::map<int, std::pair<int, int>> levels;
-  std::vector<double> mm, rad;
-  double seconds = 0;
-  int count = 0;
-  for (const auto& [image, starts] : load_starts(a)) {
-    const std::vector<RegisterView> views = views_of(image, scenes, a.views);
-    if (int(views.size()) < a.views) continue;
-    const Se3 camera_from_world = views[0].camera_from_world;
-    std::vector<Hypothesis> hypotheses;
-    for (const Start& start : starts)
-      hypotheses.push_back({start.camera_from_object.object,
-                            inverse(camera_from_world) * start.camera_from_object.world_from_object});
-    const auto begin = Clock::now();
-    const std::vector<Refined> refined = refine_poses(models, hypotheses, views, *backend, options);
-    seconds += seconds_since(begin);
-    for (std::size_t i = 0; i < starts.size(); ++i, ++count) {
-      const Se3 pose = camera_from_world * refined[i].registration.world_from_object;
-      const Se3& truth = scenes.at(image).truth.at(starts[i].object);
-      const PoseError error = pose_error(pose, truth, {});
-      levels[starts[i].level].first += error.passes();
-      ++levels[starts[i].level].second;
-      if (error.passes() || a.truth) mm.push_back(1000 * error.distance_m), rad.push_back(error.angle_rad);
-    }
-  }
-  print(a, levels, mm, rad, seconds, count);
+  Tally tally;
+  for (const std::string& image : recorded_images(a.folder))
+    if (other_views(a.folder, image) >= a.views - 1) register_in(image, a, *backend, tally);
+  if (tally.count == 0)
+    throw InputError(a.folder, "starts", "none", "an image with starts and as many views");
+  print(a, tally);
   return 0;
 }
 
