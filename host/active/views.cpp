@@ -1,5 +1,7 @@
 #include "host/active/views.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -112,7 +114,7 @@ void validate_views(std::span<const Se3> camera_from_world, const std::string& s
   if (camera_from_world.empty()) throw InputError(source, "views", "none", "at least one");
   for (std::size_t i = 0; i < camera_from_world.size(); ++i) {
     const Se3& view = camera_from_world[i];
-    const std::string field = "/" + std::to_string(i) + "/camera_from_world";
+    const std::string field = fmt::format("/{}/camera_from_world", i);
     if (!is_finite(view)) throw InputError(source, field, "a value that is not finite", "a rigid transform");
     if (std::abs(view.rotation.norm() - 1) > 1e-3)
       throw InputError(source, field, "a quaternion of length " + std::to_string(view.rotation.norm()),

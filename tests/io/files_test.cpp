@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <sstream>
 
 #include "tests/io/expect_input_error.h"
 #include "tests/io/temporary_folder.h"
@@ -40,9 +41,8 @@ TEST(WriteFileAtomically, PassesOverWhatAKilledRunLeft) {
   const int left = 1000;  // more than this process has written
   for (int i = 0; i < left; ++i)
     for (const char* name : {"result.json", "probe"})
-      folder.write(
-          "." + std::string(name) + "." + std::to_string(::getpid()) + "-" + std::to_string(i) + ".part",
-          "left");
+      folder.write((std::ostringstream() << "." << name << "." << ::getpid() << "-" << i << ".part").str(),
+                   "left");
   write_file_atomically(folder.path() / "result.json", "new");
   require_writable_folder(folder.path());
   EXPECT_EQ(content_of(folder.path() / "result.json"), "new");

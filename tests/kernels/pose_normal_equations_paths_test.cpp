@@ -65,10 +65,12 @@ TEST_P(PoseNormalEquationsPaths, PosesNowhereSeeNothing) {
   for (const Pose& nowhere : test::poses_nowhere(rng)) problems.push_back({nowhere, 0, 70, 0});
   std::vector<NormalEquations> found(problems.size());
   tested->pose_normal_equations(views.tested, points, problems, {LOSS_HUBER, 4}, found);
+  NormalEquations nothing{};
+  nothing.behind = 70;
   for (std::size_t i = 0; i < found.size(); ++i) {
     SCOPED_TRACE("problem " + std::to_string(i));
     EXPECT_EQ(found[i].behind, 70);
-    expect_agreement(found[i], NormalEquations{.behind = 70});
+    expect_agreement(found[i], nothing);
   }
 }
 
