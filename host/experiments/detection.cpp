@@ -99,9 +99,7 @@ std::vector<Cell> cells(const ExperimentSettings& s) {
                     }});
   for (const NamedPhotograph& photograph : single_photographs(s.data, s.frames_every))
     list.push_back({photograph.name, [s, photograph](Backend& backend) {
-                      const Photographs& source = photograph.source;
-                      return score_candidates(
-                          bop_scene(source.set, source.scene, source.models, {photograph.image}), s, backend);
+                      return score_candidates(photographed_scene(photograph.source), s, backend);
                     }});
   return list;
 }

@@ -72,7 +72,7 @@ std::vector<Cell> cells(const ExperimentSettings& s) {
                       }});
   const Photographs pile = photographs_in(s.data, s.frames_every)[0];
   list.push_back({"brackets/pile", [s, pile](Backend& backend) {
-                    const KnownScene scene = bop_scene(pile.set, pile.scene, pile.models, pile.images);
+                    const KnownScene scene = photographed_scene(pile);
                     return run_trials(scene, starts_around(scene, pile_starts(s), s.seed), trials(), s,
                                       backend);
                   }});

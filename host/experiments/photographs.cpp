@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "host/model/axis_symmetry.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -32,20 +33,30 @@ void require_files(const Photographs& source) {
 std::vector<Photographs> photographs_in(const fs::path& data, int every) {
   if (data.empty()) return {};
   const fs::path brackets = data / "brackets", cat = data / "cat", triangle = data / "triangle";
-  const std::vector<Photographs> sources{{"brackets", brackets / "000001", brackets / "models", {1, 2, 3}},
-                                         {"brackets", brackets / "000002", brackets / "models", {4}},
-                                         {"cat", cat, cat / "models", cat_frames(every)},
-                                         {"triangle", triangle, triangle / "models", {200, 201}}};
+  const std::vector<Photographs> sources{
+      {"brackets", brackets / "000001", brackets / "models", {1, 2, 3}},
+      {"brackets", brackets / "000002", brackets / "models", {4}},
+      {"cat", cat, cat / "models", cat_frames(every)},
+      {"triangle", triangle, triangle / "models", {200, 201}, {"z3", "x2"}}};
   for (const Photographs& source : sources) require_files(source);
   return sources;
 }
 
+KnownScene photographed_scene(const Photographs& source) {
+  KnownScene scene = bop_scene(source.set, source.scene, source.models, source.images);
+  if (!source.symmetry.empty())
+    for (Object& object : scene.objects) object.symmetries = axis_symmetries(object.mesh, source.symmetry);
+  return scene;
+}
+
 std::vector<NamedPhotograph> single_photographs(const fs::path& data, int every) {
   std::vector<NamedPhotograph> singles;
-  for (const Photographs& source : photographs_in(data, every))
-    for (const int image : source.images)
+  for (Photographs source : photographs_in(data, every))
+    for (const int image : std::vector(source.images)) {
+      source.images = {image};
       singles.push_back(
-          {fmt::format("{}/{}_{:06}", source.set, source.scene.filename().string(), image), source, image});
+          {fmt::format("{}/{}_{:06}", source.set, source.scene.filename().string(), image), source});
+    }
   return singles;
 }
 

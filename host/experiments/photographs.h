@@ -1,5 +1,6 @@
 // Photographs of known poses below the data folder: brackets (three views of one pile, one image of flat
-// ones), the cat, and the triangle (one part twice from nearly the same place).
+// ones), the cat, and the triangle (one part twice from nearly the same place; a regular prism, which looks
+// alike in six poses).
 #pragma once
 
 #include "host/experiments/known_scene.h"
@@ -10,17 +11,21 @@ struct Photographs {
   std::string set;                      // "brackets", "cat", "triangle"
   std::filesystem::path scene, models;  // folders
   std::vector<int> images;              // ids
+  // Of the part, in words (host/model/axis_symmetry.h), where its models_info.json says nothing of it.
+  std::vector<std::string> symmetry = {};
 };
 
 // Those below `data`, none where it is empty. `every`: of the cat's frames. InputError naming the first file
 // that is missing.
 std::vector<Photographs> photographs_in(const std::filesystem::path& data, int every);
 
+// Its images as one scene.
+KnownScene photographed_scene(const Photographs& source);
+
 // All images one by one, each with its cell's name: "brackets/000001_000002".
 struct NamedPhotograph {
   std::string name;
-  Photographs source;
-  int image = 0;
+  Photographs source;  // of one image
 };
 std::vector<NamedPhotograph> single_photographs(const std::filesystem::path& data, int every);
 

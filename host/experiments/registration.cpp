@@ -68,9 +68,7 @@ std::vector<Cell> cells(const ExperimentSettings& s) {
                     }});
   for (const NamedPhotograph& photograph : single_photographs(s.data, s.frames_every))
     list.push_back({photograph.name, [s, photograph](Backend& backend) {
-                      const Photographs& source = photograph.source;
-                      KnownScene scene =
-                          bop_scene(source.set, source.scene, source.models, {photograph.image});
+                      KnownScene scene = photographed_scene(photograph.source);
                       const Table around =
                           run_trials(scene, starts_around(scene, s.starts, s.seed), trials(), s, backend);
                       scene.set += BY_DISTANCE;
@@ -209,7 +207,7 @@ Report report(const ExperimentSettings& settings, const Table& table) {
         fmt::format("\n## Photographs: {}\n\nCorrect is {}: what is known of the true poses.\n\n{}", set,
                     criterion.text, rate_table(rows, series_in(table), criterion, comparisons()));
     result.markdown +=
-        "\n" + by_distance_table(rows_of_set(table, set + std::string(BY_DISTANCE)), criterion);
+        fmt::format("\n{}", by_distance_table(rows_of_set(table, set + std::string(BY_DISTANCE)), criterion));
     result.panels.push_back(
         rate_panel(fmt::format("{} ({})", set, criterion.text), rows, series_in(table), criterion));
   }

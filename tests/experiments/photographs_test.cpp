@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
+
 #include "tests/io/expect_input_error.h"
 #include "tests/io/temporary_folder.h"
 
@@ -39,6 +42,28 @@ TEST(Photographs, AreAskedForAsFarAsTheyAreUsed) {
   for (const std::string& file : files_of_all()) folder.write(file, "");
   std::filesystem::remove(folder.path() / "cat/rgb/000026.png");
   EXPECT_EQ(single_photographs(folder.path(), 4).size(), 10u);
+}
+
+// The prism's models_info.json knows of no symmetry; the photographs do, and each brings its corners onto
+// corners.
+TEST(Photographs, OfThePrismKnowItsSixEqualPoses) {
+  const char* data = std::getenv("EDGESCOUT_DATA");
+  if (!data || !std::filesystem::exists(std::filesystem::path(data) / "triangle"))
+    GTEST_SKIP() << "EDGESCOUT_DATA names no folder with photographs";
+  const std::vector<NamedPhotograph> photographs = single_photographs(data, 1);
+  const KnownScene scene = photographed_scene(photographs.back().source);
+  ASSERT_EQ(scene.set, "triangle");
+  const Object& prism = scene.objects.at(0);
+  ASSERT_EQ(prism.symmetries.discrete.size(), 6u);
+  for (const Se3& symmetry : prism.symmetries.discrete)
+    for (const Eigen::Vector3d& corner : prism.mesh.vertices_m) {
+      double nearest_m = 1;
+      for (const Eigen::Vector3d& other : prism.mesh.vertices_m)
+        nearest_m = std::min(nearest_m, (symmetry * corner - other).norm());
+      EXPECT_LT(nearest_m, 1e-4) << "of 67 mm";
+    }
+  EXPECT_EQ(photographed_scene(photographs.front().source).objects.at(0).symmetries.discrete.size(), 2u)
+      << "a bracket's are those of its models_info.json";
 }
 
 }  // namespace
