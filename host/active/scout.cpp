@@ -176,9 +176,7 @@ std::vector<Detection> Scout::detect(const ScoutStep& step, std::span<const Hypo
     if (candidate.object < 0 || candidate.object >= static_cast<int>(sets_.size()))
       throw InputError("scout", "detected object", std::to_string(candidate.object),
                        "one of " + std::to_string(sets_.size()));
-    if (const Se3& pose = candidate.world_from_object;
-        !is_finite(pose) || std::abs(pose.rotation.norm() - 1) > 1e-3)
-      throw InputError("scout", "detected pose", "none", "a rigid transform");
+    require_rigid(candidate.world_from_object, "scout", "detected pose");
   }
   return found;
 }

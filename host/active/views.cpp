@@ -115,10 +115,7 @@ void validate_views(std::span<const Se3> camera_from_world, const std::string& s
   for (std::size_t i = 0; i < camera_from_world.size(); ++i) {
     const Se3& view = camera_from_world[i];
     const std::string field = fmt::format("/{}/camera_from_world", i);
-    if (!is_finite(view)) throw InputError(source, field, "a value that is not finite", "a rigid transform");
-    if (std::abs(view.rotation.norm() - 1) > 1e-3)
-      throw InputError(source, field, "a quaternion of length " + std::to_string(view.rotation.norm()),
-                       "a rigid transform");
+    require_rigid(view, source, field);
     for (std::size_t j = 0; j < i; ++j)
       if (alike(view, camera_from_world[j]))
         throw InputError(source, field, "the same pose as view " + std::to_string(j), "views that differ");

@@ -19,6 +19,14 @@ bool is_finite(const Se3& transform) {
   return transform.translation_m.allFinite() && transform.rotation.coeffs().allFinite();
 }
 
+void require_rigid(const Se3& transform, const std::string& source, const std::string& field) {
+  if (!is_finite(transform))
+    throw InputError(source, field, "a value that is not finite", "a rigid transform");
+  const double length = transform.rotation.norm();
+  if (std::abs(length - 1) > 1e-3)
+    throw InputError(source, field, "a quaternion of length " + std::to_string(length), "a rigid transform");
+}
+
 Se3 inverse(const Se3& b_from_a) {
   const Eigen::Quaterniond back = b_from_a.rotation.conjugate();
   return {back, -(back * b_from_a.translation_m)};

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <string>
 
 namespace edgescout {
 
@@ -40,6 +41,9 @@ Matrix6d covariance_about(const Se3& b_from_a, const Eigen::Vector3d& center_m, 
 Vector6d local_coordinates(const Se3& from, const Se3& to);
 
 bool is_finite(const Se3& transform);
+// InputError naming `source` and `field` where a value is not finite or the quaternion's length is not 1 to
+// 1e-3.
+void require_rigid(const Se3& transform, const std::string& source, const std::string& field);
 
 double angle_between_rad(const Se3& a, const Se3& b);
 double distance_between_m(const Se3& a, const Se3& b);

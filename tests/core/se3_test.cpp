@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "kernels/error.h"
+#include "tests/io/expect_input_error.h"
 #include "tests/test_random.h"
 
 namespace edgescout {
@@ -133,6 +134,21 @@ TEST(Se3, RefusesMatricesThatAreNoRotations) {
   broken(2, 2) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(se3_from_matrix(broken, zero), InputError);
   EXPECT_THROW(se3_from_matrix(identity, {0, std::numeric_limits<double>::infinity(), 0}), InputError);
+}
+
+TEST(Se3, WhatIsNotRigidIsNamed) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Se3 pose{Eigen::Quaterniond(1, 0, 0, 0), {1, 2, 3}};
+  require_rigid(pose, "views.json", "/3");
+  pose.rotation.coeffs() *= 1.0009;
+  require_rigid(pose, "views.json", "/3");
+  pose.rotation.coeffs() *= 1.0009;
+  test::expect_input_error([&] { require_rigid(pose, "views.json", "/3"); },
+                           {"views.json", "/3", "length 1.0018", "rigid"});
+  pose.rotation.coeffs() = Eigen::Vector4d(0, nan, 0, 1);
+  test::expect_input_error([&] { require_rigid(pose, "views.json", "/3"); }, {"/3", "not finite", "rigid"});
+  pose = {Eigen::Quaterniond::Identity(), {0, 0, std::numeric_limits<double>::infinity()}};
+  test::expect_input_error([&] { require_rigid(pose, "views.json", "/3"); }, {"/3", "not finite"});
 }
 
 }  // namespace
