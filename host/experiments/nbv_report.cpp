@@ -128,11 +128,12 @@ std::string difference_row(const Table& first, const Table& other, const std::st
       text += " |";
       continue;
     }
+    const auto more = [](const std::vector<Cluster>& these, const std::vector<Cluster>& those) {
+      return points(rate(these) - rate(those), paired_difference_interval(these, those));
+    };
     const Interval wrong = paired_difference_interval(a.wrong, b.wrong);
-    text += fmt::format(
-        " {}; {:+.2f} [{:+.2f}, {:+.2f}] |",
-        points(rate(a.correct) - rate(b.correct), paired_difference_interval(a.correct, b.correct)),
-        rate(a.wrong) - rate(b.wrong), wrong.low, wrong.high);
+    text += fmt::format(" {}; {:+.2f} [{:+.2f}, {:+.2f}]; {} |", more(a.correct, b.correct),
+                        rate(a.wrong) - rate(b.wrong), wrong.low, wrong.high, more(a.shown, b.shown));
   }
   return text + "\n";
 }
@@ -227,7 +228,7 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
   report.markdown = fmt::format(
       "Bins: {}. Instances correctly localised (below 0.1 rad and 5 mm) after so many views; false positives "
       "a search; instances of which some image so far showed more than 70 %. Differences: points of percent; "
-      "false positives a search; intervals over the same draws of bins.{}\n\n",
+      "false positives a search; points of percent; intervals over the same draws of bins.{}\n\n",
       bins_text(table), draws_text(table));
   const auto rows_in = [&](const BinSet& set) { return rows_of_set(table, set.types); };
   std::size_t columns = 1;
