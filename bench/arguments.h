@@ -1,43 +1,61 @@
-// The arguments of the smaller benches.
+// The command lines of the benches, which build without a library for that.
 #pragma once
 
 #include <charconv>
+#include <initializer_list>
 #include <string>
+#include <variant>
 
 #include "kernels/error.h"
 
 namespace edgescout::bench {
 
-struct Arguments {
-  std::string device = "cpu";
-  int repetitions = 1;
-  bool flag = false;  // whether the one more word that there may be was given
+// A word on the command line and what it sets: a text, a count (from 1), a number, or that the word was
+// given. One whose name does not begin with "--" takes the word that stands by itself.
+struct Argument {
+  std::string name;
+  std::variant<std::string*, int*, double*, bool*> target;
+  bool is_option() const { return name.starts_with("--"); }
 };
 
-// InputError on anything else than --device WORD, --repetitions N and `flag`, where there is one.
-inline Arguments parse_arguments(int argc, char** argv, Arguments arguments, const char* flag = nullptr) {
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (flag && word == flag) {
-      arguments.flag = true;
-      continue;
-    }
-    if (word != "--device" && word != "--repetitions")
-      throw InputError(
-          "command line", "argument", word,
-          std::string("--device WORD, --repetitions N") + (flag ? " or " : "") + (flag ? flag : ""));
-    if (++i == argc) throw InputError("command line", word, "nothing", "a value");
-    const std::string value = argv[i];
-    if (word == "--device") {
-      arguments.device = value;
-      continue;
-    }
-    const auto [end, error] =
-        std::from_chars(value.data(), value.data() + value.size(), arguments.repetitions);
-    if (error != std::errc() || *end != '\0' || arguments.repetitions < 1)
-      throw InputError("command line", word, value, "a number from 1");
+template <class Number>
+void read_number(const Argument& argument, const std::string& text, Number& number, const char* expected) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw InputError("command line", argument.name, text, expected);
+}
+
+inline void set_value(const Argument& argument, const std::string& text) {
+  if (const auto word = std::get_if<std::string*>(&argument.target)) **word = text;
+  if (const auto number = std::get_if<double*>(&argument.target))
+    read_number(argument, text, **number, "a number");
+  if (const auto count = std::get_if<int*>(&argument.target)) {
+    read_number(argument, text, **count, "a number from 1");
+    if (**count < 1) throw InputError("command line", argument.name, text, "a number from 1");
   }
-  return arguments;
+}
+
+inline const Argument& argument_of(const std::string& word, std::initializer_list<Argument> known) {
+  std::string list;
+  for (const Argument& argument : known) {
+    if (argument.is_option() ? word == argument.name : !word.starts_with("--")) return argument;
+    list += (list.empty() ? "" : ", ") + argument.name;
+  }
+  throw InputError("command line", "argument", word, "one of " + list);
+}
+
+// InputError on a word that is none of `known`, and on one without its value.
+inline void read_arguments(int argc, char** argv, std::initializer_list<Argument> known) {
+  for (int i = 1; i < argc; ++i) {
+    const Argument& argument = argument_of(argv[i], known);
+    if (const auto given = std::get_if<bool*>(&argument.target)) {
+      **given = true;
+      continue;
+    }
+    if (argument.is_option() && ++i == argc)
+      throw InputError("command line", argument.name, "nothing", "a value");
+    set_value(argument, argv[i]);
+  }
 }
 
 }  // namespace edgescout::bench

@@ -56,8 +56,12 @@ void run(const std::string& device, int repetitions, bool growth) {
 
 int main(int argc, char** argv) {
   try {
-    const bench::Arguments a = bench::parse_arguments(argc, argv, {"cpu", 5, false}, "--growth");
-    run(a.device, a.repetitions, a.flag);
+    std::string device = "cpu";
+    int repetitions = 5;
+    bool growth = false;
+    bench::read_arguments(argc, argv,
+                          {{"--device", &device}, {"--repetitions", &repetitions}, {"--growth", &growth}});
+    run(device, repetitions, growth);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "edgescout_bench_decision: %s\n", error.what());

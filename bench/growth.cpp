@@ -81,8 +81,10 @@ void run(const std::string& device, int repetitions) {
 
 int main(int argc, char** argv) {
   try {
-    const auto a = edgescout::bench::parse_arguments(argc, argv, {"cpu", 3, false});
-    edgescout::bench::run(a.device, a.repetitions);
+    std::string device = "cpu";
+    int repetitions = 3;
+    edgescout::bench::read_arguments(argc, argv, {{"--device", &device}, {"--repetitions", &repetitions}});
+    edgescout::bench::run(device, repetitions);
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "edgescout_bench_growth: %s\n", error.what());

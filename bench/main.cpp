@@ -1,11 +1,10 @@
 // edgescout_bench [--device WORD] [--out FOLDER] [--repetitions N] [--small]
 //
 // Times every kernel on the CPU, on the plain reference (small sizes) and on every Vulkan device found.
-#include <charconv>
 #include <cstdio>
-#include <cstring>
 #include <exception>
 
+#include "bench/arguments.h"
 #include "bench/report.h"
 #include "commit.h"
 #include "kernels/cases/measure.h"
@@ -24,28 +23,11 @@ struct Options {
 
 Options parse(int argc, char** argv) {
   Options options;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    const auto value = [&] {
-      if (i + 1 >= argc) throw InputError("options", word, "nothing", "a value");
-      return std::string(argv[++i]);
-    };
-    if (word == "--device") {
-      options.device = value();
-    } else if (word == "--out") {
-      options.out = value();
-    } else if (word == "--small") {
-      options.small = true;
-    } else if (word == "--repetitions") {
-      const std::string text = value();
-      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), options.repetitions);
-      if (error != std::errc() || *end != '\0' || options.repetitions < 1)
-        throw InputError("options", word, text, "a number from 1");
-    } else {
-      throw InputError("options", "argument", word,
-                       "--device WORD, --out FOLDER, --repetitions N or --small");
-    }
-  }
+  read_arguments(argc, argv,
+                 {{"--device", &options.device},
+                  {"--out", &options.out},
+                  {"--repetitions", &options.repetitions},
+                  {"--small", &options.small}});
   return options;
 }
 
@@ -72,7 +54,7 @@ void run(const Options& options) {
     run_device(word, driver, options);
   }
   if (!found)
-    throw InputError("options", "--device", options.device,
+    throw InputError("command line", "--device", options.device,
                      "cpu, cpu-reference or a vulkan:INDEX that exists");
 }
 

@@ -12,6 +12,7 @@
 #include <iostream>
 #include <map>
 
+#include "bench/arguments.h"
 #include "host/eval/metrics.h"
 #include "host/experiments/recorded_starts.h"
 #include "host/register/refine.h"
@@ -34,30 +35,14 @@ struct Arguments {
 
 Arguments parse(int argc, char** argv) {
   Arguments a;
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    const auto next = [&] {
-      if (i + 1 >= argc) throw InputError("command line", word, "nothing", "a value");
-      return std::string(argv[++i]);
-    };
-    if (word == "--device")
-      a.device = next();
-    else if (word == "--every")
-      a.every = std::max(1, std::stoi(next()));
-    else if (word == "--views")
-      a.views = std::stoi(next());
-    else if (word == "--search")
-      a.search_rad = std::stod(next());
-    else if (word == "--lambda")
-      a.lambda = std::stod(next());
-    else if (word == "--truth")
-      a.truth = true;
-    else if (word.starts_with("--") || !a.folder.empty())
-      throw InputError("command line", "argument", word,
-                       "one folder, --device, --every, --views, --search, --lambda or --truth");
-    else
-      a.folder = word;
-  }
+  bench::read_arguments(argc, argv,
+                        {{"FOLDER", &a.folder},
+                         {"--device", &a.device},
+                         {"--every", &a.every},
+                         {"--views", &a.views},
+                         {"--search", &a.search_rad},
+                         {"--lambda", &a.lambda},
+                         {"--truth", &a.truth}});
   if (a.views != 1 && a.views != 3)
     throw InputError("command line", "--views", std::to_string(a.views), "1 or 3");
   if (a.folder.empty()) throw InputError("command line", "FOLDER", "nothing", "the folder of the starts");
