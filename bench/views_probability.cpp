@@ -3,7 +3,7 @@
 //   edgescout_bench_views_probability FIRST_BIN LAST_BIN > candidates.csv
 //   scripts/fit_probability_over_views.py candidates.csv...
 //
-// The bins are those of `bench experiments nbv --full`, looked at along the fixed sequence. After two, three
+// The bins are those of `bench experiments nbv`, looked at along the fixed sequence. After two, three
 // and five views everything that any image so far gave as a candidate is refined over all of them. Of
 // candidates that reach into each other, or lie at one place, the one with the most evidence stays. A row
 // each: is it right (0.1 rad and 5 mm, modulo symmetry), and sums over the views that speak. What is known

@@ -102,7 +102,7 @@ void add_sizes(CLI::App& verb, ExperimentsRequest& r) {
   ExperimentSettings& s = r.settings;
   OptionTable(verb, "Sizes (default: those of the form)")
       .flag("short", r.is_short, "Minutes (default)")
-      .flag("full", r.is_full, "The paper's numbers of images: some three hours on two cores")
+      .flag("full", r.is_full, "The paper's numbers of images, and a few bins: about an hour on two cores")
       .bounded("scenes", s.scenes, 1, 10000, "Images with up to five parts")
       .bounded("groups", s.groups, 1, 10000, "Groups of three images with up to twenty parts")
       .bounded("starts", s.starts, 1, 1000, "Registrations around every instance; the paper has 100")

@@ -82,8 +82,7 @@ ExperimentSettings ExperimentSettings::full_form() {
   settings.group_starts = 4;
   settings.every = 1;
   settings.frames_every = 1;
-  settings.bins = 20;
-  settings.cad_bins = 10;
+  settings.bins = 2;
   return settings;
 }
 
