@@ -11,11 +11,15 @@
 namespace edgescout::bench {
 
 // A word on the command line and what it sets: a text, a count (from 1), a number, or that the word was
-// given. One whose name does not begin with "--" takes the word that stands by itself.
+// given. One whose name does not begin with "--" is a text, the one word that may stand by itself.
 struct Argument {
   std::string name;
   std::variant<std::string*, int*, double*, bool*> target;
   bool is_option() const { return name.starts_with("--"); }
+  bool takes(const std::string& word) const {
+    if (is_option()) return word == name;
+    return !word.starts_with("--") && std::get<std::string*>(target)->empty();
+  }
 };
 
 template <class Number>
@@ -38,7 +42,7 @@ inline void set_value(const Argument& argument, const std::string& text) {
 inline const Argument& argument_of(const std::string& word, std::initializer_list<Argument> known) {
   std::string list;
   for (const Argument& argument : known) {
-    if (argument.is_option() ? word == argument.name : !word.starts_with("--")) return argument;
+    if (argument.takes(word)) return argument;
     list += (list.empty() ? "" : ", ") + argument.name;
   }
   throw InputError("command line", "argument", word, "one of " + list);
