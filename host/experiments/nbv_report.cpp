@@ -171,14 +171,18 @@ std::string ranges_text(const std::vector<int>& numbers) {
   return text;
 }
 
-// Where some strategy has more than one.
+// Of the searches in which some strategy has more than one.
 std::string draws_text(const Table& table) {
-  const std::size_t draws = values_of(table, "draw").size();
-  return draws < 2
-             ? ""
-             : fmt::format(
-                   " Random's second view is the mean of {} draws a bin, later ones those of the first.",
-                   draws);
+  std::string text;
+  for (const std::string& search : values_of(table, "search")) {
+    const Table rows = rows_where(
+        table, [&](const Table& t, std::size_t row) { return text_in(t, row, "search") == search; });
+    if (const std::size_t draws = values_of(rows, "draw").size(); draws > 1)
+      text += fmt::format(
+          " Of {} Random's second view is the mean of {} draws a bin, later ones those of the first.",
+          title_of(search), draws);
+  }
+  return text;
 }
 
 // How many there are of each kind of parts, and by what numbers they come again.

@@ -167,6 +167,19 @@ TEST(NbvReport, ComparesStrategiesInTheSameBinsAlone) {
       << report.markdown;
 }
 
+// Draws of one search say nothing of another, which has one.
+TEST(NbvReport, SaysOfWhichSearchThereAreSeveralDraws) {
+  Table table = no_rows();
+  for (const char* search : {"one", "all"})
+    for (const char* strategy : {"mi-max", "random"})
+      table.rows.push_back({"0", "own", search, strategy, "0", "2", "light", "4", "3", "0", "4", ""});
+  table.rows.push_back({"0", "own", "all", "random", "1", "2", "light", "4", "2", "0", "4", ""});
+  const std::string text = nbv_report({}, table).markdown;
+  EXPECT_NE(text.find("Of three types Random's second view is the mean of 2 draws a bin"), std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("Of one type Random's second view"), std::string::npos) << text;
+}
+
 // Three draws in one bin and two in the other: each bin counts once, by the mean over its draws.
 TEST(NbvReport, TakesTheMeanOverDraws) {
   Table table = no_rows();
