@@ -72,7 +72,7 @@ PixelLists<T> gather(const ChamferView& view, ThreadPool& pool, const EntryOf& e
 }
 
 struct Surface {
-  float depth_m;
+  float hides_from_m;  // its depth and its candidate's tolerance
   std::uint32_t candidate;
   auto operator<=>(const Surface&) const = default;
 };
@@ -85,8 +85,9 @@ class Planner {
   ChamferPlan make() {
     plan_.cap = options_.cap_steps();
     surfaces_ = gather<Surface>(view_, pool_, [&](std::uint32_t c, std::size_t i, std::size_t) {
-      const float depth = view_.surface_m[i];
-      return depth < std::numeric_limits<float>::infinity() ? std::optional(Surface{depth, c}) : std::nullopt;
+      const float hides_from_m = view_.surface_m[i] + view_.tolerance_m[c];
+      return hides_from_m < std::numeric_limits<float>::infinity() ? std::optional(Surface{hides_from_m, c})
+                                                                   : std::nullopt;
     });
     for (const Surface& surface : surfaces_.entries) plan_.hiders.push_back(surface.candidate);
     plan_.masks.resize(1 + view_.candidates.size());
@@ -99,11 +100,11 @@ class Planner {
   }
 
  private:
-  // The surfaces nearer than a depth are the first of the pixel's.
+  // The surfaces that hide a depth are the first of the pixel's.
   std::uint32_t surfaces_before(std::size_t pixel, float z_m) const {
     std::uint32_t count = 0;
     for (const Surface& surface : surfaces_.at(pixel)) {
-      if (!(surface.depth_m < z_m - options_.tolerance_m)) break;
+      if (!(surface.hides_from_m < z_m)) break;
       ++count;
     }
     return count;

@@ -4,19 +4,19 @@
 // A *realization* is a combination of candidates, a *particle* a hypothetical pose with the edge points that
 // show from the view. For particle i and combination C, over the particle's points whose nearest pixel p lies
 // in the image:
-//   hidden point:   a member's surface depth at p is less than z - tolerance. It leaves the mean.
+//   hidden point:   a member's surface depth at p plus its tolerance is less than z. It leaves the mean.
 //   hidden edge:    the edge point of member c nearest to p, where another member's surface depth at *that
 //   edge point's* own
-//                   nearest pixel is less than its depth - tolerance. Then c gives no distance at p, although
-//                   a farther edge point of c might show: the mean is never too small for that, and rarely
-//                   too large.
+//                   nearest pixel plus its tolerance is less than its depth. Then c gives no distance at p,
+//                   although a farther edge point of c might show: the mean is never too small for that, and
+//                   rarely too large.
 //   distance at p = min(cap, least chamfer_steps of the members' maps at p whose edge is not hidden);
 //   seen = points not hidden, fresh = those of them flagged so, sum = sum of their distances in 1/16 px of
 //   the map.
 // mean_px = sum / (16 seen); the cap where nothing is seen.
 //
-// The tolerance keeps the member that stands for the particle's own object from hiding it: of the order of
-// the positions' uncertainty plus what depth changes over half a pixel of the map.
+// A member's tolerance keeps the one that stands for the particle's own object from hiding it: of the order
+// of its position's uncertainty plus what depth changes over half a pixel of the map.
 //
 // Agreement: integers, equal on every path bit for bit. LogicError: lists of other sizes than the counts say,
 // what candidate_map throws for, more than CHAMFER_MAX_POINTS points in a particle.
@@ -47,6 +47,7 @@ struct ChamferView {
   std::span<const std::uint32_t> nearest;    // as candidate_map() gives it
   // depths with the layout of `nearest`, DEPTH_EMPTY where there is no object
   std::span<const float> surface_m;
+  std::span<const float> tolerance_m;     // one a candidate, >= 0
   std::span<const ParticlePoint> points;  // of all particles
   // particles + 1: particle i has points [first_point[i], first_point[i + 1])
   std::span<const std::uint32_t> first_point;
@@ -65,7 +66,6 @@ struct CombinationBits {
 };
 
 struct ChamferOptions {
-  float tolerance_m = 0.01f;  // >= 0
   // px of the map, 1/16 to 255/16; rounded to 1/16
   float cap_px = float(CHAMFER_CAP) / float(CHAMFER_STEPS_PER_PX);
   std::uint32_t cap_steps() const { return std::uint32_t(cap_px * float(CHAMFER_STEPS_PER_PX) + 0.5f); }

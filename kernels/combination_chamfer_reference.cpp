@@ -15,7 +15,7 @@ class Realization {
  public:
   Realization(const ChamferView& view, const CombinationBits& combinations, std::size_t j,
               const ChamferOptions& options)
-      : view_(view), tolerance_m_(options.tolerance_m), cap_(options.cap_steps()) {
+      : view_(view), cap_(options.cap_steps()) {
     for (std::uint32_t c = 0; c < combinations.candidates; ++c)
       if (combinations.has(j, c)) members_.push_back(c);
   }
@@ -25,7 +25,7 @@ class Realization {
     return std::ranges::any_of(members_, [&](std::uint32_t c) {
       const CandidateMap& map = view_.candidates[c];
       return c != own && map.window.contains(x, y) &&
-             view_.surface_m[map.first_pixel + map.window.index(x, y)] < z_m - tolerance_m_;
+             view_.surface_m[map.first_pixel + map.window.index(x, y)] + view_.tolerance_m[c] < z_m;
     });
   }
 
@@ -52,7 +52,6 @@ class Realization {
   }
 
   const ChamferView& view_;
-  float tolerance_m_;
   std::uint32_t cap_;
   std::vector<std::uint32_t> members_;
 };
@@ -76,8 +75,6 @@ ChamferCell cell_of(const ChamferView& view, const Realization& realization, std
 }  // namespace
 
 void ChamferOptions::validate() const {
-  if (!(tolerance_m >= 0))
-    throw InputError("chamfer options", "tolerance_m", std::to_string(tolerance_m), "a length from 0");
   const float most = float(CHAMFER_CAP) / float(CHAMFER_STEPS_PER_PX);
   if (!(cap_px >= 1 / float(CHAMFER_STEPS_PER_PX) && cap_px <= most))
     throw InputError("chamfer options", "cap_px", std::to_string(cap_px),
@@ -90,6 +87,9 @@ void check_chamfer(const ChamferView& view, const CombinationBits& combinations,
   check_candidate_maps(view.edges.size(), view.candidates, view.width, view.height, view.nearest.size());
   check(view.surface_m.size() == view.nearest.size(),
         "combination_chamfer: as many surface depths as pixels");
+  check(view.tolerance_m.size() == view.candidates.size() &&
+            std::ranges::all_of(view.tolerance_m, [](float tolerance_m) { return tolerance_m >= 0; }),
+        "combination_chamfer: one tolerance from 0 a candidate");
   check(combinations.candidates == view.candidates.size(),
         "combination_chamfer: combinations of other candidates");
   check(combinations.words.size() == combinations.count * combinations.row_words(),

@@ -92,16 +92,19 @@ ChamferView CandidateScene::seen_from(std::size_t view) const {
   seen.edges = edges;
   seen.nearest = nearest;
   seen.surface_m = surface_m;
+  seen.tolerance_m = tolerance_m;
   return seen;
 }
 
 CandidateScene draw_candidates(std::span<const EdgeModel> models, std::span<const Detection> candidates,
                                const Camera& camera, std::span<const Se3> camera_from_world, Backend& backend,
-                               const VisibilityOptions& visibility) {
+                               const VisibilityOptions& visibility, double tolerance) {
   CandidateScene scene;
   scene.width = camera.width;
   scene.height = camera.height;
   scene.candidates = candidates.size();
+  for (const Detection& candidate : candidates)
+    scene.tolerance_m.push_back(float(tolerance * models[candidate.object].mesh.diameter_m));
   std::vector<Slots> slots(models.size());
   for (std::size_t v = 0; v < camera_from_world.size(); ++v)
     for (std::size_t c = 0; c < candidates.size(); ++c) {

@@ -76,12 +76,6 @@ ShowingPoints showing(const Planning& planning, const Watched& watched, const Se
   return all;
 }
 
-double largest_diameter_m(std::span<const EdgeModel> models) {
-  double largest = 0;
-  for (const EdgeModel& model : models) largest = std::max(largest, model.mesh.diameter_m);
-  return largest;
-}
-
 // Eq. 15 with the likelihood of Eq. 20, of every view in `open`.
 std::vector<double> mutual_information(const Planning& planning, std::span<const std::size_t> open,
                                        Backend& backend, const NextViewOptions& options) {
@@ -95,8 +89,7 @@ std::vector<double> mutual_information(const Planning& planning, std::span<const
   const CombinationBits bits{planning.combinations->rows, planning.combinations->columns,
                              planning.combinations->words};
   const Camera map_camera = scaled(planning.camera, 1 / options.reduction);
-  const ChamferOptions chamfer{float(options.tolerance * largest_diameter_m(planning.models)),
-                               float(options.cap_px / options.reduction)};
+  const ChamferOptions chamfer{float(options.cap_px / options.reduction)};
   const double sigma_px = options.sigma_px / options.reduction;
   const InformationOptions likelihood{2 * sigma_px * sigma_px, options.literal};
   const std::size_t block = views_at_once(planning.candidates.size(), map_camera);
@@ -105,7 +98,7 @@ std::vector<double> mutual_information(const Planning& planning, std::span<const
     for (std::size_t i = first; i < std::min(first + block, open.size()); ++i)
       cameras.push_back(planning.views[open[i]]);
     const CandidateScene scene = draw_candidates(planning.models, planning.candidates, map_camera, cameras,
-                                                 backend, options.visibility);
+                                                 backend, options.visibility, options.tolerance);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
       const ShowingPoints points = showing(planning, watched, cameras[i], map_camera, backend.threads());
       if (points.points.empty()) continue;

@@ -24,7 +24,7 @@ struct NextViewOptions {
   double reduction = 4;    // image px a map px, [1, 16]
   double cap_px = 40;      // of distances, image px; at most 15.9 map px
   double sigma_px = 4;     // of the mean distance, image px; at least cap_px / 141
-  double tolerance = 0.1;  // of the largest object's diameter: nearer than that a surface hides nothing
+  double tolerance = 0.1;  // of a candidate's diameter: nearer behind its surface it hides nothing
   bool literal = false;    // the paper's own formula (kernels/mutual_information.h), all weights equal
   // A template point was seen in a real view if an edge of its image lies so near, along it; 0: if it lies
   // inside the image, as in the paper's own formula and in Strategy::Disocclusion always. At most 8.

@@ -19,23 +19,26 @@ struct ChamferScene {
   std::vector<MapEdge> edges;
   std::vector<CandidateMap> maps;
   std::vector<std::uint32_t> nearest;
-  std::vector<float> surface_m;
+  std::vector<float> surface_m, tolerance_m;
   std::vector<ParticlePoint> points;
   std::vector<std::uint32_t> first_point{0};
   std::uint32_t realizations = 0;
   std::vector<std::uint32_t> words;
 
-  ChamferView view() const { return {width, height, maps, edges, nearest, surface_m, points, first_point}; }
+  ChamferView view() const {
+    return {width, height, maps, edges, nearest, surface_m, tolerance_m, points, first_point};
+  }
   CombinationBits combinations() const {
     return {realizations, static_cast<std::uint32_t>(maps.size()), words};
   }
 
   // One candidate, its surface depths still empty.
-  void add_candidate(const MapWindow& window, const std::vector<MapEdge>& own) {
+  void add_candidate(const MapWindow& window, const std::vector<MapEdge>& own, float tolerance) {
     maps.push_back({window, static_cast<std::uint32_t>(surface_m.size()),
                     static_cast<std::uint32_t>(edges.size()), static_cast<std::uint32_t>(own.size())});
     edges.insert(edges.end(), own.begin(), own.end());
     surface_m.resize(surface_m.size() + window.size(), DEPTH_EMPTY);
+    tolerance_m.push_back(tolerance);
   }
   void add_particle(const std::vector<ParticlePoint>& own) {
     points.insert(points.end(), own.begin(), own.end());
@@ -81,7 +84,7 @@ inline ChamferScene random_scene(std::mt19937& rng, const SceneSize& size) {
     }
     scene.add_candidate({int(x) - whole(0, 30), int(y) - whole(0, 30), std::uint32_t(whole(0, 50)),
                          std::uint32_t(whole(1, 50))},
-                        own);
+                        own, c % 4 == 0 ? 0 : in(0, 0.05f));
   }
   for (float& depth : scene.surface_m) depth = in(0, 1) < 0.3f ? in(0.3f, 0.6f) : DEPTH_EMPTY;
   for (int i = 0; i < size.particles; ++i) {
@@ -165,12 +168,13 @@ inline std::vector<MapEdge> box_edges(const Box& box, const Pinhole& camera, int
   return edges;
 }
 
-inline void add_box(ChamferScene& scene, const Box& box, const Pinhole& camera, int points_per_edge) {
+inline void add_box(ChamferScene& scene, const Box& box, const Pinhole& camera, int points_per_edge,
+                    float tolerance_m) {
   const std::vector<MapEdge> edges = box_edges(box, camera, points_per_edge);
   const auto [left, right] = std::ranges::minmax(edges, {}, &MapEdge::x_px);
   const auto [top, bottom] = std::ranges::minmax(edges, {}, &MapEdge::y_px);
   scene.add_candidate(map_window(left.x_px, top.y_px, right.x_px, bottom.y_px, scene.width, scene.height),
-                      edges);
+                      edges, tolerance_m);
   const CandidateMap& map = scene.maps.back();
   for (std::size_t i = 0; i < map.window.size(); ++i)
     if (const auto z = box_depth(box, camera, map.window.x0 + int(i % map.window.width),

@@ -93,7 +93,8 @@ test::ChamferScene Hypotheses::view(int index) const {
   test::ChamferScene scene;
   scene.width = size_.width;
   scene.height = size_.height;
-  for (const test::Box& box : candidates_) test::add_box(scene, camera.seen(box), pinhole, points_per_edge);
+  for (const test::Box& box : candidates_)
+    test::add_box(scene, camera.seen(box), pinhole, points_per_edge, 0.01f);
   for (const test::Box& box : particles_) {
     std::vector<ParticlePoint> points;
     for (const MapEdge& edge : test::box_edges(camera.seen(box), pinhole, points_per_edge))

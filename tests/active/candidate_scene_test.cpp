@@ -12,8 +12,8 @@ namespace {
 TEST(CandidateScene, HoldsEdgesAndSurfacesOfEveryView) {
   Plan t(3);
   const Camera camera = scaled(test_camera(), 0.25);
-  const CandidateScene scene =
-      draw_candidates(t.models, t.candidates, camera, t.views, *t.backend, t.options.visibility);
+  const CandidateScene scene = draw_candidates(t.models, t.candidates, camera, t.views, *t.backend,
+                                               t.options.visibility, t.options.tolerance);
   ASSERT_EQ(scene.maps.size(), t.views.size() * 3);
   for (std::size_t v = 0; v < t.views.size(); v += 3) {
     const ChamferView seen = scene.seen_from(v);

@@ -66,6 +66,29 @@ TEST(ViewInformation, OfManyViewsIsThatOfEachByItself) {
   }
 }
 
+// A large object that is sought but nowhere believed in changes nothing: what the small ones hide is a matter
+// of their size.
+TEST(ViewInformation, DoesNotDependOnObjectsThatAreNotThere) {
+  Plan t;
+  const std::vector<ViewInformation> before = t.information();
+  Mesh large = make_part("l_bracket").mesh;
+  for (Eigen::Vector3d& vertex : large.vertices_m) vertex *= 20;
+  large.diameter_m *= 20;
+  t.models.push_back(make_edge_model(large));
+  t.tables.push_back(make_template_table(t.models.back(), 5, *t.backend, {3, 300}));
+  const std::vector<ViewInformation> after = t.information();
+  for (std::size_t v = 1; v < t.views.size(); ++v) {
+    EXPECT_GT(before[v].information, 0);
+    EXPECT_EQ(after[v].information, before[v].information) << v;
+  }
+  t.options.tolerance = 2;
+  std::size_t differing = 0;
+  const std::vector<ViewInformation> transparent = t.information();
+  for (std::size_t v = 1; v < t.views.size(); ++v)
+    differing += transparent[v].information != before[v].information;
+  EXPECT_GT(differing, 0u) << "nothing was hidden in the first place";
+}
+
 // Nothing to tell apart: one particle, or all candidates in every combination.
 TEST(ViewInformation, IsZeroWhereNothingIsOpen) {
   Plan t;

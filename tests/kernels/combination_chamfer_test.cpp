@@ -20,7 +20,7 @@ namespace {
 constexpr double resolution_px = 0.5 * std::numbers::sqrt2 + std::numbers::sqrt2 / 32 + 1.0 / 32;
 constexpr test::Pinhole camera{190, 39.5, 29.5};
 constexpr int width = 80, height = 60;
-constexpr ChamferOptions options{0.005f, 255.0f / 16};
+constexpr ChamferOptions options{255.0f / 16};
 
 struct Boxes {
   test::ChamferScene scene;
@@ -35,7 +35,8 @@ Boxes box_scene(std::mt19937& rng, int count, bool single_points) {
   std::uniform_real_distribution<double> shift(-0.004, 0.004);
   for (int c = 0; c < count; ++c) {
     made.boxes.push_back(test::random_box(rng));
-    test::add_box(made.scene, made.boxes.back(), camera, 60);
+    // As of objects of several sizes.
+    test::add_box(made.scene, made.boxes.back(), camera, 60, 0.004f * float(c % 4));
     test::Box near = made.boxes.back();
     for (double& v : near.centre) v += shift(rng);
     std::vector<ParticlePoint> points;
@@ -57,13 +58,14 @@ class Drawn {
       : depth_(width * height, 1e9), edge_(width * height, false) {
     const CombinationBits combinations = from.scene.combinations();
     for (std::size_t c = 0; c < from.boxes.size(); ++c)
-      if (combinations.has(realization, c)) members_.push_back(from.boxes[c]);
-    for (const test::Box& box : members_) draw_surface(depth_, box);
+      if (combinations.has(realization, c))
+        members_.push_back({from.boxes[c], double(from.scene.tolerance_m[c])});
+    for (const Member& member : members_) draw_surface(depth_, member);
     for (std::size_t m = 0; m < members_.size(); ++m) draw_edges(m);
   }
   bool shows(double u, double v, double z_m) const {
     const int x = int(std::lround(u)), y = int(std::lround(v));
-    return x >= 0 && x < width && y >= 0 && y < height && depth_[y * width + x] >= z_m - options.tolerance_m;
+    return x >= 0 && x < width && y >= 0 && y < height && depth_[y * width + x] >= z_m;
   }
   // The exact transform, looked up at the pixel.
   double distance_px(double u, double v) const {
@@ -75,24 +77,30 @@ class Drawn {
   }
 
  private:
-  static void draw_surface(std::vector<double>& depth, const test::Box& box) {
+  struct Member {
+    test::Box box;
+    double tolerance_m;
+  };
+
+  // The depth from which on it hides.
+  static void draw_surface(std::vector<double>& depth, const Member& member) {
     for (int i = 0; i < width * height; ++i)
-      if (const auto z = test::box_depth(box, camera, i % width, i / width))
-        depth[i] = std::min(depth[i], *z);
+      if (const auto z = test::box_depth(member.box, camera, i % width, i / width))
+        depth[i] = std::min(depth[i], *z + member.tolerance_m);
   }
   // Its own faces decide a convex body's edges exactly (box_edges), the z-buffer what the others hide.
   void draw_edges(std::size_t member) {
     std::vector<double> others(width * height, 1e9);
     for (std::size_t m = 0; m < members_.size(); ++m)
       if (m != member) draw_surface(others, members_[m]);
-    for (const MapEdge& edge : test::box_edges(members_[member], camera, 60)) {
+    for (const MapEdge& edge : test::box_edges(members_[member].box, camera, 60)) {
       const int x = int(std::lround(edge.x_px)), y = int(std::lround(edge.y_px));
       if (x < 0 || x >= width || y < 0 || y >= height) continue;
-      if (others[y * width + x] >= edge.z_m - options.tolerance_m) edge_[y * width + x] = true;
+      if (others[y * width + x] >= edge.z_m) edge_[y * width + x] = true;
     }
   }
 
-  std::vector<test::Box> members_;
+  std::vector<Member> members_;
   std::vector<double> depth_;
   std::vector<bool> edge_;
 };
@@ -112,7 +120,7 @@ bool nearest_is_hidden(const Boxes& from, std::size_t realization, double u, dou
     for (std::size_t o = 0; o < from.boxes.size(); ++o) {
       if (o == c || !combinations.has(realization, o)) continue;
       const auto z = test::box_depth(from.boxes[o], camera, std::lround(edge.x_px), std::lround(edge.y_px));
-      if (z && *z < edge.z_m - options.tolerance_m) return true;
+      if (z && *z + scene.tolerance_m[o] < edge.z_m) return true;
     }
   }
   return false;
@@ -196,7 +204,7 @@ TEST(CombinationChamfer, NothingSeenOrNoMemberGivesTheCap) {
   Boxes made = box_scene(rng, 3, false);
   made.scene.add_particle({{-50, 10, 0.4f, 1}, {10, 500, 0.4f, 1}, {NAN, 5, 0.4f, 1}});
   made.scene.add_particle({});
-  const ChamferOptions short_cap{0.005f, 4};
+  const ChamferOptions short_cap{4};
   const auto cells = combination_chamfer_reference(made.scene.view(), made.scene.combinations(), short_cap);
   const std::uint32_t m = made.scene.realizations;
   for (std::uint32_t j = 0; j < m; ++j)

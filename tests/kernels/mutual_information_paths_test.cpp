@@ -22,7 +22,7 @@ class MutualInformationPaths : public test::PathTest {
  protected:
   void expect_equal(const test::ChamferScene& scene, const std::vector<ParticleBelief>& beliefs,
                     const std::vector<InformationOptions>& all_options) {
-    constexpr ChamferOptions chamfer{0.03f, test_cap_px};
+    constexpr ChamferOptions chamfer{test_cap_px};
     const ChamferHandle own = tested->combination_chamfer(scene.view(), scene.combinations(), chamfer);
     const auto cells = own->cells();  // those of the reference, says combination_chamfer's own test
     const auto tolerance = [&](double expected, double scale_px2) {
