@@ -5,6 +5,7 @@
 
 #include "host/active/candidates.h"
 #include "host/active/views.h"
+#include "host/active/witnesses.h"
 #include "host/core/log.h"
 #include "host/io/binary_file.h"
 #include "host/register/occluders.h"
@@ -214,9 +215,12 @@ void Scout::conclude(ScoutStep& step, ScoutState& next, std::span<const Mode> mo
   step.resampled = resample_where_poor(next.particles, modes, models_, views.size(), options_.particles);
   step.after = next.particles;
   done(watch, "modes");
-  step.agreement =
-      view_agreement(models_, known_objects(next.detections, 0), views, backend_, options_.agreement);
-  warn_of(step.agreement, next.steps.empty() ? std::vector<ViewAgreement>{} : next.steps.back().agreement);
+  const std::vector<ViewAgreement> before =
+      next.steps.empty() ? std::vector<ViewAgreement>{} : next.steps.back().agreement;
+  step.agreement = view_agreement(models_, witnesses(models_, next.steps, next.detections), views, backend_,
+                                  options_.agreement);
+  keep_flags(before, step.agreement);
+  warn_of(step.agreement, before);
   done(watch, "agreement");
 }
 

@@ -27,6 +27,7 @@ void ScoutOptions::validate() const {
   in("agreement.max_residual_px", agreement.max_residual_px, 0, 1e9);
   in("agreement.min_probability", agreement.min_probability, 0, 1);
   in("agreement.absent_probability", agreement.absent_probability, 0, agreement.min_probability);
+  in("agreement.held_probability", agreement.held_probability, 0, 1);
   in("agreement.max_missing", agreement.max_missing, 0, 1e9);
   detections.evidence.validate();
   agreement.joint.validate();

@@ -7,6 +7,7 @@
 
 #include "host/core/log.h"
 #include "host/detect/probability.h"
+#include "host/detect/probability_over_views.h"
 
 namespace edgescout {
 
@@ -34,9 +35,9 @@ double median(std::vector<double> values) {
 
 // How the objects, registered over all views, sit in one of them.
 struct Judged {
-  ViewAgreement view;
-  std::vector<char> shown;     // by object: whether it could be judged
-  std::vector<char> expected;  // where none shows: whether most of it lies in the image, before known objects
+  std::vector<char> shown;       // by object: whether this image alone has it
+  std::vector<double> moved_px;  // by object: how far it then lies from where all images have it
+  bool bare = false;             // shows not a trace of any
 };
 
 Judged judge(std::span<const EdgeModel> models, std::span<const Hypothesis> joint, const RegisterView& view,
@@ -44,38 +45,77 @@ Judged judge(std::span<const EdgeModel> models, std::span<const Hypothesis> join
   const std::span<const RegisterView> alone(&view, 1);
   const std::vector<Hypothesis> poses =
       as_hypotheses(joint, register_poses(models, joint, alone, backend, options.single));
-  const auto features_of = [&](std::span<const Hypothesis> at) {
-    return pose_features(models, at, alone, backend, options.score, options.single.visibility);
-  };
-  const std::vector<PoseFeatures> features = features_of(poses);
-  Judged judged;
-  std::vector<double> moved;
-  double strongest = 0;
+  const std::vector<PoseFeatures> features =
+      pose_features(models, poses, alone, backend, options.score, options.single.visibility);
+  Judged judged{{}, std::vector<double>(poses.size(), 0), true};
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const double probability = pose_probability(features[i]);
-    strongest = std::max(strongest, probability);
+    judged.bare = judged.bare && probability < options.absent_probability;
     judged.shown.push_back(probability >= options.min_probability);
     if (!judged.shown[i]) continue;
     const Se3 camera_from_object = view.camera_from_world * poses[i].world_from_object;
     const std::vector<ModelPoint> points = visible_edges(
         models[poses[i].object], std::span(&camera_from_object, 1), backend, options.single.visibility)[0];
-    moved.push_back(moved_px(points, view.camera, camera_from_object,
-                             view.camera_from_world * joint[i].world_from_object));
+    judged.moved_px[i] = moved_px(points, view.camera, camera_from_object,
+                                  view.camera_from_world * joint[i].world_from_object);
   }
-  judged.view.objects = int(moved.size());
-  if (!moved.empty()) judged.view.residual_px = median(moved);
-  if (strongest < options.absent_probability)
-    for (const PoseFeatures& f : features_of(joint)) judged.expected.push_back(f.in_image > 0.5);
   return judged;
 }
 
-// Objects that a view should show and two others do.
-int missing_in(const Judged& view, std::span<const Judged> all) {
-  int missing = 0;
-  for (std::size_t i = 0; i < view.expected.size(); ++i)
-    missing += view.expected[i] &&
-               std::ranges::count_if(all, [i](const Judged& other) { return other.shown[i] != 0; }) >= 2;
-  return missing;
+// What one of the views says beside the others. An object that no other view shows is no witness: it may be
+// none at all, and this view's chance agreement.
+ViewAgreement beside(const Judged& view, std::span<const Judged> all) {
+  ViewAgreement agreement;
+  std::vector<double> moved;
+  for (std::size_t i = 0; i < view.shown.size(); ++i)
+    if (view.shown[i] && std::ranges::count_if(all, [i](const Judged& one) { return one.shown[i]; }) >= 2)
+      moved.push_back(view.moved_px[i]);
+  agreement.objects = int(moved.size());
+  if (!moved.empty()) agreement.residual_px = median(moved);
+  return agreement;
+}
+
+// Objects that `others` together hold, at least two of them with a trace of their own, and that `view` should
+// show, before what is known: a wrong pose of its camera must have no say in where they are.
+int expected_in(std::span<const EdgeModel> models, std::span<const Hypothesis> objects,
+                const RegisterView& view, std::span<const RegisterView> others, Backend& backend,
+                const AgreementOptions& options) {
+  const std::vector<Hypothesis> poses =
+      as_hypotheses(objects, register_poses(models, objects, others, backend, options.joint));
+  const std::vector<PoseFeatures> by_other =
+      pose_features_by_view(models, poses, others, backend, options.score, options.joint.visibility);
+  const std::vector<PoseFeatures> here =
+      pose_features(models, poses, std::span(&view, 1), backend, options.score, options.joint.visibility);
+  int expected = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const std::span<const PoseFeatures> by_view =
+        std::span(by_other).subspan(i * others.size(), others.size());
+    const auto traces = std::ranges::count_if(by_view, [&](const PoseFeatures& features) {
+      return pose_probability(features) >= options.absent_probability;
+    });
+    expected +=
+        here[i].in_image > 0.5 && traces >= 2 && probability_over_views(by_view) >= options.held_probability;
+  }
+  return expected;
+}
+
+// One a view of `trusted`.
+std::vector<ViewAgreement> judge_all(std::span<const EdgeModel> models, std::span<const Hypothesis> objects,
+                                     std::span<const RegisterView> trusted, Backend& backend,
+                                     const AgreementOptions& options) {
+  const std::vector<Hypothesis> joint =
+      as_hypotheses(objects, register_poses(models, objects, trusted, backend, options.joint));
+  std::vector<Judged> judged;
+  for (const RegisterView& view : trusted) judged.push_back(judge(models, joint, view, backend, options));
+  std::vector<ViewAgreement> agreement;
+  for (std::size_t v = 0; v < trusted.size(); ++v) {
+    agreement.push_back(beside(judged[v], judged));
+    if (!judged[v].bare || trusted.size() < 3) continue;
+    std::vector<RegisterView> others(trusted.begin(), trusted.end());
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(v));
+    agreement[v].missing = expected_in(models, objects, trusted[v], others, backend, options);
+  }
+  return agreement;
 }
 
 // The view to distrust among `open`; views.size() where there is none.
@@ -126,20 +166,19 @@ std::vector<ViewAgreement> view_agreement(std::span<const EdgeModel> models,
   while (open.size() >= 2 && !objects.empty()) {
     std::vector<RegisterView> trusted;
     for (const std::size_t v : open) trusted.push_back(views[v]);
-    const std::vector<Hypothesis> joint =
-        as_hypotheses(objects, register_poses(models, objects, trusted, backend, options.joint));
-    std::vector<Judged> judged;
-    for (const RegisterView& view : trusted) judged.push_back(judge(models, joint, view, backend, options));
-    for (std::size_t i = 0; i < open.size(); ++i) {
-      agreement[open[i]] = judged[i].view;
-      agreement[open[i]].missing = missing_in(judged[i], judged);
-    }
+    const std::vector<ViewAgreement> judged = judge_all(models, objects, trusted, backend, options);
+    for (std::size_t i = 0; i < open.size(); ++i) agreement[open[i]] = judged[i];
     const std::size_t worst = worst_of(open, agreement, options);
     if (worst == views.size()) break;
     agreement[worst].disagrees = true;
     std::erase(open, worst);
   }
   return agreement;
+}
+
+void keep_flags(std::span<const ViewAgreement> before, std::span<ViewAgreement> now) {
+  for (std::size_t v = 0; v < before.size(); ++v)
+    if (before[v].disagrees && !now[v].disagrees && now[v].objects == 0) now[v] = before[v];
 }
 
 void warn_of(std::span<const ViewAgreement> agreement, std::span<const ViewAgreement> before) {

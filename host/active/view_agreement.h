@@ -12,8 +12,8 @@ namespace edgescout {
 struct ViewAgreement {
   double residual_px = 0;  // median over the objects of how far their points move in this image when only it
                            // has a say; 0 where `objects` is 0. Of two that disagree both have the larger
-  int objects = 0;         // that could be judged in it
-  int missing = 0;         // where none shows at all: objects that two other views show and this one should
+  int objects = 0;         // that it and another image show, each by itself: these can be judged in it
+  int missing = 0;         // where none shows at all: objects that the others hold and this one should show
   bool disagrees = false;
 };
 
@@ -23,7 +23,8 @@ struct AgreementOptions {
   // below it an object does not show at all; a part that others cover lies between the two. At most
   // min_probability
   double absent_probability = 0.03;
-  int max_missing = 1;  // one object may be hidden by what nobody knows
+  double held_probability = 0.5;  // of an object by the other images together, for an image to miss it
+  int max_missing = 1;            // one object may be hidden by what nobody knows
   D2coOptions joint = joint_defaults(), single = single_defaults();
   PoseScoreOptions score{1.0f, 4.0f, 60.0f};
   static D2coOptions joint_defaults();
@@ -39,6 +40,10 @@ std::vector<ViewAgreement> view_agreement(std::span<const EdgeModel> models,
                                           std::span<const Hypothesis> objects,
                                           std::span<const RegisterView> views, Backend& backend,
                                           const AgreementOptions& options = {});
+
+// What `before`, the same of fewer images, said of an image that nothing could judge this time stands: that
+// the objects are gone is no word for its pose.
+void keep_flags(std::span<const ViewAgreement> before, std::span<ViewAgreement> now);
 
 // A warning in the log for each flag that `before`, the same of the images so far, did not have.
 void warn_of(std::span<const ViewAgreement> agreement, std::span<const ViewAgreement> before = {});

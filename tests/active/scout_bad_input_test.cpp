@@ -5,6 +5,7 @@
 #include <set>
 
 #include "tests/active/small_cell.h"
+#include "tests/io/collected_log.h"
 #include "tests/io/expect_input_error.h"
 
 namespace edgescout::test {
@@ -150,6 +151,38 @@ TEST(Scout, FlagsACameraPoseThatDisagrees) {
   ASSERT_EQ(agreement.size(), 3u);
   EXPECT_TRUE(agreement[2].disagrees) << agreement[2].residual_px;
   EXPECT_FALSE(agreement[0].disagrees || agreement[1].disagrees);
+}
+
+// An image from a place quite other than said takes the belief in all that the others show. Whichever of
+// three it is, it is flagged, and stays so.
+TEST(Scout, FlagsAGrosslyWrongCameraPoseThatEndsAllBelief) {
+  SmallCell t(3);
+  SimulatedCell cell = t.source();
+  const std::vector<int> order{4, 6, 2, 0};
+  for (const std::size_t odd : {1u, 2u}) {
+    SCOPED_TRACE(odd);
+    const CollectedLog log;
+    Scout scout = t.scout();
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const Se3& right = t.views[static_cast<std::size_t>(order[i])];
+      const Se3 said = i == odd ? right * Se3{so3_exp({0.2, 0, 0.35}), {0, 0, 0}} : right;
+      scout.give(order[i], cell.acquire(order[i]).image, said);
+      const ScoutStep& step = scout.state().steps.back();
+      std::printf("image %zu%s: %zu objects;", i + 1, i == odd ? " (wrong)" : "", step.detections.size());
+      for (const ViewAgreement& v : step.agreement)
+        std::printf(" %.2f px by %d, %d missing%s;", v.residual_px, v.objects, v.missing,
+                    v.disagrees ? ", disagrees" : "");
+      std::printf("\n");
+      // Two images alone do not tell a wrong pose from objects that are hidden.
+      for (std::size_t v = 0; i >= 2 && v <= i; ++v) EXPECT_EQ(step.agreement[v].disagrees, v == odd) << v;
+    }
+    EXPECT_EQ(std::ranges::count_if(log.messages,
+                                    [&](const auto& message) {
+                                      return message.second.find("image " + std::to_string(odd + 1) + " ") !=
+                                             std::string::npos;
+                                    }),
+              1);
+  }
 }
 
 TEST(Scout, RefusesWhatItCannotUse) {

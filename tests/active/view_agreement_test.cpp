@@ -52,6 +52,38 @@ TEST(ViewAgreement, IsWarnedOfOnce) {
   EXPECT_NE(log.messages[1].second.find("image 3"), std::string::npos) << log.messages[1].second;
 }
 
+TEST(ViewAgreement, AFlagStandsUntilTheImageIsJudgedAgain) {
+  const std::vector<ViewAgreement> before{{0.4, 2, 0, false}, {7.5, 2, 0, true}, {0, 0, 3, true}};
+  std::vector<ViewAgreement> now(4);
+  keep_flags(before, now);
+  EXPECT_FALSE(now[0].disagrees || now[3].disagrees);
+  EXPECT_TRUE(now[1].disagrees && now[2].disagrees);
+  EXPECT_EQ(now[1].residual_px, 7.5);
+  EXPECT_EQ(now[2].missing, 3);
+  now[1] = {0.5, 1, 0, false};
+  keep_flags(before, now);
+  EXPECT_FALSE(now[1].disagrees) << "another image shows what it shows, in the same place";
+}
+
+// A pose that one image alone shows, by chance, moves as it likes and says nothing about the others.
+TEST(ViewAgreement, AnObjectOfOneImageIsNoWitness) {
+  Objects t(3);
+  std::vector<RegisterView> views = t.scene.views(*t.backend);
+  views[0].camera_from_world = wrong(views[0].camera_from_world, 0.06);
+  t.poses.resize(1);
+  EXPECT_TRUE(t.judge(views)[0].disagrees);
+  // The others see nothing of it.
+  for (const std::size_t blind : {1u, 2u}) {
+    auto wall = std::make_shared<Occluders>();
+    wall->camera = views[blind].camera;
+    wall->depth_m.assign(std::size_t(wall->camera.width) * std::size_t(wall->camera.height), 0.05f);
+    views[blind].occluders = wall;
+  }
+  const ViewAgreement alone = t.judge(views)[0];
+  EXPECT_EQ(alone.objects, 0);
+  EXPECT_FALSE(alone.disagrees);
+}
+
 TEST(ViewAgreement, RightPosesAgree) {
   Objects t(3);
   const CollectedLog log;
