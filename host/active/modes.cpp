@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/core/order.h"
 #include "host/detect/detect.h"
@@ -13,7 +14,11 @@ namespace edgescout {
 
 namespace {
 
-double weight_of(const Particle& particle) { return std::exp(particle.log_weight); }
+// Of a particle that lives never 0, however small sigma is: its images may still make it probable.
+double weight_of(const Particle& particle) {
+  const bool lives = particle.log_weight > -std::numeric_limits<double>::infinity();
+  return lives ? std::max(std::exp(particle.log_weight), std::numeric_limits<double>::min()) : 0;
+}
 
 // Best first: by evidence where particles have been weighed, else by weight.
 std::vector<std::size_t> best_first(std::span<const Particle> particles) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host/active/modes.h"
 #include "host/active/weigh_particles.h"
@@ -41,6 +42,15 @@ std::vector<const Mode*> kept_modes(std::span<const Mode> modes, int count, cons
   return kept;
 }
 
+// Of a mode's particles, over the heaviest: light ones would all be 0.
+std::vector<double> weights_within(const Mode& mode, std::span<const Particle> particles) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const std::size_t i : mode.particles) most = std::max(most, particles[i].log_weight);
+  std::vector<double> weights;
+  for (const std::size_t i : mode.particles) weights.push_back(std::exp(particles[i].log_weight - most));
+  return weights;
+}
+
 std::vector<int> quotas(std::span<const Mode* const> modes, int count, const ParticleOptions& options,
                         Random& random) {
   const int least = std::min<int>(options.min_per_mode, count / int(modes.size()));
@@ -69,9 +79,7 @@ std::vector<Particle> resample(std::span<const Particle> particles, std::span<co
     if (quota[m] > 0) total += kept[m]->weight;
   for (std::size_t m = 0; m < kept.size(); ++m) {
     const Mode& mode = *kept[m];
-    std::vector<double> weights;
-    for (const std::size_t i : mode.particles) weights.push_back(std::exp(particles[i].log_weight));
-    const std::vector<int> times = systematic(weights, quota[m], random);
+    const std::vector<int> times = systematic(weights_within(mode, particles), quota[m], random);
     for (std::size_t k = 0; k < times.size(); ++k)
       for (int copy = 0; copy < times[k]; ++copy) {
         Particle particle = particles[mode.particles[k]];

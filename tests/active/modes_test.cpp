@@ -42,6 +42,29 @@ struct Nuts {
   mutable ThreadPool threads{1};
 };
 
+// With a small sigma one particle has all the weight that a number can say; another that is as probable by
+// its images stays a mode and keeps its particles.
+TEST(FindModes, ForgetsNoneForBeingLight) {
+  const Nuts t;
+  std::vector<Particle> particles;
+  for (const double x_m : {0.0, 0.3})
+    particles.push_back(particle(1, {{1, 0, 0, 0}, {x_m, 0, 0.5}}, 1, true));
+  particles[1].log_weight = -5000;
+  particles.push_back(particles[1]);
+  particles[2].log_weight = -5001;
+  const std::vector<Mode> modes = find_modes(particles, t.sets, t.models, t.options, t.threads);
+  ASSERT_EQ(modes.size(), 2u);
+  EXPECT_EQ(modes[1].probability, modes[0].probability);
+  const std::vector<Particle> next = resample(particles, modes, t.models, 40, t.options, Random(1));
+  std::size_t light = 0;
+  for (const Particle& p : next) {
+    EXPECT_TRUE(std::isfinite(p.log_weight) && std::isfinite(p.spent_px2));
+    light += p.world_from_object.translation_m.x() > 0.15;
+  }
+  EXPECT_EQ(next.size(), 40u);
+  EXPECT_EQ(light, std::size_t(t.options.min_per_mode));
+}
+
 TEST(FindModes, JoinsSymmetricPosesAndNothingElse) {
   Random random = test_random();
   const Nuts t;
