@@ -160,13 +160,11 @@ std::vector<Eigen::Vector3d> directions_to(std::span<const Se3> cameras, const E
 }
 
 // The probability that nothing unknown stands before a camera, one a view.
-std::vector<double> free_sights(std::span<const Eigen::Vector3d> directions, double exponent) {
-  Eigen::Vector3d above = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& direction : directions) above += direction;
-  if (above.norm() < 0.1 * double(directions.size())) return std::vector<double>(directions.size(), 1);
+std::vector<double> free_sights(std::span<const Eigen::Vector3d> directions,
+                                const std::optional<Eigen::Vector3d>& above, double exponent) {
   std::vector<double> free;
   for (const Eigen::Vector3d& direction : directions)
-    free.push_back(std::pow(std::max(0.0, direction.dot(above.normalized())), exponent));
+    free.push_back(above ? std::pow(std::max(0.0, direction.dot(*above)), exponent) : 1);
   return free;
 }
 
@@ -197,7 +195,8 @@ std::vector<Shares> shares_left(std::span<const std::size_t> open, const Plannin
   for (const RegisterView& view : planning.real_views) taken.push_back(view.camera_from_world);
   const std::vector<Eigen::Vector3d> directions = directions_to(planning.views, *center_m),
                                      real = directions_to(taken, *center_m);
-  const std::vector<double> free = free_sights(directions, options.free_sight);
+  const std::vector<double> free =
+      free_sights(directions, direction_above(planning.views, *center_m), options.free_sight);
   for (std::size_t i = 0; i < open.size(); ++i) {
     const auto left = [&](double repeat_rad) {
       return free[open[i]] * (repeat_rad > 0 ? unrepeated(directions[open[i]], real, repeat_rad) : 1);

@@ -110,6 +110,14 @@ std::optional<Eigen::Vector3d> looked_at_m(std::span<const Se3> camera_from_worl
   return point_m;
 }
 
+std::optional<Eigen::Vector3d> direction_above(std::span<const Se3> camera_from_world,
+                                               const Eigen::Vector3d& center_m) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Se3& camera : camera_from_world) sum += (inverse(camera).translation_m - center_m).normalized();
+  if (sum.norm() < 0.1 * double(camera_from_world.size())) return {};
+  return sum.normalized();
+}
+
 void validate_views(std::span<const Se3> camera_from_world, const std::string& source) {
   if (camera_from_world.empty()) throw InputError(source, "views", "none", "at least one");
   for (std::size_t i = 0; i < camera_from_world.size(); ++i) {

@@ -33,6 +33,11 @@ std::vector<Se3> hemisphere_views(const HemisphereOptions& options);
 // point that is not before them (a head that only pans and tilts).
 std::optional<Eigen::Vector3d> looked_at_m(std::span<const Se3> camera_from_world);
 
+// Where above is for cameras that look at `center_m`: the mean direction from there to them, unit, in the
+// world's frame. Nothing where they stand all around it.
+std::optional<Eigen::Vector3d> direction_above(std::span<const Se3> camera_from_world,
+                                               const Eigen::Vector3d& center_m);
+
 // At least one view, each finite and rigid, no two alike (closer than 0.1 mm and 0.1 mrad). InputError naming
 // `source` and the view.
 void validate_views(std::span<const Se3> camera_from_world, const std::string& source);

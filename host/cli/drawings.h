@@ -31,8 +31,9 @@ struct DrawnView {
   bool unreachable = false;
   bool chosen = false;  // now
 };
-// The views' directions from what they look at, seen from above: the middle is straight up (+z), each ring 30
-// degrees lower. Coloured by information, which is in `unit`.
+// The views' directions from what they look at, seen from above (direction_above, active/views.h; +z where
+// there is none): the middle is straight up, each ring 30 degrees lower. Coloured by information, which is in
+// `unit`.
 std::string hemisphere_svg(std::span<const DrawnView> views, const std::string& unit);
 
 struct DrawnParticle {
