@@ -262,7 +262,8 @@ void NextViewOptions::validate() const {
   in("repeat_rad", repeat_rad, 0, 100);
   in("unknown_nats", unknown_nats, 0, 1e3);
   in("unknown_repeat_rad", unknown_repeat_rad, 0, 100);
-  const double dearest = strategy == Strategy::Information ? 1e9 : 0;  // the others do not count in nats
+  // The others, and the paper's own formula, do not count in nats.
+  const double dearest = strategy == Strategy::Information && !literal ? 1e9 : 0;
   in("motion_cost_per_m", motion_cost_per_m, 0, dearest);
   in("motion_cost_per_rad", motion_cost_per_rad, 0, dearest);
   visibility.validate();

@@ -48,8 +48,9 @@ struct NextViewOptions {
   // the paper, and in its own formula always.
   double unknown_nats = 0.5;
   double unknown_repeat_rad = 1;  // as repeat_rad, of what is unknown
-  double motion_cost_per_m = 0;  // nats, taken off the information (Strategy::Information alone): for the way
-                                 // from the last view's camera
+  // nats, taken off the information (Strategy::Information alone, and not the paper's own formula): for the
+  // way from the last view's camera
+  double motion_cost_per_m = 0;
   double motion_cost_per_rad = 0;
   std::function<bool(int view)> reachable;  // empty: all are
   std::vector<int> sequence;                // of Strategy::Fixed; empty: in the order of the views

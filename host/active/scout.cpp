@@ -34,10 +34,11 @@ std::vector<ScoutObject> objects_of(std::span<const TemplateSet> sets) {
   return objects;
 }
 
-ScoutDecision without_expectations(int view, Strategy strategy) {
+ScoutDecision without_expectations(int view, const NextViewOptions& options) {
   ScoutDecision decision;
   decision.view = view;
-  decision.strategy = strategy;
+  decision.strategy = options.strategy;
+  decision.literal = options.strategy == Strategy::Information && options.literal;
   return decision;
 }
 
@@ -77,6 +78,7 @@ std::optional<ScoutDecision> Scout::propose() {
                : little_to_learn(decision) ? ScoutEnd::LittleToLearn
                                            : ScoutEnd::No;
   has_ended_ = state_.end != ScoutEnd::No;
+  state_.overrule();  // of a run that was resumed
   if (has_ended_)
     state_.last_decision = std::move(decision);
   else
@@ -96,9 +98,8 @@ void Scout::give(int view, const Image& image, const Se3& camera_from_world) {
   ScoutState next = state_;
   std::vector<Observation> observations = observations_;
   ScoutStep step;
-  step.decision = proposal_ && proposal_->view == view
-                      ? *proposal_
-                      : without_expectations(view, options_.next_view.strategy);
+  step.decision =
+      proposal_ && proposal_->view == view ? *proposal_ : without_expectations(view, options_.next_view);
   if (proposal_) step.decision.stages = proposal_->stages;  // spent, whether followed or not
   step.camera_from_world = camera_from_world;
   look(image, step, observations);
@@ -113,7 +114,7 @@ void Scout::give(int view, const Image& image, const Se3& camera_from_world) {
            known().size() > known_before);
   conclude(step, next, modes, views_of(observations));
   next.steps.push_back(std::move(step));
-  next.last_decision = {};
+  next.overrule();
   state_ = std::move(next);
   observations_ = std::move(observations);
   forget_answer();
@@ -124,7 +125,7 @@ void Scout::unreachable(int view, const std::string& reason) {
   log(LogLevel::Warning, "view " + std::to_string(view) + " cannot be had: " + reason);
   state_.failed.push_back(
       {view, reason, state_.steps.size(), proposal_ ? proposal_->stages : std::vector<StageSeconds>{}});
-  state_.last_decision = {};
+  state_.overrule();
   forget_answer();
 }
 
@@ -250,9 +251,8 @@ ScoutDecision Scout::decide() const {
   const bool needs_belief = options_.next_view.strategy == Strategy::Information ||
                             options_.next_view.strategy == Strategy::Disocclusion;
   if (state_.steps.empty() && (state_.failed.empty() || needs_belief))
-    return without_expectations(first_open_view(), options_.next_view.strategy);
-  ScoutDecision decision;
-  decision.strategy = options_.next_view.strategy;
+    return without_expectations(first_open_view(), options_.next_view);
+  ScoutDecision decision = without_expectations(-1, options_.next_view);
   Stopwatch watch(decision.stages);
   decision.candidates = state_.candidates;
   BitMatrix combinations;
@@ -292,6 +292,10 @@ int Scout::first_open_view() const {
 
 void Scout::done(Stopwatch& watch, const char* stage) const {
   watch.lap(stage);
+  stop_where_cancelled();
+}
+
+void Scout::stop_where_cancelled() const {
   if (options_.cancelled && options_.cancelled()) throw Cancelled();
 }
 
@@ -323,6 +327,7 @@ void Scout::resume(ScoutState state, const std::string& source) {
     const PreparedImage prepared =
         prepare_image(step.image, undistorted(camera_), step.camera_from_world, backend_, options_.pipeline);
     observations.push_back(observe_prepared(prepared, sets_, backend_, options_.pipeline));
+    stop_where_cancelled();
   }
   state_ = std::move(state);
   observations_ = std::move(observations);

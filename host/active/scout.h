@@ -42,15 +42,15 @@ struct ScoutOptions {
       detect;
   // later images are searched together with those before (detect/joint_scan.h); else each alone
   bool detect_jointly = true;
-  // Instances as probable as this are known: they are not sought in later images, and hide what is behind
-  // them (register/occluders.h): what they cover counts neither for nor against other poses, but leaves
-  // fewer edges to be certain by. Above 1: none are.
+  // Reported instances (detections.min_probability) as probable as this are known: they are not sought in
+  // later images, and hide what is behind them (register/occluders.h): what they cover counts neither for nor
+  // against other poses, but leaves fewer edges to be certain by. Above 1: none are.
   double known_probability = 0.9;
   // Of one image. While what the last search of it found makes more instances known, it is searched once more
   // for what is behind and beside them, the places of the best hits being free then. Only where
   // detect_in_every_image is. 1: as in the paper.
   int max_searches = 2;
-  CombinationOptions combinations;
+  CombinationOptions combinations;    // its seed is the first decision's; that after n images has n more
   bool probable_combinations = true;  // scenes as often as they are believed in; else by psi (Algorithm 1)
   ParticleOptions particles;  // its penetration_m is the candidates', too: one measure of what excludes what
   NextViewOptions next_view;  // its sigma_px is the particles' too: one model of how far right poses lie
@@ -64,7 +64,7 @@ struct ScoutOptions {
   // (Strategy::Information): none is worth it
   double min_information_nats = 0;
   double min_gained_nats = 0;  // less from the last image, and no new candidates in it
-  double max_seconds = 0;      // of computing
+  double max_seconds = 0;      // of computing; asked between images, so that one may go beyond it
   // Asked between stages, from the calling thread. The longest are the detection of all objects in an image
   // and a decision: seconds, on a software device up to a minute.
   std::function<bool()> cancelled;
@@ -121,6 +121,7 @@ class Scout {
                                 std::span<Observation> observations) const;
   void hide_behind(std::span<const Hypothesis> known, std::span<Observation> observations) const;
   void done(Stopwatch& watch, const char* stage) const;
+  void stop_where_cancelled() const;
 
   std::span<const TemplateSet> sets_;
   Camera camera_;

@@ -19,7 +19,8 @@ void ScoutOptions::validate() const {
   in("first_view", first_view, 0, 1e6);
   in("max_views", max_views, 1, 1e6);
   in("min_entropy_nats", min_entropy_nats, 0, 1e6);
-  in("min_information_nats", min_information_nats, 0, 1e6);
+  // The paper's own formula does not count in nats.
+  in("min_information_nats", min_information_nats, 0, next_view.literal ? 0 : 1e6);
   in("min_gained_nats", min_gained_nats, 0, 1e6);
   in("max_seconds", max_seconds, 0, 1e9);
   in("detections.min_probability", detections.min_probability, 0, 1);

@@ -9,7 +9,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 13, "scout state"};
+constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 14, "scout state"};
 
 template <typename T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -95,7 +95,7 @@ void fields(auto& io, A<Particle> auto& x) {
   io(x.object, x.world_from_object, x.covariance, x.log_weight, x.upsilon_px2, x.spent_px2, x.by_view);
 }
 void fields(auto& io, A<ScoutDecision> auto& x) {
-  io(x.view, x.strategy, x.views, x.candidates, x.likeliest, x.unlikeliest, x.stages);
+  io(x.view, x.strategy, x.literal, x.views, x.candidates, x.likeliest, x.unlikeliest, x.stages);
 }
 void fields(auto& io, A<ScoutStep> auto& x) {
   io(x.decision, x.camera_from_world, x.image, x.searches, x.new_candidates, x.before, x.after, x.update,
@@ -103,7 +103,7 @@ void fields(auto& io, A<ScoutStep> auto& x) {
 }
 void fields(auto& io, A<ScoutState> auto& x) {
   io(x.objects, x.camera, x.views, x.steps, x.failed, x.candidates, x.particles, x.unseen_px2, x.detections,
-     x.entropy_nats, x.end, x.last_decision);
+     x.entropy_nats, x.end, x.last_decision, x.overruled_seconds);
 }
 
 double sum(const std::vector<StageSeconds>& stages) {
@@ -145,7 +145,12 @@ double ScoutState::seconds() const {
   double seconds = 0;
   for (const ScoutStep& step : steps) seconds += sum(step.stages) + sum(step.decision.stages);
   for (const FailedView& view : failed) seconds += sum(view.stages);
-  return seconds + sum(last_decision.stages);
+  return seconds + sum(last_decision.stages) + overruled_seconds;
+}
+
+void ScoutState::overrule() {
+  overruled_seconds += sum(last_decision.stages);
+  last_decision = {};
 }
 
 void save_scout_state(const ScoutState& state, const std::filesystem::path& file) {

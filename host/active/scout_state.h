@@ -21,6 +21,7 @@ namespace edgescout {
 struct ScoutDecision {
   int view = 0;
   Strategy strategy = Strategy::Information;  // by which `views` was judged
+  bool literal = false;                       // by the paper's own formula, which does not count in nats
   // one a view; empty for the first image, of which nothing can be expected
   std::vector<ViewInformation> views;
   std::vector<Detection> candidates;  // world, at that time
@@ -78,12 +79,15 @@ struct ScoutState {
   std::vector<ModeDetection> detections;  // the modes that are instances, best probability first
   double entropy_nats = 0;
   ScoutEnd end = ScoutEnd::No;
-  ScoutDecision last_decision;  // that no image followed: of an end that was decided on (LittleToLearn)
+  ScoutDecision last_decision;   // that no image followed: of an end that was decided on (LittleToLearn)
+  double overruled_seconds = 0;  // of such decisions after which it went on all the same
 
   // One a view: nonzero where it was taken or cannot be reached.
   std::vector<char> closed() const;
   // Of all steps and decisions, those for views that failed included: the machine's, not the arm's.
   double seconds() const;
+  // Goes on after the end that last_decision was.
+  void overrule();
 };
 
 // A versioned binary file (io/binary_file.h), atomically. Loading throws InputError naming the file: of

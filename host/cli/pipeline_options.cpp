@@ -96,11 +96,13 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
       .bounded("penetration", o.particles.penetration_m, 0.0, 1.0,
                "How far parts may reach into each other, m: else no scene has both, and the less probable is "
                "doubted")
-      .bounded("particles", o.particles.count, 1, 16384, "Poses that are followed")
+      .bounded("particles", o.particles.count, 1, 16384,
+               "Poses that are followed; new candidates add to them until they are resampled")
       .bounded("max-candidates", o.max_candidates, 1, 10000,
                "Of all objects together, kept from image to image")
       .bounded("known-probability", o.known_probability, 0.0, 2.0,
-               "As probable instances are not sought again and hide what is behind them; above 1: none do")
+               "Reported instances as probable as this are not sought again and hide what is behind them; "
+               "above 1: none")
       .bounded("max-searches", o.max_searches, 1, 100,
                "Of one image: again while the last one made more instances known")
       .flag("jointly,!--alone", o.detect_jointly,

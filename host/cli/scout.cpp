@@ -29,6 +29,7 @@ struct ScoutRequest {
   std::vector<int> sequence;
   unsigned draws_seed = 1;
   bool resume = false, watch = false;
+  Settings planning;  // of the groups that a resumed run may change
 };
 
 std::vector<Object> objects_of(const KnownModels& known) {
@@ -68,13 +69,15 @@ void refuse_idle_options(const ScoutRequest& request, const CLI::App& verb) {
   };
   if (o.next_view.strategy != Strategy::Fixed)
     refuse("--sequence", "--strategy " + request.strategy, "fixed");
+  const char* const in_nats[] = {"--min-information", "--metre-cost", "--radian-cost"};
   if (o.next_view.strategy != Strategy::Information)
-    for (const char* option : {"--min-information", "--metre-cost", "--radian-cost"})
-      refuse(option, "--strategy " + request.strategy, "mi-max");
+    for (const char* option : in_nats) refuse(option, "--strategy " + request.strategy, "mi-max");
   if (o.probable_combinations) refuse("--sharpness", "--scenes-by-probability", "--scenes-by-psi");
-  if (o.next_view.literal)
+  if (o.next_view.literal) {
+    for (const char* option : in_nats) refuse(option, "--literal", "the information by default");
     for (const char* option : {"--free-sight", "--repeat-angle", "--seen", "--unknown", "--unknown-angle"})
       refuse(option, "--literal", "the information by default");
+  }
 }
 
 // Also a YAML file's options count as given.
@@ -129,6 +132,7 @@ ScoutReport report_of(const ScoutRequest& request, const ScoutSource& source,
           source.name,
           request.strategy,
           source.settings,
+          request.planning,
           source.truth,
           source.image_ids,
           source.image_files,
@@ -143,15 +147,18 @@ int scout(ScoutRequest& request, const CLI::App& verb) {
   std::ranges::copy(settings_of(known.sets), std::back_inserter(source.settings));
   const std::vector<Se3> views = source.source->views();
   require_known_views(request.options, views.size());
+  validate_views(views, source.name);
   const fs::path saved = fs::path(request.out) / "scout.state";
   const bool goes_on = request.resume && fs::exists(saved);
   if (goes_on) require_same_source(source.settings, request.out);
+  // Before the templates, which take long.
+  ScoutState state_before = goes_on ? load_scout_state(saved) : ScoutState{};
   require_writable_folder(request.out);
   const TemplateOptions templates =
       known.objects.empty() ? request.templates : with_distances_of(request.templates, views);
   const std::vector<TemplateSet> sets = template_sets_of(known, templates, source.source->camera(), *backend);
   Scout scout(sets, source.source->camera(), views, request.options, *backend);
-  if (goes_on) scout.resume(load_scout_state(saved), saved.string());
+  if (goes_on) scout.resume(std::move(state_before), saved.string());
   if (!goes_on) remove_scout_results(request.out);
   const ScoutReport report = report_of(request, source, sets, *backend);
   run_scout(scout, *source.source, [&](const ScoutState& state) {
@@ -226,6 +233,7 @@ void add_scout(CLI::App& app, int& exit_code) {
     std::set<std::string> groups{"Belief", "Templates", "Edges", "Tensor", "Detection"};
     if (request->source.source == "cell") groups.insert({"Scene", "Image", "Arm"});
     request->source.settings = settings_of(*verb, groups);
+    request->planning = settings_of(*verb, {"Information", "Next view", "Budget"});
     refuse_unused(*verb);
     refuse_beside_templates(*verb);
     exit_code = scout(*request, *verb);

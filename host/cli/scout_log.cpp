@@ -70,7 +70,7 @@ json step_json(const ScoutStep& step, const ScoutReport& report) {
   return {{"view", step.decision.view},
           {"strategy", to_string(step.decision.strategy)},
           {"information", of_open_views(step.decision.views, &ViewInformation::information)},
-          {"information_unit", unit_of(step.decision.strategy)},
+          {"information_unit", unit_of(step.decision)},
           {"information_share", of_open_views(step.decision.views, &ViewInformation::share)},
           {"discovery", of_open_views(step.decision.views, &ViewInformation::discovery)},
           {"motion_cost", of_open_views(step.decision.views, &ViewInformation::motion_cost)},
@@ -123,8 +123,9 @@ std::string disagreeing_images(const ScoutState& state) {
   return images;
 }
 
-const char* unit_of(Strategy strategy) {
-  return strategy == Strategy::Information ? "nats" : strategy == Strategy::Disocclusion ? "points" : "";
+const char* unit_of(const ScoutDecision& decision) {
+  if (decision.strategy == Strategy::Information) return decision.literal ? "" : "nats";
+  return decision.strategy == Strategy::Disocclusion ? "points" : "";
 }
 
 std::optional<DistanceToTruth> distance_to_truth(const Detection& detection, const ScoutReport& report) {
@@ -147,14 +148,17 @@ void save_scout_log(const ScoutState& state, const ScoutReport& report, const st
            {"strategy", report.strategy},
            {"camera", camera_json(report.camera)}};
   for (const auto& [name, value] : report.settings) log["settings"][name] = value;
+  for (const auto& [name, value] : report.planning) log["planning"][name] = value;
   log["views"] = json::array();
   for (const Se3& view : state.views) log["views"].push_back(pose_json(view));
   log["steps"] = json::array();
   for (const ScoutStep& step : state.steps) log["steps"].push_back(step_json(step, report));
   log["failed"] = json::array();
   for (const FailedView& failed : state.failed)
-    log["failed"].push_back(
-        {{"view", failed.view}, {"reason", failed.reason}, {"after_step", failed.after_step}});
+    log["failed"].push_back({{"view", failed.view},
+                             {"reason", failed.reason},
+                             {"after_step", failed.after_step},
+                             {"decision_ms", stages_json(failed.stages)}});
   log["detections"] = modes_json(state.detections, report);
   for (const TrueObject& there : report.truth)
     log["truth"].push_back({{"object_id", report.sets[static_cast<std::size_t>(there.object)].object_id},

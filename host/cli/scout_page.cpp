@@ -161,6 +161,8 @@ class Page {
   static std::string promise(const ScoutDecision& why) {
     if (why.views.empty()) return "";
     const ViewInformation& chosen = why.views[static_cast<std::size_t>(why.view)];
+    if (why.strategy == Strategy::Information && why.literal)
+      return fmt::format(", {:.3g} by the paper's own formula", chosen.expected());
     if (why.strategy == Strategy::Information)
       return fmt::format(", {:.3f} nats expected{}", chosen.expected(), of_the_unknown(chosen));
     if (why.strategy == Strategy::Disocclusion)
@@ -205,7 +207,7 @@ class Page {
     for (const FailedView& failed : state_.failed)
       if (failed.after_step <= step) drawn[failed.view].unreachable = true;
     drawn[why.view].chosen = true;
-    return hemisphere_svg(drawn, unit_of(why.strategy));
+    return hemisphere_svg(drawn, unit_of(why));
   }
 
   std::string particles(const std::vector<Particle>& particles) const {

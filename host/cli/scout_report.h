@@ -23,7 +23,8 @@ struct ScoutReport {
   Camera camera;  // ideal
   EdgesOptions edges;
   std::string device, source, strategy;
-  Settings settings;  // of the source
+  Settings settings;  // of the source and of what is seen and believed in it
+  Settings planning;  // of where to look and when to end: of the last run
   std::vector<TrueObject> truth;
   std::vector<int> image_ids;                      // one a view
   std::vector<std::filesystem::path> image_files;  // one a view, or empty: they have none
@@ -33,8 +34,8 @@ struct ScoutReport {
 // Numbers of the images whose camera pose the others contradict after the last one: "2, 5"; empty: none.
 std::string disagreeing_images(const ScoutState& state);
 
-// Of ViewInformation::information.
-const char* unit_of(Strategy strategy);
+// Of ViewInformation::information; empty where it has none.
+const char* unit_of(const ScoutDecision& decision);
 
 // How far a detection lies from the nearest instance of its object; nothing where no truth is known.
 struct DistanceToTruth {
@@ -44,9 +45,9 @@ struct DistanceToTruth {
 };
 std::optional<DistanceToTruth> distance_to_truth(const Detection& detection, const ScoutReport& report);
 
-// FOLDER/scout.json: {edgescout_scout: 1, device, source, settings {name: text}, strategy (of the last run),
-// camera, views, steps [..], failed [..], detections [..], truth [..] (of a cell), seconds, end}; poses are
-// {R, t} and the camera is the ideal one, as in io/results.h. Atomically.
+// FOLDER/scout.json: {edgescout_scout: 1, device, source, settings {name: text}, planning {name: text} and
+// strategy (of the last run), camera, views, steps [..], failed [..], detections [..], truth [..] (of a
+// cell), seconds, end}; poses are {R, t} and the camera is the ideal one, as in io/results.h. Atomically.
 void save_scout_log(const ScoutState& state, const ScoutReport& report, const std::filesystem::path& folder);
 // What an earlier run left, by its log: state, log, results and page, which must not be taken for this one's.
 // Other files stay. InputError: a log that cannot be read, a file that cannot be removed.

@@ -233,6 +233,14 @@ TEST(Scout, RefusesWhatItCannotUse) {
   expect_refused("absent_probability", [](ScoutOptions& o) { o.agreement.absent_probability = 0.5; });
   expect_refused("max_residual_px", [](ScoutOptions& o) { o.agreement.max_residual_px = NAN; });
   expect_refused("detections.min_probability", [](ScoutOptions& o) { o.detections.min_probability = -1; });
+  expect_refused("min_information_nats", [](ScoutOptions& o) {
+    o.next_view.literal = true;
+    o.min_information_nats = 0.1;
+  });
+  expect_refused("motion_cost_per_m", [](ScoutOptions& o) {
+    o.next_view.literal = true;
+    o.next_view.motion_cost_per_m = 0.1;
+  });
   options = t.options();
   options.particles.count = 16385;
   expect_input_error([&] { t.scout(options); }, {"particles.count", "16385"});

@@ -107,6 +107,9 @@ TEST(Scout, KeepsTheDecisionThatEndsIt) {
   EXPECT_EQ(scout.state().seconds(), after) << "nothing was computed again";
   scout.give(1, cell.acquire(1).image);  // the user knows better
   EXPECT_TRUE(scout.state().last_decision.views.empty());
+  double second = 0;
+  for (const StageSeconds& stage : scout.state().steps[1].stages) second += stage.seconds;
+  EXPECT_NEAR(scout.state().seconds(), after + second, 1e-9) << "the time is spent all the same";
 }
 
 // All particles are dead at once and again when drawn anew: nothing was gained, and nothing is settled.

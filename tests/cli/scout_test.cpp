@@ -67,6 +67,9 @@ TEST(Scout, FindsThePartAndShowsHow) {
   EXPECT_EQ(log.at("end"), "view budget");
   EXPECT_EQ(log.at("camera").at("width"), 320);
   EXPECT_EQ(log["camera"].at("fx"), 400);
+  EXPECT_EQ(log.at("planning").at("max-views"), "3");
+  EXPECT_EQ(log["planning"].at("combinations"), "200");
+  EXPECT_EQ(log["planning"].at("first-view"), "0");
   ASSERT_EQ(log.at("steps").size(), 3u);
   ASSERT_EQ(log.at("views").size(), 8u);
   EXPECT_TRUE(log["steps"][0].at("information").empty());
@@ -318,6 +321,7 @@ TEST(Scout, TakesRecordedViewsAndGoesOnPastAMissingImage) {
   EXPECT_EQ(log.at("steps").size(), 2u);
   ASSERT_EQ(log.at("failed").size(), 1u);
   EXPECT_EQ(log["failed"][0].at("view"), 0);
+  EXPECT_TRUE(log["failed"][0].at("decision_ms").empty()) << "nothing is known before the first image";
   EXPECT_EQ(log["steps"][1].at("strategy"), "dis");
   EXPECT_EQ(log["steps"][1].at("information_unit"), "points");
   expect_self_contained(content_of(scene.out / "scout.html"));
@@ -387,6 +391,8 @@ TEST(Scout, RefusesWhatItCannotUse) {
   refused(t.arguments({"--sharpness", "2"}), {"--sharpness", "--scenes-by-psi"});
   refused(t.arguments({"--literal", "--free-sight", "1"}), {"--free-sight", "--literal"});
   refused(t.arguments({"--literal", "--seen", "0"}), {"--seen", "--literal"});
+  refused(t.arguments({"--literal", "--min-information", "0.1"}), {"--min-information", "--literal"});
+  refused(t.arguments({"--literal", "--metre-cost", "0.1"}), {"--metre-cost", "--literal"});
   refused(t.arguments({"--elevations", "120"}), {"elevation"});
   refused(t.arguments({"--arm-shift", "nan"}), {"--arm-shift", "nan"});
   refused(t.arguments({"--sharpness", "501"}), {"--sharpness", "501", "0 to 500"});
