@@ -39,7 +39,10 @@ struct Spread {
 };
 
 struct ParticleOptions {
-  int count = 200;  // at most INFORMATION_MAX_PARTICLES (kernels/mutual_information.h)
+  // Drawn at first, and whenever they are resampled. Between the two each search adds a share for the
+  // candidates that are new: more are followed then, by half or so. At most INFORMATION_MAX_PARTICLES
+  // (kernels/mutual_information.h).
+  int count = 200;
   std::uint64_t seed = 1;
   double sigma_px = 4;            // of the mean DCD of a right pose, image px
   Spread drawn{0.02, 0.1};        // around candidates
