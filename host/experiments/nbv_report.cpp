@@ -14,9 +14,18 @@ struct Searched {
   std::string search, group, title;
 };
 
+// What was found in one bin: of several draws the mean. `wrong` counts searches as trials.
+struct BinOutcome {
+  std::string number, types;
+  std::set<std::string> draws = {};
+  Cluster correct = {}, wrong = {}, shown = {};
+};
+
 struct Outcome {
-  std::vector<std::string> bins;
-  std::vector<Cluster> correct, wrong, shown;  // one a bin; `wrong` counts searches as trials
+  std::vector<std::string> bins;  // number and types of each
+  // One a bin number: bins of one number have the same draws of their layout, whatever their parts, and are
+  // no two independent samples.
+  std::vector<Cluster> correct, wrong, shown;
 };
 
 std::string name_of(const std::string& strategy) {
@@ -77,30 +86,45 @@ void add(Cluster& cluster, double hits, double trials) {
   cluster.trials += trials;
 }
 
-// After so many views. Searches in one bin succeed and fail together; of several draws there the mean counts.
-Outcome outcome_of(const Table& rows, const std::string& views) {
-  Outcome outcome;
-  std::vector<std::set<std::string>> draws;  // one a bin
+BinOutcome& bin_of(std::vector<BinOutcome>& bins, const std::string& number, const std::string& types) {
+  const auto known = std::ranges::find_if(
+      bins, [&](const BinOutcome& bin) { return bin.number == number && bin.types == types; });
+  return known == bins.end() ? bins.emplace_back(BinOutcome{number, types}) : *known;
+}
+
+// After so many views, of all searches in a bin together.
+std::vector<BinOutcome> bins_after(const Table& rows, const std::string& views) {
+  std::vector<BinOutcome> bins;
   for (std::size_t row = 0; row < rows.rows.size(); ++row) {
     if (text_in(rows, row, "views") != views) continue;
-    // bins of other parts have the same numbers
-    if (const std::string bin = text_in(rows, row, "types") + " " + text_in(rows, row, "bin");
-        outcome.bins.empty() || outcome.bins.back() != bin) {
-      outcome.bins.push_back(bin);
-      draws.emplace_back();
-      for (std::vector<Cluster>* clusters : {&outcome.correct, &outcome.wrong, &outcome.shown})
-        clusters->emplace_back();
-    }
-    draws.back().insert(text_in(rows, row, "draw"));
-    add(outcome.correct.back(), number_in(rows, row, "correct"), number_in(rows, row, "instances"));
-    add(outcome.wrong.back(), number_in(rows, row, "wrong"), 1);
-    add(outcome.shown.back(), number_in(rows, row, "shown"), number_in(rows, row, "instances"));
+    BinOutcome& bin = bin_of(bins, text_in(rows, row, "bin"), text_in(rows, row, "types"));
+    bin.draws.insert(text_in(rows, row, "draw"));
+    add(bin.correct, number_in(rows, row, "correct"), number_in(rows, row, "instances"));
+    add(bin.wrong, number_in(rows, row, "wrong"), 1);
+    add(bin.shown, number_in(rows, row, "shown"), number_in(rows, row, "instances"));
   }
-  for (std::vector<Cluster>* clusters : {&outcome.correct, &outcome.wrong, &outcome.shown})
-    for (std::size_t bin = 0; bin < draws.size(); ++bin) {
-      (*clusters)[bin].hits /= static_cast<double>(draws[bin].size());
-      (*clusters)[bin].trials /= static_cast<double>(draws[bin].size());
+  for (BinOutcome& bin : bins)
+    for (Cluster* cluster : {&bin.correct, &bin.wrong, &bin.shown}) {
+      cluster->hits /= static_cast<double>(bin.draws.size());
+      cluster->trials /= static_cast<double>(bin.draws.size());
     }
+  return bins;
+}
+
+Outcome outcome_of(const Table& rows, const std::string& views) {
+  Outcome outcome;
+  std::vector<std::string> numbers;
+  for (const BinOutcome& bin : bins_after(rows, views)) {
+    outcome.bins.push_back(bin.types + " " + bin.number);
+    const auto index = static_cast<std::size_t>(std::ranges::find(numbers, bin.number) - numbers.begin());
+    if (index == numbers.size()) numbers.push_back(bin.number);
+    for (const auto& [clusters, cluster] : {std::pair{&outcome.correct, &bin.correct},
+                                            {&outcome.wrong, &bin.wrong},
+                                            {&outcome.shown, &bin.shown}}) {
+      clusters->resize(numbers.size());
+      add((*clusters)[index], cluster->hits, cluster->trials);
+    }
+  }
   return outcome;
 }
 
@@ -155,8 +179,8 @@ std::string table_of(const Table& table, const Searched& searched, const std::ve
     text += difference_row(first, rows_of(table, searched, strategies[i]),
                            fmt::format("{} less {}", name_of(strategies[0]), name_of(strategies[i])), views);
   double instances = 0;  // the same for every strategy
-  for (const Cluster& bin : outcome_of(rows_of(table, searched, strategies[0]), views[0]).correct)
-    instances += bin.trials;
+  for (const Cluster& cluster : outcome_of(rows_of(table, searched, strategies[0]), views[0]).correct)
+    instances += cluster.trials;
   return fmt::format("## {}\n\n{:.0f} instances.\n\n{}\n", searched.title, instances, text);
 }
 
@@ -183,6 +207,13 @@ std::string draws_text(const Table& table) {
           title_of(search), draws);
   }
   return text;
+}
+
+// Where there are both kinds of parts.
+std::string pairs_text(const Table& table) {
+  if (values_of(table, "types").size() < 2) return "";
+  return " Bins of one number share number of parts, first view and random views, whatever the parts: in the "
+         "intervals of all bins they are drawn together.";
 }
 
 // How many there are of each kind of parts, and by what numbers they come again.
@@ -232,8 +263,8 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
   report.markdown = fmt::format(
       "Bins: {}. Instances correctly localised (below 0.1 rad and 5 mm) after so many views; false positives "
       "a search; instances of which some image so far showed more than 70 %. Differences: points of percent; "
-      "false positives a search; points of percent; intervals over the same draws of bins.{}\n\n",
-      bins_text(table), draws_text(table));
+      "false positives a search; points of percent; intervals over the same draws of bins.{}{}\n\n",
+      bins_text(table), pairs_text(table), draws_text(table));
   const auto rows_in = [&](const BinSet& set) { return rows_of_set(table, set.types); };
   std::size_t columns = 1;
   for (const BinSet& set : sets_in(table)) columns = std::max(columns, searches_in(rows_in(set), set).size());

@@ -135,6 +135,48 @@ TEST(NbvReport, KeepsCadPartsApartAndAddsThemUp) {
   EXPECT_DOUBLE_EQ(report.panels[4].lines[0].points[0].y, 0.125);
 }
 
+// Bins of one number stand together among all bins: of two pairs that agree the interval is Wilson's of two
+// trials, though of either kind of parts one bin fails.
+TEST(NbvReport, DrawsBinsOfOneNumberTogether) {
+  Table table = no_rows();
+  for (const auto& [bin, types, correct] :
+       {std::tuple{"0", "own", "4"}, {"1", "own", "0"}, {"0", "cad", "0"}, {"1", "cad", "4"}})
+    table.rows.push_back({bin, types, "all", "mi-max", "0", "1", "light", "4", correct, "0", "4", ""});
+  const std::string text = nbv_report({}, table).markdown;
+  const std::size_t all = text.find("## all bins, three types, lightly occluded\n\n16 instances.");
+  ASSERT_NE(all, std::string::npos) << text;
+  EXPECT_LT(text.find("| MI-MAX | 50 % [0, 100]; 0.00; 100 % |"), all) << "own parts alone\n" << text;
+  EXPECT_NE(text.find("| MI-MAX | 50 % [9, 91]; 0.00; 100 % |", all), std::string::npos) << text;
+  EXPECT_NE(text.find("in the intervals of all bins they are drawn together"), std::string::npos) << text;
+}
+
+// Two draws in the bin of own parts, one in that of CAD parts: 3 and 4 of 4 in the mean, 0 of 4.
+TEST(NbvReport, TakesTheMeanOverDrawsBeforeItAddsBinsOfOneNumber) {
+  Table table = no_rows();
+  for (const auto& [types, draw, correct] :
+       {std::tuple{"own", "0", "3"}, {"own", "1", "4"}, {"cad", "0", "0"}})
+    table.rows.push_back({"0", types, "all", "random", draw, "2", "light", "4", correct, "0", "4", ""});
+  const std::string text = nbv_report({}, table).markdown;
+  const std::size_t all = text.find("## all bins, three types, lightly occluded\n\n8 instances.");
+  ASSERT_NE(all, std::string::npos) << text;
+  EXPECT_NE(text.find("| Random | 43.8 %", all), std::string::npos) << text;
+}
+
+// Strategies that ended early in bins of other parts have nothing to be compared over, though the numbers are
+// the same.
+TEST(NbvReport, TellsBinsOfOneNumberApartWhereItCompares) {
+  Table table = no_rows();
+  for (const auto& [types, strategy, views] : {std::tuple{"own", "mi-max", "1"},
+                                               {"cad", "mi-max", "1"},
+                                               {"own", "random", "1"},
+                                               {"cad", "random", "1"},
+                                               {"own", "mi-max", "2"},
+                                               {"cad", "random", "2"}})
+    table.rows.push_back({"0", types, "all", strategy, "0", views, "light", "4", "2", "0", "4", ""});
+  const std::string text = nbv_report({}, table).markdown;
+  EXPECT_NE(text.find("; +0.0 [+0.0, +0.0] | |\n", text.find("## all bins")), std::string::npos) << text;
+}
+
 // A set with fewer tables than another does not move the panels of the next one into its rows.
 TEST(NbvReport, KeepsARowASetAndMeasure) {
   Table table = no_rows();
