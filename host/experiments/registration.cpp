@@ -6,6 +6,7 @@
 #include <set>
 
 #include "host/baselines/baseline.h"
+#include "host/core/log.h"
 #include "host/experiments/data_mark.h"
 #include "host/experiments/photographs.h"
 #include "host/experiments/rates.h"
@@ -122,21 +123,33 @@ Table original_rows(const Table& ran, const fs::path& results) {
   return table;
 }
 
-std::string recorded_text(const Table& ran, const ExperimentSettings& settings) {
-  std::string text =
-      "## Recorded starts (d2co-starts)\n\nStarts at exactly 0.1 rad / 5 mm, 0.2 / 10, 0.3 / 15, 0.4 / 20; "
-      "correct is " +
-      pose_criterion().text + ".\n\n" + rate_table(ran, series_in(ran), pose_criterion(), comparisons());
-  const fs::path folder = settings.data / "d2co-starts/original_results";
-  for (const auto& [file, what] : {std::pair{"all_methods_l6.csv", "as shipped (LSD edges, lambda 6)"},
+// The original implementation's results beside these, file by file; of one that is not there that it is not.
+std::string original_text(const Table& ran, const fs::path& data) {
+  std::string text;
+  for (const auto& [name, what] : {std::pair{"all_methods_l6.csv", "as shipped (LSD edges, lambda 6)"},
                                    {"all_methods_l100.csv", "with lambda 100"},
                                    {"all_methods_l100_canny.csv", "with lambda 100 and Canny edges"}}) {
-    if (settings.data.empty() || !fs::exists(folder / file)) continue;
-    if (const Table original = original_rows(ran, folder / file); !original.rows.empty())
+    const fs::path file = fs::path("d2co-starts/original_results") / name;
+    if (!fs::exists(data / file)) {
+      log(LogLevel::Warning,
+          fmt::format("{} is missing: the report has nothing of the original implementation {}",
+                      (data / file).string(), what));
+      text += fmt::format("\nThe original implementation {}: *skipped*, the data folder has no {}.\n", what,
+                          file.generic_string());
+    } else if (const Table original = original_rows(ran, data / file); !original.rows.empty()) {
       text += fmt::format("\nThe original implementation {}, on those of the starts that it ran on:\n\n{}",
                           what, rate_table(original, series_in(original), pose_criterion()));
+    }
   }
   return text;
+}
+
+std::string recorded_text(const Table& ran, const ExperimentSettings& settings) {
+  return "## Recorded starts (d2co-starts)\n\nStarts at exactly 0.1 rad / 5 mm, 0.2 / 10, 0.3 / 15, 0.4 / "
+         "20; "
+         "correct is " +
+         pose_criterion().text + ".\n\n" + rate_table(ran, series_in(ran), pose_criterion(), comparisons()) +
+         original_text(ran, settings.data);
 }
 
 std::string by_distance_table(const Table& table, const Criterion& criterion) {
