@@ -206,11 +206,11 @@ Report report(const ExperimentSettings& settings, const Table& table) {
       "FDCM ranks by the mean distance of the tensor (with the paper's weight of the orientation, {} px/rad, "
       "or another; of this project's edges or, as in the paper, of LSD's), LINE-2D by the similarity of "
       "OpenCV's linemod. An instance is found where a candidate of it is accepted. 95 % intervals by "
-      "bootstrap over images; of the difference over the same draws of images.\n\n"
+      "bootstrap over images; of the difference over the same draws of images.{}\n\n"
       "| candidates | method | no false positive | 0.1 an image | 1 | 10 | instances "
       "|\n|---|---|---|---|---|---|---|\n",
       settings.candidates, CANDIDATES_AN_INSTANCE, CANDIDATE_ANGLE_RAD, 1000 * CANDIDATE_DISTANCE_M,
-      PAPER_LAMBDA_PX_PER_RAD);
+      PAPER_LAMBDA_PX_PER_RAD, settings.data.empty() ? "" : std::string(" ") + PHOTOGRAPHS_COUNT_APART);
   for (const Part& part : parts_of(table)) {
     Panel panel{part.name, "false positives an image (none: as half of one)", "true positive rate", {}, 0, 1,
                 true};

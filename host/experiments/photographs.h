@@ -15,6 +15,11 @@ struct Photographs {
   std::vector<std::string> symmetry = {};
 };
 
+// Of the intervals in reports of their images one by one: scenes are too few to draw.
+inline constexpr const char* PHOTOGRAPHS_COUNT_APART =
+    "Photographs count as independent images in the intervals, also those of one scene, which show the same "
+    "parts: the intervals say less than they seem to.";
+
 // Those below `data`, none where it is empty. `every`: of the cat's frames. InputError naming the first file
 // that is missing.
 std::vector<Photographs> photographs_in(const std::filesystem::path& data, int every);

@@ -145,9 +145,8 @@ std::string original_text(const Table& ran, const fs::path& data) {
 }
 
 std::string recorded_text(const Table& ran, const ExperimentSettings& settings) {
-  return "## Recorded starts (d2co-starts)\n\nStarts at exactly 0.1 rad / 5 mm, 0.2 / 10, 0.3 / 15, 0.4 / "
-         "20; "
-         "correct is " +
+  return "## Recorded starts (d2co-starts)\n\nStarts at exactly 0.1 rad / 5 mm, 0.2 / 10, 0.3 / 15, "
+         "0.4 / 20; correct is " +
          pose_criterion().text + ".\n\n" + rate_table(ran, series_in(ran), pose_criterion(), comparisons()) +
          original_text(ran, settings.data);
 }
@@ -217,8 +216,9 @@ Report report(const ExperimentSettings& settings, const Table& table) {
     if (rows.rows.empty()) continue;
     const Criterion criterion = image_criterion();
     result.markdown +=
-        fmt::format("\n## Photographs: {}\n\nCorrect is {}: what is known of the true poses.\n\n{}", set,
-                    criterion.text, rate_table(rows, series_in(table), criterion, comparisons()));
+        fmt::format("\n## Photographs: {}\n\nCorrect is {}: what is known of the true poses. {}\n\n{}", set,
+                    criterion.text, PHOTOGRAPHS_COUNT_APART,
+                    rate_table(rows, series_in(table), criterion, comparisons()));
     result.markdown +=
         fmt::format("\n{}", by_distance_table(rows_of_set(table, set + std::string(BY_DISTANCE)), criterion));
     result.panels.push_back(

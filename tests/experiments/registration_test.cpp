@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "host/experiments/photographs.h"
 #include "host/experiments/trials.h"
 #include "tests/io/collected_log.h"
 #include "tests/io/temporary_folder.h"
@@ -39,6 +40,15 @@ TEST(RegistrationReport, NamesTheOriginalResultsThatAreMissing) {
         << log.messages[i].second;
     ++i;
   }
+}
+
+// What is no independent sample is said to be none.
+TEST(RegistrationReport, SaysThatPhotographsOfOneSceneCountApart) {
+  const auto text_of = [](const char* set) {
+    return registration_experiment().report({}, registration_in(set)).markdown;
+  };
+  EXPECT_NE(text_of("cat").find(PHOTOGRAPHS_COUNT_APART), std::string::npos) << text_of("cat");
+  EXPECT_EQ(text_of("rendered").find(PHOTOGRAPHS_COUNT_APART), std::string::npos);
 }
 
 }  // namespace
