@@ -64,14 +64,17 @@ void JointIndex::search_cell(int sector, int column, int row, const Query& query
   }
 }
 
-// Rings of cells about the query, until the nearest cell of a ring is too far.
+// Rings of cells about the query's nearest place in the image, until the nearest cell of a ring is too far:
+// from outside the image all of it is at least as far as the hypotenuse over the way to that place and on.
 void JointIndex::search_sector(int sector, const Query& query, Best& best) const {
   const float turn_px = lambda_px_per_rad_ * turn_to_sector(query.theta_rad, sector);
-  const int cx = cell_of(query.x_px), cy = cell_of(query.y_px);
-  const int first = std::max({0, -cx, cx - (columns_ - 1), -cy, cy - (rows_ - 1)});
+  const float x_px = std::clamp(query.x_px, 0.0f, float(columns_ * CELL_PX)),
+              y_px = std::clamp(query.y_px, 0.0f, float(rows_ * CELL_PX)),
+              outside_px = std::hypot(query.x_px - x_px, query.y_px - y_px);
+  const int cx = std::min(cell_of(x_px), columns_ - 1), cy = std::min(cell_of(y_px), rows_ - 1);
   const int last = std::max({cx, columns_ - 1 - cx, cy, rows_ - 1 - cy});
-  for (int ring = first; ring <= last; ++ring) {
-    if (turn_px + float((ring - 1) * CELL_PX) >= best.cost_px) return;
+  for (int ring = 0; ring <= last; ++ring) {
+    if (turn_px + std::hypot(outside_px, float(std::max(0, ring - 1) * CELL_PX)) >= best.cost_px) return;
     for (int row = std::max(0, cy - ring); row <= std::min(rows_ - 1, cy + ring); ++row) {
       const int stride = std::abs(row - cy) == ring ? 1 : std::max(1, 2 * ring);
       for (int column = cx - ring; column <= cx + ring; column += stride)
@@ -81,6 +84,7 @@ void JointIndex::search_sector(int sector, const Query& query, Best& best) const
 }
 
 const EdgePoint* JointIndex::closest(float x_px, float y_px, float theta_rad) const {
+  if (!std::isfinite(x_px) || !std::isfinite(y_px) || !std::isfinite(theta_rad)) return nullptr;
   const Query query{x_px, y_px, theta_rad};
   Best best{nullptr, std::numeric_limits<float>::max()};
   const int own = sector_of(theta_rad);

@@ -14,7 +14,8 @@ namespace edgescout {
 class JointIndex {
  public:
   JointIndex(std::span<const EdgePoint> edges, int width, int height, float lambda_px_per_rad);
-  // Null where there are no edge points at all. (x, y) may lie outside the image; theta in [0, pi].
+  // Null where there are no edge points at all, and of a place that is not finite or too far for a float to
+  // hold the square of its distance. (x, y) may lie outside the image; theta in [0, pi].
   const EdgePoint* closest(float x_px, float y_px, float theta_rad) const;
 
   static constexpr int CELL_PX = 16;

@@ -42,6 +42,33 @@ TEST(JointIndex, FindsTheClosestInPlaceAndDirection) {
     }
 }
 
+// A pose that ran away projects anywhere: the image is searched once over and no further.
+TEST(JointIndex, FindsTheClosestFromFarOutsideTheImage) {
+  Random random = test_random();
+  const std::vector<EdgePoint> edges = random_edges(40, 157, 93, random);
+  const JointIndex index(edges, 157, 93, 6);
+  for (const float far_px : {1e3f, 1e5f, 1e9f, 1e12f, 1e18f})
+    for (const auto& [x, y] :
+         {std::pair{far_px, far_px}, {-far_px, far_px}, {50.0f, -far_px}, {far_px, 50.0f}}) {
+      double least = std::numeric_limits<double>::max();
+      for (const EdgePoint& edge : edges) least = std::min(least, joint_distance(edge, x, y, 1, 6));
+      const EdgePoint* found = index.closest(x, y, 1);
+      ASSERT_NE(found, nullptr) << x << ", " << y;
+      EXPECT_NEAR(joint_distance(*found, x, y, 1, 6), least, 1e-6 * least) << x << ", " << y;
+    }
+}
+
+TEST(JointIndex, FindsNothingFromNowhere) {
+  const std::vector<EdgePoint> edges{{50, 50, 0.3f, 1}};
+  const JointIndex index(edges, 100, 100, 30);
+  const float infinite = std::numeric_limits<float>::infinity(), no_number = std::nanf("");
+  EXPECT_EQ(index.closest(infinite, 50, 0), nullptr);
+  EXPECT_EQ(index.closest(50, -infinite, 0), nullptr);
+  EXPECT_EQ(index.closest(no_number, 50, 0), nullptr);
+  EXPECT_EQ(index.closest(50, 50, no_number), nullptr);
+  EXPECT_EQ(index.closest(3e38f, 50, 0), nullptr);
+}
+
 // 10 px away in the same direction, or 1 px away across it.
 TEST(JointIndex, WeighsDirectionByLambda) {
   const float across = float(std::numbers::pi) / 2;
