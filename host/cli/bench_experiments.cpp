@@ -50,13 +50,13 @@ ExperimentSettings settings_of(const ExperimentsRequest& request, const CLI::App
   return settings;
 }
 
-// A bar an experiment.
+// A bar an experiment. The first call for one says what an earlier run has done of it.
 class Bars {
  public:
   void move_to(const std::string& experiment, std::size_t done, std::size_t all) {
     if (title_ != experiment) {
       bar_.reset();
-      bar_ = std::make_unique<Progress>(experiment, all, std::cerr, stderr_is_terminal());
+      bar_ = std::make_unique<Progress>(experiment, all, std::cerr, stderr_is_terminal(), done);
       title_ = experiment;
     }
     bar_->move_to(done);

@@ -12,11 +12,13 @@ constexpr std::size_t bar_width = 30;
 
 bool stderr_is_terminal() { return ::isatty(STDERR_FILENO) == 1; }
 
-Progress::Progress(std::string title, std::size_t total, std::ostream& out, bool on_terminal)
+Progress::Progress(std::string title, std::size_t total, std::ostream& out, bool on_terminal,
+                   std::size_t done_before)
     : title_(std::move(title)),
       total_(std::max<std::size_t>(total, 1)),
       out_(out),
-      on_terminal_(on_terminal) {
+      on_terminal_(on_terminal),
+      done_before_(std::min(done_before, total_)) {
   if (on_terminal_) out_ << line() << std::flush;
 }
 
@@ -49,8 +51,9 @@ std::string Progress::line() const {
   std::string rest;
   if (done_ == total_)
     rest = ", took " + std::to_string(static_cast<long>(elapsed_s)) + " s";
-  else if (done_ > 0)
-    rest = ", " + std::to_string(static_cast<long>(elapsed_s * (total_ - done_) / done_)) + " s left";
+  else if (done_ > done_before_)
+    rest = ", " + std::to_string(static_cast<long>(elapsed_s * (total_ - done_) / (done_ - done_before_))) +
+           " s left";
   if (!on_terminal_) return title_ + ": " + counts + rest;
   const std::size_t filled = bar_width * done_ / total_;
   // Return, the new text, and clear what an older, longer text left on the line.

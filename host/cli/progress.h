@@ -14,7 +14,9 @@ bool stderr_is_terminal();
 // May be stepped from several threads.
 class Progress {
  public:
-  Progress(std::string title, std::size_t total, std::ostream& out, bool on_terminal);
+  // `done_before`: what an earlier run left done, which took none of this one's time.
+  Progress(std::string title, std::size_t total, std::ostream& out, bool on_terminal,
+           std::size_t done_before = 0);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
   ~Progress();  // ends the bar's line
@@ -30,9 +32,10 @@ class Progress {
   const std::size_t total_;
   std::ostream& out_;
   const bool on_terminal_;
+  const std::size_t done_before_;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
-  std::size_t done_ = 0;
+  std::size_t done_ = done_before_;
   std::size_t drawn_ = 0;  // hundredths on a terminal, tenths otherwise
 };
 

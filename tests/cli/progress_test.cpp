@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <sstream>
 #include <thread>
 #include <vector>
@@ -46,6 +47,28 @@ TEST(Progress, DrawsABarOverItselfOnATerminal) {
   EXPECT_EQ(text.find("3/10"), std::string::npos);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1);
   EXPECT_EQ(text.back(), '\n');
+}
+
+// Of a million half were there before; a hundredth takes 50 ms or more, so that what is left takes 2 s at
+// least.
+TEST(Progress, JudgesTheTimeLeftByWhatThisRunHasDone) {
+  std::ostringstream out;
+  {
+    Progress progress("bins", 1000000, out, true, 500000);
+    EXPECT_NE(out.str().find("500000/1000000"), std::string::npos) << out.str();
+    EXPECT_EQ(out.str().find("left"), std::string::npos) << "nobody knows yet\n" << out.str();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    progress.move_to(510000);
+  }
+  EXPECT_NE(out.str().find(" s left"), std::string::npos) << out.str();
+  EXPECT_EQ(out.str().find(", 0 s left"), std::string::npos) << out.str();
+}
+
+TEST(Progress, OfWhatWasDoneBeforeIsAtItsEnd) {
+  std::ostringstream out;
+  Progress progress("bins", 3, out, false, 3);
+  progress.move_to(3);
+  EXPECT_NE(out.str().find("bins: 3/3, took 0 s"), std::string::npos) << out.str();
 }
 
 TEST(Progress, CountsStepsOfSeveralThreads) {
