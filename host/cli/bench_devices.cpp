@@ -36,10 +36,11 @@ void run(DevicesRequest& request, CLI::App& verb) {
   report.commit = EDGESCOUT_COMMIT;
   report.settings = settings_of(verb, {"Measurement", "Templates", "Edges", "Tensor", "Detection"});
   for (const std::string& warning : report.warnings) log(LogLevel::Warning, warning);
+  // First, for a disk may have filled up meanwhile.
+  std::cout << devices_markdown(report) << std::flush;
   const std::filesystem::path out = request.out;
   write_file_atomically(out / "devices.json", devices_json(report));
   write_file_atomically(out / "devices.md", devices_markdown(report));
-  std::cout << devices_markdown(report);
 }
 
 }  // namespace

@@ -216,6 +216,9 @@ DevicesReport time_devices(const DevicesOptions& options,
     if (options.kernels) time_kernels(runner, options.repetitions);
     report.devices.push_back(std::move(runner.times));
   }
+  report.load_at_end = machine_load();
+  for (std::string& warning : warnings_at_end(report.load_at_end))
+    report.warnings.push_back(std::move(warning));
   return report;
 }
 

@@ -44,7 +44,7 @@ struct DeviceTimes {
 };
 
 struct DevicesReport {
-  MachineLoad load;                                     // before
+  MachineLoad load, load_at_end;                        // before and after everything was timed
   std::vector<std::string> warnings;                    // a busy machine, software devices
   int width = 0, height = 0, instances = 0, poses = 0;  // of the image; poses registered and scored
   std::size_t templates = 0;                            // that are searched for

@@ -122,6 +122,7 @@ std::string devices_json(const DevicesReport& report) {
                               {"threads", report.load.threads},
                               {"load_average", report.load.load_average},
                               {"processor_share", report.load.share},
+                              {"processor_share_at_end", report.load_at_end.share},
                               {"machine", machine_name()},
                               {"warnings", report.warnings}};
   for (const auto& [name, value] : report.settings) json["options"][name] = value;
@@ -137,11 +138,11 @@ std::string devices_markdown(const DevicesReport& report) {
       "and scored; one decision among {} views with {} candidates, {} particles and {} scenes. Medians of {} "
       "repetitions (fewer where a device is slow), "
       "devices in turn within one run. {} threads, load average {:.2f}, {:.0f} % of the processors to be had "
-      "before. Seed {}, commit {}.\n\n",
+      "before, {:.0f} % at the end. Seed {}, commit {}.\n\n",
       report.width, report.height, report.instances, report.templates, report.poses, DecisionSize{}.views,
       DecisionSize{}.candidates, DecisionSize{}.particles, DecisionSize{}.combinations,
       report.options.repetitions, report.load.threads, report.load.load_average, 100 * report.load.share,
-      report.options.seed, report.commit);
+      100 * report.load_at_end.share, report.options.seed, report.commit);
   for (const std::string& warning : report.warnings) text += "**Warning:** " + warning + "\n\n";
   text += stage_table(report) + "\n" + device_table(report);
   for (const DeviceTimes& device : report.devices)

@@ -15,6 +15,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr double LEAST_SHARE = 0.9;  // of the processors, below which times are spoilt
+
 double own_seconds() {
   timespec time{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
@@ -63,7 +65,7 @@ MachineLoad machine_load() {
 }
 
 std::vector<std::string> warnings_of(const MachineLoad& load) {
-  constexpr double MOST_LOAD = 0.25, LEAST_SHARE = 0.9;
+  constexpr double MOST_LOAD = 0.25;
   std::vector<std::string> warnings;
   if (load.load_average > MOST_LOAD * load.threads)
     warnings.push_back(fmt::format("the machine is busy: load average {:.2f} on {} threads",
@@ -72,6 +74,12 @@ std::vector<std::string> warnings_of(const MachineLoad& load) {
     warnings.push_back(
         fmt::format("the machine is busy: only {:.0f} % of its processors are to be had", 100 * load.share));
   return warnings;
+}
+
+std::vector<std::string> warnings_at_end(const MachineLoad& load) {
+  if (load.share >= LEAST_SHARE) return {};
+  return {fmt::format("the machine was busy at the end: only {:.0f} % of its processors were to be had",
+                      100 * load.share)};
 }
 
 bool forget_peak_memory() {

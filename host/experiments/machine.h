@@ -21,6 +21,8 @@ MachineLoad machine_load();
 // What may spoil times; empty where nothing does: a load average above a quarter of the threads, a share
 // below 0.9.
 std::vector<std::string> warnings_of(const MachineLoad& load);
+// The same at the end of a measurement, by the share alone: the load average is then the measurement's own.
+std::vector<std::string> warnings_at_end(const MachineLoad& load);
 
 // Peak resident memory of this process since the last call of forget_peak_memory() that was true (false: the
 // system cannot forget), else since its start. 0 where the system does not tell.

@@ -14,6 +14,7 @@ namespace {
 DevicesReport report() {
   DevicesReport report;
   report.load = {4, 0.5, 0.97};
+  report.load_at_end = {4, 3.9, 0.5};
   report.warnings = {"something is odd"};
   report.width = 1024;
   report.height = 768;
@@ -47,6 +48,8 @@ TEST(DevicesReport, AsJsonHasMediansRatiosAndFloors) {
   const nlohmann::json json = nlohmann::json::parse(devices_json(report()));
   EXPECT_EQ(json.at("commit"), "abc");
   EXPECT_EQ(json.at("warnings").at(0), "something is odd");
+  EXPECT_EQ(json.at("processor_share"), 0.97);
+  EXPECT_EQ(json.at("processor_share_at_end"), 0.5);
   const nlohmann::json& cpu = json.at("devices").at(0);
   const nlohmann::json& card = json.at("devices").at(1);
   EXPECT_EQ(cpu.at("stages").at(0).at("median_ms"), 3);
@@ -69,7 +72,8 @@ TEST(DevicesReport, AsMarkdownHasARowAStageADeviceAndAKernel) {
        {"| edges | 3.0 (2.0 to 4.0) | 1.00 | 1.5 (1.0 to 2.0) | 0.50 |",
         "| image to poses | 500.0 (400.0 to 800.0) | 1.00 | 50.0 (40.0 to 100.0) | 0.10 |",
         "| cpu |  | 2.00 | 300 | 0 |  |", "| vulkan:0 card | driver 1 | 20.00 | 0 | 64 | 2.0 |",
-        "| dcd_tensor | 64x48 | 5.000 | 4.000 | 2.000 | 2.0 |", "**Warning:** something is odd"})
+        "| dcd_tensor | 64x48 | 5.000 | 4.000 | 2.000 | 2.0 |", "**Warning:** something is odd",
+        "97 % of the processors to be had before, 50 % at the end."})
     EXPECT_NE(text.find(row), std::string::npos) << row << " not in\n" << text;
 }
 
@@ -80,6 +84,9 @@ TEST(MachineLoad, IsWarnedOfWhereItSpoilsTimes) {
   ASSERT_EQ(warnings_of({8, -1, 0.5}).size(), 1u) << "no load average is no warning";
   EXPECT_NE(warnings_of({8, -1, 0.5})[0].find("50 %"), std::string::npos);
   EXPECT_EQ(warnings_of({2, 3, 0.5}).size(), 2u);
+  EXPECT_TRUE(warnings_at_end({8, 7.9, 0.95}).empty()) << "the load average is the measurement's own";
+  ASSERT_EQ(warnings_at_end({8, 7.9, 0.5}).size(), 1u);
+  EXPECT_NE(warnings_at_end({8, 7.9, 0.5})[0].find("at the end: only 50 %"), std::string::npos);
 }
 
 TEST(MachineLoad, OfThisMachineIsAShare) {
