@@ -57,7 +57,7 @@ PoseError pose_error(const Se3& estimate, const Se3& truth, const Symmetries& sy
   for (const Se3& symmetry : symmetries.discrete) {
     const Se3 moved = truth * symmetry;
     const PoseError error{angle_between_rad(estimate, moved), distance_between_m(estimate, moved)};
-    const double excess = std::max(error.angle_rad / max_angle_rad, error.distance_m / max_distance_m);
+    const double excess = error.of_bounds(max_angle_rad, max_distance_m);
     if (excess < best_excess || (excess == best_excess && error.angle_rad < best.angle_rad)) {
       best_excess = excess;
       best = error;

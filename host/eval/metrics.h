@@ -1,12 +1,19 @@
 // Pose-error metrics of BOP and of the paper.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
 #include "host/core/types.h"
 
 namespace edgescout {
+
+// What counts as correct: below both of the paper's bounds on the pose; or, where the true pose is known in
+// the image alone, no vertex so far from its place.
+inline constexpr double CORRECT_ANGLE_RAD = 0.1;
+inline constexpr double CORRECT_DISTANCE_M = 0.005;
+inline constexpr double CORRECT_MSPD_PX = 10;
 
 // Maximum symmetry-aware surface distance, m: min over symmetries S of max over vertices |P x - T S x|.
 double mssd_m(const Se3& estimate, const Se3& truth, const Object& object);
@@ -17,11 +24,16 @@ double mspd_px(const Se3& estimate, const Se3& truth, const Object& object, cons
 struct PoseError {
   double angle_rad = 0;
   double distance_m = 0;
-  bool passes(double max_angle_rad = 0.1, double max_distance_m = 0.005) const {
+  bool passes(double max_angle_rad = CORRECT_ANGLE_RAD, double max_distance_m = CORRECT_DISTANCE_M) const {
     return angle_rad < max_angle_rad && distance_m < max_distance_m;
+  }
+  // Of the bound that it is worse by: below 1 where it is correct.
+  double of_bounds(double max_angle_rad = CORRECT_ANGLE_RAD,
+                   double max_distance_m = CORRECT_DISTANCE_M) const {
+    return std::max(angle_rad / max_angle_rad, distance_m / max_distance_m);
   }
 };
 PoseError pose_error(const Se3& estimate, const Se3& truth, const Symmetries& symmetries,
-                     double max_angle_rad = 0.1, double max_distance_m = 0.005);
+                     double max_angle_rad = CORRECT_ANGLE_RAD, double max_distance_m = CORRECT_DISTANCE_M);
 
 }  // namespace edgescout

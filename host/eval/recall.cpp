@@ -57,10 +57,6 @@ const Object& object_of(const std::map<int, Object>& objects, int id) {
   return found->second;
 }
 
-double paper_error(const PoseError& error, const RecallOptions& options) {
-  return std::max(error.angle_rad / options.max_angle_rad, error.distance_m / options.max_distance_m);
-}
-
 Instances compare(const Object& object, const Camera& camera, const std::vector<BopTruth>& truth,
                   std::vector<BopResult> estimates, const RecallOptions& options) {
   std::stable_sort(estimates.begin(), estimates.end(),
@@ -74,9 +70,9 @@ Instances compare(const Object& object, const Camera& camera, const std::vector<
                           object.mesh.diameter_m);
       pair.mspd.push_back(mspd_px(e.camera_from_object, t.camera_from_object, object, camera));
       const auto paper_error_with = [&](const Symmetries& symmetries) {
-        return paper_error(pose_error(e.camera_from_object, t.camera_from_object, symmetries,
-                                      options.max_angle_rad, options.max_distance_m),
-                           options);
+        return pose_error(e.camera_from_object, t.camera_from_object, symmetries, options.max_angle_rad,
+                          options.max_distance_m)
+            .of_bounds(options.max_angle_rad, options.max_distance_m);
       };
       pair.raw.push_back(paper_error_with(Symmetries{}));
       pair.symmetric.push_back(paper_error_with(object.symmetries));

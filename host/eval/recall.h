@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "host/core/types.h"
+#include "host/eval/metrics.h"
 #include "host/io/bop.h"
 
 namespace edgescout {
@@ -33,9 +34,9 @@ struct RecallOptions {
   // Estimates below it are dropped before everything. None is by default: other methods' scores may be
   // negative.
   double min_score = -std::numeric_limits<double>::infinity();
-  double max_angle_rad = 0.1;  // the paper's
-  double max_distance_m = 0.005;
-  double max_mspd_px = 10;  // of `recall_mspd` and of a true find; not scaled by the image's width
+  double max_angle_rad = CORRECT_ANGLE_RAD;
+  double max_distance_m = CORRECT_DISTANCE_M;
+  double max_mspd_px = CORRECT_MSPD_PX;  // of `recall_mspd` and of a true find, whatever the image's width
   // Throws InputError naming the field and the violated bound.
   void validate() const;
 };

@@ -44,8 +44,7 @@ void match(std::span<const BinInstance> instances, std::span<const ModeDetection
 
 // Of a pose at an instance of its object: below 1 where it is right.
 double error_of(const Se3& pose, const BinInstance& instance, const Object& object) {
-  const PoseError e = pose_error(pose, instance.world_from_object, object.symmetries);
-  return std::max(e.angle_rad / 0.1, e.distance_m / 0.005);
+  return pose_error(pose, instance.world_from_object, object.symmetries).of_bounds();
 }
 
 bool is_followed(const BinInstance& instance, std::span<const Particle> particles, const Object& object) {
@@ -78,7 +77,7 @@ Judgement judge(std::span<const BinInstance> instances, const ScoutStep& step,
         [&](const Detection& found, const BinInstance& instance) {
           return mspd_px(camera_from_world * found.world_from_object,
                          camera_from_world * instance.world_from_object, object_of(found.object), camera) /
-                 10;
+                 CORRECT_MSPD_PX;
         });
   return judgement;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "host/core/random.h"
-#include "host/eval/metrics.h"
 
 namespace edgescout {
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "host/eval/metrics.h"
 #include "host/experiments/known_scene.h"
 
 namespace edgescout {
@@ -15,8 +16,8 @@ struct PoseCandidate {
 
 // A candidate is a pose of an instance where it lies within twice the criterion of a correct registration,
 // modulo symmetry: from there registration gets it right nearly always.
-inline constexpr double CANDIDATE_ANGLE_RAD = 0.2;
-inline constexpr double CANDIDATE_DISTANCE_M = 0.01;
+inline constexpr double CANDIDATE_ANGLE_RAD = 2 * CORRECT_ANGLE_RAD;
+inline constexpr double CANDIDATE_DISTANCE_M = 2 * CORRECT_DISTANCE_M;
 inline constexpr int CANDIDATES_AN_INSTANCE = 20;
 
 // Of one type of the scene: around each of its instances CANDIDATES_AN_INSTANCE within these bounds, or as

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <set>
 
+#include "host/eval/metrics.h"
+
 namespace edgescout {
 
 namespace {
@@ -97,13 +99,15 @@ PlotLine line_of(const Series& series, const Table& table, const Criterion& crit
 }  // namespace
 
 Criterion pose_criterion() {
-  return {"below 0.1 rad and 5 mm",
+  return {fmt::format("below {} rad and {} mm", number_text(CORRECT_ANGLE_RAD),
+                      number_text(1000 * CORRECT_DISTANCE_M)),
           [](const Table& table, std::size_t row) { return text_in(table, row, "right") == "1"; }};
 }
 
 Criterion image_criterion() {
-  return {"MSPD < 10 px",
-          [](const Table& table, std::size_t row) { return number_in(table, row, "mspd_px") < 10; }};
+  return {fmt::format("MSPD < {} px", number_text(CORRECT_MSPD_PX)), [](const Table& table, std::size_t row) {
+            return number_in(table, row, "mspd_px") < CORRECT_MSPD_PX;
+          }};
 }
 
 int level_of(double distance_rad) {

@@ -85,6 +85,8 @@ TEST(PoseError, IsRawWithoutSymmetries) {
   EXPECT_TRUE(error.passes());
   EXPECT_FALSE(error.passes(0.05));
   EXPECT_FALSE(error.passes(0.1, 0.004 - 1e-9));
+  EXPECT_NEAR(error.of_bounds(), 0.8, 1e-9) << "of the distance's";
+  EXPECT_NEAR(error.of_bounds(0.05), 1.4, 1e-9) << "of the angle's";
 }
 
 // A symmetry with a shift: the one with the smaller angle is not the one that passes.

@@ -99,6 +99,11 @@ TEST(Rates, OfRecordedStartsArePlottedAtTheirDistance) {
   EXPECT_NEAR(panel.lines.at(0).points.at(1).x, 0.2, 1e-12);
 }
 
+TEST(Criteria, SayWhatCounts) {
+  EXPECT_EQ(pose_criterion().text, "below 0.1 rad and 5 mm");
+  EXPECT_EQ(image_criterion().text, "MSPD < 10 px");
+}
+
 TEST(Percent, KeepsATenthWhereThereIsOne) {
   EXPECT_EQ(percent(0.5), "50 %");
   EXPECT_EQ(percent(2.0 / 3), "66.7 %");
