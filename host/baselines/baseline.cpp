@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "host/baselines/methods.h"
-#include "host/register/visible_in_views.h"
+#include "host/baselines/visible_points.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -24,17 +24,6 @@ D2coOptions as_published(const BaselineOptions& options) {
   d2co.min_step_rad = options.min_step_rad;
   d2co.visibility = options.visibility;
   return d2co;
-}
-
-// At the hypotheses' poses, [hypothesis * views + view].
-std::vector<std::vector<ModelPoint>> start_points(std::span<const EdgeModel> models,
-                                                  std::span<const Hypothesis> hypotheses,
-                                                  std::span<const RegisterView> views, Backend& backend,
-                                                  const VisibilityOptions& visibility) {
-  std::vector<std::vector<ModelPoint>> points;
-  for (VisibleInView& seen : visible_in_views(models, hypotheses, views, backend, visibility))
-    points.push_back(std::move(seen.points));
-  return points;
 }
 
 PoseSolver prepare_solver(Method method, std::span<const RegisterView> views,
@@ -106,7 +95,7 @@ Registrar prepare_method(Method method, std::span<const EdgeModel> models,
   return [models, views, &backend, options,
           solve = prepare_solver(method, views, options)](std::span<const Hypothesis> hypotheses) {
     const std::vector<std::vector<ModelPoint>> points =
-        start_points(models, hypotheses, views, backend, options.visibility);
+        visible_points(models, hypotheses, views, backend, options.visibility);
     std::vector<Registration> results;
     for (std::size_t h = 0; h < hypotheses.size(); ++h)
       results.push_back(registration_of(

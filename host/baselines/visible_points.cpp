@@ -1,8 +1,20 @@
 #include "host/baselines/visible_points.h"
 
+#include <utility>
+
 #include "host/register/visible_in_views.h"
 
 namespace edgescout {
+
+std::vector<std::vector<ModelPoint>> visible_points(std::span<const EdgeModel> models,
+                                                    std::span<const Hypothesis> hypotheses,
+                                                    std::span<const RegisterView> views, Backend& backend,
+                                                    const VisibilityOptions& visibility) {
+  std::vector<std::vector<ModelPoint>> points;
+  for (VisibleInView& seen : visible_in_views(models, hypotheses, views, backend, visibility))
+    points.push_back(std::move(seen.points));
+  return points;
+}
 
 std::vector<std::vector<ModelPoint>> visible_points(std::span<const EdgeModel> models,
                                                     std::span<const Candidate> candidates,
@@ -13,10 +25,7 @@ std::vector<std::vector<ModelPoint>> visible_points(std::span<const EdgeModel> m
   std::vector<Hypothesis> poses;
   for (const Candidate& candidate : candidates)
     poses.push_back({candidate.object, candidate.camera_from_object});
-  std::vector<std::vector<ModelPoint>> points;
-  for (VisibleInView& seen : visible_in_views(models, poses, {&in_its_frame, 1}, backend, visibility))
-    points.push_back(std::move(seen.points));
-  return points;
+  return visible_points(models, poses, {&in_its_frame, 1}, backend, visibility);
 }
 
 }  // namespace edgescout

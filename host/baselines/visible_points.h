@@ -1,4 +1,4 @@
-// What shows of pose candidates in one view. Private to host/baselines.
+// What shows of models at given poses. Private to host/baselines.
 #pragma once
 
 #include <span>
@@ -8,7 +8,13 @@
 
 namespace edgescout {
 
-// One list a candidate, in their order.
+// One list a hypothesis and view: [hypothesis * views + view].
+std::vector<std::vector<ModelPoint>> visible_points(std::span<const EdgeModel> models,
+                                                    std::span<const Hypothesis> hypotheses,
+                                                    std::span<const RegisterView> views, Backend& backend,
+                                                    const VisibilityOptions& visibility);
+
+// Of candidates in one view, one list each, in their order.
 std::vector<std::vector<ModelPoint>> visible_points(std::span<const EdgeModel> models,
                                                     std::span<const Candidate> candidates,
                                                     const RegisterView& view, Backend& backend,
