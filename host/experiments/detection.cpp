@@ -43,12 +43,12 @@ Notes options(const ExperimentSettings& s) {
   return notes;
 }
 
-// Columns: set, image, object, instances (of the object in the image), candidate, instance (empty: of none),
-// and the scores.
+// Columns: set, image, object, instances (of the object in the image), candidate, instance and how much of it
+// is visible (both empty: of none), and the scores.
 Table score_candidates(const KnownScene& scene, const ExperimentSettings& settings, Backend& backend) {
   Table table{{},
-              {"set", "image", "object", "instances", "candidate", "instance", "fdcm_px", "fdcm_lsd_px",
-               "fdcm_own_px", "line2d"},
+              {"set", "image", "object", "instances", "candidate", "instance", "visible", "fdcm_px",
+               "fdcm_lsd_px", "fdcm_own_px", "line2d"},
               {}};
   std::vector<EdgeModel> models;
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
@@ -71,11 +71,13 @@ Table score_candidates(const KnownScene& scene, const ExperimentSettings& settin
     const std::vector<double> lsd_fdcm = fdcm_scores(models, poses, lsd_view, backend);
     const std::vector<double> own_fdcm = fdcm_scores(models, poses, own_view, backend);
     const std::vector<double> line2d = line2d_scores(models, poses, view, backend);
-    for (std::size_t i = 0; i < candidates.size(); ++i)
-      table.rows.push_back(
-          {scene.set, scene.name, scene.objects[object].mesh.name, std::to_string(instances),
-           std::to_string(i), candidates[i].instance < 0 ? "" : scene.instances[candidates[i].instance].name,
-           number_text(fdcm[i]), number_text(lsd_fdcm[i]), number_text(own_fdcm[i]), number_text(line2d[i])});
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const int of = candidates[i].instance;
+      table.rows.push_back({scene.set, scene.name, scene.objects[object].mesh.name, std::to_string(instances),
+                            std::to_string(i), of < 0 ? "" : scene.instances[of].name,
+                            of < 0 ? "" : number_text(scene.instances[of].visible), number_text(fdcm[i]),
+                            number_text(lsd_fdcm[i]), number_text(own_fdcm[i]), number_text(line2d[i])});
+    }
   }
   return table;
 }
