@@ -101,9 +101,10 @@ ImageResult result_of(const InputImage& input, const PreparedImage& prepared, co
   result.camera = prepared.camera;
   result.device = backend.name();
   result.stages = detections.stages;
-  if (joint) result.camera_from_world = prepared.camera_from_world;
+  result.camera_from_world = input.camera_from_world;
   for (const TemplateSet& set : sets) result.objects.push_back({set.object_id, set.model.mesh.name});
   result.detections = detections.detections;
+  if (!joint) carry_to_world(result);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "host/active/particles.h"
 #include "host/core/log.h"
 #include "host/io/bop.h"
 #include "host/io/files.h"
@@ -18,6 +19,11 @@ std::filesystem::path json_of(const std::filesystem::path& out, const InputImage
 
 std::filesystem::path place_of(const InputImage& input) {
   return std::filesystem::absolute(input.file).lexically_normal();
+}
+
+void carry_to_world(ImageResult& result) {
+  if (!result.camera_from_world) return;
+  for (Detection& found : result.detections) found = candidate_in_world(found, *result.camera_from_world);
 }
 
 bool is_done(const std::filesystem::path& out, const InputImage& input, const Settings& settings) {

@@ -24,6 +24,10 @@ struct BatchSummary {
 
 std::filesystem::path json_of(const std::filesystem::path& out, const InputImage& input);
 
+// Detections of one image alone are found in its camera's frame: into the world, where its pose there is
+// known.
+void carry_to_world(ImageResult& result);
+
 // As results name an image: the working folder of a later run may be another.
 std::filesystem::path place_of(const InputImage& input);
 

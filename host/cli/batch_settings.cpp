@@ -18,6 +18,12 @@ std::string text_of(const std::optional<Camera>& camera) {
                      camera->fx, camera->fy, camera->cx, camera->cy, fmt::join(camera->distortion, " "));
 }
 
+std::string text_of(const Se3& pose) {
+  const Eigen::Vector3d& t = pose.translation_m;
+  const Eigen::Quaterniond& q = pose.rotation;
+  return fmt::format("at {} {} {} m, turned {} {} {} {}", t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z());
+}
+
 std::string text_of(const Symmetries& symmetries) {
   BinaryWriter poses;
   for (const Se3& pose : symmetries.discrete) poses.put_pose(pose);
@@ -61,6 +67,8 @@ Settings BatchSettings::of(const InputImage& input, const std::string& views) co
   Settings settings = common;
   settings.emplace_back("views", views);
   settings.emplace_back("camera", text_of(camera ? camera : input.camera));
+  if (input.camera_from_world)
+    settings.emplace_back("camera in the world", text_of(*input.camera_from_world));
   return settings;
 }
 

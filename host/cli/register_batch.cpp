@@ -101,11 +101,12 @@ ImageResult result_of(const ReadyJob& ready, std::size_t view, const Detections&
   result.camera = ready.views[view].camera;
   result.device = backend.name();
   result.stages = found.stages;
-  if (ready.views.size() > 1) result.camera_from_world = ready.views[view].camera_from_world;
+  result.camera_from_world = input.camera_from_world;
   for (const RegisterModel& model : models)
     result.objects.push_back({model.object_id, model.edges.mesh.name});
   for (std::size_t i = 0; i < found.detections.size(); ++i)
     if (ready.job->starts[i].view == view) result.detections.push_back(found.detections[i]);
+  if (ready.views.size() == 1) carry_to_world(result);
   return result;
 }
 

@@ -108,6 +108,7 @@ void save_image_result(const ImageResult& result, const std::filesystem::path& f
   root["device"] = result.device;
   root["camera"] = camera_json(result.camera);
   for (const auto& [name, value] : result.settings) root["settings"][name] = value;
+  root["world"] = result.camera_from_world ? "scene" : "camera";
   if (result.camera_from_world) root["camera_from_world"] = pose_json(*result.camera_from_world);
   root["timings_ms"] = json::array();
   for (const StageSeconds& stage : result.stages)

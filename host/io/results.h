@@ -37,7 +37,8 @@ struct ImageResult {
 };
 
 // Atomically. The fields: edgescout_result (version of the format, 2), image, scene_id, image_id, device,
-// camera, settings {name: text} (optional), camera_from_world (optional), timings_ms [{stage, ms}], objects
+// camera, settings {name: text} (optional), world (whose frame it is, for who reads the file: "scene" or
+// "camera"), camera_from_world (of a scene), timings_ms [{stage, ms}], objects
 // [{id, name}], detections [{object_id, object, world_from_object, camera_from_object, covariance,
 // probability, psi, cost_px, matched_fraction, evidence, unexplained_grey, convergence}]. A number that is
 // not finite becomes null.

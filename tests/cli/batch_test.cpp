@@ -164,6 +164,16 @@ TEST(RunBatch, MixesNoJointResultsWithThoseOfOneView) {
   expect_input_error([&] { run_batch(t.images, t.sets, *make_cpu_backend(1), jointly); }, {"views"});
 }
 
+// Where the scene says now that the camera stood elsewhere, poses in the world are others.
+TEST(RunBatch, MixesNoResultsOfCamerasThatMoved) {
+  Batch t;
+  run_batch(t.images, t.sets, *make_cpu_backend(2), t.options);
+  t.options.resume = true;
+  t.images[1].camera_from_world->translation_m.x() += 0.1;
+  expect_input_error([&] { run_batch(t.images, t.sets, *make_cpu_backend(1), t.options); },
+                     {"000003_000001.json", "camera in the world"});
+}
+
 TEST(RunBatch, OurOwnBugsEndItAndWhatWasFinishedIsListed) {
   const Batch t;
   FailingBackend backend(views_per_image, [] { throw LogicError("bug"); });

@@ -57,8 +57,12 @@ TEST(Register, BringsPerturbedPosesBackToTheTruth) {
   EXPECT_EQ(result.device, "cpu");
   EXPECT_EQ(result.camera.width, 640);
   ASSERT_EQ(result.detections.size(), rows.size());
+  const Se3 camera_from_world = scene.images[0].camera_from_world.value();
+  ASSERT_TRUE(result.camera_from_world.has_value());
+  EXPECT_LT(distance_between_m(*result.camera_from_world, camera_from_world), 1e-9);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    EXPECT_LT(distance_between_m(result.detections[i].world_from_object, rows[i].camera_from_object), 1e-9);
+    const Se3 camera_from_object = camera_from_world * result.detections[i].world_from_object;
+    EXPECT_LT(distance_between_m(camera_from_object, rows[i].camera_from_object), 1e-9);
     EXPECT_EQ(result.detections[i].probability, rows[i].score);
     EXPECT_GT(rows[i].score,
               0.1);  // small parts of soft contrast: the fit gives their right poses 0.2 to 0.5

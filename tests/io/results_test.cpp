@@ -100,6 +100,7 @@ TEST(ImageResult, StatesPosesByRowInMetresAndCovariancesByRow) {
       << text;
   EXPECT_NE(text.find("\"covariance\":[0.1,1.1,2.1,3.1,"), std::string::npos) << text;
   EXPECT_EQ(text.find("camera_from_world"), std::string::npos);
+  EXPECT_NE(text.find("\"world\":\"camera\""), std::string::npos) << text;
   const std::vector<StartPose> poses = load_start_poses(folder.path() / "r.json");
   const Eigen::Matrix3d rotation = poses.at(0).camera_from_object.rotation.toRotationMatrix();
   EXPECT_LT((rotation * Vector3d::UnitX() - Vector3d::UnitY()).norm(), 1e-12);
