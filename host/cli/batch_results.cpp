@@ -42,8 +42,7 @@ bool is_done(const std::filesystem::path& out, const InputImage& input, const Se
   return true;
 }
 
-void write_csv(std::span<const InputImage> images, const BatchSummary& summary,
-               const std::filesystem::path& out) {
+void write_csv(std::span<const InputImage> images, BatchSummary& summary, const std::filesystem::path& out) {
   std::vector<BopResult> rows;
   for (const InputImage& input : images) {
     if (!summary.finished.contains(input.name)) continue;
@@ -56,6 +55,7 @@ void write_csv(std::span<const InputImage> images, const BatchSummary& summary,
                       seconds});
   }
   save_bop_results(rows, out / "results.csv");
+  summary.poses = static_cast<int>(rows.size());
 }
 
 void write_summary(const BatchSummary& summary, const std::string& device, const std::filesystem::path& out) {
@@ -64,6 +64,7 @@ void write_summary(const BatchSummary& summary, const std::string& device, const
       {"done", summary.done},
       {"skipped", summary.skipped},
       {"failed", summary.failures.size()},
+      {"poses", summary.poses},
       {"device", device},
       {"seconds", summary.seconds},
       {"images_per_second", summary.seconds > 0 ? summary.done / summary.seconds : 0.0}};
@@ -76,7 +77,7 @@ void write_summary(const BatchSummary& summary, const std::string& device, const
   write_file_atomically(out / "summary.json", json_text(json, 2));
 }
 
-void write_ended(std::span<const InputImage> images, const BatchSummary& summary, const std::string& device,
+void write_ended(std::span<const InputImage> images, BatchSummary& summary, const std::string& device,
                  const std::filesystem::path& out) {
   const auto try_to = [](const std::function<void()>& write) {
     try {

@@ -15,6 +15,7 @@ namespace edgescout {
 
 struct BatchSummary {
   int images = 0, done = 0, skipped = 0;
+  int poses = 0;                                // in results.csv: of images done and skipped
   std::set<std::string> finished;               // names of the images done and skipped
   std::map<std::string, std::string> failures;  // message by file
   std::map<std::string, double> stage_seconds;  // of all images done, by stage
@@ -36,16 +37,15 @@ std::filesystem::path place_of(const InputImage& input);
 bool is_done(const std::filesystem::path& out, const InputImage& input, const Settings& settings);
 
 // results.csv, from the JSON files of the images that are finished: those that an earlier run left of others
-// are no results of this one.
-void write_csv(std::span<const InputImage> images, const BatchSummary& summary,
-               const std::filesystem::path& out);
+// are no results of this one. Its rows are counted in the summary.
+void write_csv(std::span<const InputImage> images, BatchSummary& summary, const std::filesystem::path& out);
 
 // summary.json: counts, throughput, mean time of every stage, failures, the error of a batch that one ended.
 void write_summary(const BatchSummary& summary, const std::string& device, const std::filesystem::path& out);
 
 // Both for a batch that an error ends: those of an earlier run would lie. Failing to write is logged: the
 // error itself is what must be told.
-void write_ended(std::span<const InputImage> images, const BatchSummary& summary, const std::string& device,
+void write_ended(std::span<const InputImage> images, BatchSummary& summary, const std::string& device,
                  const std::filesystem::path& out);
 
 }  // namespace edgescout

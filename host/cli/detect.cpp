@@ -68,9 +68,11 @@ int detect(DetectRequest& request) {
       fmt::format("{} images, {} models, on {}", images.size(), sets.size(), backend->name()));
   const BatchSummary summary = run_batch(images, sets, *backend, request.batch);
   std::cout << fmt::format(
-      "{} images: {} done, {} skipped, {} failed in {:.1f} s ({:.2f} images/s); results in {}\n",
+      "{} images: {} done, {} skipped, {} failed in {:.1f} s ({:.2f} images/s); {} poses in {} images; "
+      "results in {}\n",
       summary.images, summary.done, summary.skipped, summary.failures.size(), summary.seconds,
-      summary.done / std::max(1e-9, summary.seconds), request.out);
+      summary.done / std::max(1e-9, summary.seconds), summary.poses, summary.done + summary.skipped,
+      request.out);
   return summary.failures.empty() ? exit_done : exit_some_failed;
 }
 

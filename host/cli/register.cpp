@@ -61,7 +61,7 @@ int register_all(RegisterRequest& request) {
   const RegisterSummary summary = run_register(jobs, models, *backend, options);
   std::cout << fmt::format(
       "{} poses in {} images refined on {}, {} images skipped, {} failed in {:.1f} s; results in {}\n",
-      summary.poses, summary.done, backend->name(), summary.skipped,
+      summary.refined, summary.done, backend->name(), summary.skipped,
       summary.images - summary.done - summary.skipped, summary.seconds, request.out);
   return summary.failures.empty() ? exit_done : exit_some_failed;
 }

@@ -192,7 +192,7 @@ class Registrar {
       ++summary.done;
     }
     for (const StageSeconds& stage : found.stages) summary.stage_seconds[stage.name] += stage.seconds;
-    summary.poses += static_cast<int>(found.detections.size());
+    summary.refined += static_cast<int>(found.detections.size());
   }
 
   void skip(const RegisterJob& job) {

@@ -52,7 +52,7 @@ std::vector<RegisterJob> make_jobs(std::span<const InputImage> images, std::span
                                    const std::string& poses_file);
 
 struct RegisterSummary : BatchSummary {  // images: those with starts
-  int poses = 0;                         // refined now
+  int refined = 0;                       // poses, now
 };
 
 // Writes into `out`: NAME.json for every image with starts, its detections in the order of the starts;

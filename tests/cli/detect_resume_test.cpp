@@ -51,6 +51,8 @@ TEST(DetectResume, DoesOnlyWhatIsMissing) {
   EXPECT_EQ(times_in(t.out, ".json").at(t.json(0)), before);
   EXPECT_EQ(load_image_result(t.json(2)).image.filename(), "c.png");
   EXPECT_EQ(load_bop_results(t.out / "results.csv").size(), rows);
+  EXPECT_NE(outcome.out.find(std::to_string(rows) + " poses in 3 images"), std::string::npos)
+      << "those of images skipped count: " << outcome.out;
 }
 
 TEST(DetectResume, ListsNoOlderResultOfAnImageThatFailsNow) {

@@ -72,7 +72,10 @@ TEST(Detect, FindsThePartInOneImage) {
   EXPECT_EQ(load_image(t.out / "000000_overlay.png").width, 320);
   const auto summary = nlohmann::json::parse(content_of(t.out / "summary.json"));
   EXPECT_EQ(summary.at("done"), 1);
+  EXPECT_EQ(summary.at("poses"), rows.size());
   EXPECT_TRUE(summary.at("failures").empty());
+  EXPECT_NE(outcome.out.find(std::to_string(rows.size()) + " poses in 1 images"), std::string::npos)
+      << outcome.out;
 }
 
 TEST(Detect, TakesFoldersAndScenes) {
