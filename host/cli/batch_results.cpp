@@ -44,11 +44,14 @@ bool is_done(const std::filesystem::path& out, const InputImage& input, const Se
 
 void write_csv(std::span<const InputImage> images, BatchSummary& summary, const std::filesystem::path& out) {
   std::vector<BopResult> rows;
+  summary.lost = 0;
   for (const InputImage& input : images) {
     if (!summary.finished.contains(input.name)) continue;
     const ImageResult result = load_image_result(json_of(out, input));
     double seconds = 0;
     for (const StageSeconds& stage : result.stages) seconds += stage.seconds;
+    summary.lost +=
+        static_cast<int>(std::ranges::count(result.detections, OUT_OF_SIGHT, &Detection::convergence));
     for (const Detection& d : result.detections)
       rows.push_back({result.scene_id, result.image_id, result.objects[static_cast<std::size_t>(d.object)].id,
                       d.probability, result.camera_from_world.value_or(Se3{}) * d.world_from_object,
@@ -65,6 +68,7 @@ void write_summary(const BatchSummary& summary, const std::string& device, const
       {"skipped", summary.skipped},
       {"failed", summary.failures.size()},
       {"poses", summary.poses},
+      {"poses_out_of_sight", summary.lost},
       {"device", device},
       {"seconds", summary.seconds},
       {"images_per_second", summary.seconds > 0 ? summary.done / summary.seconds : 0.0}};

@@ -16,6 +16,7 @@ namespace edgescout {
 struct BatchSummary {
   int images = 0, done = 0, skipped = 0;
   int poses = 0;                                // in results.csv: of images done and skipped
+  int lost = 0;                                 // of these poses: OUT_OF_SIGHT
   std::set<std::string> finished;               // names of the images done and skipped
   std::map<std::string, std::string> failures;  // message by file
   std::map<std::string, double> stage_seconds;  // of all images done, by stage
@@ -24,6 +25,9 @@ struct BatchSummary {
 };
 
 std::filesystem::path json_of(const std::filesystem::path& out, const InputImage& input);
+
+// Detection::convergence of a pose that no image shows: nothing could be refined.
+inline constexpr const char* OUT_OF_SIGHT = "out of sight";
 
 // Detections of one image alone are found in its camera's frame: into the world, where its pose there is
 // known.
@@ -37,7 +41,7 @@ std::filesystem::path place_of(const InputImage& input);
 bool is_done(const std::filesystem::path& out, const InputImage& input, const Settings& settings);
 
 // results.csv, from the JSON files of the images that are finished: those that an earlier run left of others
-// are no results of this one. Its rows are counted in the summary.
+// are no results of this one. Its rows, and those out of sight, are counted in the summary.
 void write_csv(std::span<const InputImage> images, BatchSummary& summary, const std::filesystem::path& out);
 
 // summary.json: counts, throughput, mean time of every stage, failures, the error of a batch that one ended.

@@ -60,18 +60,20 @@ int register_all(RegisterRequest& request) {
   const std::vector<RegisterJob> jobs = make_jobs(images, models, poses, request.multi_view, request.poses);
   const RegisterSummary summary = run_register(jobs, models, *backend, options);
   std::cout << fmt::format(
-      "{} poses in {} images refined on {}, {} images skipped, {} failed in {:.1f} s; results in {}\n",
-      summary.refined, summary.done, backend->name(), summary.skipped,
+      "{} poses in {} images refined on {}, {} out of sight, {} images skipped, {} failed in {:.1f} s; "
+      "results in {}\n",
+      summary.refined, summary.done, backend->name(), summary.lost, summary.skipped,
       summary.images - summary.done - summary.skipped, summary.seconds, request.out);
-  return summary.failures.empty() ? exit_done : exit_some_failed;
+  return summary.failures.empty() && summary.lost == 0 ? exit_done : exit_some_failed;
 }
 
 void add_files(CLI::App& verb, RegisterRequest& request) {
   verb.add_option("inputs", request.inputs, "Images, folders of images, BOP scenes or folders of them")
       ->required();
-  verb.add_option("--poses", request.poses,
-                  "Where to start: a BOP results CSV, a result of this program, or a JSON list of {image, "
-                  "object, R, t}")
+  verb.add_option(
+          "--poses", request.poses,
+          "Poses to start from: a BOP results CSV (t in mm), a result of this program, or a JSON list of "
+          "{image, object, R, t} (t in m); R and t map the object frame to the camera frame")
       ->required()
       ->type_name("FILE");
   verb.add_option("--model", request.models.models, "STL, PLY, OBJ or CAO files")->type_name("FILE");

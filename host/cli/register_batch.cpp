@@ -64,6 +64,37 @@ double smallest_size_px(const ReadyJob& ready, const PreparedImage& view,
   return smallest;
 }
 
+// Whether the object's bounding sphere does, which looks longer the farther from the axis it is.
+bool reaches_into(const PreparedImage& view, const EdgeModel& model, const Se3& world_from_object) {
+  const Camera& camera = view.camera;
+  const Eigen::Vector3d center_m = view.camera_from_world * (world_from_object * model.center_m);
+  if (!(center_m.z() > 0)) return false;
+  const Eigen::Vector2d center_px = project(camera, center_m);
+  const double depth_m = center_m.z(), longer = center_m.norm() / depth_m,
+               radius_px = model.radius_m / depth_m * std::max(camera.fx, camera.fy) * longer;
+  return center_px.x() > -radius_px && center_px.x() < camera.width + radius_px &&
+         center_px.y() > -radius_px && center_px.y() < camera.height + radius_px;
+}
+
+// What starts outside of every image is drawn to anything inside, however far away; what is a speck fits
+// everywhere.
+bool is_out_of_sight(const ReadyJob& ready, const Hypothesis& start, const EdgeModel& model,
+                     const PoseFeatures& refined) {
+  constexpr double least_px = 20;  // of visible edges, in all images together
+  return refined.length_px < least_px || std::ranges::none_of(ready.views, [&](const PreparedImage& view) {
+           return reaches_into(view, model, start.world_from_object);
+         });
+}
+
+void tell_out_of_sight(const ReadyJob& ready, std::size_t start, const RegisterModel& model) {
+  const InputImage& input = ready.job->views[ready.job->starts[start].view];
+  log(LogLevel::Warning,
+      fmt::format(
+          "{}: object {}: found a start that no image shows, expected one in sight (lengths are in mm "
+          "in a BOP results CSV, in m in JSON)",
+          input.file.string(), model.object_id));
+}
+
 Detections refine_job(const ReadyJob& ready, std::span<const RegisterModel> models,
                       std::span<const EdgeModel> edge_models, Backend& backend,
                       const RegisterOptions& options) {
@@ -85,9 +116,16 @@ Detections refine_job(const ReadyJob& ready, std::span<const RegisterModel> mode
   const std::vector<Refined> refined =
       refine_poses(edge_models, ready.starts, views, backend, options.refine);
   result.stages.push_back({"registration", seconds_since(tensors_made)});
-  for (std::size_t i = 0; i < refined.size(); ++i)
-    result.detections.push_back(
-        to_detection(ready.starts[i].object, refined[i].registration, refined[i].features));
+  for (std::size_t i = 0; i < refined.size(); ++i) {
+    const Hypothesis& given = ready.starts[i];
+    const RegisterModel& model = models[static_cast<std::size_t>(given.object)];
+    Detection& found = result.detections.emplace_back(
+        to_detection(given.object, refined[i].registration, refined[i].features));
+    if (!is_out_of_sight(ready, given, model.edges, refined[i].features)) continue;
+    found.probability = 0;
+    found.convergence = OUT_OF_SIGHT;
+    tell_out_of_sight(ready, i, model);
+  }
   return result;
 }
 
@@ -192,7 +230,8 @@ class Registrar {
       ++summary.done;
     }
     for (const StageSeconds& stage : found.stages) summary.stage_seconds[stage.name] += stage.seconds;
-    summary.refined += static_cast<int>(found.detections.size());
+    summary.refined += static_cast<int>(std::ranges::count_if(
+        found.detections, [](const Detection& d) { return d.convergence != OUT_OF_SIGHT; }));
   }
 
   void skip(const RegisterJob& job) {

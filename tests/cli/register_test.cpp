@@ -134,6 +134,36 @@ TEST(Register, GoesOnPastABadImage) {
   EXPECT_FALSE(fs::exists(out / "000001_000000.json"));
 }
 
+// Metres where millimetres belong, and a place beside the image: both are drawn to something in it.
+TEST(Register, TellsPosesThatNoImageShows) {
+  const TemporaryFolder folder;
+  const BopScene scene = load_bop_scene(one_view());
+  std::vector<BopResult> starts(3, certain_truths(scene).at(0));
+  starts[1].camera_from_object.translation_m *= 1000;
+  starts[2].camera_from_object.translation_m.x() += 1;
+  save_bop_results(starts, folder.path() / "starts.csv");
+  const fs::path out = folder.path() / "out";
+  const std::vector<std::string> call =
+      register_in(one_view(), folder.path() / "starts.csv", out, {"--search-rotation", "0", "--no-overlays"});
+  const Outcome outcome = run_program(call);
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_NE(outcome.out.find("1 poses in 1 images refined on cpu, 2 out of sight"), std::string::npos)
+      << outcome.out;
+  EXPECT_NE(outcome.err.find("000000.png: object"), std::string::npos) << outcome.err;
+  const ImageResult result = load_image_result(out / "000000_000000.json");
+  ASSERT_EQ(result.detections.size(), 3u);
+  EXPECT_GT(result.detections[0].probability, 0.1);
+  EXPECT_NE(result.detections[0].convergence, "out of sight");
+  for (std::size_t i : {1u, 2u}) {
+    EXPECT_EQ(result.detections[i].probability, 0) << i;
+    EXPECT_EQ(result.detections[i].convergence, "out of sight") << i;
+  }
+  EXPECT_EQ(nlohmann::json::parse(content_of(out / "summary.json")).at("poses_out_of_sight"), 2);
+  const Outcome again = run_program(joined({call, {"--resume"}}));
+  EXPECT_EQ(again.exit_code, 1) << "they are not found by skipping them: " << again.out;
+  EXPECT_NE(again.out.find("2 out of sight, 1 images skipped"), std::string::npos) << again.out;
+}
+
 TEST(Register, DoesOnlyWhatIsMissingWhenResumed) {
   const TemporaryFolder folder;
   const BopScene scene = load_bop_scene(two_views());
