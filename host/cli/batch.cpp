@@ -116,7 +116,7 @@ void write_overlay(const InputImage& input, const PreparedImage& prepared, const
                      models[d.object].mesh.name});
   const EdgeIndex edges(prepared.edges, prepared.camera.width, prepared.camera.height);
   save_png(draw_overlay(prepared.image, prepared.camera, poses, models, &edges, backend),
-           options.out / (input.name + "_overlay.png"));
+           overlay_of(options.out, input));
 }
 
 // Each is judged, also after one that is missing: what is there must not be another run's.
@@ -250,6 +250,7 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
       open.push_back(std::move(group));
   }
   require_writable_place(options.out);
+  if (!options.resume) start_anew(options.out, images);
   try {
     work_through(open, preparer, detector);
   } catch (const std::exception& error) {

@@ -13,22 +13,37 @@
 
 namespace edgescout {
 
-std::filesystem::path json_of(const std::filesystem::path& out, const InputImage& input) {
-  return out / (input.name + ".json");
+namespace fs = std::filesystem;
+
+namespace {
+
+// What is no JSON is no result.
+bool holds_result(const fs::path& file) {
+  try {
+    return is_image_result(file);
+  } catch (const InputError&) {
+    return false;
+  }
 }
 
-std::filesystem::path place_of(const InputImage& input) {
-  return std::filesystem::absolute(input.file).lexically_normal();
+}  // namespace
+
+fs::path json_of(const fs::path& out, const InputImage& input) { return out / (input.name + ".json"); }
+
+fs::path overlay_of(const fs::path& out, const InputImage& input) {
+  return out / (input.name + "_overlay.png");
 }
+
+fs::path place_of(const InputImage& input) { return fs::absolute(input.file).lexically_normal(); }
 
 void carry_to_world(ImageResult& result) {
   if (!result.camera_from_world) return;
   for (Detection& found : result.detections) found = candidate_in_world(found, *result.camera_from_world);
 }
 
-bool is_done(const std::filesystem::path& out, const InputImage& input, const Settings& settings) {
-  const std::filesystem::path file = json_of(out, input);
-  if (!std::filesystem::exists(file)) return false;
+bool is_done(const fs::path& out, const InputImage& input, const Settings& settings) {
+  const fs::path file = json_of(out, input);
+  if (!fs::exists(file)) return false;
   ImageResult result;
   try {
     result = load_image_result(file);
@@ -42,7 +57,33 @@ bool is_done(const std::filesystem::path& out, const InputImage& input, const Se
   return true;
 }
 
-void write_csv(std::span<const InputImage> images, BatchSummary& summary, const std::filesystem::path& out) {
+void require_no_other_results(const fs::path& out, std::span<const InputImage> images) {
+  std::set<std::string> names;
+  for (const InputImage& image : images) names.insert(image.name);
+  std::error_code not_there;
+  for (const fs::directory_entry& entry : fs::directory_iterator(out, not_there))
+    if (entry.path().extension() == ".json" && !names.contains(entry.path().stem().string()) &&
+        holds_result(entry.path()))
+      throw InputError(out.string(), "output folder", entry.path().filename().string() + " of another run",
+                       "another --out, or a folder without results of other images");
+}
+
+void start_anew(const fs::path& out, std::span<const InputImage> images) {
+  require_no_other_results(out, images);
+  std::vector<fs::path> files{out / "results.csv", out / "summary.json"};
+  for (const InputImage& image : images) {
+    files.push_back(json_of(out, image));
+    files.push_back(overlay_of(out, image));
+  }
+  for (const fs::path& file : files) {
+    std::error_code failure;
+    if (fs::is_regular_file(file, failure)) fs::remove(file, failure);
+    if (failure && fs::exists(file))
+      throw InputError(file.string(), "file of an earlier run", failure.message(), "one that can be removed");
+  }
+}
+
+void write_csv(std::span<const InputImage> images, BatchSummary& summary, const fs::path& out) {
   std::vector<BopResult> rows;
   summary.lost = 0;
   for (const InputImage& input : images) {
@@ -61,7 +102,7 @@ void write_csv(std::span<const InputImage> images, BatchSummary& summary, const 
   summary.poses = static_cast<int>(rows.size());
 }
 
-void write_summary(const BatchSummary& summary, const std::string& device, const std::filesystem::path& out) {
+void write_summary(const BatchSummary& summary, const std::string& device, const fs::path& out) {
   nlohmann::ordered_json json{
       {"images", summary.images},
       {"done", summary.done},
@@ -82,7 +123,7 @@ void write_summary(const BatchSummary& summary, const std::string& device, const
 }
 
 void write_ended(std::span<const InputImage> images, BatchSummary& summary, const std::string& device,
-                 const std::filesystem::path& out) {
+                 const fs::path& out) {
   const auto try_to = [](const std::function<void()>& write) {
     try {
       write();

@@ -25,6 +25,7 @@ struct BatchSummary {
 };
 
 std::filesystem::path json_of(const std::filesystem::path& out, const InputImage& input);
+std::filesystem::path overlay_of(const std::filesystem::path& out, const InputImage& input);
 
 // Detection::convergence of a pose that no image shows: nothing could be refined.
 inline constexpr const char* OUT_OF_SIGHT = "out of sight";
@@ -39,6 +40,12 @@ std::filesystem::path place_of(const InputImage& input);
 // Whether a whole result of this very image is there, in today's format. InputError where it was made with
 // other settings: it is neither this batch's nor to be lost.
 bool is_done(const std::filesystem::path& out, const InputImage& input, const Settings& settings);
+
+// A batch that is not taken up again leaves no other results beside its own. InputError where the folder
+// holds those of images that are not among these.
+void require_no_other_results(const std::filesystem::path& out, std::span<const InputImage> images);
+// The same, and removes what an earlier run wrote of these images. Other files stay.
+void start_anew(const std::filesystem::path& out, std::span<const InputImage> images);
 
 // results.csv, from the JSON files of the images that are finished: those that an earlier run left of others
 // are no results of this one. Its rows, and those out of sight, are counted in the summary.

@@ -52,6 +52,7 @@ std::vector<TemplateSet> template_sets(const DetectRequest& request, std::span<c
   if (request.batch.joint) require_joinable(images);
   require_other_folder(images, request.batch.out);
   require_writable_place(request.batch.out);
+  if (!request.batch.resume) require_no_other_results(request.batch.out, images);
   return template_sets_of(known, request.templates, camera, backend);
 }
 

@@ -157,7 +157,7 @@ void save_overlay(const ReadyJob& ready, std::size_t view, const Detections& fou
                      edge_models[static_cast<std::size_t>(d.object)].mesh.name});
   const EdgeIndex edges(prepared.edges, prepared.camera.width, prepared.camera.height);
   save_png(draw_overlay(prepared.image, prepared.camera, poses, edge_models, &edges, backend),
-           options.out / (ready.job->views[view].name + "_overlay.png"));
+           overlay_of(options.out, ready.job->views[view]));
 }
 
 // The images that starts were given in: those that get a result of their own.
@@ -257,6 +257,12 @@ class Registrar {
   std::vector<EdgeModel> edge_models_;
 };
 
+std::vector<InputImage> all_views(std::span<const RegisterJob> jobs) {
+  std::vector<InputImage> views;
+  for (const RegisterJob& job : jobs) views.insert(views.end(), job.views.begin(), job.views.end());
+  return views;
+}
+
 std::vector<InputImage> images_of(std::span<const RegisterJob> jobs) {
   std::vector<InputImage> images;
   for (const RegisterJob& job : jobs)
@@ -305,6 +311,7 @@ RegisterSummary run_register(std::span<const RegisterJob> jobs, std::span<const 
   summary.images = static_cast<int>(images.size());
   const std::vector<const RegisterJob*> open = skip_done(jobs, registrar, options.resume);
   require_writable_place(options.out);
+  if (!options.resume) start_anew(options.out, all_views(jobs));
   const auto write_with = [&](const std::exception& error) {
     summary.error = error.what();
     summary.seconds = seconds_since(start);

@@ -57,11 +57,11 @@ struct RegisterSummary : BatchSummary {  // images: those with starts
 
 // Writes into `out`: NAME.json for every image with starts, its detections in the order of the starts;
 // NAME_overlay.png of every view; and at the end, also one by any other error, results.csv with one row a
-// start and summary.json. A pose that no image shows gets probability 0 and OUT_OF_SIGHT, and is warned of. A
-// job with a bad image is listed and the batch goes on. Where all jobs fail the last one's error is thrown
-// and nothing is written. With `resume`, jobs whose results are there are skipped; InputError, and nothing is
-// written, where one of these was made with other models, cameras, views, starts or settings. Another image's
-// result of the same name is none of these.
+// start and summary.json; of earlier results as run_batch. A pose that no image shows gets probability 0 and
+// OUT_OF_SIGHT, and is warned of. A job with a bad image is listed and the batch goes on. Where all jobs fail
+// the last one's error is thrown and nothing is written. With `resume`, jobs whose results are there are
+// skipped; InputError, and nothing is written, where one of these was made with other models, cameras, views,
+// starts or settings. Another image's result of the same name is none of these.
 RegisterSummary run_register(std::span<const RegisterJob> jobs, std::span<const RegisterModel> models,
                              Backend& backend, const RegisterOptions& options);
 

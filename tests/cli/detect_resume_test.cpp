@@ -63,6 +63,28 @@ TEST(DetectResume, ListsNoOlderResultOfAnImageThatFailsNow) {
   for (const BopResult& row : load_bop_results(t.out / "results.csv")) EXPECT_EQ(row.image_id, 0);
 }
 
+TEST(DetectResume, LeavesNothingOfAnEarlierRunBesideItsOwn) {
+  const Copies t(2);
+  ASSERT_EQ(run_program(t.arguments()).exit_code, 0);
+  t.folder.write("out/notes.json", "{}");
+  t.folder.write("images/b.png", "no image");
+  ASSERT_EQ(run_program(t.arguments({"--no-overlays"})).exit_code, 1);
+  EXPECT_TRUE(fs::exists(t.json(0)));
+  EXPECT_TRUE(fs::exists(t.out / "notes.json")) << "no result";
+  EXPECT_FALSE(fs::exists(t.json(1))) << "it failed now";
+  for (int i : {0, 1}) EXPECT_FALSE(fs::exists(t.out / (t.name(i) + "_overlay.png"))) << i;
+}
+
+TEST(DetectResume, RefusesAFolderWithResultsOfOtherImages) {
+  const Copies t(2);
+  ASSERT_EQ(run_program(t.arguments()).exit_code, 0);
+  const std::string before = content_of(t.out / "results.csv");
+  fs::remove(t.images / "b.png");
+  expect_refused(t.arguments(), {t.out, "b.json of another run", "another --out"});
+  EXPECT_EQ(content_of(t.out / "results.csv"), before);
+  EXPECT_TRUE(fs::exists(t.json(0)) && fs::exists(t.json(1)));
+}
+
 TEST(DetectResume, TakesNoOtherImagesResult) {
   const Copies t(1);
   fs::create_directories(t.folder.path() / "other");

@@ -228,6 +228,20 @@ TEST(Register, TakesNoOtherImagesResultWhenResumed) {
   EXPECT_LT(distance_between_m(rows[0].camera_from_object, in_b.camera_from_object), 0.005);
 }
 
+TEST(Register, RefusesAFolderWithResultsOfOtherImages) {
+  const TemporaryFolder folder;
+  const BopScene scene = load_bop_scene(two_views());
+  const BopResult in_0 = true_results(scene, 0)[0], in_1 = true_results(scene, 1)[0];
+  const fs::path starts = folder.path() / "starts.csv", out = folder.path() / "out";
+  const std::vector<std::string> call =
+      register_in(two_views(), starts, out, {"--search-rotation", "0", "--no-overlays"});
+  save_bop_results({in_0, in_1}, starts);
+  ASSERT_EQ(run_program(call).exit_code, 0);
+  save_bop_results({in_0}, starts);
+  expect_refused(call, {out, "000001_000001.json of another run", "another --out"});
+  EXPECT_EQ(load_bop_results(out / "results.csv").size(), 2u);
+}
+
 TEST(Register, RefusesResultsMadeWithOtherSettingsWhenResumed) {
   const SameNames t;
   const BopScene scene = load_bop_scene(two_views());
