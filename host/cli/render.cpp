@@ -55,9 +55,26 @@ std::string scene_folder(int scene) {
   return std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits;
 }
 
+// Scenes and images that an earlier run left beside the new ones would be taken for theirs.
+void require_no_other_scenes(const RenderRequest& request) {
+  std::error_code not_there;
+  for (const std::filesystem::directory_entry& entry :
+       std::filesystem::directory_iterator(request.out, not_there)) {
+    if (!is_bop_scene(entry.path())) continue;
+    const BopScene old = load_bop_scene(entry.path());
+    const int images = static_cast<int>(old.images.size());
+    if (old.scene_id >= request.scenes || images > request.options.views)
+      throw InputError(request.out, "output folder",
+                       "scene " + entry.path().filename().string() + " of " + std::to_string(images) +
+                           " images of an earlier run",
+                       "another --out, or at least as many --scenes and --views");
+  }
+}
+
 void render_scenes(const RenderRequest& request) {
   request.options.validate();
   const std::vector<Object> objects = load_objects(request);
+  require_no_other_scenes(request);
   const std::filesystem::path out = request.out;
   write_bop_models(objects, turning_axes(objects), out / "models");
   ThreadPool pool;

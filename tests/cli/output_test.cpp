@@ -45,6 +45,19 @@ TEST(Output, OntoAFullDiskLeavesNoPieces) {
   }
 }
 
+TEST(Output, MixesNoScenesOfTwoRuns) {
+  const TemporaryFolder folder;
+  const auto out = folder.path() / "out";
+  ASSERT_EQ(run_program(render_to(out, {"--scenes", "2", "--views", "2"})).exit_code, 0);
+  EXPECT_EQ(run_program(render_to(out, {"--scenes", "2", "--views", "2"})).exit_code, 0) << "the same again";
+  const std::string before = content_of(out / "000000/scene_gt.json");
+  expect_one_line(run_program(render_to(out, {"--views", "2", "--seed", "9"})),
+                  {out.string(), "scene 000001", "another --out"});
+  expect_one_line(run_program(render_to(out, {"--scenes", "2", "--seed", "9"})),
+                  {out.string(), "of 2 images", "another --out"});
+  EXPECT_EQ(content_of(out / "000000/scene_gt.json"), before);
+}
+
 TEST(Output, IsNotTouchedWhereAnOptionIsOutOfRange) {
   const TemporaryFolder folder;
   const auto out = folder.path() / "out";
