@@ -1,5 +1,6 @@
 // edgescout eval: how good the poses of a BOP results CSV are.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <iostream>
@@ -93,25 +94,58 @@ std::vector<EvaluationImage> load_images(const EvalRequest& request, std::span<c
 
 using Row = std::pair<std::string, Recalls>;
 
-std::vector<Row> evaluate_rows(const EvalRequest& request) {
+struct Evaluation {
+  std::vector<Row> rows;   // by object, "all" last
+  std::set<int> left_out;  // objects of the scenes without a model here
+};
+
+// Truths and estimates of objects without a model say nothing of the others. Returns their ids. InputError:
+// an estimate of an object that is not in the scenes either, no object of the scenes has a model.
+std::set<int> leave_out_others(std::vector<EvaluationImage>& images, const std::map<int, Object>& objects,
+                               const EvalRequest& request) {
+  std::set<int> left_out;
+  std::size_t judged = 0;
+  for (const EvaluationImage& image : images)
+    for (const BopTruth& truth : image.truth)
+      if (objects.contains(truth.object_id))
+        ++judged;
+      else
+        left_out.insert(truth.object_id);
+  if (judged == 0 && !left_out.empty())
+    throw InputError(
+        "command line", "--model", "none of the scenes' objects",
+        fmt::format("one of obj_id {} (--object-id says which a file is)", fmt::join(left_out, ", ")));
+  for (EvaluationImage& image : images) {
+    for (const BopResult& estimate : image.estimates)
+      if (!objects.contains(estimate.object_id) && !left_out.contains(estimate.object_id))
+        throw InputError(request.results, "obj_id", std::to_string(estimate.object_id),
+                         "the id of a given model or of an object in the scenes");
+    std::erase_if(image.truth, [&](const BopTruth& t) { return left_out.contains(t.object_id); });
+    std::erase_if(image.estimates, [&](const BopResult& e) { return left_out.contains(e.object_id); });
+  }
+  return left_out;
+}
+
+Evaluation evaluate_objects(const EvalRequest& request) {
   request.recall.validate();
   std::map<int, Object> objects;
   for (Object& object : load_objects(request.models, EVALUATION_SYMMETRY_STEPS))
     objects[object.id] = std::move(object);
   const std::vector<BopResult> results = load_bop_results(request.results);
-  const std::vector<EvaluationImage> images = load_images(request, results);
-  std::vector<Row> rows;
+  std::vector<EvaluationImage> images = load_images(request, results);
+  Evaluation evaluation;
+  evaluation.left_out = leave_out_others(images, objects, request);
   for (const auto& [id, recalls] : evaluate_by_object(images, objects, request.recall))
-    rows.emplace_back(std::to_string(id), recalls);
-  rows.emplace_back("all", evaluate(images, objects, request.recall));
-  return rows;
+    evaluation.rows.emplace_back(std::to_string(id), recalls);
+  evaluation.rows.emplace_back("all", evaluate(images, objects, request.recall));
+  return evaluation;
 }
 
 nlohmann::ordered_json row_json(const Recalls& r) {
   return {{"images", r.images},
           {"truths", r.truths},
           {"estimates", r.estimates},
-          {"ar", 0.5 * (r.ar_mssd + r.ar_mspd)},
+          {"ar_mssd_mspd", 0.5 * (r.ar_mssd + r.ar_mspd)},
           {"ar_mssd", r.ar_mssd},
           {"ar_mspd", r.ar_mspd},
           {"recalls_mssd", r.mssd},
@@ -123,7 +157,7 @@ nlohmann::ordered_json row_json(const Recalls& r) {
           {"false_positives_per_image", r.false_positives_per_image}};
 }
 
-void save_json(const std::vector<Row>& rows, const EvalRequest& request) {
+void save_json(const Evaluation& evaluation, const EvalRequest& request) {
   const RecallOptions& o = request.recall;
   nlohmann::ordered_json root{{"results", request.results},
                               {"scenes", request.scenes},
@@ -131,10 +165,22 @@ void save_json(const std::vector<Row>& rows, const EvalRequest& request) {
                               {"min_score", o.min_score},
                               {"max_angle_rad", o.max_angle_rad},
                               {"max_distance_m", o.max_distance_m},
-                              {"max_mspd_px", o.max_mspd_px}};
-  for (const auto& [object, recalls] : rows)
+                              {"max_mspd_px", o.max_mspd_px},
+                              {"symmetries", !request.models.models_info.empty()},
+                              {"objects_left_out", evaluation.left_out}};
+  for (const auto& [object, recalls] : evaluation.rows)
     (object == "all" ? root["all"] : root["objects"][object]) = row_json(recalls);
   write_file_atomically(request.json_file, json_text(root));
+}
+
+// What the figures leave out.
+void print_limits(const Evaluation& evaluation, const EvalRequest& request) {
+  if (!evaluation.left_out.empty())
+    std::cout << fmt::format("left out, truths and estimates, as they have no --model: objects {}\n",
+                             fmt::join(evaluation.left_out, ", "));
+  if (request.models.models_info.empty())
+    std::cout << "no symmetries without --models-info: a pose that looks the same as the truth counts as a "
+                 "miss\n";
 }
 
 void print_table(const std::vector<Row>& rows, const RecallOptions& o) {
@@ -142,22 +188,25 @@ void print_table(const std::vector<Row>& rows, const RecallOptions& o) {
       std::isinf(o.min_score) ? "all estimates" : fmt::format("estimates of score {} or more", o.min_score);
   std::cout << fmt::format(
       "{} images; truths seen by at least {:.0f} %; {}\n"
+      "AR(MSSD,MSPD): mean of BOP's average recalls MSSD and MSPD; BOP's own AR has VSD in it, which needs "
+      "depth\n"
       "pose: below {} rad and {} mm; mspd: below {} px; fp: estimates that match no truth so, an image\n\n"
-      "{:>6} {:>7} {:>9} {:>7} {:>7} {:>7} {:>9} {:>9} {:>7} {:>7}\n",
+      "{:>6} {:>7} {:>9} {:>13} {:>7} {:>7} {:>9} {:>9} {:>7} {:>7}\n",
       rows.back().second.images, 100 * o.min_visible_fraction, estimates, o.max_angle_rad,
-      1000 * o.max_distance_m, o.max_mspd_px, "object", "truths", "estimates", "AR", "MSSD", "MSPD", "pose",
-      "pose/sym", "mspd", "fp");
+      1000 * o.max_distance_m, o.max_mspd_px, "object", "truths", "estimates", "AR(MSSD,MSPD)", "MSSD",
+      "MSPD", "pose", "pose/sym", "mspd", "fp");
   for (const auto& [object, r] : rows)
     std::cout << fmt::format(
-        "{:>6} {:>7} {:>9} {:>7.3f} {:>7.3f} {:>7.3f} {:>9.3f} {:>9.3f} {:>7.3f} {:>7.2f}\n", object,
+        "{:>6} {:>7} {:>9} {:>13.3f} {:>7.3f} {:>7.3f} {:>9.3f} {:>9.3f} {:>7.3f} {:>7.2f}\n", object,
         r.truths, r.estimates, 0.5 * (r.ar_mssd + r.ar_mspd), r.ar_mssd, r.ar_mspd, r.recall_raw,
         r.recall_symmetric, r.recall_mspd, r.false_positives_per_image);
 }
 
 void run_eval(const EvalRequest& request) {
-  const std::vector<Row> rows = evaluate_rows(request);
-  if (!request.json_file.empty()) save_json(rows, request);
-  print_table(rows, request.recall);
+  const Evaluation evaluation = evaluate_objects(request);
+  if (!request.json_file.empty()) save_json(evaluation, request);
+  print_limits(evaluation, request);
+  print_table(evaluation.rows, request.recall);
 }
 
 }  // namespace
@@ -170,24 +219,29 @@ void add_eval(CLI::App& app, int& exit_code) {
   verb->add_option("scenes", request->scenes, "BOP scenes with scene_gt.json, or folders of them")
       ->required()
       ->type_name("DIR");
-  verb->add_option("--model", request->models.models, "STL, PLY, OBJ or CAO files")
+  verb->add_option("--model", request->models.models,
+                   "STL, PLY, OBJ or CAO files of the objects to judge; the scenes' others are left out")
       ->required()
       ->type_name("FILE");
   verb->add_option("--unit", request->models.unit, "Length unit of the model files: mm, cm, m or in")
       ->required();
-  verb->add_option("--models-info", request->models.models_info, "BOP models_info.json with symmetries")
+  verb->add_option("--models-info", request->models.models_info,
+                   "BOP models_info.json with symmetries; without it a pose that looks the same as the truth "
+                   "is a miss")
       ->type_name("FILE");
   verb->add_option("--object-id", request->models.object_ids,
                    "BOP ids of the models; default: the number their names end in");
   verb->add_option("--json", request->json_file, "Also write the figures here")->type_name("FILE");
   RecallOptions& o = request->recall;
   OptionTable(*verb, "Evaluation")
-      .bounded("min-visible", o.min_visible_fraction, 0.0, 1.0, "Truths seen by less are ignored")
+      .bounded("min-visible", o.min_visible_fraction, 0.0, 1.0,
+               "Truths of which a smaller fraction is seen are ignored")
       .bounded("min-score", o.min_score, -std::numeric_limits<double>::infinity(), 1e6,
-               "Estimates below it are dropped")
-      .bounded("max-angle", o.max_angle_rad, 1e-6, 3.2, "Of a right pose, rad")
-      .bounded("max-distance", o.max_distance_m, 1e-9, 100.0, "Of a right pose, m")
-      .bounded("max-mspd", o.max_mspd_px, 0.01, 10000.0, "Of a true find, px");
+               "Estimates of a lower score are dropped")
+      .bounded("max-angle", o.max_angle_rad, 1e-6, 3.2, "Largest angle of a right pose to the truth, rad")
+      .bounded("max-distance", o.max_distance_m, 1e-9, 100.0,
+               "Largest distance of a right pose from the truth, m")
+      .bounded("max-mspd", o.max_mspd_px, 0.01, 10000.0, "Largest MSPD of a true find, px");
   verb->callback([request, &exit_code] {
     run_eval(*request);
     exit_code = exit_done;

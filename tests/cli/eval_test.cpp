@@ -46,12 +46,44 @@ TEST(Eval, OfTheTruthIsOne) {
   EXPECT_EQ(all.at("images"), 3);
   EXPECT_EQ(all.at("truths"), 24);
   EXPECT_EQ(all.at("estimates"), 24);
-  for (const char* figure :
-       {"ar", "ar_mssd", "ar_mspd", "recall_pose_raw", "recall_pose_symmetric", "recall_mspd_below_max"})
+  for (const char* figure : {"ar_mssd_mspd", "ar_mssd", "ar_mspd", "recall_pose_raw", "recall_pose_symmetric",
+                             "recall_mspd_below_max"})
     EXPECT_NEAR(all.at(figure).get<double>(), 1, 1e-12) << figure;
   EXPECT_EQ(all.at("false_positives"), 0);
   EXPECT_EQ(evaluated.figures.at("objects").size(), 6u);
   EXPECT_NE(evaluated.outcome.out.find("all"), std::string::npos);
+  EXPECT_EQ(evaluated.outcome.out.find("left out"), std::string::npos) << evaluated.outcome.out;
+  EXPECT_EQ(evaluated.outcome.out.find("no symmetries"), std::string::npos) << evaluated.outcome.out;
+}
+
+// As BOP's own subsets are judged. What else the scenes and the results hold is neither missed nor false.
+TEST(Eval, JudgesTheObjectsWhoseModelsAreGiven) {
+  const TemporaryFolder folder;
+  std::vector<BopResult> rows = true_results(load_bop_scene(one_view()), 0);
+  const auto of_object_2 = std::ranges::count(rows, 2, &BopResult::object_id);
+  ASSERT_GT(of_object_2, 0);
+  for (BopResult& row : rows)
+    if (row.object_id != 2) row.camera_from_object.translation_m.z() -= 0.2;  // misses
+  save_bop_results(rows, folder.path() / "r.csv");
+  const fs::path json = folder.path() / "r.json";
+  const Outcome outcome = run_program(
+      {"eval", folder.path() / "r.csv", one_view(), "--model", part_file(2), "--unit", "mm", "--json", json});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto figures = nlohmann::json::parse(content_of(json));
+  EXPECT_EQ(figures.at("all").at("truths"), of_object_2);
+  EXPECT_EQ(figures.at("all").at("estimates"), of_object_2);
+  EXPECT_EQ(figures.at("all").at("recall_pose_raw"), 1.0);
+  EXPECT_EQ(figures.at("all").at("false_positives"), 0);
+  EXPECT_EQ(figures.at("objects").size(), 1u);
+  std::set<int> others;
+  for (const BopResult& row : rows)
+    if (row.object_id != 2) others.insert(row.object_id);
+  EXPECT_EQ(figures.at("objects_left_out").get<std::set<int>>(), others);
+  for (const char* words : {"left out, truths and estimates", "no symmetries without --models-info"})
+    EXPECT_NE(outcome.out.find(words), std::string::npos) << outcome.out;
+  expect_refused({"eval", folder.path() / "r.csv", one_view(), "--model", part_file(2), "--unit", "mm",
+                  "--object-id", "77"},
+                 {"--model", "none of the scenes' objects", "--object-id"});
 }
 
 // Scene 0 holds 8 parts. Of their poses one comes 200 mm nearer to the camera: a miss by every measure and a
@@ -114,7 +146,7 @@ TEST(Eval, RefusesWhatItCannotJudge) {
   expect_refused(eval_of(results(row), one_view(), to_json), {"r.csv", "im_id", "3"});
   row = good;
   row.object_id = 12;
-  expect_refused(eval_of(results(row), one_view(), to_json), {"obj_id", "12"});
+  expect_refused(eval_of(results(row), one_view(), to_json), {"r.csv", "obj_id", "12"});
   expect_refused(eval_of(results(good), folder.path(), to_json), {"scene_camera.json"});
   expect_refused(eval_of(results(good), one_view(), joined({to_json, {"--min-visible", "2"}})),
                  {"--min-visible", "found 2", "0 to 1"});
