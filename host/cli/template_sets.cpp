@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "host/cli/progress.h"
+#include "host/core/log.h"
 #include "kernels/backend.h"
 #include "kernels/error.h"
 
@@ -49,6 +50,18 @@ KnownModels load_models(const ModelArguments& arguments) {
   return known;
 }
 
+namespace {
+
+// Where a unit or a distance is wrong by a factor, these two do not fit together.
+void tell_sizes(const TemplateSet& set) {
+  log(LogLevel::Info,
+      fmt::format("object {} ({}): diameter {:.1f} mm, looked for {:.3f} to {:.3f} m from the camera",
+                  set.object_id, set.model.mesh.name, 1000 * set.model.mesh.diameter_m,
+                  set.options.distance_min_m, set.options.distance_max_m));
+}
+
+}  // namespace
+
 std::vector<TemplateSet> template_sets_of(const KnownModels& known, const TemplateOptions& options,
                                           const Camera& camera, Backend& backend) {
   std::vector<TemplateSet> sets = known.sets;
@@ -57,6 +70,7 @@ std::vector<TemplateSet> template_sets_of(const KnownModels& known, const Templa
     sets.push_back(build_templates(object, with_default_distances(options, object.mesh.diameter_m, camera),
                                    backend, [&](int done, int all) { progress.move_to(100 * done / all); }));
   }
+  for (const TemplateSet& set : sets) tell_sizes(set);
   return sets;
 }
 

@@ -25,7 +25,8 @@ struct KnownModels {
 // InputError: neither meshes nor templates or both, one that cannot be read, an id given twice.
 KnownModels load_models(const ModelArguments& arguments);
 
-// Builds what is not built yet, saying on standard error how far it is. Distances left at 0:
+// Builds what is not built yet, saying on standard error how far it is; logs the size of every object and how
+// far away it is looked for. Distances left at 0:
 // with_default_distances for `camera`.
 std::vector<TemplateSet> template_sets_of(const KnownModels& known, const TemplateOptions& options,
                                           const Camera& camera, Backend& backend);

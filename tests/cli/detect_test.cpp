@@ -57,6 +57,9 @@ TEST(Detect, FindsThePartInOneImage) {
   const Outcome outcome = run_program(t.detect(t.image(), joined({bracket(), {"--camera", t.camera()}})));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("1 images: 1 done, 0 skipped, 0 failed"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.err.find("object 1 (obj_000001): diameter 74.9 mm, looked for 0.270 to 0.330 m"),
+            std::string::npos)
+      << outcome.err;
   const ImageResult result = load_image_result(t.out / "000000.json");
   expect_sound(result, t.image());
   EXPECT_EQ(content_of(t.out / "results.csv").find("scene_id,im_id,obj_id,score,R,t,time\n"), 0u);

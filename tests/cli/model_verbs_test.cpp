@@ -21,6 +21,7 @@ TEST(ModelBuild, WritesASetThatReadsBack) {
   const Outcome plain = run_program(build(file, distances));
   ASSERT_EQ(plain.exit_code, 0) << plain.err;
   EXPECT_NE(plain.err.find("templates of obj_000002: 100/100"), std::string::npos) << plain.err;
+  EXPECT_NE(plain.out.find("object 2, diameter "), std::string::npos) << plain.out;
   const TemplateSet set = load_templates(file);
   EXPECT_EQ(set.object_id, 2);
   EXPECT_EQ(set.views.size(), 42u);
