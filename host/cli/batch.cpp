@@ -251,6 +251,7 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
   }
   require_writable_place(options.out);
   if (!options.resume) start_anew(options.out, images);
+  warn_of_unknown_size({settings.camera, options.camera_file, options.scale_camera});
   try {
     work_through(open, preparer, detector);
   } catch (const std::exception& error) {

@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "host/core/log.h"
 #include "host/io/camera_file.h"
 #include "host/io/mesh.h"
+#include "host/model/template_set.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -120,6 +122,15 @@ void require_other_folder(std::span<const InputImage> images, const fs::path& ou
       throw InputError("command line", "--out", "the folder of the images", "another one");
 }
 
+void warn_of_unknown_size(const GivenCamera& given) {
+  if (given.camera && given.camera->width == 0)
+    log(LogLevel::Warning,
+        fmt::format(
+            "{}: width, height: found none, expected the size of the calibration's images: taken to be "
+            "that of every image",
+            given.file));
+}
+
 Camera camera_of(const InputImage& image, int width, int height, const GivenCamera& given) {
   if (!given.camera && !image.camera)
     throw InputError(image.file.string(), "camera", "none", "--camera FILE");
@@ -131,6 +142,9 @@ Camera camera_of(const InputImage& image, int width, int height, const GivenCame
 }
 
 std::vector<Object> load_objects(const ModelArguments& arguments, int continuous_steps) {
+  for (const std::string& file : arguments.models)
+    if (is_template_file(file))
+      throw InputError(file, "model", "a template file", "a CAD file (templates are given with --templates)");
   if (arguments.unit.empty())
     throw InputError("command line", "--unit", "none", "mm, cm, m or in: mesh files carry no unit");
   if (!arguments.object_ids.empty() && arguments.object_ids.size() != arguments.models.size())

@@ -53,6 +53,9 @@ struct GivenCamera {
   std::string file;
   bool may_scale = false;  // to images of another size
 };
+// Warns of a calibration of unknown size, which fits images of every size and may be wrong for most.
+void warn_of_unknown_size(const GivenCamera& given);
+
 // Of an image of this size. InputError naming the image and its calibration: there is none, one that does not
 // fit.
 Camera camera_of(const InputImage& image, int width, int height, const GivenCamera& given);

@@ -98,6 +98,11 @@ RgbImage contact_sheet(const EdgeModel& model, const Viewpoints& viewpoints, con
 void draw(const DrawRequest& request) {
   const std::unique_ptr<Backend> backend = make_backend(request.device);
   TemplateSet set;
+  const bool holds_templates = is_template_file(request.file);
+  if (holds_templates && !request.unit.empty())
+    throw InputError("command line", "--unit", "beside " + request.file, "it with a CAD file");
+  if (!holds_templates && request.unit.empty() && std::filesystem::exists(request.file))
+    throw InputError(request.file, "--unit", "none", "mm, cm, m or in: no template file, which needs none");
   if (request.unit.empty())
     set = load_templates(request.file);
   else

@@ -312,6 +312,7 @@ RegisterSummary run_register(std::span<const RegisterJob> jobs, std::span<const 
   const std::vector<const RegisterJob*> open = skip_done(jobs, registrar, options.resume);
   require_writable_place(options.out);
   if (!options.resume) start_anew(options.out, all_views(jobs));
+  warn_of_unknown_size({options.camera, options.camera_file, options.scale_camera});
   const auto write_with = [&](const std::exception& error) {
     summary.error = error.what();
     summary.seconds = seconds_since(start);

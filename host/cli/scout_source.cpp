@@ -47,11 +47,27 @@ ScoutSource make_cell(const SourceRequest& request, std::span<const Object> obje
   return made;
 }
 
+// A BOP dataset has scenes in its folders, or in those of its splits; empty where there are none.
+std::filesystem::path scene_below(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::error_code unreadable;
+  for (fs::recursive_directory_iterator entry(folder, unreadable), end; !unreadable && entry != end;
+       entry.increment(unreadable)) {
+    if (is_bop_scene(entry->path())) return entry->path();
+    if (entry.depth() >= 1) entry.disable_recursion_pending();
+  }
+  return {};
+}
+
 ScoutSource make_recorded(const SourceRequest& request) {
   if (!request.views_file.empty())
     throw InputError("command line", "--views", "a list for recorded views", "their own poses");
   if (!std::filesystem::is_directory(request.source))
     throw InputError(request.source, "source", "no folder", "\"cell\" or a folder of recorded views");
+  if (!is_bop_scene(request.source))
+    if (const std::filesystem::path scene = scene_below(request.source); !scene.empty())
+      throw InputError(request.source, "source", "a folder of BOP scenes",
+                       "one of them, such as " + scene.string());
   std::optional<Camera> camera;
   if (!request.camera_file.empty()) camera = load_camera(request.camera_file);
   ScoutSource made;

@@ -79,9 +79,15 @@ Camera camera_from_yaml(const YAML::Node& root, const std::string& source) {
 Camera camera_from_json(const std::filesystem::path& file) {
   const nlohmann::json content = read_json(file);
   const JsonField root{content, file.string(), ""};
-  if (root.has("fx") || root.has("fy") || root.has("cx")) return camera_from_bop(root);
+  constexpr const char* forms =
+      "fx, fy, cx, cy, width and height (BOP's camera.json), or cam_K, or an entry with cam_K for each image "
+      "(scene_camera.json)";
+  if (!content.is_object()) root.fail("no fields", forms);
+  for (const char* name : {"fx", "fy", "cx", "cam_K"})
+    if (root.has(name)) return camera_from_bop(root);
   std::optional<Camera> common;
   for (const auto& [id, value] : content.items()) {
+    if (!value.is_object()) root.fail("a field \"" + id + "\"", forms);
     const Camera camera = camera_from_bop(root.at(id));
     if (common && (camera.fx != common->fx || camera.fy != common->fy || camera.cx != common->cx ||
                    camera.cy != common->cy || camera.distortion != common->distortion))
@@ -89,7 +95,7 @@ Camera camera_from_json(const std::filesystem::path& file) {
                        "one camera (give the scene's folder to use one for each image)");
     common = camera;
   }
-  if (!common) root.fail("no camera", "fx, fy, cx, cy or an entry with cam_K for each image");
+  if (!common) root.fail("no camera", forms);
   return *common;
 }
 

@@ -9,7 +9,8 @@ namespace edgescout {
 
 // ROS: image_width, image_height, camera_matrix, distortion_model (plumb_bob, rational_polynomial),
 // distortion_coefficients. OpenCV: `%YAML:1.0` with camera_matrix / cameraMatrix / K, distortion_coefficients
-// / dist_coeffs / D, image_width, image_height. BOP camera.json: fx fy cx cy width height. InputError naming
+// / dist_coeffs / D, image_width, image_height. BOP camera.json: fx fy cx cy width height; an
+// entry of scene_camera.json, or all where they agree: cam_K, no size. InputError naming
 // file and field: missing, not finite, negative focal length, unknown distortion model.
 Camera load_camera(const std::filesystem::path& file);
 

@@ -1,4 +1,7 @@
 // The template file (io/binary_file.h).
+#include <array>
+#include <fstream>
+
 #include "host/io/binary_file.h"
 #include "host/io/mesh.h"
 #include "host/model/template_set.h"
@@ -82,6 +85,12 @@ void save_templates(const TemplateSet& set, const std::filesystem::path& file) {
 
 TemplateSet load_templates(const std::filesystem::path& file) {
   return set_from(read_binary_file(file, format), file.string());
+}
+
+bool is_template_file(const std::filesystem::path& file) {
+  std::array<char, 8> start{};
+  std::ifstream(file, std::ios::binary).read(start.data(), start.size());
+  return start == format.magic;
 }
 
 }  // namespace edgescout

@@ -14,12 +14,13 @@ void TemplateOptions::validate() const {
   if (frequency < 1 || frequency > 16) fail("frequency", frequency, "a number in [1, 16]");
   if (in_plane_steps < 1 || in_plane_steps > 360)
     fail("in_plane_steps", in_plane_steps, "a number in [1, 360]");
+  const char *min = "distance_min (--distance-min)", *max = "distance_max (--distance-max)";
   if (!(distance_min_m >= 0 && distance_min_m <= 1000))
-    fail("distance_min", distance_min_m, "a length in [0, 1000] m, 0 for automatic");
-  if (!(distance_max_m >= distance_min_m && distance_max_m <= 1000))
-    fail("distance_max", distance_max_m, "at least distance_min, at most 1000 m");
+    fail(min, distance_min_m, "a length in [0, 1000] m, 0 for automatic");
   if ((distance_min_m == 0) != (distance_max_m == 0))
-    fail("distance_min", distance_min_m, "both distances, or neither");
+    fail(distance_min_m == 0 ? min : max, 0, "both --distance-min and --distance-max, or neither");
+  if (!(distance_max_m >= distance_min_m && distance_max_m <= 1000))
+    fail(max, distance_max_m, "at least --distance-min, at most 1000 m");
   if (!(distance_ratio > 1 && distance_ratio <= 2))
     fail("distance_ratio", distance_ratio, "a ratio in (1, 2]");
   if (!(range.latitude_min_deg <= range.latitude_max_deg))

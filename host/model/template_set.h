@@ -55,5 +55,7 @@ TemplateSet build_templates(const Object& object, const TemplateOptions& options
 // with a wrong checksum or no template file at all.
 void save_templates(const TemplateSet& set, const std::filesystem::path& file);
 TemplateSet load_templates(const std::filesystem::path& file);
+// By how it begins; false where it cannot be read.
+bool is_template_file(const std::filesystem::path& file);
 
 }  // namespace edgescout

@@ -219,8 +219,9 @@ TEST(Detect, RefusesTheOnlyImageWhereItIsTooLarge) {
   const SmallScene t;
   const fs::path wide = t.folder.path() / "wide.png";
   save_png(Image{32767, 120, std::vector<std::uint8_t>(32767 * 120, 128)}, wide);
-  const std::string lens =
-      t.folder.write("lens.yaml", "K: [400, 0, 159.5, 0, 400, 119.5, 0, 0, 1]\nD: [0.1, 0, 0, 0, 0]\n");
+  const std::string lens = t.folder.write("lens.yaml",
+                                          "image_width: 32767\nimage_height: 120\nK: [400, 0, 159.5, 0, 400, "
+                                          "59.5, 0, 0, 1]\nD: [0.1, 0, 0, 0, 0]\n");
   const Outcome outcome = run_program(t.detect(wide, joined({bracket(), {"--camera", lens}})));
   EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
   const std::size_t error = outcome.err.find("edgescout: error: ");
@@ -253,6 +254,19 @@ TEST(Detect, RefusesCamerasThatDoNotFit) {
   refused({"--camera", t.camera("400", 640, 480)}, {"camera.yaml", "320x240", "640x480", "--scale-camera"});
   refused({"--camera", t.camera("400", 640, 400), "--scale-camera"}, {"camera.yaml", "320x240", "640x400"});
   refused({"--joint", "--camera", t.camera()}, {"000000.png", "world pose", "--joint"});
+}
+
+TEST(Detect, WarnsOfACalibrationOfUnknownSize) {
+  const SmallScene t;
+  const std::string sizeless = t.folder.write("k.yaml", "K: [400, 0, 159.5, 0, 400, 119.5, 0, 0, 1]\n");
+  const auto warned = [&](const std::string& camera) {
+    const Outcome outcome = run_program(t.detect(t.image(), joined({bracket(), {"--camera", camera}})));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.err.find("edgescout: warning: " + camera + ": width, height: found none") !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(warned(sizeless));
+  EXPECT_FALSE(warned(t.camera()));
 }
 
 TEST(Detect, ScalesTheCameraWhereAllowed) {

@@ -51,7 +51,9 @@ TEST(ModelBuild, RefusesAndWritesNothing) {
   const fs::path out = folder.path() / "out/part.est";
   expect_refused(build(out), {"--distance-min", "--camera"});
   expect_refused(build(out, {"--distance-min", "0.6", "--distance-max", "0.3"}),
-                 {"distance_max", "at least distance_min"});
+                 {"--distance-max", "found 0.3", "at least --distance-min"});
+  expect_refused(build(out, {"--distance-min", "0.6"}), {"--distance-max", "both", "--distance-min"});
+  expect_refused(build(out, {"--distance-max", "0.6"}), {"--distance-min", "both", "--distance-max"});
   expect_refused(build(out, {"--distance-min", "0.6", "--distance-ratio", "1"}),
                  {"--distance-ratio", "found 1"});
   expect_refused(build(out, joined({distances, {"--symmetry", "q4"}})), {"--symmetry", "q4"});
@@ -86,7 +88,9 @@ TEST(ModelDraw, DrawsMeshesAndSets) {
     }
     fs::remove(picture);
   }
-  expect_refused({"model", "draw", part_file(2), "--out", picture}, {"obj_000002.ply", "template file"});
+  expect_refused({"model", "draw", part_file(2), "--out", picture},
+                 {"obj_000002.ply", "--unit", "none", "mm, cm, m or in", "template file"});
+  expect_refused({"model", "draw", set, "--unit", "mm", "--out", picture}, {"--unit", "part.est"});
   expect_refused({"model", "draw", set, "--tile", "9", "--out", picture}, {"--tile", "found 9"});
   EXPECT_FALSE(fs::exists(picture));
 }
@@ -112,6 +116,10 @@ TEST(Templates, DamagedFilesAreRefused) {
   refused(folder.write("version.est", version), {"version.est", "version", "expected 1"});
   refused(folder.write("sum.est", payload), {"sum.est", "checksum"});
   refused(folder.path() / "none.est", {"none.est", "No such file"});
+  const std::string tells = "a CAD file (templates are given with --templates)";
+  expect_refused({"detect", one_view(), "--model", file, "--out", out}, {"part.est", "template file", tells});
+  expect_refused({"register", one_view(), "--poses", starts, "--model", file, "--unit", "mm", "--out", out},
+                 {"part.est", "template file", tells});
   expect_refused({"register", one_view(), "--poses", starts, "--templates", file, file, "--out", out},
                  {"part.est", "object id", "2 twice"});
   EXPECT_FALSE(fs::exists(out));

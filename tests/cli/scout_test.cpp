@@ -371,6 +371,9 @@ TEST(Scout, RefusesWhatItCannotUse) {
   };
   refused({"scout", "nowhere", "--out", t.out, "--device", "cpu", "--model", part_file(1), "--unit", "mm"},
           {"nowhere", "cell"});
+  for (const fs::path& dataset : {examples(), examples() / "scenes"})
+    refused({"scout", dataset, "--out", t.out, "--device", "cpu", "--model", part_file(1), "--unit", "mm"},
+            {dataset, "a folder of BOP scenes", "one of them, such as " + (examples() / "scenes").string()});
   refused({"scout", "cell", "--out", t.out, "--device", "cpu"}, {"--model"});
   refused(t.arguments({"--camera", "x.yaml"}), {"--camera", "cell"});
   refused(t.arguments({"--strategy", "best"}), {"strategy", "best", "mi-max"});

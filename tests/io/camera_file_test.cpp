@@ -84,6 +84,8 @@ TEST(LoadCamera, ReadsASceneCameraWhoseImagesAgree) {
   expect_input_error(
       [&] { load(replaced(same, "\"7\": {\"cam_K\": [5", "\"7\": {\"cam_K\": [9"), "scene_camera.json"); },
       {"scene_camera.json", "/7", "one camera"});
+  const Camera alone = load(R"({"cam_K": [5, 0, 3, 0, 6, 4, 0, 0, 1], "depth_scale": 1})", "camera.json");
+  EXPECT_EQ(alone.fy, 6) << "one entry by itself";
 }
 
 TEST(LoadCamera, NamesFileAndFieldOfWhatIsMissing) {
@@ -102,6 +104,9 @@ TEST(LoadCamera, NamesFileAndFieldOfWhatIsMissing) {
       {"distortion_coefficients", "3 coefficients"});
   expect_input_error([] { load(replaced(bop, "\"fy\": 601.5, ", ""), "camera.json"); },
                      {"camera.json", "/fy", "nothing"});
+  for (const char* other : {"{}", "[600, 600]", "{\"K\": [600, 0, 320, 0, 600, 240, 0, 0, 1]}"})
+    expect_input_error([&] { load(other, "camera.json"); },
+                       {"camera.json", "fx, fy, cx, cy, width and height", "cam_K"});
   expect_input_error([] { load("{}", "camera.json"); }, {"camera.json", "no camera"});
   expect_input_error([] { load("", "camera.yaml"); }, {"camera.yaml"});
   expect_input_error([] { load("just text"); }, {"camera.yaml"});
