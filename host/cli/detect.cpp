@@ -86,11 +86,13 @@ void add_detect(CLI::App& app, int& exit_code) {
   verb->add_option("inputs", request->inputs, "Images, folders of images, BOP scenes or folders of them")
       ->required();
   add_model_arguments(*verb, request->models);
-  verb->add_option("--camera", request->batch.camera_file,
-                   "ROS or OpenCV YAML, or BOP camera JSON; BOP scenes bring their own")
+  verb->add_option(
+          "--camera", request->batch.camera_file,
+          "Calibration of the images: ROS or OpenCV YAML, or BOP camera JSON; BOP scenes bring their own")
       ->type_name("FILE");
   verb->add_option("--out", request->out, "Folder of the results")->required()->type_name("DIR");
-  verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
+  verb->add_option("--device", request->device,
+                   "Device to compute on: auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
       ->capture_default_str();
   OptionTable(*verb, "Batch")
       .flag("scale-camera", request->batch.scale_camera,

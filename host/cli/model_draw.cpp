@@ -126,13 +126,13 @@ void add_model_draw(CLI::App& model, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--out", request->out, "PNG file")->required()->type_name("FILE");
   OptionTable(*verb, "Picture")
-      .bounded("columns", request->columns, 1, 16, "Of viewpoints")
-      .bounded("rows", request->rows, 1, 16, "Of viewpoints")
+      .bounded("columns", request->columns, 1, 16, "Columns of pictures")
+      .bounded("rows", request->rows, 1, 16, "Rows of pictures")
       .bounded("tile", request->tile_px, 64, 1024, "Side of one viewpoint's picture, px")
       .bounded("crease-angle", request->edges.crease_angle_deg, 1.0, 179.0,
-               "Sharper mesh edges are drawn, degrees")
+               "Mesh edges are drawn where the normals of their faces differ by more, degrees")
       .bounded("raster-step", request->edges.raster_step_m, 0.0, 1.0,
-               "Between edge points, m; 0: diameter / 80");
+               "Distance between the points of drawn edges, m; 0: diameter / 80");
   verb->callback([request, &exit_code] {
     draw(*request);
     exit_code = exit_done;

@@ -76,18 +76,21 @@ void add_files(CLI::App& verb, RegisterRequest& request) {
           "{image, object, R, t} (t in m); R and t map the object frame to the camera frame")
       ->required()
       ->type_name("FILE");
-  verb.add_option("--model", request.models.models, "STL, PLY, OBJ or CAO files")->type_name("FILE");
+  verb.add_option("--model", request.models.models, "CAD files of the objects: STL, PLY, OBJ or CAO")
+      ->type_name("FILE");
   verb.add_option("--unit", request.models.unit, "Length unit of the model files: mm, cm, m or in");
   verb.add_option("--object-id", request.models.object_ids,
                   "BOP ids of the models; default: the number their names end in");
   verb.add_option("--templates", request.template_files,
                   "Template files of `edgescout model build`, in place of --model")
       ->type_name("FILE");
-  verb.add_option("--camera", request.options.camera_file,
-                  "ROS or OpenCV YAML, or BOP camera JSON; BOP scenes bring their own")
+  verb.add_option(
+          "--camera", request.options.camera_file,
+          "Calibration of the images: ROS or OpenCV YAML, or BOP camera JSON; BOP scenes bring their own")
       ->type_name("FILE");
   verb.add_option("--out", request.out, "Folder of the results")->required()->type_name("DIR");
-  verb.add_option("--device", request.device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
+  verb.add_option("--device", request.device,
+                  "Device to compute on: auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
       ->capture_default_str();
 }
 
@@ -103,9 +106,11 @@ void add_register(CLI::App& app, int& exit_code) {
       .flag("multi-view", request->multi_view,
             "Refine each pose over all views of its BOP scene at once (needs world poses)")
       .bounded("search-rotation", refine.search.rotation_rad, 0.0, 1.0,
-               "Also start turned by so much about 14 axes, rad; 0: from the given pose alone")
-      .bounded("survivors", refine.search.survivors, 1, 15, "Of those starts, registered in full")
-      .flag("no-polish", request->no_polish, "Leave out the last step, on sub-pixel edge points");
+               "Angle by which starts are also turned, about 14 axes, rad; 0: from the given pose alone")
+      .bounded("survivors", refine.search.survivors, 1, 15,
+               "Starts of each pose that are registered in full: the best, of the given one and those turned")
+      .flag("no-polish", request->no_polish,
+            "Leave out the last step of the refinement, on sub-pixel edge points");
   OptionTable(*verb, "Batch")
       .flag("scale-camera", request->options.scale_camera,
             "Accept images whose size is a pure scale of the calibration's")

@@ -179,28 +179,33 @@ int scout(ScoutRequest& request, const CLI::App& verb) {
 void add_loop_options(CLI::App& verb, ScoutRequest& r) {
   ScoutOptions& o = r.options;
   OptionTable(verb, "Budget")
-      .bounded("max-views", o.max_views, 1, 1000000, "Images at most")
-      .bounded(
-          "min-entropy", o.min_entropy_nats, 0.0, 1e6,
-          "Ends where the modes are as certain as that and the last image showed no new candidate, nats; 0: "
-          "never")
+      .bounded("max-views", o.max_views, 1, 1000000, "Largest number of images")
+      .bounded("min-entropy", o.min_entropy_nats, 0.0, 1e6,
+               "End where the modes are as certain as that and the last image showed no new candidate, nats; "
+               "0: never")
       .bounded("min-information", o.min_information_nats, 0.0, 1e6,
-               "Ends where the best view, its way's cost taken off, is expected to tell less, nats; 0: never")
+               "End where every view is expected to tell less about the candidates, its way's cost taken "
+               "off, nats; what is expected of the unknown (--unknown) does not count; 0: never")
       .bounded("min-gained", o.min_gained_nats, 0.0, 1e6,
-               "Ends where the last image told less and showed no new candidate, nats; 0: never")
-      .bounded("max-seconds", o.max_seconds, 0.0, 1e9, "Of computing; 0: no limit");
+               "End where the last image told less and showed no new candidate, nats; 0: never")
+      .bounded("max-seconds", o.max_seconds, 0.0, 1e9,
+               "End after so much time of computing, s; asked between images only: an image that is begun is "
+               "finished; 0: no limit");
   OptionTable(verb, "Next view")
       .choice("strategy", r.strategy, {"mi-max", "dis", "random", "fixed"},
-              "Most information, most disoccluded points, any view, or in the order of --sequence")
-      .bounded("first-view", o.first_view, 0, 1000000, "The first image's")
+              "What the next view is chosen by, mi-max: most information; dis: most disoccluded points; "
+              "random: any; fixed: the order of --sequence")
+      .bounded("first-view", o.first_view, 0, 1000000,
+               "Number of the view that the first image is taken from")
       .bounded("metre-cost", o.next_view.motion_cost_per_m, 0.0, 1e6,
-               "Taken off for a metre of the camera's way, nats")
+               "Information taken off a view for each metre of the camera's way to it, nats")
       .bounded("radian-cost", o.next_view.motion_cost_per_rad, 0.0, 1e6,
-               "And for a radian of its turn, nats");
+               "Information taken off a view for each radian of the camera's turn to it, nats");
   OptionTable(verb, "Belief")
       .bounded("draws-seed", r.draws_seed, 0u, 4000000000u,
-               "Of particles, imagined scenes and the views of strategy random");
-  verb.add_option("--sequence", r.sequence, "Views of strategy fixed; default: all in order")
+               "Seed of particles, imagined scenes and the views of strategy random");
+  verb.add_option("--sequence", r.sequence,
+                  "Numbers of the views that strategy fixed takes, in order; default: all")
       ->group("Next view");
   add_belief_options(verb, o);
 }
@@ -214,7 +219,8 @@ void add_scout(CLI::App& app, int& exit_code) {
   add_source_options(*verb, request->source);
   add_model_arguments(*verb, request->models);
   verb->add_option("--out", request->out, "Folder of the results")->required()->type_name("DIR");
-  verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
+  verb->add_option("--device", request->device,
+                   "Device to compute on: auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
       ->capture_default_str();
   OptionTable(*verb, "Run")
       .flag("watch", request->watch, "Write the page after every step, so that a browser follows it")

@@ -95,8 +95,9 @@ void add_source_options(CLI::App& verb, SourceRequest& r) {
                   "\"cell\": a rendered scene of the models; or a folder of recorded views: a BOP scene, or "
                   "one with CameraPose and Images")
       ->required();
-  verb.add_option("--camera", r.camera_file,
-                  "Of recorded views: ROS or OpenCV YAML, or BOP camera JSON; BOP scenes bring their own")
+  verb.add_option(
+          "--camera", r.camera_file,
+          "Camera of recorded views: ROS or OpenCV YAML, or BOP camera JSON; BOP scenes bring their own")
       ->type_name("FILE");
   verb.add_option("--views", r.views_file,
                   "Views of a cell, in place of the hemisphere: [{camera_from_world: {R, t}} ..]")
@@ -104,18 +105,22 @@ void add_source_options(CLI::App& verb, SourceRequest& r) {
       ->group("Views");
   OptionTable(verb, "Views")
       .bounded("radius", r.hemisphere.radius_m, 0.0, 100.0,
-               "Of the hemisphere of views, m; 0: so that the parts fill the image")
-      .bounded("view-count", r.hemisphere.count, 1, 10000, "On it");
-  verb.add_option("--elevations", r.hemisphere.elevations_deg, "Of its rings, degrees above the board")
+               "Radius of the hemisphere of views, m; 0: so that the parts fill the image")
+      .bounded("view-count", r.hemisphere.count, 1, 10000, "Views on the hemisphere");
+  verb.add_option("--elevations", r.hemisphere.elevations_deg,
+                  "Elevations of the hemisphere's rings of views, degrees above the board")
       ->capture_default_str()
       ->group("Views");
-  verb.add_option("--center", r.center_m, "Of it, m: x y z")->expected(3)->group("Views");
+  verb.add_option("--center", r.center_m, "Middle of the hemisphere of views, m: x y z")
+      ->expected(3)
+      ->group("Views");
   add_scene_options(verb, r.scene);
   OptionTable(verb, "Arm")
       .bounded("arm-shift", r.arm.translation_m, 0.0, 1.0,
-               "By which a cell's arm misses its place, standard deviation of each axis, m")
-      .bounded("arm-turn", r.arm.rotation_rad, 0.0, 1.0, "And its direction, rad")
-      .flag("arm-tells", r.arm.known, "Its encoders tell where it is");
+               "How far a cell's arm misses its place, standard deviation of each axis, m")
+      .bounded("arm-turn", r.arm.rotation_rad, 0.0, 1.0,
+               "How far a cell's arm misses its direction, standard deviation of each axis, rad")
+      .flag("arm-tells", r.arm.known, "The encoders of a cell's arm tell where it really is");
 }
 
 void refuse_unused(const CLI::App& verb) {

@@ -12,7 +12,8 @@
 namespace edgescout {
 
 void add_model_arguments(CLI::App& verb, ModelArguments& arguments) {
-  verb.add_option("--model", arguments.models, "STL, PLY, OBJ or CAO files")->type_name("FILE");
+  verb.add_option("--model", arguments.models, "CAD files of the objects to look for: STL, PLY, OBJ or CAO")
+      ->type_name("FILE");
   verb.add_option("--unit", arguments.unit, "Length unit of the model files: mm, cm, m or in");
   verb.add_option("--models-info", arguments.models_info, "BOP models_info.json with symmetries")
       ->type_name("FILE");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/io/sample_meshes.h"
 
@@ -28,6 +29,42 @@ TEST(Program, ExplainsItself) {
   EXPECT_EQ(version.exit_code, 0);
   EXPECT_TRUE(version.out.starts_with("edgescout "));
   EXPECT_EQ(run_program({"model", "inspect", "--help"}).exit_code, 0);
+}
+
+// What stands behind the names of the options; CLI11 begins it in this column.
+std::vector<std::string> descriptions(const std::string& help) {
+  constexpr std::size_t column = 30;
+  std::vector<std::string> texts;
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);)
+    if (line.size() > column && line[column - 1] == ' ' && line[column] != ' ')
+      texts.push_back(line.substr(column));
+  return texts;
+}
+
+// A reader comes to one option, not to the one above it.
+TEST(Program, ExplainsEveryOptionByItself) {
+  for (const std::vector<std::string>& verb : std::vector<std::vector<std::string>>{{"detect"},
+                                                                                    {"eval"},
+                                                                                    {"model", "build"},
+                                                                                    {"model", "draw"},
+                                                                                    {"register"},
+                                                                                    {"render"},
+                                                                                    {"scout"}}) {
+    std::vector<std::string> arguments = verb;
+    arguments.push_back("--help");
+    const std::vector<std::string> texts = descriptions(run_program(arguments).out);
+    EXPECT_GE(texts.size(), 8u) << verb.back();
+    for (const std::string& text : texts) {
+      for (const char* fragment : {"Of ", "And ", "On it", "As ", "By which", "The same", "px", "m;"})
+        EXPECT_FALSE(text.starts_with(fragment)) << verb.back() << ": " << text;
+      EXPECT_TRUE(text != "m" && text != "degrees") << verb.back();
+    }
+  }
+  const std::string scout = run_program({"scout", "--help"}).out;
+  for (const char* words :
+       {"asked between images only", "what is expected of the unknown (--unknown) does not"})
+    EXPECT_NE(scout.find(words), std::string::npos) << words;
 }
 
 TEST(Program, RejectsACommandLineItDoesNotUnderstand) {
