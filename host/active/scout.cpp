@@ -34,14 +34,6 @@ std::vector<ScoutObject> objects_of(std::span<const TemplateSet> sets) {
   return objects;
 }
 
-ScoutDecision without_expectations(int view, const NextViewOptions& options) {
-  ScoutDecision decision;
-  decision.view = view;
-  decision.strategy = options.strategy;
-  decision.literal = options.strategy == Strategy::Information && options.literal;
-  return decision;
-}
-
 }  // namespace
 
 Scout::Scout(std::span<const TemplateSet> sets, const Camera& camera,
@@ -66,26 +58,6 @@ Scout::Scout(std::span<const TemplateSet> sets, const Camera& camera,
   state_.views = std::move(camera_from_world_views);
 }
 
-// Line 13: where to look next.
-std::optional<ScoutDecision> Scout::propose() {
-  if (proposal_ || has_ended_) return proposal_;
-  if (const ScoutEnd end = end_before_planning(); end != ScoutEnd::No) {
-    state_.end = end;
-    return {};
-  }
-  ScoutDecision decision = decide();
-  state_.end = decision.view < 0           ? ScoutEnd::NoViewLeft
-               : little_to_learn(decision) ? ScoutEnd::LittleToLearn
-                                           : ScoutEnd::No;
-  has_ended_ = state_.end != ScoutEnd::No;
-  state_.overrule();  // of a run that was resumed
-  if (has_ended_)
-    state_.last_decision = std::move(decision);
-  else
-    proposal_ = std::move(decision);
-  return proposal_;
-}
-
 void Scout::give(int view, const Image& image) {
   check(view >= 0 && view < static_cast<int>(state_.views.size()), "Scout::give: no such view");
   give(view, image, state_.views[static_cast<std::size_t>(view)]);
@@ -98,8 +70,7 @@ void Scout::give(int view, const Image& image, const Se3& camera_from_world) {
   ScoutState next = state_;
   std::vector<Observation> observations = observations_;
   ScoutStep step;
-  step.decision =
-      proposal_ && proposal_->view == view ? *proposal_ : without_expectations(view, options_.next_view);
+  step.decision = proposal_ && proposal_->view == view ? *proposal_ : without_expectations(view);
   if (proposal_) step.decision.stages = proposal_->stages;  // spent, whether followed or not
   step.camera_from_world = camera_from_world;
   look(image, step, observations);
@@ -245,51 +216,6 @@ void Scout::add_particles(ScoutStep& step, ScoutState& next) const {
   step.new_candidates += count_new(unknown, state_.candidates, sets_, o.mode_radius);
 }
 
-// Lines 4 to 10 and 13. No view is left where the decision's is negative.
-ScoutDecision Scout::decide() const {
-  // A fixed sequence, and chance, go on where the first view failed.
-  const bool needs_belief = options_.next_view.strategy == Strategy::Information ||
-                            options_.next_view.strategy == Strategy::Disocclusion;
-  if (state_.steps.empty() && (state_.failed.empty() || needs_belief))
-    return without_expectations(first_open_view(), options_.next_view);
-  ScoutDecision decision = without_expectations(-1, options_.next_view);
-  Stopwatch watch(decision.stages);
-  decision.candidates = state_.candidates;
-  BitMatrix combinations;
-  if (options_.next_view.strategy == Strategy::Information && !state_.candidates.empty()) {
-    CombinationOptions options = options_.combinations;
-    options.seed += state_.steps.size();
-    combinations = candidate_combinations(models_, state_.candidates, options_.probable_combinations,
-                                          options_.particles.penetration_m, options, backend_.threads());
-    std::vector<double> probabilities;
-    for (const Detection& candidate : state_.candidates) probabilities.push_back(candidate.probability);
-    const CombinationExtremes extremes = extreme_combinations(combinations, probabilities);
-    decision.likeliest = extremes.likeliest;
-    decision.unlikeliest = extremes.unlikeliest;
-    done(watch, "combinations");
-  }
-  const std::vector<char> closed = state_.closed();
-  const std::vector<RegisterView> views = views_of(observations_);
-  decision.views = view_information({models_, tables_, undistorted(camera_), state_.views, closed, views,
-                                     state_.candidates, &combinations, state_.particles},
-                                    backend_, options_.next_view);
-  decision.view = best_view(decision.views).value_or(-1);
-  done(watch, "information");
-  return decision;
-}
-
-int Scout::first_open_view() const {
-  const std::vector<char> closed = state_.closed();
-  const int count = static_cast<int>(closed.size());
-  for (int i = 0; i < count; ++i) {
-    const int view = (options_.first_view + i) % count;
-    if (!closed[static_cast<std::size_t>(view)] &&
-        (!options_.next_view.reachable || options_.next_view.reachable(view)))
-      return view;
-  }
-  return -1;
-}
-
 void Scout::done(Stopwatch& watch, const char* stage) const {
   watch.lap(stage);
   stop_where_cancelled();
@@ -332,32 +258,6 @@ void Scout::resume(ScoutState state, const std::string& source) {
   state_ = std::move(state);
   observations_ = std::move(observations);
   forget_answer();
-}
-
-namespace {
-
-// What the source cannot give, or gives but cannot be used, is no shot.
-std::optional<Shot> shot_of(Scout& scout, ViewSource& source, int view) {
-  try {
-    Shot shot = source.acquire(view);
-    scout.require_fitting(shot.image, shot.camera_from_world);
-    return shot;
-  } catch (const AcquisitionError& error) {
-    scout.unreachable(view, error.what());
-  } catch (const InputError& error) {
-    scout.unreachable(view, error.what());
-  }
-  return {};
-}
-
-}  // namespace
-
-void run_scout(Scout& scout, ViewSource& source, const std::function<void(const ScoutState&)>& on_step) {
-  while (const std::optional<ScoutDecision> proposal = scout.propose()) {
-    if (const std::optional<Shot> shot = shot_of(scout, source, proposal->view))
-      scout.give(proposal->view, shot->image, shot->camera_from_world);
-    if (on_step) on_step(scout.state());
-  }
 }
 
 }  // namespace edgescout

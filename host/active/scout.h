@@ -109,6 +109,7 @@ class Scout {
   bool little_to_learn(const ScoutDecision& decision) const;
   bool little_learned() const;
   int first_open_view() const;
+  ScoutDecision without_expectations(int view) const;
   ScoutDecision decide() const;
   void look(const Image& image, ScoutStep& step, std::vector<Observation>& observations) const;
   void search(std::span<const Hypothesis> known, ScoutStep& step, ScoutState& next,

@@ -1,0 +1,33 @@
+// Drives an active detection with a source of images to its end.
+#include "host/active/scout.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+// What the source cannot give, or gives but cannot be used, is no shot.
+std::optional<Shot> shot_of(Scout& scout, ViewSource& source, int view) {
+  try {
+    Shot shot = source.acquire(view);
+    scout.require_fitting(shot.image, shot.camera_from_world);
+    return shot;
+  } catch (const AcquisitionError& error) {
+    scout.unreachable(view, error.what());
+  } catch (const InputError& error) {
+    scout.unreachable(view, error.what());
+  }
+  return {};
+}
+
+}  // namespace
+
+void run_scout(Scout& scout, ViewSource& source, const std::function<void(const ScoutState&)>& on_step) {
+  while (const std::optional<ScoutDecision> proposal = scout.propose()) {
+    if (const std::optional<Shot> shot = shot_of(scout, source, proposal->view))
+      scout.give(proposal->view, shot->image, shot->camera_from_world);
+    if (on_step) on_step(scout.state());
+  }
+}
+
+}  // namespace edgescout
