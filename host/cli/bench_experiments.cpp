@@ -108,7 +108,8 @@ void add_sizes(CLI::App& verb, ExperimentsRequest& r) {
       .bounded("starts", s.starts, 1, 1000, "Registrations around every instance; the paper has 100")
       .bounded("group-starts", s.group_starts, 1, 1000, "The same in the groups")
       .bounded("every", s.every, 1, 10000, "Of the recorded starts those whose number this divides")
-      .bounded("frames-every", s.frames_every, 1, 100, "Of the cat's photographs one in so many")
+      .bounded("frames-every", s.frames_every, 1, 100,
+               "Of the cat's photographs one in so many, and of a pile's as the first view")
       .bounded("candidates", s.candidates, 1, 100000, "Of the detection, in every image and for every type")
       .bounded("bins", s.bins, 0, 10000, "Of piled parts, for the next best view")
       .bounded("cad-bins", s.cad_bins, 0, 10000, "The same with parts of DIR/cad, where there is --data")

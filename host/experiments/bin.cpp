@@ -19,13 +19,13 @@ RenderOptions options_of(const ExperimentSettings& settings, int number, Random&
 
 }  // namespace
 
-Shot BinCell::acquire(int view) {
+Shot RenderedCell::acquire(int view) {
   auto known = shots_.find(view);
   if (known == shots_.end()) known = shots_.emplace(view, cell_.acquire(view)).first;
   return known->second;
 }
 
-const std::vector<double>& BinCell::visible(int view) {
+const std::vector<double>& RenderedCell::visible(int view) {
   auto known = visible_.find(view);
   if (known == visible_.end()) {
     Scene scene = scene_;
@@ -41,13 +41,14 @@ HemisphereOptions bin_views() { return {}; }
 
 std::vector<int> fixed_sequence(const Bin& bin) {
   constexpr int stride = 13;
-  const int views = bin_views().count;
+  const int views = static_cast<int>(bin.cell->views().size());
   std::vector<int> sequence;
   for (int i = 0; i < views; ++i) sequence.push_back((bin.first_view + i * stride) % views);
   return sequence;
 }
 
 std::vector<int> clairvoyant_sequence(const Bin& bin, std::span<const BinInstance> sought, int views) {
+  const int all = static_cast<int>(bin.cell->views().size());
   std::vector<double> shown(sought.size(), 0);  // by the images so far
   const auto with = [&](int view, std::size_t i) {
     const double visible = bin.cell->visible(view)[sought[i].placed];
@@ -59,10 +60,10 @@ std::vector<int> clairvoyant_sequence(const Bin& bin, std::span<const BinInstanc
     sequence.push_back(view);
   };
   take(bin.first_view);
-  while (static_cast<int>(sequence.size()) < std::min(views, bin_views().count)) {
+  while (static_cast<int>(sequence.size()) < std::min(views, all)) {
     int best = -1;
     double most = -1;
-    for (int view = 0; view < bin_views().count; ++view) {
+    for (int view = 0; view < all; ++view) {
       if (std::ranges::count(sequence, view) > 0) continue;
       double sum = 0;
       for (std::size_t i = 0; i < sought.size(); ++i) sum += with(view, i);
@@ -83,7 +84,7 @@ Bin make_bin(std::span<const Object> types, const ExperimentSettings& settings, 
   bin.parts = options.objects;
   bin.first_view = random.below(static_cast<int>(views.size()));
   const Scene scene = make_scene(types, options);
-  bin.cell = std::make_unique<BinCell>(scene, views, pool);
+  bin.cell = std::make_unique<RenderedCell>(scene, views, pool);
   const std::vector<double>& visible = bin.cell->visible(bin.first_view);
   for (std::size_t i = 0; i < scene.placed.size(); ++i)
     if (const PlacedObject& placed = scene.placed[i]; placed.target)

@@ -1,5 +1,5 @@
-// A rendered bin of piled parts and the hemisphere of views around it: what the strategies of the next view
-// are compared on (paper, Sec. 6.4).
+// A bin of piled parts and the views around it, rendered with a hemisphere of them or photographed
+// (photographed_bin.h): what the strategies of the next view are compared on (paper, Sec. 6.4).
 #pragma once
 
 #include <map>
@@ -21,16 +21,22 @@ struct BinInstance {
   std::size_t placed = 0;   // index into the scene's placed objects
 };
 
-// A simulated cell whose images are rendered once, however many strategies ask for them.
+// Where a bin's images come from.
 class BinCell : public ViewSource {
  public:
-  BinCell(const Scene& scene, std::vector<Se3> views, ThreadPool& pool)
+  // How much of every placed object's silhouette shows from there.
+  virtual const std::vector<double>& visible(int view) = 0;
+};
+
+// A simulated cell whose images are rendered once, however many strategies ask for them.
+class RenderedCell : public BinCell {
+ public:
+  RenderedCell(const Scene& scene, std::vector<Se3> views, ThreadPool& pool)
       : scene_(scene), cell_(scene, scene.views[0].camera, std::move(views), {}, pool), pool_(pool) {}
   Camera camera() const override { return cell_.camera(); }
   std::vector<Se3> views() const override { return cell_.views(); }
   Shot acquire(int view) override;
-  // How much of every placed object's silhouette shows from there.
-  const std::vector<double>& visible(int view);
+  const std::vector<double>& visible(int view) override;
 
  private:
   Scene scene_;

@@ -10,6 +10,8 @@
 #include "host/experiments/bin_judge.h"
 #include "host/experiments/bin_types.h"
 #include "host/experiments/data_mark.h"
+#include "host/experiments/photographed_bin.h"
+#include "host/experiments/photographs.h"
 
 namespace edgescout {
 
@@ -184,17 +186,33 @@ void run_search(Table& table, const ExperimentSettings& s, const Bin& bin, const
     }
 }
 
-Table run_bin(const ExperimentSettings& s, const BinParts& parts, int number, Backend& backend) {
-  Table table{
+Table no_rows() {
+  return {
       {},
       {"bin", "types", "parts", "search", "sought", "strategy", "draw", "views", "view", "group", "instances",
        "correct", "correct_px", "wrong", "wrong_px", "followed", "shown", "entropy_nats", "seconds"},
       {}};
+}
+
+Table run_bin(const ExperimentSettings& s, const BinParts& parts, int number, Backend& backend) {
+  Table table = no_rows();
   const std::vector<TemplateSet> sets = bin_templates(parts.types, backend);
   const Bin bin = make_bin(parts.types, s, number, backend.threads());
   Detector detector(sets, s.scout.pipeline.detect, backend);
   for (const Search& search : searches_of(s, bin, parts, sets))
     run_search(table, s, bin, search, detector, backend);
+  return table;
+}
+
+// Of one type alone, which is all that lies there.
+Table run_pile(const ExperimentSettings& s, const Photographs& pile, int first_view, Backend& backend) {
+  Table table = no_rows();
+  const KnownScene scene = photographed_scene(pile);
+  const BinParts parts{PHOTOGRAPHED_BINS, scene.objects};
+  const std::vector<TemplateSet> sets = pile_templates(scene, backend);
+  const Bin bin = photographed_bin(scene, first_view);
+  Detector detector(sets, s.scout.pipeline.detect, backend);
+  run_search(table, s, bin, make_search("one", bin, parts, 0, 1, sets), detector, backend);
   return table;
 }
 
@@ -244,7 +262,14 @@ std::vector<Cell> cells(const ExperimentSettings& s) {
                       [s, parts, number](Backend& backend) { return run_bin(s, parts, number, backend); }});
   };
   add("bin", own_parts(), s.bin_numbers(s.bins));
-  if (!s.data.empty()) add("cad_bin", cad_parts(s.data), s.bin_numbers(s.cad_bins));
+  if (s.data.empty()) return list;
+  add("cad_bin", cad_parts(s.data), s.bin_numbers(s.cad_bins));
+  if (!s.only_bins.empty()) return list;
+  // Every photograph in turn is the first; of few frames the first alone.
+  const Photographs pile = photographs_in(s.data, s.frames_every)[0];
+  for (int view = 0; view < static_cast<int>(pile.images.size()); view += s.frames_every)
+    list.push_back({fmt::format("{}_pile_{:03}", pile.set, view),
+                    [s, pile, view](Backend& backend) { return run_pile(s, pile, view, backend); }});
   return list;
 }
 

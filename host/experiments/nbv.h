@@ -7,6 +7,9 @@
 
 namespace edgescout {
 
+// What rows say of photographed bins in place of their kind of parts.
+inline constexpr char PHOTOGRAPHED_BINS[] = "photographs";
+
 Experiment nbv_experiment();
 
 // Private to the experiment: its table and plots.

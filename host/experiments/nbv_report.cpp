@@ -52,18 +52,27 @@ struct BinSet {
   std::string types, prefix;  // `types` empty: all
 };
 
-std::vector<BinSet> sets_in(const Table& table) {
-  std::vector<BinSet> sets;
-  for (const std::string& types : values_of(table, "types"))
-    sets.push_back({types, types == "own" ? "" : "CAD parts, "});
-  if (sets.size() > 1) sets.push_back({"", "all bins, "});
-  return sets;
+std::vector<std::string> kinds_of_rendered_bins(const Table& table) {
+  std::vector<std::string> kinds = values_of(table, "types");
+  std::erase(kinds, PHOTOGRAPHED_BINS);
+  return kinds;
 }
 
 Table rows_of_set(const Table& table, const std::string& types) {
   return rows_where(table, [&](const Table& t, std::size_t row) {
-    return types.empty() || text_in(t, row, "types") == types;
+    const std::string& kind = text_in(t, row, "types");
+    return types.empty() ? kind != PHOTOGRAPHED_BINS : kind == types;
   });
+}
+
+std::vector<BinSet> sets_in(const Table& table) {
+  std::vector<BinSet> sets;
+  for (const std::string& types : kinds_of_rendered_bins(table))
+    sets.push_back({types, types == "own" ? "" : "CAD parts, "});
+  if (sets.size() > 1) sets.push_back({"", "all bins, "});
+  if (!rows_of_set(table, PHOTOGRAPHED_BINS).rows.empty())
+    sets.push_back({PHOTOGRAPHED_BINS, "photographs, "});
+  return sets;
 }
 
 // Those of which there are instances.
@@ -99,8 +108,11 @@ std::vector<BinOutcome> bins_after(const Table& rows, const std::string& views) 
     if (text_in(rows, row, "views") != views) continue;
     BinOutcome& bin = bin_of(bins, text_in(rows, row, "bin"), text_in(rows, row, "types"));
     bin.draws.insert(text_in(rows, row, "draw"));
-    add(bin.correct, number_in(rows, row, "correct"), number_in(rows, row, "instances"));
-    add(bin.wrong, number_in(rows, row, "wrong"), 1);
+    // Where a photographed part lies is known in the image.
+    const bool in_image = bin.types == PHOTOGRAPHED_BINS;
+    add(bin.correct, number_in(rows, row, in_image ? "correct_px" : "correct"),
+        number_in(rows, row, "instances"));
+    add(bin.wrong, number_in(rows, row, in_image ? "wrong_px" : "wrong"), 1);
     add(bin.shown, number_in(rows, row, "shown"), number_in(rows, row, "instances"));
   }
   for (BinOutcome& bin : bins)
@@ -211,15 +223,28 @@ std::string draws_text(const Table& table) {
 
 // Where there are both kinds of parts.
 std::string pairs_text(const Table& table) {
-  if (values_of(table, "types").size() < 2) return "";
+  if (kinds_of_rendered_bins(table).size() < 2) return "";
   return " Bins of one number share number of parts, first view and random views, whatever the parts: in the "
          "intervals of all bins they are drawn together.";
+}
+
+// Where there are photographs.
+std::string photographs_text(const Table& table) {
+  const std::size_t first_views = values_of(rows_of_set(table, PHOTOGRAPHED_BINS), "bin").size();
+  if (first_views == 0) return "";
+  return fmt::format(
+      " Photographs: one pile, {} of its views in turn the first, the others to choose from; correct is {}; "
+      "nobody "
+      "knows how much of a part shows, so that all count as lightly occluded. The intervals take the first "
+      "views "
+      "for independent piles.",
+      first_views, image_criterion().text);
 }
 
 // How many there are of each kind of parts, and by what numbers they come again.
 std::string bins_text(const Table& table) {
   std::string text;
-  for (const std::string& types : values_of(table, "types")) {
+  for (const std::string& types : kinds_of_rendered_bins(table)) {
     std::vector<int> numbers;
     for (const std::string& bin : values_of(rows_of_set(table, types), "bin"))
       numbers.push_back(std::stoi(bin));
@@ -263,8 +288,8 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
   report.markdown = fmt::format(
       "Bins: {}. Instances correctly localised ({}) after so many views; false positives a search; "
       "instances of which some image so far showed more than 70 %. Differences: points of percent; "
-      "false positives a search; points of percent; intervals over the same draws of bins.{}{}\n\n",
-      bins_text(table), pose_criterion().text, pairs_text(table), draws_text(table));
+      "false positives a search; points of percent; intervals over the same draws of bins.{}{}{}\n\n",
+      bins_text(table), pose_criterion().text, pairs_text(table), draws_text(table), photographs_text(table));
   const auto rows_in = [&](const BinSet& set) { return rows_of_set(table, set.types); };
   std::size_t columns = 1;
   for (const BinSet& set : sets_in(table)) columns = std::max(columns, searches_in(rows_in(set), set).size());

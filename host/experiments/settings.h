@@ -26,12 +26,12 @@ struct ExperimentSettings {
   std::filesystem::path
       data;  // folder with d2co-starts, brackets, cat, triangle, cad; empty: rendered scenes alone
   unsigned seed = 1;
-  int scenes = 4;         // images with up to five parts: detection and registration
-  int groups = 1;         // of three images with up to twenty parts: several views
-  int starts = 8;         // of the registration around every instance
-  int group_starts = 2;   // the same for the groups
-  int every = 54;         // of the recorded starts (d2co-starts) those whose number this divides
-  int frames_every = 4;   // of the cat's photographs one in so many is used
+  int scenes = 4;        // images with up to five parts: detection and registration
+  int groups = 1;        // of three images with up to twenty parts: several views
+  int starts = 8;        // of the registration around every instance
+  int group_starts = 2;  // the same for the groups
+  int every = 54;        // of the recorded starts (d2co-starts) those whose number this divides
+  int frames_every = 4;  // of the cat's photographs one in so many is used, and of a pile's as the first view
   int candidates = 1260;  // of the detection, in every image and for every type
   int bins = 1;           // of the next best view: piled parts, looked at from a hemisphere
   int cad_bins = 1;       // the same with parts of data/cad, where there is data

@@ -105,8 +105,23 @@ TEST(ClairvoyantSequence, TakesTheViewThatShowsMost) {
 Table no_rows() {
   return {{},
           {"bin", "types", "search", "strategy", "draw", "views", "group", "instances", "correct", "wrong",
-           "shown", "seconds"},
+           "shown", "seconds", "correct_px", "wrong_px"},
           {}};
+}
+
+// Judged in the image, with a table of their own, and no part of "all bins".
+TEST(NbvReport, KeepsPhotographsApart) {
+  Table table = no_rows();
+  for (const char* types : {"own", "cad", PHOTOGRAPHED_BINS})
+    table.rows.push_back({"0", types, "one", "mi-max", "0", "1", "light", "4", "1", "2", "4", "", "3", "0"});
+  const std::string text = nbv_report({}, table).markdown;
+  EXPECT_NE(text.find("Bins: 1 (numbers 0) and 1 of CAD parts (numbers 0)."), std::string::npos) << text;
+  EXPECT_NE(text.find("one pile, 1 of its views in turn the first"), std::string::npos) << text;
+  EXPECT_NE(text.find("## all bins, one type, lightly occluded\n\n8 instances."), std::string::npos) << text;
+  const std::size_t photographs = text.find("## photographs, one type, lightly occluded\n\n4 instances.");
+  ASSERT_NE(photographs, std::string::npos) << text;
+  EXPECT_NE(text.find("| MI-MAX | 75 %", photographs), std::string::npos) << text;
+  EXPECT_NE(text.find("; 0.00; 100 % |", photographs), std::string::npos) << text;
 }
 
 // Of both sets of parts each by itself, then of all bins, though those of both have the same numbers.
@@ -115,7 +130,8 @@ TEST(NbvReport, KeepsCadPartsApartAndAddsThemUp) {
   for (const auto& [bin, types, correct] :
        {std::tuple{"0", "own", "4"}, {"1", "own", "2"}, {"0", "cad", "1"}, {"1", "cad", "0"}})
     for (const char* group : {"light", "heavy"})
-      table.rows.push_back({bin, types, "all", "mi-max", "0", "1", group, "4", correct, "0", "4", ""});
+      table.rows.push_back(
+          {bin, types, "all", "mi-max", "0", "1", group, "4", correct, "0", "4", "", "0", "0"});
   const Report report = nbv_report({}, table);
   EXPECT_NE(report.markdown.find("Bins: 2 (numbers 0 to 1) and 2 of CAD parts (numbers 0 to 1)."),
             std::string::npos)
@@ -141,7 +157,8 @@ TEST(NbvReport, DrawsBinsOfOneNumberTogether) {
   Table table = no_rows();
   for (const auto& [bin, types, correct] :
        {std::tuple{"0", "own", "4"}, {"1", "own", "0"}, {"0", "cad", "0"}, {"1", "cad", "4"}})
-    table.rows.push_back({bin, types, "all", "mi-max", "0", "1", "light", "4", correct, "0", "4", ""});
+    table.rows.push_back(
+        {bin, types, "all", "mi-max", "0", "1", "light", "4", correct, "0", "4", "", "0", "0"});
   const std::string text = nbv_report({}, table).markdown;
   const std::size_t all = text.find("## all bins, three types, lightly occluded\n\n16 instances.");
   ASSERT_NE(all, std::string::npos) << text;
@@ -155,7 +172,8 @@ TEST(NbvReport, TakesTheMeanOverDrawsBeforeItAddsBinsOfOneNumber) {
   Table table = no_rows();
   for (const auto& [types, draw, correct] :
        {std::tuple{"own", "0", "3"}, {"own", "1", "4"}, {"cad", "0", "0"}})
-    table.rows.push_back({"0", types, "all", "random", draw, "2", "light", "4", correct, "0", "4", ""});
+    table.rows.push_back(
+        {"0", types, "all", "random", draw, "2", "light", "4", correct, "0", "4", "", "0", "0"});
   const std::string text = nbv_report({}, table).markdown;
   const std::size_t all = text.find("## all bins, three types, lightly occluded\n\n8 instances.");
   ASSERT_NE(all, std::string::npos) << text;
@@ -172,7 +190,8 @@ TEST(NbvReport, TellsBinsOfOneNumberApartWhereItCompares) {
                                                {"cad", "random", "1"},
                                                {"own", "mi-max", "2"},
                                                {"cad", "random", "2"}})
-    table.rows.push_back({"0", types, "all", strategy, "0", views, "light", "4", "2", "0", "4", ""});
+    table.rows.push_back(
+        {"0", types, "all", strategy, "0", views, "light", "4", "2", "0", "4", "", "0", "0"});
   const std::string text = nbv_report({}, table).markdown;
   EXPECT_NE(text.find("; +0.0 [+0.0, +0.0] | |\n", text.find("## all bins")), std::string::npos) << text;
 }
@@ -181,7 +200,7 @@ TEST(NbvReport, TellsBinsOfOneNumberApartWhereItCompares) {
 TEST(NbvReport, KeepsARowASetAndMeasure) {
   Table table = no_rows();
   for (const auto& [types, group] : {std::pair{"own", "light"}, {"own", "heavy"}, {"cad", "heavy"}})
-    table.rows.push_back({"0", types, "all", "mi-max", "0", "1", group, "4", "2", "0", "4", ""});
+    table.rows.push_back({"0", types, "all", "mi-max", "0", "1", group, "4", "2", "0", "4", "", "0", "0"});
   const Report report = nbv_report({}, table);
   EXPECT_EQ(report.columns, 2);
   std::vector<std::string> titles;
@@ -197,7 +216,8 @@ TEST(NbvReport, KeepsARowASetAndMeasure) {
 TEST(NbvReport, ComparesStrategiesInTheSameBinsAlone) {
   Table table = no_rows();
   const auto add = [&](const char* bin, const char* strategy, const char* views) {
-    table.rows.push_back({bin, "own", "all", strategy, "0", views, "light", "4", "2", "0", "4", ""});
+    table.rows.push_back(
+        {bin, "own", "all", strategy, "0", views, "light", "4", "2", "0", "4", "", "0", "0"});
   };
   for (const char* bin : {"0", "1"})
     for (const char* strategy : {"mi-max", "random"}) add(bin, strategy, "1");
@@ -214,8 +234,9 @@ TEST(NbvReport, SaysOfWhichSearchThereAreSeveralDraws) {
   Table table = no_rows();
   for (const char* search : {"one", "all"})
     for (const char* strategy : {"mi-max", "random"})
-      table.rows.push_back({"0", "own", search, strategy, "0", "2", "light", "4", "3", "0", "4", ""});
-  table.rows.push_back({"0", "own", "all", "random", "1", "2", "light", "4", "2", "0", "4", ""});
+      table.rows.push_back(
+          {"0", "own", search, strategy, "0", "2", "light", "4", "3", "0", "4", "", "0", "0"});
+  table.rows.push_back({"0", "own", "all", "random", "1", "2", "light", "4", "2", "0", "4", "", "0", "0"});
   const std::string text = nbv_report({}, table).markdown;
   EXPECT_NE(text.find("Of three types Random's second view is the mean of 2 draws a bin"), std::string::npos)
       << text;
@@ -227,7 +248,8 @@ TEST(NbvReport, TakesTheMeanOverDraws) {
   Table table = no_rows();
   const auto add = [&](const char* bin, const char* strategy, const char* draw, const char* views,
                        const char* correct, const char* wrong) {
-    table.rows.push_back({bin, "own", "all", strategy, draw, views, "light", "4", correct, wrong, "4", ""});
+    table.rows.push_back(
+        {bin, "own", "all", strategy, draw, views, "light", "4", correct, wrong, "4", "", "0", "0"});
   };
   for (const char* bin : {"0", "1"})
     for (const char* strategy : {"mi-max", "random"}) {
@@ -254,7 +276,8 @@ TEST(NbvReport, CountsSearchesOfOneBinTogether) {
   Table table = no_rows();
   for (const auto& [bin, correct, wrong] :
        {std::tuple{"0", "4", "0"}, {"0", "1", "3"}, {"1", "4", "0"}, {"1", "1", "3"}})
-    table.rows.push_back({bin, "own", "each", "mi-max", "0", "1", "light", "4", correct, wrong, "4", ""});
+    table.rows.push_back(
+        {bin, "own", "each", "mi-max", "0", "1", "light", "4", correct, wrong, "4", "", "0", "0"});
   const Report report = nbv_report({}, table);
   EXPECT_NE(report.markdown.find("## each type by itself, lightly occluded\n\n16 instances."),
             std::string::npos)
