@@ -126,12 +126,14 @@ std::size_t worst_of(std::span<const std::size_t> open, std::span<ViewAgreement>
     if (views[v].residual_px > views[worst].residual_px) worst = v;
     if (views[v].missing > views[barest].missing) barest = v;
   }
+  // That the others hold what it lacks is said without its say; the residuals are not.
+  if (views[barest].missing > options.max_missing) return barest;
   if (views[worst].residual_px > options.max_residual_px) {
     // Two views disagree with each other: the later one was added to a scene that agreed.
     if (open.size() == 2) views[open[0]].residual_px = views[open[1]].residual_px = views[worst].residual_px;
     return open.size() == 2 ? open[1] : worst;
   }
-  return views[barest].missing > options.max_missing ? barest : views.size();
+  return views.size();
 }
 
 void warn(std::size_t view, const ViewAgreement& found) {

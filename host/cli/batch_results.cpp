@@ -61,11 +61,17 @@ void require_no_other_results(const fs::path& out, std::span<const InputImage> i
   std::set<std::string> names;
   for (const InputImage& image : images) names.insert(image.name);
   std::error_code not_there;
-  for (const fs::directory_entry& entry : fs::directory_iterator(out, not_there))
-    if (entry.path().extension() == ".json" && !names.contains(entry.path().stem().string()) &&
-        holds_result(entry.path()))
+  for (const fs::directory_entry& entry : fs::directory_iterator(out, not_there)) {
+    if (entry.path().extension() != ".json") continue;
+    const bool is_named = names.contains(entry.path().stem().string()),
+               is_result = holds_result(entry.path());
+    if (!is_named && is_result)
       throw InputError(out.string(), "output folder", entry.path().filename().string() + " of another run",
                        "another --out, or a folder without results of other images");
+    if (is_named && !is_result)
+      throw InputError(entry.path().string(), "file", "no result of this program",
+                       "another --out, or its removal");
+  }
 }
 
 void start_anew(const fs::path& out, std::span<const InputImage> images) {

@@ -43,6 +43,15 @@ std::vector<RegisterModel> load_models(const RegisterRequest& request) {
   return models;
 }
 
+// What a run writes anew must not be what it starts from.
+void require_safe_starts(const RegisterRequest& request) {
+  namespace fs = std::filesystem;
+  std::error_code not_there;
+  const fs::path folder = fs::absolute(request.poses).parent_path();
+  if (!request.options.resume && fs::equivalent(folder, request.out, not_there))
+    throw InputError("command line", "--poses", "a file in the folder of the results", "another --out");
+}
+
 int register_all(RegisterRequest& request) {
   RegisterOptions& options = request.options;
   options.out = request.out;
@@ -54,6 +63,7 @@ int register_all(RegisterRequest& request) {
   const std::unique_ptr<Backend> backend = make_backend(request.device);
   if (!options.camera_file.empty()) options.camera = load_camera(options.camera_file);
   const std::vector<RegisterModel> models = load_models(request);
+  require_safe_starts(request);
   const std::vector<StartPose> poses = load_start_poses(request.poses);
   const std::vector<InputImage> images = list_images(request.inputs);
   require_other_folder(images, options.out);

@@ -193,11 +193,22 @@ std::string views_of(const RegisterJob& job, const BatchSettings& settings) {
   return settings.jointly(views);
 }
 
+std::vector<InputImage> all_views(std::span<const RegisterJob> jobs) {
+  std::vector<InputImage> views;
+  for (const RegisterJob& job : jobs) views.insert(views.end(), job.views.begin(), job.views.end());
+  return views;
+}
+
 // The batch job by job.
 class Registrar {
  public:
-  Registrar(std::span<const RegisterModel> models, Backend& backend, const RegisterOptions& options)
-      : models_(models), backend_(backend), options_(options), settings_(settings_of(models, options)) {
+  Registrar(std::vector<InputImage> views, std::span<const RegisterModel> models, Backend& backend,
+            const RegisterOptions& options)
+      : views_(std::move(views)),
+        models_(models),
+        backend_(backend),
+        options_(options),
+        settings_(settings_of(models, options)) {
     for (const RegisterModel& model : models) edge_models_.push_back(model.edges);
   }
 
@@ -220,6 +231,8 @@ class Registrar {
   void write(const ReadyJob& ready, const Detections& found) {
     const RegisterJob& job = *ready.job;
     require_writable_folder(options_.out);
+    // Not before there is something in their place.
+    if (!options_.resume && summary.finished.empty()) start_anew(options_.out, views_);
     for (std::size_t view = 0; options_.overlays && view < job.views.size(); ++view)
       save_overlay(ready, view, found, edge_models_, backend_, options_);
     for (std::size_t view : views_with_starts(job)) {
@@ -250,18 +263,13 @@ class Registrar {
     return settings;
   }
 
+  std::vector<InputImage> views_;  // of all jobs
   std::span<const RegisterModel> models_;
   Backend& backend_;
   const RegisterOptions& options_;
   BatchSettings settings_;
   std::vector<EdgeModel> edge_models_;
 };
-
-std::vector<InputImage> all_views(std::span<const RegisterJob> jobs) {
-  std::vector<InputImage> views;
-  for (const RegisterJob& job : jobs) views.insert(views.end(), job.views.begin(), job.views.end());
-  return views;
-}
 
 std::vector<InputImage> images_of(std::span<const RegisterJob> jobs) {
   std::vector<InputImage> images;
@@ -306,12 +314,12 @@ RegisterSummary run_register(std::span<const RegisterJob> jobs, std::span<const 
                              Backend& backend, const RegisterOptions& options) {
   const auto start = Clock::now();
   const std::vector<InputImage> images = images_of(jobs);
-  Registrar registrar(models, backend, options);
+  Registrar registrar(all_views(jobs), models, backend, options);
   RegisterSummary& summary = registrar.summary;
   summary.images = static_cast<int>(images.size());
   const std::vector<const RegisterJob*> open = skip_done(jobs, registrar, options.resume);
   require_writable_place(options.out);
-  if (!options.resume) start_anew(options.out, all_views(jobs));
+  if (!options.resume) require_no_other_results(options.out, all_views(jobs));
   warn_of_unknown_size({options.camera, options.camera_file, options.scale_camera});
   const auto write_with = [&](const std::exception& error) {
     summary.error = error.what();

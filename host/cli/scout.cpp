@@ -141,6 +141,8 @@ ScoutReport report_of(const ScoutRequest& request, const ScoutSource& source,
 
 int scout(ScoutRequest& request, const CLI::App& verb) {
   settle_options(request, verb);
+  for (auto& [name, value] : request.planning)
+    if (name == "first-view") value = std::to_string(request.options.first_view);  // may be the sequence's
   const std::unique_ptr<Backend> backend = make_backend(request.device);
   const KnownModels known = load_models(request.models);
   ScoutSource source = make_source(request.source, objects_of(known), backend->threads());

@@ -64,7 +64,8 @@ ScoutSource make_recorded(const SourceRequest& request) {
     throw InputError("command line", "--views", "a list for recorded views", "their own poses");
   if (!std::filesystem::is_directory(request.source))
     throw InputError(request.source, "source", "no folder", "\"cell\" or a folder of recorded views");
-  if (!is_bop_scene(request.source))
+  if (!is_bop_scene(request.source) &&
+      !std::filesystem::exists(std::filesystem::path(request.source) / "CameraPose"))
     if (const std::filesystem::path scene = scene_below(request.source); !scene.empty())
       throw InputError(request.source, "source", "a folder of BOP scenes",
                        "one of them, such as " + scene.string());

@@ -234,10 +234,9 @@ std::string photographs_text(const Table& table) {
   if (first_views == 0) return "";
   return fmt::format(
       " Photographs: one pile, {} of its views in turn the first, the others to choose from; correct is {}; "
-      "nobody "
-      "knows how much of a part shows, so that all count as lightly occluded. The intervals take the first "
-      "views "
-      "for independent piles.",
+      "nobody knows how much of a part shows, so that all count as lightly occluded, and the third figure "
+      "says "
+      "nothing. The intervals take the first views for independent piles.",
       first_views, image_criterion().text);
 }
 
@@ -283,7 +282,7 @@ Panel panel_of(const Table& table, const Searched& searched, const std::vector<s
 
 // Figure 15's order: (a) to (d) rates, (e) to (h) false positives.
 Report nbv_report(const ExperimentSettings&, const Table& table) {
-  const std::vector<std::string> strategies = values_of(table, "strategy"), views = values_of(table, "views");
+  const std::vector<std::string> strategies = values_of(table, "strategy");
   Report report;
   report.markdown = fmt::format(
       "Bins: {}. Instances correctly localised ({}) after so many views; false positives a search; "
@@ -296,6 +295,7 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
   report.columns = static_cast<int>(columns);
   for (const BinSet& set : sets_in(table)) {
     const Table rows = rows_in(set);
+    const std::vector<std::string> views = values_of(rows, "views");  // of fewer photographs fewer
     const std::vector<Searched> searches = searches_in(rows, set);
     for (const Searched& searched : searches) report.markdown += table_of(rows, searched, strategies, views);
     for (const Measure measure : {Measure::Correct, Measure::Wrong}) {

@@ -24,6 +24,12 @@ inline void expect_same(const ScoutState& a, const ScoutState& b) {
     EXPECT_EQ(a.steps[i].image.pixels, b.steps[i].image.pixels);
     EXPECT_EQ(a.steps[i].entropy_nats, b.steps[i].entropy_nats);
     EXPECT_EQ(a.steps[i].update.gained_nats, b.steps[i].update.gained_nats);
+    ASSERT_EQ(a.steps[i].agreement.size(), b.steps[i].agreement.size());
+    for (std::size_t v = 0; v < a.steps[i].agreement.size(); ++v) {
+      EXPECT_EQ(a.steps[i].agreement[v].residual_px, b.steps[i].agreement[v].residual_px);
+      EXPECT_EQ(a.steps[i].agreement[v].missing, b.steps[i].agreement[v].missing);
+      EXPECT_EQ(a.steps[i].agreement[v].disagrees, b.steps[i].agreement[v].disagrees);
+    }
   }
   ASSERT_EQ(a.particles.size(), b.particles.size());
   for (std::size_t i = 0; i < a.particles.size(); ++i) {

@@ -153,8 +153,8 @@ TEST(Scout, FlagsACameraPoseThatDisagrees) {
   EXPECT_FALSE(agreement[0].disagrees || agreement[1].disagrees);
 }
 
-// An image from a place quite other than said takes the belief in all that the others show. Whichever of
-// three it is, it is flagged, and stays so.
+// An image from a place quite other than said takes the belief in all that the others show. Be it the
+// second or the third, it is flagged, and stays so.
 TEST(Scout, FlagsAGrosslyWrongCameraPoseThatEndsAllBelief) {
   SmallCell t(3);
   SimulatedCell cell = t.source();

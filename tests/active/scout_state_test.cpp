@@ -163,6 +163,22 @@ TEST(ScoutState, IsWrittenTheSameAfterItWasRead) {
   EXPECT_EQ(loaded.camera.fx, t.camera().fx);
 }
 
+TEST(ScoutState, KeepsWhatWasOverruledAndHowAViewWasJudged) {
+  const TemporaryFolder folder;
+  ScoutState state;
+  state.views = {Se3{}};
+  state.last_decision.literal = true;
+  state.last_decision.stages = {{"information", 2.5}};
+  state.overruled_seconds = 1.25;
+  save_scout_state(state, folder.path() / "state");
+  ScoutState read = load_scout_state(folder.path() / "state");
+  EXPECT_TRUE(read.last_decision.literal);
+  EXPECT_EQ(read.seconds(), 3.75);
+  read.overrule();
+  EXPECT_TRUE(read.last_decision.stages.empty());
+  EXPECT_EQ(read.seconds(), 3.75);
+}
+
 TEST(ScoutState, OfAnotherRunOrDamagedIsRefused) {
   SmallCell t;
   const TemporaryFolder folder;

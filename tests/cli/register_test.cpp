@@ -242,6 +242,23 @@ TEST(Register, RefusesAFolderWithResultsOfOtherImages) {
   EXPECT_EQ(load_bop_results(out / "results.csv").size(), 2u);
 }
 
+// What a run removes must not be what it starts from, and what another program left there is not its own.
+TEST(Register, RemovesNothingThatIsNotItsOwn) {
+  const TemporaryFolder folder;
+  const BopScene scene = load_bop_scene(two_views());
+  const fs::path starts = folder.path() / "starts.csv", out = folder.path() / "out";
+  const auto call = [&](const fs::path& poses) {
+    return register_in(two_views(), poses, out, {"--search-rotation", "0", "--no-overlays"});
+  };
+  save_bop_results({true_results(scene, 0)[0]}, starts);
+  ASSERT_EQ(run_program(call(starts)).exit_code, 0);
+  expect_refused(call(out / "results.csv"), {"--poses", "another --out"});
+  EXPECT_EQ(load_bop_results(out / "results.csv").size(), 1u);
+  std::ofstream(out / "000001_000000.json") << "[\"a label\"]";
+  expect_refused(call(starts), {"000001_000000.json", "no result of this program"});
+  EXPECT_EQ(content_of(out / "000001_000000.json"), "[\"a label\"]");
+}
+
 TEST(Register, RefusesResultsMadeWithOtherSettingsWhenResumed) {
   const SameNames t;
   const BopScene scene = load_bop_scene(two_views());

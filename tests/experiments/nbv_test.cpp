@@ -114,7 +114,11 @@ TEST(NbvReport, KeepsPhotographsApart) {
   Table table = no_rows();
   for (const char* types : {"own", "cad", PHOTOGRAPHED_BINS})
     table.rows.push_back({"0", types, "one", "mi-max", "0", "1", "light", "4", "1", "2", "4", "", "3", "0"});
-  const std::string text = nbv_report({}, table).markdown;
+  table.rows.push_back({"0", "own", "one", "mi-max", "0", "2", "light", "4", "1", "2", "4", "", "3", "0"});
+  const Report report = nbv_report({}, table);
+  const std::string& text = report.markdown;
+  EXPECT_EQ(report.panels.back().lines.at(0).points.size(), 1u) << "no view that there was not";
+  EXPECT_EQ(text.find("| 2 views |", text.find("## photographs")), std::string::npos) << text;
   EXPECT_NE(text.find("Bins: 1 (numbers 0) and 1 of CAD parts (numbers 0)."), std::string::npos) << text;
   EXPECT_NE(text.find("one pile, 1 of its views in turn the first"), std::string::npos) << text;
   EXPECT_NE(text.find("## all bins, one type, lightly occluded\n\n8 instances."), std::string::npos) << text;
