@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "host/active/particles.h"
 #include "host/core/log.h"
@@ -17,12 +18,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What is no JSON is no result.
-bool holds_result(const fs::path& file) {
+// Whether a file holds JSON that is a result, or that is none; nothing where it is not JSON, as what a disk
+// spoilt.
+std::optional<bool> holds_result(const fs::path& file) {
   try {
     return is_image_result(file);
   } catch (const InputError&) {
-    return false;
+    return {};
   }
 }
 
@@ -63,12 +65,12 @@ void require_no_other_results(const fs::path& out, std::span<const InputImage> i
   std::error_code not_there;
   for (const fs::directory_entry& entry : fs::directory_iterator(out, not_there)) {
     if (entry.path().extension() != ".json") continue;
-    const bool is_named = names.contains(entry.path().stem().string()),
-               is_result = holds_result(entry.path());
-    if (!is_named && is_result)
+    const bool is_named = names.contains(entry.path().stem().string());
+    const std::optional<bool> is_result = holds_result(entry.path());
+    if (!is_named && is_result == true)
       throw InputError(out.string(), "output folder", entry.path().filename().string() + " of another run",
                        "another --out, or a folder without results of other images");
-    if (is_named && !is_result)
+    if (is_named && is_result == false)
       throw InputError(entry.path().string(), "file", "no result of this program",
                        "another --out, or its removal");
   }
