@@ -288,7 +288,8 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
       "Bins: {}. Instances correctly localised ({}) after so many views; false positives a search; "
       "instances of which some image so far showed more than 70 %. Differences: points of percent; "
       "false positives a search; points of percent; intervals over the same draws of bins.{}{}{}\n\n",
-      bins_text(table), pose_criterion().text, pairs_text(table), draws_text(table), photographs_text(table));
+      bins_text(table), pose_criterion().text, pairs_text(table), draws_text(rows_of_set(table, "")),
+      photographs_text(table));
   const auto rows_in = [&](const BinSet& set) { return rows_of_set(table, set.types); };
   std::size_t columns = 1;
   for (const BinSet& set : sets_in(table)) columns = std::max(columns, searches_in(rows_in(set), set).size());
