@@ -58,11 +58,6 @@ bool same_place(const Se3& a, const Se3& b) {
   return distance_between_m(a, b) < 1e-6 && angle_between_rad(a, b) < 1e-6;
 }
 
-bool same_camera(const Camera& a, const Camera& b) {
-  return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy && a.cx == b.cx &&
-         a.cy == b.cy && a.distortion == b.distortion;
-}
-
 }  // namespace
 
 void require_same_run(const ScoutState& saved, const ScoutState& run, const std::string& source) {

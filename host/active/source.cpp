@@ -42,8 +42,7 @@ std::vector<RecordedViews::Recording> bop_recordings(const BopScene& scene, Came
       throw InputError(image.file.string(), "world pose", "none", "cam_R_w2c and cam_t_w2c of every view");
     const Camera& c = image.camera;
     if (!given && recordings.empty()) camera = c;
-    if (!given && (c.fx != camera.fx || c.fy != camera.fy || c.cx != camera.cx || c.cy != camera.cy ||
-                   c.distortion != camera.distortion))
+    if (!given && !same_intrinsics(c, camera))
       throw InputError(image.file.string(), "camera", "another one than the images' before",
                        "one camera for all views");
     recordings.push_back({image.file, *image.camera_from_world});

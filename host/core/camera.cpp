@@ -12,6 +12,14 @@ bool Camera::has_distortion() const {
   return false;
 }
 
+bool same_intrinsics(const Camera& a, const Camera& b) {
+  return a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy && a.distortion == b.distortion;
+}
+
+bool same_camera(const Camera& a, const Camera& b) {
+  return a.width == b.width && a.height == b.height && same_intrinsics(a, b);
+}
+
 void validate(const Camera& camera, const std::string& source) {
   const auto number = [](double v) { return std::to_string(v); };
   if (camera.width < 1) throw InputError(source, "width", std::to_string(camera.width), "at least 1");

@@ -31,13 +31,19 @@ std::vector<Object> cad_bin_types(const std::filesystem::path& data) {
           {3, centred(load_mesh(cad / "t13.stl", LengthUnit::Millimetre)), {{Se3{}, half_turn_about_y}}}};
 }
 
-std::vector<TemplateSet> bin_templates(std::span<const Object> types, Backend& backend) {
+std::vector<TemplateSet> templates_between(std::span<const Object> types, double distance_min_m,
+                                           double distance_max_m, Backend& backend) {
   TemplateOptions options;
-  options.distance_min_m = bin_views().radius_m - BIN_DEPTH_MARGIN_M;
-  options.distance_max_m = bin_views().radius_m + BIN_DEPTH_MARGIN_M;
+  options.distance_min_m = distance_min_m;
+  options.distance_max_m = distance_max_m;
   std::vector<TemplateSet> sets;
   for (const Object& type : types) sets.push_back(build_templates(type, options, backend));
   return sets;
+}
+
+std::vector<TemplateSet> bin_templates(std::span<const Object> types, Backend& backend) {
+  const double radius_m = bin_views().radius_m;
+  return templates_between(types, radius_m - BIN_DEPTH_MARGIN_M, radius_m + BIN_DEPTH_MARGIN_M, backend);
 }
 
 }  // namespace edgescout

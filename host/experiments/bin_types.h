@@ -17,6 +17,9 @@ const std::vector<Object>& bin_types();
 // the file.
 std::vector<Object> cad_bin_types(const std::filesystem::path& data);
 
+// One set a type.
+std::vector<TemplateSet> templates_between(std::span<const Object> types, double distance_min_m,
+                                           double distance_max_m, Backend& backend);
 // At any distance from the views.
 std::vector<TemplateSet> bin_templates(std::span<const Object> types, Backend& backend);
 

@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "host/experiments/bin_types.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -30,13 +31,9 @@ class PhotographedCell : public BinCell {
 };
 
 void require_one_camera(const KnownScene& scene) {
-  const Camera& first = scene.images[0].camera;
-  for (const KnownImage& image : scene.images) {
-    const Camera& c = image.camera;
-    if (c.width != first.width || c.height != first.height || c.fx != first.fx || c.fy != first.fy ||
-        c.cx != first.cx || c.cy != first.cy)
+  for (const KnownImage& image : scene.images)
+    if (!same_camera(image.camera, scene.images[0].camera))
       throw InputError(scene.set + "/" + scene.name, "cameras", "several", "one that takes every image");
-  }
 }
 
 }  // namespace
@@ -60,12 +57,8 @@ std::vector<TemplateSet> pile_templates(const KnownScene& scene, Backend& backen
     for (const KnownInstance& instance : scene.instances)
       sum_m += (image.camera_from_world * instance.world_from_object).translation_m.norm();
   const double mean_m = sum_m / static_cast<double>(scene.images.size() * scene.instances.size());
-  TemplateOptions options;
-  options.distance_min_m = mean_m / std::numbers::sqrt2;
-  options.distance_max_m = mean_m * std::numbers::sqrt2;
-  std::vector<TemplateSet> sets;
-  for (const Object& object : scene.objects) sets.push_back(build_templates(object, options, backend));
-  return sets;
+  return templates_between(scene.objects, mean_m / std::numbers::sqrt2, mean_m * std::numbers::sqrt2,
+                           backend);
 }
 
 }  // namespace edgescout

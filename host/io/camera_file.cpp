@@ -89,8 +89,7 @@ Camera camera_from_json(const std::filesystem::path& file) {
   for (const auto& [id, value] : content.items()) {
     if (!value.is_object()) root.fail("a field \"" + id + "\"", forms);
     const Camera camera = camera_from_bop(root.at(id));
-    if (common && (camera.fx != common->fx || camera.fy != common->fy || camera.cx != common->cx ||
-                   camera.cy != common->cy || camera.distortion != common->distortion))
+    if (common && !same_intrinsics(camera, *common))
       root.at(id).fail("a camera unlike the images' before",
                        "one camera (give the scene's folder to use one for each image)");
     common = camera;
