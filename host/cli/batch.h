@@ -27,8 +27,8 @@ struct BatchOptions {
 void require_joinable(std::span<const InputImage> images);
 
 // Writes into `out`: NAME.json and NAME_overlay.png an image, results.csv (BOP) and summary.json, in place of
-// those of an earlier run on these images; InputError where there are results of others. A bad image
-// is listed and the batch goes on; where all are bad the last one's error is thrown and nothing is written.
+// those of an earlier run on these images: whoever calls has asked require_no_other_results. A bad image is
+// listed and the batch goes on; where all are bad the last one's error is thrown and nothing is written.
 // Any other error ends the batch; results.csv holds what was finished and summary.json the error too. With
 // `resume` images whose result is there are skipped; InputError, and nothing is written, where one of these
 // was made with other models, cameras, views or settings. Another image's result of the same name is none of

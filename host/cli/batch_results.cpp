@@ -77,18 +77,14 @@ void require_no_other_results(const fs::path& out, std::span<const InputImage> i
 }
 
 void start_anew(const fs::path& out, std::span<const InputImage> images) {
-  require_no_other_results(out, images);
   std::vector<fs::path> files{out / "results.csv", out / "summary.json"};
   for (const InputImage& image : images) {
     files.push_back(json_of(out, image));
     files.push_back(overlay_of(out, image));
   }
-  for (const fs::path& file : files) {
-    std::error_code failure;
-    if (fs::is_regular_file(file, failure)) fs::remove(file, failure);
-    if (failure && fs::exists(file))
-      throw InputError(file.string(), "file of an earlier run", failure.message(), "one that can be removed");
-  }
+  std::error_code unknown;
+  std::erase_if(files, [&](const fs::path& file) { return !fs::is_regular_file(file, unknown); });
+  remove_earlier_files(files);
 }
 
 void write_csv(std::span<const InputImage> images, BatchSummary& summary, const fs::path& out) {

@@ -44,7 +44,8 @@ bool is_done(const std::filesystem::path& out, const InputImage& input, const Se
 // A batch that is not taken up again leaves no other results beside its own. InputError where the folder
 // holds those of images that are not among these, or something else by the name of a result.
 void require_no_other_results(const std::filesystem::path& out, std::span<const InputImage> images);
-// The same, and removes what an earlier run wrote of these images. Other files stay.
+// Removes what an earlier run wrote of these images, where require_no_other_results found nothing else. Other
+// files stay.
 void start_anew(const std::filesystem::path& out, std::span<const InputImage> images);
 
 // results.csv, from the JSON files of the images that are finished: those that an earlier run left of others

@@ -184,12 +184,7 @@ void remove_scout_results(const std::filesystem::path& folder) {
       files.push_back(view_file(folder, step.at("view").integer()));
     for (const char* name : {"results.csv", "scout.html", "scout.json"}) files.push_back(folder / name);
   }
-  for (const fs::path& file : files) {
-    std::error_code failure;
-    fs::remove(file, failure);
-    if (failure)
-      throw InputError(file.string(), "file of an earlier run", failure.message(), "one that can be removed");
-  }
+  remove_earlier_files(files);
 }
 
 void require_same_source(const Settings& settings, const std::filesystem::path& folder) {

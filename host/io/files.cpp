@@ -102,6 +102,15 @@ void write_file_atomically(const fs::path& file, std::string_view content) {
   if (error) throw InputError(file.string(), "output file", reason(error), "a file that can be written");
 }
 
+void remove_earlier_files(std::span<const fs::path> files) {
+  for (const fs::path& file : files) {
+    std::error_code failure;
+    fs::remove(file, failure);
+    if (failure)
+      throw InputError(file.string(), "file of an earlier run", failure.message(), "one that can be removed");
+  }
+}
+
 void require_writable_place(const fs::path& folder) {
   std::error_code missing;
   fs::path there = fs::weakly_canonical(fs::absolute(folder, missing), missing);
