@@ -151,14 +151,6 @@ std::vector<double> along_sequence(std::size_t views, std::span<const std::size_
   return values;
 }
 
-// From what the views look at to each camera.
-std::vector<Eigen::Vector3d> directions_to(std::span<const Se3> cameras, const Eigen::Vector3d& center_m) {
-  std::vector<Eigen::Vector3d> directions;
-  for (const Se3& camera : cameras)
-    directions.push_back((inverse(camera).translation_m - center_m).normalized());
-  return directions;
-}
-
 // The probability that nothing unknown stands before a camera, one a view.
 std::vector<double> free_sights(std::span<const Eigen::Vector3d> directions,
                                 const std::optional<Eigen::Vector3d>& above, double exponent) {
@@ -195,8 +187,7 @@ std::vector<Shares> shares_left(std::span<const std::size_t> open, const Plannin
   for (const RegisterView& view : planning.real_views) taken.push_back(view.camera_from_world);
   const std::vector<Eigen::Vector3d> directions = directions_to(planning.views, *center_m),
                                      real = directions_to(taken, *center_m);
-  const std::vector<double> free =
-      free_sights(directions, direction_above(planning.views, *center_m), options.free_sight);
+  const std::vector<double> free = free_sights(directions, direction_above(directions), options.free_sight);
   for (std::size_t i = 0; i < open.size(); ++i) {
     const auto left = [&](double repeat_rad) {
       return free[open[i]] * (repeat_rad > 0 ? unrepeated(directions[open[i]], real, repeat_rad) : 1);

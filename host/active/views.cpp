@@ -110,11 +110,18 @@ std::optional<Eigen::Vector3d> looked_at_m(std::span<const Se3> camera_from_worl
   return point_m;
 }
 
-std::optional<Eigen::Vector3d> direction_above(std::span<const Se3> camera_from_world,
-                                               const Eigen::Vector3d& center_m) {
+std::vector<Eigen::Vector3d> directions_to(std::span<const Se3> camera_from_world,
+                                           const Eigen::Vector3d& center_m) {
+  std::vector<Eigen::Vector3d> directions;
+  for (const Se3& camera : camera_from_world)
+    directions.push_back((inverse(camera).translation_m - center_m).normalized());
+  return directions;
+}
+
+std::optional<Eigen::Vector3d> direction_above(std::span<const Eigen::Vector3d> directions) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Se3& camera : camera_from_world) sum += (inverse(camera).translation_m - center_m).normalized();
-  if (sum.norm() < 0.1 * double(camera_from_world.size())) return {};
+  for (const Eigen::Vector3d& direction : directions) sum += direction;
+  if (sum.norm() < 0.1 * double(directions.size())) return {};
   return sum.normalized();
 }
 

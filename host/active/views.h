@@ -33,10 +33,11 @@ std::vector<Se3> hemisphere_views(const HemisphereOptions& options);
 // point that is not before them (a head that only pans and tilts).
 std::optional<Eigen::Vector3d> looked_at_m(std::span<const Se3> camera_from_world);
 
-// Where above is for cameras that look at `center_m`: the mean direction from there to them, unit, in the
-// world's frame. Nothing where they stand all around it.
-std::optional<Eigen::Vector3d> direction_above(std::span<const Se3> camera_from_world,
-                                               const Eigen::Vector3d& center_m);
+// Unit vectors from there to each camera, in the world's frame.
+std::vector<Eigen::Vector3d> directions_to(std::span<const Se3> camera_from_world,
+                                           const Eigen::Vector3d& center_m);
+// Where above is for cameras in these directions: the mean one, unit. Nothing where they stand all around.
+std::optional<Eigen::Vector3d> direction_above(std::span<const Eigen::Vector3d> directions);
 
 // At least one view, each finite and rigid, no two alike (closer than 0.1 mm and 0.1 mrad). InputError naming
 // `source` and the view.

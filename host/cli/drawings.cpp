@@ -25,9 +25,8 @@ struct Place {
 };
 constexpr double PLOT_RADIUS = 150, PLOT_MIDDLE = 180;  // 90 degrees from the top lie on the radius
 
-Place place_of(const Se3& camera_from_world, const Eigen::Vector3d& center_m, const Eigen::Vector3d& above) {
-  const Eigen::Vector3d d = Eigen::Quaterniond::FromTwoVectors(above, Eigen::Vector3d::UnitZ()) *
-                            (inverse(camera_from_world).translation_m - center_m).normalized();
+Place place_of(const Eigen::Vector3d& direction, const Eigen::Vector3d& above) {
+  const Eigen::Vector3d d = Eigen::Quaterniond::FromTwoVectors(above, Eigen::Vector3d::UnitZ()) * direction;
   const double r = PLOT_RADIUS * std::acos(std::clamp(d.z(), -1.0, 1.0)) / (PI / 2),
                azimuth = std::atan2(d.y(), d.x());
   return {PLOT_MIDDLE + r * std::cos(azimuth), PLOT_MIDDLE - r * std::sin(azimuth)};
@@ -171,9 +170,10 @@ std::string hemisphere_svg(std::span<const DrawnView> views, const std::string& 
   }
   // Where the views look at nothing in common any point shows their order.
   const Eigen::Vector3d center_m = looked_at_m(poses).value_or(inverse(poses[0]) * Eigen::Vector3d::UnitZ());
-  const Eigen::Vector3d above = direction_above(poses, center_m).value_or(Eigen::Vector3d::UnitZ());
+  const std::vector<Eigen::Vector3d> directions = directions_to(poses, center_m);
+  const Eigen::Vector3d above = direction_above(directions).value_or(Eigen::Vector3d::UnitZ());
   std::vector<Place> places;
-  for (const Se3& pose : poses) places.push_back(place_of(pose, center_m, above));
+  for (const Eigen::Vector3d& direction : directions) places.push_back(place_of(direction, above));
   std::string svg =
       "<svg class=hemisphere viewBox='0 0 440 360' role=img>" + rings_svg() + path_svg(views, places);
   for (std::size_t v = 0; v < views.size(); ++v) svg += view_svg(views[v], v, places[v], low, high, unit);

@@ -139,16 +139,16 @@ TEST(DirectionAbove, IsWhereTheCamerasStand) {
   HemisphereOptions options;
   options.center_m = {0.1, -0.2, 0.3};
   std::vector<Se3> views = hemisphere_views(options);
-  const auto above = direction_above(views, options.center_m);
+  const auto above = direction_above(directions_to(views, options.center_m));
   ASSERT_TRUE(above);
   EXPECT_LT((*above - Eigen::Vector3d::UnitZ()).norm(), 0.05);
   const Se3 turned_from_world{Eigen::Quaterniond(0.3, 0.5, -0.2, 0.7).normalized(), {1, -2, 3}};
   for (Se3& view : views) view = view * inverse(turned_from_world);
-  const auto turned = direction_above(views, turned_from_world * options.center_m);
+  const auto turned = direction_above(directions_to(views, turned_from_world * options.center_m));
   ASSERT_TRUE(turned);
   EXPECT_LT((*turned - turned_from_world.rotation * *above).norm(), 1e-9);
   const std::vector<Se3> around{look_at({0.5, 0, 0}, {0, 0, 0}), look_at({-0.5, 0, 0}, {0, 0, 0})};
-  EXPECT_FALSE(direction_above(around, {0, 0, 0}));
+  EXPECT_FALSE(direction_above(directions_to(around, {0, 0, 0})));
 }
 
 // A gantry's cameras, with 1 mrad of tilt, would "meet" tens of metres away; those of a head that pans and
