@@ -235,8 +235,7 @@ std::string photographs_text(const Table& table) {
   return fmt::format(
       " Photographs: one pile, {} of its views in turn the first, the others to choose from; correct is {}; "
       "nobody knows how much of a part shows, so that all count as lightly occluded, and the third figure "
-      "says "
-      "nothing. The intervals take the first views for independent piles.",
+      "says nothing. The intervals take the first views for independent piles.",
       first_views, image_criterion().text);
 }
 
