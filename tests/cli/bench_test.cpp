@@ -10,7 +10,7 @@
 
 #include "host/experiments/table.h"
 #include "kernels/backend.h"
-#include "tests/cli/program.h"
+#include "tests/cli/example_scene.h"
 #include "tests/experiments/well_formed.h"
 
 namespace edgescout::test {
@@ -130,8 +130,9 @@ TEST(BenchExperiments, KilledAndResumedGiveTheSameBytes) {
 TEST(BenchExperiments, RunChosenStrategiesAlone) {
   const TemporaryFolder folder;
   const fs::path all = folder.path() / "all", some = folder.path() / "some";
-  ASSERT_EQ(run_program(experiments(all, {"nbv", "--no-times"})).exit_code, 0);
-  const Outcome outcome = run_program(experiments(some, {"--no-times", "--strategies", "fixed,dis", "nbv"}));
+  const std::vector<std::string> nbv{"nbv", "--no-times", "--searches", "one"};
+  ASSERT_EQ(run_program(experiments(all, nbv)).exit_code, 0);
+  const Outcome outcome = run_program(experiments(some, joined({nbv, {"--strategies", "fixed,dis"}})));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const Table expected = load_table(all / "nbv.csv"), found = load_table(some / "nbv.csv");
   const auto strategy = std::ranges::find(expected.columns, "strategy") - expected.columns.begin();

@@ -32,9 +32,12 @@ struct SmallScene {
                                            ", 0, 159.5, 0, 400, 119.5, 0, 0, 1]\n");
   }
 
-  // `edgescout detect INPUT`; where the line of what is reported lies is fitted elsewhere.
+  // `edgescout detect INPUT`, following few hits; where the line of what is reported lies is fitted
+  // elsewhere.
   std::vector<std::string> detect(const fs::path& input, const std::vector<std::string>& more = {}) const {
-    return joined({{"detect", input, "--out", out, "--device", "cpu", "--min-probability", "0.1"}, more});
+    return joined(
+        {{"detect", input, "--out", out, "--device", "cpu", "--aligned", "600", "--min-probability", "0.1"},
+         more});
   }
 };
 
