@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <functional>
 #include <utility>
 
 #include "kernels/error.h"
@@ -27,10 +28,16 @@ std::unique_ptr<Backend> make_vulkan_backend(int index, bool) {
 }
 #endif
 
+std::vector<DeviceInfo> in_order_of_use(std::vector<DeviceInfo> devices) {
+  std::ranges::stable_sort(devices, std::greater{}, [](const DeviceInfo& device) {
+    return device.discrete ? 2 : device.hardware ? 1 : 0;
+  });
+  return devices;
+}
+
 int usual_vulkan_device() {
-  for (const DeviceInfo& device : vulkan_devices())
-    if (device.hardware) return device.index;
-  return 0;
+  const std::vector<DeviceInfo> devices = in_order_of_use(vulkan_devices());
+  return devices.empty() ? 0 : devices.front().index;
 }
 
 namespace {
@@ -51,8 +58,8 @@ std::unique_ptr<Backend> make_checked_vulkan(int index, const std::string& choic
 
 // A card whose driver is too old for the kernels is passed over; the backend's name says what was taken.
 std::unique_ptr<Backend> make_automatic() {
-  for (const DeviceInfo& device : vulkan_devices()) {
-    if (!device.hardware) continue;
+  for (const DeviceInfo& device : in_order_of_use(vulkan_devices())) {
+    if (!device.hardware) break;
     try {
       return make_vulkan_backend(device.index);
     } catch (const GpuError&) {

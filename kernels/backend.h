@@ -107,6 +107,7 @@ struct DeviceInfo {
   std::string driver;  // name and version
   std::string api_version;
   bool hardware = false;  // false: a software rasteriser such as lavapipe
+  bool discrete = false;  // a card with memory of its own, beside a processor's own graphics the faster one
   std::uint64_t memory_bytes = 0;
   std::uint64_t max_storage_buffer_bytes = 0;
 };
@@ -116,15 +117,19 @@ std::vector<DeviceInfo> vulkan_devices();
 
 std::unique_ptr<Backend> make_cpu_backend(int threads = 0);
 std::unique_ptr<Backend> make_reference_backend();
-// Throws GpuError where the device is missing or lacks a feature the kernels need.
+// Throws GpuError where the device is missing or lacks a feature the kernels need, InputError where the
+// project was built without Vulkan.
 std::unique_ptr<Backend> make_vulkan_backend(int device_index, bool validation = false);
 
-// The first hardware device, else the first of all.
+// In the order in which they are tried: discrete cards, other hardware, software devices; of a kind in the
+// order they came.
+std::vector<DeviceInfo> in_order_of_use(std::vector<DeviceInfo> devices);
+// The first in that order, 0 where there is none.
 int usual_vulkan_device();
 
 // "auto", "cpu", "cpu-reference", "vulkan" (the usual device) or "vulkan:INDEX"; auto takes the first
-// hardware Vulkan device, else the fast CPU path. Throws InputError on another word and where the device
-// asked for does not exist.
+// hardware Vulkan device in the order of use that can be opened, else the fast CPU path. Throws InputError on
+// another word and where the device asked for does not exist.
 std::unique_ptr<Backend> make_backend(const std::string& choice);
 
 }  // namespace edgescout

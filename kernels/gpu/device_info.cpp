@@ -26,6 +26,7 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
                      std::to_string(VK_API_VERSION_MINOR(p.apiVersion)) + "." +
                      std::to_string(VK_API_VERSION_PATCH(p.apiVersion));
   info.hardware = p.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU;
+  info.discrete = p.deviceType == VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
   for (std::uint32_t i = 0; i < memory.memoryHeapCount; ++i)
     if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)
       info.memory_bytes += memory.memoryHeaps[i].size;

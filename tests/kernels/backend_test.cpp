@@ -21,6 +21,17 @@ TEST(BackendChoice, AutoTakesHardwareElseTheFastCpuPath) {
   EXPECT_EQ(make_backend("auto")->is_gpu(), hardware);
 }
 
+TEST(BackendChoice, CardsComeBeforeOtherHardwareAndThatBeforeSoftware) {
+  std::vector<DeviceInfo> devices(5);
+  for (int i = 0; i < 5; ++i) devices[i].index = i;
+  devices[1].hardware = devices[2].hardware = devices[4].hardware = true;
+  devices[2].discrete = devices[4].discrete = true;
+  std::vector<int> order;
+  for (const DeviceInfo& device : in_order_of_use(devices)) order.push_back(device.index);
+  EXPECT_EQ(order, (std::vector<int>{2, 4, 1, 0, 3}));
+  EXPECT_TRUE(in_order_of_use({}).empty());
+}
+
 TEST(BackendChoice, VulkanByNameTakesAnyDevice) {
   if (vulkan_devices().empty()) GTEST_SKIP() << "no Vulkan device";
   const auto backend = make_backend("vulkan:0");
