@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "kernels/error.h"
+#include "kernels/gpu/point_range.h"
 #include "kernels/pose_problems.h"
 
 namespace edgescout::gpu {
@@ -14,17 +15,6 @@ static_assert(sizeof(ModelPoint) == 4 * POSE_POINT_WORDS);
 static_assert(sizeof(PoseProblem) == 4 * POSE_PROBLEM_WORDS);
 
 constexpr std::uint32_t max_run = 1u << 15;  // any device takes so many workgroups in y
-
-// Points that some problems name, with what lies between.
-struct PointRange {
-  std::uint32_t begin = 0, end = 0;
-  std::uint32_t size() const { return end - begin; }
-  void include(const PoseProblem& problem) {
-    if (problem.point_count == 0) return;
-    begin = size() == 0 ? problem.first_point : std::min(begin, problem.first_point);
-    end = std::max(end, problem.first_point + problem.point_count);
-  }
-};
 
 }  // namespace
 
@@ -37,7 +27,7 @@ std::size_t poses_that_fit(const Device& device, std::span<const PoseProblem> pr
   PointRange range;
   std::size_t count = 0;
   while (count < problems.size()) {
-    range.include(problems[count]);
+    range.include(problems[count].first_point, problems[count].point_count);
     const std::size_t results = (count + 1) * std::max(sizeof(PoseProblem), sums * sizeof(float));
     if (count > 0 && std::max(results, range.size() * sizeof(ModelPoint)) > most) break;
     ++count;
@@ -52,7 +42,7 @@ PosePlan plan_poses(std::span<const PoseProblem> problems, std::size_t points, s
   PointRange range;
   for (const PoseProblem& problem : problems) {
     longest = std::max(longest, problem.point_count);
-    range.include(problem);
+    range.include(problem.first_point, problem.point_count);
   }
   PosePlan plan;
   plan.first_point = range.begin;

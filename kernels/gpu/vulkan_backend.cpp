@@ -132,9 +132,15 @@ class VulkanBackend : public Backend {
   void template_score(const BackendView& view, std::span<const TemplatePoint> points,
                       std::span<const TemplateJob> jobs, int anchor_step,
                       std::span<TemplateHit> hits) override {
-    Batch batch(*device_, "template_score");
-    templates_.record(batch, own(view).values, points, jobs, anchor_step, hits);
-    run(batch);
+    const DeviceTensor& tensor = own(view).values;
+    check_template_jobs(tensor.shape(), points, jobs, anchor_step, hits.size());
+    for (std::size_t first = 0, count = 0; first < jobs.size(); first += count) {
+      count = templates_.that_fit(jobs.subspan(first));
+      Batch batch(*device_, "template_score");
+      templates_.record(batch, tensor, points, jobs.subspan(first, count), anchor_step,
+                        hits.subspan(first, count));
+      run(batch);
+    }
   }
 
   void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,

@@ -1,5 +1,7 @@
 // template_score on every path: integer sums, equal bit for bit, and the same anchor on ties
 // (template_score.h).
+#include <algorithm>
+
 #include "kernels/error.h"
 #include "tests/kernels/paths.h"
 
@@ -84,6 +86,27 @@ TEST_P(TemplateScorePaths, ManyJobs) {
   tested->template_score(*view, points, jobs, 1, hits);
   reference->template_score(*truth, points, jobs, 1, expected);
   EXPECT_EQ(hits, expected);
+}
+
+// More points than the narrow device binds at once: its jobs go in several batches, each with its own points.
+TEST_P(TemplateScorePaths, JobsOfManyPoints) {
+  std::mt19937 rng = test::test_rng();
+  const std::vector<EdgePoint> edges = test::random_edges(rng, 33, 17, 20);
+  const ViewHandle view = tested->make_view(edges, 33, 17, {}, {}, {});
+  const ViewHandle truth = reference->make_view(edges, 33, 17, {}, {}, {});
+  const Work work = random_work(rng, view->shape, 2000, 1, 1);
+  ASSERT_GT(work.points.size() * sizeof(TemplatePoint), test::test_band_bytes);
+  std::vector<TemplateHit> hits(work.jobs.size()), expected(work.jobs.size());
+  tested->take_timings();
+  tested->template_score(*view, work.points, work.jobs, 1, hits);
+  reference->template_score(*truth, work.points, work.jobs, 1, expected);
+  EXPECT_EQ(hits, expected);
+  if (GetParam() == test::Path::vulkan_bands) {
+    const std::vector<StageTime> times = tested->take_timings();
+    const auto whole = std::ranges::find(times, HOST_STAGE, &StageTime::name);
+    ASSERT_NE(whole, times.end());
+    EXPECT_GT(whole->calls, 1) << "batches";
+  }
 }
 
 // A point just before the camera lands anywhere: it is outside, and costs no memory for the way there.
