@@ -5,10 +5,12 @@
 #include "dcd_sweep.spv.h"
 #include "kernels/dcd_sweep.h"
 #include "kernels/dcd_tensor.h"
+#include "kernels/error.h"
 
 namespace edgescout::gpu {
 
 const Kernel& DcdSweep::kernel_of(std::uint32_t radius) {
+  check(radius <= DCD_SWEEP_MAX_RADIUS, "dcd_sweep: a wider smoothing than the shader's window");
   const auto found = kernels_.find(radius);
   if (found != kernels_.end()) return found->second;
   const KernelSource source{"dcd_sweep", dcd_sweep_spv, 2, sizeof(DcdSweepPush), {radius}};
@@ -31,9 +33,7 @@ void DcdSweep::record(Batch& batch, const TensorOptions& options, std::uint32_t 
         static_cast<std::uint32_t>(tensor.shape().tiles_per_row()) * tensor.row_count(band);
     const DcdSweepPush push{tiles, bins, step, cap, reach};
     const std::uint32_t groups = groups_for(std::size_t(tiles) * DCD_SWEEP_LANES, DCD_SWEEP_GROUP);
-    constexpr std::uint32_t line = 1u << 15;
-    batch.dispatch(kernel, {std::min(groups, line), groups_for(groups, line)}, {tensor.band(band), weights_},
-                   push);
+    batch.dispatch(kernel, spread(groups), {tensor.band(band), weights_}, push);
   }
   batch.barrier();
 }
