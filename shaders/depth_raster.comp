@@ -20,20 +20,32 @@ struct Triangle {
 shared uint large_count;
 shared Triangle large[DEPTH_GROUP];
 
-vec3 corner(uint job, uint triangle, uint k) {
-  const uint v = 3u * triangles[3u * triangle + k], j = job * DEPTH_JOB_WORDS;
-  const vec3 p = vec3(vertices[v], vertices[v + 1], vertices[v + 2]);
-  return vec3(dot(vec3(jobs[j], jobs[j + 1], jobs[j + 2]), p) + jobs[j + 3],
-              dot(vec3(jobs[j + 4], jobs[j + 5], jobs[j + 6]), p) + jobs[j + 7],
-              dot(vec3(jobs[j + 8], jobs[j + 9], jobs[j + 10]), p) + jobs[j + 11]);
+// Products written out, for `precise` does not reach into the built-in ones: what two triangles share they must compute
+// alike, to the last bit, or a pixel between them belongs to neither.
+float dot_of(vec3 a, vec3 b) {
+  precise const float sum = a.x * b.x + a.y * b.y + a.z * b.z;
+  return sum;
+}
+vec3 cross_of(vec3 a, vec3 b) {
+  precise const vec3 product = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+  return product;
 }
 
-// Zero on the plane through the camera and the edge a b, positive to the left of it. The two triangles at an
-// edge must compute the same plane, to the last bit, or a pixel between them belongs to neither: from the end
-// of the lower number on.
+float coordinate(uint row, vec3 p) {
+  precise const float value = dot_of(vec3(jobs[row], jobs[row + 1], jobs[row + 2]), p) + jobs[row + 3];
+  return value;
+}
+vec3 corner(uint job, uint triangle, uint k) {
+  const uint v = 3u * triangles[3u * triangle + k], row = job * DEPTH_JOB_WORDS;
+  const vec3 p = vec3(vertices[v], vertices[v + 1], vertices[v + 2]);
+  return vec3(coordinate(row, p), coordinate(row + 4u, p), coordinate(row + 8u, p));
+}
+
+// Zero on the plane through the camera and the edge a b, positive to the left of it. For both triangles at the edge from
+// the end of the lower number on.
 vec3 edge_plane(vec3 a, vec3 b, bool is_rising) {
   precise const vec3 from = is_rising ? a : b, along = is_rising ? b - a : a - b;
-  precise const vec3 plane = cross(from, along);
+  const vec3 plane = cross_of(from, along);
   return is_rising ? plane : -plane;
 }
 
@@ -55,8 +67,10 @@ Triangle set_up(uint job, uint triangle) {
   t.plane[2] = winding * edge_plane(a, b, number.x < number.y);
   const vec2 focal = focal_of(job), centre = centre_of(job), last = vec2(push.width, push.height) - 1.0;
   const vec2 pa = focal * a.xy / a.z + centre, pb = focal * b.xy / b.z + centre, pc = focal * c.xy / c.z + centre;
-  t.low = ivec2(ceil(clamp(min(pa, min(pb, pc)), vec2(0.0), last + 1.0)));
-  ivec2 high = ivec2(floor(clamp(max(pa, max(pb, pc)), vec2(-1.0), last)));
+  // The planes decide; the box must not be smaller by the rounding of a division.
+  const float margin_px = 1.0 / 64.0;
+  t.low = ivec2(ceil(clamp(min(pa, min(pb, pc)) - margin_px, vec2(0.0), last + 1.0)));
+  ivec2 high = ivec2(floor(clamp(max(pa, max(pb, pc)) + margin_px, vec2(-1.0), last)));
   const int first_row = int(gl_WorkGroupID.z * push.band_rows);
   t.low.y = max(t.low.y, first_row);
   high.y = min(high.y, first_row + int(push.band_rows) - 1);
@@ -71,7 +85,7 @@ void fill(Triangle t, uint job, uint first, uint step) {
   [[dont_unroll]] for (uint i = first; i < count; i += step) {
     const ivec2 pixel = t.low + ivec2(int(i) % t.size.x, int(i) / t.size.x);
     const vec3 ray = vec3((vec2(pixel) - centre) / focal, 1.0);
-    const vec3 w = vec3(dot(t.plane[0], ray), dot(t.plane[1], ray), dot(t.plane[2], ray));
+    const vec3 w = vec3(dot_of(t.plane[0], ray), dot_of(t.plane[1], ray), dot_of(t.plane[2], ray));
     const float sum = w.x + w.y + w.z;
     if (min(w.x, min(w.y, w.z)) < 0.0 || sum <= 0.0) continue;
     const float z = dot(w, t.z) / sum;
