@@ -15,12 +15,15 @@ layout(binding = 3) buffer Kept { uint kept[]; };
 layout(binding = 4) writeonly buffer Points { vec4 points[]; };
 #include "edge_read.glsl"
 
-// Labels only ever shrink towards the root, so that a stale read costs a step and no correctness.
+// Labels only ever shrink towards the root, so that a stale read costs a step and no correctness. Every step shortens
+// the way for the next: where all pixels of an edge link at once, it would be as long as the edge.
 uint root_of(uint i) {
   uint label = labels[i];
   [[dont_unroll]] while (label != i) {
+    const uint next = labels[label];
+    if (next != label) atomicMin(labels[i], next);
     i = label;
-    label = labels[i];
+    label = next;
   }
   return i;
 }
