@@ -8,8 +8,8 @@ namespace edgescout::gpu {
 namespace {
 
 constexpr VkDeviceSize smallest = VkDeviceSize{64} << 10;
-constexpr VkDeviceSize largest_kept = VkDeviceSize{16} << 20;
-constexpr std::size_t most_kept = 16;
+constexpr VkDeviceSize largest_kept = VkDeviceSize{64} << 20;  // what batches cut their copies to
+constexpr VkDeviceSize most_kept = VkDeviceSize{256} << 20;    // of all together
 
 }  // namespace
 
@@ -23,13 +23,18 @@ RawBuffer StagingPool::take(VkDeviceSize bytes, Memory memory, const std::string
                      name);
   RawBuffer buffer = std::move(*best);
   free_.erase(best);
+  free_bytes_ -= buffer.bytes();
   return buffer;
 }
 
 void StagingPool::give_back(RawBuffer buffer) {
   if (buffer.bytes() > largest_kept) return;
-  if (free_.size() == most_kept) free_.erase(free_.begin());
+  free_bytes_ += buffer.bytes();
   free_.push_back(std::move(buffer));
+  while (free_bytes_ > most_kept) {
+    free_bytes_ -= free_.front().bytes();
+    free_.erase(free_.begin());
+  }
 }
 
 }  // namespace edgescout::gpu

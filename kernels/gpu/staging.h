@@ -13,12 +13,13 @@ class StagingPool {
   explicit StagingPool(const Device& device) : device_(device) {}
   // At least `bytes` long, Memory::upload or Memory::download.
   RawBuffer take(VkDeviceSize bytes, Memory memory, const std::string& name);
-  // For the next taker; a few of moderate size are kept, others freed.
+  // For the next taker; larger ones than 64 MiB, and the oldest beyond 256 MiB in all, are freed.
   void give_back(RawBuffer buffer);
 
  private:
   const Device& device_;
-  std::vector<RawBuffer> free_;
+  std::vector<RawBuffer> free_;  // oldest first
+  VkDeviceSize free_bytes_ = 0;
 };
 
 }  // namespace edgescout::gpu
