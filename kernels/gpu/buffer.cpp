@@ -12,16 +12,16 @@ namespace {
 constexpr VkMemoryPropertyFlags host_coherent =
     VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
-VkMemoryPropertyFlags property_flags(const Device& device, Memory memory) {
+std::uint32_t type_of(const Device& device, std::uint32_t allowed, Memory memory) {
+  constexpr VkMemoryPropertyFlags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                                  cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
   switch (memory) {
     case Memory::device:
-      return device.unified_memory()
-                 ? VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT | host_coherent
-                 : VkMemoryPropertyFlags(VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
+      return device.memory_type(allowed, device.unified_memory() ? local | cached | host_coherent : local, 0);
     case Memory::upload:
-      return host_coherent;
-    case Memory::download:
-      return host_coherent | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+      return device.memory_type(allowed, host_coherent, 0);
+    case Memory::download:  // cached memory is read faster, but no device must have it
+      return device.memory_type(allowed, host_coherent, cached);
   }
   throw LogicError("unknown kind of memory");
 }
@@ -42,7 +42,7 @@ VkDeviceMemory allocate(const Device& device, const VkMemoryRequirements& needs,
   VkMemoryAllocateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
   info.allocationSize = needs.size;
-  info.memoryTypeIndex = device.memory_type(needs.memoryTypeBits, property_flags(device, memory));
+  info.memoryTypeIndex = type_of(device, needs.memoryTypeBits, memory);
   VkDeviceMemory allocated = VK_NULL_HANDLE;
   const VkResult result = vkAllocateMemory(device.get(), &info, nullptr, &allocated);
   if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY)

@@ -2,6 +2,7 @@
 
 #include "kernels/error.h"
 #include "kernels/gpu/device_info.h"
+#include "kernels/gpu/extensions.h"
 #include "kernels/gpu/result.h"
 #include "kernels/gpu/staging.h"
 
@@ -45,6 +46,12 @@ VkDevice create_device(VkPhysicalDevice physical, std::uint32_t family) {
   info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
+  // What is no whole Vulkan, such as MoltenVK, has to be told that this is known.
+  const char* portability_subset = "VK_KHR_portability_subset";
+  if (device_offers(physical, portability_subset)) {
+    info.enabledExtensionCount = 1;
+    info.ppEnabledExtensionNames = &portability_subset;
+  }
   VkDevice device = VK_NULL_HANDLE;
   require(vkCreateDevice(physical, &info, nullptr, &device), "vkCreateDevice");
   return device;
@@ -68,6 +75,11 @@ bool is_unified(const VkPhysicalDeviceMemoryProperties& memory) {
   return false;
 }
 
+void hide_cached(VkPhysicalDeviceMemoryProperties& memory) {
+  for (VkMemoryType& type : memory.memoryTypes)
+    type.propertyFlags &= ~VkMemoryPropertyFlags{VK_MEMORY_PROPERTY_HOST_CACHED_BIT};
+}
+
 }  // namespace
 
 Device::Device(const DeviceOptions& options)
@@ -85,7 +97,8 @@ Device::Device(const DeviceOptions& options)
   max_allocation_bytes_ = maintenance.maxMemoryAllocationSize;
   max_band_bytes_ = options.max_band_bytes > 0 ? options.max_band_bytes : limits_.maxStorageBufferRange;
   vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
-  unified_memory_ = is_unified(memory_) && !options.staging;
+  if (options.staging) hide_cached(memory_);
+  unified_memory_ = is_unified(memory_);
 
   std::uint32_t timestamp_bits = 0;
   queue_family_ = compute_family(physical_, info_.name, timestamp_bits);
@@ -105,10 +118,12 @@ void Device::check_range(VkDeviceSize bytes, const std::string& name) const {
                    std::to_string(limits_.maxStorageBufferRange));
 }
 
-std::uint32_t Device::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags flags) const {
-  for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
-    if ((allowed >> i & 1u) != 0 && (memory_.memoryTypes[i].propertyFlags & flags) == flags) return i;
-  throw GpuError(info_.name + ": no memory type with property flags " + std::to_string(flags));
+std::uint32_t Device::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags needed,
+                                  VkMemoryPropertyFlags wanted) const {
+  for (const VkMemoryPropertyFlags flags : {needed | wanted, needed})
+    for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
+      if ((allowed >> i & 1u) != 0 && (memory_.memoryTypes[i].propertyFlags & flags) == flags) return i;
+  throw GpuError(info_.name + ": no memory type with property flags " + std::to_string(needed));
 }
 
 }  // namespace edgescout::gpu

@@ -47,8 +47,10 @@ class Device {
   bool unified_memory() const { return unified_memory_; }
   StagingPool& staging() const { return *staging_; }
 
-  // First memory type of `allowed` (a bit set) with all of `flags`; throws GpuError where there is none.
-  std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags flags) const;
+  // First memory type of `allowed` (a bit set) with all of `needed` and `wanted`, or, where there is none, of
+  // `needed` alone; throws GpuError where there is none of these either.
+  std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags needed,
+                            VkMemoryPropertyFlags wanted) const;
 
  private:
   struct Destroy {

@@ -8,7 +8,8 @@ namespace edgescout::gpu {
 struct DeviceOptions {
   int index = 0;            // as vulkan_devices() counts
   bool validation = false;  // validation layer with synchronization validation
-  bool staging = false;     // for tests: treat a device with unified memory as a discrete card
+  // for tests: a device whose memory the host does not cache: staged copies, as on a discrete card
+  bool staging = false;
   // for tests: cut what can be cut as if the device bound no more at once; 0: as it is
   std::uint64_t max_band_bytes = 0;
 };

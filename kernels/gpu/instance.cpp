@@ -3,6 +3,7 @@
 #include <mutex>
 #include <utility>
 
+#include "kernels/gpu/extensions.h"
 #include "kernels/gpu/result.h"
 #include "kernels/gpu/vulkan_backend.h"
 
@@ -53,7 +54,7 @@ VkInstance create_instance(bool validation) {
   features.pEnabledValidationFeatures = &enable;
 
   const char* layer = "VK_LAYER_KHRONOS_validation";
-  const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+  std::vector<const char*> extensions;
   VkInstanceCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
   info.pApplicationInfo = &app;
@@ -61,9 +62,15 @@ VkInstance create_instance(bool validation) {
     info.pNext = &features;
     info.enabledLayerCount = 1;
     info.ppEnabledLayerNames = &layer;
-    info.enabledExtensionCount = 2;
-    info.ppEnabledExtensionNames = extensions;
+    extensions = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
   }
+  // Or the loader keeps what is no whole Vulkan, such as MoltenVK, to itself.
+  if (instance_offers(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME)) {
+    extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+    info.flags |= VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR;
+  }
+  info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   VkInstance instance = VK_NULL_HANDLE;
   require(vkCreateInstance(&info, nullptr, &instance),
           validation ? "vkCreateInstance with validation" : "vkCreateInstance");
