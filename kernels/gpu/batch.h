@@ -22,6 +22,7 @@
 
 #include "kernels/backend.h"
 #include "kernels/gpu/buffer.h"
+#include "kernels/gpu/command_set.h"
 #include "kernels/gpu/kernel.h"
 
 namespace edgescout::gpu {
@@ -106,12 +107,10 @@ class Batch {
 
   const Device& device_;
   std::string name_;
-  Handle<VkCommandPool> pool_;
-  VkCommandBuffer commands_ = VK_NULL_HANDLE;
-  std::vector<Handle<VkQueryPool>> query_pools_;  // two timestamps a dispatch, in their order
-  std::vector<std::string> dispatched_;           // kernels
-  std::vector<Handle<VkDescriptorPool>> descriptor_pools_;
-  std::uint32_t sets_left_ = 0;
+  CommandSet set_;
+  std::vector<std::string> dispatched_;  // kernels, in the order of their timestamps
+  std::size_t sets_ = 0;                 // of descriptors
+  bool is_running_ = false;              // submitted and, for all that is known, not done
   std::deque<RawBuffer> staging_;
   std::vector<Download> downloads_;
   std::string story_;  // "dcd_seed 12x1x1, dcd_sweep 24x768x1": what an error is about

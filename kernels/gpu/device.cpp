@@ -1,6 +1,7 @@
 #include "kernels/gpu/device.h"
 
 #include "kernels/error.h"
+#include "kernels/gpu/command_set.h"
 #include "kernels/gpu/device_info.h"
 #include "kernels/gpu/extensions.h"
 #include "kernels/gpu/result.h"
@@ -108,6 +109,7 @@ Device::Device(const DeviceOptions& options)
   vkGetDeviceQueue(get(), queue_family_, 0, &queue_);
   cache_ = {get(), create_cache(get()), vkDestroyPipelineCache};
   staging_ = std::make_unique<StagingPool>(*this);
+  command_sets_ = std::make_unique<CommandSets>(*this);
 }
 
 Device::~Device() = default;

@@ -16,6 +16,7 @@
 
 namespace edgescout::gpu {
 
+class CommandSets;
 class StagingPool;
 
 class Device {
@@ -46,6 +47,7 @@ class Device {
   // Device-local memory can be read and written by the host at full speed: no staging.
   bool unified_memory() const { return unified_memory_; }
   StagingPool& staging() const { return *staging_; }
+  CommandSets& command_sets() const { return *command_sets_; }
 
   // First memory type of `allowed` (a bit set) with all of `needed` and `wanted`, or, where there is none, of
   // `needed` alone; throws GpuError where there is none of these either.
@@ -70,6 +72,7 @@ class Device {
   std::uint64_t tick_mask_ = ~std::uint64_t{0};
   bool unified_memory_ = false;
   std::unique_ptr<StagingPool> staging_;
+  std::unique_ptr<CommandSets> command_sets_;
 };
 
 }  // namespace edgescout::gpu
