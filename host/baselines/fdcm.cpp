@@ -1,4 +1,4 @@
-#include "host/baselines/line2d.h"
+#include "host/baselines/candidate_scores.h"
 #include "host/baselines/visible_points.h"
 
 namespace edgescout {

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-#include "host/baselines/line2d.h"
+#include "host/baselines/candidate_scores.h"
 #include "host/eval/detection_curve.h"
 #include "host/eval/intervals.h"
 #include "host/experiments/data_mark.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "host/baselines/line2d.h"
+#include "host/baselines/candidate_scores.h"
 #include "host/eval/metrics.h"
 #include "host/register/occluders.h"
 #include "kernels/error.h"

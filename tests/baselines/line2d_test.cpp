@@ -1,6 +1,6 @@
 // Scores of given candidates: what LINE-2D says of drawn and rendered images, FDCM against its sum written
 // out.
-#include "host/baselines/line2d.h"
+#include "host/baselines/candidate_scores.h"
 
 #include <gtest/gtest.h>
 
