@@ -140,6 +140,18 @@ Outcome outcome_of(const Table& rows, const std::string& views) {
   return outcome;
 }
 
+enum class Measure { Correct, Wrong, Shown };
+
+const std::vector<Cluster>& clusters_of(const Outcome& outcome, Measure measure) {
+  if (measure == Measure::Correct) return outcome.correct;
+  return measure == Measure::Wrong ? outcome.wrong : outcome.shown;
+}
+
+std::string title_of(Measure measure) {
+  if (measure == Measure::Correct) return "Correctly localised";
+  return measure == Measure::Wrong ? "False positives a search" : "Shown by some image so far";
+}
+
 PlotPoint point_of(double x, const std::vector<Cluster>& clusters) {
   PlotPoint point{x, rate(clusters), {}, {}};
   if (clusters.size() < 2) return point;
@@ -148,52 +160,69 @@ PlotPoint point_of(double x, const std::vector<Cluster>& clusters) {
   return point;
 }
 
-std::string cell_of(const Outcome& outcome) {
-  return fmt::format("{}; {:.2f}; {:.0f} %",
-                     percent(rate(outcome.correct), bootstrap_interval(outcome.correct)), rate(outcome.wrong),
-                     100 * rate(outcome.shown));
+// What some strategies reached after each number of views: [strategy][views].
+using Outcomes = std::vector<std::vector<Outcome>>;
+
+std::string cell_of(const std::vector<Cluster>& clusters, Measure measure) {
+  if (measure == Measure::Wrong) return fmt::format("{:.2f}", rate(clusters));
+  return percent(rate(clusters), bootstrap_interval(clusters));
 }
 
-// What the first strategy has more than another, over the same draws of bins.
-std::string difference_row(const Table& first, const Table& other, const std::string& name,
-                           const std::vector<std::string>& views) {
-  std::string text = fmt::format("| {} |", name);
-  for (const std::string& count : views) {
-    const Outcome a = outcome_of(first, count), b = outcome_of(other, count);
-    if (a.bins != b.bins) {  // one of them has ended before, in some bins
-      text += " |";
-      continue;
-    }
-    const auto more = [](const std::vector<Cluster>& these, const std::vector<Cluster>& those) {
-      return points(rate(these) - rate(those), paired_difference_interval(these, those));
-    };
-    const Interval wrong = paired_difference_interval(a.wrong, b.wrong);
-    text += fmt::format(" {}; {:+.2f} [{:+.2f}, {:+.2f}]; {} |", more(a.correct, b.correct),
-                        rate(a.wrong) - rate(b.wrong), wrong.low, wrong.high, more(a.shown, b.shown));
+// What one strategy has more than another, over the same draws of bins.
+std::string difference_of(const Outcome& a, const Outcome& b, Measure measure) {
+  if (a.bins != b.bins) return "";  // one of them has ended before, in some bins
+  const std::vector<Cluster>&these = clusters_of(a, measure), &those = clusters_of(b, measure);
+  if (std::ranges::equal(these, those, {}, &Cluster::hits, &Cluster::hits)) return "0";
+  const double more = rate(these) - rate(those);
+  const Interval interval = paired_difference_interval(these, those);
+  if (measure == Measure::Wrong)
+    return fmt::format("{:+.2f} [{:+.2f}, {:+.2f}]", more, interval.low, interval.high);
+  return points(more, interval);
+}
+
+// A row a strategy, and one for what the first has more than each other.
+std::string table_of(const Outcomes& outcomes, const std::vector<std::string>& strategies,
+                     const std::vector<std::string>& views, Measure measure) {
+  std::string text = fmt::format("| {} |", title_of(measure)), line = "|---|";
+  for (const std::string& count : views)
+    text += fmt::format(" {} {} |", count, count == "1" ? "view" : "views"), line += "---|";
+  text += fmt::format("\n{}\n", line);
+  for (std::size_t i = 0; i < strategies.size(); ++i) {
+    text += fmt::format("| {} |", name_of(strategies[i]));
+    for (const Outcome& outcome : outcomes[i])
+      text += fmt::format(" {} |", cell_of(clusters_of(outcome, measure), measure));
+    text += "\n";
+  }
+  for (std::size_t i = 1; i < strategies.size(); ++i) {
+    text += fmt::format("| {} less {} |", name_of(strategies[0]), name_of(strategies[i]));
+    for (std::size_t v = 0; v < views.size(); ++v)
+      text += fmt::format(" {} |", difference_of(outcomes[0][v], outcomes[i][v], measure));
+    text += "\n";
   }
   return text + "\n";
 }
 
-std::string table_of(const Table& table, const Searched& searched, const std::vector<std::string>& strategies,
-                     const std::vector<std::string>& views) {
-  std::string text = "| strategy |", line = "|---|";
-  for (const std::string& count : views)
-    text += fmt::format(" {} {} |", count, count == "1" ? "view" : "views"), line += "---|";
-  text += fmt::format("\n{}\n", line);
+bool all_shown(const Outcomes& outcomes) {
+  return std::ranges::all_of(outcomes, [](const std::vector<Outcome>& of_strategy) {
+    return std::ranges::all_of(of_strategy, [](const Outcome& outcome) { return rate(outcome.shown) == 1; });
+  });
+}
+
+std::string tables_of(const Table& table, const Searched& searched,
+                      const std::vector<std::string>& strategies, const std::vector<std::string>& views) {
+  Outcomes outcomes;
   for (const std::string& strategy : strategies) {
     const Table rows = rows_of(table, searched, strategy);
-    text += fmt::format("| {} |", name_of(strategy));
-    for (const std::string& count : views) text += fmt::format(" {} |", cell_of(outcome_of(rows, count)));
-    text += "\n";
+    std::vector<Outcome>& of_strategy = outcomes.emplace_back();
+    for (const std::string& count : views) of_strategy.push_back(outcome_of(rows, count));
   }
-  const Table first = rows_of(table, searched, strategies[0]);
-  for (std::size_t i = 1; i < strategies.size(); ++i)
-    text += difference_row(first, rows_of(table, searched, strategies[i]),
-                           fmt::format("{} less {}", name_of(strategies[0]), name_of(strategies[i])), views);
   double instances = 0;  // the same for every strategy
-  for (const Cluster& cluster : outcome_of(rows_of(table, searched, strategies[0]), views[0]).correct)
-    instances += cluster.trials;
-  return fmt::format("## {}\n\n{:.0f} instances.\n\n{}\n", searched.title, instances, text);
+  for (const Cluster& cluster : outcomes[0][0].correct) instances += cluster.trials;
+  std::string text = fmt::format("## {}\n\n{:.0f} instances.\n\n", searched.title, instances);
+  for (const Measure measure : {Measure::Correct, Measure::Wrong, Measure::Shown})
+    if (measure != Measure::Shown || !all_shown(outcomes))
+      text += table_of(outcomes, strategies, views, measure);
+  return text;
 }
 
 // Rising: "0 to 3, 7".
@@ -234,8 +263,8 @@ std::string photographs_text(const Table& table) {
   if (first_views == 0) return "";
   return fmt::format(
       " Photographs: one pile, {} of its views in turn the first, the others to choose from; correct is {}; "
-      "nobody knows how much of a part shows, so that all count as lightly occluded, and the third figure "
-      "says nothing. The intervals take the first views for independent piles.",
+      "nobody knows how much of a part shows, so that all count as lightly occluded. The intervals take the "
+      "first views for independent piles.",
       first_views, image_criterion().text);
 }
 
@@ -253,8 +282,6 @@ std::string bins_text(const Table& table) {
   return text;
 }
 
-enum class Measure { Correct, Wrong };
-
 Panel panel_of(const Table& table, const Searched& searched, const std::vector<std::string>& strategies,
                const std::vector<std::string>& views, Measure measure) {
   Panel panel{searched.title,
@@ -269,24 +296,52 @@ Panel panel_of(const Table& table, const Searched& searched, const std::vector<s
     PlotLine line{name_of(strategy), {}};
     for (std::size_t i = 0; i < views.size(); ++i) {
       const Outcome outcome = outcome_of(rows, views[i]);
-      line.points.push_back(point_of(static_cast<double>(i + 1),
-                                     measure == Measure::Correct ? outcome.correct : outcome.wrong));
+      line.points.push_back(point_of(static_cast<double>(i + 1), clusters_of(outcome, measure)));
     }
     panel.lines.push_back(std::move(line));
   }
   return panel;
 }
 
+// Cells of several programs have no one time.
+bool is_of_one_commit(const Table& table) {
+  const auto commit = std::ranges::find(table.notes, "commit", &std::pair<std::string, std::string>::first);
+  return commit == table.notes.end() || commit->second.find(' ') == std::string::npos;
+}
+
+std::string times_text(const Table& table) {
+  if (!is_of_one_commit(table)) return "";
+  std::string text;
+  for (const std::string& strategy : values_of(table, "strategy")) {
+    std::vector<double> seconds;
+    for (std::size_t row = 0; row < table.rows.size(); ++row)
+      if (text_in(table, row, "strategy") == strategy && text_in(table, row, "group") == "light" &&
+          text_in(table, row, "views") != "1" && text_in(table, row, "draw") == "0" &&
+          !text_in(table, row, "seconds").empty())
+        seconds.push_back(number_in(table, row, "seconds"));
+    if (!seconds.empty())
+      text += fmt::format("{}{} {:.1f}", text.empty() ? "" : ", ", name_of(strategy), median(seconds));
+  }
+  if (text.empty()) return "";
+  return fmt::format(
+      "Seconds of a step, median: {}. That is the decision, and what its image brings; an image's scan is "
+      "the "
+      "step's of the strategy that looked from there first. On a CPU as many bins run side by side as it has "
+      "threads.\n",
+      text);
+}
+
 }  // namespace
 
 // Figure 15's order: (a) to (d) rates, (e) to (h) false positives.
 Report nbv_report(const ExperimentSettings&, const Table& table) {
-  const std::vector<std::string> strategies = values_of(table, "strategy");
   Report report;
   report.markdown = fmt::format(
-      "Bins: {}. Instances correctly localised ({}) after so many views; false positives a search; "
-      "instances of which some image so far showed more than 70 %. Differences: points of percent; "
-      "false positives a search; points of percent; intervals over the same draws of bins.{}{}{}\n\n",
+      "Bins: {}. Correctly localised: {}, after so many views. Shown by some image so far: more than 70 % of "
+      "the instance; where all are, there is no such table. Differences in points of percent, their "
+      "intervals "
+      "over the same draws of bins; 0: the same in every bin. MI-MAX is edgescout's choice, the paper's "
+      "mutual information with the terms of docs/next_view.md.{}{}{}\n\n",
       bins_text(table), pose_criterion().text, pairs_text(table), draws_text(rows_of_set(table, "")),
       photographs_text(table));
   const auto rows_in = [&](const BinSet& set) { return rows_of_set(table, set.types); };
@@ -295,27 +350,17 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
   report.columns = static_cast<int>(columns);
   for (const BinSet& set : sets_in(table)) {
     const Table rows = rows_in(set);
-    const std::vector<std::string> views = values_of(rows, "views");  // of fewer photographs fewer
+    // Of fewer photographs fewer views; nobody is clairvoyant there.
+    const std::vector<std::string> views = values_of(rows, "views"), strategies = values_of(rows, "strategy");
     const std::vector<Searched> searches = searches_in(rows, set);
-    for (const Searched& searched : searches) report.markdown += table_of(rows, searched, strategies, views);
+    for (const Searched& searched : searches) report.markdown += tables_of(rows, searched, strategies, views);
     for (const Measure measure : {Measure::Correct, Measure::Wrong}) {
       for (const Searched& searched : searches)
         report.panels.push_back(panel_of(rows, searched, strategies, views, measure));
       report.panels.resize((report.panels.size() + columns - 1) / columns * columns);  // each in its row
     }
   }
-  std::vector<double> seconds;
-  for (std::size_t row = 0; row < table.rows.size(); ++row)
-    if (text_in(table, row, "group") == "light" && text_in(table, row, "views") != "1" &&
-        text_in(table, row, "draw") == "0" && !text_in(table, row, "seconds").empty())
-      seconds.push_back(number_in(table, row, "seconds"));
-  if (!seconds.empty())
-    report.markdown += fmt::format(
-        "A step took {:.1f} s (median): the decision, and what its image brings. (On a CPU as many bins run "
-        "side "
-        "by side as it has threads; an image's scan is the step's of the strategy that looked from there "
-        "first.)\n",
-        median(seconds));
+  report.markdown += times_text(table);
   return report;
 }
 
