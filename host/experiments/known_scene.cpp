@@ -99,6 +99,9 @@ KnownScene bop_scene(const std::string& set, const fs::path& scene_folder, const
   const Se3 first_from_world = image_of(scene, image_ids.front()).camera_from_world.value_or(Se3{});
   for (const int id : image_ids) {
     const BopImage& entry = image_of(scene, id);
+    if (image_ids.size() > 1 && !entry.camera_from_world)
+      throw InputError((scene_folder / "scene_camera.json").string(), std::to_string(id), "no cam_R_w2c",
+                       "the camera's pose in every image of several");
     const Image image = load_image(entry.file);
     Camera camera = entry.camera;
     camera.width = image.width;
