@@ -30,9 +30,13 @@ void require_same_settings(const Table& finished, const CellRun& run, const std:
     if (note == finished.notes.end()) fail(name, "nothing", value);
     if (note->second != value) fail(name, note->second, value);
   }
+  for (const auto& [name, value] : finished.notes)
+    if (name != COMMIT &&
+        std::ranges::find(run.settings, name, &std::pair<std::string, std::string>::first) ==
+            run.settings.end())
+      fail(name, value, "nothing");
   const auto commit = std::ranges::find(finished.notes, COMMIT, &std::pair<std::string, std::string>::first);
-  if (commit == finished.notes.end() || finished.notes.size() != run.settings.size() + 1)
-    fail("settings", std::to_string(finished.notes.size()), std::to_string(run.settings.size() + 1));
+  if (commit == finished.notes.end()) fail(COMMIT, "nothing", run.commit);
   if (commit->second != run.commit && !run.any_commit)
     throw InputError(file, COMMIT, commit->second,
                      run.commit + " as in this run, --any-commit, or another output folder");
