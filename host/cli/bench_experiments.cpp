@@ -21,6 +21,7 @@ struct ExperimentsRequest {
   std::vector<std::string> names;
   std::string out, data, device = "cpu";
   bool is_short = false, is_full = false, resume = false, any_commit = false;
+  int jobs = 0;
   ExperimentSettings settings;  // what was given on the command line
 };
 
@@ -76,6 +77,7 @@ void run(const ExperimentsRequest& request, const CLI::App& verb) {
   run.commit = EDGESCOUT_COMMIT;
   run.resume = request.resume;
   run.any_commit = request.any_commit;
+  run.jobs = request.jobs;
   run.progress = [&](const std::string& experiment, std::size_t done, std::size_t all) {
     bars.move_to(experiment, done, all);
   };
@@ -136,6 +138,8 @@ void add_bench_experiments(CLI::App& bench, int& exit_code) {
       .flag("resume", request->resume, "Go on where DIR has finished cells of the same settings")
       .flag("any-commit", request->any_commit,
             "With --resume: also where these are of another commit; the report lists all of them")
+      .bounded("jobs", request->jobs, 0, 1024,
+               "Cells side by side on a CPU, each with up to 2 GB; 0: as many as it has threads")
       .bounded("seed", request->settings.seed, 0u, 4000000000u, "Of scenes, starts and candidates")
       .flag("times,!--no-times", request->settings.times,
             "Measured times among the rows (default); without, two runs give the same bytes");

@@ -24,8 +24,9 @@ std::unique_ptr<Backend> backend_of_cell(const std::string& device) {
   return device == "cpu" ? make_cpu_backend(1) : make_backend(device);
 }
 
-int workers_on(const std::string& device) {
-  return device == "cpu" ? static_cast<int>(std::max(1u, std::thread::hardware_concurrency())) : 1;
+int workers_on(const std::string& device, int jobs) {
+  if (device != "cpu") return 1;
+  return jobs > 0 ? jobs : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 Notes settings_notes(const Experiment& experiment, const ExperimentSettings& settings,
@@ -78,7 +79,7 @@ CellRun cell_run_of(const Experiment& experiment, const Notes& settings, const E
   cell_run.commit = run.commit;
   cell_run.resume = run.resume;
   cell_run.any_commit = run.any_commit;
-  cell_run.workers = workers_on(device_name);
+  cell_run.workers = workers_on(device_name, run.jobs);
   cell_run.make_backend = [device = run.device == "auto" && device_name == "cpu" ? "cpu" : run.device] {
     return backend_of_cell(device);
   };

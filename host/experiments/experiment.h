@@ -35,13 +35,14 @@ struct ExperimentRun {
   std::string commit;
   bool resume = false;
   bool any_commit = false;  // finished cells of other commits are taken too
+  int jobs = 0;             // cells side by side on a CPU; 0: as many as it has threads
   // may be empty
   std::function<void(const std::string& experiment, std::size_t done, std::size_t all)> progress;
 };
 
 // Writes into `out`: cells/NAME/.., and when the experiment's cells are finished NAME.csv (all rows),
-// NAME.md, NAME.svg; at the end index.md. On a CPU as many cells run side by side as it has threads, each on
-// one of them; on a device one after the other. InputError as run_cells; for settings out of bounds and for
+// NAME.md, NAME.svg; at the end index.md. On a CPU `jobs` cells run side by side, each on one thread; on a
+// device one after the other. InputError as run_cells; for settings out of bounds and for
 // data that is not there before anything is written.
 void run_experiments(const std::vector<Experiment>& chosen, const ExperimentSettings& settings,
                      const ExperimentRun& run);
