@@ -12,6 +12,7 @@
 #include "host/experiments/data_mark.h"
 #include "host/experiments/photographed_bin.h"
 #include "host/experiments/photographs.h"
+#include "kernels/error.h"
 
 namespace edgescout {
 
@@ -257,6 +258,8 @@ Notes options(const ExperimentSettings& s) {
 }
 
 std::vector<Cell> cells(const ExperimentSettings& s) {
+  if (s.bins == 0 && (s.cad_bins == 0 || s.data.empty()))
+    throw InputError("experiments", "bins", "0", "at least one, where there are no CAD parts");
   std::vector<Cell> list;
   const auto add = [&](const std::string& name, const BinParts& parts, const std::vector<int>& numbers) {
     for (const int number : numbers)

@@ -103,8 +103,6 @@ void ExperimentSettings::validate() const {
   require(candidates >= 1 && candidates <= 100000, "candidates", candidates, "1 to 100000");
   require(bins >= 0 && bins <= 10000, "bins", bins, "0 to 10000");
   require(cad_bins >= 0 && cad_bins <= 10000, "cad_bins", cad_bins, "0 to 10000");
-  require(bins > 0 || (cad_bins > 0 && !data.empty()), "bins", bins,
-          "at least one, where there are no CAD parts");
   for (const int bin : only_bins) {
     require(bin >= 0 && bin < 10000, "only_bins", bin, "0 to 9999");
     if (std::ranges::count(only_bins, bin) > 1)
