@@ -143,6 +143,9 @@ std::string devices_markdown(const DevicesReport& report) {
       DecisionSize{}.candidates, DecisionSize{}.particles, DecisionSize{}.combinations,
       report.options.repetitions, report.load.threads, report.load.load_average, 100 * report.load.share,
       100 * report.load_at_end.share, report.options.seed, report.commit);
+  text += "Options: ";
+  for (const auto& [name, value] : report.settings) text += fmt::format("{} {}, ", name, value);
+  text += "on " + machine_name() + ".\n\n";
   for (const std::string& warning : report.warnings) text += "**Warning:** " + warning + "\n\n";
   text += stage_table(report) + "\n" + device_table(report);
   for (const DeviceTimes& device : report.devices)
