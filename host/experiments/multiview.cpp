@@ -46,10 +46,8 @@ Notes options(const ExperimentSettings& s) {
 Table run_recorded(const fs::path& folder, const std::string& image, const ExperimentSettings& settings,
                    Backend& backend) {
   const KnownScene scene = recorded_scene(folder, image, VIEWS - 1);
-  std::vector<Start> starts;
-  for (const RecordedStart& start : recorded_starts(folder, scene, recorded_every(settings)))
-    starts.push_back({start.id, start.instance, LEVELS_RAD[start.level - 1], start.camera_from_object});
-  return run_trials(scene, starts, trials(), settings, backend);
+  return run_trials(scene, as_starts(recorded_starts(folder, scene, recorded_every(settings))), trials(),
+                    settings, backend);
 }
 
 std::vector<Cell> cells(const ExperimentSettings& s) {
@@ -108,8 +106,13 @@ std::vector<Series> series() {
   return list;
 }
 
-Report report(const ExperimentSettings&, const Table& table) {
+Report report(const ExperimentSettings& settings, const Table& table) {
   Report result;
+  result.markdown = fmt::format(
+      "The first image of three alone, and all three together. Rendered: {} groups of up to twenty parts, {} "
+      "starts around every instance of which at least a tenth shows in the first image; correct modulo "
+      "symmetry.\n\n",
+      settings.groups, settings.group_starts);
   const auto rows_of = [&](const std::function<bool(const Table&, std::size_t)>& fits) {
     return rows_where(table, fits);
   };
@@ -134,8 +137,9 @@ Report report(const ExperimentSettings&, const Table& table) {
       pose_criterion());
   for (const auto& [set, criterion] :
        {std::pair{"d2co-starts", pose_criterion()}, {"brackets", image_criterion()}})
-    add(set, rows_of([&](const Table& t, std::size_t row) { return text_in(t, row, "set") == set; }),
-        criterion);
+    add(fmt::format("{} ({})", set,
+                    set == std::string("brackets") ? "photographs of a pile" : "recorded starts"),
+        rows_of([&](const Table& t, std::size_t row) { return text_in(t, row, "set") == set; }), criterion);
   return result;
 }
 

@@ -35,15 +35,16 @@ int level_of(double distance_rad);
 struct LevelRates {
   std::vector<Cluster> clusters[4];  // by level
   std::vector<Cluster> all;          // of all levels together
-  std::vector<double> ms;            // of every registration whose time is known
+  std::vector<double> ms;            // of every registration whose time is known: its batch's mean
 };
 LevelRates rates_of(const Table& table, const Series& series, const Criterion& criterion);
 
 // Two series by their names: what the first has more than the other.
 using Comparison = std::pair<std::string, std::string>;
 
-// Markdown: a row a series, a column a level with its 95 % interval (bootstrap over images), starts and
-// median milliseconds; then a row a comparison of series that ran from the same starts, over the same draws.
+// Markdown: a row a series, a column a level with its 95 % interval (bootstrap over images, of one image over
+// its instances), starts and mean milliseconds; then a row a comparison of series that ran from the same
+// starts, over the same draws; and over how many the intervals are.
 std::string rate_table(const Table& table, const std::vector<Series>& series, const Criterion& criterion,
                        const std::vector<Comparison>& compared = {});
 // The rate over the start's distance, in steps of 0.05 rad, or of 0.1 where all starts lie at the levels'

@@ -11,6 +11,7 @@
 #include "host/baselines/baseline.h"
 #include "host/core/random.h"
 #include "host/eval/metrics.h"
+#include "host/experiments/rates.h"
 #include "host/register/refine.h"
 
 namespace edgescout {
@@ -144,6 +145,13 @@ std::vector<Start> starts_off(const KnownScene& scene, int count, const Random& 
 }
 
 }  // namespace
+
+std::vector<Start> as_starts(const std::vector<RecordedStart>& recorded) {
+  std::vector<Start> starts;
+  for (const RecordedStart& start : recorded)
+    starts.push_back({start.id, start.instance, LEVELS_RAD[start.level - 1], start.camera_from_object});
+  return starts;
+}
 
 std::string Trial::name() const {
   return method == EDGESCOUT || lambda_px_per_rad == PAPER_LAMBDA_PX_PER_RAD

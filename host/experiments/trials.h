@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/experiments/known_scene.h"
+#include "host/experiments/recorded_starts.h"
 #include "host/experiments/settings.h"
 
 namespace edgescout {
@@ -29,6 +30,9 @@ std::vector<Start> starts_around(const KnownScene& scene, int count, unsigned se
 // The same as far from the truth as photographs' true poses allow to ask for: 0.1 rad and two hundredths of
 // the distance from the camera.
 std::vector<Start> starts_by_distance(const KnownScene& scene, int count, unsigned seed);
+
+// At the distances of their levels.
+std::vector<Start> as_starts(const std::vector<RecordedStart>& recorded);
 
 // A method and how many of the scene's views it uses. "edgescout" is refine_poses at its defaults; the others
 // are those of host/baselines, on tensors of this lambda (D2CO, DC-ICP).

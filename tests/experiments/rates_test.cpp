@@ -62,6 +62,18 @@ TEST(Rates, AreATableWithARowAMethod) {
       << text;
 }
 
+// As many images as the bootstrap draws from, and a word where it has too few.
+TEST(Rates, SayHowManyImagesTheIntervalsAreOver) {
+  EXPECT_NE(rate_table(trials(), {series("one")}, pose_criterion())
+                .find("bootstrap over 2 images, so few that the true ones are wider.\n"),
+            std::string::npos);
+  Table table{{}, trial_columns(), {}};
+  for (const char* image : {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j"})
+    table.rows.push_back(row(image, "0.1", "one", "1"));
+  EXPECT_NE(rate_table(table, {series("one")}, pose_criterion()).find("bootstrap over 10 images.\n"),
+            std::string::npos);
+}
+
 // Of two images in one of which the first method is right and the other wrong, the draws' differences are 0,
 // a half and 1; where the methods ran from different starts there is nothing to compare.
 TEST(Rates, AreComparedOverTheSameDraws) {
