@@ -130,9 +130,9 @@ bool is_done(const Group& group, const BatchOptions& options, const BatchSetting
 // The batch behind the preparation: device work group by group.
 class Detector {
  public:
-  Detector(std::span<const TemplateSet> sets, Backend& backend, const BatchOptions& options,
-           const BatchSettings& settings)
-      : sets_(sets), backend_(backend), options_(options), settings_(settings) {
+  Detector(std::span<const InputImage> images, std::span<const TemplateSet> sets, Backend& backend,
+           const BatchOptions& options, const BatchSettings& settings)
+      : images_(images), sets_(sets), backend_(backend), options_(options), settings_(settings) {
     for (const TemplateSet& set : sets) models_.push_back(set.model);
   }
   void skip(const Group& group) {
@@ -179,6 +179,8 @@ class Detector {
   void write(const Group& group, std::span<const PreparedImage> images, const Detections& found,
              const std::string& views) {
     require_writable_folder(options_.out);
+    // Not before there is something in their place.
+    if (!options_.resume && summary.finished.empty()) start_anew(options_.out, images_);
     for (const StageSeconds& stage : found.stages) summary.stage_seconds[stage.name] += stage.seconds;
     for (std::size_t i = 0; i < images.size(); ++i) {
       const InputImage& input = *group.images[i];
@@ -198,6 +200,7 @@ class Detector {
     if (++failed_ < summary.images) log(LogLevel::Warning, message);
   }
 
+  std::span<const InputImage> images_;  // of the whole batch
   std::span<const TemplateSet> sets_;
   Backend& backend_;
   const BatchOptions& options_;
@@ -239,7 +242,7 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
   if (options.joint) require_joinable(images);
   const BatchSettings settings = settings_of(sets, options);
   Preparer preparer(options, settings.camera);
-  Detector detector(sets, backend, options, settings);
+  Detector detector(images, sets, backend, options, settings);
   BatchSummary& summary = detector.summary;
   summary.images = static_cast<int>(images.size());
   std::vector<Group> open;
@@ -250,7 +253,6 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
       open.push_back(std::move(group));
   }
   require_writable_place(options.out);
-  if (!options.resume) start_anew(options.out, images);
   warn_of_unknown_size({settings.camera, options.camera_file, options.scale_camera});
   try {
     work_through(open, preparer, detector);

@@ -132,6 +132,17 @@ TEST(RunBatch, SumsUpWhatEndedItInPlaceOfAnEarlierRun) {
   EXPECT_EQ(t.summary().at("error"), "make_view: VK_ERROR_DEVICE_LOST");
 }
 
+// What cannot work costs nothing that was there.
+TEST(RunBatch, KeepsAnEarlierRunsResultsWhereNoImageCanBeUsed) {
+  const Batch t;
+  run_batch(t.images, t.sets, *make_cpu_backend(2), t.options);
+  FailingBackend backend(0, [] { throw InputError("image", "size", "320x240", "less"); });
+  EXPECT_THROW(run_batch(t.images, t.sets, backend, t.options), InputError);
+  EXPECT_EQ(t.listed(), (std::set<int>{0, 1, 2}));
+  for (int i = 0; i < 3; ++i) EXPECT_NO_THROW(load_image_result(t.json(i)));
+  EXPECT_EQ(t.summary().at("done"), 3);
+}
+
 TEST(RunBatch, TellsOfTheLostDeviceWhereTheListCannotBeWritten) {
   const Batch t;
   fs::create_directories(t.out / "results.csv/in the way");
