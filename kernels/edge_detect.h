@@ -1,6 +1,6 @@
 // Edges of a grey image as sub-pixel points with orientation: Gaussian derivative gradient, non-maximum
 // suppression across the edge with a parabola for the sub-pixel offset, hysteresis over connected pixels,
-// orientation averaged along the edge.
+// orientation read off a line that is fitted to the gradient's turn along the edge.
 //
 // The stages, their buffers and their arithmetic stand in edge_stages.h. Which pixels are edges is decided in
 // integers, so:

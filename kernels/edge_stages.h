@@ -55,7 +55,7 @@ namespace edgescout {
 #endif
 EDGESCOUT_CONST(EDGE_GRADIENT_SCALE, 128);  // units of the gradient in a grey level a pixel
 EDGESCOUT_CONST(EDGE_MAX_RADIUS, 24);
-EDGESCOUT_CONST(EDGE_WINDOW, 4);        // half the window of the orientation average, px
+EDGESCOUT_CONST(EDGE_WINDOW, 4);        // half the window of the line that gives the orientation, px
 EDGESCOUT_CONST(EDGE_REACH_ALONG, 5);   // px
 EDGESCOUT_CONST(EDGE_REACH_ACROSS, 2);  // px
 #ifdef __cplusplus

@@ -39,7 +39,7 @@ namespace edgescout {
 
 class ThreadPool;
 
-struct TemplatePoint {  // 32 bits beyond the struct's padding rules: three small fields packed by hand
+struct TemplatePoint {  // two words, padding written out: a shader reads them so
   std::int16_t dx_px, dy_px;
   std::uint16_t bin;
   std::uint16_t padding = 0;

@@ -1,4 +1,5 @@
-// A fixed set of threads for data-parallel loops. One loop at a time; loops do not nest.
+// A fixed set of threads for data-parallel loops. One loop at a time: a loop inside one runs on its
+// own thread alone.
 #pragma once
 
 #include <condition_variable>

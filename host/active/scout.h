@@ -86,13 +86,15 @@ class Scout {
   std::optional<ScoutDecision> propose();
 
   // The image from a view, taken where it was planned or where the camera truly was. It need not be the
-  // proposed one. InputError: a view taken or given up before, what require_fitting refuses.
+  // proposed one. InputError: a view taken or given up before, what require_fitting refuses;
+  // LogicError: no such view.
   void give(int view, const Image& image);
   void give(int view, const Image& image, const Se3& camera_from_world);
   // Whether `give` would take it. InputError: another size than the camera's, other pixels than its size
   // says, a pose that is not rigid.
   void require_fitting(const Image& image, const Se3& camera_from_world) const;
-  // The view failed; it is never proposed again. InputError: a view taken or given up before.
+  // The view failed; it is never proposed again. InputError: a view taken or given up before;
+  // LogicError: no such view.
   void unreachable(int view, const std::string& reason);
 
   const ScoutState& state() const { return state_; }

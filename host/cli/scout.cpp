@@ -227,7 +227,8 @@ void add_scout(CLI::App& app, int& exit_code) {
   OptionTable(*verb, "Run")
       .flag("watch", request->watch, "Write the page after every step, so that a browser follows it")
       .flag("resume", request->resume,
-            "Go on from DIR/scout.state where there is one, of the same source and options");
+            "Go on from DIR/scout.state where there is one, of the same source and detection; budget, next "
+            "view and information may be others");
   add_loop_options(*verb, *request);
   add_template_options(*verb, request->templates);
   add_edge_and_tensor_options(*verb, request->options.pipeline, request->edge_method);

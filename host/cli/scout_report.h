@@ -46,8 +46,8 @@ struct DistanceToTruth {
 std::optional<DistanceToTruth> distance_to_truth(const Detection& detection, const ScoutReport& report);
 
 // FOLDER/scout.json: {edgescout_scout: 1, device, source, settings {name: text}, planning {name: text} and
-// strategy (of the last run), camera, views, steps [..], failed [..], detections [..], truth [..] (of a
-// cell), seconds, end}; poses are {R, t} and the camera is the ideal one, as in io/results.h. Atomically.
+// strategy (of the last run), camera (the ideal one), views, steps [..], last_decision, failed [..],
+// detections [..], truth [..] (of a cell), seconds, end}; poses are {R, t} as in io/results.h. Atomically.
 void save_scout_log(const ScoutState& state, const ScoutReport& report, const std::filesystem::path& folder);
 // What an earlier run left, by its log: state, log, results and page, which must not be taken for this one's.
 // Other files stay. InputError: a log that cannot be read, a file that cannot be removed.

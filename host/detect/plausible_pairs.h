@@ -20,7 +20,7 @@ namespace edgescout {
 inline constexpr double DEFAULT_PENETRATION_M = 0.002;
 
 // Symmetric: candidate i with candidate j, true where they can exist together (true on the diagonal). Poses
-// in any one frame.
+// in any one frame. InputError: a penetration outside [0, 1] m.
 BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Hypothesis> candidates,
                           double penetration_m, ThreadPool& pool);
 

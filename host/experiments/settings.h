@@ -52,7 +52,7 @@ struct ExperimentSettings {
   bool times = true;       // off: columns of times stay empty, so that two runs give the same bytes
   ExperimentSettings();
   static ExperimentSettings short_form();  // minutes on two cores
-  // The paper's numbers of images and a few bins, of which 30 take three hours more; an hour on two cores.
+  // The paper's numbers of images and a few bins: an hour on two cores; thirty bins take three hours more.
   static ExperimentSettings full_form();
   std::vector<int> bin_numbers(int count) const;  // of the bins that are run: the first ones, or only_bins
   void validate() const;                          // InputError naming the field and the violated bound

@@ -20,7 +20,8 @@ struct Table {
   std::size_t column(std::string_view name) const;  // LogicError where there is none of this name
 };
 
-// Names and values must hold no comma and no line break, a note's name no colon: LogicError otherwise.
+// Columns and cells must hold no comma and no line break, notes no line break and their names no colon:
+// LogicError otherwise.
 std::string to_csv(const Table& table);
 // InputError naming `source` and the line: no line of columns, a row of another length.
 Table table_from_csv(std::string_view text, const std::string& source);

@@ -13,7 +13,7 @@ namespace edgescout {
 
 struct BopImage {
   int image_id = 0;
-  std::filesystem::path file;            // under gray/ or rgb/, .png or .jpg
+  std::filesystem::path file;            // under gray/ or rgb/: .png, .jpg, .jpeg or .tif
   Camera camera;                         // size 0 x 0 until the image is read; `dist` is read where given
   std::optional<Se3> camera_from_world;  // where cam_R_w2c and cam_t_w2c are given
 };

@@ -14,7 +14,8 @@ Image load_image(const std::filesystem::path& file);
 
 // Resamples an image of `camera` into that of undistorted(camera), bicubic; returns it unchanged where there
 // is no distortion. Pixels that no ray of the original reaches repeat its border. InputError: another number
-// of pixels than its size says; distortion in an image with a side above 32766 px.
+// of pixels than its size says; distortion in an image with a side above 32766 px. LogicError: an image of
+// another size than the camera's.
 Image undistort(const Image& image, const Camera& camera);
 
 // RGB, 8 bit, row-major.
@@ -23,7 +24,8 @@ struct RgbImage {
   int height = 0;
   std::vector<std::uint8_t> pixels;
 };
-std::string encode_png(const RgbImage& image);  // a PNG file's bytes
+// A PNG file's bytes. LogicError: another number of pixels than the size says.
+std::string encode_png(const RgbImage& image);
 std::string encode_png(const Image& image);
 void save_png(const RgbImage& image, const std::filesystem::path& file);  // atomically
 void save_png(const Image& image, const std::filesystem::path& file);

@@ -21,7 +21,7 @@ struct StartPose {
   std::filesystem::path image;  // as written; where not empty, it names the image instead of image_id
   int object_id = 1;
   Se3 camera_from_object;
-  double score = 0;
+  double score = 0;  // as written; registration does not ask for it
 };
 
 // InputError naming file, line or field.

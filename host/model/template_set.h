@@ -46,7 +46,8 @@ struct TemplateSet {
   std::vector<TemplateView> views;
 };
 
-// `progress` is called with (views done, views in all), from this thread.
+// `progress` is called with (views done, views in all), from this thread. InputError: options out of bounds,
+// no viewpoint that shows an edge; LogicError: distances that are not set.
 TemplateSet build_templates(const Object& object, const TemplateOptions& options, Backend& backend,
                             const std::function<void(int, int)>& progress = {});
 

@@ -9,7 +9,7 @@ namespace edgescout {
 
 // Vertices of an icosahedron whose edges are cut into `frequency` parts and pushed onto the unit sphere: 10 *
 // frequency^2 + 2 directions. No direction of the sphere is further than ICOSPHERE_GAP_RAD / frequency from
-// one of them.
+// one of them. LogicError: a frequency outside [1, 64].
 inline constexpr double ICOSPHERE_GAP_RAD = 0.77;
 std::vector<Eigen::Vector3d> icosphere(int frequency);
 

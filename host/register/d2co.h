@@ -79,7 +79,8 @@ std::vector<Hypothesis> as_hypotheses(std::span<const Hypothesis> starts,
 // Evenly; all of them where `most` is 0 or enough.
 std::vector<ModelPoint> thinned(const std::vector<ModelPoint>& points, int most);
 
-// Results in the order of the hypotheses.
+// Results in the order of the hypotheses. InputError: options out of bounds; LogicError: no view, a view or a
+// start that stands nowhere, an object that no model is of.
 std::vector<Registration> register_poses(std::span<const EdgeModel> models,
                                          std::span<const Hypothesis> hypotheses,
                                          std::span<const RegisterView> views, Backend& backend,

@@ -25,10 +25,10 @@ struct PoseFeatures {
   Shading shading;       // nothing compared where the view has no image
 };
 
-// How far above chance the agreement is: psi's excess over that of unrelated directions (a mean |cos| of 2 /
-// pi = 0.64), in units of its standard error, which falls with the square root of the edge length seen. Psi
-// alone prefers small, simple views (two parallel lines match anywhere); the excess times the length prefers,
-// of two poses of one object, the one that shows more edges.
+// How far above chance the agreement is: psi's excess over 0.65, a little above that of unrelated directions
+// (a mean |cos| of 2 / pi = 0.64), in units of its standard error, which falls with the square root of the
+// edge length seen. Psi alone prefers small, simple views (two parallel lines match anywhere); the excess
+// times the length prefers, of two poses of one object, the one that shows more edges.
 inline constexpr double CHANCE_PSI = 0.65;
 double evidence(const PoseFeatures& features);
 

@@ -26,7 +26,6 @@ class DeviceTensor {
   std::uint32_t band_rows() const { return band_rows_; }
   std::uint32_t first_row(std::uint32_t band) const { return band * band_rows_; }
   std::uint32_t row_count(std::uint32_t band) const;
-  VkDeviceSize row_bytes() const { return row_bytes_; }
   // Band `band` as a binding; a band that does not exist repeats the last one, so that every binding of a
   // reader is valid.
   Bound band(std::uint32_t band) const;
