@@ -97,7 +97,7 @@ TEST(CoarseScan, LooksWhereItIsToldTo) {
   const EdgeModel dense = part_model("l_bracket", 7.5e-4);
   const double distance = template_distances_m(set.options)[0];
   std::vector<EdgePoint> edges;
-  for (const Eigen::Vector2d place : {Eigen::Vector2d(80, 120), {240, 120}}) {
+  for (const Eigen::Vector2d& place : {Eigen::Vector2d(80, 120), {240, 120}}) {
     const Se3 truth = place_template(set, set.views[7], 0, distance, place, small_camera());
     for (const EdgePoint& edge : ideal_edges(dense, small_camera(), truth, *backend)) edges.push_back(edge);
   }

@@ -20,7 +20,7 @@ namespace {
 constexpr double resolution_px = 0.5 * std::numbers::sqrt2 + std::numbers::sqrt2 / 32 + 1.0 / 32;
 constexpr test::Pinhole camera{190, 39.5, 29.5};
 constexpr int width = 80, height = 60;
-constexpr ChamferOptions options{255.0f / 16};
+constexpr ChamferOptions chamfer_options{255.0f / 16};
 
 struct Boxes {
   test::ChamferScene scene;
@@ -69,7 +69,7 @@ class Drawn {
   }
   // The exact transform, looked up at the pixel.
   double distance_px(double u, double v) const {
-    double least = options.cap_px;
+    double least = chamfer_options.cap_px;
     for (int i = 0; i < width * height; ++i)
       if (edge_[i])
         least = std::min(least, std::hypot(i % width - std::lround(u), i / width - std::lround(v)));
@@ -131,7 +131,8 @@ TEST(CombinationChamfer, EveryPointAgreesWithTheDrawnRealization) {
   int compared = 0, hidden = 0, knows_less = 0, hidden_nearest = 0;
   for (int round = 0; round < 5; ++round) {
     const Boxes made = box_scene(rng, 7, true);
-    const auto cells = combination_chamfer_reference(made.scene.view(), made.scene.combinations(), options);
+    const auto cells =
+        combination_chamfer_reference(made.scene.view(), made.scene.combinations(), chamfer_options);
     for (std::uint32_t j = 0; j < made.scene.realizations; ++j) {
       const Drawn drawn(made, j);
       for (std::size_t i = 0; i < made.scene.points.size(); ++i) {
@@ -144,7 +145,7 @@ TEST(CombinationChamfer, EveryPointAgreesWithTheDrawnRealization) {
           continue;
         }
         ++compared;
-        const double found = mean_px(cell, options.cap_px),
+        const double found = mean_px(cell, chamfer_options.cap_px),
                      expected = drawn.distance_px(point.x_px, point.y_px);
         EXPECT_GE(found, expected - resolution_px);
         if (nearest_is_hidden(made, j, point.x_px, point.y_px)) {
@@ -171,7 +172,8 @@ TEST(CombinationChamfer, MeansAgreeWithTheDrawnRealization) {
   int count = 0;
   for (int round = 0; round < 4; ++round) {
     const Boxes made = box_scene(rng, 6, false);
-    const auto cells = combination_chamfer_reference(made.scene.view(), made.scene.combinations(), options);
+    const auto cells =
+        combination_chamfer_reference(made.scene.view(), made.scene.combinations(), chamfer_options);
     for (std::uint32_t j = 0; j < made.scene.realizations; ++j) {
       const Drawn drawn(made, j);
       for (std::size_t i = 0; i < made.boxes.size(); ++i) {
@@ -187,7 +189,8 @@ TEST(CombinationChamfer, MeansAgreeWithTheDrawnRealization) {
         const ChamferCell& cell = cells[i * made.scene.realizations + j];
         EXPECT_EQ(cell.seen, seen);
         EXPECT_EQ(cell.fresh, fresh);
-        const double error = std::abs(mean_px(cell, options.cap_px) - (seen ? sum / seen : options.cap_px));
+        const double error =
+            std::abs(mean_px(cell, chamfer_options.cap_px) - (seen ? sum / seen : chamfer_options.cap_px));
         worst = std::max(worst, error);
         total += error;
         ++count;

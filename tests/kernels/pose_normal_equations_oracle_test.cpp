@@ -119,8 +119,8 @@ NormalEquations system_of(Backend& backend, const ViewHandle& view, const ModelP
 // orientation by a bin's step in pi / 60. A metre to the right is 10 px, a metre ahead -3.5 px; the
 // rotations turn the tangent's image by 0.35 ty^2, -0.35 tx ty and 1.
 void expect_system_beside_the_edge(Backend& backend) {
-  const Real pi = std::numbers::pi_v<Real>, angle = pi / 2 + pi / 120;
-  const Real tx = std::cos(angle), ty = std::sin(angle), turn = test::bin_px * 60 / pi;
+  const Real half_turn = std::numbers::pi_v<Real>, angle = half_turn / 2 + half_turn / 120;
+  const Real tx = std::cos(angle), ty = std::sin(angle), turn = test::bin_px * 60 / half_turn;
   const Real r = 3.5L + test::bin_px / 2;
   const std::array<Real, 6> jacobian{10,  0, -3.5L, turn * 0.35L * ty * ty, 1.225L - turn * 0.35L * tx * ty,
                                      turn};
