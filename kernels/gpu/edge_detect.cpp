@@ -13,6 +13,8 @@ namespace edgescout::gpu {
 
 namespace {
 
+constexpr std::size_t MOST_AT_FIRST = std::size_t{1} << 16;  // edge pixels; 1024x768 hardly ever has as many
+
 Kernel gradient_pass(const Device& device, std::uint32_t pass) {
   return Kernel(device, {"edge_gradient", edge_gradient_spv, 4, sizeof(EdgeGradientPush), {pass}});
 }
@@ -89,11 +91,17 @@ void EdgeDetect::record_pixels(Batch& batch, const ImageView& image, const EdgeO
   batch.barrier();
   for (const std::uint32_t pass : {EDGE_LINK_MERGE, EDGE_LINK_COUNT, EDGE_LINK_KEEP})
     record_link(batch, pass, static_cast<std::uint32_t>(count));
-  host_kept_.resize(count + 1);
+  host_kept_.resize(1 + std::min(count, MOST_AT_FIRST));
+  batch.download<std::uint32_t>(kept_, host_kept_);
+}
+
+void EdgeDetect::record_rest(Batch& batch) {
+  host_kept_.resize(1 + host_kept_.front());
   batch.download<std::uint32_t>(kept_, host_kept_);
 }
 
 std::vector<std::uint32_t> EdgeDetect::pixels() const {
+  check(lists_all(), "edge_detect: a list that was cut");
   std::vector<std::uint32_t> list(host_kept_.begin() + 1, host_kept_.begin() + 1 + host_kept_.front());
   std::ranges::sort(list);
   return list;

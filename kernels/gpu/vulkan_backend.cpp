@@ -101,6 +101,11 @@ class VulkanBackend : public Backend {
     Batch first(*device_, "edge pixels");
     edges_.record_pixels(first, image, options);
     run(first);
+    if (!edges_.lists_all()) {
+      Batch rest(*device_, "more edge pixels");
+      edges_.record_rest(rest);
+      run(rest);
+    }
     const std::vector<std::uint32_t> pixels = edges_.pixels();
     std::vector<EdgePoint> points(pixels.size());
     Batch second(*device_, "edge points");

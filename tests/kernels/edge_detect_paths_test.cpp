@@ -41,6 +41,18 @@ TEST_P(EdgeDetectPaths, FindsTheEdgesOfTheReference) {
   EXPECT_GT(edges, 2000u);
 }
 
+// Stripes, an edge every five pixels: more edge pixels than a device lists at first.
+TEST_P(EdgeDetectPaths, FindsUncommonlyManyEdges) {
+  constexpr int width = 700, height = 520;
+  std::vector<std::uint8_t> pixels(std::size_t(width) * height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) pixels[std::size_t(y) * width + x] = (x + y / 7) / 5 % 2 == 0 ? 40 : 200;
+  const ImageView stripes{width, height, pixels.data()};
+  const std::vector<EdgePoint> expected = reference->detect_edges(stripes, {});
+  ASSERT_GT(expected.size(), std::size_t{1} << 16);
+  expect_same_edges(tested->detect_edges(stripes, {}), expected);
+}
+
 TEST_P(EdgeDetectPaths, BadOptionsAndImages) {
   EdgeOptions options;
   options.sigma_px = 0;
