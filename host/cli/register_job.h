@@ -1,0 +1,36 @@
+// One registration job: its images read, its starts refined, and what is written of each view.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/cli/register_batch.h"
+#include "host/detect/detect.h"
+
+namespace edgescout {
+
+// A job whose images are read. The job must outlive it.
+struct ReadyJob {
+  const RegisterJob* job;
+  std::vector<PreparedImage> views;
+  std::vector<Hypothesis> starts;  // world from object, in the job's order
+};
+
+// InputError: an image or a camera that cannot be used.
+ReadyJob prepare_job(const RegisterJob& job, Backend& backend, const RegisterOptions& options);
+
+// The starts refined in all views, in their order; out of sight where no image shows them, with a warning.
+// `edge_models` are those of `models`. InputError: an image too large for the device.
+Detections refine_job(const ReadyJob& ready, std::span<const RegisterModel> models,
+                      std::span<const EdgeModel> edge_models, Backend& backend,
+                      const RegisterOptions& options);
+
+// Of one view: the poses whose starts were given in it.
+ImageResult result_of(const ReadyJob& ready, std::size_t view, const Detections& found,
+                      std::span<const RegisterModel> models, const Backend& backend);
+
+// The view's image with all poses of the job.
+void save_overlay(const ReadyJob& ready, std::size_t view, const Detections& found,
+                  std::span<const EdgeModel> edge_models, Backend& backend, const RegisterOptions& options);
+
+}  // namespace edgescout
