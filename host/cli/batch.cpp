@@ -187,7 +187,7 @@ class Detector {
       if (options_.overlays) write_overlay(input, images[i], found, models_, backend_, options_);
       ImageResult result = result_of(input, images[i], found, sets_, backend_, options_.joint);
       result.settings = settings_.of(input, views);
-      save_image_result(result, json_of(options_.out, input));
+      save_result(result, options_.out, input);
       summary.finished.insert(input.name);
       ++summary.done;
     }

@@ -1,11 +1,14 @@
 #include "host/cli/batch_results.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "host/active/particles.h"
+#include "host/cli/stage_times.h"
 #include "host/core/log.h"
 #include "host/io/bop.h"
 #include "host/io/files.h"
@@ -57,6 +60,12 @@ bool is_done(const fs::path& out, const InputImage& input, const Settings& setti
     return false;
   require_same(result.settings, settings, file.string());
   return true;
+}
+
+void save_result(const ImageResult& result, const fs::path& out, const InputImage& input) {
+  save_image_result(result, json_of(out, input));
+  log(LogLevel::Debug, fmt::format("{}: {} poses, {}", input.file.string(), result.detections.size(),
+                                   stage_times(result.stages)));
 }
 
 void require_no_other_results(const fs::path& out, std::span<const InputImage> images) {

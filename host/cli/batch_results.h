@@ -41,6 +41,9 @@ std::filesystem::path place_of(const InputImage& input);
 // other settings: it is neither this batch's nor to be lost.
 bool is_done(const std::filesystem::path& out, const InputImage& input, const Settings& settings);
 
+// NAME.json. The log says, for debugging, how many poses there are and how long every stage took.
+void save_result(const ImageResult& result, const std::filesystem::path& out, const InputImage& input);
+
 // A batch that is not taken up again leaves no other results beside its own. InputError where the folder
 // holds those of images that are not among these, or something else by the name of a result.
 void require_no_other_results(const std::filesystem::path& out, std::span<const InputImage> images);

@@ -100,7 +100,7 @@ class Registrar {
     for (std::size_t view : views_with_starts(job)) {
       ImageResult result = result_of(ready, view, found, models_, backend_);
       result.settings = settings_of_view(job, view);
-      save_image_result(result, json_of(options_.out, job.views[view]));
+      save_result(result, options_.out, job.views[view]);
       summary.finished.insert(job.views[view].name);
       ++summary.done;
     }

@@ -8,6 +8,7 @@
 #include "host/cli/pipeline_options.h"
 #include "host/cli/scout_report.h"
 #include "host/cli/scout_source.h"
+#include "host/cli/stage_times.h"
 #include "host/cli/template_sets.h"
 #include "host/cli/verbs.h"
 #include "host/core/log.h"
@@ -110,6 +111,8 @@ void tell(const ScoutState& state) {
   log(LogLevel::Info,
       fmt::format("image {} from view {}: {} objects, entropy {:.3f} nats", state.steps.size(),
                   step.decision.view, state.detections.size(), state.entropy_nats));
+  log(LogLevel::Debug,
+      fmt::format("decision: {}; image: {}", stage_times(step.decision.stages), stage_times(step.stages)));
 }
 
 void write_all(const ScoutState& state, const ScoutReport& report, const ScoutRequest& request, bool last,

@@ -43,8 +43,11 @@ TEST(Register, BringsPerturbedPosesBackToTheTruth) {
   ASSERT_EQ(truth.size(), 2u);
   save_bop_results(perturbed(truth, 0.1, 0.005, test_random()), folder.path() / "starts.csv");
   const fs::path out = folder.path() / "out";
-  const Outcome outcome = run_program(register_in(one_view(), folder.path() / "starts.csv", out));
+  const Outcome outcome =
+      run_program(register_in(one_view(), folder.path() / "starts.csv", out, {"--log-level", "debug"}));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* words : {"debug: ", ": 2 poses, ", " ms, edges ", " ms, tensors ", " ms, registration "})
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << words << " not in " << outcome.err;
   const std::vector<BopResult> rows = load_bop_results(out / "results.csv");
   expect_at_truth(rows, truth, 0.01);
   const ImageResult result = load_image_result(out / "000000_000000.json");
