@@ -25,11 +25,14 @@ struct Detector {
   const char* column;
   double sign;  // times it, the column is the higher the likelier
 };
+// Those of FDCM first, in the order of fdcm_views.
 constexpr Detector DETECTORS[] = {{"FDCM", "fdcm_px", -1},
                                   {"FDCM (LSD edges)", "fdcm_lsd_px", -1},
                                   {"FDCM (lambda 30)", "fdcm_own_px", -1},
+                                  {"FDCM (cap 15 px)", "fdcm_cap_px", -1},
                                   {"LINE-2D", "line2d", 1}};
 static_assert(OWN_LAMBDA_PX_PER_RAD == 30, "as the detector's name says");
+constexpr float LOW_CAP_PX = 15;  // of what a point that is hidden or missed may cost
 
 Notes options(const ExperimentSettings& s) {
   Notes notes{{"scenes", std::to_string(s.scenes)},
@@ -43,22 +46,31 @@ Notes options(const ExperimentSettings& s) {
   return notes;
 }
 
+TensorOptions capped(TensorOptions options, float cap_px) {
+  options.cap_px = cap_px;
+  return options;
+}
+
+// What each FDCM sees. The edges must outlive it.
+std::vector<RegisterView> fdcm_views(const KnownScene& scene, const SceneEdges& edges, const SceneEdges& lsd,
+                                     Backend& backend) {
+  const TensorOptions papers = tensor_with(PAPER_LAMBDA_PX_PER_RAD);
+  const auto seen = [&](const SceneEdges& points, const TensorOptions& tensor) {
+    return register_views(scene, points, tensor, backend)[0];
+  };
+  return {seen(edges, papers), seen(lsd, papers), seen(edges, tensor_with(OWN_LAMBDA_PX_PER_RAD)),
+          seen(edges, capped(papers, LOW_CAP_PX))};
+}
+
 // Columns: set, image, object, instances (of the object in the image), candidate, instance and how much of it
 // is visible (both empty: of none), and the scores.
 Table score_candidates(const KnownScene& scene, const ExperimentSettings& settings, Backend& backend) {
-  Table table{{},
-              {"set", "image", "object", "instances", "candidate", "instance", "visible", "fdcm_px",
-               "fdcm_lsd_px", "fdcm_own_px", "line2d"},
-              {}};
+  Table table{{}, {"set", "image", "object", "instances", "candidate", "instance", "visible"}, {}};
+  for (const Detector& detector : DETECTORS) table.columns.emplace_back(detector.column);
   std::vector<EdgeModel> models;
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
   const SceneEdges edges = edges_of(scene, backend), lsd = edges_of(scene, backend, EdgeMethod::Lsd);
-  const auto seen_with = [&](const SceneEdges& points, float lambda) {
-    return register_views(scene, points, tensor_with(lambda), backend)[0];
-  };
-  const RegisterView view = seen_with(edges, PAPER_LAMBDA_PX_PER_RAD),
-                     lsd_view = seen_with(lsd, PAPER_LAMBDA_PX_PER_RAD),
-                     own_view = seen_with(edges, OWN_LAMBDA_PX_PER_RAD);
+  const std::vector<RegisterView> views = fdcm_views(scene, edges, lsd, backend);
   for (int object = 0; object < static_cast<int>(scene.objects.size()); ++object) {
     const auto instances = std::ranges::count(scene.instances, object, &KnownInstance::object);
     if (instances == 0) continue;
@@ -67,16 +79,20 @@ Table score_candidates(const KnownScene& scene, const ExperimentSettings& settin
     std::vector<Candidate> poses;
     for (const PoseCandidate& candidate : candidates)
       poses.push_back({object, candidate.camera_from_object, 0});
-    const std::vector<double> fdcm = fdcm_scores(models, poses, view, backend);
-    const std::vector<double> lsd_fdcm = fdcm_scores(models, poses, lsd_view, backend);
-    const std::vector<double> own_fdcm = fdcm_scores(models, poses, own_view, backend);
-    const std::vector<double> line2d = line2d_scores(models, poses, view, backend);
+    std::vector<std::vector<double>> scores;  // by detector
+    for (const RegisterView& view : views) scores.push_back(fdcm_scores(models, poses, view, backend));
+    scores.push_back(line2d_scores(models, poses, views[0], backend));
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       const int of = candidates[i].instance;
-      table.rows.push_back({scene.set, scene.name, scene.objects[object].mesh.name, std::to_string(instances),
-                            std::to_string(i), of < 0 ? "" : scene.instances[of].name,
-                            of < 0 ? "" : number_text(scene.instances[of].visible), number_text(fdcm[i]),
-                            number_text(lsd_fdcm[i]), number_text(own_fdcm[i]), number_text(line2d[i])});
+      std::vector<std::string> row{scene.set,
+                                   scene.name,
+                                   scene.objects[object].mesh.name,
+                                   std::to_string(instances),
+                                   std::to_string(i),
+                                   of < 0 ? "" : scene.instances[of].name,
+                                   of < 0 ? "" : number_text(scene.instances[of].visible)};
+      for (const std::vector<double>& of_detector : scores) row.push_back(number_text(of_detector[i]));
+      table.rows.push_back(std::move(row));
     }
   }
   return table;
@@ -206,13 +222,15 @@ Report report(const ExperimentSettings& settings, const Table& table) {
       "{} candidates an image and type: {} around every instance of which at least a tenth shows, within {} "
       "rad and {:.0f} mm; all others anywhere in a cube that holds the instances. "
       "FDCM ranks by the mean distance of the tensor (with the paper's weight of the orientation, {} px/rad, "
-      "or another; of this project's edges or, as in the paper, of LSD's), LINE-2D by the similarity of "
+      "or another; of this project's edges or, as in the paper, of LSD's; no distance above {:.0f} px, or "
+      "above a lower cap; the paper has none), LINE-2D by the similarity of "
       "OpenCV's linemod. An instance is found where a candidate of it is accepted. 95 % intervals by "
       "bootstrap over images; of the difference over the same draws of images.{}\n\n"
       "| candidates | method | no false positive | 0.1 an image | 1 | 10 | instances "
       "|\n|---|---|---|---|---|---|---|\n",
       settings.candidates, CANDIDATES_AN_INSTANCE, CANDIDATE_ANGLE_RAD, 1000 * CANDIDATE_DISTANCE_M,
-      PAPER_LAMBDA_PX_PER_RAD, settings.data.empty() ? "" : std::string(" ") + PHOTOGRAPHS_COUNT_APART);
+      PAPER_LAMBDA_PX_PER_RAD, TensorOptions{}.cap_px,
+      settings.data.empty() ? "" : std::string(" ") + PHOTOGRAPHS_COUNT_APART);
   for (const Part& part : parts_of(table)) {
     Panel panel{part.name, "false positives an image (none: as half of one)", "true positive rate", {}, 0, 1,
                 true};

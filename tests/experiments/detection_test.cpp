@@ -38,13 +38,30 @@ TEST(DetectionRows, SayHowMuchOfAnInstanceShows) {
       << "each has candidates, and there are others";
 }
 
+// Each cost is capped by itself: the mean of a candidate that lies in the clutter falls, none rises.
+TEST(DetectionRows, CostNoMoreUnderTheLowerCap) {
+  const std::unique_ptr<Backend> backend = make_cpu_backend(1);
+  const Table table = detection_experiment().cells(one_small_image()).at(0).run(*backend);
+  ASSERT_FALSE(table.rows.empty());
+  int less = 0, between = 0;
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const double capped = number_in(table, row, "fdcm_cap_px"), full = number_in(table, row, "fdcm_px");
+    EXPECT_LE(capped, full + 1e-3) << row;
+    EXPECT_LE(capped, 15.01) << row;  // values are rounded
+    less += capped < full - 1e-3;
+    between += capped < full - 1e-3 && full < 15;
+  }
+  EXPECT_GT(less, 0);
+  EXPECT_GT(between, 0) << "it is no cap of the mean";
+}
+
 // One candidate of an instance and one of none, with the columns of rows from before there was `visible`.
 Table older_rows() {
   return {{},
           {"set", "image", "object", "instances", "candidate", "instance", "fdcm_px", "fdcm_lsd_px",
-           "fdcm_own_px", "line2d"},
-          {{"rendered", "scene_000", "part", "1", "0", "part_0", "1", "1", "1", "90"},
-           {"rendered", "scene_000", "part", "1", "1", "", "5", "5", "5", "20"}}};
+           "fdcm_own_px", "fdcm_cap_px", "line2d"},
+          {{"rendered", "scene_000", "part", "1", "0", "part_0", "1", "1", "1", "1", "90"},
+           {"rendered", "scene_000", "part", "1", "1", "", "5", "5", "5", "5", "20"}}};
 }
 
 TEST(DetectionReport, IsMadeOfOlderRowsToo) {
