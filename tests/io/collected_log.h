@@ -1,4 +1,4 @@
-// What the library logs while this lives.
+// What the library logs while this lives, at the level that programs begin with.
 #pragma once
 
 #include <string>
@@ -11,7 +11,9 @@ namespace edgescout::test {
 struct CollectedLog {
   std::vector<std::pair<LogLevel, std::string>> messages;
   CollectedLog() {
-    set_log_sink([this](LogLevel level, const std::string& text) { messages.emplace_back(level, text); });
+    set_log_sink([this](LogLevel level, const std::string& text) {
+      if (level != LogLevel::Debug) messages.emplace_back(level, text);
+    });
   }
   CollectedLog(const CollectedLog&) = delete;
   CollectedLog& operator=(const CollectedLog&) = delete;
