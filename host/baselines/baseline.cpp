@@ -19,7 +19,7 @@ constexpr std::pair<Method, const char*> method_names[] = {{Method::D2co, "d2co"
 // Eq. 8 in one round: the visible points are those of the start.
 D2coOptions as_published(const BaselineOptions& options) {
   D2coOptions d2co;
-  d2co.rounds = {{LOSS_HUBER, float(options.loss_scale_px), options.outer_iterations, 0}};
+  d2co.rounds = {{LOSS_HUBER, float(options.loss_scale_px), options.inner_iterations, 0}};
   d2co.min_step_m = options.min_step_m;
   d2co.min_step_rad = options.min_step_rad;
   d2co.visibility = options.visibility;

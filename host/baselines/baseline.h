@@ -2,8 +2,9 @@
 // paper states it.
 //
 // All start from one pose, without search or polish, and share what they can: the visible points, taken once
-// at the start pose; the loss, Huber's (Eq. 8's); at most `outer_iterations` steps of Levenberg-Marquardt or
-// rounds of association; the step that ends them. They are plain, single-threaded code: only visible points,
+// at the start pose; the loss, Huber's (Eq. 8's); what ends a least-squares solve, `inner_iterations` or a
+// small step, be it of the whole (D2CO, LM-ICP), of one association (the ICPs) or of a level (Direct): "the
+// same inner loop's stopping criteria". They are plain, single-threaded code: only visible points,
 // and D2CO's systems, come from the backend. Several views are summed up (Eq. 11) by all.
 #pragma once
 
@@ -33,9 +34,9 @@ std::string to_string(Method method);
 Method method_from(const std::string& name);
 
 struct BaselineOptions {
-  int outer_iterations = 50;  // of association or of Levenberg-Marquardt; of Direct on each level. [1, 1000]
-  int inner_iterations = 10;  // of Gauss-Newton on one association. [1, 1000]
-  double min_step_m = 2e-6;   // a step smaller than both ends a method, in [0, 1]
+  int outer_iterations = 50;   // associations of the ICPs, which alone have any. [1, 1000]
+  int inner_iterations = 100;  // steps of one least-squares solve. [1, 1000]
+  double min_step_m = 2e-6;    // a step, or an association's move, smaller than both ends it; in [0, 1]
   double min_step_rad = 2e-5;
   double loss_scale_px = 1;  // of the Huber loss; not of Direct, whose residuals are bounded. (0, 1000]
   int pyramid_levels = 3;    // of Direct, the image itself included. [1, 8]

@@ -1,6 +1,7 @@
 // DC-ICP: Liu, Tuzel, Veeraraghavan, Taguchi, Marks, Chellappa: Fast object localization and pose estimation
 // in heavy clutter for robotic bin picking, IJRR 31(8), 2012. Their directional chamfer cost chooses the
-// pairs; what is minimised is the distance in the image alone.
+// pairs; what is minimised is the distance in the image alone. Pairs are the exact ones of points whose place
+// and direction are not rounded; a map of the tensor's closest points would be rougher, and faster.
 #include <memory>
 
 #include "host/baselines/icp.h"

@@ -16,29 +16,32 @@ namespace edgescout {
 
 namespace {
 
-// Gradient magnitudes over the level's largest; zero where the image is flat.
-ScalarImage normalised_magnitude(const cv::Mat& image) {
+cv::Mat gradient_magnitude(const Image& image) {
+  const cv::Mat grey(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data()));
   cv::Mat gx, gy, magnitude;
-  cv::Sobel(image, gx, CV_32F, 1, 0);
-  cv::Sobel(image, gy, CV_32F, 0, 1);
+  cv::Sobel(grey, gx, CV_32F, 1, 0);
+  cv::Sobel(grey, gy, CV_32F, 0, 1);
   cv::magnitude(gx, gy, magnitude);
+  return magnitude;
+}
+
+// Over the level's largest; zero where the image is flat.
+ScalarImage normalised(const cv::Mat& magnitude) {
   double largest = 0;
   cv::minMaxLoc(magnitude, nullptr, &largest);
-  if (largest > 0) magnitude /= largest;
-  return {magnitude.cols, magnitude.rows, {magnitude.begin<float>(), magnitude.end<float>()}};
+  const cv::Mat scaled = largest > 0 ? cv::Mat(magnitude / largest) : magnitude;
+  return {scaled.cols, scaled.rows, {scaled.begin<float>(), scaled.end<float>()}};
 }
 
 // Finest first; levels smaller than 16 px are left out.
 MagnitudePyramid magnitude_pyramid(const Image& image, int levels) {
-  cv::Mat level;
-  cv::Mat(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data()))
-      .convertTo(level, CV_32F);
-  MagnitudePyramid pyramid{normalised_magnitude(level)};
+  cv::Mat level = gradient_magnitude(image);
+  MagnitudePyramid pyramid{normalised(level)};
   while (int(pyramid.size()) < levels && std::min(level.cols, level.rows) >= 32) {
     cv::Mat half;
     cv::pyrDown(level, half);
     level = half;
-    pyramid.push_back(normalised_magnitude(level));
+    pyramid.push_back(normalised(level));
   }
   return pyramid;
 }
@@ -81,7 +84,7 @@ PoseSolver prepare_direct(std::span<const RegisterView> views, const BaselineOpt
         for (int level = levels - 1; level >= 0; --level)
           levenberg_marquardt(
               track, [&](const Se3& pose) { return magnitude_system(views, points, *pyramids, level, pose); },
-              options.outer_iterations, options.min_step_m, options.min_step_rad);
+              options.inner_iterations, options.min_step_m, options.min_step_rad);
         return track;
       };
 }

@@ -61,7 +61,7 @@ PoseSolver prepare_lm_icp(std::span<const RegisterView> views, const BaselineOpt
         [&](const Se3& pose) {
           return distance_system(views, points, *distances, pose, options.loss_scale_px);
         },
-        options.outer_iterations, options.min_step_m, options.min_step_rad);
+        options.inner_iterations, options.min_step_m, options.min_step_rad);
     return track;
   };
 }

@@ -303,12 +303,6 @@ Panel panel_of(const Table& table, const Searched& searched, const std::vector<s
   return panel;
 }
 
-// Cells of several programs have no one time.
-bool is_of_one_commit(const Table& table) {
-  const auto commit = std::ranges::find(table.notes, "commit", &std::pair<std::string, std::string>::first);
-  return commit == table.notes.end() || commit->second.find(' ') == std::string::npos;
-}
-
 std::string times_text(const Table& table) {
   if (!is_of_one_commit(table)) return "";
   std::string text;

@@ -127,15 +127,21 @@ int level_of(double distance_rad) {
                     static_cast<int>(std::size(LEVELS_RAD)));
 }
 
+bool is_of_one_commit(const Table& table) {
+  const auto commit = std::ranges::find(table.notes, "commit", &std::pair<std::string, std::string>::first);
+  return commit == table.notes.end() || commit->second.find(' ') == std::string::npos;
+}
+
 LevelRates rates_of(const Table& table, const Series& series, const Criterion& criterion) {
   Clusters levels[std::size(LEVELS_RAD)], all;
   const ClusterKeys keys(table);
+  const bool is_timed = is_of_one_commit(table);
   LevelRates rates;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     if (!series.has(table, row)) continue;
     count(levels[level_of(number_in(table, row, "distance_rad")) - 1], keys, table, row, criterion);
     count(all, keys, table, row, criterion);
-    if (!text_in(table, row, "ms").empty()) rates.ms.push_back(number_in(table, row, "ms"));
+    if (is_timed && !text_in(table, row, "ms").empty()) rates.ms.push_back(number_in(table, row, "ms"));
   }
   for (std::size_t level = 0; level < std::size(LEVELS_RAD); ++level)
     rates.clusters[level] = as_list(levels[level]);

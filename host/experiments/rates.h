@@ -35,7 +35,8 @@ int level_of(double distance_rad);
 struct LevelRates {
   std::vector<Cluster> clusters[4];  // by level
   std::vector<Cluster> all;          // of all levels together
-  std::vector<double> ms;            // of every registration whose time is known: its batch's mean
+  std::vector<double> ms;            // of every registration whose time is known: its batch's mean; none of a
+                                     // table of several commits
 };
 LevelRates rates_of(const Table& table, const Series& series, const Criterion& criterion);
 
@@ -54,6 +55,8 @@ Panel rate_panel(const std::string& title, const Table& table, const std::vector
 
 // The rows that fit, columns and notes kept.
 Table rows_where(const Table& table, const std::function<bool(const Table&, std::size_t row)>& fits);
+// Cells of several programs have no one time.
+bool is_of_one_commit(const Table& table);
 // Different texts of a column, in the order they come.
 std::vector<std::string> values_of(const Table& table, std::string_view column);
 

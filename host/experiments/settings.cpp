@@ -57,9 +57,10 @@ void set_camera(RenderOptions& options, int width, int height, double focal_px, 
 
 }  // namespace
 
-TensorOptions tensor_with(float lambda_px_per_rad) {
+TensorOptions tensor_with(float lambda_px_per_rad, float smoothing_variance) {
   TensorOptions options;
   options.lambda_px_per_rad = lambda_px_per_rad;
+  options.smoothing_variance = smoothing_variance;
   return options;
 }
 

@@ -18,7 +18,10 @@ inline constexpr char CLAIRVOYANT[] = "clairvoyant";
 // Weight of the orientation in the tensors that the paper's methods read (Sec. 6), and in edgescout's own.
 inline constexpr float PAPER_LAMBDA_PX_PER_RAD = 100;
 inline constexpr float OWN_LAMBDA_PX_PER_RAD = TensorOptions{}.lambda_px_per_rad;
-TensorOptions tensor_with(float lambda_px_per_rad);
+// Variance of the tensor's Gaussian over orientation, bins^2: the paper's (Sec. 4.1), and that of the three
+// taps 1/4, 1/2, 1/4 in the library that its authors published.
+inline constexpr float PAPER_SMOOTHING = 1, ORIGINAL_SMOOTHING = 0.5;
+TensorOptions tensor_with(float lambda_px_per_rad, float smoothing_variance = PAPER_SMOOTHING);
 // Both as results say what they were made with: name and value.
 std::pair<std::string, std::string> lambda_note();
 

@@ -1,5 +1,6 @@
 #include "host/experiments/trials.h"
 
+#include <fmt/ranges.h>
 #include <time.h>
 
 #include <algorithm>
@@ -40,19 +41,21 @@ Registrar edgescout_itself(std::span<const EdgeModel> models, std::span<const Re
   };
 }
 
-float lambda_of(const Trial& trial) {
-  return trial.method == EDGESCOUT ? OWN_LAMBDA_PX_PER_RAD : trial.lambda_px_per_rad;
+// Lambda and smoothing of the tensors that a trial reads.
+std::pair<float, float> tensor_of(const Trial& trial) {
+  return {trial.method == EDGESCOUT ? OWN_LAMBDA_PX_PER_RAD : trial.lambda_px_per_rad,
+          trial.smoothing_variance};
 }
 
-struct TimedPoses {
-  std::vector<Se3> camera_from_object;  // one a start, in the first image
-  double ms = 0;                        // of one
+struct TimedRegistrations {
+  std::vector<Registration> registrations;  // one a start
+  double ms = 0;                            // of one
 };
 
 // All starts of one call have one type, so that every method works on batches alike.
-TimedPoses run_trial(const Trial& trial, const KnownScene& scene, const std::vector<Start>& starts,
-                     std::span<const EdgeModel> models, std::span<const RegisterView> views,
-                     Backend& backend) {
+TimedRegistrations run_trial(const Trial& trial, const KnownScene& scene, const std::vector<Start>& starts,
+                             std::span<const EdgeModel> models, std::span<const RegisterView> views,
+                             Backend& backend) {
   const Registrar registrar = trial.method == EDGESCOUT
                                   ? edgescout_itself(models, views, backend)
                                   : prepare_method(method_from(trial.method), models, views, backend);
@@ -62,19 +65,18 @@ TimedPoses run_trial(const Trial& trial, const KnownScene& scene, const std::vec
     hypotheses.push_back(
         {scene.instances[start.instance].object, inverse(camera_from_world) * start.camera_from_object});
   const double begin = seconds_now(backend);
-  const std::vector<Registration> registrations = registrar(hypotheses);
-  TimedPoses result;
+  TimedRegistrations result;
+  result.registrations = registrar(hypotheses);
   result.ms = 1000 * (seconds_now(backend) - begin) / static_cast<double>(starts.size());
-  for (const Registration& registration : registrations)
-    result.camera_from_object.push_back(camera_from_world * registration.world_from_object);
   return result;
 }
 
 std::vector<std::string> row_of(const KnownScene& scene, const Start& start, const Trial& trial,
-                                const Se3& pose, const std::string& ms) {
+                                const Registration& found, const std::string& ms) {
   const KnownInstance& instance = scene.instances[start.instance];
   const Object& object = scene.objects[instance.object];
-  const Se3 truth = scene.images[0].camera_from_world * instance.world_from_object;
+  const Se3 truth = scene.images[0].camera_from_world * instance.world_from_object,
+            pose = scene.images[0].camera_from_world * found.world_from_object;
   const PoseError error = pose_error(pose, truth, object.symmetries);
   return {scene.set,
           scene.name,
@@ -89,6 +91,8 @@ std::vector<std::string> row_of(const KnownScene& scene, const Start& start, con
           number_text(1000 * error.distance_m),
           number_text(mspd_px(pose, truth, object, scene.images[0].camera)),
           error.passes() ? "1" : "0",
+          std::to_string(found.iterations),
+          found.reason == Convergence::IterationLimit ? "1" : "0",
           ms};
 }
 
@@ -154,9 +158,11 @@ std::vector<Start> as_starts(const std::vector<RecordedStart>& recorded) {
 }
 
 std::string Trial::name() const {
-  return method == EDGESCOUT || lambda_px_per_rad == PAPER_LAMBDA_PX_PER_RAD
-             ? method
-             : method + " (lambda " + number_text(lambda_px_per_rad) + ")";
+  std::vector<std::string> others;
+  if (lambda_px_per_rad != PAPER_LAMBDA_PX_PER_RAD)
+    others.push_back("lambda " + number_text(lambda_px_per_rad));
+  if (smoothing_variance != PAPER_SMOOTHING) others.push_back("smoothing " + number_text(smoothing_variance));
+  return others.empty() ? method : fmt::format("{} ({})", method, fmt::join(others, " and "));
 }
 
 std::vector<Start> starts_around(const KnownScene& scene, int count, unsigned seed) {
@@ -173,8 +179,8 @@ std::vector<Start> starts_by_distance(const KnownScene& scene, int count, unsign
 }
 
 std::vector<std::string> trial_columns() {
-  return {"set",    "image", "object",    "instance",    "start",   "distance_rad", "visible",
-          "method", "views", "angle_rad", "distance_mm", "mspd_px", "right",        "ms"};
+  return {"set",   "image",     "object",      "instance", "start", "distance_rad", "visible", "method",
+          "views", "angle_rad", "distance_mm", "mspd_px",  "right", "steps",        "cut_off", "ms"};
 }
 
 Table run_trials(const KnownScene& scene, const std::vector<Start>& starts, const std::vector<Trial>& trials,
@@ -182,19 +188,20 @@ Table run_trials(const KnownScene& scene, const std::vector<Start>& starts, cons
   std::vector<EdgeModel> models;
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
   const SceneEdges edges = edges_of(scene, backend);
-  std::map<float, std::vector<RegisterView>> views_with;
+  std::map<std::pair<float, float>, std::vector<RegisterView>> views_with;
   for (const Trial& trial : trials)
-    if (const float lambda = lambda_of(trial); !views_with.contains(lambda))
-      views_with[lambda] = register_views(scene, edges, tensor_with(lambda), backend);
+    if (const auto [lambda, smoothing] = tensor_of(trial); !views_with.contains({lambda, smoothing}))
+      views_with[{lambda, smoothing}] = register_views(scene, edges, tensor_with(lambda, smoothing), backend);
   Table table{{}, trial_columns(), {}};
   for (const std::vector<Start>& group : by_object(scene, starts))
     for (const Trial& trial : trials) {
-      const std::span<const RegisterView> views = views_with.at(lambda_of(trial));
+      const std::span<const RegisterView> views = views_with.at(tensor_of(trial));
       if (trial.views > static_cast<int>(views.size())) continue;
-      const TimedPoses poses = run_trial(trial, scene, group, models, views.first(trial.views), backend);
+      const TimedRegistrations found =
+          run_trial(trial, scene, group, models, views.first(trial.views), backend);
       for (std::size_t i = 0; i < group.size(); ++i)
-        table.rows.push_back(row_of(scene, group[i], trial, poses.camera_from_object[i],
-                                    settings.times ? number_text(poses.ms) : ""));
+        table.rows.push_back(row_of(scene, group[i], trial, found.registrations[i],
+                                    settings.times ? number_text(found.ms) : ""));
     }
   return table;
 }

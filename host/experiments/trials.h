@@ -35,17 +35,20 @@ std::vector<Start> starts_by_distance(const KnownScene& scene, int count, unsign
 std::vector<Start> as_starts(const std::vector<RecordedStart>& recorded);
 
 // A method and how many of the scene's views it uses. "edgescout" is refine_poses at its defaults; the others
-// are those of host/baselines, on tensors of this lambda (D2CO, DC-ICP).
+// are those of host/baselines, on tensors of this lambda (D2CO, DC-ICP) and smoothing (D2CO).
 struct Trial {
   std::string method;
   int views = 1;
   float lambda_px_per_rad = PAPER_LAMBDA_PX_PER_RAD;
-  std::string name() const;  // "d2co", or with another lambda than the paper's "d2co (lambda 30)"
+  float smoothing_variance = PAPER_SMOOTHING;
+  std::string name()
+      const;  // "d2co", or with others than the paper's "d2co (lambda 30)", "d2co (smoothing 0.5)"
 };
 
 // Columns: set, image, object, instance, start, distance_rad, visible, method, views, angle_rad, distance_mm,
-// mspd_px, right (1: below 0.1 rad and 5 mm modulo symmetry), ms (of one registration, mean over its batch,
-// tensors not included). Trials of more views than the scene has are left out.
+// mspd_px, right (1: below 0.1 rad and 5 mm modulo symmetry), steps (of association, or of the solve; of
+// edgescout's polish), cut_off (1: the limit of these ended it), ms (of one registration, mean over its
+// batch, tensors not included). Trials of more views than the scene has are left out.
 std::vector<std::string> trial_columns();
 Table run_trials(const KnownScene& scene, const std::vector<Start>& starts, const std::vector<Trial>& trials,
                  const ExperimentSettings& settings, Backend& backend);

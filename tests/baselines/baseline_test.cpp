@@ -91,13 +91,50 @@ TEST_P(Baseline, RecoversAPartInThreeViews) {
 TEST_P(Baseline, TakesNoMoreIterationsThanAllowed) {
   const Rendered& r = rendered();
   BaselineOptions options;
-  options.outer_iterations = 3;
+  options.outer_iterations = options.inner_iterations = 3;
   options.pyramid_levels = 1;
   const std::vector<Hypothesis> starts = r.starts(1, 0.005, 0.1, test_random());
   const Registration found =
       register_with(GetParam().method, r.scene.models, starts, r.views, *r.backend, options)[0];
   EXPECT_EQ(found.iterations, 3);
   EXPECT_EQ(found.reason, Convergence::IterationLimit);
+}
+
+// Near its end a method stops by itself, and not sooner than its smallest step says.
+TEST_P(Baseline, EndsByASmallStep) {
+  const Rendered& r = rendered();
+  const std::vector<Hypothesis> starts = r.starts(5, 0.0005, 0.01, test_random());
+  const auto results_with = [&](double coarser) {
+    BaselineOptions options;
+    options.inner_iterations = options.outer_iterations = 1000;
+    options.min_step_m *= coarser;
+    options.min_step_rad *= coarser;
+    return register_with(GetParam().method, r.scene.models, starts, r.views, *r.backend, options);
+  };
+  int fine = 0, coarse = 0;
+  for (const Registration& found : results_with(1)) {
+    EXPECT_EQ(found.reason, Convergence::SmallStep) << found.iterations;
+    fine += found.iterations;
+  }
+  for (const Registration& found : results_with(1000)) coarse += found.iterations;
+  EXPECT_LT(coarse, fine);
+}
+
+// The solves of all methods have one limit: none stops at it where another goes on.
+TEST_P(Baseline, SolvesWithTheLimitThatAllShare) {
+  const Rendered& r = rendered();
+  const std::vector<Hypothesis> start = r.starts(1, 0.003, 0.05, test_random());
+  const auto moved_m = [&](int inner) {
+    BaselineOptions options;
+    options.outer_iterations = 1;
+    options.inner_iterations = inner;
+    options.pyramid_levels = 1;
+    const Registration found =
+        register_with(GetParam().method, r.scene.models, start, r.views, *r.backend, options)[0];
+    return distance_between_m(found.world_from_object, start[0].world_from_object);
+  };
+  EXPECT_GT(moved_m(1), 0);
+  EXPECT_NE(moved_m(1), moved_m(2)) << "one more step of the same solve";
 }
 
 TEST_P(Baseline, LeavesWhatLiesBehindTheCameraWhereItIs) {

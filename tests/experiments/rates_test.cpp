@@ -11,8 +11,8 @@ namespace {
 std::vector<std::string> row(const std::string& image, const std::string& distance_rad,
                              const std::string& method, const std::string& right,
                              const std::string& mspd_px = "1", const std::string& ms = "2") {
-  return {"set",  image, "part", "part_0", "0",     distance_rad, "1",
-          method, "1",   "0.01", "1",      mspd_px, right,        ms};
+  return {"set", image,  "part", "part_0", "0",   distance_rad, "1", method,
+          "1",   "0.01", "1",    mspd_px,  right, "12",         "0", ms};
 }
 
 Table trials() {
@@ -60,6 +60,14 @@ TEST(Rates, AreATableWithARowAMethod) {
   EXPECT_NE(text.find("| two | 0 % [0, 79] |  |  | 100 % [21, 100] | 50 % [0, 100] | 2 |  |\n"),
             std::string::npos)
       << text;
+}
+
+TEST(Rates, HaveNoTimesWhereSeveralProgramsTookThem) {
+  Table table = trials();
+  table.notes = {{"commit", "0123456789ab"}};
+  EXPECT_EQ(rates_of(table, series("one"), pose_criterion()).ms.size(), 4u);
+  table.notes = {{"commit", "0123456789ab fedcba987654"}};
+  EXPECT_TRUE(rates_of(table, series("one"), pose_criterion()).ms.empty());
 }
 
 // As many images as the bootstrap draws from, and a word where it has too few.

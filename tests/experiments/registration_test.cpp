@@ -13,9 +13,10 @@ namespace {
 
 // One registration, which is right.
 Table registration_in(const std::string& set) {
-  return {{},
-          trial_columns(),
-          {{set, "s00", "part", "part_0", "7", "0.1", "1", "d2co", "1", "0.01", "1", "1", "1", "2"}}};
+  return {
+      {},
+      trial_columns(),
+      {{set, "s00", "part", "part_0", "7", "0.1", "1", "d2co", "1", "0.01", "1", "1", "1", "12", "0", "2"}}};
 }
 
 // Of the original implementation's six files the data folder has one.

@@ -134,16 +134,24 @@ TEST(Trials, RowsSayWhatThePosesAre) {
   std::vector<Start> starts = starts_around(scene, 8, 3);
   std::erase_if(starts, [](const Start& start) { return start.distance_rad > 0.1; });
   ASSERT_EQ(starts.size(), 4u);
-  const Table table = run_trials(
-      scene, starts, {{"edgescout", 1}, {"d2co", 1}, {"d2co", 1, 30}, {"edgescout", 3}}, settings, *backend);
-  EXPECT_EQ(values_of(table, "method"), (std::vector<std::string>{"edgescout", "d2co", "d2co (lambda 30)"}));
-  EXPECT_EQ(table.rows.size(), 12u) << "three views are not there";
+  const Table table =
+      run_trials(scene, starts,
+                 {{"edgescout", 1}, {"d2co", 1}, {"d2co", 1, 30}, {"d2co", 1, 100, 0.5}, {"edgescout", 3}},
+                 settings, *backend);
+  EXPECT_EQ(values_of(table, "method"),
+            (std::vector<std::string>{"edgescout", "d2co", "d2co (lambda 30)", "d2co (smoothing 0.5)"}));
+  EXPECT_EQ(table.rows.size(), 16u) << "three views are not there";
+  EXPECT_EQ(values_of(table, "mspd_px").size(), 16u) << "each on a tensor of its own";
   int right = 0;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
     const bool is_right =
         number_in(table, row, "angle_rad") < 0.1 && number_in(table, row, "distance_mm") < 5;
     EXPECT_EQ(text_in(table, row, "right"), is_right ? "1" : "0");
     EXPECT_GT(number_in(table, row, "ms"), 0);
+    EXPECT_GT(number_in(table, row, "steps"), 0);
+    if (text_in(table, row, "method") != "edgescout") {  // whose polish has a limit of its own
+      EXPECT_EQ(number_in(table, row, "cut_off"), number_in(table, row, "steps") >= 100) << row;
+    }
     right += is_right && text_in(table, row, "method") == "edgescout";
   }
   EXPECT_EQ(right, 4);
