@@ -88,12 +88,14 @@ std::vector<Series> series_in(const Table& table) {
   return list;
 }
 
-// The paper's first two, each lambda by itself and with the original's smoothing, and what the search adds.
+// The paper's first two: each lambda by itself, the original's smoothing, and each with the lambda that suits
+// it; and what the search adds.
 std::vector<Comparison> comparisons() {
   std::vector<Comparison> list;
   for (const float lambda : {PAPER_LAMBDA_PX_PER_RAD, OWN_LAMBDA_PX_PER_RAD})
     list.emplace_back(Trial{"d2co", 1, lambda}.name(), Trial{"dc-icp", 1, lambda}.name());
   list.emplace_back(as_in_the_original().name(), "dc-icp");
+  list.emplace_back(Trial{"d2co", 1, OWN_LAMBDA_PX_PER_RAD}.name(), "dc-icp");
   list.emplace_back("edgescout", Trial{"d2co", 1, OWN_LAMBDA_PX_PER_RAD}.name());
   return list;
 }
