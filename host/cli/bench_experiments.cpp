@@ -19,7 +19,7 @@ namespace {
 
 struct ExperimentsRequest {
   std::vector<std::string> names;
-  std::string out, data, device = "cpu";
+  std::string out, data, device = "cpu", edge_method = "gradient";
   bool is_short = false, is_full = false, resume = false, any_commit = false;
   int jobs = 0;
   ExperimentSettings settings;  // what was given on the command line
@@ -48,6 +48,7 @@ ExperimentSettings settings_of(const ExperimentsRequest& request, const CLI::App
   for (const auto& [name, size] : SIZES)
     if (verb.count(std::string("--") + name) == 0) settings.*size = form.*size;
   settings.data = request.data;
+  settings.edges = edge_method_from_name(request.edge_method);
   return settings;
 }
 
@@ -119,6 +120,19 @@ void add_sizes(CLI::App& verb, ExperimentsRequest& r) {
       .bounded("supersampling", s.supersampling, 1, 7, "Samples a pixel and axis of rendered images; odd");
 }
 
+void add_method_options(CLI::App& verb, ExperimentsRequest& r) {
+  BaselineOptions& m = r.settings.methods;
+  TensorOptions& t = r.settings.tensor;
+  OptionTable(verb, "Methods of registration, and FDCM")
+      .choice("edges", r.edge_method, {"gradient", "lsd"}, "Edges that are registered to")
+      .bounded("smoothing-variance", t.smoothing_variance, 0.0f, 16.0f,
+               "Variance of the tensor's smoothing over orientation, bins^2")
+      .bounded("cap", t.cap_px, 1.0f, 255.0f, "Largest distance to an edge that counts, px")
+      .bounded("associations", m.outer_iterations, 1, 1000, "Of the ICPs, at most")
+      .bounded("solve-steps", m.inner_iterations, 1, 1000, "Of one least-squares solve of a method, at most")
+      .bounded("loss-scale", m.loss_scale_px, 0.01, 1000.0, "Of the Huber loss of all but edgescout, px");
+}
+
 }  // namespace
 
 void add_bench_experiments(CLI::App& bench, int& exit_code) {
@@ -144,6 +158,7 @@ void add_bench_experiments(CLI::App& bench, int& exit_code) {
       .flag("times,!--no-times", request->settings.times,
             "Measured times among the rows (default); without, two runs give the same bytes");
   add_sizes(*verb, *request);
+  add_method_options(*verb, *request);
   verb->add_option("--only-bins", request->settings.only_bins,
                    "These, in place of the first --bins and --cad-bins; of a kind that is given as 0 none")
       ->type_name("NUMBER,..")

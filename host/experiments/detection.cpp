@@ -38,6 +38,8 @@ Notes options(const ExperimentSettings& s) {
   Notes notes{{"scenes", std::to_string(s.scenes)},
               {"candidates", std::to_string(s.candidates)},
               lambda_note(),
+              {"smoothing_variance", number_text(s.tensor.smoothing_variance)},
+              {"cap_px", number_text(s.tensor.cap_px)},
               {"image_scale", number_text(s.image_scale)},
               {"supersampling", std::to_string(s.supersampling)}};
   if (s.data.empty()) return notes;
@@ -53,12 +55,12 @@ TensorOptions capped(TensorOptions options, float cap_px) {
 
 // What each FDCM sees. The edges must outlive it.
 std::vector<RegisterView> fdcm_views(const KnownScene& scene, const SceneEdges& edges, const SceneEdges& lsd,
-                                     Backend& backend) {
-  const TensorOptions papers = tensor_with(PAPER_LAMBDA_PX_PER_RAD);
-  const auto seen = [&](const SceneEdges& points, const TensorOptions& tensor) {
-    return register_views(scene, points, tensor, backend)[0];
+                                     const TensorOptions& tensor, Backend& backend) {
+  const TensorOptions papers = with_lambda(tensor, PAPER_LAMBDA_PX_PER_RAD);
+  const auto seen = [&](const SceneEdges& points, const TensorOptions& of_tensor) {
+    return register_views(scene, points, of_tensor, backend)[0];
   };
-  return {seen(edges, papers), seen(lsd, papers), seen(edges, tensor_with(OWN_LAMBDA_PX_PER_RAD)),
+  return {seen(edges, papers), seen(lsd, papers), seen(edges, with_lambda(tensor, OWN_LAMBDA_PX_PER_RAD)),
           seen(edges, capped(papers, LOW_CAP_PX))};
 }
 
@@ -70,7 +72,7 @@ Table score_candidates(const KnownScene& scene, const ExperimentSettings& settin
   std::vector<EdgeModel> models;
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
   const SceneEdges edges = edges_of(scene, backend), lsd = edges_of(scene, backend, EdgeMethod::Lsd);
-  const std::vector<RegisterView> views = fdcm_views(scene, edges, lsd, backend);
+  const std::vector<RegisterView> views = fdcm_views(scene, edges, lsd, settings.tensor, backend);
   for (int object = 0; object < static_cast<int>(scene.objects.size()); ++object) {
     const auto instances = std::ranges::count(scene.instances, object, &KnownInstance::object);
     if (instances == 0) continue;
@@ -229,7 +231,7 @@ Report report(const ExperimentSettings& settings, const Table& table) {
       "| candidates | method | no false positive | 0.1 an image | 1 | 10 | instances "
       "|\n|---|---|---|---|---|---|---|\n",
       settings.candidates, CANDIDATES_AN_INSTANCE, CANDIDATE_ANGLE_RAD, 1000 * CANDIDATE_DISTANCE_M,
-      PAPER_LAMBDA_PX_PER_RAD, TensorOptions{}.cap_px,
+      PAPER_LAMBDA_PX_PER_RAD, settings.tensor.cap_px,
       settings.data.empty() ? "" : std::string(" ") + PHOTOGRAPHS_COUNT_APART);
   for (const Part& part : parts_of(table)) {
     Panel panel{part.name, "false positives an image (none: as half of one)", "true positive rate", {}, 0, 1,

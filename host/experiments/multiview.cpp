@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "host/experiments/data_mark.h"
 #include "host/experiments/photographs.h"
 #include "host/experiments/rates.h"
@@ -33,9 +35,9 @@ std::vector<Trial> trials() {
 Notes options(const ExperimentSettings& s) {
   Notes notes{{"groups", std::to_string(s.groups)},
               {"group_starts", std::to_string(s.group_starts)},
-              lambda_note(),
               {"image_scale", number_text(s.image_scale)},
               {"supersampling", std::to_string(s.supersampling)}};
+  std::ranges::copy(trial_notes(s), std::back_inserter(notes));
   if (s.data.empty()) return notes;
   notes.emplace_back("data", data_mark(s.data));
   notes.emplace_back("every", std::to_string(recorded_every(s)));

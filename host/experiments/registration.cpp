@@ -35,9 +35,9 @@ std::vector<Trial> trials() {
 Notes options(const ExperimentSettings& s) {
   Notes notes{{"scenes", std::to_string(s.scenes)},
               {"starts", std::to_string(s.starts)},
-              lambda_note(),
               {"image_scale", number_text(s.image_scale)},
               {"supersampling", std::to_string(s.supersampling)}};
+  std::ranges::copy(trial_notes(s), std::back_inserter(notes));
   if (s.data.empty()) return notes;
   notes.emplace_back("data", data_mark(s.data));
   notes.emplace_back("every", std::to_string(s.every));
@@ -181,7 +181,7 @@ std::string steps_text(const Table& table, const std::string& method) {
 }
 
 // The paper's table 1, on the rendered scenes.
-std::string time_table(const Table& rendered) {
+std::string time_table(const Table& rendered, const BaselineOptions& limits) {
   constexpr std::pair<const char*, double> PAPER_MS[] = {
       {"d2co", 56.49}, {"dc-icp", 659.09}, {"lm-icp", 68.43}, {"c-icp", 601.10}, {"direct", 65.83}};
   std::string text =
@@ -206,13 +206,14 @@ std::string time_table(const Table& rendered) {
                                                                   paper->second / PAPER_MS[0].second),
                         steps_text(rendered, method));
   }
-  return "## Time of one registration\n\nOn a CPU one thread's own time; on a device the time that passes, "
-         "and of the "
-         "methods that only a CPU runs theirs on its threads. Tensors and distance transforms not included, "
-         "rendered "
-         "images. Steps are associations of the ICPs, which have at most 50; all others' of their one solve "
-         "(Direct: of all levels; edgescout: of its polish, which has a limit of its own), at most 100.\n\n" +
-         text + "\n";
+  return fmt::format(
+      "## Time of one registration\n\nOn a CPU one thread's own time; on a device the time that passes, and "
+      "of "
+      "the methods that only a CPU runs theirs on its threads. Tensors and distance transforms not included, "
+      "rendered images. Steps are associations of the ICPs, which have at most {}; all others' of their one "
+      "solve (Direct: of all levels; edgescout: of its polish, which has a limit of its own), at most {}.\n\n"
+      "{}\n",
+      limits.outer_iterations, limits.inner_iterations, text);
 }
 
 Report report(const ExperimentSettings& settings, const Table& table) {
@@ -222,7 +223,8 @@ Report report(const ExperimentSettings& settings, const Table& table) {
       "## Rendered images\n\n{} images, {} starts around every instance of which at least a tenth shows; "
       "correct is {} modulo symmetry.\n\n{}\n{}",
       settings.scenes, settings.starts, pose_criterion().text,
-      rate_table(rendered, series_in(table), pose_criterion(), comparisons()), time_table(rendered));
+      rate_table(rendered, series_in(table), pose_criterion(), comparisons()),
+      time_table(rendered, settings.methods));
   result.panels.push_back(rate_panel("rendered, all types", rendered, series_in(table), pose_criterion()));
   for (const std::string& type : values_of(rendered, "object")) {
     const Table rows = rows_where(

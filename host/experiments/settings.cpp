@@ -57,11 +57,9 @@ void set_camera(RenderOptions& options, int width, int height, double focal_px, 
 
 }  // namespace
 
-TensorOptions tensor_with(float lambda_px_per_rad, float smoothing_variance) {
-  TensorOptions options;
-  options.lambda_px_per_rad = lambda_px_per_rad;
-  options.smoothing_variance = smoothing_variance;
-  return options;
+TensorOptions with_lambda(TensorOptions tensor, float lambda_px_per_rad) {
+  tensor.lambda_px_per_rad = lambda_px_per_rad;
+  return tensor;
 }
 
 std::pair<std::string, std::string> lambda_note() {
@@ -112,6 +110,8 @@ void ExperimentSettings::validate() const {
   require_words(searches, SEARCHES, "searches");
   require_words(strategies, STRATEGIES, "strategies");
   require(random_draws >= 1 && random_draws <= 100, "random_draws", random_draws, "1 to 100");
+  tensor.validate();
+  methods.validate();
   scout.validate();
   require(image_scale >= 0.1 && image_scale <= 2, "image_scale", image_scale, "0.1 to 2");
   require(supersampling % 2 == 1 && supersampling >= 1 && supersampling <= 7, "supersampling", supersampling,

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "host/active/scout.h"
+#include "host/baselines/baseline.h"
+#include "host/edge/edges.h"
 #include "host/experiments/table.h"
 #include "host/render/scene.h"
 
@@ -18,10 +20,7 @@ inline constexpr char CLAIRVOYANT[] = "clairvoyant";
 // Weight of the orientation in the tensors that the paper's methods read (Sec. 6), and in edgescout's own.
 inline constexpr float PAPER_LAMBDA_PX_PER_RAD = 100;
 inline constexpr float OWN_LAMBDA_PX_PER_RAD = TensorOptions{}.lambda_px_per_rad;
-// Variance of the tensor's Gaussian over orientation, bins^2: the paper's (Sec. 4.1), and that of the three
-// taps 1/4, 1/2, 1/4 in the library that its authors published.
-inline constexpr float PAPER_SMOOTHING = 1, ORIGINAL_SMOOTHING = 0.5;
-TensorOptions tensor_with(float lambda_px_per_rad, float smoothing_variance = PAPER_SMOOTHING);
+TensorOptions with_lambda(TensorOptions tensor, float lambda_px_per_rad);
 // Both as results say what they were made with: name and value.
 std::pair<std::string, std::string> lambda_note();
 
@@ -49,10 +48,13 @@ struct ExperimentSettings {
   // Of Random, whose one draw a bin says little of its mean: every draw after the first chooses a second view
   // and ends there.
   int random_draws = 1;
-  ScoutOptions scout;      // in the bins; strategy, sequence, seeds and first view are the experiment's
-  double image_scale = 1;  // of the paper's image sizes; the bins' are 640x480
-  int supersampling = 3;   // of the renderer; odd
-  bool times = true;       // off: columns of times stay empty, so that two runs give the same bytes
+  EdgeMethod edges = EdgeMethod::Gradient;  // that are registered to
+  TensorOptions tensor;     // of all methods of registration and of FDCM; lambda is each method's own
+  BaselineOptions methods;  // of registration, but edgescout's own
+  ScoutOptions scout;       // in the bins; strategy, sequence, seeds and first view are the experiment's
+  double image_scale = 1;   // of the paper's image sizes; the bins' are 640x480
+  int supersampling = 3;    // of the renderer; odd
+  bool times = true;        // off: columns of times stay empty, so that two runs give the same bytes
   ExperimentSettings();
   static ExperimentSettings short_form();  // minutes on two cores
   // The paper's numbers of images and a few bins: an hour on two cores; thirty bins take three hours more.

@@ -41,11 +41,35 @@ Registrar edgescout_itself(std::span<const EdgeModel> models, std::span<const Re
   };
 }
 
-// Lambda and smoothing of the tensors that a trial reads.
-std::pair<float, float> tensor_of(const Trial& trial) {
-  return {trial.method == EDGESCOUT ? OWN_LAMBDA_PX_PER_RAD : trial.lambda_px_per_rad,
-          trial.smoothing_variance};
+TensorOptions tensor_of(const Trial& trial, const ExperimentSettings& settings) {
+  TensorOptions tensor = with_lambda(
+      settings.tensor, trial.method == EDGESCOUT ? OWN_LAMBDA_PX_PER_RAD : trial.lambda_px_per_rad);
+  tensor.smoothing_variance = trial.smoothing_variance.value_or(tensor.smoothing_variance);
+  return tensor;
 }
+
+// The views with every tensor that the trials read.
+class TrialViews {
+ public:
+  TrialViews(const KnownScene& scene, const ExperimentSettings& settings, Backend& backend)
+      : scene_(scene),
+        settings_(settings),
+        backend_(backend),
+        edges_(edges_of(scene, backend, settings.edges)) {}
+  std::span<const RegisterView> of(const Trial& trial) {
+    const TensorOptions tensor = tensor_of(trial, settings_);
+    std::vector<RegisterView>& views = made_[{tensor.lambda_px_per_rad, tensor.smoothing_variance}];
+    if (views.empty()) views = register_views(scene_, edges_, tensor, backend_);
+    return views;
+  }
+
+ private:
+  const KnownScene& scene_;
+  const ExperimentSettings& settings_;
+  Backend& backend_;
+  SceneEdges edges_;
+  std::map<std::pair<float, float>, std::vector<RegisterView>> made_;  // by lambda and smoothing
+};
 
 struct TimedRegistrations {
   std::vector<Registration> registrations;  // one a start
@@ -55,10 +79,10 @@ struct TimedRegistrations {
 // All starts of one call have one type, so that every method works on batches alike.
 TimedRegistrations run_trial(const Trial& trial, const KnownScene& scene, const std::vector<Start>& starts,
                              std::span<const EdgeModel> models, std::span<const RegisterView> views,
-                             Backend& backend) {
-  const Registrar registrar = trial.method == EDGESCOUT
-                                  ? edgescout_itself(models, views, backend)
-                                  : prepare_method(method_from(trial.method), models, views, backend);
+                             const BaselineOptions& options, Backend& backend) {
+  const Registrar registrar =
+      trial.method == EDGESCOUT ? edgescout_itself(models, views, backend)
+                                : prepare_method(method_from(trial.method), models, views, backend, options);
   const Se3& camera_from_world = scene.images[0].camera_from_world;
   std::vector<Hypothesis> hypotheses;
   for (const Start& start : starts)
@@ -161,7 +185,7 @@ std::string Trial::name() const {
   std::vector<std::string> others;
   if (lambda_px_per_rad != PAPER_LAMBDA_PX_PER_RAD)
     others.push_back("lambda " + number_text(lambda_px_per_rad));
-  if (smoothing_variance != PAPER_SMOOTHING) others.push_back("smoothing " + number_text(smoothing_variance));
+  if (smoothing_variance) others.push_back("smoothing " + number_text(*smoothing_variance));
   return others.empty() ? method : fmt::format("{} ({})", method, fmt::join(others, " and "));
 }
 
@@ -183,22 +207,28 @@ std::vector<std::string> trial_columns() {
           "views", "angle_rad", "distance_mm", "mspd_px",  "right", "steps",        "cut_off", "ms"};
 }
 
+Notes trial_notes(const ExperimentSettings& s) {
+  return {lambda_note(),
+          {"edges", name_of(s.edges)},
+          {"smoothing_variance", number_text(s.tensor.smoothing_variance)},
+          {"cap_px", number_text(s.tensor.cap_px)},
+          {"associations", std::to_string(s.methods.outer_iterations)},
+          {"solve_steps", std::to_string(s.methods.inner_iterations)},
+          {"loss_scale_px", number_text(s.methods.loss_scale_px)}};
+}
+
 Table run_trials(const KnownScene& scene, const std::vector<Start>& starts, const std::vector<Trial>& trials,
                  const ExperimentSettings& settings, Backend& backend) {
   std::vector<EdgeModel> models;
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
-  const SceneEdges edges = edges_of(scene, backend);
-  std::map<std::pair<float, float>, std::vector<RegisterView>> views_with;
-  for (const Trial& trial : trials)
-    if (const auto [lambda, smoothing] = tensor_of(trial); !views_with.contains({lambda, smoothing}))
-      views_with[{lambda, smoothing}] = register_views(scene, edges, tensor_with(lambda, smoothing), backend);
+  TrialViews seen(scene, settings, backend);
   Table table{{}, trial_columns(), {}};
   for (const std::vector<Start>& group : by_object(scene, starts))
     for (const Trial& trial : trials) {
-      const std::span<const RegisterView> views = views_with.at(tensor_of(trial));
+      const std::span<const RegisterView> views = seen.of(trial);
       if (trial.views > static_cast<int>(views.size())) continue;
       const TimedRegistrations found =
-          run_trial(trial, scene, group, models, views.first(trial.views), backend);
+          run_trial(trial, scene, group, models, views.first(trial.views), settings.methods, backend);
       for (std::size_t i = 0; i < group.size(); ++i)
         table.rows.push_back(row_of(scene, group[i], trial, found.registrations[i],
                                     settings.times ? number_text(found.ms) : ""));

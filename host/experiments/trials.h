@@ -2,6 +2,7 @@
 // and 3.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,13 +35,18 @@ std::vector<Start> starts_by_distance(const KnownScene& scene, int count, unsign
 // At the distances of their levels.
 std::vector<Start> as_starts(const std::vector<RecordedStart>& recorded);
 
+// Variance of the tensor's Gaussian over orientation in the library that the paper's authors published, which
+// has three taps, 1/4, 1/2 and 1/4, bins^2; the paper has 1.
+inline constexpr float ORIGINAL_SMOOTHING = 0.5;
+
 // A method and how many of the scene's views it uses. "edgescout" is refine_poses at its defaults; the others
-// are those of host/baselines, on tensors of this lambda (D2CO, DC-ICP) and smoothing (D2CO).
+// are those of host/baselines, on tensors of this lambda (D2CO, DC-ICP) and smoothing (D2CO;
+// absent: that of the settings).
 struct Trial {
   std::string method;
   int views = 1;
   float lambda_px_per_rad = PAPER_LAMBDA_PX_PER_RAD;
-  float smoothing_variance = PAPER_SMOOTHING;
+  std::optional<float> smoothing_variance = {};
   std::string name()
       const;  // "d2co", or with others than the paper's "d2co (lambda 30)", "d2co (smoothing 0.5)"
 };
@@ -50,6 +56,8 @@ struct Trial {
 // edgescout's polish), cut_off (1: the limit of these ended it), ms (of one registration, mean over its
 // batch, tensors not included). Trials of more views than the scene has are left out.
 std::vector<std::string> trial_columns();
+// What the settings say of how registration is done, for the notes.
+Notes trial_notes(const ExperimentSettings& settings);
 Table run_trials(const KnownScene& scene, const std::vector<Start>& starts, const std::vector<Trial>& trials,
                  const ExperimentSettings& settings, Backend& backend);
 

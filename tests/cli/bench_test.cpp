@@ -253,6 +253,10 @@ TEST(BenchExperiments, OfOtherSettingsAreNotMixed) {
                   {"scene_000.csv", "seed", "found 1", "expected 2"});
   expect_one_line(run_program(experiments(out, {"registration", "--resume"}, 3, 3)),
                   {"scene_000.csv", "starts", "found 2", "expected 3"});
+  expect_one_line(run_program(experiments(out, {"registration", "--resume", "--solve-steps", "7"})),
+                  {"scene_000.csv", "solve_steps", "found 100", "expected 7"});
+  expect_one_line(run_program(experiments(out, {"registration", "--resume", "--edges", "lsd"})),
+                  {"scene_000.csv", "edges", "found gradient", "expected lsd"});
   expect_one_line(run_program(experiments(out, {"detection", "registration"})),
                   {"scene_000.csv", "--resume"});
   expect_one_line(run_program(experiments(out, {"detection", "registration", "detection"})),
@@ -283,6 +287,8 @@ TEST(BenchExperiments, RefuseSizesOutOfBounds) {
   expect_one_line(
       run_program({"bench", "experiments", "--out", folder.path() / "out", "--supersampling", "2"}),
       {"supersampling", "found 2", "1, 3, 5 or 7"});
+  expect_one_line(run_program({"bench", "experiments", "--out", folder.path() / "out", "--edges", "canny"}),
+                  {"--edges", "canny"});
 }
 
 std::vector<std::string> devices_in_short(const fs::path& out) {

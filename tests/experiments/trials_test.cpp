@@ -157,6 +157,36 @@ TEST(Trials, RowsSayWhatThePosesAre) {
   EXPECT_EQ(right, 4);
 }
 
+// What the settings say of methods, edges and tensors is what runs, and what the notes tell.
+TEST(Trials, FollowTheSettings) {
+  ExperimentSettings settings = small_settings();
+  RenderOptions options = single_image_options(settings, 0);
+  options.objects = 1;
+  const std::unique_ptr<Backend> backend = make_cpu_backend(1);
+  const KnownScene scene = rendered_scene("one", rendered_types(), options, backend->threads());
+  const std::vector<Start> starts = starts_around(scene, 2, 1);
+  const auto found_by = [&](const std::string& method, const auto& change) {
+    ExperimentSettings changed = settings;
+    change(changed);
+    EXPECT_NE(trial_notes(changed), trial_notes(settings)) << method;
+    return run_trials(scene, starts, {{method, 1}}, changed, *backend);
+  };
+  const auto expect_other = [&](const std::string& method, const auto& change) {
+    const Table as_it_is = run_trials(scene, starts, {{method, 1}}, settings, *backend),
+                changed = found_by(method, change);
+    EXPECT_NE(values_of(as_it_is, "mspd_px"), values_of(changed, "mspd_px")) << method;
+  };
+  expect_other("d2co", [](ExperimentSettings& s) { s.tensor.smoothing_variance = 0.25f; });
+  expect_other("d2co", [](ExperimentSettings& s) { s.tensor.cap_px = 5; });
+  expect_other("dc-icp", [](ExperimentSettings& s) { s.edges = EdgeMethod::Lsd; });
+  expect_other("lm-icp", [](ExperimentSettings& s) { s.methods.loss_scale_px = 10; });
+  const Table one_step = found_by("d2co", [](ExperimentSettings&s) { s.methods.inner_iterations = 1; }),
+              two_rounds = found_by("c-icp", [](ExperimentSettings&s) { s.methods.outer_iterations = 2; });
+  EXPECT_EQ(values_of(one_step, "steps"), std::vector<std::string>{"1"});
+  EXPECT_EQ(values_of(one_step, "cut_off"), std::vector<std::string>{"1"});
+  EXPECT_EQ(values_of(two_rounds, "steps"), std::vector<std::string>{"2"});
+}
+
 TEST(Trials, LeaveTimesOutWhereNobodyWantsThem) {
   ExperimentSettings settings = small_settings();
   settings.times = false;

@@ -46,8 +46,7 @@ Rendered rendered(unsigned seed, Backend& backend) {
   options.views = VIEWS;
   Rendered result{rendered_scene("polish", held_types(), options, backend.threads()), {}, {}};
   for (const Object& object : result.scene.objects) result.models.push_back(make_edge_model(object.mesh));
-  result.views = register_views(result.scene, edges_of(result.scene, backend),
-                                tensor_with(OWN_LAMBDA_PX_PER_RAD), backend);
+  result.views = register_views(result.scene, edges_of(result.scene, backend), TensorOptions{}, backend);
   return result;
 }
 
