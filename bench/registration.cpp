@@ -13,6 +13,7 @@
 #include <map>
 
 #include "bench/arguments.h"
+#include "host/core/stopwatch.h"
 #include "host/eval/metrics.h"
 #include "host/experiments/recorded_starts.h"
 #include "host/register/refine.h"
@@ -22,9 +23,6 @@ namespace {
 
 using namespace edgescout;
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 struct Arguments {
   std::string folder, device = "cpu";

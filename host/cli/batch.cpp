@@ -8,11 +8,12 @@
 #include <iostream>
 
 #include "host/cli/progress.h"
+#include "host/cli/view_results.h"
 #include "host/core/log.h"
+#include "host/core/stopwatch.h"
 #include "host/io/camera_file.h"
 #include "host/io/files.h"
 #include "host/io/image.h"
-#include "host/io/overlay.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -20,9 +21,6 @@ namespace edgescout {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 BatchSettings settings_of(std::span<const TemplateSet> sets, const BatchOptions& options) {
   BatchSettings settings{options.settings, {}};
@@ -94,29 +92,11 @@ class Preparer {
 
 ImageResult result_of(const InputImage& input, const PreparedImage& prepared, const Detections& detections,
                       std::span<const TemplateSet> sets, const Backend& backend, bool joint) {
-  ImageResult result;
-  result.image = place_of(input);
-  result.scene_id = input.scene_id;
-  result.image_id = input.image_id;
-  result.camera = prepared.camera;
-  result.device = backend.name();
-  result.stages = detections.stages;
-  result.camera_from_world = input.camera_from_world;
+  ImageResult result = begin_result(input, prepared, detections, backend);
   for (const TemplateSet& set : sets) result.objects.push_back({set.object_id, set.model.mesh.name});
   result.detections = detections.detections;
   if (!joint) carry_to_world(result);
   return result;
-}
-
-void write_overlay(const InputImage& input, const PreparedImage& prepared, const Detections& found,
-                   std::span<const EdgeModel> models, Backend& backend, const BatchOptions& options) {
-  std::vector<OverlayPose> poses;
-  for (const Detection& d : found.detections)
-    poses.push_back({d.object, prepared.camera_from_world * d.world_from_object, d.probability,
-                     models[d.object].mesh.name});
-  const EdgeIndex edges(prepared.edges, prepared.camera.width, prepared.camera.height);
-  save_png(draw_overlay(prepared.image, prepared.camera, poses, models, &edges, backend),
-           overlay_of(options.out, input));
 }
 
 // Each is judged, also after one that is missing: what is there must not be another run's.
@@ -184,7 +164,7 @@ class Detector {
     for (const StageSeconds& stage : found.stages) summary.stage_seconds[stage.name] += stage.seconds;
     for (std::size_t i = 0; i < images.size(); ++i) {
       const InputImage& input = *group.images[i];
-      if (options_.overlays) write_overlay(input, images[i], found, models_, backend_, options_);
+      if (options_.overlays) save_overlay(input, images[i], found, models_, backend_, options_.out);
       ImageResult result = result_of(input, images[i], found, sets_, backend_, options_.joint);
       result.settings = settings_.of(input, views);
       save_result(result, options_.out, input);

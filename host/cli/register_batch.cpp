@@ -8,7 +8,9 @@
 
 #include "host/cli/progress.h"
 #include "host/cli/register_job.h"
+#include "host/cli/view_results.h"
 #include "host/core/log.h"
+#include "host/core/stopwatch.h"
 #include "host/io/binary_file.h"
 #include "host/io/files.h"
 #include "kernels/error.h"
@@ -18,9 +20,6 @@ namespace edgescout {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // The images that starts were given in: those that get a result of their own.
 std::vector<std::size_t> views_with_starts(const RegisterJob& job) {
@@ -96,7 +95,7 @@ class Registrar {
     // Not before there is something in their place.
     if (!options_.resume && summary.finished.empty()) start_anew(options_.out, views_);
     for (std::size_t view = 0; options_.overlays && view < job.views.size(); ++view)
-      save_overlay(ready, view, found, edge_models_, backend_, options_);
+      save_overlay(job.views[view], ready.views[view], found, edge_models_, backend_, options_.out);
     for (std::size_t view : views_with_starts(job)) {
       ImageResult result = result_of(ready, view, found, models_, backend_);
       result.settings = settings_of_view(job, view);

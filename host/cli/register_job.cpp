@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "host/cli/view_results.h"
 #include "host/core/log.h"
 #include "host/core/stopwatch.h"
 #include "host/detect/observation.h"
 #include "host/io/image.h"
-#include "host/io/overlay.h"
 
 namespace edgescout {
 
@@ -114,33 +114,13 @@ Detections refine_job(const ReadyJob& ready, std::span<const RegisterModel> mode
 
 ImageResult result_of(const ReadyJob& ready, std::size_t view, const Detections& found,
                       std::span<const RegisterModel> models, const Backend& backend) {
-  const InputImage& input = ready.job->views[view];
-  ImageResult result;
-  result.image = place_of(input);
-  result.scene_id = input.scene_id;
-  result.image_id = input.image_id;
-  result.camera = ready.views[view].camera;
-  result.device = backend.name();
-  result.stages = found.stages;
-  result.camera_from_world = input.camera_from_world;
+  ImageResult result = begin_result(ready.job->views[view], ready.views[view], found, backend);
   for (const RegisterModel& model : models)
     result.objects.push_back({model.object_id, model.edges.mesh.name});
   for (std::size_t i = 0; i < found.detections.size(); ++i)
     if (ready.job->starts[i].view == view) result.detections.push_back(found.detections[i]);
   if (ready.views.size() == 1) carry_to_world(result);
   return result;
-}
-
-void save_overlay(const ReadyJob& ready, std::size_t view, const Detections& found,
-                  std::span<const EdgeModel> edge_models, Backend& backend, const RegisterOptions& options) {
-  const PreparedImage& prepared = ready.views[view];
-  std::vector<OverlayPose> poses;
-  for (const Detection& d : found.detections)
-    poses.push_back({d.object, prepared.camera_from_world * d.world_from_object, d.probability,
-                     edge_models[static_cast<std::size_t>(d.object)].mesh.name});
-  const EdgeIndex edges(prepared.edges, prepared.camera.width, prepared.camera.height);
-  save_png(draw_overlay(prepared.image, prepared.camera, poses, edge_models, &edges, backend),
-           overlay_of(options.out, ready.job->views[view]));
 }
 
 }  // namespace edgescout

@@ -1,4 +1,4 @@
-// One registration job: its images read, its starts refined, and what is written of each view.
+// One registration job: its images read, its starts refined, and what is told of each view.
 #pragma once
 
 #include <span>
@@ -28,9 +28,5 @@ Detections refine_job(const ReadyJob& ready, std::span<const RegisterModel> mode
 // Of one view: the poses whose starts were given in it.
 ImageResult result_of(const ReadyJob& ready, std::size_t view, const Detections& found,
                       std::span<const RegisterModel> models, const Backend& backend);
-
-// The view's image with all poses of the job.
-void save_overlay(const ReadyJob& ready, std::size_t view, const Detections& found,
-                  std::span<const EdgeModel> edge_models, Backend& backend, const RegisterOptions& options);
 
 }  // namespace edgescout

@@ -13,6 +13,10 @@ struct StageSeconds {
   double seconds = 0;
 };
 
+inline double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 // Names the time between two calls; a name that comes again adds to its stage.
 class Stopwatch {
  public:
