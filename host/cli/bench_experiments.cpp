@@ -122,12 +122,11 @@ void add_sizes(CLI::App& verb, ExperimentsRequest& r) {
 
 void add_method_options(CLI::App& verb, ExperimentsRequest& r) {
   BaselineOptions& m = r.settings.methods;
-  TensorOptions& t = r.settings.tensor;
-  OptionTable(verb, "Methods of registration, and FDCM")
-      .choice("edges", r.edge_method, {"gradient", "lsd"}, "Edges that are registered to")
-      .bounded("smoothing-variance", t.smoothing_variance, 0.0f, 16.0f,
-               "Variance of the tensor's smoothing over orientation, bins^2")
-      .bounded("cap", t.cap_px, 1.0f, 255.0f, "Largest distance to an edge that counts, px")
+  const std::string group = "Methods of registration, and FDCM";
+  OptionTable(verb, group)
+      .choice("edges", r.edge_method, {"gradient", "lsd"}, "Edges that are registered to");
+  add_tensor_value_options(verb, group, r.settings.tensor);
+  OptionTable(verb, group)
       .bounded("associations", m.outer_iterations, 1, 1000, "Of the ICPs, at most")
       .bounded("solve-steps", m.inner_iterations, 1, 1000, "Of one least-squares solve of a method, at most")
       .bounded("loss-scale", m.loss_scale_px, 0.01, 1000.0, "Of the Huber loss of all but edgescout, px");

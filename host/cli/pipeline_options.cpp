@@ -19,10 +19,15 @@ void add_edge_and_tensor_options(CLI::App& verb, PipelineOptions& o, std::string
       .bounded("bins", o.tensor.bins, 4, 128,
                "Orientations that edges are sorted into, over half a turn; even")
       .bounded("lambda", o.tensor.lambda_px_per_rad, 0.0f, 10000.0f,
-               "Weight of an orientation's error against a distance, px/rad")
-      .bounded("smoothing-variance", o.tensor.smoothing_variance, 0.0f, 16.0f,
+               "Weight of an orientation's error against a distance, px/rad");
+  add_tensor_value_options(verb, "Tensor", o.tensor);
+}
+
+void add_tensor_value_options(CLI::App& verb, const std::string& group, TensorOptions& t) {
+  OptionTable(verb, group)
+      .bounded("smoothing-variance", t.smoothing_variance, 0.0f, 16.0f,
                "Variance of the smoothing over orientation, bins^2")
-      .bounded("cap", o.tensor.cap_px, 1.0f, 255.0f, "Largest distance to an edge that counts, px");
+      .bounded("cap", t.cap_px, 1.0f, 255.0f, "Largest distance to an edge that counts, px");
 }
 
 void add_hit_options(CLI::App& verb, const std::string& group, DetectOptions& d) {

@@ -9,6 +9,8 @@ namespace edgescout {
 
 // `edge_method` receives the word of --edges; edge_method_from_name (edge/edges.h) reads it.
 void add_edge_and_tensor_options(CLI::App& verb, PipelineOptions& options, std::string& edge_method);
+// Its part that others have too: what the values of a tensor are made of beside lambda.
+void add_tensor_value_options(CLI::App& verb, const std::string& group, TensorOptions& tensor);
 // What a detection in single images has: the search, the choice among what it found, a second look.
 void add_detection_options(CLI::App& verb, PipelineOptions& options);
 // Its parts that others have too.
