@@ -120,7 +120,7 @@ TEST_P(Baseline, EndsByASmallStep) {
   EXPECT_LT(coarse, fine);
 }
 
-// The solves of all methods have one limit: none stops at it where another goes on.
+// `inner_iterations` is what ends the solve of every method, be it an association's or the whole.
 TEST_P(Baseline, SolvesWithTheLimitThatAllShare) {
   const Rendered& r = rendered();
   const std::vector<Hypothesis> start = r.starts(1, 0.003, 0.05, test_random());
