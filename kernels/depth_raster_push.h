@@ -30,6 +30,7 @@ struct DepthRasterPush {
   uint height;
   float near_m;
   uint band_rows;
+  uint first_triangle;  // of this dispatch: a device takes so many groups along x
 };
 #ifdef __cplusplus
 }  // namespace edgescout

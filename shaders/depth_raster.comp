@@ -84,7 +84,7 @@ void fill(Triangle t, uint job, uint first, uint step) {
   const uint count = uint(t.size.x * t.size.y), map = job * push.width * push.height;
   [[dont_unroll]] for (uint i = first; i < count; i += step) {
     const ivec2 pixel = t.low + ivec2(int(i) % t.size.x, int(i) / t.size.x);
-    const vec3 ray = vec3((vec2(pixel) - centre) / focal, 1.0);
+    precise const vec3 ray = vec3((vec2(pixel) - centre) / focal, 1.0);  // the same for small boxes and large
     const vec3 w = vec3(dot_of(t.plane[0], ray), dot_of(t.plane[1], ray), dot_of(t.plane[2], ray));
     const float sum = w.x + w.y + w.z;
     if (min(w.x, min(w.y, w.z)) < 0.0 || sum <= 0.0) continue;
@@ -95,7 +95,7 @@ void fill(Triangle t, uint job, uint first, uint step) {
 
 void main() {
   const uint lane = gl_LocalInvocationID.x, job = gl_WorkGroupID.y;
-  const uint triangle = gl_WorkGroupID.x * DEPTH_GROUP + lane;
+  const uint triangle = push.first_triangle + gl_WorkGroupID.x * DEPTH_GROUP + lane;
   if (lane == 0u) large_count = 0u;
   barrier();
   if (triangle < push.triangle_count) {

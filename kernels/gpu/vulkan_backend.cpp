@@ -163,7 +163,8 @@ class VulkanBackend : public Backend {
   void depth_raster(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
                     std::span<float> depth) override {
     check_depth_raster(mesh, jobs.size(), width, height, depth.size());
-    const std::size_t map = std::size_t(width) * height, most = raster_.max_jobs(width, height);
+    const std::size_t map = std::size_t(width) * height;
+    const std::size_t most = raster_.max_jobs(mesh.triangles.size() / 3, width, height);
     for (std::size_t first = 0; first < jobs.size(); first += most) {
       const std::size_t count = std::min(most, jobs.size() - first);
       Batch batch(*device_, "depth_raster");

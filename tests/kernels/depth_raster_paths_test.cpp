@@ -129,6 +129,24 @@ TEST_P(DepthRasterPaths, ManyMaps) {
   EXPECT_LT(differ, found.size() / 100);  // centres next to an edge
 }
 
+// A device takes so many workgroups along one dimension: 65,535 of 64 triangles here.
+TEST_P(DepthRasterPaths, MoreTrianglesThanOneDispatchTakes) {
+  constexpr std::size_t between = (std::size_t{1} << 22) + 1;
+  Soup soup;
+  soup.vertices = {-1, -1, 0.5f, 0, -1, 0.5f, -1, 1, 0.5f, 0, -1, 0.4f, 1, -1, 0.4f, 1, 1, 0.4f};
+  soup.triangles = {0, 1, 2};
+  soup.triangles.resize(3 + 3 * between, 0);  // without area
+  soup.triangles.insert(soup.triangles.end(), {3, 4, 5});
+  const DepthJob job{{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}}, {3, 3, 5.5f, 5.5f}};
+  std::vector<float> found(12 * 12), expected(12 * 12);
+  tested->depth_raster(soup.mesh(), {&job, 1}, 12, 12, found);
+  reference->depth_raster(soup.mesh(), {&job, 1}, 12, 12, expected);
+  EXPECT_EQ(found[12 + 2], 0.5f);
+  EXPECT_EQ(found[12 + 9], 0.4f);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    EXPECT_TRUE(found[i] == expected[i] || std::abs(found[i] - expected[i]) < 1e-5f) << "pixel " << i;
+}
+
 // lavapipe ends a shader's loops after 65,535 turns in all: large triangles are filled in bands.
 TEST_P(DepthRasterPaths, LargeTrianglesFillLargeMaps) {
   Soup wall;

@@ -165,7 +165,7 @@ TEST(PushConstants, PoseScore) {
 TEST(PushConstants, DepthRaster) {
   using Push = DepthRasterPush;
   expect_members<Push>(depth_raster_spv, {MEMBER(triangle_count), MEMBER(width), MEMBER(height),
-                                          MEMBER(near_m), MEMBER(band_rows)});
+                                          MEMBER(near_m), MEMBER(band_rows), MEMBER(first_triangle)});
 }
 
 TEST(PushConstants, CandidateMap) {
