@@ -72,7 +72,7 @@ void fill(uint i) {
 }
 
 void main() {
-  const uint i = gl_GlobalInvocationID.x;
+  const uint i = gl_GlobalInvocationID.x + gl_GlobalInvocationID.y * gl_NumWorkGroups.x * DCD_SEED_GROUP;
   if (PASS == DCD_SEED_OFFSETS) {
     if (i < push.bins * push.cell_rows) place_row(i);
   } else if (i < push.point_count) {

@@ -53,6 +53,19 @@ TEST_F(DcdSeedTest, ListsEveryDistinctSeedOnce) {
   }
 }
 
+// A device takes so many workgroups along one dimension: 65,535 of 64 points here.
+TEST_F(DcdSeedTest, TakesMorePointsThanGroupsStandInARow) {
+  const TensorShape shape{40, 40, 4};
+  std::vector<EdgePoint> edges((std::size_t{1} << 22) + 1, {3, 4, 0, 10});
+  edges.push_back({39, 38, 0, 10});
+  const gpu::DcdSeed kernel(*device);
+  gpu::SeedLists lists;
+  gpu::Batch batch(*device, "dcd_seed");
+  kernel.record(batch, edges, shape, lists);
+  batch.run();
+  EXPECT_EQ(listed(lists, shape, edges.size()), (SeedSet{{0, 4, 3}, {0, 38, 39}}));
+}
+
 }  // namespace
 }  // namespace edgescout
 #endif
