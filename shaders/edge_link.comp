@@ -118,8 +118,9 @@ vec4 edge_point(uint i) {
   const float minor = t * float(a.smaller) / float(a.larger);
   const vec2 step = a.axis.x != 0 ? vec2(t, minor) : vec2(minor, t);
   float theta = undirected_angle(vec2(g)) + 0.5 * PI + turn_along(p, vec2(g) / size);
-  theta -= PI * floor(theta / PI);
-  return vec4(vec2(p) + vec2(a.turn) * step, theta >= PI ? 0.0 : theta, size / float(EDGE_GRADIENT_SCALE));
+  theta -= PI * floor(theta / PI);  // a device's quotient may be off by a little, to either side
+  const bool is_turn = theta >= 0.0 && theta < PI;
+  return vec4(vec2(p) + vec2(a.turn) * step, is_turn ? theta : 0.0, size / float(EDGE_GRADIENT_SCALE));
 }
 
 void main() {
