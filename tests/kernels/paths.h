@@ -1,13 +1,14 @@
 // The paths a kernel is tested on, each against the reference backend: the fast CPU path, and a Vulkan device
 // as it is, with staged copies, and with tensors cut into bands. Vulkan runs under the validation layer,
 // synchronization validation included; any message of it fails the test. Without a device the Vulkan paths
-// are skipped.
+// are skipped; with EDGESCOUT_TESTS_UNVALIDATED in the environment they run without the layer.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <numbers>
 #include <ostream>
@@ -48,10 +49,13 @@ inline std::string param_name(const ::testing::TestParamInfo<Path>& info) { retu
 inline constexpr std::uint64_t test_band_bytes = 3 * 60 * 64 * 32;
 
 #ifdef EDGESCOUT_VULKAN
+// A machine with a graphics card need not have the layer.
+inline bool is_validated() { return std::getenv("EDGESCOUT_TESTS_UNVALIDATED") == nullptr; }
+
 inline gpu::DeviceOptions device_options(Path path) {
   gpu::DeviceOptions options;
   options.index = usual_vulkan_device();
-  options.validation = true;
+  options.validation = is_validated();
   options.staging = path == Path::vulkan_staging;
   options.max_band_bytes = path == Path::vulkan_bands ? test_band_bytes : 0;
   return options;
