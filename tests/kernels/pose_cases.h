@@ -55,24 +55,10 @@ struct PoseCase {
   std::vector<PoseProblem> problems;
 };
 
-// Problems of all lengths on all views, some of them behind the camera or out of the image. 40 of up to 1,500
-// points have more than the path in bands binds at once.
-inline PoseCase pose_case(std::mt19937& rng, int problems, int max_points, std::uint32_t views) {
-  std::uniform_real_distribution<float> unit(0, 1);
-  PoseCase c;
-  for (int i = 0; i < problems; ++i) {
-    const int count = i == 0 ? max_points : static_cast<int>(unit(rng) * float(max_points + 1));
-    const std::vector<ModelPoint> more = random_points(rng, count);
-    const float z_m = i % 7 == 6 ? 0.02f : 0.3f;
-    c.problems.push_back({random_pose(rng, z_m), static_cast<std::uint32_t>(c.points.size()),
-                          static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(i) % views});
-    c.points.insert(c.points.end(), more.begin(), more.end());
-  }
-  return c;
-}
-
 struct TwoViews {
   std::vector<ViewHandle> tested, reference;
+  std::vector<TensorShape> shapes;
+  std::vector<Intrinsics> cameras;
 };
 
 // Views of different size and camera, one of them one pixel wide.
@@ -87,6 +73,8 @@ inline TwoViews make_views(Backend& tested, Backend& reference, std::mt19937& rn
     for (int i = 0; i < s.width * s.height; ++i) pixels.push_back(static_cast<std::uint8_t>(rng() & 255));
     const ImageView image = with_image ? ImageView{s.width, s.height, pixels.data()} : ImageView{};
     const Intrinsics camera{260, 250, 0.5f * float(s.width), 0.45f * float(s.height)};
+    views.shapes.push_back({s.width, s.height, TensorOptions{}.bins});
+    views.cameras.push_back(camera);
     views.tested.push_back(tested.make_view(edges, s.width, s.height, image, camera, {}));
     views.reference.push_back(reference.make_view(edges, s.width, s.height, image, camera, {}));
   }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "kernels/error.h"
-#include "tests/kernels/pose_cases.h"
+#include "tests/kernels/pose_oracle.h"
 
 namespace edgescout {
 namespace {
@@ -34,7 +34,7 @@ TEST_P(PoseNormalEquationsPaths, AgreesWithTheReference) {
   for (const PoseLoss& loss : {PoseLoss{LOSS_HUBER, 4}, PoseLoss{LOSS_GEMAN_MCCLURE, 9}})
     for (const int max_points : {1, 63, 64, 1500}) {
       SCOPED_TRACE("loss " + std::to_string(loss.kind) + ", up to " + std::to_string(max_points) + " points");
-      const test::PoseCase c = test::pose_case(rng, 40, max_points, 3);
+      const test::PoseCase c = test::pose_case(rng, views, 40, max_points);
       std::vector<NormalEquations> found(c.problems.size()), expected(c.problems.size());
       tested->pose_normal_equations(views.tested, c.points, c.problems, loss, found);
       reference->pose_normal_equations(views.reference, c.points, c.problems, loss, expected);

@@ -105,12 +105,40 @@ inline Real to_integer(Real value) { return std::abs(value - std::round(value));
 
 // Float may put a point next to a seam on the seam's other side: the depth where points begin to count,
 // borders, rows and columns, the borders between nearest pixels, and bins.
-inline bool clear_of_seams(const OracleView& view, const CameraPoint& p) {
+inline bool clear_of_seams(const TensorShape& shape, const Intrinsics& camera, const CameraPoint& p) {
   if (std::abs(p.position[2] - POSE_MIN_DEPTH_M) < 1e-5L) return false;
   if (!in_front(p)) return true;
-  const ImagePoint at = project(view.camera, p);
+  const ImagePoint at = project(camera, p);
   return to_integer(2 * at.x) > 4e-3L && to_integer(2 * at.y) > 4e-3L &&
-         to_integer(at.theta * view.shape.bins / std::numbers::pi_v<Real>) > 2e-3L;
+         to_integer(at.theta * shape.bins / std::numbers::pi_v<Real>) > 2e-3L;
+}
+
+// Nor is it seen so much end on that its orientation is rounding's.
+inline bool kept_by_float(const TensorShape& shape, const Intrinsics& camera, const CameraPoint& p) {
+  return clear_of_seams(shape, camera, p) &&
+         (!in_front(p) || project(camera, p).foreshortening > 1.2 * POSE_MIN_FORESHORTENING);
+}
+
+// Problems of all lengths on all views, some of them behind the camera or out of the image. 40 of up to 1,500
+// points have more than the path in bands binds at once.
+inline PoseCase pose_case(std::mt19937& rng, const TwoViews& views, int problems, int max_points) {
+  std::uniform_real_distribution<float> unit(0, 1);
+  PoseCase c;
+  for (int i = 0; i < problems; ++i) {
+    const int count = i == 0 ? max_points : static_cast<int>(unit(rng) * float(max_points + 1));
+    const std::size_t view = static_cast<std::size_t>(i) % views.cameras.size();
+    const PoseProblem problem{random_pose(rng, i % 7 == 6 ? 0.02f : 0.3f),
+                              static_cast<std::uint32_t>(c.points.size()), static_cast<std::uint32_t>(count),
+                              static_cast<std::uint32_t>(view)};
+    while (c.points.size() < problem.first_point + problem.point_count) {
+      const ModelPoint point = random_points(rng, 1)[0];
+      if (kept_by_float(views.shapes[view], views.cameras[view],
+                        in_camera(problem.camera_from_object, point)))
+        c.points.push_back(point);
+    }
+    c.problems.push_back(problem);
+  }
+  return c;
 }
 
 struct OracleScene {

@@ -58,8 +58,7 @@ void expect_near(const PoseScore& found, const OracleScore& expected) {
 }
 
 bool orientation_is_sure(const test::OracleView& view, const test::CameraPoint& q) {
-  return test::clear_of_seams(view, q) &&
-         (!test::in_front(q) || test::project(view.camera, q).foreshortening > 1.2 * POSE_MIN_FORESHORTENING);
+  return test::kept_by_float(view.shape, view.camera, q);
 }
 
 void expect_oracle(Backend& backend) {

@@ -1,6 +1,6 @@
 // pose_score on every path (pose_score.h).
 #include "kernels/error.h"
-#include "tests/kernels/pose_cases.h"
+#include "tests/kernels/pose_oracle.h"
 
 namespace edgescout {
 namespace {
@@ -12,7 +12,7 @@ TEST_P(PoseScorePaths, AgreesWithTheReference) {
   for (const bool with_image : {true, false}) {
     const test::TwoViews views = test::make_views(*tested, *reference, rng, with_image);
     for (const int max_points : {1, 64, 1500}) {
-      const test::PoseCase c = test::pose_case(rng, 40, max_points, 3);
+      const test::PoseCase c = test::pose_case(rng, views, 40, max_points);
       std::vector<PoseScore> found(c.problems.size()), expected(c.problems.size());
       tested->pose_score(views.tested, c.points, c.problems, {}, found);
       reference->pose_score(views.reference, c.points, c.problems, {}, expected);
