@@ -36,8 +36,10 @@ Batch::Batch(const Device& device, std::string name)
 
 Batch::~Batch() {
   // A wait may fail, for want of memory, while the device works on: nothing is given back under its hands.
-  if (is_running_) vkDeviceWaitIdle(device_.get());
-  if (!is_running_) device_.command_sets().give_back(std::move(set_));
+  if (is_running_)
+    vkDeviceWaitIdle(device_.get());
+  else
+    device_.command_sets().give_back(std::move(set_));
   for (RawBuffer& buffer : staging_) device_.staging().give_back(std::move(buffer));
 }
 
