@@ -84,10 +84,10 @@ void expect_near(const NormalEquations& found, const OracleSystem& expected) {
 }
 
 // Clearly seen from the side or clearly end on, though not so much that float loses the orientation.
-bool derivative_is_sure(const test::OracleView& view, const test::CameraPoint& q) {
-  if (!test::clear_of_seams(view.shape, view.camera, q)) return false;
+bool derivative_is_sure(const TensorShape& shape, const Intrinsics& camera, const test::CameraPoint& q) {
+  if (!test::clear_of_seams(shape, camera, q)) return false;
   if (!test::in_front(q)) return true;
-  const Real seen = test::project(view.camera, q).foreshortening / POSE_MIN_FORESHORTENING;
+  const Real seen = test::project(camera, q).foreshortening / POSE_MIN_FORESHORTENING;
   return seen > 1.2L || (seen > 0.4L && seen < 0.8L);
 }
 

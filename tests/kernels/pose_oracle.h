@@ -119,6 +119,14 @@ inline bool kept_by_float(const TensorShape& shape, const Intrinsics& camera, co
          (!in_front(p) || project(camera, p).foreshortening > 1.2 * POSE_MIN_FORESHORTENING);
 }
 
+// The problem, with as many points of `offer` as it says, of those that `keep` takes.
+template <class Keep, class Offer>
+void add_problem(PoseCase& c, const PoseProblem& problem, const Keep& keep, const Offer& offer) {
+  while (c.points.size() < problem.first_point + problem.point_count)
+    if (const ModelPoint point = offer(); keep(point)) c.points.push_back(point);
+  c.problems.push_back(problem);
+}
+
 // Problems of all lengths on all views, some of them behind the camera or out of the image. 40 of up to 1,500
 // points have more than the path in bands binds at once.
 inline PoseCase pose_case(std::mt19937& rng, const TwoViews& views, int problems, int max_points) {
@@ -130,13 +138,13 @@ inline PoseCase pose_case(std::mt19937& rng, const TwoViews& views, int problems
     const PoseProblem problem{random_pose(rng, i % 7 == 6 ? 0.02f : 0.3f),
                               static_cast<std::uint32_t>(c.points.size()), static_cast<std::uint32_t>(count),
                               static_cast<std::uint32_t>(view)};
-    while (c.points.size() < problem.first_point + problem.point_count) {
-      const ModelPoint point = random_points(rng, 1)[0];
-      if (kept_by_float(views.shapes[view], views.cameras[view],
-                        in_camera(problem.camera_from_object, point)))
-        c.points.push_back(point);
-    }
-    c.problems.push_back(problem);
+    add_problem(
+        c, problem,
+        [&](const ModelPoint& point) {
+          return kept_by_float(views.shapes[view], views.cameras[view],
+                               in_camera(problem.camera_from_object, point));
+        },
+        [&] { return random_points(rng, 1)[0]; });
   }
   return c;
 }
@@ -181,19 +189,22 @@ inline ModelPoint seen_end_on(const Pose& pose, const ModelPoint& p) {
 
 // Problems of all lengths on all views, of points that `keep` takes; one in eight points is offered end on.
 inline PoseCase kept_pose_case(std::mt19937& rng, const OracleScene& scene,
-                               bool (*keep)(const OracleView&, const CameraPoint&)) {
+                               bool (*keep)(const TensorShape&, const Intrinsics&, const CameraPoint&)) {
   PoseCase c;
   for (std::uint32_t i = 0; i < 30; ++i) {
     const PoseProblem problem{random_pose(rng, i % 7 == 6 ? 0.02f : 0.3f),
                               static_cast<std::uint32_t>(c.points.size()), 1 + i * i / 2,
                               static_cast<std::uint32_t>(i % scene.views.size())};
-    while (c.points.size() < problem.first_point + problem.point_count) {
-      const ModelPoint any = random_points(rng, 1)[0];
-      const ModelPoint point = rng() % 8 == 0 ? seen_end_on(problem.camera_from_object, any) : any;
-      if (keep(scene.views[problem.view], in_camera(problem.camera_from_object, point)))
-        c.points.push_back(point);
-    }
-    c.problems.push_back(problem);
+    const OracleView& view = scene.views[problem.view];
+    add_problem(
+        c, problem,
+        [&](const ModelPoint& point) {
+          return keep(view.shape, view.camera, in_camera(problem.camera_from_object, point));
+        },
+        [&] {
+          const ModelPoint any = random_points(rng, 1)[0];
+          return rng() % 8 == 0 ? seen_end_on(problem.camera_from_object, any) : any;
+        });
   }
   return c;
 }

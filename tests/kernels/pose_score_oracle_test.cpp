@@ -57,14 +57,10 @@ void expect_near(const PoseScore& found, const OracleScore& expected) {
               expected.undecided / std::max<Real>(1, expected.points) + 1e-6);
 }
 
-bool orientation_is_sure(const test::OracleView& view, const test::CameraPoint& q) {
-  return test::kept_by_float(view.shape, view.camera, q);
-}
-
 void expect_oracle(Backend& backend) {
   std::mt19937 rng = test::test_rng();
   const test::OracleScene scene = test::make_scene(backend, rng);
-  const test::PoseCase c = test::kept_pose_case(rng, scene, orientation_is_sure);
+  const test::PoseCase c = test::kept_pose_case(rng, scene, test::kept_by_float);
   for (const PoseScoreOptions& options : {PoseScoreOptions{}, PoseScoreOptions{20, 2.5f, 33}}) {
     std::vector<PoseScore> found(c.problems.size());
     backend.pose_score(scene.handles, c.points, c.problems, options, found);
