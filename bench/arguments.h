@@ -10,8 +10,9 @@
 
 namespace edgescout::bench {
 
-// A word on the command line and what it sets: a text, a count (from 1), a number, or that the word was
-// given. One whose name does not begin with "--" is a text, the one word that may stand by itself.
+// A word on the command line and what it sets: a text, a count (from 1), a number, or that the word
+// was given. One whose name does not begin with "--" is a text, the one word that may stand by
+// itself.
 struct Argument {
   std::string name;
   std::variant<std::string*, int*, double*, bool*> target;
@@ -23,7 +24,8 @@ struct Argument {
 };
 
 template <class Number>
-void read_number(const Argument& argument, const std::string& text, Number& number, const char* expected) {
+void read_number(const Argument& argument, const std::string& text, Number& number,
+                 const char* expected) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error != std::errc() || end != text.data() + text.size())
     throw InputError("command line", argument.name, text, expected);

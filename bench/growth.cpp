@@ -1,7 +1,7 @@
 // edgescout_bench_growth [--device WORD] [--repetitions N]
 //
-// How the time to choose the next view grows: the paper's size, then each of its four numbers three and ten
-// times as large.
+// How the time to choose the next view grows: the paper's size, then each of its four numbers three
+// and ten times as large.
 #include <chrono>
 #include <cstdio>
 #include <ctime>
@@ -35,12 +35,14 @@ Times choose(Backend& backend, const HypothesesSize& size) {
   };
   for (int v = 0; v < size.views; ++v) {
     test::ChamferScene scene = hypotheses.view(v);
-    time(times.maps_s,
-         [&] { backend.candidate_map(scene.edges, scene.maps, size.width, size.height, scene.nearest); });
+    time(times.maps_s, [&] {
+      backend.candidate_map(scene.edges, scene.maps, size.width, size.height, scene.nearest);
+    });
     ChamferHandle chamfer;
     time(times.chamfer_s,
          [&] { chamfer = backend.combination_chamfer(scene.view(), scene.combinations(), {}); });
-    time(times.information_s, [&] { backend.mutual_information(*chamfer, hypotheses.beliefs(), {}); });
+    time(times.information_s,
+         [&] { backend.mutual_information(*chamfer, hypotheses.beliefs(), {}); });
   }
   return times;
 }
@@ -58,10 +60,10 @@ void report(Backend& backend, const HypothesesSize& size, int repetitions) {
 
 void run(const std::string& device, int repetitions) {
   const std::unique_ptr<Backend> backend = make_backend(device);
-  std::printf("%s, %d threads, median of %d, ms\n", backend->name().c_str(), backend->threads().threads(),
-              repetitions);
-  std::printf("%5s %10s %9s %12s %9s %9s %11s %9s %9s\n", "views", "candidates", "particles", "realizations",
-              "maps", "chamfer", "information", "all", "processor");
+  std::printf("%s, %d threads, median of %d, ms\n", backend->name().c_str(),
+              backend->threads().threads(), repetitions);
+  std::printf("%5s %10s %9s %12s %9s %9s %11s %9s %9s\n", "views", "candidates", "particles",
+              "realizations", "maps", "chamfer", "information", "all", "processor");
   choose(*backend, {2, 4, 4, 50, 64, 48, 64});  // the driver's compiler, the first pages
   report(*backend, paper_hypotheses, repetitions);
   for (const int by : {3, 10}) {
@@ -83,7 +85,8 @@ int main(int argc, char** argv) {
   try {
     std::string device = "cpu";
     int repetitions = 3;
-    edgescout::bench::read_arguments(argc, argv, {{"--device", &device}, {"--repetitions", &repetitions}});
+    edgescout::bench::read_arguments(argc, argv,
+                                     {{"--device", &device}, {"--repetitions", &repetitions}});
     edgescout::bench::run(device, repetitions);
     return 0;
   } catch (const std::exception& error) {

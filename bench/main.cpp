@@ -1,6 +1,7 @@
 // edgescout_bench [--device WORD] [--out FOLDER] [--repetitions N] [--small]
 //
-// Times every kernel on the CPU, on the plain reference (small sizes) and on every Vulkan device found.
+// Times every kernel on the CPU, on the plain reference (small sizes) and on every Vulkan device
+// found.
 #include <cstdio>
 #include <exception>
 
@@ -44,7 +45,8 @@ void run_device(const std::string& word, const std::string& driver, const Option
 }
 
 void run(const Options& options) {
-  std::vector<std::pair<std::string, std::string>> devices{{"cpu", "C++"}, {"cpu-reference", "C++"}};
+  std::vector<std::pair<std::string, std::string>> devices{{"cpu", "C++"},
+                                                           {"cpu-reference", "C++"}};
   for (const DeviceInfo& device : vulkan_devices())
     devices.emplace_back("vulkan:" + std::to_string(device.index), device.driver);
   bool found = false;

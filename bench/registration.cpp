@@ -1,11 +1,13 @@
-// Registration from given starts, against the original D2CO implementation's results on the same ones.
+// Registration from given starts, against the original D2CO implementation's results on the same
+// ones.
 //
-//   edgescout_bench_registration FOLDER [--device D] [--every N] [--search RAD] [--views 1|3] [--truth]
+//   edgescout_bench_registration FOLDER [--device D] [--every N] [--search RAD] [--views 1|3]
+//   [--truth]
 //   [--lambda L]
 //
-// FOLDER is the set (host/experiments/recorded_starts.h). --truth: from every instance's true pose instead.
-// Prints the rate of correct registrations (below 0.1 rad and 5 mm) by level, quantiles of the
-// errors and the time of one registration.
+// FOLDER is the set (host/experiments/recorded_starts.h). --truth: from every instance's true pose
+// instead. Prints the rate of correct registrations (below 0.1 rad and 5 mm) by level, quantiles of
+// the errors and the time of one registration.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -43,7 +45,8 @@ Arguments parse(int argc, char** argv) {
                          {"--truth", &a.truth}});
   if (a.views != 1 && a.views != 3)
     throw InputError("command line", "--views", std::to_string(a.views), "1 or 3");
-  if (a.folder.empty()) throw InputError("command line", "FOLDER", "nothing", "the folder of the starts");
+  if (a.folder.empty())
+    throw InputError("command line", "FOLDER", "nothing", "the folder of the starts");
   return a;
 }
 
@@ -83,8 +86,8 @@ void print(const Arguments& a, const Tally& tally) {
       "%s: median %.2f mm %.4f rad, 95 %% %.2f mm %.4f rad, largest %.2f mm %.4f rad; %.2f ms a "
       "registration\n",
       a.truth ? "errors of all" : "errors of the correct ones", quantile(tally.mm, 0.5),
-      quantile(tally.rad, 0.5), quantile(tally.mm, 0.95), quantile(tally.rad, 0.95), quantile(tally.mm, 1),
-      quantile(tally.rad, 1), 1000 * tally.seconds / tally.count);
+      quantile(tally.rad, 0.5), quantile(tally.mm, 0.95), quantile(tally.rad, 0.95),
+      quantile(tally.mm, 1), quantile(tally.rad, 1), 1000 * tally.seconds / tally.count);
 }
 
 // All starts of one image, in one batch.
@@ -92,7 +95,8 @@ void register_in(const std::string& image, const Arguments& a, Backend& backend,
   const KnownScene scene = recorded_scene(a.folder, image, a.views - 1);
   TensorOptions tensor;
   tensor.lambda_px_per_rad = static_cast<float>(a.lambda);
-  const std::vector<RegisterView> views = register_views(scene, edges_of(scene, backend), tensor, backend);
+  const std::vector<RegisterView> views =
+      register_views(scene, edges_of(scene, backend), tensor, backend);
   std::vector<EdgeModel> models;
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
   const std::vector<RecordedStart> starts = starts_of(a, scene);
@@ -108,8 +112,9 @@ void register_in(const std::string& image, const Arguments& a, Backend& backend,
   tally.seconds += seconds_since(begin);
   for (std::size_t i = 0; i < starts.size(); ++i, ++tally.count) {
     const KnownInstance& instance = scene.instances[static_cast<std::size_t>(starts[i].instance)];
-    const PoseError error = pose_error(refined[i].registration.world_from_object, instance.world_from_object,
-                                       scene.objects[static_cast<std::size_t>(instance.object)].symmetries);
+    const PoseError error =
+        pose_error(refined[i].registration.world_from_object, instance.world_from_object,
+                   scene.objects[static_cast<std::size_t>(instance.object)].symmetries);
     auto& [right, all] = tally.levels[starts[i].level];
     right += error.passes();
     ++all;

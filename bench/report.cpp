@@ -38,8 +38,9 @@ std::string row_json(const Row& row) {
   out.precision(6);
   out << "    {\"kernel\": " << quoted(row.kernel) << ", \"size\": " << quoted(row.size)
       << ", \"repetitions\": " << row.repetitions << ", \"median_ms\": " << row.median_ms
-      << ", \"min_ms\": " << row.min_ms << ", \"max_ms\": " << row.max_ms << ", \"bytes\": " << row.bytes
-      << ", \"gigabytes_per_s\": " << row.gigabytes_per_s() << ", \"stages_ms\": {";
+      << ", \"min_ms\": " << row.min_ms << ", \"max_ms\": " << row.max_ms
+      << ", \"bytes\": " << row.bytes << ", \"gigabytes_per_s\": " << row.gigabytes_per_s()
+      << ", \"stages_ms\": {";
   for (std::size_t i = 0; i < row.stages.size(); ++i)
     out << (i > 0 ? ", " : "") << quoted(row.stages[i].name) << ": "
         << 1e3 * row.stages[i].seconds / row.repetitions;
@@ -52,14 +53,16 @@ std::string row_json(const Row& row) {
 void print_table(const Report& report) {
   std::printf("\n%s (%s), %d threads, commit %s\n", report.device.c_str(), report.driver.c_str(),
               report.threads, report.commit.c_str());
-  std::printf("%-22s %-46s %4s %10s %10s %10s %8s\n", "kernel", "size", "n", "median ms", "min ms", "max ms",
-              "GB/s");
+  std::printf("%-22s %-46s %4s %10s %10s %10s %8s\n", "kernel", "size", "n", "median ms", "min ms",
+              "max ms", "GB/s");
   for (const Row& row : report.rows) {
-    std::printf("%-22s %-46s %4d %10.3f %10.3f %10.3f %8.2f\n", row.kernel.c_str(), row.size.c_str(),
-                row.repetitions, row.median_ms, row.min_ms, row.max_ms, row.gigabytes_per_s());
+    std::printf("%-22s %-46s %4d %10.3f %10.3f %10.3f %8.2f\n", row.kernel.c_str(),
+                row.size.c_str(), row.repetitions, row.median_ms, row.min_ms, row.max_ms,
+                row.gigabytes_per_s());
     if (row.stages.size() < 2) continue;
     for (const StageTime& stage : row.stages)
-      std::printf("    %-65s    %10.3f\n", stage.name.c_str(), 1e3 * stage.seconds / row.repetitions);
+      std::printf("    %-65s    %10.3f\n", stage.name.c_str(),
+                  1e3 * stage.seconds / row.repetitions);
   }
 }
 
@@ -67,7 +70,8 @@ std::string write_json(const Report& report, const std::string& folder) {
   std::filesystem::create_directories(folder);
   const std::string path = folder + "/" + file_name(report.device) + ".json";
   std::ofstream out(path);
-  out << "{\n  \"device\": " << quoted(report.device) << ",\n  \"driver\": " << quoted(report.driver)
+  out << "{\n  \"device\": " << quoted(report.device)
+      << ",\n  \"driver\": " << quoted(report.driver)
       << ",\n  \"commit\": " << quoted(report.commit) << ",\n  \"threads\": " << report.threads
       << ",\n  \"kernels\": [\n";
   for (std::size_t i = 0; i < report.rows.size(); ++i)

@@ -15,7 +15,8 @@ struct Report {
 };
 
 void print_table(const Report& report);
-// Creates the folder; returns the file's path. Throws std::runtime_error where it cannot be written.
+// Creates the folder; returns the file's path. Throws std::runtime_error where it cannot be
+// written.
 std::string write_json(const Report& report, const std::string& folder);
 
 }  // namespace edgescout::bench

@@ -1,13 +1,15 @@
-// What the probability of a pose over several views (host/detect/probability_over_views.h) is fitted on.
+// What the probability of a pose over several views (host/detect/probability_over_views.h) is
+// fitted on.
 //
 //   edgescout_bench_views_probability FIRST_BIN LAST_BIN > candidates.csv
 //   scripts/fit_probability_over_views.py candidates.csv...
 //
-// The bins are those of `bench experiments nbv`, looked at along the fixed sequence. After two, three
-// and five views everything that any image so far gave as a candidate is refined over all of them. Of
-// candidates that reach into each other, or lie at one place, the one with the most evidence stays. A row
-// each: is it right (0.1 rad and 5 mm, modulo symmetry), and sums over the views that speak. What is known
-// and hides others is known by today's probability: another fit gives slightly other rows.
+// The bins are those of `bench experiments nbv`, looked at along the fixed sequence. After two,
+// three and five views everything that any image so far gave as a candidate is refined over all of
+// them. Of candidates that reach into each other, or lie at one place, the one with the most
+// evidence stays. A row each: is it right (0.1 rad and 5 mm, modulo symmetry), and sums over the
+// views that speak. What is known and hides others is known by today's probability: another fit
+// gives slightly other rows.
 #include <algorithm>
 #include <cstdio>
 #include <numeric>
@@ -41,7 +43,8 @@ double total_evidence(std::span<const PoseFeatures> by_view) {
 // Best first, none inside or at the place of a better one.
 std::vector<std::size_t> left_apart(const Candidates& all, std::span<const TemplateSet> sets,
                                     std::span<const EdgeModel> models, Backend& backend) {
-  const BitMatrix plausible = plausible_pairs(models, all.poses, DEFAULT_PENETRATION_M, backend.threads());
+  const BitMatrix plausible =
+      plausible_pairs(models, all.poses, DEFAULT_PENETRATION_M, backend.threads());
   std::vector<std::size_t> order(all.poses.size()), chosen;
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
@@ -52,8 +55,8 @@ std::vector<std::size_t> left_apart(const Candidates& all, std::span<const Templ
     const bool apart = std::ranges::all_of(chosen, [&](std::size_t j) {
       return plausible.has(i, j) &&
              (all.poses[i].object != all.poses[j].object ||
-              pose_distance_m(all.poses[i].world_from_object, all.poses[j].world_from_object, set.model.mesh,
-                              set.symmetries) >= 0.1 * set.model.mesh.diameter_m);
+              pose_distance_m(all.poses[i].world_from_object, all.poses[j].world_from_object,
+                              set.model.mesh, set.symmetries) >= 0.1 * set.model.mesh.diameter_m);
     });
     if (apart) chosen.push_back(i);
   }
@@ -62,9 +65,10 @@ std::vector<std::size_t> left_apart(const Candidates& all, std::span<const Templ
 
 bool is_right(const Hypothesis& pose, const Bin& bin) {
   return std::ranges::any_of(bin.instances, [&](const BinInstance& instance) {
-    return instance.object == pose.object && pose_error(pose.world_from_object, instance.world_from_object,
-                                                        bin_types()[std::size_t(pose.object)].symmetries)
-                                                 .passes();
+    return instance.object == pose.object &&
+           pose_error(pose.world_from_object, instance.world_from_object,
+                      bin_types()[std::size_t(pose.object)].symmetries)
+               .passes();
   });
 }
 
@@ -88,7 +92,8 @@ void print_bin(int number, std::span<const TemplateSet> sets, Backend& backend) 
     for (std::size_t i = 0; i < hits.size(); ++i) scanned[i].hits = hits[i];
     scan_for(sets, scanned.back(), backend, pipeline.detect.scan);
     hits.push_back(scanned.back().hits);
-    const std::vector<Detection> here = candidates_in_images(sets, scanned, {}, backend, pipeline.detect);
+    const std::vector<Detection> here =
+        candidates_in_images(sets, scanned, {}, backend, pipeline.detect);
     found.insert(found.end(), here.begin(), here.end());
     views.push_back(scanned.back().view);
     return here;
@@ -101,7 +106,8 @@ void print_bin(int number, std::span<const TemplateSet> sets, Backend& backend) 
   Scout scout(sets, bin.cell->camera(), bin.cell->views(), options, backend);
   run_scout(scout, *bin.cell, [&](const ScoutState& state) {
     if (views.size() < 2 || views.size() == 4) return;
-    const std::vector<Hypothesis> known = known_objects(state.detections, options.known_probability);
+    const std::vector<Hypothesis> known =
+        known_objects(state.detections, options.known_probability);
     std::vector<RegisterView> seen = views;
     for (RegisterView& view : seen) view.occluders = make_occluders(models, known, view, backend);
     Candidates all{poses_of(found), {}};

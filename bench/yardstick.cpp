@@ -22,7 +22,8 @@ constexpr int width = 1024, height = 768;
 double milliseconds(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
 }
 
 double median(std::vector<double> values) {
@@ -38,7 +39,8 @@ std::vector<EdgePoint> random_edges() {
     const double x = random.uniform(0, width), y = random.uniform(0, height),
                  theta = random.uniform(0, 3.14159);
     for (int i = 0; i < 100; ++i)
-      edges.push_back({float(x + i * std::cos(theta)), float(y + i * std::sin(theta)), float(theta), 10});
+      edges.push_back(
+          {float(x + i * std::cos(theta)), float(y + i * std::sin(theta)), float(theta), 10});
   }
   return edges;
 }
@@ -56,14 +58,16 @@ RegistrationCase registration_case(Backend& backend) {
   c.models = {make_edge_model(part.mesh, {.raster_step_m = 0.0004})};
   const Camera camera{width, height, 1200, 1200, 511.5, 383.5, {}};
   const Se3 truth{so3_exp({2.4, 0.5, 0.3}), {0.01, 0.005, 0.5}};
-  const std::vector<ModelPoint> points = visible_edges(c.models[0], std::vector<Se3>{truth}, backend)[0];
+  const std::vector<ModelPoint> points =
+      visible_edges(c.models[0], std::vector<Se3>{truth}, backend)[0];
   std::vector<EdgePoint> edges = random_edges();
   for (const ModelPoint& p : points) {
     const Eigen::Vector3d x = truth * Eigen::Vector3d(p.x_m, p.y_m, p.z_m),
                           t = truth.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz);
     const Eigen::Vector2d at = project(camera, x), beyond = project(camera, x + 1e-4 * t);
     const double theta = std::atan2(beyond.y() - at.y(), beyond.x() - at.x());
-    edges.push_back({float(at.x()), float(at.y()), float(theta < 0 ? theta + 3.14159265 : theta), 50});
+    edges.push_back(
+        {float(at.x()), float(at.y()), float(theta < 0 ? theta + 3.14159265 : theta), 50});
   }
   const Intrinsics k{1200, 1200, 511.5f, 383.5f};
   RegisterView view;
@@ -98,15 +102,18 @@ void measure(const std::string& device) {
     const double t = milliseconds([&] {
       backend->make_view(edges, width, height, {}, {1200, 1200, 511.5f, 383.5f}, {});
     });
-    const double r = milliseconds([&] { refine_poses(c.models, c.starts, c.views, *backend, options); }) /
-                     double(c.starts.size());
+    const double r =
+        milliseconds([&] { refine_poses(c.models, c.starts, c.views, *backend, options); }) /
+        double(c.starts.size());
     if (i < 2) continue;  // warm-up: page faults, shader compilation
     yardstick.push_back(y), tensor.push_back(t), registration.push_back(r);
   }
   const double y = median(yardstick);
-  std::printf("%s: Y %.1f ms; tensor %.1f ms = %.1f Y; registration of a batch of 40 %.2f ms each = %.2f Y\n",
-              backend->name().c_str(), y, median(tensor), median(tensor) / y, median(registration),
-              median(registration) / y);
+  std::printf(
+      "%s: Y %.1f ms; tensor %.1f ms = %.1f Y; registration of a batch of 40 %.2f ms each = %.2f "
+      "Y\n",
+      backend->name().c_str(), y, median(tensor), median(tensor) / y, median(registration),
+      median(registration) / y);
 }
 
 }  // namespace

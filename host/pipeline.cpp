@@ -15,8 +15,8 @@ namespace {
 
 // Typical size of an object in the image: at the geometric middle of its distances.
 double size_px(const TemplateSet& set, const Camera& camera) {
-  return set.model.mesh.diameter_m / std::sqrt(set.options.distance_min_m * set.options.distance_max_m) *
-         camera.fx;
+  return set.model.mesh.diameter_m /
+         std::sqrt(set.options.distance_min_m * set.options.distance_max_m) * camera.fx;
 }
 
 double smallest_size_px(std::span<const TemplateSet> sets, const Camera& camera) {
@@ -59,8 +59,8 @@ Observation observe_prepared(const PreparedImage& prepared, std::span<const Temp
                  reduction_for(smallest_size_px(sets, prepared.camera)), options.tensor, backend);
 }
 
-Detections detect_objects(const PreparedImage& prepared, std::span<const TemplateSet> sets, Backend& backend,
-                          const PipelineOptions& options) {
+Detections detect_objects(const PreparedImage& prepared, std::span<const TemplateSet> sets,
+                          Backend& backend, const PipelineOptions& options) {
   options.validate();
   Detections result;
   result.stages = prepared.stages;
@@ -70,15 +70,16 @@ Detections detect_objects(const PreparedImage& prepared, std::span<const Templat
   std::vector<Hypothesis> poses;
   std::vector<Refined> candidates;
   for (std::size_t object = 0; object < sets.size(); ++object)
-    for (const Refined& candidate : find_candidates(sets[object], observation, backend, options.detect)) {
+    for (const Refined& candidate :
+         find_candidates(sets[object], observation, backend, options.detect)) {
       poses.push_back({int(object), candidate.registration.world_from_object});
       candidates.push_back(candidate);
     }
   watch.lap("candidates");
   RegisterView view = observation.view;
   view.camera_from_world = Se3{};  // one view: its camera frame is the world
-  result.detections =
-      settle(models_of(sets), poses, candidates, std::vector<RegisterView>{view}, backend, options.detect);
+  result.detections = settle(models_of(sets), poses, candidates, std::vector<RegisterView>{view},
+                             backend, options.detect);
   watch.lap("settle");
   return result;
 }
@@ -98,10 +99,12 @@ Detections detect_jointly(std::span<const PreparedImage> views, std::span<const 
   for (std::size_t v = 0; v < observations.size(); ++v) {
     const std::vector<Observation> others = all_but(observations, v);
     for (const TemplateSet& set : sets)
-      candidates[v].push_back(find_candidates(set, observations[v], others, {}, backend, options.detect));
+      candidates[v].push_back(
+          find_candidates(set, observations[v], others, {}, backend, options.detect));
   }
   watch.lap("candidates");
-  result.detections = join_views(sets, models_of(sets), candidates, observations, backend, options.detect);
+  result.detections =
+      join_views(sets, models_of(sets), candidates, observations, backend, options.detect);
   watch.lap("joint refinement");
   return result;
 }

@@ -1,8 +1,9 @@
-// The whole flow on one screen: image -> edges -> tensors -> template scan -> candidates -> registration ->
-// detections.
+// The whole flow on one screen: image -> edges -> tensors -> template scan -> candidates ->
+// registration -> detections.
 //
-// This is the library's front door. A robot's program loads meshes (io/mesh.h), builds template sets once
-// (model/template_set.h), makes a backend (kernels/backend.h) and calls detect_objects for each image.
+// This is the library's front door. A robot's program loads meshes (io/mesh.h), builds template
+// sets once (model/template_set.h), makes a backend (kernels/backend.h) and calls detect_objects
+// for each image.
 #pragma once
 
 #include <span>
@@ -23,9 +24,9 @@ struct PipelineOptions {
   void validate() const;
 };
 
-// An image undistorted, with the edges found in it: all of the work that does not depend on the models. It
-// may be prepared for the next image by one thread while another detects in this one, if each has a backend
-// of its own.
+// An image undistorted, with the edges found in it: all of the work that does not depend on the
+// models. It may be prepared for the next image by one thread while another detects in this one, if
+// each has a backend of its own.
 struct PreparedImage {
   Image image;    // undistorted
   Camera camera;  // ideal
@@ -49,11 +50,11 @@ struct Detections {
 };
 
 // All objects in one view.
-Detections detect_objects(const PreparedImage& prepared, std::span<const TemplateSet> sets, Backend& backend,
-                          const PipelineOptions& options);
+Detections detect_objects(const PreparedImage& prepared, std::span<const TemplateSet> sets,
+                          Backend& backend, const PipelineOptions& options);
 
-// All objects in several calibrated views of one static scene: candidates of every view, each refined over
-// all views (Eq. 11).
+// All objects in several calibrated views of one static scene: candidates of every view, each
+// refined over all views (Eq. 11).
 Detections detect_jointly(std::span<const PreparedImage> views, std::span<const TemplateSet> sets,
                           Backend& backend, const PipelineOptions& options);
 

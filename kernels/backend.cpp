@@ -56,7 +56,8 @@ std::unique_ptr<Backend> make_checked_vulkan(int index, const std::string& choic
   return make_vulkan_backend(index);
 }
 
-// A card whose driver is too old for the kernels is passed over; the backend's name says what was taken.
+// A card whose driver is too old for the kernels is passed over; the backend's name says what was
+// taken.
 std::unique_ptr<Backend> make_automatic() {
   for (const DeviceInfo& device : in_order_of_use(vulkan_devices())) {
     if (!device.hardware) break;
@@ -81,7 +82,8 @@ std::unique_ptr<Backend> make_backend(const std::string& choice) {
                *last = choice.data() + choice.size();
     int index = -1;
     const auto [end, error] = std::from_chars(first, last, index);
-    if (error == std::errc() && end == last && index >= 0) return make_checked_vulkan(index, choice);
+    if (error == std::errc() && end == last && index >= 0)
+      return make_checked_vulkan(index, choice);
   }
   throw InputError("options", "device", choice, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX");
 }

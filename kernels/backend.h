@@ -1,10 +1,10 @@
-// The one run-time choice: where the kernels run. Host code talks to a Backend and never asks which one it
-// is.
+// The one run-time choice: where the kernels run. Host code talks to a Backend and never asks which
+// one it is.
 //
-// Three kinds: the plain CPU reference (single-threaded, the judge of the others), the fast CPU path (SIMD
-// and threads) and a Vulkan device. All answer alike, within the agreement each kernel's header promises. A
-// backend may be used by one thread at a time. Tensors, views and cells outlive the call that made them and
-// must be handed back to the same backend.
+// Three kinds: the plain CPU reference (single-threaded, the judge of the others), the fast CPU
+// path (SIMD and threads) and a Vulkan device. All answer alike, within the agreement each kernel's
+// header promises. A backend may be used by one thread at a time. Tensors, views and cells outlive
+// the call that made them and must be handed back to the same backend.
 #pragma once
 
 #include <chrono>
@@ -36,8 +36,8 @@ class BackendView {
 };
 using ViewHandle = std::shared_ptr<const BackendView>;
 
-// The cells of one view's combination_chamfer, in the backend's own memory: particles * realizations of them,
-// too many to keep those of all views.
+// The cells of one view's combination_chamfer, in the backend's own memory: particles *
+// realizations of them, too many to keep those of all views.
 class BackendChamfer {
  public:
   virtual ~BackendChamfer() = default;
@@ -65,29 +65,33 @@ class Backend {
       const = 0;  // "cpu", "cpu-reference", "vulkan:0 llvmpipe (LLVM 15.0.6, 256 bits)"
   virtual bool is_gpu() const = 0;
 
-  virtual std::vector<EdgePoint> detect_edges(const ImageView& image, const EdgeOptions& options) = 0;
-  // `image` may be empty (width 0): then the view cannot be asked for Psi. InputError naming the size: a
-  // tensor too large for the memory or the device.
+  virtual std::vector<EdgePoint> detect_edges(const ImageView& image,
+                                              const EdgeOptions& options) = 0;
+  // `image` may be empty (width 0): then the view cannot be asked for Psi. InputError naming the
+  // size: a tensor too large for the memory or the device.
   virtual ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height,
                                const ImageView& image, const Intrinsics& intrinsics,
                                const TensorOptions& options) = 0;
   virtual void template_score(const BackendView& view, std::span<const TemplatePoint> points,
                               std::span<const TemplateJob> jobs, int anchor_step,
                               std::span<TemplateHit> hits) = 0;
-  virtual void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
+  virtual void pose_normal_equations(std::span<const ViewHandle> views,
+                                     std::span<const ModelPoint> points,
                                      std::span<const PoseProblem> problems, const PoseLoss& loss,
                                      std::span<NormalEquations> out) = 0;
   virtual void pose_score(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
                           std::span<const PoseProblem> problems, const PoseScoreOptions& options,
                           std::span<PoseScore> out) = 0;
-  virtual void depth_raster(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
-                            std::span<float> depth) = 0;
-  virtual void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width,
-                             int height, std::span<std::uint32_t> nearest) = 0;
-  virtual ChamferHandle combination_chamfer(const ChamferView& view, const CombinationBits& combinations,
+  virtual void depth_raster(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width,
+                            int height, std::span<float> depth) = 0;
+  virtual void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps,
+                             int width, int height, std::span<std::uint32_t> nearest) = 0;
+  virtual ChamferHandle combination_chamfer(const ChamferView& view,
+                                            const CombinationBits& combinations,
                                             const ChamferOptions& options) = 0;
   // Of one view, nats.
-  virtual double mutual_information(const BackendChamfer& chamfer, std::span<const ParticleBelief> beliefs,
+  virtual double mutual_information(const BackendChamfer& chamfer,
+                                    std::span<const ParticleBelief> beliefs,
                                     const InformationOptions& options) = 0;
   // The threads host code may use beside the kernels.
   virtual ThreadPool& threads() = 0;
@@ -107,7 +111,8 @@ struct DeviceInfo {
   std::string driver;  // name and version
   std::string api_version;
   bool hardware = false;  // false: a software rasteriser such as lavapipe
-  bool discrete = false;  // a card with memory of its own, beside a processor's own graphics the faster one
+  bool discrete =
+      false;  // a card with memory of its own, beside a processor's own graphics the faster one
   std::uint64_t memory_bytes = 0;
   std::uint64_t max_storage_buffer_bytes = 0;
 };
@@ -117,19 +122,19 @@ std::vector<DeviceInfo> vulkan_devices();
 
 std::unique_ptr<Backend> make_cpu_backend(int threads = 0);
 std::unique_ptr<Backend> make_reference_backend();
-// Throws GpuError where the device is missing or lacks a feature the kernels need, InputError where the
-// project was built without Vulkan.
+// Throws GpuError where the device is missing or lacks a feature the kernels need, InputError where
+// the project was built without Vulkan.
 std::unique_ptr<Backend> make_vulkan_backend(int device_index, bool validation = false);
 
-// In the order in which they are tried: discrete cards, other hardware, software devices; of a kind in the
-// order they came.
+// In the order in which they are tried: discrete cards, other hardware, software devices; of a kind
+// in the order they came.
 std::vector<DeviceInfo> in_order_of_use(std::vector<DeviceInfo> devices);
 // The first in that order, 0 where there is none.
 int usual_vulkan_device();
 
-// "auto", "cpu", "cpu-reference", "vulkan" (the usual device) or "vulkan:INDEX"; auto takes the first
-// hardware Vulkan device in the order of use that can be opened, else the fast CPU path. Throws InputError on
-// another word and where the device asked for does not exist.
+// "auto", "cpu", "cpu-reference", "vulkan" (the usual device) or "vulkan:INDEX"; auto takes the
+// first hardware Vulkan device in the order of use that can be opened, else the fast CPU path.
+// Throws InputError on another word and where the device asked for does not exist.
 std::unique_ptr<Backend> make_backend(const std::string& choice);
 
 }  // namespace edgescout

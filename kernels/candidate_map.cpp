@@ -29,8 +29,8 @@ struct Canvas {
   std::uint32_t* row(int y) { return words.data() + std::size_t(y - window.y0) * stride + span; }
 };
 
-// Offers an edge point to every pixel in its reach: words are ordered by distance, then by number. The
-// columns' fixed number is what lets the compiler keep them in vectors.
+// Offers an edge point to every pixel in its reach: words are ordered by distance, then by number.
+// The columns' fixed number is what lets the compiler keep them in vectors.
 EDGESCOUT_SIMD_CLONES
 void stamp(Canvas& canvas, int x_steps, int y_steps, std::uint32_t number) {
   const MapWindow& window = canvas.window;
@@ -50,7 +50,8 @@ void stamp(Canvas& canvas, int x_steps, int y_steps, std::uint32_t number) {
     std::uint32_t* row = canvas.row(y) + (x0 - window.x0);
     for (int i = 0; i < span; ++i) {
       const std::uint32_t d2 = dx2[i] + std::uint32_t(dy * dy);
-      row[i] = std::min(row[i], d2 <= CANDIDATE_MAP_REACH2 ? d2 << 16 | number : CANDIDATE_MAP_EMPTY);
+      row[i] =
+          std::min(row[i], d2 <= CANDIDATE_MAP_REACH2 ? d2 << 16 | number : CANDIDATE_MAP_EMPTY);
     }
   }
 }
@@ -59,13 +60,16 @@ void stamp(Canvas& canvas, int x_steps, int y_steps, std::uint32_t number) {
 
 MapWindow map_window(float x_min, float y_min, float x_max, float y_max, int width, int height) {
   const auto low = [](float v, int size) {
-    return static_cast<int>(std::clamp(std::floor(v) - float(CANDIDATE_MAP_REACH_PX), 0.0f, float(size)));
+    return static_cast<int>(
+        std::clamp(std::floor(v) - float(CANDIDATE_MAP_REACH_PX), 0.0f, float(size)));
   };
   const auto end = [](float v, int size) {
-    return static_cast<int>(std::clamp(std::ceil(v) + float(CANDIDATE_MAP_REACH_PX) + 1, 0.0f, float(size)));
+    return static_cast<int>(
+        std::clamp(std::ceil(v) + float(CANDIDATE_MAP_REACH_PX) + 1, 0.0f, float(size)));
   };
   const int x0 = low(x_min, width), y0 = low(y_min, height);
-  const int columns = std::max(0, end(x_max, width) - x0), rows = std::max(0, end(y_max, height) - y0);
+  const int columns = std::max(0, end(x_max, width) - x0),
+            rows = std::max(0, end(y_max, height) - y0);
   if (columns == 0 || rows == 0) return {};
   return {x0, y0, static_cast<std::uint32_t>(columns), static_cast<std::uint32_t>(rows)};
 }
@@ -81,7 +85,8 @@ std::uint32_t chamfer_steps(std::uint32_t word) {
 }
 
 bool nearest_pixel(float x_px, float y_px, int width, int height, int& x, int& y) {
-  if (!(x_px >= -0.5f && y_px >= -0.5f && x_px < float(width) - 0.5f && y_px < float(height) - 0.5f))
+  if (!(x_px >= -0.5f && y_px >= -0.5f && x_px < float(width) - 0.5f &&
+        y_px < float(height) - 0.5f))
     return false;
   // The sum may round up to the next integer just below the border.
   x = std::min(static_cast<int>(x_px + 0.5f), width - 1);
@@ -89,10 +94,11 @@ bool nearest_pixel(float x_px, float y_px, int width, int height, int& x, int& y
   return true;
 }
 
-void check_candidate_maps(std::size_t edges, std::span<const CandidateMap> maps, int width, int height,
-                          std::size_t pixels) {
+void check_candidate_maps(std::size_t edges, std::span<const CandidateMap> maps, int width,
+                          int height, std::size_t pixels) {
   constexpr int most = CANDIDATE_MAP_MAX_SIDE;
-  check(width > 0 && height > 0 && width <= most && height <= most, "candidate_map: size of the image");
+  check(width > 0 && height > 0 && width <= most && height <= most,
+        "candidate_map: size of the image");
   for (const CandidateMap& map : maps) {
     const MapWindow& w = map.window;
     check(w.x0 >= -most && w.y0 >= -most && w.x0 <= most && w.y0 <= most && w.width <= 2 * most &&
@@ -105,26 +111,27 @@ void check_candidate_maps(std::size_t edges, std::span<const CandidateMap> maps,
   }
 }
 
-void candidate_map_reference(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width,
-                             int height, std::span<std::uint32_t> nearest) {
+void candidate_map_reference(std::span<const MapEdge> edges, std::span<const CandidateMap> maps,
+                             int width, int height, std::span<std::uint32_t> nearest) {
   check_candidate_maps(edges.size(), maps, width, height, nearest.size());
   for (const CandidateMap& map : maps)
     for (std::size_t i = 0; i < map.window.size(); ++i) {
-      const int x = map.window.x0 + int(i % map.window.width), y = map.window.y0 + int(i / map.window.width);
+      const int x = map.window.x0 + int(i % map.window.width),
+                y = map.window.y0 + int(i / map.window.width);
       std::uint32_t best = CANDIDATE_MAP_EMPTY;
       for (std::uint32_t e = 0; e < map.edge_count; ++e) {
         const MapEdge& edge = edges[map.first_edge + e];
         if (int px, py; !nearest_pixel(edge.x_px, edge.y_px, width, height, px, py)) continue;
-        const std::int64_t dx = steps * x - to_steps(edge.x_px), dy = steps * y - to_steps(edge.y_px),
-                           d2 = dx * dx + dy * dy;
+        const std::int64_t dx = steps * x - to_steps(edge.x_px),
+                           dy = steps * y - to_steps(edge.y_px), d2 = dx * dx + dy * dy;
         if (d2 <= CANDIDATE_MAP_REACH2) best = std::min(best, std::uint32_t(d2) << 16 | e);
       }
       nearest[map.first_pixel + i] = best;
     }
 }
 
-void candidate_map_fast(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width,
-                        int height, std::span<std::uint32_t> nearest, ThreadPool& pool) {
+void candidate_map_fast(std::span<const MapEdge> edges, std::span<const CandidateMap> maps,
+                        int width, int height, std::span<std::uint32_t> nearest, ThreadPool& pool) {
   check_candidate_maps(edges.size(), maps, width, height, nearest.size());
   pool.for_each(maps.size(), [&](std::size_t m) {
     const CandidateMap& map = maps[m];

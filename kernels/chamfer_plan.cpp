@@ -25,8 +25,8 @@ struct PixelLists {
   }
 };
 
-// Calls `visit(c, i, pixel)` for the pixels of all candidates' windows in rows [y0, y1) of the image; i is
-// the place in `nearest`.
+// Calls `visit(c, i, pixel)` for the pixels of all candidates' windows in rows [y0, y1) of the
+// image; i is the place in `nearest`.
 template <class Visit>
 void visit_windows(const ChamferView& view, int y0, int y1, const Visit& visit) {
   for (std::uint32_t c = 0; c < view.candidates.size(); ++c) {
@@ -35,7 +35,8 @@ void visit_windows(const ChamferView& view, int y0, int y1, const Visit& visit) 
     const int left = std::max(0, w.x0), right = std::min(view.width, w.x0 + int(w.width));
     for (int y = std::max(y0, w.y0); y < std::min(y1, w.y0 + int(w.height)); ++y)
       for (int x = left; x < right; ++x)
-        visit(c, map.first_pixel + w.index(x, y), std::size_t(y) * std::size_t(view.width) + std::size_t(x));
+        visit(c, map.first_pixel + w.index(x, y),
+              std::size_t(y) * std::size_t(view.width) + std::size_t(x));
   }
 }
 
@@ -63,10 +64,12 @@ PixelLists<T> gather(const ChamferView& view, ThreadPool& pool, const EntryOf& e
     const std::size_t begin = std::size_t(y0) * view.width, end = std::size_t(y1) * view.width;
     std::vector<std::uint32_t> next(lists.first.begin() + begin, lists.first.begin() + end);
     visit_windows(view, y0, y1, [&](std::uint32_t c, std::size_t i, std::size_t pixel) {
-      if (const std::optional<T> entry = entry_of(c, i, pixel)) lists.entries[next[pixel - begin]++] = *entry;
+      if (const std::optional<T> entry = entry_of(c, i, pixel))
+        lists.entries[next[pixel - begin]++] = *entry;
     });
     for (std::size_t pixel = begin; pixel < end; ++pixel)
-      std::sort(lists.entries.begin() + lists.first[pixel], lists.entries.begin() + lists.first[pixel + 1]);
+      std::sort(lists.entries.begin() + lists.first[pixel],
+                lists.entries.begin() + lists.first[pixel + 1]);
   });
   return lists;
 }
@@ -86,8 +89,9 @@ class Planner {
     plan_.cap = options_.cap_steps();
     surfaces_ = gather<Surface>(view_, pool_, [&](std::uint32_t c, std::size_t i, std::size_t) {
       const float hides_from_m = view_.surface_m[i] + view_.tolerance_m[c];
-      return hides_from_m < std::numeric_limits<float>::infinity() ? std::optional(Surface{hides_from_m, c})
-                                                                   : std::nullopt;
+      return hides_from_m < std::numeric_limits<float>::infinity()
+                 ? std::optional(Surface{hides_from_m, c})
+                 : std::nullopt;
     });
     for (const Surface& surface : surfaces_.entries) plan_.hiders.push_back(surface.candidate);
     plan_.masks.resize(1 + view_.candidates.size());
@@ -109,7 +113,8 @@ class Planner {
     }
     return count;
   }
-  // A pixel with n surfaces has n + 1 slots: as many of the surfaces in front of a point as there are.
+  // A pixel with n surfaces has n + 1 slots: as many of the surfaces in front of a point as there
+  // are.
   std::size_t slots() const { return surfaces_.entries.size() + surfaces_.first.size() - 1; }
   std::size_t first_slot(std::size_t pixel) const { return surfaces_.first[pixel] + pixel; }
 
@@ -162,8 +167,8 @@ class Planner {
     std::ranges::sort(front);
   }
   std::uint32_t add_mask(std::uint32_t member, std::span<const std::uint32_t> hiders) {
-    plan_.masks.push_back(
-        {member, static_cast<std::uint32_t>(plan_.hiders.size()), static_cast<std::uint32_t>(hiders.size())});
+    plan_.masks.push_back({member, static_cast<std::uint32_t>(plan_.hiders.size()),
+                           static_cast<std::uint32_t>(hiders.size())});
     plan_.hiders.insert(plan_.hiders.end(), hiders.begin(), hiders.end());
     return static_cast<std::uint32_t>(plan_.masks.size() - 1);
   }
@@ -173,25 +178,30 @@ class Planner {
     const std::uint32_t farthest_d2 = farthest * farthest + farthest;  // that rounds below the cap
     PixelLists<std::uint32_t> reach =
         gather<std::uint32_t>(view_, pool_, [&](std::uint32_t c, std::size_t i, std::size_t pixel) {
-          const std::uint32_t word =
-              pixel_used_[pixel].load(std::memory_order_relaxed) ? view_.nearest[i] : CANDIDATE_MAP_EMPTY;
+          const std::uint32_t word = pixel_used_[pixel].load(std::memory_order_relaxed)
+                                         ? view_.nearest[i]
+                                         : CANDIDATE_MAP_EMPTY;
           if (word >> 16 > farthest_d2) return std::optional<std::uint32_t>();
           check((word & 0xffffu) < view_.candidates[c].edge_count,
                 "combination_chamfer: a nearest edge point that is none");
-          return std::optional(chamfer_steps(word) << 24 | edge_mask_[first_edge_[c] + (word & 0xffffu)]);
+          return std::optional(chamfer_steps(word) << 24 |
+                               edge_mask_[first_edge_[c] + (word & 0xffffu)]);
         });
     row_of_slot_.assign(slots(), nowhere);
     for (std::size_t pixel = 0; pixel + 1 < surfaces_.first.size(); ++pixel) {
       if (!pixel_used_[pixel].load(std::memory_order_relaxed)) continue;
-      const std::uint32_t first = surfaces_.first[pixel], count = surfaces_.first[pixel + 1] - first;
+      const std::uint32_t first = surfaces_.first[pixel],
+                          count = surfaces_.first[pixel + 1] - first;
       for (std::uint32_t before = 0; before <= count; ++before) {
         const std::size_t slot = first_slot(pixel) + before;
         if (!slot_used_[slot].load(std::memory_order_relaxed)) continue;
         row_of_slot_[slot] = static_cast<std::uint32_t>(plan_.rows.size());
-        const std::uint32_t visible = before > 0 ? static_cast<std::uint32_t>(plan_.masks.size()) : 0;
+        const std::uint32_t visible =
+            before > 0 ? static_cast<std::uint32_t>(plan_.masks.size()) : 0;
         // The surfaces' candidates are the first of the hiders, in the surfaces' order.
         if (before > 0) plan_.masks.push_back({CHAMFER_NO_MEMBER, first, before});
-        plan_.rows.push_back({reach.first[pixel], reach.first[pixel + 1] - reach.first[pixel], visible});
+        plan_.rows.push_back(
+            {reach.first[pixel], reach.first[pixel + 1] - reach.first[pixel], visible});
       }
     }
     check(plan_.masks.size() <= max_masks && plan_.rows.size() < (1u << 31),

@@ -1,9 +1,11 @@
-// combination_chamfer without its combinations: what the fast path and Vulkan share. Everything that does not
-// depend on the realization is settled here once, so that what remains is bytes to look up and to add.
+// combination_chamfer without its combinations: what the fast path and Vulkan share. Everything
+// that does not depend on the realization is settled here once, so that what remains is bytes to
+// look up and to add.
 //
-// A *mask* is a set of realizations: those with a candidate, but without any of those that hide it. A *row*
-// is what a point meets at one pixel when given surfaces lie in front of it: for every realization the
-// distance, one byte, 0 where the point is hidden. Many points of many particles share a row.
+// A *mask* is a set of realizations: those with a candidate, but without any of those that hide it.
+// A *row* is what a point meets at one pixel when given surfaces lie in front of it: for every
+// realization the distance, one byte, 0 where the point is hidden. Many points of many particles
+// share a row.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +17,14 @@
 namespace edgescout {
 
 struct ChamferMask {
-  std::uint32_t member = CHAMFER_NO_MEMBER;        // every realization, but
-  std::uint32_t first_hider = 0, hider_count = 0;  // those with one of hiders[first_hider, + hider_count)
+  std::uint32_t member = CHAMFER_NO_MEMBER;  // every realization, but
+  std::uint32_t first_hider = 0,
+                hider_count = 0;  // those with one of hiders[first_hider, + hider_count)
 };
 
 struct ChamferRow {
-  // Distances in 1/16 px << 24 | mask, nearest first: the first whose mask has the realization is its
-  // distance.
+  // Distances in 1/16 px << 24 | mask, nearest first: the first whose mask has the realization is
+  // its distance.
   std::uint32_t first_reach = 0, reach_count = 0;
   std::uint32_t visible = 0;  // mask; 0: nothing hides it
 };
@@ -35,7 +38,7 @@ struct ChamferVisit {
 
 struct ChamferRun {
   std::uint32_t first = 0, first_hideable = 0,
-                end = 0;                // of `visits`: those to rows that nothing hides, then the others
+                end = 0;  // of `visits`: those to rows that nothing hides, then the others
   std::uint32_t points = 0, fresh = 0;  // of all of them
 };
 
@@ -48,8 +51,8 @@ struct ChamferPlan {
   std::vector<ChamferRun> particles;
 };
 
-// Of what check_chamfer() has passed. Throws LogicError for more than 2^24 masks or 2^31 rows, and for a
-// nearest edge point that is none.
+// Of what check_chamfer() has passed. Throws LogicError for more than 2^24 masks or 2^31 rows, and
+// for a nearest edge point that is none.
 ChamferPlan plan_chamfer(const ChamferView& view, const ChamferOptions& options, ThreadPool& pool);
 
 }  // namespace edgescout

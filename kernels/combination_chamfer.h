@@ -1,25 +1,26 @@
-// Mean chamfer distance of every particle to every scene realization, seen from one view, without drawing one
-// of them (paper, Sec. 5.2 and Eq. 16): the realization's distance at a pixel is the least of its members'.
+// Mean chamfer distance of every particle to every scene realization, seen from one view, without
+// drawing one of them (paper, Sec. 5.2 and Eq. 16): the realization's distance at a pixel is the
+// least of its members'.
 //
-// A *realization* is a combination of candidates, a *particle* a hypothetical pose with the edge points that
-// show from the view. For particle i and combination C, over the particle's points whose nearest pixel p lies
-// in the image:
-//   hidden point:   a member's surface depth at p plus its tolerance is less than z. It leaves the mean.
-//   hidden edge:    the edge point of member c nearest to p, where another member's surface depth at *that
-//   edge point's* own
-//                   nearest pixel plus its tolerance is less than its depth. Then c gives no distance at p,
-//                   although a farther edge point of c might show: the mean is never too small for that, and
-//                   rarely too large.
-//   distance at p = min(cap, least chamfer_steps of the members' maps at p whose edge is not hidden);
-//   seen = points not hidden, fresh = those of them flagged so, sum = sum of their distances in 1/16 px of
-//   the map.
+// A *realization* is a combination of candidates, a *particle* a hypothetical pose with the edge
+// points that show from the view. For particle i and combination C, over the particle's points
+// whose nearest pixel p lies in the image:
+//   hidden point:   a member's surface depth at p plus its tolerance is less than z. It leaves the
+//   mean. hidden edge:    the edge point of member c nearest to p, where another member's surface
+//   depth at *that edge point's* own
+//                   nearest pixel plus its tolerance is less than its depth. Then c gives no
+//                   distance at p, although a farther edge point of c might show: the mean is never
+//                   too small for that, and rarely too large.
+//   distance at p = min(cap, least chamfer_steps of the members' maps at p whose edge is not
+//   hidden); seen = points not hidden, fresh = those of them flagged so, sum = sum of their
+//   distances in 1/16 px of the map.
 // mean_px = sum / (16 seen); the cap where nothing is seen.
 //
-// A member's tolerance keeps the one that stands for the particle's own object from hiding it: of the order
-// of its position's uncertainty plus what depth changes over half a pixel of the map.
+// A member's tolerance keeps the one that stands for the particle's own object from hiding it: of
+// the order of its position's uncertainty plus what depth changes over half a pixel of the map.
 //
-// Agreement: integers, equal on every path bit for bit. LogicError: lists of other sizes than the counts say,
-// what candidate_map throws for, more than CHAMFER_MAX_POINTS points in a particle.
+// Agreement: integers, equal on every path bit for bit. LogicError: lists of other sizes than the
+// counts say, what candidate_map throws for, more than CHAMFER_MAX_POINTS points in a particle.
 #pragma once
 
 #include <cstdint>
@@ -54,8 +55,8 @@ struct ChamferView {
   std::size_t particles() const { return first_point.empty() ? 0 : first_point.size() - 1; }
 };
 
-// One row of words a combination; candidate c is bit c % 32 of word c / 32. Bits beyond the candidates mean
-// nothing.
+// One row of words a combination; candidate c is bit c % 32 of word c / 32. Bits beyond the
+// candidates mean nothing.
 struct CombinationBits {
   std::uint32_t count = 0, candidates = 0;
   std::span<const std::uint32_t> words;  // count * row_words()
@@ -68,7 +69,9 @@ struct CombinationBits {
 struct ChamferOptions {
   // px of the map, 1/16 to 255/16; rounded to 1/16
   float cap_px = float(CHAMFER_CAP) / float(CHAMFER_STEPS_PER_PX);
-  std::uint32_t cap_steps() const { return std::uint32_t(cap_px * float(CHAMFER_STEPS_PER_PX) + 0.5f); }
+  std::uint32_t cap_steps() const {
+    return std::uint32_t(cap_px * float(CHAMFER_STEPS_PER_PX) + 0.5f);
+  }
   void validate() const;  // throws InputError
 };
 

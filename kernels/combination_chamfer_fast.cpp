@@ -1,5 +1,5 @@
-// Realizations in blocks of 64, one byte each: a block's masks and rows stay in the second-level cache, its
-// sums in registers.
+// Realizations in blocks of 64, one byte each: a block's masks and rows stay in the second-level
+// cache, its sums in registers.
 #include <algorithm>
 #include <array>
 #include <span>
@@ -49,7 +49,8 @@ void fill_rows(const ChamferPlan& plan, const Lanes* masks, Lanes* rows) {
   const Bytes cap = Bytes{} + static_cast<std::uint8_t>(plan.cap);
   for (std::size_t r = 0; r < plan.rows.size(); ++r) {
     const ChamferRow& row = plan.rows[r];
-    const std::uint32_t *reach = plan.reach.data() + row.first_reach, *end = reach + row.reach_count;
+    const std::uint32_t *reach = plan.reach.data() + row.first_reach,
+                        *end = reach + row.reach_count;
     Bytes least = cap;
     while (reach != end) {
       const std::uint32_t* stop = std::min(reach + stride, end);
@@ -80,8 +81,8 @@ void flush(const Bytes& bytes, std::array<std::uint32_t, block>& sums) {
 
 using Visits = std::span<const ChamferVisit>;
 
-// As many visits, from the first, as have at most CHAMFER_POINTS_AT_ONCE points: sums of distances fit 16
-// bits, counts a byte.
+// As many visits, from the first, as have at most CHAMFER_POINTS_AT_ONCE points: sums of distances
+// fit 16 bits, counts a byte.
 Visits take(Visits visits) {
   std::size_t count = 0;
   for (std::uint32_t points = 0; count < visits.size(); ++count) {
@@ -117,7 +118,8 @@ void count_hidden(Visits visits, const ChamferPlan& plan, const Lanes* masks, Su
   flush(fresh, sums.hidden_fresh);
 }
 
-Sums sums_of(const ChamferPlan& plan, const ChamferRun& run, const Lanes* masks, const Lanes* rows) {
+Sums sums_of(const ChamferPlan& plan, const ChamferRun& run, const Lanes* masks,
+             const Lanes* rows) {
   Sums sums;
   const Visits all = Visits(plan.visits).subspan(run.first, run.end - run.first);
   for (Visits rest = all, now; !rest.empty(); rest = rest.subspan(now.size())) {
@@ -150,9 +152,9 @@ std::vector<ChamferCell> combination_chamfer_fast(const ChamferView& view,
       const ChamferRun& run = plan.particles[i];
       const Sums sums = sums_of(plan, run, masks.data(), rows.data());
       for (std::size_t lane = 0; lane < lanes; ++lane)
-        cells[i * combinations.count + first + lane] = {sums.distance[lane],
-                                                        std::uint16_t(run.points - sums.hidden[lane]),
-                                                        std::uint16_t(run.fresh - sums.hidden_fresh[lane])};
+        cells[i * combinations.count + first + lane] = {
+            sums.distance[lane], std::uint16_t(run.points - sums.hidden[lane]),
+            std::uint16_t(run.fresh - sums.hidden_fresh[lane])};
     }
   });
   return cells;

@@ -36,7 +36,8 @@ class Realization {
       if (!map.window.contains(x, y)) continue;
       const std::uint32_t word = view_.nearest[map.first_pixel + map.window.index(x, y)];
       if (word == CANDIDATE_MAP_EMPTY) continue;
-      check((word & 0xffffu) < map.edge_count, "combination_chamfer: a nearest edge point that is none");
+      check((word & 0xffffu) < map.edge_count,
+            "combination_chamfer: a nearest edge point that is none");
       if (edge_hidden(c, view_.edges[map.first_edge + (word & 0xffffu)])) continue;
       least = std::min(least, chamfer_steps(word));
     }
@@ -84,12 +85,14 @@ void ChamferOptions::validate() const {
 void check_chamfer(const ChamferView& view, const CombinationBits& combinations,
                    const ChamferOptions& options) {
   options.validate();
-  check_candidate_maps(view.edges.size(), view.candidates, view.width, view.height, view.nearest.size());
+  check_candidate_maps(view.edges.size(), view.candidates, view.width, view.height,
+                       view.nearest.size());
   check(view.surface_m.size() == view.nearest.size(),
         "combination_chamfer: as many surface depths as pixels");
-  check(view.tolerance_m.size() == view.candidates.size() &&
-            std::ranges::all_of(view.tolerance_m, [](float tolerance_m) { return tolerance_m >= 0; }),
-        "combination_chamfer: one tolerance from 0 a candidate");
+  check(
+      view.tolerance_m.size() == view.candidates.size() &&
+          std::ranges::all_of(view.tolerance_m, [](float tolerance_m) { return tolerance_m >= 0; }),
+      "combination_chamfer: one tolerance from 0 a candidate");
   check(combinations.candidates == view.candidates.size(),
         "combination_chamfer: combinations of other candidates");
   check(combinations.words.size() == combinations.count * combinations.row_words(),
@@ -98,7 +101,8 @@ void check_chamfer(const ChamferView& view, const CombinationBits& combinations,
         "combination_chamfer: points beyond the list");
   for (std::size_t i = 0; i < view.particles(); ++i) {
     const std::uint32_t first = view.first_point[i], end = view.first_point[i + 1];
-    check(first <= end && end - first <= CHAMFER_MAX_POINTS, "combination_chamfer: points of a particle");
+    check(first <= end && end - first <= CHAMFER_MAX_POINTS,
+          "combination_chamfer: points of a particle");
   }
   for (std::uint32_t p = view.first_point.front(); p < view.first_point.back(); ++p)
     check(view.points[p].fresh <= 1, "combination_chamfer: fresh is 0 or 1");

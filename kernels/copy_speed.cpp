@@ -25,10 +25,11 @@ double cpu_copy_bytes_per_s(ThreadPool& pool) {
   double best_s = 1e30;
   for (int i = 0; i < REPETITIONS; ++i) {
     const auto start = std::chrono::steady_clock::now();
-    pool.for_each(parts,
-                  [&](std::size_t p) { std::memcpy(to.data() + p * part, from.data() + p * part, part); });
-    best_s =
-        std::min(best_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    pool.for_each(parts, [&](std::size_t p) {
+      std::memcpy(to.data() + p * part, from.data() + p * part, part);
+    });
+    best_s = std::min(
+        best_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   return 2.0 * static_cast<double>(parts * part) / best_s;
 }

@@ -18,8 +18,8 @@ namespace edgescout {
 
 namespace {
 
-// Tensor memory, aligned to a line and handed back to a small store: a fresh 94 MB costs as much in page
-// faults as half a tensor.
+// Tensor memory, aligned to a line and handed back to a small store: a fresh 94 MB costs as much in
+// page faults as half a tensor.
 class TensorMemory {
  public:
   using Block = std::span<std::uint16_t>;
@@ -62,8 +62,8 @@ class TensorMemory {
 [[noreturn]] void too_large(const TensorShape& shape) {
   throw InputError("dcd_tensor", "image size",
                    std::to_string(shape.width) + "x" + std::to_string(shape.height) + " with " +
-                       std::to_string(shape.bins) + " bins: a tensor of " + std::to_string(2 * shape.size()) +
-                       " bytes",
+                       std::to_string(shape.bins) + " bins: a tensor of " +
+                       std::to_string(2 * shape.size()) + " bytes",
                    "one that memory has room for (a smaller image or fewer bins)");
 }
 
@@ -98,11 +98,13 @@ class CpuBackend : public Backend {
 
   std::vector<EdgePoint> detect_edges(const ImageView& image, const EdgeOptions& options) override {
     const Timer timer(*this, "edge_detect");
-    return fast_ ? detect_edges_fast(image, options, pool_) : detect_edges_reference(image, options);
+    return fast_ ? detect_edges_fast(image, options, pool_)
+                 : detect_edges_reference(image, options);
   }
 
-  ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height, const ImageView& image,
-                       const Intrinsics& intrinsics, const TensorOptions& options) override {
+  ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height,
+                       const ImageView& image, const Intrinsics& intrinsics,
+                       const TensorOptions& options) override {
     options.validate();
     check(width > 0 && height > 0, "make_view: an image without pixels");
     check(image.width == 0 || (image.width == width && image.height == height),
@@ -117,7 +119,8 @@ class CpuBackend : public Backend {
       if (fast_)
         dcd_tensor_fast(edges, width, height, options, pool_, view->values);
       else
-        std::ranges::copy(dcd_tensor_reference(edges, width, height, options), view->values.begin());
+        std::ranges::copy(dcd_tensor_reference(edges, width, height, options),
+                          view->values.begin());
       if (image.width > 0) view->gradient_x2 = image_gradient_x2(image);
       return view;
     } catch (const std::bad_alloc&) {
@@ -155,7 +158,8 @@ class CpuBackend : public Backend {
     check_pose_problems(problems, points.size(), views.size());
     const Timer timer(*this, "pose_score");
     std::vector<ScoreView> scored;
-    for (const ViewHandle& view : views) scored.push_back({own(*view).tensor_view(), own(*view).gradient_x2});
+    for (const ViewHandle& view : views)
+      scored.push_back({own(*view).tensor_view(), own(*view).gradient_x2});
     if (fast_)
       pose_score_fast(scored, points, problems, options, out, pool_);
     else
@@ -197,7 +201,8 @@ class CpuBackend : public Backend {
     const Timer timer(*this, "mutual_information");
     const auto* mine = dynamic_cast<const CpuChamfer*>(&chamfer);
     check(mine != nullptr, "cells made by another backend");
-    const ChamferTable table{chamfer.particles, chamfer.realizations, chamfer.options.cap_px, mine->values};
+    const ChamferTable table{chamfer.particles, chamfer.realizations, chamfer.options.cap_px,
+                             mine->values};
     return fast_ ? mutual_information_fast(table, beliefs, options, pool_)
                  : mutual_information_reference(table, beliefs, options);
   }
@@ -206,7 +211,8 @@ class CpuBackend : public Backend {
   struct Timer {
     Timer(CpuBackend& owner, const char* stage) : backend(owner), name(stage) {}
     ~Timer() {
-      backend.add_time(name, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+      backend.add_time(
+          name, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     }
     CpuBackend& backend;
     const char* name;
@@ -226,7 +232,9 @@ class CpuBackend : public Backend {
 
 }  // namespace
 
-std::unique_ptr<Backend> make_cpu_backend(int threads) { return std::make_unique<CpuBackend>(true, threads); }
+std::unique_ptr<Backend> make_cpu_backend(int threads) {
+  return std::make_unique<CpuBackend>(true, threads);
+}
 std::unique_ptr<Backend> make_reference_backend() { return std::make_unique<CpuBackend>(false, 1); }
 
 }  // namespace edgescout

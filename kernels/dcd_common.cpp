@@ -12,12 +12,14 @@ void TensorOptions::validate() const {
   const auto fail = [](const char* field, double found, const char* bound) {
     throw InputError("options", std::string("tensor.") + field, std::to_string(found), bound);
   };
-  if (bins < 4 || bins > int(DCD_MAX_BINS) || bins % 2 != 0) fail("bins", bins, "an even number in [4, 128]");
+  if (bins < 4 || bins > int(DCD_MAX_BINS) || bins % 2 != 0)
+    fail("bins", bins, "an even number in [4, 128]");
   if (!(lambda_px_per_rad >= 0 && lambda_px_per_rad <= 1e4f))
     fail("lambda", lambda_px_per_rad, "a value in [0, 10000] px/rad");
   if (!(smoothing_variance >= 0 && smoothing_variance <= 16))
     fail("smoothing_variance", smoothing_variance, "a value in [0, 16] bins^2");
-  if (!(cap_px > 0 && cap_px <= float(DCD_MAX_CAP_PX))) fail("cap", cap_px, "a value in (0, 255] px");
+  if (!(cap_px > 0 && cap_px <= float(DCD_MAX_CAP_PX)))
+    fail("cap", cap_px, "a value in (0, 255] px");
 }
 
 std::vector<std::uint16_t> smoothing_weights(float variance_bins, int bins) {
@@ -40,7 +42,8 @@ std::vector<std::uint16_t> smoothing_weights(float variance_bins, int bins) {
 }
 
 std::uint16_t orientation_step(const TensorOptions& options) {
-  const double step = DCD_UNITS_PER_PX * double(options.lambda_px_per_rad) * std::numbers::pi / options.bins;
+  const double step =
+      DCD_UNITS_PER_PX * double(options.lambda_px_per_rad) * std::numbers::pi / options.bins;
   return static_cast<std::uint16_t>(std::min(65535.0, std::round(step)));
 }
 
@@ -49,8 +52,10 @@ Seed seed_of(const EdgePoint& point, const TensorShape& shape) {
   if (!(x >= 0 && x < float(shape.width) && y >= 0 && y < float(shape.height) &&
         std::isfinite(point.theta_rad)))
     return {0, 0, -1};
-  const int turns = static_cast<int>(std::lround(point.theta_rad * (shape.bins / std::numbers::pi_v<float>)));
-  return {static_cast<int>(x), static_cast<int>(y), ((turns % shape.bins) + shape.bins) % shape.bins};
+  const int turns =
+      static_cast<int>(std::lround(point.theta_rad * (shape.bins / std::numbers::pi_v<float>)));
+  return {static_cast<int>(x), static_cast<int>(y),
+          ((turns % shape.bins) + shape.bins) % shape.bins};
 }
 
 }  // namespace edgescout

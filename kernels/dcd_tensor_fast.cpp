@@ -1,9 +1,9 @@
-// The DCD tensor on the CPU, fast: bands of rows that fit the second-level cache, each begun and finished by
-// one thread.
+// The DCD tensor on the CPU, fast: bands of rows that fit the second-level cache, each begun and
+// finished by one thread.
 //
-// A capped distance transform of thin edges is cheapest backwards: instead of asking every pixel for its
-// nearest edge, every edge point lowers the values in the disc around it, one 64-byte line of a tile at a
-// time.
+// A capped distance transform of thin edges is cheapest backwards: instead of asking every pixel
+// for its nearest edge, every edge point lowers the values in the disc around it, one 64-byte line
+// of a tile at a time.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -21,8 +21,8 @@ namespace {
 constexpr int tile = DCD_TILE;
 constexpr int band_rows = 16;
 
-// Distances of a disc, one row for every |dy|, in units of 1/256 px. Each row is padded by a tile on both
-// sides, so that a whole line may be read wherever the seed lies in its tile.
+// Distances of a disc, one row for every |dy|, in units of 1/256 px. Each row is padded by a tile
+// on both sides, so that a whole line may be read wherever the seed lies in its tile.
 struct Stamp {
   int radius;
   int row_stride;
@@ -44,7 +44,8 @@ Stamp make_stamp(std::uint16_t cap) {
       const double units = std::round(DCD_UNITS_PER_PX * std::sqrt(double(dx * dx + dy * dy)));
       if (units >= cap) break;
       stamp.half_width[dy] = dx;
-      std::uint16_t* row = stamp.distance.data() + std::size_t(dy) * stamp.row_stride + stamp.radius + tile;
+      std::uint16_t* row =
+          stamp.distance.data() + std::size_t(dy) * stamp.row_stride + stamp.radius + tile;
       row[dx] = row[-dx] = static_cast<std::uint16_t>(units);
     }
   return stamp;
@@ -60,24 +61,27 @@ struct Plan {
   std::vector<std::size_t> row_end;  // seeds of row y: [row_end[y], row_end[y + 1])
 };
 
-Plan make_plan(std::span<const EdgePoint> edges, int width, int height, const TensorOptions& options) {
+Plan make_plan(std::span<const EdgePoint> edges, int width, int height,
+               const TensorOptions& options) {
   Plan plan;
   plan.shape = {width, height, options.bins};
   plan.cap = static_cast<std::uint16_t>(std::lround(double(DCD_UNITS_PER_PX) * options.cap_px));
   plan.stamp = make_stamp(plan.cap);
   plan.step = orientation_step(options);
   // No value travels further than cap / step bins: it would exceed the cap.
-  plan.second_round = plan.step == 0 ? options.bins : std::min<int>(options.bins, plan.cap / plan.step + 1);
+  plan.second_round =
+      plan.step == 0 ? options.bins : std::min<int>(options.bins, plan.cap / plan.step + 1);
   plan.weights = smoothing_weights(options.smoothing_variance, options.bins);
   for (const EdgePoint& edge : edges)
     if (const Seed seed = seed_of(edge, plan.shape); seed.bin >= 0) plan.seeds.push_back(seed);
   std::sort(plan.seeds.begin(), plan.seeds.end(), [](const Seed& a, const Seed& b) {
     return std::tie(a.y, a.bin, a.x) < std::tie(b.y, b.bin, b.x);
   });
-  plan.seeds.erase(
-      std::unique(plan.seeds.begin(), plan.seeds.end(),
-                  [](const Seed& a, const Seed& b) { return a.x == b.x && a.y == b.y && a.bin == b.bin; }),
-      plan.seeds.end());
+  plan.seeds.erase(std::unique(plan.seeds.begin(), plan.seeds.end(),
+                               [](const Seed& a, const Seed& b) {
+                                 return a.x == b.x && a.y == b.y && a.bin == b.bin;
+                               }),
+                   plan.seeds.end());
   plan.row_end.assign(height + 1, 0);
   for (const Seed& seed : plan.seeds) ++plan.row_end[seed.y + 1];
   for (int y = 0; y < height; ++y) plan.row_end[y + 1] += plan.row_end[y];
@@ -97,7 +101,8 @@ void stamp_row(std::uint16_t* line, std::size_t tile_stride, const std::uint16_t
 
 void stamp_seeds(const Plan& plan, int y0, int y1, std::uint16_t* out) {
   const int radius = plan.stamp.radius, tiles = plan.shape.tiles_per_row();
-  const std::size_t tile_stride = std::size_t(plan.shape.bins) * tile, row_stride = tile_stride * tiles;
+  const std::size_t tile_stride = std::size_t(plan.shape.bins) * tile,
+                    row_stride = tile_stride * tiles;
   const int from = std::max(0, y0 - radius), to = std::min(plan.shape.height, y1 + radius);
   for (std::size_t s = plan.row_end[from]; s < plan.row_end[to]; ++s) {
     const Seed& seed = plan.seeds[s];
@@ -106,8 +111,8 @@ void stamp_seeds(const Plan& plan, int y0, int y1, std::uint16_t* out) {
       if (reach < 0) continue;
       const int first = std::max(0, seed.x - reach) / tile;
       const int last = std::min(plan.shape.width - 1, seed.x + reach) / tile;
-      stamp_row(out + y * row_stride + std::size_t(seed.bin) * tile, tile_stride, plan.stamp.row(dy), seed.x,
-                first, last);
+      stamp_row(out + y * row_stride + std::size_t(seed.bin) * tile, tile_stride,
+                plan.stamp.row(dy), seed.x, first, last);
     }
   }
 }
@@ -121,13 +126,15 @@ inline void relax(std::uint16_t* to, const std::uint16_t* from, std::uint16_t st
   }
 }
 
-// Eqs. 5 and 6 in a tile that sits in the first-level cache. One turn settles everything that does not cross
-// bin 0; the second round carries on as far as a value can still count.
+// Eqs. 5 and 6 in a tile that sits in the first-level cache. One turn settles everything that does
+// not cross bin 0; the second round carries on as far as a value can still count.
 EDGESCOUT_SIMD_CLONES
 void recurse_tile(std::uint16_t* values, int bins, std::uint16_t step, int second_round) {
   const auto line = [&](int k) { return values + std::size_t(k) * tile; };
-  for (int n = 0; n < bins + second_round; ++n) relax(line(n % bins), line((n + bins - 1) % bins), step);
-  for (int n = bins + second_round - 1; n >= 0; --n) relax(line(n % bins), line((n + 1) % bins), step);
+  for (int n = 0; n < bins + second_round; ++n)
+    relax(line(n % bins), line((n + bins - 1) % bins), step);
+  for (int n = bins + second_round - 1; n >= 0; --n)
+    relax(line(n % bins), line((n + 1) % bins), step);
 }
 
 EDGESCOUT_SIMD_CLONES
@@ -151,7 +158,8 @@ void smooth_tile(std::uint16_t* values, int bins, const std::uint16_t* weights, 
   }
 }
 
-void finish_band(const Plan& plan, int band, std::uint16_t* out, std::vector<std::uint16_t>& scratch) {
+void finish_band(const Plan& plan, int band, std::uint16_t* out,
+                 std::vector<std::uint16_t>& scratch) {
   const int y0 = band * band_rows, y1 = std::min(plan.shape.height, y0 + band_rows);
   const int bins = plan.shape.bins, tiles = plan.shape.tiles_per_row();
   const std::size_t tile_size = std::size_t(bins) * tile;
@@ -178,8 +186,8 @@ void reset_padding(const TensorShape& shape, std::uint16_t cap, std::uint16_t* o
 
 }  // namespace
 
-void dcd_tensor_fast(std::span<const EdgePoint> edges, int width, int height, const TensorOptions& options,
-                     ThreadPool& pool, std::span<std::uint16_t> out) {
+void dcd_tensor_fast(std::span<const EdgePoint> edges, int width, int height,
+                     const TensorOptions& options, ThreadPool& pool, std::span<std::uint16_t> out) {
   options.validate();
   const Plan plan = make_plan(edges, width, height, options);
   check(out.size() == plan.shape.size(), "dcd_tensor_fast: output of another size than the tensor");

@@ -57,7 +57,8 @@ std::vector<std::uint32_t> smooth(const std::vector<std::uint32_t>& column,
   std::vector<std::uint32_t> smoothed(column.size());
   for (int k = 0; k < bins; ++k) {
     std::uint32_t sum = 1u << 14;
-    for (int d = -radius; d <= radius; ++d) sum += weights[std::abs(d)] * column[(k + d + bins) % bins];
+    for (int d = -radius; d <= radius; ++d)
+      sum += weights[std::abs(d)] * column[(k + d + bins) % bins];
     smoothed[k] = sum >> 15;
   }
   return smoothed;
@@ -65,11 +66,12 @@ std::vector<std::uint32_t> smooth(const std::vector<std::uint32_t>& column,
 
 }  // namespace
 
-std::vector<std::uint16_t> dcd_tensor_reference(std::span<const EdgePoint> edges, int width, int height,
-                                                const TensorOptions& options) {
+std::vector<std::uint16_t> dcd_tensor_reference(std::span<const EdgePoint> edges, int width,
+                                                int height, const TensorOptions& options) {
   options.validate();
   const TensorShape shape{width, height, options.bins};
-  const auto cap = static_cast<std::uint32_t>(std::lround(double(DCD_UNITS_PER_PX) * options.cap_px));
+  const auto cap =
+      static_cast<std::uint32_t>(std::lround(double(DCD_UNITS_PER_PX) * options.cap_px));
   std::vector<std::uint16_t> tensor(shape.size(), static_cast<std::uint16_t>(cap));
   for (int bin = 0; bin < shape.bins; ++bin) {
     std::vector<char> seeds(std::size_t(width) * height, 0);
@@ -84,7 +86,8 @@ std::vector<std::uint16_t> dcd_tensor_reference(std::span<const EdgePoint> edges
         tensor[shape.index(x, y, bin)] = static_cast<std::uint16_t>(std::min(double(cap), units));
       }
   }
-  const std::vector<std::uint16_t> weights = smoothing_weights(options.smoothing_variance, options.bins);
+  const std::vector<std::uint16_t> weights =
+      smoothing_weights(options.smoothing_variance, options.bins);
   std::vector<std::uint32_t> column(shape.bins);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {

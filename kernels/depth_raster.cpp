@@ -22,8 +22,8 @@ Vertex project_vertex(const DepthJob& job, const float* p) {
   const double y = m[4] * double(p[0]) + m[5] * double(p[1]) + m[6] * double(p[2]) + m[7];
   const double z = m[8] * double(p[0]) + m[9] * double(p[1]) + m[10] * double(p[2]) + m[11];
   if (!(z >= DEPTH_NEAR_M)) return {0, 0, 0, false};
-  return {job.intrinsics.fx * x / z + job.intrinsics.cx, job.intrinsics.fy * y / z + job.intrinsics.cy, 1 / z,
-          true};
+  return {job.intrinsics.fx * x / z + job.intrinsics.cx,
+          job.intrinsics.fy * y / z + job.intrinsics.cy, 1 / z, true};
 }
 
 // Twice the signed area of (a, b, point): >= 0 on one side of the edge a b.
@@ -46,7 +46,8 @@ void draw_triangle(const std::array<Vertex, 3>& t, int width, int height, float*
   const auto [y0, y1] = pixel_range(t[0].v, t[1].v, t[2].v, height);
   for (int y = y0; y <= y1; ++y)
     for (int x = x0; x <= x1; ++x) {
-      const double w0 = edge_function(t[1], t[2], x, y) / area, w1 = edge_function(t[2], t[0], x, y) / area;
+      const double w0 = edge_function(t[1], t[2], x, y) / area,
+                   w1 = edge_function(t[2], t[0], x, y) / area;
       const double w2 = edge_function(t[0], t[1], x, y) / area;
       if (w0 < 0 || w1 < 0 || w2 < 0) continue;
       const double inverse_z = w0 * t[0].inverse_z + w1 * t[1].inverse_z + w2 * t[2].inverse_z;
@@ -57,15 +58,16 @@ void draw_triangle(const std::array<Vertex, 3>& t, int width, int height, float*
 
 }  // namespace
 
-void depth_raster_reference(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
-                            std::span<float> depth) {
+void depth_raster_reference(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width,
+                            int height, std::span<float> depth) {
   check_depth_raster(mesh, jobs.size(), width, height, depth.size());
   std::ranges::fill(depth, DEPTH_EMPTY);
   for (std::size_t j = 0; j < jobs.size(); ++j)
     for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
       std::array<Vertex, 3> t;
       for (int k = 0; k < 3; ++k)
-        t[k] = project_vertex(jobs[j], mesh.vertices_m.data() + std::size_t(3) * mesh.triangles[i + k]);
+        t[k] = project_vertex(jobs[j],
+                              mesh.vertices_m.data() + std::size_t(3) * mesh.triangles[i + k]);
       if (t[0].in_front && t[1].in_front && t[2].in_front)
         draw_triangle(t, width, height, depth.data() + j * width * height);
     }
@@ -75,7 +77,8 @@ void check_depth_raster(const TriangleMesh& mesh, std::size_t jobs, int width, i
                         std::size_t depth_size) {
   check(width > 0 && height > 0, "depth_raster: a map without pixels");
   check(depth_size == jobs * width * height, "depth_raster: output of another size than the maps");
-  check(mesh.vertices_m.size() % 3 == 0 && mesh.triangles.size() % 3 == 0, "depth_raster: not triples");
+  check(mesh.vertices_m.size() % 3 == 0 && mesh.triangles.size() % 3 == 0,
+        "depth_raster: not triples");
   const std::size_t vertices = mesh.vertices_m.size() / 3;
   check(std::ranges::all_of(mesh.triangles, [&](std::uint32_t i) { return i < vertices; }),
         "depth_raster: a triangle names a vertex that is not there");

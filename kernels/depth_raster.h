@@ -1,13 +1,14 @@
 // Depth maps of triangle meshes under many poses: the z-buffer of the paper's Sec. 3.1.
 //
-// Pixel (x, y) of a job's map holds the smallest camera-frame z, metres, of the triangles whose projection
-// covers the pixel centre (edge functions >= 0, both windings), or DEPTH_EMPTY. Depth is interpolated as 1/z.
-// Triangles with a vertex nearer than DEPTH_NEAR_M, or nowhere (not finite), are dropped: callers keep the
-// object in front of the camera. Triangles seen exactly edge-on cover nothing.
+// Pixel (x, y) of a job's map holds the smallest camera-frame z, metres, of the triangles whose
+// projection covers the pixel centre (edge functions >= 0, both windings), or DEPTH_EMPTY. Depth is
+// interpolated as 1/z. Triangles with a vertex nearer than DEPTH_NEAR_M, or nowhere (not finite),
+// are dropped: callers keep the object in front of the camera. Triangles seen exactly edge-on cover
+// nothing.
 //
-// Agreement: a pixel centre within 1/64 px of a triangle's edge may fall on either side; elsewhere depths
-// agree to 1e-5 relative, as long as no triangle spans more than a factor of 30 in depth. LogicError: an
-// output of another size, an index beyond the vertices.
+// Agreement: a pixel centre within 1/64 px of a triangle's edge may fall on either side; elsewhere
+// depths agree to 1e-5 relative, as long as no triangle spans more than a factor of 30 in depth.
+// LogicError: an output of another size, an index beyond the vertices.
 #pragma once
 
 #include <cstddef>
@@ -41,9 +42,9 @@ void check_depth_raster(const TriangleMesh& mesh, std::size_t jobs, int width, i
                         std::size_t depth_size);
 
 // `depth` holds jobs.size() maps of width * height, one after the other.
-void depth_raster_reference(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
-                            std::span<float> depth);
-void depth_raster_fast(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
-                       std::span<float> depth, ThreadPool& pool);
+void depth_raster_reference(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width,
+                            int height, std::span<float> depth);
+void depth_raster_fast(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width,
+                       int height, std::span<float> depth, ThreadPool& pool);
 
 }  // namespace edgescout

@@ -1,5 +1,5 @@
-// The z-buffer, fast: vertices projected once a job, every row of a triangle solved for its span, spans
-// filled by a loop the compiler turns into vectors.
+// The z-buffer, fast: vertices projected once a job, every row of a triangle solved for its span,
+// spans filled by a loop the compiler turns into vectors.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,8 +13,8 @@ namespace edgescout {
 
 namespace {
 
-// Projected vertices, structure of arrays; inverse_z is 0 where a vertex is too near. In double: a vertex far
-// outside the image must not move the edge that crosses it.
+// Projected vertices, structure of arrays; inverse_z is 0 where a vertex is too near. In double: a
+// vertex far outside the image must not move the edge that crosses it.
 struct Projected {
   std::vector<double> u, v, inverse_z;
   void resize(std::size_t n) {
@@ -28,7 +28,8 @@ EDGESCOUT_SIMD_CLONES
 void project_vertices(const DepthJob& job, const float* p, std::size_t count, double* u, double* v,
                       double* inverse_z) {
   const float* m = job.camera_from_object.m;
-  const double fx = job.intrinsics.fx, fy = job.intrinsics.fy, cx = job.intrinsics.cx, cy = job.intrinsics.cy;
+  const double fx = job.intrinsics.fx, fy = job.intrinsics.fy, cx = job.intrinsics.cx,
+               cy = job.intrinsics.cy;
   for (std::size_t i = 0; i < count; ++i) {
     const double px = p[3 * i], py = p[3 * i + 1], pz = p[3 * i + 2];
     const double x = m[0] * px + m[1] * py + m[2] * pz + m[3];
@@ -61,7 +62,8 @@ struct EdgeBound {
 }
 
 // Narrows [first, last] to the pixels of row y inside the edge.
-[[gnu::always_inline]] inline void narrow(const EdgeBound& edge, int y, double& first, double& last) {
+[[gnu::always_inline]] inline void narrow(const EdgeBound& edge, int y, double& first,
+                                          double& last) {
   const double bound = edge.at_zero + edge.slope * y;
   if (edge.side > 0)
     first = std::max(first, std::ceil(bound));
@@ -71,10 +73,10 @@ struct EdgeBound {
     last = -1;
 }
 
-// Lowers depth[0, count) to 1 / (start + i * step). The bounds are those of the triangle's corners: on a
-// sliver the plane's slope is rounding noise.
-[[gnu::always_inline]] inline void fill_span(float* depth, int count, float start, float step, float least,
-                                             float most) {
+// Lowers depth[0, count) to 1 / (start + i * step). The bounds are those of the triangle's corners:
+// on a sliver the plane's slope is rounding noise.
+[[gnu::always_inline]] inline void fill_span(float* depth, int count, float start, float step,
+                                             float least, float most) {
   for (int i = 0; i < count; ++i) {
     const float inverse_z = std::min(most, std::max(least, start + step * static_cast<float>(i)));
     depth[i] = std::min(depth[i], 1 / inverse_z);
@@ -112,7 +114,8 @@ struct EdgeBound {
   }
 }
 
-// One clone holds it all: rounding is one instruction there, and a triangle of a fine mesh covers a pixel.
+// One clone holds it all: rounding is one instruction there, and a triangle of a fine mesh covers a
+// pixel.
 EDGESCOUT_SIMD_CLONES
 void draw_triangles(const TriangleMesh& mesh, const Projected& at, const Band& band) {
   for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
@@ -127,16 +130,17 @@ void draw_band(const TriangleMesh& mesh, const DepthJob& job, const Band& band) 
   thread_local Projected at;
   const std::size_t vertices = mesh.vertices_m.size() / 3;
   at.resize(vertices);
-  project_vertices(job, mesh.vertices_m.data(), vertices, at.u.data(), at.v.data(), at.inverse_z.data());
-  std::fill(band.depth + std::size_t(band.y0) * band.width, band.depth + std::size_t(band.y1) * band.width,
-            DEPTH_EMPTY);
+  project_vertices(job, mesh.vertices_m.data(), vertices, at.u.data(), at.v.data(),
+                   at.inverse_z.data());
+  std::fill(band.depth + std::size_t(band.y0) * band.width,
+            band.depth + std::size_t(band.y1) * band.width, DEPTH_EMPTY);
   draw_triangles(mesh, at, band);
 }
 
 }  // namespace
 
-void depth_raster_fast(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
-                       std::span<float> depth, ThreadPool& pool) {
+void depth_raster_fast(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width,
+                       int height, std::span<float> depth, ThreadPool& pool) {
   check_depth_raster(mesh, jobs.size(), width, height, depth.size());
   // With fewer jobs than threads a map is cut into bands.
   const std::size_t threads = pool.threads();

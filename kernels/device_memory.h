@@ -1,5 +1,5 @@
-// How much memory of Vulkan devices this process holds, and held at most. On a device with unified memory it
-// is the host's.
+// How much memory of Vulkan devices this process holds, and held at most. On a device with unified
+// memory it is the host's.
 #pragma once
 
 #include <cstdint>

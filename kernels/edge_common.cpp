@@ -31,8 +31,8 @@ EdgeWeights edge_weights(float sigma_px) {
     sum += (i == 0 ? 1 : 2) * gauss[i];
     slope += 2 * i * i * gauss[i];
   }
-  // What rounding leaves over goes to the innermost weight, so that flat images and ramps are answered
-  // exactly.
+  // What rounding leaves over goes to the innermost weight, so that flat images and ramps are
+  // answered exactly.
   weights.smooth[0] = 16384;
   weights.derivative[1] = 8192;
   for (int i = weights.radius; i >= 1; --i) {
@@ -46,7 +46,8 @@ EdgeWeights edge_weights(float sigma_px) {
 }
 
 std::int32_t edge_threshold(float grey_levels_per_px) {
-  return std::max(1, static_cast<std::int32_t>(std::lround(grey_levels_per_px * EDGE_GRADIENT_SCALE)));
+  return std::max(1,
+                  static_cast<std::int32_t>(std::lround(grey_levels_per_px * EDGE_GRADIENT_SCALE)));
 }
 
 }  // namespace edgescout

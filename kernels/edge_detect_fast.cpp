@@ -1,5 +1,5 @@
-// The edge detector, fast: gradient and thinning by bands of rows (files of their own), components by
-// union-find over the list of candidates.
+// The edge detector, fast: gradient and thinning by bands of rows (files of their own), components
+// by union-find over the list of candidates.
 #include <algorithm>
 
 #include "kernels/edge_stages.h"
@@ -36,7 +36,8 @@ Components connect(const std::vector<EdgePixel>& pixels) {
   for (std::uint32_t i = 0; i < pixels.size(); ++i) {
     const EdgePixel& p = pixels[i];
     if (i > 0 && pixels[i - 1].y == p.y && pixels[i - 1].x == p.x - 1) components.join(i - 1, i);
-    while (pixels[above].y < p.y - 1 || (pixels[above].y == p.y - 1 && pixels[above].x < p.x - 1)) ++above;
+    while (pixels[above].y < p.y - 1 || (pixels[above].y == p.y - 1 && pixels[above].x < p.x - 1))
+      ++above;
     for (std::uint32_t j = above; pixels[j].y == p.y - 1 && pixels[j].x <= p.x + 1; ++j)
       components.join(j, i);
   }
@@ -71,10 +72,12 @@ void edge_link_fast(std::int32_t high, int min_length_px, std::vector<EdgePixel>
 std::vector<EdgePoint> detect_edges_fast(const ImageView& image, const EdgeOptions& options,
                                          ThreadPool& pool) {
   options.validate();
-  check(image.width > 0 && image.height > 0 && image.pixels, "detect_edges: an image without pixels");
+  check(image.width > 0 && image.height > 0 && image.pixels,
+        "detect_edges: an image without pixels");
   EdgePlanes planes(image.width, image.height);
   edge_gradient_fast(image, edge_weights(options.sigma_px), pool, planes);
-  std::vector<EdgePixel> pixels = edge_thin_fast(edge_threshold(options.low_threshold), pool, planes);
+  std::vector<EdgePixel> pixels =
+      edge_thin_fast(edge_threshold(options.low_threshold), pool, planes);
   edge_link_fast(edge_threshold(options.high_threshold), options.min_length_px, pixels);
   std::vector<EdgePoint> points(pixels.size());
   constexpr std::size_t share = 512;

@@ -1,5 +1,5 @@
-// The edge detector as defined in edge_stages.h, one pixel at a time; what the definition leaves to float is
-// done in double.
+// The edge detector as defined in edge_stages.h, one pixel at a time; what the definition leaves to
+// float is done in double.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -63,22 +63,26 @@ double falloff(double distance, double reach) {
   return rest * rest;
 }
 
-// A weighted straight line through the gradient's turn against the distance along the edge, read off at the
-// pixel itself.
-double orientation_along(const Gradient& g, std::span<const std::uint8_t> candidates, int height, int x,
-                         int y) {
-  const double length = std::sqrt(double(g.m2(x, y))), nx = g.gx(x, y) / length, ny = g.gy(x, y) / length;
+// A weighted straight line through the gradient's turn against the distance along the edge, read
+// off at the pixel itself.
+double orientation_along(const Gradient& g, std::span<const std::uint8_t> candidates, int height,
+                         int x, int y) {
+  const double length = std::sqrt(double(g.m2(x, y))), nx = g.gx(x, y) / length,
+               ny = g.gy(x, y) / length;
   const int reach = EDGE_WINDOW;
   double w = 0, wu = 0, wuu = 0, wa = 0, wua = 0;
   for (int qy = std::max(0, y - reach); qy <= std::min(height - 1, y + reach); ++qy)
     for (int qx = std::max(0, x - reach); qx <= std::min(g.width - 1, x + reach); ++qx) {
       if (!candidates[std::size_t(qy) * g.width + qx]) continue;
-      const double gx = g.gx(qx, qy), gy = g.gy(qx, qy), dx = qx - x, dy = qy - y, u = dy * nx - dx * ny;
+      const double gx = g.gx(qx, qy), gy = g.gy(qx, qy), dx = qx - x, dy = qy - y,
+                   u = dy * nx - dx * ny;
       const double dot = nx * gx + ny * gy, agreement = std::max(0.0, dot / std::hypot(gx, gy));
       if (agreement == 0) continue;
-      const double sine = (nx * gy - ny * gx) / std::hypot(gx, gy), turn = sine * (1 + sine * sine / 6);
-      const double weight = falloff(u, EDGE_REACH_ALONG) * falloff(dx * nx + dy * ny, EDGE_REACH_ACROSS) *
-                            std::pow(agreement, 8) * (gx * gx + gy * gy);
+      const double sine = (nx * gy - ny * gx) / std::hypot(gx, gy),
+                   turn = sine * (1 + sine * sine / 6);
+      const double weight = falloff(u, EDGE_REACH_ALONG) *
+                            falloff(dx * nx + dy * ny, EDGE_REACH_ACROSS) * std::pow(agreement, 8) *
+                            (gx * gx + gy * gy);
       w += weight;
       wu += weight * u;
       wuu += weight * u * u;
@@ -110,19 +114,23 @@ std::vector<std::size_t> take_component(std::vector<std::uint8_t>& left, int wid
 
 }  // namespace
 
-std::vector<std::int16_t> edge_gradient_reference(const ImageView& image, const EdgeWeights& weights) {
+std::vector<std::int16_t> edge_gradient_reference(const ImageView& image,
+                                                  const EdgeWeights& weights) {
   const int width = image.width, height = image.height;
   const auto at = [&](int x, int y) {
-    return int(image.pixels[std::size_t(std::clamp(y, 0, height - 1)) * width + std::clamp(x, 0, width - 1)]);
+    return int(image.pixels[std::size_t(std::clamp(y, 0, height - 1)) * width +
+                            std::clamp(x, 0, width - 1)]);
   };
   const auto smooth = [&](int x, int y) {
     int sum = weights.smooth[0] * at(x, y);
-    for (int i = 1; i <= weights.radius; ++i) sum += weights.smooth[i] * (at(x - i, y) + at(x + i, y));
+    for (int i = 1; i <= weights.radius; ++i)
+      sum += weights.smooth[i] * (at(x - i, y) + at(x + i, y));
     return (sum + 64) >> 7;
   };
   const auto differentiate = [&](int x, int y) {
     int sum = 0;
-    for (int i = 1; i <= weights.radius; ++i) sum += weights.derivative[i] * (at(x + i, y) - at(x - i, y));
+    for (int i = 1; i <= weights.radius; ++i)
+      sum += weights.derivative[i] * (at(x + i, y) - at(x - i, y));
     return (sum + 64) >> 7;
   };
   std::vector<std::int16_t> gradient;
@@ -140,19 +148,20 @@ std::vector<std::int16_t> edge_gradient_reference(const ImageView& image, const 
   return gradient;
 }
 
-std::vector<std::uint8_t> edge_thin_reference(std::span<const std::int16_t> gradient, int width, int height,
-                                              std::int32_t low) {
+std::vector<std::uint8_t> edge_thin_reference(std::span<const std::int16_t> gradient, int width,
+                                              int height, std::int32_t low) {
   std::vector<std::uint8_t> candidates(std::size_t(width) * height, 0);
   const Gradient g{gradient, width};
   for (int y = 1; y + 1 < height; ++y)
     for (int x = 1; x + 1 < width; ++x)
-      candidates[std::size_t(y) * width + x] = is_candidate(g, x, y, static_cast<std::uint32_t>(low * low));
+      candidates[std::size_t(y) * width + x] =
+          is_candidate(g, x, y, static_cast<std::uint32_t>(low * low));
   return candidates;
 }
 
 std::vector<std::uint8_t> edge_link_reference(std::span<const std::int16_t> gradient,
-                                              std::span<const std::uint8_t> candidates, int width, int height,
-                                              std::int32_t high, int min_length_px) {
+                                              std::span<const std::uint8_t> candidates, int width,
+                                              int height, std::int32_t high, int min_length_px) {
   std::vector<std::uint8_t> left(candidates.begin(), candidates.end()), kept(candidates.size(), 0);
   const Gradient g{gradient, width};
   for (std::size_t start = 0; start < left.size(); ++start) {
@@ -169,8 +178,8 @@ std::vector<std::uint8_t> edge_link_reference(std::span<const std::int16_t> grad
 }
 
 EdgePoint edge_point_reference(std::span<const std::int16_t> gradient,
-                               std::span<const std::uint8_t> candidates, int width, int height, int x,
-                               int y) {
+                               std::span<const std::uint8_t> candidates, int width, int height,
+                               int x, int y) {
   const Gradient g{gradient, width};
   const Across a = across_edge(g.gx(x, y), g.gy(x, y));
   const double t = offset_across(g, x, y, a), minor = t * a.smaller / a.larger;
@@ -184,12 +193,15 @@ EdgePoint edge_point_reference(std::span<const std::int16_t> gradient,
 
 std::vector<EdgePoint> detect_edges_reference(const ImageView& image, const EdgeOptions& options) {
   options.validate();
-  check(image.width > 0 && image.height > 0 && image.pixels, "detect_edges: an image without pixels");
+  check(image.width > 0 && image.height > 0 && image.pixels,
+        "detect_edges: an image without pixels");
   const int width = image.width, height = image.height;
   const auto gradient = edge_gradient_reference(image, edge_weights(options.sigma_px));
-  const auto candidates = edge_thin_reference(gradient, width, height, edge_threshold(options.low_threshold));
-  const auto kept = edge_link_reference(gradient, candidates, width, height,
-                                        edge_threshold(options.high_threshold), options.min_length_px);
+  const auto candidates =
+      edge_thin_reference(gradient, width, height, edge_threshold(options.low_threshold));
+  const auto kept =
+      edge_link_reference(gradient, candidates, width, height,
+                          edge_threshold(options.high_threshold), options.min_length_px);
   std::vector<EdgePoint> points;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)

@@ -1,5 +1,5 @@
-// Stage one, fast: a band of rows at a time, so that the rows between the two passes stay in the second-level
-// cache.
+// Stage one, fast: a band of rows at a time, so that the rows between the two passes stay in the
+// second-level cache.
 #include <algorithm>
 
 #include "kernels/edge_stages.h"
@@ -39,11 +39,12 @@ void filter_row(const std::uint8_t* p, int width, const EdgeWeights& weights, st
   }
 }
 
-// Filters down the columns; `smooth` and `derivative` point at the row itself, its neighbours lie `stride`
-// apart.
+// Filters down the columns; `smooth` and `derivative` point at the row itself, its neighbours lie
+// `stride` apart.
 EDGESCOUT_SIMD_CLONES
-void filter_columns(const std::int16_t* smooth, const std::int16_t* derivative, std::ptrdiff_t stride,
-                    int width, const EdgeWeights& weights, std::int16_t* gx, std::int16_t* gy) {
+void filter_columns(const std::int16_t* smooth, const std::int16_t* derivative,
+                    std::ptrdiff_t stride, int width, const EdgeWeights& weights, std::int16_t* gx,
+                    std::int16_t* gy) {
   for (int x0 = 0; x0 < width; x0 += chunk) {
     const int count = std::min(chunk, width - x0);
     std::int32_t sx[chunk], sy[chunk];
@@ -72,8 +73,8 @@ struct Scratch {
   std::vector<std::int16_t> smooth, derivative;
 };
 
-void filter_band(const ImageView& image, const EdgeWeights& weights, int y0, int y1, Scratch& scratch,
-                 EdgePlanes& planes) {
+void filter_band(const ImageView& image, const EdgeWeights& weights, int y0, int y1,
+                 Scratch& scratch, EdgePlanes& planes) {
   const int width = image.width, radius = weights.radius, rows = y1 - y0 + 2 * radius;
   scratch.padded.resize(std::size_t(width) + 2 * radius);
   scratch.smooth.resize(std::size_t(rows) * width);
@@ -84,13 +85,14 @@ void filter_band(const ImageView& image, const EdgeWeights& weights, int y0, int
     std::fill_n(scratch.padded.begin(), radius, row[0]);
     std::copy_n(row, width, scratch.padded.begin() + radius);
     std::fill_n(scratch.padded.begin() + radius + width, radius, row[width - 1]);
-    filter_row(scratch.padded.data() + radius, width, weights, scratch.smooth.data() + std::size_t(r) * width,
+    filter_row(scratch.padded.data() + radius, width, weights,
+               scratch.smooth.data() + std::size_t(r) * width,
                scratch.derivative.data() + std::size_t(r) * width);
   }
   for (int y = y0; y < y1; ++y) {
     const std::size_t from = std::size_t(y - y0 + radius) * width, to = std::size_t(y) * width;
-    filter_columns(scratch.smooth.data() + from, scratch.derivative.data() + from, width, width, weights,
-                   planes.gx.data() + to, planes.gy.data() + to);
+    filter_columns(scratch.smooth.data() + from, scratch.derivative.data() + from, width, width,
+                   weights, planes.gx.data() + to, planes.gy.data() + to);
   }
 }
 

@@ -2,18 +2,18 @@
 //
 // Connected components by union-find; specialization constant 0 is the pass:
 //
-// EDGE_LINK_MERGE, a pixel each: joins it with its neighbours before it. Roots are the smallest index of a
-// component.
+// EDGE_LINK_MERGE, a pixel each: joins it with its neighbours before it. Roots are the smallest
+// index of a component.
 //
 // EDGE_LINK_COUNT, a pixel each: counts it at its root and notes there whether it is strong.
 //
 // EDGE_LINK_KEEP, a pixel each: appends the index of a kept pixel to the list, in no order.
 //
-// EDGE_LINK_POINT, a kept pixel each: its EdgePoint. `count` is the number of kept pixels, in the other
-// passes of all pixels.
+// EDGE_LINK_POINT, a kept pixel each: its EdgePoint. `count` is the number of kept pixels, in the
+// other passes of all pixels.
 //
-// Buffers: 0 gradient, 1 labels, 2 components (a word a pixel, zeroed: pixels | EDGE_STRONG), 3 kept (word 0,
-// zeroed: how many; then their indices), 4 points (EdgePoint).
+// Buffers: 0 gradient, 1 labels, 2 components (a word a pixel, zeroed: pixels | EDGE_STRONG), 3
+// kept (word 0, zeroed: how many; then their indices), 4 points (EdgePoint).
 #ifndef EDGESCOUT_EDGE_LINK_H
 #define EDGESCOUT_EDGE_LINK_H
 

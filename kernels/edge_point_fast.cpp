@@ -31,7 +31,8 @@ void gather(const EdgePlanes& planes, int x, int y, Neighbours& out) {
   constexpr int reach = EDGE_WINDOW;
   static_assert(window == 9, "a row of the window is a word of eight marks and one more");
   for (int dy = -reach; dy <= reach; ++dy) {
-    const std::uint8_t* marks = planes.candidates.data() + planes.candidate_index(x - reach, y + dy);
+    const std::uint8_t* marks =
+        planes.candidates.data() + planes.candidate_index(x - reach, y + dy);
     const std::ptrdiff_t row = std::ptrdiff_t(y + dy) * planes.width + x;
     std::uint64_t eight;
     std::memcpy(&eight, marks, sizeof eight);
@@ -59,10 +60,12 @@ void sum_turns(const Neighbours& q, int count, float nx, float ny, Lanes& sum) {
     for (int i = 0; i < lanes; ++i) {
       const float dx = q.dx[k + i], dy = q.dy[k + i], gx = q.gx[k + i], gy = q.gy[k + i];
       const float m2 = gx * gx + gy * gy, inverse = 1 / std::sqrt(m2);
-      const float c = std::max(0.0f, (nx * gx + ny * gy) * inverse), s = (nx * gy - ny * gx) * inverse;
+      const float c = std::max(0.0f, (nx * gx + ny * gy) * inverse),
+                  s = (nx * gy - ny * gx) * inverse;
       const float c2 = c * c, c4 = c2 * c2, u = dy * nx - dx * ny, v = dx * nx + dy * ny;
       const float a = s * (1 + s * s * (1.0f / 6));
-      const float w = falloff(u * u, EDGE_REACH_ALONG) * falloff(v * v, EDGE_REACH_ACROSS) * c4 * c4 * m2;
+      const float w =
+          falloff(u * u, EDGE_REACH_ALONG) * falloff(v * v, EDGE_REACH_ACROSS) * c4 * c4 * m2;
       sum.w[i] += w;
       sum.wu[i] += w * u;
       sum.wuu[i] += w * u * u;
@@ -110,12 +113,13 @@ EdgePoint edge_point_fast(const EdgePlanes& planes, const EdgePixel& pixel) {
   const int ax = level ? sx : 0, ay = level ? 0 : sy;
   const float r = level ? std::abs(gy / gx) : std::abs(gx / gy);
   const auto log_ratio = [&](int k) {
-    const float across =
-        (1 - r) * magnitude(planes, x + k * ax, y + k * ay) + r * magnitude(planes, x + k * sx, y + k * sy);
+    const float across = (1 - r) * magnitude(planes, x + k * ax, y + k * ay) +
+                         r * magnitude(planes, x + k * sx, y + k * sy);
     return std::log(std::max(1.0f, across) / m);
   };
   const float before = log_ratio(-1), after = log_ratio(+1);
-  const float t = std::clamp(0.5f * (before - after) / std::min(before + after, -1.0f / 256), -0.5f, 0.5f);
+  const float t =
+      std::clamp(0.5f * (before - after) / std::min(before + after, -1.0f / 256), -0.5f, 0.5f);
   return {float(x) + float(sx) * (level ? t : r * t), float(y) + float(sy) * (level ? r * t : t),
           orientation(planes, x, y, gx / m, gy / m), m / float(EDGE_GRADIENT_SCALE)};
 }

@@ -1,7 +1,8 @@
-// The four stages of the edge detector, for those who implement them: reference, fast CPU path, shaders.
+// The four stages of the edge detector, for those who implement them: reference, fast CPU path,
+// shaders.
 //
-// Planes are row-major, width * height. I(x, y) outside the image is the nearest pixel of its border.
-// Points come in the order of their pixels, row-major.
+// Planes are row-major, width * height. I(x, y) outside the image is the nearest pixel of its
+// border. Points come in the order of their pixels, row-major.
 //
 // clang-format off
 //
@@ -55,8 +56,8 @@ namespace edgescout {
 #endif
 EDGESCOUT_CONST(EDGE_GRADIENT_SCALE, 128);  // units of the gradient in a grey level a pixel
 EDGESCOUT_CONST(EDGE_MAX_RADIUS, 24);
-EDGESCOUT_CONST(EDGE_WINDOW, 4);        // half the window of the line that gives the orientation, px
-EDGESCOUT_CONST(EDGE_REACH_ALONG, 5);   // px
+EDGESCOUT_CONST(EDGE_WINDOW, 4);       // half the window of the line that gives the orientation, px
+EDGESCOUT_CONST(EDGE_REACH_ALONG, 5);  // px
 EDGESCOUT_CONST(EDGE_REACH_ACROSS, 2);  // px
 #ifdef __cplusplus
 }
@@ -73,8 +74,8 @@ EDGESCOUT_CONST(EDGE_REACH_ACROSS, 2);  // px
 
 namespace edgescout {
 
-// Half kernels, units of 1/16384: the Gaussian (sums to 16384 over both sides) and its derivative (answers a
-// ramp of slope one with 16384).
+// Half kernels, units of 1/16384: the Gaussian (sums to 16384 over both sides) and its derivative
+// (answers a ramp of slope one with 16384).
 struct EdgeWeights {
   int radius = 0;  // ceil(3 sigma), at most EDGE_MAX_RADIUS
   std::array<std::int32_t, EDGE_MAX_RADIUS + 1> smooth{};
@@ -111,14 +112,16 @@ void edge_link_fast(std::int32_t high, int min_length_px, std::vector<EdgePixel>
 EdgePoint edge_point_fast(const EdgePlanes& planes, const EdgePixel& pixel);
 
 // The stages of the reference, one by one.
-std::vector<std::int16_t> edge_gradient_reference(const ImageView& image, const EdgeWeights& weights);
-std::vector<std::uint8_t> edge_thin_reference(std::span<const std::int16_t> gradient, int width, int height,
-                                              std::int32_t low);
+std::vector<std::int16_t> edge_gradient_reference(const ImageView& image,
+                                                  const EdgeWeights& weights);
+std::vector<std::uint8_t> edge_thin_reference(std::span<const std::int16_t> gradient, int width,
+                                              int height, std::int32_t low);
 std::vector<std::uint8_t> edge_link_reference(std::span<const std::int16_t> gradient,
-                                              std::span<const std::uint8_t> candidates, int width, int height,
-                                              std::int32_t high, int min_length_px);
+                                              std::span<const std::uint8_t> candidates, int width,
+                                              int height, std::int32_t high, int min_length_px);
 EdgePoint edge_point_reference(std::span<const std::int16_t> gradient,
-                               std::span<const std::uint8_t> candidates, int width, int height, int x, int y);
+                               std::span<const std::uint8_t> candidates, int width, int height,
+                               int x, int y);
 
 }  // namespace edgescout
 #endif

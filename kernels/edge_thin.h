@@ -1,7 +1,7 @@
 // How edge_thin.comp is called (edge_stages.h says what it computes).
 //
-// One invocation a pixel. A candidate gets its own index as its label, the start of edge_link's components;
-// any other pixel EDGE_NO_LABEL.
+// One invocation a pixel. A candidate gets its own index as its label, the start of edge_link's
+// components; any other pixel EDGE_NO_LABEL.
 //
 // Buffers: 0 gradient (a word a pixel), 1 labels (a word a pixel).
 #ifndef EDGESCOUT_EDGE_THIN_H

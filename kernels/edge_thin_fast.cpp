@@ -1,5 +1,5 @@
-// Stage two, fast: all eight neighbours are read and the right ones chosen by masks, so that a row runs in
-// vectors.
+// Stage two, fast: all eight neighbours are read and the right ones chosen by masks, so that a row
+// runs in vectors.
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
@@ -17,7 +17,8 @@ constexpr int band_rows = 48;
 
 EDGESCOUT_SIMD_CLONES
 void square_row(const std::int16_t* gx, const std::int16_t* gy, int width, std::uint32_t* m2) {
-  for (int x = 0; x < width; ++x) m2[x] = static_cast<std::uint32_t>(int(gx[x]) * gx[x] + int(gy[x]) * gy[x]);
+  for (int x = 0; x < width; ++x)
+    m2[x] = static_cast<std::uint32_t>(int(gx[x]) * gx[x] + int(gy[x]) * gy[x]);
 }
 
 // Squared magnitudes of the rows above, at and below; marks the pixels 1 .. width - 2.
@@ -26,8 +27,8 @@ struct ThinRow {
   const std::uint32_t *above, *here, *below;
 };
 
-// yes where the mask is all ones, no where it is zero. A ?: here would become a branch, and branches keep
-// loops from vectors.
+// yes where the mask is all ones, no where it is zero. A ?: here would become a branch, and
+// branches keep loops from vectors.
 inline std::uint32_t choose(std::uint32_t mask, std::uint32_t yes, std::uint32_t no) {
   return (yes & mask) | (no & ~mask);
 }
@@ -39,11 +40,12 @@ inline std::uint32_t choose(std::uint32_t mask, std::uint32_t yes, std::uint32_t
   for (int x = x0; x < x1; ++x) {
     const std::int32_t dx = gx[x], dy = gy[x], ax = std::abs(dx), ay = std::abs(dy);
     const std::int32_t larger = std::max(std::max(ax, ay), 1), smaller = std::min(ax, ay);
-    // The quotient of two such integers is never so close below a whole number that its rounding in float
-    // reaches it.
+    // The quotient of two such integers is never so close below a whole number that its rounding in
+    // float reaches it.
     const auto f = static_cast<std::uint32_t>(static_cast<std::int32_t>(
         static_cast<float>(256 * smaller + larger / 2) / static_cast<float>(larger)));
-    const auto right = ~static_cast<std::uint32_t>(dx >> 31), down = ~static_cast<std::uint32_t>(dy >> 31);
+    const auto right = ~static_cast<std::uint32_t>(dx >> 31),
+               down = ~static_cast<std::uint32_t>(dy >> 31);
     const auto level = ~static_cast<std::uint32_t>((ax - ay) >> 31);
     const std::uint32_t west = here[x - 1], east = here[x + 1], north = above[x], south = below[x];
     const std::uint32_t nw = above[x - 1], ne = above[x + 1], sw = below[x - 1], se = below[x + 1],
@@ -53,7 +55,8 @@ inline std::uint32_t choose(std::uint32_t mask, std::uint32_t yes, std::uint32_t
     const std::uint32_t near_behind =
         choose(level, choose(right, west, east), choose(down, north, south)) >> 6;
     const std::uint32_t far_ahead = choose(down, choose(right, se, sw), choose(right, ne, nw)) >> 6;
-    const std::uint32_t far_behind = choose(down, choose(right, nw, ne), choose(right, sw, se)) >> 6;
+    const std::uint32_t far_behind =
+        choose(down, choose(right, nw, ne), choose(right, sw, se)) >> 6;
     const std::uint32_t before = (256 - f) * near_behind + f * far_behind,
                         after = (256 - f) * near_ahead + f * far_ahead;
     const std::uint32_t scaled = 256 * (centre >> 6);
@@ -79,18 +82,20 @@ void list_row(const std::uint8_t* marks, const std::uint32_t* m2, int width, int
     std::uint64_t eight;
     std::memcpy(&eight, marks + x, sizeof eight);  // runs into the margin, which holds zeros
     for (; eight; eight &= eight - 1)
-      if (const int at = x + std::countr_zero(eight) / 8; at < width) pixels.push_back({at, y, m2[at]});
+      if (const int at = x + std::countr_zero(eight) / 8; at < width)
+        pixels.push_back({at, y, m2[at]});
   }
 }
 
-void thin_band(int y0, int y1, std::uint32_t low2, EdgePlanes& planes, std::vector<EdgePixel>& pixels) {
+void thin_band(int y0, int y1, std::uint32_t low2, EdgePlanes& planes,
+               std::vector<EdgePixel>& pixels) {
   thread_local std::vector<std::uint32_t> squares;
   const int width = planes.width;
   squares.resize(std::size_t(3) * width);
   const auto row_of = [&](int y) { return squares.data() + std::size_t(y % 3) * width; };
   const auto square = [&](int y) {
-    square_row(planes.gx.data() + std::size_t(y) * width, planes.gy.data() + std::size_t(y) * width, width,
-               row_of(y));
+    square_row(planes.gx.data() + std::size_t(y) * width, planes.gy.data() + std::size_t(y) * width,
+               width, row_of(y));
   };
   y0 = std::max(y0, 1);
   y1 = std::min(y1, planes.height - 1);
@@ -101,8 +106,9 @@ void thin_band(int y0, int y1, std::uint32_t low2, EdgePlanes& planes, std::vect
     square(y + 1);
     const std::size_t at = std::size_t(y) * width;
     std::uint8_t* marks = planes.candidates.data() + planes.candidate_index(0, y);
-    thin_row({planes.gx.data() + at, planes.gy.data() + at, row_of(y - 1), row_of(y), row_of(y + 1)}, width,
-             low2, marks);
+    thin_row(
+        {planes.gx.data() + at, planes.gy.data() + at, row_of(y - 1), row_of(y), row_of(y + 1)},
+        width, low2, marks);
     list_row(marks, row_of(y), width, y, pixels);
   }
 }
@@ -121,8 +127,8 @@ std::vector<EdgePixel> edge_thin_fast(std::int32_t low, ThreadPool& pool, EdgePl
   std::vector<std::vector<EdgePixel>> lists(bands);
   pool.for_each(bands, [&](std::size_t band) {
     const int y0 = static_cast<int>(band) * band_rows;
-    thin_band(y0, std::min(planes.height, y0 + band_rows), static_cast<std::uint32_t>(low * low), planes,
-              lists[band]);
+    thin_band(y0, std::min(planes.height, y0 + band_rows), static_cast<std::uint32_t>(low * low),
+              planes, lists[band]);
   });
   std::vector<EdgePixel> pixels;
   std::size_t total = 0;

@@ -1,5 +1,5 @@
-// Lets GLSL and C++ read one header: constants and push-constant structs are written once. Only 32-bit
-// scalars may stand in a shared struct (a vec3 sits at another offset in std430).
+// Lets GLSL and C++ read one header: constants and push-constant structs are written once. Only
+// 32-bit scalars may stand in a shared struct (a vec3 sits at another offset in std430).
 #ifndef EDGESCOUT_INTEROP_H
 #define EDGESCOUT_INTEROP_H
 

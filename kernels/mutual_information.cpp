@@ -25,17 +25,19 @@ double log_sum_exp(std::span<const double> logs) {
 // log l_ij, with Upsilon where the paper's own form is asked for.
 double log_likelihood(const ChamferCell& cell, double cap_px, const ParticleBelief& belief,
                       const InformationOptions& options) {
-  const double seen = std::max(0.5, double(belief.already_seen) + cell.fresh), mu = mean_px(cell, cap_px);
+  const double seen = std::max(0.5, double(belief.already_seen) + cell.fresh),
+               mu = mean_px(cell, cap_px);
   const double upsilon = options.literal ? belief.upsilon_px2 : 0;
   return std::log(seen / belief.total) - (mu * mu + upsilon) / options.scale_px2;
 }
 
-std::vector<double> log_likelihoods(const ChamferTable& table, std::uint32_t i, const ParticleBelief& belief,
+std::vector<double> log_likelihoods(const ChamferTable& table, std::uint32_t i,
+                                    const ParticleBelief& belief,
                                     const InformationOptions& options) {
   std::vector<double> logs;
   for (std::uint32_t j = 0; j < table.realizations; ++j)
-    logs.push_back(
-        log_likelihood(table.cells[std::size_t(i) * table.realizations + j], table.cap_px, belief, options));
+    logs.push_back(log_likelihood(table.cells[std::size_t(i) * table.realizations + j],
+                                  table.cap_px, belief, options));
   if (options.literal) return logs;
   const double total = log_sum_exp(logs);
   for (double& v : logs) v -= total;
@@ -61,7 +63,8 @@ std::vector<double> normalised_log_weights(std::span<const ParticleBelief> belie
 
 void InformationOptions::validate() const {
   if (!(scale_px2 > 0 && std::isfinite(scale_px2)))
-    throw InputError("information options", "scale_px2", std::to_string(scale_px2), "a number above 0");
+    throw InputError("information options", "scale_px2", std::to_string(scale_px2),
+                     "a number above 0");
 }
 
 void check_information(std::uint32_t particles, std::uint32_t realizations,
@@ -80,7 +83,8 @@ void check_information(std::uint32_t particles, std::uint32_t realizations,
   check(any, "mutual_information: all weights are 0");
 }
 
-double mutual_information_reference(const ChamferTable& table, std::span<const ParticleBelief> beliefs,
+double mutual_information_reference(const ChamferTable& table,
+                                    std::span<const ParticleBelief> beliefs,
                                     const InformationOptions& options) {
   check_table(table, beliefs, options);
   const std::vector<double> log_weight = normalised_log_weights(beliefs);
@@ -90,10 +94,12 @@ double mutual_information_reference(const ChamferTable& table, std::span<const P
   double information = 0;
   for (std::uint32_t j = 0; j < table.realizations; ++j) {
     std::vector<double> joint;
-    for (std::uint32_t i = 0; i < table.particles; ++i) joint.push_back(log_weight[i] + log_rows[i][j]);
+    for (std::uint32_t i = 0; i < table.particles; ++i)
+      joint.push_back(log_weight[i] + log_rows[i][j]);
     const double log_evidence = log_sum_exp(joint);
     for (std::uint32_t i = 0; i < table.particles; ++i)
-      if (std::isfinite(joint[i])) information += std::exp(joint[i]) * (log_rows[i][j] - log_evidence);
+      if (std::isfinite(joint[i]))
+        information += std::exp(joint[i]) * (log_rows[i][j] - log_evidence);
   }
   // Rounding alone can take it below.
   return std::max(0.0, information);
@@ -101,7 +107,8 @@ double mutual_information_reference(const ChamferTable& table, std::span<const P
 
 namespace {
 
-// What a run of particles adds: to the evidence of every realization, and to the mean of sum_j L log L.
+// What a run of particles adds: to the evidence of every realization, and to the mean of sum_j L
+// log L.
 struct Share {
   std::vector<double> evidence;
   double mean_l_log_l = 0;
@@ -111,10 +118,14 @@ class FastInformation {
  public:
   FastInformation(const ChamferTable& table, std::span<const ParticleBelief> beliefs,
                   const InformationOptions& options)
-      : table_(table), beliefs_(beliefs), options_(options), log_weight_(normalised_log_weights(beliefs)) {
+      : table_(table),
+        beliefs_(beliefs),
+        options_(options),
+        log_weight_(normalised_log_weights(beliefs)) {
     std::size_t fresh = 0, seen = 0;
     for (const ChamferCell& cell : table.cells) fresh = std::max<std::size_t>(fresh, cell.fresh);
-    for (const ParticleBelief& belief : beliefs) seen = std::max<std::size_t>(seen, belief.already_seen);
+    for (const ParticleBelief& belief : beliefs)
+      seen = std::max<std::size_t>(seen, belief.already_seen);
     log_count_.push_back(std::log(0.5));
     for (std::size_t k = 1; k <= std::min(fresh + seen, most_tabled); ++k)
       log_count_.push_back(std::log(double(k)));
@@ -144,13 +155,13 @@ class FastInformation {
 
   void fill_logs(std::size_t i, std::span<double> logs) const {
     const ParticleBelief& belief = beliefs_[i];
-    const double offset =
-        std::log(double(belief.total)) + (options_.literal ? belief.upsilon_px2 / options_.scale_px2 : 0);
+    const double offset = std::log(double(belief.total)) +
+                          (options_.literal ? belief.upsilon_px2 / options_.scale_px2 : 0);
     const std::span cells = table_.cells.subspan(i * table_.realizations, table_.realizations);
     for (std::size_t j = 0; j < logs.size(); ++j) {
       const double mu = mean_px(cells[j], table_.cap_px);
-      logs[j] = log_count(std::size_t(belief.already_seen) + cells[j].fresh) - mu * mu / options_.scale_px2 -
-                offset;
+      logs[j] = log_count(std::size_t(belief.already_seen) + cells[j].fresh) -
+                mu * mu / options_.scale_px2 - offset;
     }
   }
   double log_count(std::size_t k) const {
@@ -166,7 +177,8 @@ class FastInformation {
 
 }  // namespace
 
-// I = sum_i w_i sum_j L log L - sum_j p log p: one look at every particle, and no table beside the cells.
+// I = sum_i w_i sum_j L log L - sum_j p log p: one look at every particle, and no table beside the
+// cells.
 double mutual_information_fast(const ChamferTable& table, std::span<const ParticleBelief> beliefs,
                                const InformationOptions& options, ThreadPool& pool) {
   check_table(table, beliefs, options);
@@ -174,7 +186,8 @@ double mutual_information_fast(const ChamferTable& table, std::span<const Partic
   constexpr std::size_t chunk = 16;  // sums are of the same order whatever the number of threads
   std::vector<Share> shares((table.particles + chunk - 1) / chunk);
   pool.for_each(shares.size(), [&](std::size_t s) {
-    shares[s] = information.share(s * chunk, std::min<std::size_t>(table.particles, (s + 1) * chunk));
+    shares[s] =
+        information.share(s * chunk, std::min<std::size_t>(table.particles, (s + 1) * chunk));
   });
   double sum = 0;
   for (const Share& share : shares) sum += share.mean_l_log_l;

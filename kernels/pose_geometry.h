@@ -1,5 +1,5 @@
-// One model point under one pose: where it lands, how its edge is oriented there, and how both move with the
-// pose.
+// One model point under one pose: where it lands, how its edge is oriented there, and how both move
+// with the pose.
 #pragma once
 
 #include <cmath>
@@ -19,10 +19,12 @@ Vec3<T> cross(const Vec3<T>& a, const Vec3<T>& b) {
 template <typename T>
 Vec3<T> rotate(const Pose& pose, T x, T y, T z) {
   const float* m = pose.m;
-  return {m[0] * x + m[1] * y + m[2] * z, m[4] * x + m[5] * y + m[6] * z, m[8] * x + m[9] * y + m[10] * z};
+  return {m[0] * x + m[1] * y + m[2] * z, m[4] * x + m[5] * y + m[6] * z,
+          m[8] * x + m[9] * y + m[10] * z};
 }
 
-// In the camera frame: the point about the object's origin, the point itself and its edge's tangent.
+// In the camera frame: the point about the object's origin, the point itself and its edge's
+// tangent.
 template <typename T>
 struct PosedPoint {
   Vec3<T> arm, point, tangent;
@@ -43,7 +45,8 @@ bool can_be_seen(const Vec3<T>& point) {
          std::abs(point.y) < range;
 }
 
-// Projection of the point, and of its tangent up to a positive factor: d = z^2 * d(projection)(tangent).
+// Projection of the point, and of its tangent up to a positive factor: d = z^2 *
+// d(projection)(tangent).
 template <typename T>
 struct ProjectedEdge {
   T u, v, dx, dy;

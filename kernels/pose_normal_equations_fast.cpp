@@ -1,5 +1,5 @@
-// The same systems on the CPU, fast: points in groups of 16 lanes, arithmetic in loops the compiler turns
-// into vectors, only the tensor's reads one by one; problems spread over the threads.
+// The same systems on the CPU, fast: points in groups of 16 lanes, arithmetic in loops the compiler
+// turns into vectors, only the tensor's reads one by one; problems spread over the threads.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -29,12 +29,14 @@ struct Group {
   Lanes value, slope[3];  // of the tensor, slope by u, v, bins
 };
 
-inline __attribute__((always_inline)) void load_points(const ModelPoint* models, int count, const Pose& pose,
-                                                       const Intrinsics& k, float bins_per_rad, Group& g) {
+inline __attribute__((always_inline)) void load_points(const ModelPoint* models, int count,
+                                                       const Pose& pose, const Intrinsics& k,
+                                                       float bins_per_rad, Group& g) {
   Lanes m[6];
   for (int i = 0; i < lanes; ++i) {
     const ModelPoint& p = models[std::min(i, count - 1)];
-    m[0][i] = p.x_m, m[1][i] = p.y_m, m[2][i] = p.z_m, m[3][i] = p.tx, m[4][i] = p.ty, m[5][i] = p.tz;
+    m[0][i] = p.x_m, m[1][i] = p.y_m, m[2][i] = p.z_m, m[3][i] = p.tx, m[4][i] = p.ty,
+    m[5][i] = p.tz;
   }
   for (int r = 0; r < 3; ++r) {
     const float* row = pose.m + 4 * r;
@@ -76,18 +78,22 @@ struct Layout {
         last_x(view.shape.width - 1),
         last_y(view.shape.height - 1) {}
   const std::uint16_t* at(int x, int y) const {
-    return tensor + std::size_t(y) * row + std::size_t(x / int(DCD_TILE)) * tile + x % int(DCD_TILE);
+    return tensor + std::size_t(y) * row + std::size_t(x / int(DCD_TILE)) * tile +
+           x % int(DCD_TILE);
   }
   std::size_t down(int y) const { return y < last_y ? row : 0; }
   std::size_t bin(int k) const { return std::size_t(k) * DCD_TILE; }
   std::size_t bin_after(int k) const { return bin(k + 1 == bins ? 0 : k + 1); }
 };
 
-// The tensor is many times a cache: of a whole group the reads are under way before the first is waited for.
+// The tensor is many times a cache: of a whole group the reads are under way before the first is
+// waited for.
 inline __attribute__((always_inline)) void fetch(const Layout& layout, Group& g) {
   for (int i = 0; i < lanes; ++i) {
-    g.x0[i] = std::min(int(std::clamp(g.u[i], 0.0f, float(layout.last_x))), std::max(0, layout.last_x - 1));
-    g.y0[i] = std::min(int(std::clamp(g.v[i], 0.0f, float(layout.last_y))), std::max(0, layout.last_y - 1));
+    g.x0[i] = std::min(int(std::clamp(g.u[i], 0.0f, float(layout.last_x))),
+                       std::max(0, layout.last_x - 1));
+    g.y0[i] = std::min(int(std::clamp(g.v[i], 0.0f, float(layout.last_y))),
+                       std::max(0, layout.last_y - 1));
     g.bin[i] = std::min(int(g.turn[i]), layout.bins - 1);
   }
   for (int i = 0; i < lanes; ++i) {
@@ -106,7 +112,8 @@ inline __attribute__((always_inline)) void read_tensor(const Layout& layout, Gro
                 y = std::clamp(g.v[i], 0.0f, float(layout.last_y));
     const int x0 = g.x0[i], y0 = g.y0[i], k0 = g.bin[i];
     const float ax = x - float(x0), ay = y - float(y0), ak = g.turn[i] - float(k0);
-    const std::uint16_t *left = layout.at(x0, y0), *right = layout.at(std::min(x0 + 1, layout.last_x), y0);
+    const std::uint16_t *left = layout.at(x0, y0),
+                        *right = layout.at(std::min(x0 + 1, layout.last_x), y0);
     const std::size_t down = layout.down(y0), a = layout.bin(k0), b = layout.bin_after(k0);
     const float s00 = float(left[b]) - float(left[a]), s10 = float(right[b]) - float(right[a]);
     const float s01 = float(left[down + b]) - float(left[down + a]),
@@ -114,17 +121,20 @@ inline __attribute__((always_inline)) void read_tensor(const Layout& layout, Gro
     const float v00 = float(left[a]) + ak * s00, v10 = float(right[a]) + ak * s10;
     const float v01 = float(left[down + a]) + ak * s01, v11 = float(right[down + a]) + ak * s11;
     const float top = v00 + ax * (v10 - v00), bottom = v01 + ax * (v11 - v01);
-    const float out_x = g.u[i] - x, out_y = g.v[i] - y, out = std::sqrt(out_x * out_x + out_y * out_y);
+    const float out_x = g.u[i] - x, out_y = g.v[i] - y,
+                out = std::sqrt(out_x * out_x + out_y * out_y);
     g.value[i] = (top + ay * (bottom - top)) * unit + out;
-    g.slope[0][i] = out_x != 0 ? out_x / out : ((v10 - v00) + ay * ((v11 - v01) - (v10 - v00))) * unit;
+    g.slope[0][i] =
+        out_x != 0 ? out_x / out : ((v10 - v00) + ay * ((v11 - v01) - (v10 - v00))) * unit;
     g.slope[1][i] = out_y != 0 ? out_y / out : (bottom - top) * unit;
     const float slope_top = s00 + ax * (s10 - s00), slope_bottom = s01 + ax * (s11 - s01);
     g.slope[2][i] = (slope_top + ay * (slope_bottom - slope_top)) * unit;
   }
 }
 
-inline __attribute__((always_inline)) void accumulate(const Group& g, const Intrinsics& k, float bins_per_rad,
-                                                      const PoseLoss& loss, Lanes* sums) {
+inline __attribute__((always_inline)) void accumulate(const Group& g, const Intrinsics& k,
+                                                      float bins_per_rad, const PoseLoss& loss,
+                                                      Lanes* sums) {
   Lanes j[6], weight;
   const float s = loss.scale_px;
   const bool huber = loss.kind == LOSS_HUBER;
@@ -135,8 +145,8 @@ inline __attribute__((always_inline)) void accumulate(const Group& g, const Intr
     const float along_x = -by_angle * g.dy[i] * k.fx, along_y = by_angle * g.dx[i] * k.fy;
     const float su = g.slope[0][i] * k.fx * inverse, sv = g.slope[1][i] * k.fy * inverse;
     const float bp0 = su - along_x * g.tangent[2][i], bp1 = sv - along_y * g.tangent[2][i];
-    const float bp2 = -(su * g.point[0][i] + sv * g.point[1][i]) * inverse + along_x * g.tangent[0][i] +
-                      along_y * g.tangent[1][i];
+    const float bp2 = -(su * g.point[0][i] + sv * g.point[1][i]) * inverse +
+                      along_x * g.tangent[0][i] + along_y * g.tangent[1][i];
     const float bt0 = along_x * g.point[2][i], bt1 = along_y * g.point[2][i];
     const float bt2 = -along_x * g.point[0][i] - along_y * g.point[1][i];
     j[0][i] = bp0, j[1][i] = bp1, j[2][i] = bp2;
@@ -144,7 +154,8 @@ inline __attribute__((always_inline)) void accumulate(const Group& g, const Intr
     j[4][i] = g.arm[2][i] * bp0 - g.arm[0][i] * bp2 + g.tangent[2][i] * bt0 - g.tangent[0][i] * bt2;
     j[5][i] = g.arm[0][i] * bp1 - g.arm[1][i] * bp0 + g.tangent[0][i] * bt1 - g.tangent[1][i] * bt0;
     const float r = g.value[i], q = s * s / (s * s + r * r);
-    const float huber_weight = r <= s ? 1.0f : s / r, huber_cost = r <= s ? 0.5f * r * r : s * (r - 0.5f * s);
+    const float huber_weight = r <= s ? 1.0f : s / r,
+                huber_cost = r <= s ? 0.5f * r * r : s * (r - 0.5f * s);
     weight[i] = g.active[i] * (huber ? huber_weight : q * q);
     sums[27][i] += g.active[i] * (huber ? huber_cost : 0.5f * q * r * r);
     sums[28][i] += g.active[i] * r;
@@ -162,16 +173,16 @@ inline __attribute__((always_inline)) void accumulate(const Group& g, const Intr
 }
 
 EDGESCOUT_SIMD_CLONES
-void sum_problem(const TensorView& view, const ModelPoint* models, std::uint32_t count, const Pose& pose,
-                 const PoseLoss& loss, float* totals) {
+void sum_problem(const TensorView& view, const ModelPoint* models, std::uint32_t count,
+                 const Pose& pose, const PoseLoss& loss, float* totals) {
   const float bins_per_rad = float(view.shape.bins) / 3.14159265f;
   const Layout layout(view);
   Lanes sums[sum_count] = {};
   Group groups[2];
   for (std::uint32_t first = 0, i = 0; first < count + lanes; first += lanes, i ^= 1) {
     if (first < count) {
-      load_points(models + first, static_cast<int>(std::min<std::uint32_t>(lanes, count - first)), pose,
-                  view.intrinsics, bins_per_rad, groups[i]);
+      load_points(models + first, static_cast<int>(std::min<std::uint32_t>(lanes, count - first)),
+                  pose, view.intrinsics, bins_per_rad, groups[i]);
       fetch(layout, groups[i]);
     }
     if (first == 0) continue;
@@ -186,7 +197,8 @@ void sum_problem(const TensorView& view, const ModelPoint* models, std::uint32_t
 
 }  // namespace
 
-void pose_normal_equations_fast(std::span<const TensorView> views, std::span<const ModelPoint> points,
+void pose_normal_equations_fast(std::span<const TensorView> views,
+                                std::span<const ModelPoint> points,
                                 std::span<const PoseProblem> problems, const PoseLoss& loss,
                                 std::span<NormalEquations> out, ThreadPool& pool) {
   check(out.size() == problems.size(), "pose_normal_equations: as many systems as problems");

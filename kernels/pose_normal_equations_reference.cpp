@@ -18,20 +18,24 @@ Residual residual_of(const TensorView& view, const PosedPoint<double>& p) {
   const ProjectedEdge<double> edge = project_edge(p, k);
   float slope[3];
   Residual r;
-  r.value = tensor_lookup(view, float(edge.u), float(edge.v), float(orientation(edge.dx, edge.dy)), slope);
+  r.value = tensor_lookup(view, float(edge.u), float(edge.v), float(orientation(edge.dx, edge.dy)),
+                          slope);
   const double z = p.point.z;
   // By the point: through the projection and through the orientation, xi = atan2(dy, dx).
   const double norm2 = edge.dx * edge.dx + edge.dy * edge.dy;
   const double least = POSE_MIN_FORESHORTENING * k.fx * z;
   const bool oriented = norm2 > least * least;
-  const double along_x = oriented ? -slope[2] * edge.dy / norm2 * k.fx : 0;  // by the x part of d, without fx
+  const double along_x =
+      oriented ? -slope[2] * edge.dy / norm2 * k.fx : 0;  // by the x part of d, without fx
   const double along_y = oriented ? slope[2] * edge.dx / norm2 * k.fy : 0;
-  const Vec3<double> by_point{slope[0] * k.fx / z - along_x * p.tangent.z,
-                              slope[1] * k.fy / z - along_y * p.tangent.z,
-                              -(slope[0] * k.fx * p.point.x + slope[1] * k.fy * p.point.y) / (z * z) +
-                                  along_x * p.tangent.x + along_y * p.tangent.y};
-  const Vec3<double> by_tangent{along_x * z, along_y * z, -along_x * p.point.x - along_y * p.point.y};
-  const Vec3<double> turn_point = cross(p.arm, by_point), turn_tangent = cross(p.tangent, by_tangent);
+  const Vec3<double> by_point{
+      slope[0] * k.fx / z - along_x * p.tangent.z, slope[1] * k.fy / z - along_y * p.tangent.z,
+      -(slope[0] * k.fx * p.point.x + slope[1] * k.fy * p.point.y) / (z * z) +
+          along_x * p.tangent.x + along_y * p.tangent.y};
+  const Vec3<double> by_tangent{along_x * z, along_y * z,
+                                -along_x * p.point.x - along_y * p.point.y};
+  const Vec3<double> turn_point = cross(p.arm, by_point),
+                     turn_tangent = cross(p.tangent, by_tangent);
   const double jacobian[6] = {by_point.x,
                               by_point.y,
                               by_point.z,
@@ -54,7 +58,8 @@ Weighted apply_loss(const PoseLoss& loss, double r) {
 }
 
 struct Sums {
-  double hessian[21] = {}, gradient[6] = {}, cost = 0, residual = 0, weight = 0, points = 0, behind = 0;
+  double hessian[21] = {}, gradient[6] = {}, cost = 0, residual = 0, weight = 0, points = 0,
+         behind = 0;
 };
 
 NormalEquations to_float(const Sums& s) {
@@ -71,7 +76,8 @@ NormalEquations to_float(const Sums& s) {
 
 }  // namespace
 
-void pose_normal_equations_reference(std::span<const TensorView> views, std::span<const ModelPoint> points,
+void pose_normal_equations_reference(std::span<const TensorView> views,
+                                     std::span<const ModelPoint> points,
                                      std::span<const PoseProblem> problems, const PoseLoss& loss,
                                      std::span<NormalEquations> out) {
   check(out.size() == problems.size(), "pose_normal_equations: as many systems as problems");

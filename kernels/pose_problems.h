@@ -9,6 +9,7 @@
 namespace edgescout {
 
 // LogicError: a problem with points beyond the list of `points`, or of none of the `views`.
-void check_pose_problems(std::span<const PoseProblem> problems, std::size_t points, std::size_t views);
+void check_pose_problems(std::span<const PoseProblem> problems, std::size_t points,
+                         std::size_t views);
 
 }  // namespace edgescout

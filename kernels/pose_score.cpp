@@ -22,8 +22,8 @@ std::vector<std::int16_t> image_gradient_x2(const ImageView& image) {
 
 namespace {
 
-// |n . g| / |g| with n the unit normal of the projected edge (Eq. 10); 0 where the gradient is too weak to
-// have a direction.
+// |n . g| / |g| with n the unit normal of the projected edge (Eq. 10); 0 where the gradient is too
+// weak to have a direction.
 template <typename T>
 T direction_agreement(const ScoreView& view, const ProjectedEdge<T>& edge, float min_gradient) {
   const TensorShape& s = view.tensor.shape;
@@ -55,7 +55,8 @@ PoseScore score_problem(const ScoreView& view, std::span<const ModelPoint> point
     if (!view.gradient_x2.empty()) psi_sum += direction_agreement(view, edge, options.min_gradient);
   }
   if (inside == 0) return {options.cap_px, 0, 0, 0};
-  return {float(value_sum / inside), float(psi_sum / inside), float(matched) / float(inside), float(inside)};
+  return {float(value_sum / inside), float(psi_sum / inside), float(matched) / float(inside),
+          float(inside)};
 }
 
 }  // namespace
@@ -77,9 +78,9 @@ void pose_score_fast(std::span<const ScoreView> views, std::span<const ModelPoin
   constexpr std::size_t chunk = 16;
   pool.for_each((problems.size() + chunk - 1) / chunk, [&](std::size_t c) {
     for (std::size_t i = c * chunk; i < std::min(problems.size(), (c + 1) * chunk); ++i)
-      out[i] = score_problem<float>(views[problems[i].view],
-                                    points.subspan(problems[i].first_point, problems[i].point_count),
-                                    problems[i].camera_from_object, options);
+      out[i] = score_problem<float>(
+          views[problems[i].view], points.subspan(problems[i].first_point, problems[i].point_count),
+          problems[i].camera_from_object, options);
   });
 }
 

@@ -21,9 +21,9 @@ std::uint32_t capped(std::uint16_t value) {
       (std::uint32_t(value) + (1u << (TEMPLATE_SCORE_SHIFT - 1))) >> TEMPLATE_SCORE_SHIFT);
 }
 
-// A part of the tensor as planes, `outside` around the image, so that a template may hang over the border.
-// Columns are sorted by their remainder, [bin][y][x % step][x / step]: anchors `step` apart lie side by side.
-// After the bins' planes come one of zeros and one of `outside`.
+// A part of the tensor as planes, `outside` around the image, so that a template may hang over the
+// border. Columns are sorted by their remainder, [bin][y][x % step][x / step]: anchors `step` apart
+// lie side by side. After the bins' planes come one of zeros and one of `outside`.
 struct Planes {
   int left, top, step, stride, rows, bins;
   std::vector<std::uint32_t> column;  // where a column lies in its row
@@ -39,7 +39,8 @@ struct Planes {
 
 constexpr int block_columns = 32, block_rows = 8;
 
-// What jobs read: pixels, bins, and how far one point is moved over all anchors of a job, in whole blocks.
+// What jobs read: pixels, bins, and how far one point is moved over all anchors of a job, in whole
+// blocks.
 struct Bounds {
   int x_min = 0, x_max = 0, y_min = 0, y_max = 0, bin_max = 0, reach_x = 0, reach_y = 0;
 };
@@ -47,8 +48,9 @@ struct Bounds {
 constexpr std::size_t chunk_jobs = 64;
 
 Bounds joined(const Bounds& a, const Bounds& b) {
-  return {std::min(a.x_min, b.x_min),    std::max(a.x_max, b.x_max),     std::min(a.y_min, b.y_min),
-          std::max(a.y_max, b.y_max),    std::max(a.bin_max, b.bin_max), std::max(a.reach_x, b.reach_x),
+  return {std::min(a.x_min, b.x_min),     std::max(a.x_max, b.x_max),
+          std::min(a.y_min, b.y_min),     std::max(a.y_max, b.y_max),
+          std::max(a.bin_max, b.bin_max), std::max(a.reach_x, b.reach_x),
           std::max(a.reach_y, b.reach_y)};
 }
 
@@ -66,13 +68,14 @@ Bounds touched_by(const TemplateJob& job, const TemplatePoint* points, int step)
   return {job.x0 + left, job.x0 + right + x, job.y0 + top, job.y0 + bottom + y, bin, x, y};
 }
 
-// What all jobs read. Points that never reach the image are not read: the bounds do not go beyond its
-// neighbourhood, however far away they lie.
+// What all jobs read. Points that never reach the image are not read: the bounds do not go beyond
+// its neighbourhood, however far away they lie.
 Bounds touched(const TensorShape& shape, std::span<const TemplatePoint> points,
                std::span<const TemplateJob> jobs, int step, ThreadPool& pool) {
   std::vector<Bounds> of_chunks((jobs.size() + chunk_jobs - 1) / chunk_jobs);
   pool.for_each(of_chunks.size(), [&](std::size_t c) {
-    const auto chunk = jobs.subspan(c * chunk_jobs, std::min(chunk_jobs, jobs.size() - c * chunk_jobs));
+    const auto chunk =
+        jobs.subspan(c * chunk_jobs, std::min(chunk_jobs, jobs.size() - c * chunk_jobs));
     of_chunks[c] = touched_by(chunk[0], points.data() + chunk[0].first_point, step);
     for (const TemplateJob& job : chunk)
       of_chunks[c] = joined(of_chunks[c], touched_by(job, points.data() + job.first_point, step));
@@ -85,8 +88,8 @@ Bounds touched(const TensorShape& shape, std::span<const TemplatePoint> points,
   return b;
 }
 
-Planes make_planes(std::span<const std::uint16_t> tensor, const TensorShape& shape, const Bounds& b, int step,
-                   ThreadPool& pool) {
+Planes make_planes(std::span<const std::uint16_t> tensor, const TensorShape& shape, const Bounds& b,
+                   int step, ThreadPool& pool) {
   Planes planes;
   planes.step = step;
   planes.bins = shape.bins;
@@ -139,12 +142,12 @@ struct LaneMask {
   }
 };
 
-// Returns the lowest of the first `rows`. The block stays in registers while the points go by; four values
-// add up in a byte before even and odd columns are widened apart.
+// Returns the lowest of the first `rows`. The block stays in registers while the points go by; four
+// values add up in a byte before even and odd columns are widened apart.
 EDGESCOUT_SIMD_CLONES
 std::uint32_t sum_block(const std::uint8_t* planes, const std::size_t* sources, std::uint32_t count,
-                        std::size_t offset, std::size_t stride, std::uint32_t rows, const LaneMask& mask,
-                        BlockSums& out) {
+                        std::size_t offset, std::size_t stride, std::uint32_t rows,
+                        const LaneMask& mask, BlockSums& out) {
   Sums even[block_rows] = {}, odd[block_rows] = {};
   for (std::uint32_t p = 0; p < count; p += 4) {
     // A group cut short is filled up from the plane of zeros.
@@ -191,8 +194,8 @@ std::pair<int, int> first_in_block(const BlockSums& sums, std::uint32_t wanted) 
   throw LogicError("template_score: a lowest sum that is nowhere");
 }
 
-TemplateHit best_of_job(const Planes& planes, const TensorShape& shape, std::span<const TemplatePoint> points,
-                        const TemplateJob& job) {
+TemplateHit best_of_job(const Planes& planes, const TensorShape& shape,
+                        std::span<const TemplatePoint> points, const TemplateJob& job) {
   std::size_t sources[TEMPLATE_SCORE_MAX_POINTS + 3];
   const int right = reach_x(job, planes.step), down = reach_y(job, planes.step);
   for (std::uint32_t p = 0; p < job.point_count; ++p) {
@@ -223,8 +226,8 @@ TemplateHit best_of_job(const Planes& planes, const TensorShape& shape, std::spa
 
 bool is_plain(const TemplateJob& job) { return job.columns == 1 && job.rows == 1; }
 
-// Of jobs of one anchor each, where planes and blocks would be read for one value of many. Returns the
-// largest bin.
+// Of jobs of one anchor each, where planes and blocks would be read for one value of many. Returns
+// the largest bin.
 int score_plainly(std::span<const std::uint16_t> tensor, const TensorShape& shape,
                   std::span<const TemplatePoint> points, std::span<const TemplateJob> jobs,
                   std::span<TemplateHit> hits) {
@@ -244,15 +247,18 @@ int score_plainly(std::span<const std::uint16_t> tensor, const TensorShape& shap
 }
 
 // All but what points hold.
-void check_jobs(std::size_t points, std::span<const TemplateJob> jobs, int anchor_step, std::size_t hits) {
+void check_jobs(std::size_t points, std::span<const TemplateJob> jobs, int anchor_step,
+                std::size_t hits) {
   check(anchor_step >= 1 && anchor_step <= 16, "template_score: anchor step in [1, 16]");
   check(hits == jobs.size(), "template_score: as many hits as jobs");
   for (const TemplateJob& job : jobs) {
     check(job.point_count >= 1 && job.point_count <= TEMPLATE_SCORE_MAX_POINTS,
           "template_score: points of a template");
-    check(std::size_t(job.first_point) + job.point_count <= points, "template_score: points beyond the list");
+    check(std::size_t(job.first_point) + job.point_count <= points,
+          "template_score: points beyond the list");
     const std::uint64_t anchors = std::uint64_t(job.columns) * job.rows;
-    check(anchors >= 1 && anchors <= TEMPLATE_SCORE_MAX_ANCHORS, "template_score: anchors of a job");
+    check(anchors >= 1 && anchors <= TEMPLATE_SCORE_MAX_ANCHORS,
+          "template_score: anchors of a job");
   }
 }
 
@@ -267,8 +273,9 @@ void check_template_jobs(const TensorShape& shape, std::span<const TemplatePoint
 }
 
 void template_score_reference(std::span<const std::uint16_t> tensor, const TensorShape& shape,
-                              std::span<const TemplatePoint> points, std::span<const TemplateJob> jobs,
-                              int anchor_step, std::span<TemplateHit> hits) {
+                              std::span<const TemplatePoint> points,
+                              std::span<const TemplateJob> jobs, int anchor_step,
+                              std::span<TemplateHit> hits) {
   check_template_jobs(shape, points, jobs, anchor_step, hits.size());
   for (std::size_t j = 0; j < jobs.size(); ++j) {
     const TemplateJob& job = jobs[j];
@@ -297,7 +304,8 @@ void template_score_fast(std::span<const std::uint16_t> tensor, const TensorShap
     std::vector<int> bins(chunks);
     pool.for_each(chunks, [&](std::size_t c) {
       const std::size_t first = c * chunk_jobs, count = std::min(chunk_jobs, jobs.size() - first);
-      bins[c] = score_plainly(tensor, shape, points, jobs.subspan(first, count), hits.subspan(first, count));
+      bins[c] = score_plainly(tensor, shape, points, jobs.subspan(first, count),
+                              hits.subspan(first, count));
     });
     check(std::ranges::max(bins) < shape.bins, BIN_OUT_OF_RANGE);
     return;

@@ -1,10 +1,10 @@
 // How template_score.comp is called (template_score.h says what it computes).
 //
-// One workgroup a job. Its invocations share out the job's anchors; where there are fewer anchors than
-// invocations, several take a part of the points of one anchor each.
+// One workgroup a job. Its invocations share out the job's anchors; where there are fewer anchors
+// than invocations, several take a part of the points of one anchor each.
 //
-// Specialization constant 0: bands of the tensor. Buffers: 0..3 the tensor's bands, 4 points (TemplatePoint),
-// 5 jobs (TemplateJob), 6 hits (TemplateHit).
+// Specialization constant 0: bands of the tensor. Buffers: 0..3 the tensor's bands, 4 points
+// (TemplatePoint), 5 jobs (TemplateJob), 6 hits (TemplateHit).
 #ifndef EDGESCOUT_TEMPLATE_SCORE_PUSH_H
 #define EDGESCOUT_TEMPLATE_SCORE_PUSH_H
 

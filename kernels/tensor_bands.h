@@ -1,5 +1,5 @@
-// How a shader finds a value of a tensor that is bound in bands (kernels/gpu/tensor.h says why there are
-// several).
+// How a shader finds a value of a tensor that is bound in bands (kernels/gpu/tensor.h says why
+// there are several).
 #ifndef EDGESCOUT_TENSOR_BANDS_H
 #define EDGESCOUT_TENSOR_BANDS_H
 

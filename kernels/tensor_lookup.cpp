@@ -7,7 +7,8 @@
 
 namespace edgescout {
 
-float tensor_lookup(const TensorView& view, float x_px, float y_px, float theta_rad, float derivative[3]) {
+float tensor_lookup(const TensorView& view, float x_px, float y_px, float theta_rad,
+                    float derivative[3]) {
   const TensorShape& s = view.shape;
   const float inside_x = std::clamp(x_px, 0.0f, float(s.width - 1)),
               inside_y = std::clamp(y_px, 0.0f, float(s.height - 1));
@@ -32,15 +33,18 @@ float tensor_lookup(const TensorView& view, float x_px, float y_px, float theta_
       value[j][i] = below + ak * slope[j][i];
     }
   const auto blend = [&](const float v[2][2]) {
-    return (1 - ay) * ((1 - ax) * v[0][0] + ax * v[0][1]) + ay * ((1 - ax) * v[1][0] + ax * v[1][1]);
+    return (1 - ay) * ((1 - ax) * v[0][0] + ax * v[0][1]) +
+           ay * ((1 - ax) * v[1][0] + ax * v[1][1]);
   };
   const float out_x = x_px - inside_x, out_y = y_px - inside_y,
               out = std::sqrt(out_x * out_x + out_y * out_y);
   if (derivative) {
-    derivative[0] =
-        out_x != 0 ? out_x / out : (1 - ay) * (value[0][1] - value[0][0]) + ay * (value[1][1] - value[1][0]);
-    derivative[1] =
-        out_y != 0 ? out_y / out : (1 - ax) * (value[1][0] - value[0][0]) + ax * (value[1][1] - value[0][1]);
+    derivative[0] = out_x != 0
+                        ? out_x / out
+                        : (1 - ay) * (value[0][1] - value[0][0]) + ay * (value[1][1] - value[1][0]);
+    derivative[1] = out_y != 0
+                        ? out_y / out
+                        : (1 - ax) * (value[1][0] - value[0][0]) + ax * (value[1][1] - value[0][1]);
     derivative[2] = blend(slope) * (float(s.bins) / std::numbers::pi_v<float>);
   }
   return blend(value) + out;

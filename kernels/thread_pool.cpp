@@ -13,7 +13,8 @@ ThreadPool::ThreadPool(int threads) {
   if (threads <= 0) threads = std::max(1u, std::thread::hardware_concurrency());
   try {
     for (int i = 1; i < threads; ++i) workers_.emplace_back([this] { work(); });
-  } catch (...) {  // fewer threads than asked for are to be had: those that run must not outlive this
+  } catch (
+      ...) {  // fewer threads than asked for are to be had: those that run must not outlive this
     stop();
     throw;
   }

@@ -21,8 +21,9 @@ class ThreadPool {
   ThreadPool& operator=(const ThreadPool&) = delete;
 
   int threads() const { return static_cast<int>(workers_.size()) + 1; }
-  // Calls body(i) for every i in [0, count), in any order, on all threads; returns when all are done. The
-  // first exception is rethrown here. A call from inside a body runs its loop on that thread alone.
+  // Calls body(i) for every i in [0, count), in any order, on all threads; returns when all are
+  // done. The first exception is rethrown here. A call from inside a body runs its loop on that
+  // thread alone.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& body);
 
  private:

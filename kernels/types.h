@@ -14,8 +14,8 @@ struct ImageView {
   const std::uint8_t* pixels = nullptr;
 };
 
-// One edgel. Edges are undirected: theta is the direction *along* the edge, in [0, pi), measured from
-// +x towards +y (image axes: y points down).
+// One edgel. Edges are undirected: theta is the direction *along* the edge, in [0, pi), measured
+// from +x towards +y (image axes: y points down).
 struct EdgePoint {
   float x_px = 0;
   float y_px = 0;
@@ -23,8 +23,8 @@ struct EdgePoint {
   float strength = 0;  // gradient magnitude, grey levels a pixel
 };
 
-// One raster point of a model's edge, in the object frame: position and unit tangent of its 3-D edge.
-// It carries what the paper's pair (o, o') carries (Eq. 1), in the limit dr -> 0.
+// One raster point of a model's edge, in the object frame: position and unit tangent of its 3-D
+// edge. It carries what the paper's pair (o, o') carries (Eq. 1), in the limit dr -> 0.
 struct ModelPoint {
   float x_m, y_m, z_m;
   float tx, ty, tz;

@@ -1,5 +1,5 @@
-// Parts on a bare board, 0.3 m away in a small image: what the tests of whole chains look at, and the
-// templates that suffice for it.
+// Parts on a bare board, 0.3 m away in a small image: what the tests of whole chains look at, and
+// the templates that suffice for it.
 #pragma once
 
 #include "host/model/template_set.h"

@@ -14,9 +14,10 @@ struct Box {
   float x_min = 0, y_min = 0, x_max = 0, y_max = 0;
 };
 
-// Where the mesh's bounding box, and with it the mesh, lies on the map; false where it reaches behind the
-// camera.
-bool projected_box(const Mesh& mesh, const Se3& camera_from_object, const Camera& camera, Box& box) {
+// Where the mesh's bounding box, and with it the mesh, lies on the map; false where it reaches
+// behind the camera.
+bool projected_box(const Mesh& mesh, const Se3& camera_from_object, const Camera& camera,
+                   Box& box) {
   box = {1e9f, 1e9f, -1e9f, -1e9f};
   for (int i = 0; i < 8; ++i) {
     const Eigen::Vector3d corner(i & 1 ? mesh.box_max_m.x() : mesh.box_min_m.x(),
@@ -43,15 +44,16 @@ std::vector<MapEdge> projected(std::span<const ModelPoint> points, const Se3& ca
   return edges;
 }
 
-// The maps of one object's candidates, by their place in the scene, with the poses they are drawn at.
+// The maps of one object's candidates, by their place in the scene, with the poses they are drawn
+// at.
 struct Slots {
   std::vector<std::size_t> maps;
   std::vector<Se3> poses;
 };
 
 // Depth maps are as large as the largest window; each is cut to its own.
-void draw_surfaces(CandidateScene& scene, const EdgeModel& model, const Slots& slots, const Camera& camera,
-                   Backend& backend) {
+void draw_surfaces(CandidateScene& scene, const EdgeModel& model, const Slots& slots,
+                   const Camera& camera, Backend& backend) {
   std::uint32_t width = 0, height = 0;
   std::vector<std::size_t> shown;
   for (std::size_t s = 0; s < slots.maps.size(); ++s) {
@@ -67,9 +69,9 @@ void draw_surfaces(CandidateScene& scene, const EdgeModel& model, const Slots& s
     std::vector<DepthJob> jobs;
     for (std::size_t i = first; i < std::min(first + chunk, shown.size()); ++i) {
       const MapWindow& window = scene.maps[slots.maps[shown[i]]].window;
-      jobs.push_back(
-          {to_pose(slots.poses[shown[i]]),
-           {float(camera.fx), float(camera.fy), float(camera.cx - window.x0), float(camera.cy - window.y0)}});
+      jobs.push_back({to_pose(slots.poses[shown[i]]),
+                      {float(camera.fx), float(camera.fy), float(camera.cx - window.x0),
+                       float(camera.cy - window.y0)}});
     }
     depth.resize(jobs.size() * width * height);
     backend.depth_raster(model.triangle_mesh(), jobs, int(width), int(height), depth);
@@ -96,8 +98,9 @@ ChamferView CandidateScene::seen_from(std::size_t view) const {
   return seen;
 }
 
-CandidateScene draw_candidates(std::span<const EdgeModel> models, std::span<const Detection> candidates,
-                               const Camera& camera, std::span<const Se3> camera_from_world, Backend& backend,
+CandidateScene draw_candidates(std::span<const EdgeModel> models,
+                               std::span<const Detection> candidates, const Camera& camera,
+                               std::span<const Se3> camera_from_world, Backend& backend,
                                const VisibilityOptions& visibility, double tolerance) {
   CandidateScene scene;
   scene.width = camera.width;
@@ -109,7 +112,8 @@ CandidateScene draw_candidates(std::span<const EdgeModel> models, std::span<cons
   for (std::size_t v = 0; v < camera_from_world.size(); ++v)
     for (std::size_t c = 0; c < candidates.size(); ++c) {
       slots[candidates[c].object].maps.push_back(v * candidates.size() + c);
-      slots[candidates[c].object].poses.push_back(camera_from_world[v] * candidates[c].world_from_object);
+      slots[candidates[c].object].poses.push_back(camera_from_world[v] *
+                                                  candidates[c].world_from_object);
     }
   std::vector<std::vector<MapEdge>> edges(camera_from_world.size() * candidates.size());
   scene.maps.resize(edges.size());
@@ -120,7 +124,8 @@ CandidateScene draw_candidates(std::span<const EdgeModel> models, std::span<cons
     backend.threads().for_each(own.maps.size(), [&](std::size_t s) {
       Box box;
       if (!projected_box(models[object].mesh, own.poses[s], camera, box)) return;
-      // In the order of creases, borders and contours: of too many every so many stay, not the first.
+      // In the order of creases, borders and contours: of too many every so many stay, not the
+      // first.
       if (visible[s].size() > CANDIDATE_MAP_MAX_EDGES)
         visible[s] = thinned(visible[s], int(CANDIDATE_MAP_MAX_EDGES));
       edges[own.maps[s]] = projected(visible[s], own.poses[s], camera);

@@ -1,5 +1,5 @@
-// Internal to host/active: every candidate as several possible views would see it: visible edges, surface,
-// distance map, by the kernels depth_raster and candidate_map.
+// Internal to host/active: every candidate as several possible views would see it: visible edges,
+// surface, distance map, by the kernels depth_raster and candidate_map.
 #pragma once
 
 #include <span>
@@ -24,11 +24,12 @@ struct CandidateScene {
   ChamferView seen_from(std::size_t view) const;
 };
 
-// `camera` is that of the map; `tolerance` is a fraction of a candidate's diameter: nearer behind its surface
-// it hides nothing. All views in one call of each kernel and object: the caller bounds views times
-// candidates.
-CandidateScene draw_candidates(std::span<const EdgeModel> models, std::span<const Detection> candidates,
-                               const Camera& camera, std::span<const Se3> camera_from_world, Backend& backend,
+// `camera` is that of the map; `tolerance` is a fraction of a candidate's diameter: nearer behind
+// its surface it hides nothing. All views in one call of each kernel and object: the caller bounds
+// views times candidates.
+CandidateScene draw_candidates(std::span<const EdgeModel> models,
+                               std::span<const Detection> candidates, const Camera& camera,
+                               std::span<const Se3> camera_from_world, Backend& backend,
                                const VisibilityOptions& visibility, double tolerance);
 
 }  // namespace edgescout

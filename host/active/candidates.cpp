@@ -13,8 +13,9 @@ namespace edgescout {
 namespace {
 
 void sort_by_probability(std::vector<Detection>& detections) {
-  std::ranges::stable_sort(
-      detections, [](const Detection& a, const Detection& b) { return a.probability > b.probability; });
+  std::ranges::stable_sort(detections, [](const Detection& a, const Detection& b) {
+    return a.probability > b.probability;
+  });
 }
 
 // Best first. Duplicates exist within one object only.
@@ -32,8 +33,8 @@ std::vector<Detection> different_ones(const std::vector<Detection>& detections,
         keys.push_back(-d.probability);
       }
     const Mesh& mesh = sets[object].model.mesh;
-    for (std::size_t i :
-         best_different(poses, keys, mesh, sets[object].symmetries, 0.1 * mesh.diameter_m, poses.size()))
+    for (std::size_t i : best_different(poses, keys, mesh, sets[object].symmetries,
+                                        0.1 * mesh.diameter_m, poses.size()))
       kept.push_back(same[i]);
   }
   sort_by_probability(kept);
@@ -51,16 +52,17 @@ std::vector<double> capped_probabilities(std::span<const Detection> detections) 
 // Of 40,000 an image, of which the known instances' are left out.
 constexpr std::size_t HITS_JUDGED = 20000;
 
-std::vector<ScanHit> hits_of(const TemplateSet& set, std::size_t object, std::span<const Observation> images,
-                             std::span<const Se3> known, Backend& backend, const DetectOptions& options) {
+std::vector<ScanHit> hits_of(const TemplateSet& set, std::size_t object,
+                             std::span<const Observation> images, std::span<const Se3> known,
+                             Backend& backend, const DetectOptions& options) {
   std::vector<std::span<const ScanHit>> hits;
   for (const Observation& image : images) {
     check(object < image.hits.size(), "candidates_in_images: an image that was not scanned");
     hits.push_back(*image.hits[object]);
   }
   return pooled_hits(set, images, hits, options.helping_views,
-                     drawn_to(known, set, images.back().view.camera_from_world), HITS_JUDGED, backend,
-                     options.scan);
+                     drawn_to(known, set, images.back().view.camera_from_world), HITS_JUDGED,
+                     backend, options.scan);
 }
 
 }  // namespace
@@ -75,9 +77,9 @@ std::vector<Detection> candidates_in_images(std::span<const TemplateSet> sets,
     std::vector<Se3> same;
     for (const Hypothesis& instance : known)
       if (instance.object == static_cast<int>(object)) same.push_back(instance.world_from_object);
-    for (const Refined& candidate :
-         find_candidates(sets[object], hits_of(sets[object], object, images, same, backend, options), newest,
-                         images.first(images.size() - 1), same, backend, options)) {
+    for (const Refined& candidate : find_candidates(
+             sets[object], hits_of(sets[object], object, images, same, backend, options), newest,
+             images.first(images.size() - 1), same, backend, options)) {
       found.push_back(candidate_in_world(
           to_detection(static_cast<int>(object), candidate.registration, candidate.features),
           newest.view.camera_from_world));
@@ -100,19 +102,21 @@ std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets,
   std::vector<Detection> detections;
   for (std::size_t i = 0; i < refined.size(); ++i) {
     if (refined[i].features.matched == 0) continue;
-    detections.push_back(to_detection(starts[i].object, refined[i].registration, refined[i].features));
+    detections.push_back(
+        to_detection(starts[i].object, refined[i].registration, refined[i].features));
     detections.back().probability = probability_over_views(refined[i].by_view);
   }
   return best_beside_others(different_ones(detections, sets), most, models, options.penetration_m,
                             backend.threads());
 }
 
-std::vector<Detection> best_beside_others(const std::vector<Detection>& candidates, std::size_t most,
-                                          std::span<const EdgeModel> models, double penetration_m,
-                                          ThreadPool& pool) {
+std::vector<Detection> best_beside_others(const std::vector<Detection>& candidates,
+                                          std::size_t most, std::span<const EdgeModel> models,
+                                          double penetration_m, ThreadPool& pool) {
   if (candidates.size() <= most) return candidates;
-  std::vector<std::size_t> chosen = largest_first(exclusive_probabilities(
-      capped_probabilities(candidates), plausible_pairs(models, poses_of(candidates), penetration_m, pool)));
+  std::vector<std::size_t> chosen = largest_first(
+      exclusive_probabilities(capped_probabilities(candidates),
+                              plausible_pairs(models, poses_of(candidates), penetration_m, pool)));
   chosen.resize(most);
   std::ranges::sort(chosen);
   std::vector<Detection> kept;
@@ -149,7 +153,8 @@ std::vector<Detection> without_particles(std::span<const Detection> candidates,
 std::size_t count_new(std::span<const Detection> candidates, std::span<const Detection> before,
                       std::span<const TemplateSet> sets, double radius) {
   return static_cast<std::size_t>(std::ranges::count_if(
-      candidates, [&](const Detection& candidate) { return !near_any(candidate, before, sets, radius); }));
+      candidates,
+      [&](const Detection& candidate) { return !near_any(candidate, before, sets, radius); }));
 }
 
 }  // namespace edgescout

@@ -23,12 +23,13 @@ int coins(std::size_t n, Random& random) {
   return n == 0 ? ones : ones + std::popcount(random.bits() >> (64 - n));
 }
 
-// Candidates in an order in which each next one is drawn with probability proportional to its weight among
-// those left: that of exponential waiting times, one a candidate, with the weights as rates (Efraimidis &
-// Spirakis 2006).
+// Candidates in an order in which each next one is drawn with probability proportional to its
+// weight among those left: that of exponential waiting times, one a candidate, with the weights as
+// rates (Efraimidis & Spirakis 2006).
 void draw_order(std::span<const double> weights, Random& random, std::vector<double>& waits,
                 std::vector<std::size_t>& order) {
-  for (std::size_t i = 0; i < weights.size(); ++i) waits[i] = -std::log(1 - random.uniform()) / weights[i];
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    waits[i] = -std::log(1 - random.uniform()) / weights[i];
   std::iota(order.begin(), order.end(), 0);
   std::ranges::sort(order, {}, [&](std::size_t i) { return waits[i]; });
 }
@@ -45,7 +46,8 @@ bool stands_with_all(std::size_t candidate, const BitMatrix& plausible,
   return true;
 }
 
-void check_input(std::size_t candidates, const BitMatrix& plausible, const CombinationOptions& options) {
+void check_input(std::size_t candidates, const BitMatrix& plausible,
+                 const CombinationOptions& options) {
   options.validate();
   if (candidates == 0)
     throw InputError("combinations", "candidates", "none", "at least one object candidate");
@@ -57,9 +59,11 @@ void check_input(std::size_t candidates, const BitMatrix& plausible, const Combi
 
 void CombinationOptions::validate() const {
   if (count < 1 || count > 1000000)
-    throw InputError("options", "combinations.count", std::to_string(count), "a number in [1, 1000000]");
+    throw InputError("options", "combinations.count", std::to_string(count),
+                     "a number in [1, 1000000]");
   if (!(sharpness >= 0 && sharpness <= 500))
-    throw InputError("options", "combinations.sharpness", std::to_string(sharpness), "a number in [0, 500]");
+    throw InputError("options", "combinations.sharpness", std::to_string(sharpness),
+                     "a number in [0, 500]");
 }
 
 BitMatrix sample_combinations(std::span<const double> psi, const BitMatrix& plausible,
@@ -85,7 +89,8 @@ BitMatrix sample_combinations(std::span<const double> psi, const BitMatrix& plau
   return combinations;
 }
 
-BitMatrix sample_probable_combinations(std::span<const double> probabilities, const BitMatrix& plausible,
+BitMatrix sample_probable_combinations(std::span<const double> probabilities,
+                                       const BitMatrix& plausible,
                                        const CombinationOptions& options) {
   constexpr double least = 0.02;  // of presence and of absence: nobody is surer than that
   const std::size_t candidates = probabilities.size();
@@ -105,8 +110,9 @@ BitMatrix sample_probable_combinations(std::span<const double> probabilities, co
   return combinations;
 }
 
-BitMatrix candidate_combinations(std::span<const EdgeModel> models, std::span<const Detection> candidates,
-                                 bool by_probability, double penetration_m, const CombinationOptions& options,
+BitMatrix candidate_combinations(std::span<const EdgeModel> models,
+                                 std::span<const Detection> candidates, bool by_probability,
+                                 double penetration_m, const CombinationOptions& options,
                                  ThreadPool& threads) {
   std::vector<double> psi, probabilities;
   for (const Detection& candidate : candidates) {
@@ -120,7 +126,8 @@ BitMatrix candidate_combinations(std::span<const EdgeModel> models, std::span<co
 
 CombinationExtremes extreme_combinations(const BitMatrix& combinations,
                                          std::span<const double> probabilities) {
-  check(combinations.columns == probabilities.size(), "extreme_combinations: a probability a candidate");
+  check(combinations.columns == probabilities.size(),
+        "extreme_combinations: a probability a candidate");
   CombinationExtremes extremes;
   double most = -INFINITY, least = INFINITY;
   for (std::size_t row = 0; row < combinations.rows; ++row) {

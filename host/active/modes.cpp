@@ -24,7 +24,8 @@ double weight_of(const Particle& particle) {
 std::vector<std::size_t> best_first(std::span<const Particle> particles) {
   std::vector<double> merit;
   for (const Particle& particle : particles)
-    merit.push_back(particle.by_view.empty() ? particle.log_weight : evidence(together(particle.by_view)));
+    merit.push_back(particle.by_view.empty() ? particle.log_weight
+                                             : evidence(together(particle.by_view)));
   return largest_first(merit);
 }
 
@@ -33,7 +34,8 @@ Se3 nearest_twin(const Se3& pose, const Se3& reference, const TemplateSet& set) 
   Se3 nearest = pose;
   double least_m = pose_distance_m(reference, pose, set.model.mesh, Symmetries{});
   for (const Se3& symmetry : set.symmetries.discrete) {
-    const double distance_m = pose_distance_m(reference, pose * symmetry, set.model.mesh, Symmetries{});
+    const double distance_m =
+        pose_distance_m(reference, pose * symmetry, set.model.mesh, Symmetries{});
     if (distance_m < least_m) least_m = distance_m, nearest = pose * symmetry;
   }
   return nearest;
@@ -45,7 +47,8 @@ Matrix6d scatter(std::span<const Particle> particles, const Mode& mode, const Te
   Matrix6d sum = Matrix6d::Zero();
   double total = 0;
   for (const std::size_t i : mode.particles) {
-    const Vector6d off = local_coordinates(best, nearest_twin(particles[i].world_from_object, best, set));
+    const Vector6d off =
+        local_coordinates(best, nearest_twin(particles[i].world_from_object, best, set));
     sum += weight_of(particles[i]) * off * off.transpose();
     total += weight_of(particles[i]);
   }
@@ -90,8 +93,8 @@ std::vector<Mode> find_modes(std::span<const Particle> particles, std::span<cons
     const double radius_m = options.mode_radius * set.model.mesh.diameter_m;
     auto home = std::ranges::find_if(modes, [&](const Mode& mode) {
       return mode.object == particle.object &&
-             pose_distance_m(particles[mode.particles[0]].world_from_object, particle.world_from_object,
-                             set.model.mesh, set.symmetries) < radius_m;
+             pose_distance_m(particles[mode.particles[0]].world_from_object,
+                             particle.world_from_object, set.model.mesh, set.symmetries) < radius_m;
     });
     if (home == modes.end()) {
       home = modes.insert(home, {particle.object, {}, 0, 0});
@@ -105,7 +108,8 @@ std::vector<Mode> find_modes(std::span<const Particle> particles, std::span<cons
   return modes;
 }
 
-std::vector<ModeDetection> mode_detections(std::span<const Particle> particles, std::span<const Mode> modes,
+std::vector<ModeDetection> mode_detections(std::span<const Particle> particles,
+                                           std::span<const Mode> modes,
                                            std::span<const TemplateSet> sets,
                                            std::span<const EdgeModel> models,
                                            std::span<const RegisterView> views, Backend& backend,
@@ -116,16 +120,19 @@ std::vector<ModeDetection> mode_detections(std::span<const Particle> particles, 
   for (const Mode& mode : modes) {
     if (mode.probability < options.min_probability) continue;
     const Particle& best = particles[mode.particles[0]];
-    check(best.by_view.size() == views.size(), "mode_detections: particles weighed with these views");
+    check(best.by_view.size() == views.size(),
+          "mode_detections: particles weighed with these views");
     probable.push_back(&mode);
     poses.push_back({best.object, best.world_from_object});
     features.push_back(best.by_view);
   }
   std::vector<ModeDetection> found;
-  for (const ChosenPose& chosen : explain_image(models, poses, features, views, backend, options.evidence)) {
+  for (const ChosenPose& chosen :
+       explain_image(models, poses, features, views, backend, options.evidence)) {
     const Mode& mode = *probable[chosen.index];
     const Particle& best = particles[mode.particles[0]];
-    ModeDetection detection{to_detection(best, together(best.by_view), mode.probability), mode.weight, {}};
+    ModeDetection detection{
+        to_detection(best, together(best.by_view), mode.probability), mode.weight, {}};
     detection.detection.covariance += scatter(particles, mode, sets[mode.object]);
     for (std::size_t v = 0; v < views.size(); ++v)
       if (pose_probability(best.by_view[v]) >= options.support_probability)
@@ -138,7 +145,8 @@ std::vector<ModeDetection> mode_detections(std::span<const Particle> particles, 
   return found;
 }
 
-std::vector<Hypothesis> known_objects(std::span<const ModeDetection> detections, double least_probability) {
+std::vector<Hypothesis> known_objects(std::span<const ModeDetection> detections,
+                                      double least_probability) {
   std::vector<Hypothesis> known;
   for (const ModeDetection& mode : detections)
     if (mode.detection.probability >= least_probability)

@@ -17,8 +17,8 @@ namespace edgescout {
 
 namespace {
 
-// Views whose maps are made at once: enough to keep every thread and device busy, few enough to stay in
-// memory, 8 bytes a pixel, were every candidate as large as the image.
+// Views whose maps are made at once: enough to keep every thread and device busy, few enough to
+// stay in memory, 8 bytes a pixel, were every candidate as large as the image.
 std::size_t views_at_once(std::size_t candidates, const Camera& map_camera) {
   constexpr std::size_t maps = 2048, pixels = std::size_t(1) << 27;
   const std::size_t image = std::size_t(map_camera.width) * std::size_t(map_camera.height);
@@ -37,13 +37,14 @@ Watched watch(const Planning& planning, ThreadPool& pool, const NextViewOptions&
   for (const Particle& particle : planning.particles)
     if (particle.log_weight > -std::numeric_limits<double>::infinity())
       watched.particles.push_back(&particle);
-  // The paper's own formula: seen is what projects into an image, and the real views stand in Upsilon alone.
+  // The paper's own formula: seen is what projects into an image, and the real views stand in
+  // Upsilon alone.
   const double seen_px = options.literal ? 0 : options.seen_px;
   watched.seen.resize(watched.particles.size());
   pool.for_each(watched.particles.size(), [&](std::size_t i) {
     const Particle& particle = *watched.particles[i];
-    watched.seen[i] =
-        seen_in(planning.tables[particle.object], particle.world_from_object, planning.real_views, seen_px);
+    watched.seen[i] = seen_in(planning.tables[particle.object], particle.world_from_object,
+                              planning.real_views, seen_px);
   });
   for (std::size_t i = 0; i < watched.particles.size(); ++i) {
     const Particle& particle = *watched.particles[i];
@@ -60,13 +61,14 @@ struct ShowingPoints {
   std::vector<std::uint32_t> first{0};
 };
 
-ShowingPoints showing(const Planning& planning, const Watched& watched, const Se3& camera_from_world,
-                      const Camera& map_camera, ThreadPool& pool) {
+ShowingPoints showing(const Planning& planning, const Watched& watched,
+                      const Se3& camera_from_world, const Camera& map_camera, ThreadPool& pool) {
   std::vector<std::vector<ParticlePoint>> lists(watched.particles.size());
   pool.for_each(lists.size(), [&](std::size_t i) {
     const Particle& particle = *watched.particles[i];
-    lists[i] = showing_points(planning.tables[particle.object],
-                              camera_from_world * particle.world_from_object, map_camera, watched.seen[i]);
+    lists[i] =
+        showing_points(planning.tables[particle.object],
+                       camera_from_world * particle.world_from_object, map_camera, watched.seen[i]);
   });
   ShowingPoints all;
   for (const std::vector<ParticlePoint>& list : lists) {
@@ -97,23 +99,25 @@ std::vector<double> mutual_information(const Planning& planning, std::span<const
     std::vector<Se3> cameras;
     for (std::size_t i = first; i < std::min(first + block, open.size()); ++i)
       cameras.push_back(planning.views[open[i]]);
-    const CandidateScene scene = draw_candidates(planning.models, planning.candidates, map_camera, cameras,
-                                                 backend, options.visibility, options.tolerance);
+    const CandidateScene scene =
+        draw_candidates(planning.models, planning.candidates, map_camera, cameras, backend,
+                        options.visibility, options.tolerance);
     for (std::size_t i = 0; i < cameras.size(); ++i) {
-      const ShowingPoints points = showing(planning, watched, cameras[i], map_camera, backend.threads());
+      const ShowingPoints points =
+          showing(planning, watched, cameras[i], map_camera, backend.threads());
       if (points.points.empty()) continue;
       ChamferView view = scene.seen_from(i);
       view.points = points.points;
       view.first_point = points.first;
-      information[first + i] = backend.mutual_information(*backend.combination_chamfer(view, bits, chamfer),
-                                                          watched.beliefs, likelihood);
+      information[first + i] = backend.mutual_information(
+          *backend.combination_chamfer(view, bits, chamfer), watched.beliefs, likelihood);
     }
   }
   return information;
 }
 
-// Sec. 6.4: sum over the candidates of psi times the number of points that no real view has seen: that
-// project into none of their images.
+// Sec. 6.4: sum over the candidates of psi times the number of points that no real view has seen:
+// that project into none of their images.
 std::vector<double> disocclusion(const Planning& planning, std::span<const std::size_t> open,
                                  ThreadPool& pool) {
   std::vector<double> gain(open.size(), 0);
@@ -129,9 +133,10 @@ std::vector<double> disocclusion(const Planning& planning, std::span<const std::
   return gain;
 }
 
-std::vector<double> random_values(std::size_t views, std::span<const std::size_t> open, std::size_t step,
-                                  std::uint64_t seed) {
-  // Every view draws, open or not: which one is taken at a step does not depend on what failed before.
+std::vector<double> random_values(std::size_t views, std::span<const std::size_t> open,
+                                  std::size_t step, std::uint64_t seed) {
+  // Every view draws, open or not: which one is taken at a step does not depend on what failed
+  // before.
   Random random = Random(seed).split("next view").split(step);
   std::vector<double> all(views);
   for (double& x : all) x = random.uniform();
@@ -171,8 +176,8 @@ double unrepeated(const Eigen::Vector3d& direction, std::span<const Eigen::Vecto
   return left;
 }
 
-// What is left of a view's information where some cannot be seen and some has been told; the same of what is
-// unknown.
+// What is left of a view's information where some cannot be seen and some has been told; the same
+// of what is unknown.
 struct Shares {
   double known = 1, unknown = 1;
 };
@@ -187,10 +192,12 @@ std::vector<Shares> shares_left(std::span<const std::size_t> open, const Plannin
   for (const RegisterView& view : planning.real_views) taken.push_back(view.camera_from_world);
   const std::vector<Eigen::Vector3d> directions = directions_to(planning.views, *center_m),
                                      real = directions_to(taken, *center_m);
-  const std::vector<double> free = free_sights(directions, direction_above(directions), options.free_sight);
+  const std::vector<double> free =
+      free_sights(directions, direction_above(directions), options.free_sight);
   for (std::size_t i = 0; i < open.size(); ++i) {
     const auto left = [&](double repeat_rad) {
-      return free[open[i]] * (repeat_rad > 0 ? unrepeated(directions[open[i]], real, repeat_rad) : 1);
+      return free[open[i]] *
+             (repeat_rad > 0 ? unrepeated(directions[open[i]], real, repeat_rad) : 1);
     };
     shares[i] = {left(options.repeat_rad), left(options.unknown_repeat_rad)};
   }
@@ -215,7 +222,8 @@ std::vector<double> information_of(const Planning& planning, std::span<const std
 double motion_cost(const Planning& planning, const Se3& view, const NextViewOptions& options) {
   if (planning.real_views.empty()) return 0;
   const Se3& last = planning.real_views.back().camera_from_world;
-  return options.motion_cost_per_m * (inverse(view).translation_m - inverse(last).translation_m).norm() +
+  return options.motion_cost_per_m *
+             (inverse(view).translation_m - inverse(last).translation_m).norm() +
          options.motion_cost_per_rad * angle_between_rad(view, last);
 }
 
@@ -245,7 +253,8 @@ Strategy strategy_from(const std::string& word) {
 void NextViewOptions::validate() const {
   const OptionBounds in("next_view");
   in("reduction", reduction, 1, 16);
-  in("cap", cap_px, reduction / CHAMFER_STEPS_PER_PX, reduction * CHAMFER_CAP / CHAMFER_STEPS_PER_PX);
+  in("cap", cap_px, reduction / CHAMFER_STEPS_PER_PX,
+     reduction * CHAMFER_CAP / CHAMFER_STEPS_PER_PX);
   in("sigma", sigma_px, cap_px / std::sqrt(2 * INFORMATION_MAX_SHARPNESS), 1e3);
   in("tolerance", tolerance, 0, 10);
   in("seen", seen_px, 0, EdgeIndex::CELL_PX);
@@ -269,8 +278,8 @@ std::vector<ViewInformation> view_information(const Planning& planning, Backend&
   std::vector<ViewInformation> views(planning.views.size());
   std::vector<std::size_t> open;
   for (std::size_t v = 0; v < views.size(); ++v) {
-    const bool closed =
-        (!planning.closed.empty() && planning.closed[v]) || (options.reachable && !options.reachable(int(v)));
+    const bool closed = (!planning.closed.empty() && planning.closed[v]) ||
+                        (options.reachable && !options.reachable(int(v)));
     if (!closed) open.push_back(v);
   }
   if (open.empty()) return views;
@@ -285,7 +294,8 @@ std::vector<ViewInformation> view_information(const Planning& planning, Backend&
                       motion_cost(planning, planning.views[open[i]], options)};
   if (std::ranges::none_of(information, [](double x) { return x > 0; }))
     log(LogLevel::Warning,
-        "no view promises any information: nothing is known that it could be about, or no view sees it");
+        "no view promises any information: nothing is known that it could be about, or no view "
+        "sees it");
   return views;
 }
 

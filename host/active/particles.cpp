@@ -28,8 +28,9 @@ std::vector<std::size_t> best_candidates(std::span<const Detection> candidates, 
 
 D2coOptions ParticleOptions::refine_defaults() {
   D2coOptions options;
-  options.rounds = {
-      {LOSS_GEMAN_MCCLURE, 12, 8, 250}, {LOSS_GEMAN_MCCLURE, 5, 8, 300}, {LOSS_GEMAN_MCCLURE, 2, 6, 400}};
+  options.rounds = {{LOSS_GEMAN_MCCLURE, 12, 8, 250},
+                    {LOSS_GEMAN_MCCLURE, 5, 8, 300},
+                    {LOSS_GEMAN_MCCLURE, 2, 6, 400}};
   options.visibility.depth_map_size_px = 96;
   return options;
 }
@@ -65,15 +66,17 @@ void ParticleOptions::validate() const {
 Detection candidate_in_world(const Detection& in_camera, const Se3& camera_from_world) {
   const Se3 world_from_camera = inverse(camera_from_world);
   Matrix6d turn = Matrix6d::Zero();
-  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() = world_from_camera.rotation.toRotationMatrix();
+  turn.topLeftCorner<3, 3>() = turn.bottomRightCorner<3, 3>() =
+      world_from_camera.rotation.toRotationMatrix();
   Detection in_world = in_camera;
   in_world.world_from_object = world_from_camera * in_camera.world_from_object;
-  if (in_camera.covariance.allFinite()) in_world.covariance = turn * in_camera.covariance * turn.transpose();
+  if (in_camera.covariance.allFinite())
+    in_world.covariance = turn * in_camera.covariance * turn.transpose();
   return in_world;
 }
 
-Se3 perturbed(const Se3& pose, const Matrix6d& covariance, const EdgeModel& model, const Spread& spread,
-              Random& random) {
+Se3 perturbed(const Se3& pose, const Matrix6d& covariance, const EdgeModel& model,
+              const Spread& spread, Random& random) {
   const double diameter_m = model.mesh.diameter_m;
   // Rotations as the way they move a point at half the diameter: all six in metres.
   Vector6d metres = Vector6d::Ones();
@@ -82,7 +85,8 @@ Se3 perturbed(const Se3& pose, const Matrix6d& covariance, const EdgeModel& mode
   Matrix6d axes = Matrix6d::Identity();
   if (covariance.allFinite()) {
     const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(
-        metres.asDiagonal() * covariance_about(pose, model.center_m, covariance) * metres.asDiagonal());
+        metres.asDiagonal() * covariance_about(pose, model.center_m, covariance) *
+        metres.asDiagonal());
     axes = solver.eigenvectors();
     deviations = solver.eigenvalues()
                      .cwiseMax(0)
@@ -96,8 +100,9 @@ Se3 perturbed(const Se3& pose, const Matrix6d& covariance, const EdgeModel& mode
   return retract_about(pose, model.center_m, step);
 }
 
-std::vector<Particle> draw_particles(std::span<const EdgeModel> models, std::span<const Detection> candidates,
-                                     int count, const Spread& spread, Random random) {
+std::vector<Particle> draw_particles(std::span<const EdgeModel> models,
+                                     std::span<const Detection> candidates, int count,
+                                     const Spread& spread, Random random) {
   std::vector<Particle> particles;
   const std::vector<std::size_t> chosen = best_candidates(candidates, count);
   for (int i = 0; !chosen.empty() && i < count; ++i) {
@@ -117,7 +122,8 @@ std::vector<Particle> draw_particles(std::span<const EdgeModel> models, std::spa
 
 std::vector<Hypothesis> poses_of(std::span<const Particle> particles) {
   std::vector<Hypothesis> poses;
-  for (const Particle& particle : particles) poses.push_back({particle.object, particle.world_from_object});
+  for (const Particle& particle : particles)
+    poses.push_back({particle.object, particle.world_from_object});
   return poses;
 }
 
@@ -129,10 +135,13 @@ std::vector<Hypothesis> poses_of(std::span<const Detection> candidates) {
 }
 
 void refine_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
-                      std::span<const RegisterView> views, Backend& backend, const ParticleOptions& options) {
+                      std::span<const RegisterView> views, Backend& backend,
+                      const ParticleOptions& options) {
   const std::vector<Hypothesis> starts = poses_of(particles);
-  std::vector<Registration> registrations = register_poses(models, starts, views, backend, options.d2co);
-  if (options.polish) polish_poses(models, starts, views, backend, options.polish_options, registrations);
+  std::vector<Registration> registrations =
+      register_poses(models, starts, views, backend, options.d2co);
+  if (options.polish)
+    polish_poses(models, starts, views, backend, options.polish_options, registrations);
   for (std::size_t i = 0; i < particles.size(); ++i) {
     particles[i].world_from_object = registrations[i].world_from_object;
     particles[i].covariance = registrations[i].covariance;
@@ -140,7 +149,8 @@ void refine_particles(std::span<const EdgeModel> models, std::span<Particle> par
 }
 
 ParticleUpdate update_particles(std::vector<Particle>& particles, std::vector<double>& unseen_px2,
-                                std::span<const EdgeModel> models, std::span<const Detection> candidates,
+                                std::span<const EdgeModel> models,
+                                std::span<const Detection> candidates,
                                 std::span<const RegisterView> views, Backend& backend,
                                 const ParticleOptions& options) {
   options.validate();
@@ -148,7 +158,8 @@ ParticleUpdate update_particles(std::vector<Particle>& particles, std::vector<do
   ParticleUpdate update;
   const auto refine_and_weigh = [&] {
     refine_particles(models, particles, views, backend, options);
-    const Weighing weighing = weigh_particles(models, particles, unseen_px2, views, backend, options);
+    const Weighing weighing =
+        weigh_particles(models, particles, unseen_px2, views, backend, options);
     update.gained_nats = weighing.gained_nats;
     return weighing.living;
   };

@@ -10,8 +10,8 @@ namespace edgescout {
 
 namespace {
 
-// Systematic resampling: `count` draws in proportion to the weights, all from one random number; how often
-// each is drawn.
+// Systematic resampling: `count` draws in proportion to the weights, all from one random number;
+// how often each is drawn.
 std::vector<int> systematic(std::span<const double> weights, int count, Random& random) {
   double total = 0;
   for (const double w : weights) total += w;
@@ -29,13 +29,15 @@ std::vector<int> systematic(std::span<const double> weights, int count, Random& 
   return times;
 }
 
-// Modes that keep particles however light they are; heaviest first as given. Where none is probable or heavy
-// enough, all of them.
-std::vector<const Mode*> kept_modes(std::span<const Mode> modes, int count, const ParticleOptions& options) {
+// Modes that keep particles however light they are; heaviest first as given. Where none is probable
+// or heavy enough, all of them.
+std::vector<const Mode*> kept_modes(std::span<const Mode> modes, int count,
+                                    const ParticleOptions& options) {
   std::vector<const Mode*> kept, all;
   for (const Mode& mode : modes) {
     all.push_back(&mode);
-    if (mode.probability >= options.min_mode_probability || mode.weight * count >= 1) kept.push_back(&mode);
+    if (mode.probability >= options.min_mode_probability || mode.weight * count >= 1)
+      kept.push_back(&mode);
   }
   if (kept.empty()) kept = all;
   if (int(kept.size()) > count) kept.resize(count);
@@ -47,12 +49,13 @@ std::vector<double> weights_within(const Mode& mode, std::span<const Particle> p
   double most = -std::numeric_limits<double>::infinity();
   for (const std::size_t i : mode.particles) most = std::max(most, particles[i].log_weight);
   std::vector<double> weights;
-  for (const std::size_t i : mode.particles) weights.push_back(std::exp(particles[i].log_weight - most));
+  for (const std::size_t i : mode.particles)
+    weights.push_back(std::exp(particles[i].log_weight - most));
   return weights;
 }
 
-std::vector<int> quotas(std::span<const Mode* const> modes, int count, const ParticleOptions& options,
-                        Random& random) {
+std::vector<int> quotas(std::span<const Mode* const> modes, int count,
+                        const ParticleOptions& options, Random& random) {
   const int least = std::min<int>(options.min_per_mode, count / int(modes.size()));
   std::vector<double> weights;
   for (const Mode* mode : modes) weights.push_back(mode->weight);
@@ -64,14 +67,14 @@ std::vector<int> quotas(std::span<const Mode* const> modes, int count, const Par
 }  // namespace
 
 std::vector<Particle> resample(std::span<const Particle> particles, std::span<const Mode> modes,
-                               std::span<const EdgeModel> models, int count, const ParticleOptions& options,
-                               Random random) {
+                               std::span<const EdgeModel> models, int count,
+                               const ParticleOptions& options, Random random) {
   std::vector<Particle> next;
   if (modes.empty()) return next;
   const std::vector<const Mode*> kept = kept_modes(modes, count, options);
   const std::vector<int> quota = quotas(kept, count, options, random);
-  // Weights have been normalised; spent_px2 keeps what they were, so that particles drawn later, which have
-  // spent nothing, find their share among these.
+  // Weights have been normalised; spent_px2 keeps what they were, so that particles drawn later,
+  // which have spent nothing, find their share among these.
   const Particle& any = particles[modes[0].particles[0]];
   const double log_norm = (any.spent_px2 - any.upsilon_px2) / options.scale_px2() - any.log_weight;
   double total = 0;  // of the weights that go on
@@ -84,11 +87,12 @@ std::vector<Particle> resample(std::span<const Particle> particles, std::span<co
       for (int copy = 0; copy < times[k]; ++copy) {
         Particle particle = particles[mode.particles[k]];
         if (copy > 0)
-          particle.world_from_object = perturbed(particle.world_from_object, particle.covariance,
-                                                 models[particle.object], options.roughened, random);
+          particle.world_from_object =
+              perturbed(particle.world_from_object, particle.covariance, models[particle.object],
+                        options.roughened, random);
         particle.log_weight = std::log(mode.weight / total / quota[m]);
-        particle.spent_px2 =
-            particle.upsilon_px2 + options.scale_px2() * (std::log(mode.weight / quota[m]) + log_norm);
+        particle.spent_px2 = particle.upsilon_px2 +
+                             options.scale_px2() * (std::log(mode.weight / quota[m]) + log_norm);
         next.push_back(std::move(particle));
       }
   }

@@ -22,7 +22,8 @@ std::optional<Shot> shot_of(Scout& scout, ViewSource& source, int view) {
 
 }  // namespace
 
-void run_scout(Scout& scout, ViewSource& source, const std::function<void(const ScoutState&)>& on_step) {
+void run_scout(Scout& scout, ViewSource& source,
+               const std::function<void(const ScoutState&)>& on_step) {
   while (const std::optional<ScoutDecision> proposal = scout.propose()) {
     if (const std::optional<Shot> shot = shot_of(scout, source, proposal->view))
       scout.give(proposal->view, shot->image, shot->camera_from_world);

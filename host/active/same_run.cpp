@@ -65,11 +65,13 @@ void require_same_run(const ScoutState& saved, const ScoutState& run, const std:
     throw InputError(source, "views", "others", "those of this run");
   if (!same_camera(saved.camera, run.camera))
     throw InputError(source, "camera", "another", "that of this run");
-  if (saved.objects != run.objects) throw InputError(source, "objects", "others", "those of this run");
+  if (saved.objects != run.objects)
+    throw InputError(source, "objects", "others", "those of this run");
   const Mentioned mentioned(saved);
   if (mentioned.object >= static_cast<int>(run.objects.size()) ||
       mentioned.view >= static_cast<int>(run.views.size()) || !mentioned.fits)
-    throw InputError(source, "indices", "an object, view or candidate that is none", "those of this run");
+    throw InputError(source, "indices", "an object, view or candidate that is none",
+                     "those of this run");
 }
 
 }  // namespace edgescout

@@ -37,7 +37,8 @@ std::vector<ScoutObject> objects_of(std::span<const TemplateSet> sets) {
 }  // namespace
 
 Scout::Scout(std::span<const TemplateSet> sets, const Camera& camera,
-             std::vector<Se3> camera_from_world_views, const ScoutOptions& options, Backend& backend)
+             std::vector<Se3> camera_from_world_views, const ScoutOptions& options,
+             Backend& backend)
     : sets_(sets), camera_(camera), options_(options), backend_(backend), models_(models_of(sets)) {
   options_.particles.sigma_px = options_.next_view.sigma_px;
   options_.pipeline.detect.penetration_m = options_.particles.penetration_m;
@@ -94,8 +95,8 @@ void Scout::give(int view, const Image& image, const Se3& camera_from_world) {
 void Scout::unreachable(int view, const std::string& reason) {
   require_open(view);
   log(LogLevel::Warning, "view " + std::to_string(view) + " cannot be had: " + reason);
-  state_.failed.push_back(
-      {view, reason, state_.steps.size(), proposal_ ? proposal_->stages : std::vector<StageSeconds>{}});
+  state_.failed.push_back({view, reason, state_.steps.size(),
+                           proposal_ ? proposal_->stages : std::vector<StageSeconds>{}});
   state_.overrule();
   forget_answer();
 }
@@ -106,7 +107,8 @@ void Scout::forget_answer() {
 }
 
 // Line 1: the image's edges and tensors.
-void Scout::look(const Image& image, ScoutStep& step, std::vector<Observation>& observations) const {
+void Scout::look(const Image& image, ScoutStep& step,
+                 std::vector<Observation>& observations) const {
   const PreparedImage prepared =
       prepare_image(image, camera_, step.camera_from_world, backend_, options_.pipeline);
   step.image = prepared.image;
@@ -136,15 +138,18 @@ void Scout::search(std::span<const Hypothesis> known, ScoutStep& step, ScoutStat
 // In all images or, each alone, in the newest.
 std::vector<Detection> Scout::detect(const ScoutStep& step, std::span<const Hypothesis> known,
                                      std::span<Observation> observations) const {
-  const std::span<Observation> images = options_.detect_jointly ? observations : observations.last(1);
+  const std::span<Observation> images =
+      options_.detect_jointly ? observations : observations.last(1);
   if (!options_.detect) {
-    for (Observation& image : images) scan_for(sets_, image, backend_, options_.pipeline.detect.scan);
+    for (Observation& image : images)
+      scan_for(sets_, image, backend_, options_.pipeline.detect.scan);
     return candidates_in_images(sets_, images, known, backend_, options_.pipeline.detect);
   }
   std::vector<int> views;
   for (const ScoutStep& before : state_.steps) views.push_back(before.decision.view);
   views.push_back(step.decision.view);
-  std::vector<Detection> found = options_.detect(std::span(views).last(images.size()), images, known);
+  std::vector<Detection> found =
+      options_.detect(std::span(views).last(images.size()), images, known);
   for (const Detection& candidate : found) {
     if (candidate.object < 0 || candidate.object >= static_cast<int>(sets_.size()))
       throw InputError("scout", "detected object", std::to_string(candidate.object),
@@ -154,7 +159,8 @@ std::vector<Detection> Scout::detect(const ScoutStep& step, std::span<const Hypo
   return found;
 }
 
-void Scout::hide_behind(std::span<const Hypothesis> known, std::span<Observation> observations) const {
+void Scout::hide_behind(std::span<const Hypothesis> known,
+                        std::span<Observation> observations) const {
   for (Observation& observation : observations)
     observation.view.occluders = make_occluders(models_, known, observation.view, backend_);
 }
@@ -165,8 +171,8 @@ std::vector<Mode> Scout::believe(ScoutStep& step, ScoutState& next,
   Stopwatch watch(step.stages);
   add_particles(step, next);
   const bool reseeded = step.update.reseeded;
-  step.update = update_particles(next.particles, next.unseen_px2, models_, next.candidates, views, backend_,
-                                 options_.particles);
+  step.update = update_particles(next.particles, next.unseen_px2, models_, next.candidates, views,
+                                 backend_, options_.particles);
   step.update.reseeded |= reseeded;
   done(watch, "particles");
   const std::vector<Mode> modes =
@@ -184,33 +190,36 @@ std::vector<Mode> Scout::believe(ScoutStep& step, ScoutState& next,
 void Scout::conclude(ScoutStep& step, ScoutState& next, std::span<const Mode> modes,
                      std::span<const RegisterView> views) const {
   Stopwatch watch(step.stages);
-  step.resampled = resample_where_poor(next.particles, modes, models_, views.size(), options_.particles);
+  step.resampled =
+      resample_where_poor(next.particles, modes, models_, views.size(), options_.particles);
   step.after = next.particles;
   done(watch, "modes");
   const std::vector<ViewAgreement> before =
       next.steps.empty() ? std::vector<ViewAgreement>{} : next.steps.back().agreement;
-  step.agreement = view_agreement(models_, witnesses(models_, next.steps, next.detections), views, backend_,
-                                  options_.agreement);
+  step.agreement = view_agreement(models_, witnesses(models_, next.steps, next.detections), views,
+                                  backend_, options_.agreement);
   keep_flags(before, step.agreement);
   warn_of(step.agreement, before);
   done(watch, "agreement");
 }
 
-// Around the first image's candidates all of them; later a share around each candidate that no particle is
-// near.
+// Around the first image's candidates all of them; later a share around each candidate that no
+// particle is near.
 void Scout::add_particles(ScoutStep& step, ScoutState& next) const {
   const ParticleOptions& o = options_.particles;
   const bool first = next.particles.empty();
   if (step.before.empty()) step.before = next.particles;
-  const std::vector<Detection> unknown = first ? next.candidates
-                                               : without_particles(next.candidates, next.particles, sets_,
-                                                                   o.mode_radius, o.min_mode_probability);
+  const std::vector<Detection> unknown =
+      first ? next.candidates
+            : without_particles(next.candidates, next.particles, sets_, o.mode_radius,
+                                o.min_mode_probability);
   if (unknown.empty()) return;
   const Random random = Random(o.seed).split("new").split(next.steps.size());
-  const std::size_t share = static_cast<std::size_t>(o.count) * unknown.size() / next.candidates.size();
-  const std::vector<Particle> drawn =
-      draw_particles(models_, unknown, std::max(1, static_cast<int>(share)), o.drawn,
-                     step.searches > 1 ? random.split(static_cast<std::uint64_t>(step.searches)) : random);
+  const std::size_t share =
+      static_cast<std::size_t>(o.count) * unknown.size() / next.candidates.size();
+  const std::vector<Particle> drawn = draw_particles(
+      models_, unknown, std::max(1, static_cast<int>(share)), o.drawn,
+      step.searches > 1 ? random.split(static_cast<std::uint64_t>(step.searches)) : random);
   next.particles.insert(next.particles.end(), drawn.begin(), drawn.end());
   step.before.insert(step.before.end(), drawn.begin(), drawn.end());
   step.new_candidates += count_new(unknown, state_.candidates, sets_, o.mode_radius);
@@ -228,16 +237,19 @@ void Scout::stop_where_cancelled() const {
 void Scout::require_open(int view) const {
   check(view >= 0 && view < static_cast<int>(state_.views.size()), "Scout: no such view");
   if (state_.closed()[static_cast<std::size_t>(view)])
-    throw InputError("scout", "view", std::to_string(view) + " again", "one neither taken nor given up");
+    throw InputError("scout", "view", std::to_string(view) + " again",
+                     "one neither taken nor given up");
 }
 
 void Scout::require_fitting(const Image& image, const Se3& camera_from_world) const {
-  if (image.pixels.size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
+  if (image.pixels.size() !=
+      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
     throw InputError("scout", "image", std::to_string(image.pixels.size()) + " pixels",
                      std::to_string(image.width) + "x" + std::to_string(image.height));
   if (image.width != camera_.width || image.height != camera_.height)
-    throw InputError("scout", "image size", std::to_string(image.width) + "x" + std::to_string(image.height),
-                     "the camera's " + std::to_string(camera_.width) + "x" + std::to_string(camera_.height));
+    throw InputError(
+        "scout", "image size", std::to_string(image.width) + "x" + std::to_string(image.height),
+        "the camera's " + std::to_string(camera_.width) + "x" + std::to_string(camera_.height));
   validate_views({&camera_from_world, 1}, "scout: camera pose");
 }
 
@@ -250,8 +262,8 @@ void Scout::resume(ScoutState state, const std::string& source) {
     } catch (const InputError& error) {
       throw InputError(source + ": " + error.what());
     }
-    const PreparedImage prepared =
-        prepare_image(step.image, undistorted(camera_), step.camera_from_world, backend_, options_.pipeline);
+    const PreparedImage prepared = prepare_image(
+        step.image, undistorted(camera_), step.camera_from_world, backend_, options_.pipeline);
     observations.push_back(observe_prepared(prepared, sets_, backend_, options_.pipeline));
     stop_where_cancelled();
   }

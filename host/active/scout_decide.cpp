@@ -45,10 +45,12 @@ ScoutDecision Scout::decide() const {
   if (options_.next_view.strategy == Strategy::Information && !state_.candidates.empty()) {
     CombinationOptions options = options_.combinations;
     options.seed += state_.steps.size();
-    combinations = candidate_combinations(models_, state_.candidates, options_.probable_combinations,
-                                          options_.particles.penetration_m, options, backend_.threads());
+    combinations =
+        candidate_combinations(models_, state_.candidates, options_.probable_combinations,
+                               options_.particles.penetration_m, options, backend_.threads());
     std::vector<double> probabilities;
-    for (const Detection& candidate : state_.candidates) probabilities.push_back(candidate.probability);
+    for (const Detection& candidate : state_.candidates)
+      probabilities.push_back(candidate.probability);
     const CombinationExtremes extremes = extreme_combinations(combinations, probabilities);
     decision.likeliest = extremes.likeliest;
     decision.unlikeliest = extremes.unlikeliest;
@@ -56,8 +58,8 @@ ScoutDecision Scout::decide() const {
   }
   const std::vector<char> closed = state_.closed();
   const std::vector<RegisterView> views = views_of(observations_);
-  decision.views = view_information({models_, tables_, undistorted(camera_), state_.views, closed, views,
-                                     state_.candidates, &combinations, state_.particles},
+  decision.views = view_information({models_, tables_, undistorted(camera_), state_.views, closed,
+                                     views, state_.candidates, &combinations, state_.particles},
                                     backend_, options_.next_view);
   decision.view = best_view(decision.views).value_or(-1);
   done(watch, "information");

@@ -11,7 +11,8 @@ ScoutEnd Scout::end_before_planning() const {
   if (std::ranges::find(closed, 0) == closed.end()) return ScoutEnd::NoViewLeft;
   if (certain()) return ScoutEnd::Certain;
   if (little_learned()) return ScoutEnd::LittleLearned;
-  if (options_.max_seconds > 0 && state_.seconds() >= options_.max_seconds) return ScoutEnd::TimeSpent;
+  if (options_.max_seconds > 0 && state_.seconds() >= options_.max_seconds)
+    return ScoutEnd::TimeSpent;
   return ScoutEnd::No;
 }
 
@@ -32,7 +33,8 @@ bool Scout::little_learned() const {
 // Without candidates there is nothing that information could be about, and everything to find.
 bool Scout::may_find_more() const { return state_.candidates.empty(); }
 
-// About the candidates, from whichever view: what is unknown promises something as long as views are left.
+// About the candidates, from whichever view: what is unknown promises something as long as views
+// are left.
 bool Scout::little_to_learn(const ScoutDecision& decision) const {
   if (options_.next_view.strategy != Strategy::Information || options_.min_information_nats <= 0 ||
       may_find_more())

@@ -76,7 +76,9 @@ void fields(auto& io, A<StageSeconds> auto& x) { io(x.name, x.seconds); }
 void fields(auto& io, A<ViewInformation> auto& x) {
   io(x.open, x.information, x.share, x.discovery, x.motion_cost);
 }
-void fields(auto& io, A<ViewAgreement> auto& x) { io(x.residual_px, x.objects, x.missing, x.disagrees); }
+void fields(auto& io, A<ViewAgreement> auto& x) {
+  io(x.residual_px, x.objects, x.missing, x.disagrees);
+}
 void fields(auto& io, A<PoseFeatures> auto& x) {
   io(x.psi, x.beside_psi, x.mean_px, x.matched, x.points, x.length_px, x.in_image, x.visible,
      x.shading.pixels, x.shading.squares, x.shading.unexplained);
@@ -84,26 +86,30 @@ void fields(auto& io, A<PoseFeatures> auto& x) {
 void fields(auto& io, A<ParticleUpdate> auto& x) { io(x.effective, x.reseeded, x.gained_nats); }
 void fields(auto& io, A<FailedView> auto& x) { io(x.view, x.reason, x.after_step, x.stages); }
 void fields(auto& io, A<ScoutObject> auto& x) { io(x.id, x.fingerprint); }
-void fields(auto& io, A<Camera> auto& x) { io(x.width, x.height, x.fx, x.fy, x.cx, x.cy, x.distortion); }
+void fields(auto& io, A<Camera> auto& x) {
+  io(x.width, x.height, x.fx, x.fy, x.cx, x.cy, x.distortion);
+}
 void fields(auto& io, A<Image> auto& x) { io(x.width, x.height, x.pixels); }
 void fields(auto& io, A<ModeDetection> auto& x) { io(x.detection, x.weight, x.supporting_images); }
 void fields(auto& io, A<Detection> auto& x) {
-  io(x.object, x.world_from_object, x.covariance, x.probability, x.psi, x.cost_px, x.matched_fraction,
-     x.evidence, x.unexplained_grey, x.convergence);
+  io(x.object, x.world_from_object, x.covariance, x.probability, x.psi, x.cost_px,
+     x.matched_fraction, x.evidence, x.unexplained_grey, x.convergence);
 }
 void fields(auto& io, A<Particle> auto& x) {
-  io(x.object, x.world_from_object, x.covariance, x.log_weight, x.upsilon_px2, x.spent_px2, x.by_view);
+  io(x.object, x.world_from_object, x.covariance, x.log_weight, x.upsilon_px2, x.spent_px2,
+     x.by_view);
 }
 void fields(auto& io, A<ScoutDecision> auto& x) {
   io(x.view, x.strategy, x.literal, x.views, x.candidates, x.likeliest, x.unlikeliest, x.stages);
 }
 void fields(auto& io, A<ScoutStep> auto& x) {
-  io(x.decision, x.camera_from_world, x.image, x.searches, x.new_candidates, x.before, x.after, x.update,
-     x.resampled, x.detections, x.agreement, x.mode_probabilities, x.entropy_nats, x.stages);
+  io(x.decision, x.camera_from_world, x.image, x.searches, x.new_candidates, x.before, x.after,
+     x.update, x.resampled, x.detections, x.agreement, x.mode_probabilities, x.entropy_nats,
+     x.stages);
 }
 void fields(auto& io, A<ScoutState> auto& x) {
-  io(x.objects, x.camera, x.views, x.steps, x.failed, x.candidates, x.particles, x.unseen_px2, x.detections,
-     x.entropy_nats, x.end, x.last_decision, x.overruled_seconds);
+  io(x.objects, x.camera, x.views, x.steps, x.failed, x.candidates, x.particles, x.unseen_px2,
+     x.detections, x.entropy_nats, x.end, x.last_decision, x.overruled_seconds);
 }
 
 double sum(const std::vector<StageSeconds>& stages) {
@@ -164,7 +170,8 @@ ScoutState load_scout_state(const std::filesystem::path& file) {
   BinaryReader in(payload, file.string(), format.name);
   ScoutState state;
   Get{in}(state);
-  if (!in.at_end()) throw InputError(file.string(), "payload", "more than a state", "a whole scout state");
+  if (!in.at_end())
+    throw InputError(file.string(), "payload", "more than a state", "a whole scout state");
   return state;
 }
 

@@ -1,5 +1,5 @@
-// Everything an active detection knows, step by step: what a log, a page or a robot's program reads, and what
-// is saved after every step.
+// Everything an active detection knows, step by step: what a log, a page or a robot's program
+// reads, and what is saved after every step.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@ namespace edgescout {
 struct ScoutDecision {
   int view = 0;
   Strategy strategy = Strategy::Information;  // by which `views` was judged
-  bool literal = false;                       // by the paper's own formula, which does not count in nats
+  bool literal = false;  // by the paper's own formula, which does not count in nats
   // one a view; empty for the first image, of which nothing can be expected
   std::vector<ViewInformation> views;
   std::vector<Detection> candidates;  // world, at that time
@@ -33,10 +33,11 @@ struct ScoutDecision {
 // One image and what it changed.
 struct ScoutStep {
   ScoutDecision decision;
-  Se3 camera_from_world;           // as given
-  Image image;                     // undistorted
-  int searches = 0;                // of this image: ScoutOptions::max_searches
-  std::size_t new_candidates = 0;  // that no particle is near, nor any candidate there was before this image
+  Se3 camera_from_world;  // as given
+  Image image;            // undistorted
+  int searches = 0;       // of this image: ScoutOptions::max_searches
+  std::size_t new_candidates =
+      0;  // that no particle is near, nor any candidate there was before this image
   // before this image's say, those drawn around its new candidates included
   std::vector<Particle> before;
   std::vector<Particle> after;
@@ -47,7 +48,7 @@ struct ScoutStep {
   std::vector<ViewAgreement> agreement;
   std::vector<double> mode_probabilities;  // of all modes, before resampling; heaviest mode first
   double entropy_nats = 0;                 // belief_entropy of these
-  std::vector<StageSeconds> stages;        // in the order they ran first, those of all searches together
+  std::vector<StageSeconds> stages;  // in the order they ran first, those of all searches together
 };
 
 struct FailedView {
@@ -57,7 +58,15 @@ struct FailedView {
   std::vector<StageSeconds> stages;  // of the decision for it
 };
 
-enum class ScoutEnd { No, ViewBudget, NoViewLeft, Certain, LittleToLearn, LittleLearned, TimeSpent };
+enum class ScoutEnd {
+  No,
+  ViewBudget,
+  NoViewLeft,
+  Certain,
+  LittleToLearn,
+  LittleLearned,
+  TimeSpent
+};
 std::string to_string(ScoutEnd end);  // "", "view budget", ..
 
 // What tells the objects of one run from those of another.
@@ -79,7 +88,8 @@ struct ScoutState {
   std::vector<ModeDetection> detections;  // the modes that are instances, best probability first
   double entropy_nats = 0;
   ScoutEnd end = ScoutEnd::No;
-  ScoutDecision last_decision;   // that no image followed: of an end that was decided on (LittleToLearn)
+  ScoutDecision
+      last_decision;  // that no image followed: of an end that was decided on (LittleToLearn)
   double overruled_seconds = 0;  // of such decisions after which it went on all the same
 
   // One a view: nonzero where it was taken or cannot be reached.
@@ -90,13 +100,13 @@ struct ScoutState {
   void overrule();
 };
 
-// A versioned binary file (io/binary_file.h), atomically. Loading throws InputError naming the file: of
-// another kind or version, cut short, a wrong checksum.
+// A versioned binary file (io/binary_file.h), atomically. Loading throws InputError naming the
+// file: of another kind or version, cut short, a wrong checksum.
 void save_scout_state(const ScoutState& state, const std::filesystem::path& file);
 ScoutState load_scout_state(const std::filesystem::path& file);
 
-// InputError naming `source`: `saved` has another camera, other views or objects than `run`, or speaks of one
-// that is none.
+// InputError naming `source`: `saved` has another camera, other views or objects than `run`, or
+// speaks of one that is none.
 void require_same_run(const ScoutState& saved, const ScoutState& run, const std::string& source);
 
 }  // namespace edgescout

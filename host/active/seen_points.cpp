@@ -29,7 +29,8 @@ SeenPoints seen_in(const TemplateTable& table, const Se3& world_from_object,
       const ProjectedEdge<float> edge = project_edge(posed, k);
       if (!in_image(edge.u, edge.v, view.camera)) continue;
       if (edge_px > 0 && view.edges &&
-          !view.edges->nearest(edge.u, edge.v, orientation(edge.dx, edge.dy), float(edge_px), MAX_TURN_RAD))
+          !view.edges->nearest(edge.u, edge.v, orientation(edge.dx, edge.dy), float(edge_px),
+                               MAX_TURN_RAD))
         continue;
       seen.by_id[p.id] = 1;
       ++seen.count;

@@ -16,13 +16,13 @@ struct SeenPoints {
   std::uint32_t count = 0;
 };
 
-// In the real views: points that project into the image and, where `edge_px` is above 0 and the view has an
-// edge index, along whose projection an edge of the image lies that near.
+// In the real views: points that project into the image and, where `edge_px` is above 0 and the
+// view has an edge index, along whose projection an edge of the image lies that near.
 SeenPoints seen_in(const TemplateTable& table, const Se3& world_from_object,
                    std::span<const RegisterView> real_views, double edge_px);
 
-// Points that would show inside the image of `camera` from a view, those not in `seen` flagged fresh; at most
-// CHAMFER_MAX_POINTS.
+// Points that would show inside the image of `camera` from a view, those not in `seen` flagged
+// fresh; at most CHAMFER_MAX_POINTS.
 std::vector<ParticlePoint> showing_points(const TemplateTable& table, const Se3& camera_from_object,
                                           const Camera& camera, const SeenPoints& seen);
 

@@ -28,7 +28,8 @@ const Se3& pose_of(const std::vector<Se3>& poses, int view) {
 // The camera moved about itself: what an arm does not do exactly.
 Se3 missed(const Se3& camera_from_world, const ArmNoise& noise, Random random) {
   const auto error = [&](double sigma) {
-    return Eigen::Vector3d{sigma * random.normal(), sigma * random.normal(), sigma * random.normal()};
+    return Eigen::Vector3d{sigma * random.normal(), sigma * random.normal(),
+                           sigma * random.normal()};
   };
   const Eigen::Vector3d shift_m = error(noise.translation_m), turn_rad = error(noise.rotation_rad);
   return Se3{so3_exp(turn_rad), shift_m} * camera_from_world;
@@ -39,7 +40,8 @@ std::vector<RecordedViews::Recording> bop_recordings(const BopScene& scene, Came
   const bool given = camera.fx > 0;
   for (const BopImage& image : scene.images) {
     if (!image.camera_from_world)
-      throw InputError(image.file.string(), "world pose", "none", "cam_R_w2c and cam_t_w2c of every view");
+      throw InputError(image.file.string(), "world pose", "none",
+                       "cam_R_w2c and cam_t_w2c of every view");
     const Camera& c = image.camera;
     if (!given && recordings.empty()) camera = c;
     if (!given && !same_intrinsics(c, camera))
@@ -57,7 +59,8 @@ Se3 read_matrix(const fs::path& file) {
   for (int i = 0; i < 16; ++i) matrix(i / 4, i % 4) = tokens.number("a 4 x 4 matrix");
   if (!matrix.allFinite() || matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
     throw InputError(file.string(), "camera pose",
-                     "a matrix with another last row than 0 0 0 1 or not finite", "a rigid transform");
+                     "a matrix with another last row than 0 0 0 1 or not finite",
+                     "a rigid transform");
   try {
     return se3_from_matrix(matrix.topLeftCorner<3, 3>(), matrix.topRightCorner<3, 1>());
   } catch (const InputError&) {
@@ -71,8 +74,8 @@ std::string digits(int number, std::size_t width) {
   return std::string(width - std::min(width, text.size()), '0') + text;
 }
 
-// Every image that has a pose, by rising number, whatever numbers are left out; an image that is not there is
-// found missing when the camera is sent to it.
+// Every image that has a pose, by rising number, whatever numbers are left out; an image that is
+// not there is found missing when the camera is sent to it.
 std::vector<RecordedViews::Recording> visp_recordings(const fs::path& folder) {
   std::map<int, fs::path> poses;
   for (const auto& entry : fs::directory_iterator(folder / "CameraPose")) {
@@ -84,7 +87,8 @@ std::vector<RecordedViews::Recording> visp_recordings(const fs::path& folder) {
   }
   std::vector<RecordedViews::Recording> recordings;
   for (const auto& [number, pose] : poses)
-    recordings.push_back({folder / "Images" / ("Image_" + digits(number, 4) + ".pgm"), read_matrix(pose)});
+    recordings.push_back(
+        {folder / "Images" / ("Image_" + digits(number, 4) + ".pgm"), read_matrix(pose)});
   return recordings;
 }
 
@@ -109,7 +113,8 @@ SimulatedCell::SimulatedCell(Scene scene, const Camera& camera, std::vector<Se3>
 
 Shot SimulatedCell::acquire(int view) {
   const Se3& planned = pose_of(camera_from_world_, view);
-  const Se3 reached = missed(planned, noise_, Random(noise_.seed).split(static_cast<std::uint64_t>(view)));
+  const Se3 reached =
+      missed(planned, noise_, Random(noise_.seed).split(static_cast<std::uint64_t>(view)));
   Scene seen = scene_;
   seen.views = {{camera_, reached}};
   seen.options.seed += static_cast<unsigned>(view);  // the sensor's noise is another in every image
@@ -138,7 +143,8 @@ std::vector<Se3> RecordedViews::views() const {
 }
 
 Shot RecordedViews::acquire(int view) {
-  check(view >= 0 && view < static_cast<int>(recordings_.size()), "RecordedViews::acquire: no such view");
+  check(view >= 0 && view < static_cast<int>(recordings_.size()),
+        "RecordedViews::acquire: no such view");
   const Recording& recording = recordings_[static_cast<std::size_t>(view)];
   try {
     return {load_image(recording.file), recording.camera_from_world};
@@ -150,14 +156,16 @@ Shot RecordedViews::acquire(int view) {
 RecordedViews load_recorded_views(const fs::path& folder, const std::optional<Camera>& given) {
   Camera camera = given.value_or(Camera{});
   if (is_bop_scene(folder)) {
-    const std::vector<RecordedViews::Recording> recordings = bop_recordings(load_bop_scene(folder), camera);
+    const std::vector<RecordedViews::Recording> recordings =
+        bop_recordings(load_bop_scene(folder), camera);
     return {camera, recordings};
   }
   if (!fs::is_directory(folder / "CameraPose"))
     throw InputError(folder.string(), "folder", "neither scene_camera.json nor CameraPose",
                      "a BOP scene or a folder with CameraPose and Images");
   if (!given)
-    throw InputError(folder.string(), "camera", "none", "one: these recordings bring none of their own");
+    throw InputError(folder.string(), "camera", "none",
+                     "one: these recordings bring none of their own");
   return {camera, visp_recordings(folder)};
 }
 

@@ -30,7 +30,8 @@ class Cells {
 };
 
 // One point a cell and viewpoint; false where a viewpoint has more than `most`.
-bool fill(TemplateTable& table, std::span<const std::vector<ModelPoint>> visible, Cells cells, int most) {
+bool fill(TemplateTable& table, std::span<const std::vector<ModelPoint>> visible, Cells cells,
+          int most) {
   table.points.assign(visible.size(), {});
   std::vector<std::size_t> last_viewpoint;  // by cell, plus one
   for (std::size_t v = 0; v < visible.size(); ++v) {
@@ -49,7 +50,8 @@ bool fill(TemplateTable& table, std::span<const std::vector<ModelPoint>> visible
 
 }  // namespace
 
-const std::vector<TemplateTablePoint>& TemplateTable::seen_from(const Se3& camera_from_object) const {
+const std::vector<TemplateTablePoint>& TemplateTable::seen_from(
+    const Se3& camera_from_object) const {
   const Eigen::Vector3d to_eye = inverse(camera_from_object).translation_m - center_m;
   std::size_t nearest = 0;
   for (std::size_t v = 1; v < directions.size(); ++v)
@@ -73,7 +75,8 @@ TemplateTable make_template_table(const EdgeModel& model, double distance_m, Bac
   double cell_m = model.raster_step_m;
   while (!fill(table, visible, Cells(model.mesh, cell_m), options.most_points)) cell_m *= 1.25;
   if (table.total == 0)
-    throw InputError(model.mesh.name, "templates", "no viewpoint that shows an edge", "a mesh with edges");
+    throw InputError(model.mesh.name, "templates", "no viewpoint that shows an edge",
+                     "a mesh with edges");
   return table;
 }
 

@@ -19,7 +19,8 @@ double moved_px(std::span<const ModelPoint> points, const Camera& camera, const 
   double sum = 0;
   int count = 0;
   for (const ModelPoint& point : points) {
-    const Eigen::Vector3d x(point.x_m, point.y_m, point.z_m), a = camera_from_a * x, b = camera_from_b * x;
+    const Eigen::Vector3d x(point.x_m, point.y_m, point.z_m), a = camera_from_a * x,
+                                                              b = camera_from_b * x;
     if (a.z() <= 0 || b.z() <= 0) continue;
     sum += (project(camera, a) - project(camera, b)).norm();
     ++count;
@@ -40,8 +41,8 @@ struct Judged {
   bool bare = false;             // shows not a trace of any
 };
 
-Judged judge(std::span<const EdgeModel> models, std::span<const Hypothesis> joint, const RegisterView& view,
-             Backend& backend, const AgreementOptions& options) {
+Judged judge(std::span<const EdgeModel> models, std::span<const Hypothesis> joint,
+             const RegisterView& view, Backend& backend, const AgreementOptions& options) {
   const std::span<const RegisterView> alone(&view, 1);
   const std::vector<Hypothesis> poses =
       as_hypotheses(joint, register_poses(models, joint, alone, backend, options.single));
@@ -54,38 +55,41 @@ Judged judge(std::span<const EdgeModel> models, std::span<const Hypothesis> join
     judged.shown.push_back(probability >= options.min_probability);
     if (!judged.shown[i]) continue;
     const Se3 camera_from_object = view.camera_from_world * poses[i].world_from_object;
-    const std::vector<ModelPoint> points = visible_edges(
-        models[poses[i].object], std::span(&camera_from_object, 1), backend, options.single.visibility)[0];
+    const std::vector<ModelPoint> points =
+        visible_edges(models[poses[i].object], std::span(&camera_from_object, 1), backend,
+                      options.single.visibility)[0];
     judged.moved_px[i] = moved_px(points, view.camera, camera_from_object,
                                   view.camera_from_world * joint[i].world_from_object);
   }
   return judged;
 }
 
-// What one of the views says beside the others. An object that no other view shows is no witness: it may be
-// none at all, and this view's chance agreement.
+// What one of the views says beside the others. An object that no other view shows is no witness:
+// it may be none at all, and this view's chance agreement.
 ViewAgreement beside(const Judged& view, std::span<const Judged> all) {
   ViewAgreement agreement;
   std::vector<double> moved;
   for (std::size_t i = 0; i < view.shown.size(); ++i)
-    if (view.shown[i] && std::ranges::count_if(all, [i](const Judged& one) { return one.shown[i]; }) >= 2)
+    if (view.shown[i] &&
+        std::ranges::count_if(all, [i](const Judged& one) { return one.shown[i]; }) >= 2)
       moved.push_back(view.moved_px[i]);
   agreement.objects = int(moved.size());
   if (!moved.empty()) agreement.residual_px = median(moved);
   return agreement;
 }
 
-// Objects that `others` together hold, at least two of them with a trace of their own, and that `view` should
-// show, before what is known: a wrong pose of its camera must have no say in where they are.
+// Objects that `others` together hold, at least two of them with a trace of their own, and that
+// `view` should show, before what is known: a wrong pose of its camera must have no say in where
+// they are.
 int expected_in(std::span<const EdgeModel> models, std::span<const Hypothesis> objects,
                 const RegisterView& view, std::span<const RegisterView> others, Backend& backend,
                 const AgreementOptions& options) {
   const std::vector<Hypothesis> poses =
       as_hypotheses(objects, register_poses(models, objects, others, backend, options.joint));
-  const std::vector<PoseFeatures> by_other =
-      pose_features_by_view(models, poses, others, backend, options.score, options.joint.visibility);
-  const std::vector<PoseFeatures> here =
-      pose_features(models, poses, std::span(&view, 1), backend, options.score, options.joint.visibility);
+  const std::vector<PoseFeatures> by_other = pose_features_by_view(
+      models, poses, others, backend, options.score, options.joint.visibility);
+  const std::vector<PoseFeatures> here = pose_features(models, poses, std::span(&view, 1), backend,
+                                                       options.score, options.joint.visibility);
   int expected = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::span<const PoseFeatures> by_view =
@@ -93,20 +97,22 @@ int expected_in(std::span<const EdgeModel> models, std::span<const Hypothesis> o
     const auto traces = std::ranges::count_if(by_view, [&](const PoseFeatures& features) {
       return pose_probability(features) >= options.absent_probability;
     });
-    expected +=
-        here[i].in_image > 0.5 && traces >= 2 && probability_over_views(by_view) >= options.held_probability;
+    expected += here[i].in_image > 0.5 && traces >= 2 &&
+                probability_over_views(by_view) >= options.held_probability;
   }
   return expected;
 }
 
 // One a view of `trusted`.
-std::vector<ViewAgreement> judge_all(std::span<const EdgeModel> models, std::span<const Hypothesis> objects,
+std::vector<ViewAgreement> judge_all(std::span<const EdgeModel> models,
+                                     std::span<const Hypothesis> objects,
                                      std::span<const RegisterView> trusted, Backend& backend,
                                      const AgreementOptions& options) {
   const std::vector<Hypothesis> joint =
       as_hypotheses(objects, register_poses(models, objects, trusted, backend, options.joint));
   std::vector<Judged> judged;
-  for (const RegisterView& view : trusted) judged.push_back(judge(models, joint, view, backend, options));
+  for (const RegisterView& view : trusted)
+    judged.push_back(judge(models, joint, view, backend, options));
   std::vector<ViewAgreement> agreement;
   for (std::size_t v = 0; v < trusted.size(); ++v) {
     agreement.push_back(beside(judged[v], judged));
@@ -130,7 +136,8 @@ std::size_t worst_of(std::span<const std::size_t> open, std::span<ViewAgreement>
   if (views[barest].missing > options.max_missing) return barest;
   if (views[worst].residual_px > options.max_residual_px) {
     // Two views disagree with each other: the later one was added to a scene that agreed.
-    if (open.size() == 2) views[open[0]].residual_px = views[open[1]].residual_px = views[worst].residual_px;
+    if (open.size() == 2)
+      views[open[0]].residual_px = views[open[1]].residual_px = views[worst].residual_px;
     return open.size() == 2 ? open[1] : worst;
   }
   return views.size();
@@ -139,20 +146,23 @@ std::size_t worst_of(std::span<const std::size_t> open, std::span<ViewAgreement>
 void warn(std::size_t view, const ViewAgreement& found) {
   log(LogLevel::Warning,
       found.missing == 0
-          ? fmt::format("the camera pose of image {} disagrees with it: {:.1f} px between what all images "
-                        "say and what it shows",
-                        view + 1, found.residual_px)
-          : fmt::format("image {} shows none of {} objects that other images show: its camera pose is "
-                        "wrong, or something unknown hides them",
-                        view + 1, found.missing));
+          ? fmt::format(
+                "the camera pose of image {} disagrees with it: {:.1f} px between what all images "
+                "say and what it shows",
+                view + 1, found.residual_px)
+          : fmt::format(
+                "image {} shows none of {} objects that other images show: its camera pose is "
+                "wrong, or something unknown hides them",
+                view + 1, found.missing));
 }
 
 }  // namespace
 
 D2coOptions AgreementOptions::joint_defaults() {
   D2coOptions options;
-  options.rounds = {
-      {LOSS_GEMAN_MCCLURE, 30, 10, 300}, {LOSS_GEMAN_MCCLURE, 12, 8, 300}, {LOSS_GEMAN_MCCLURE, 5, 8, 400}};
+  options.rounds = {{LOSS_GEMAN_MCCLURE, 30, 10, 300},
+                    {LOSS_GEMAN_MCCLURE, 12, 8, 300},
+                    {LOSS_GEMAN_MCCLURE, 5, 8, 400}};
   return options;
 }
 
@@ -185,7 +195,8 @@ void keep_flags(std::span<const ViewAgreement> before, std::span<ViewAgreement> 
 
 void warn_of(std::span<const ViewAgreement> agreement, std::span<const ViewAgreement> before) {
   for (std::size_t v = 0; v < agreement.size(); ++v)
-    if (agreement[v].disagrees && !(v < before.size() && before[v].disagrees)) warn(v, agreement[v]);
+    if (agreement[v].disagrees && !(v < before.size() && before[v].disagrees))
+      warn(v, agreement[v]);
 }
 
 }  // namespace edgescout

@@ -27,7 +27,9 @@ std::vector<int> share_among_rings(const HemisphereOptions& options) {
   std::vector<int> share(weight.size(), 1);
   for (int given = int(share.size()); given < options.count; ++given) {
     std::size_t poorest = 0;
-    const auto lack = [&](std::size_t ring) { return options.count * weight[ring] / total - share[ring]; };
+    const auto lack = [&](std::size_t ring) {
+      return options.count * weight[ring] / total - share[ring];
+    };
     for (std::size_t ring = 1; ring < share.size(); ++ring)
       if (lack(ring) > lack(poorest) + 1e-12) poorest = ring;
     ++share[poorest];
@@ -45,7 +47,8 @@ bool alike(const Se3& a, const Se3& b) {
 Se3 look_at(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& target_m) {
   const double distance_m = (target_m - eye_m).norm();
   if (!(distance_m > 1e-9) || !std::isfinite(distance_m))
-    throw InputError("view: found a camera at the point it looks at, expected two different points");
+    throw InputError(
+        "view: found a camera at the point it looks at, expected two different points");
   const Eigen::Vector3d forward = (target_m - eye_m) / distance_m;
   const bool steep = std::abs(forward.z()) > 1 - 1e-9;
   const Eigen::Vector3d up = steep ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
@@ -133,15 +136,16 @@ void validate_views(std::span<const Se3> camera_from_world, const std::string& s
     require_rigid(view, source, field);
     for (std::size_t j = 0; j < i; ++j)
       if (alike(view, camera_from_world[j]))
-        throw InputError(source, field, "the same pose as view " + std::to_string(j), "views that differ");
+        throw InputError(source, field, "the same pose as view " + std::to_string(j),
+                         "views that differ");
   }
 }
 
 void save_views(std::span<const Se3> camera_from_world, const std::filesystem::path& file) {
   nlohmann::json list = nlohmann::json::array();
   for (const Se3& view : camera_from_world)
-    list.push_back(
-        {{"camera_from_world", {{"R", rotation_numbers(view)}, {"t", translation_numbers(view, 1.0)}}}});
+    list.push_back({{"camera_from_world",
+                     {{"R", rotation_numbers(view)}, {"t", translation_numbers(view, 1.0)}}}});
   write_file_atomically(file, list.dump(1) + "\n");
 }
 

@@ -34,7 +34,8 @@ bool sees(const PoseFeatures& in_view, const ParticleOptions& options) {
 
 bool seen_at_all(const Particle& particle, const ParticleOptions& options) {
   return is_finite(particle.world_from_object) &&
-         std::ranges::any_of(particle.by_view, [&](const PoseFeatures& f) { return sees(f, options); });
+         std::ranges::any_of(particle.by_view,
+                             [&](const PoseFeatures& f) { return sees(f, options); });
 }
 
 bool lives(const Particle& particle, const ParticleOptions& options) {
@@ -43,16 +44,17 @@ bool lives(const Particle& particle, const ParticleOptions& options) {
 
 // At the poses of today.
 void look_at(std::span<const EdgeModel> models, std::span<Particle> particles,
-             std::span<const RegisterView> views, Backend& backend, const ParticleOptions& options) {
-  const std::vector<PoseFeatures> features =
-      pose_features_by_view(models, poses_of(particles), views, backend, options.score, options.visibility);
+             std::span<const RegisterView> views, Backend& backend,
+             const ParticleOptions& options) {
+  const std::vector<PoseFeatures> features = pose_features_by_view(
+      models, poses_of(particles), views, backend, options.score, options.visibility);
   for (std::size_t i = 0; i < particles.size(); ++i)
     particles[i].by_view.assign(features.begin() + i * views.size(),
                                 features.begin() + (i + 1) * views.size());
 }
 
-// -s log of a view's mean likelihood over the particles that it sees, by the belief before it; not a number
-// where it sees none.
+// -s log of a view's mean likelihood over the particles that it sees, by the belief before it; not
+// a number where it sees none.
 double mean_likelihood_px2(std::span<const Particle> particles, std::span<const double> log_before,
                            std::size_t view, const ParticleOptions& options) {
   std::vector<double> before, after;
@@ -62,13 +64,15 @@ double mean_likelihood_px2(std::span<const Particle> particles, std::span<const 
     before.push_back(log_before[i]);
     after.push_back(log_before[i] - squared(f.mean_px) / options.scale_px2());
   }
-  return before.empty() ? std::nan("") : options.scale_px2() * (log_sum_exp(before) - log_sum_exp(after));
+  return before.empty() ? std::nan("")
+                        : options.scale_px2() * (log_sum_exp(before) - log_sum_exp(after));
 }
 
 // Adds one view's say to Upsilon and to the weights.
 void add_view(std::size_t view, double& unseen_px2, std::span<Particle> particles,
               std::span<double> log_weights, const ParticleOptions& options) {
-  if (std::isnan(unseen_px2)) unseen_px2 = mean_likelihood_px2(particles, log_weights, view, options);
+  if (std::isnan(unseen_px2))
+    unseen_px2 = mean_likelihood_px2(particles, log_weights, view, options);
   const double unseen = std::isnan(unseen_px2) ? 0 : unseen_px2;
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const PoseFeatures& f = particles[i].by_view[view];
@@ -96,7 +100,8 @@ Weighing weigh_particles(std::span<const EdgeModel> models, std::span<Particle> 
   std::vector<double> logs, before_last;
   for (Particle& particle : particles) {
     particle.upsilon_px2 = 0;
-    logs.push_back(seen_at_all(particle, options) ? particle.spent_px2 / options.scale_px2() : NOTHING);
+    logs.push_back(seen_at_all(particle, options) ? particle.spent_px2 / options.scale_px2()
+                                                  : NOTHING);
   }
   unseen_px2.resize(views.size(), std::nan(""));
   for (std::size_t v = 0; v < views.size(); ++v) {

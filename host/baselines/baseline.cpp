@@ -74,7 +74,8 @@ void BaselineOptions::validate() const {
     refuse("outer_iterations", outer_iterations, "a number in [1, 1000]");
   if (inner_iterations < 1 || inner_iterations > 1000)
     refuse("inner_iterations", inner_iterations, "a number in [1, 1000]");
-  if (!(min_step_m >= 0 && min_step_m <= 1)) refuse("min_step_m", min_step_m, "a length in [0, 1] m");
+  if (!(min_step_m >= 0 && min_step_m <= 1))
+    refuse("min_step_m", min_step_m, "a length in [0, 1] m");
   if (!(min_step_rad >= 0 && min_step_rad <= 1))
     refuse("min_step_rad", min_step_rad, "an angle in [0, 1] rad");
   if (!(loss_scale_px > 0 && loss_scale_px <= 1000))
@@ -98,8 +99,9 @@ Registrar prepare_method(Method method, std::span<const EdgeModel> models,
         visible_points(models, hypotheses, views, backend, options.visibility);
     std::vector<Registration> results;
     for (std::size_t h = 0; h < hypotheses.size(); ++h)
-      results.push_back(registration_of(
-          solve(hypotheses[h].world_from_object, std::span(points).subspan(h * views.size(), views.size()))));
+      results.push_back(
+          registration_of(solve(hypotheses[h].world_from_object,
+                                std::span(points).subspan(h * views.size(), views.size()))));
     return results;
   };
 }

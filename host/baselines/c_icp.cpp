@@ -1,5 +1,6 @@
-// C-ICP: Besl and McKay's ICP (A method for registration of 3-D shapes, PAMI 14(2), 1992) with the chamfer
-// distance transform's labels as closest points (Borgefors, PAMI 10(6), 1988). Direction plays no part.
+// C-ICP: Besl and McKay's ICP (A method for registration of 3-D shapes, PAMI 14(2), 1992) with the
+// chamfer distance transform's labels as closest points (Borgefors, PAMI 10(6), 1988). Direction
+// plays no part.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -30,13 +31,14 @@ PoseSolver prepare_c_icp(std::span<const RegisterView> views, const BaselineOpti
   for (const RegisterView& view : views) {
     check(view.edges != nullptr, "c-icp: a view without edge points");
     const std::span<const EdgePoint> edges = view.edges->points();
-    labels->push_back(
-        {{edges.begin(), edges.end()}, nearest_edges(edges, view.camera.width, view.camera.height)});
+    labels->push_back({{edges.begin(), edges.end()},
+                       nearest_edges(edges, view.camera.width, view.camera.height)});
   }
   const Associate associate = [labels](std::size_t v, double x_px, double y_px, double) {
     return (*labels)[v].at(x_px, y_px);
   };
-  return [views, options, associate](const Se3& start, std::span<const std::vector<ModelPoint>> points) {
+  return [views, options, associate](const Se3& start,
+                                     std::span<const std::vector<ModelPoint>> points) {
     return iterate_closest_points(start, views, points, associate, options);
   };
 }

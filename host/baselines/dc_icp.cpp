@@ -1,7 +1,8 @@
-// DC-ICP: Liu, Tuzel, Veeraraghavan, Taguchi, Marks, Chellappa: Fast object localization and pose estimation
-// in heavy clutter for robotic bin picking, IJRR 31(8), 2012. Their directional chamfer cost chooses the
-// pairs; what is minimised is the distance in the image alone. Pairs are the exact ones of points whose place
-// and direction are not rounded; a map of the tensor's closest points would be rougher, and faster.
+// DC-ICP: Liu, Tuzel, Veeraraghavan, Taguchi, Marks, Chellappa: Fast object localization and pose
+// estimation in heavy clutter for robotic bin picking, IJRR 31(8), 2012. Their directional chamfer
+// cost chooses the pairs; what is minimised is the distance in the image alone. Pairs are the exact
+// ones of points whose place and direction are not rounded; a map of the tensor's closest points
+// would be rougher, and faster.
 #include <memory>
 
 #include "host/baselines/icp.h"
@@ -20,7 +21,8 @@ PoseSolver prepare_dc_icp(std::span<const RegisterView> views, const BaselineOpt
   const Associate associate = [indices](std::size_t v, double x_px, double y_px, double theta_rad) {
     return (*indices)[v].closest(float(x_px), float(y_px), float(theta_rad));
   };
-  return [views, options, associate](const Se3& start, std::span<const std::vector<ModelPoint>> points) {
+  return [views, options, associate](const Se3& start,
+                                     std::span<const std::vector<ModelPoint>> points) {
     return iterate_closest_points(start, views, points, associate, options);
   };
 }

@@ -1,6 +1,6 @@
-// Direct: "a simple coarse-to-fine object registration strategy that uses a Gaussian pyramid of gradient
-// magnitudes images" (paper, Sec. 6). No edge detection: r = 1 - |grad I| / (the level's largest) at every
-// projected point, its square minimised level by level.
+// Direct: "a simple coarse-to-fine object registration strategy that uses a Gaussian pyramid of
+// gradient magnitudes images" (paper, Sec. 6). No edge detection: r = 1 - |grad I| / (the level's
+// largest) at every projected point, its square minimised level by level.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -17,7 +17,8 @@ namespace edgescout {
 namespace {
 
 cv::Mat gradient_magnitude(const Image& image) {
-  const cv::Mat grey(image.height, image.width, CV_8UC1, const_cast<std::uint8_t*>(image.pixels.data()));
+  const cv::Mat grey(image.height, image.width, CV_8UC1,
+                     const_cast<std::uint8_t*>(image.pixels.data()));
   cv::Mat gx, gy, magnitude;
   cv::Sobel(grey, gx, CV_32F, 1, 0);
   cv::Sobel(grey, gy, CV_32F, 0, 1);
@@ -52,21 +53,22 @@ WorldSystem magnitude_system(std::span<const RegisterView> views,
                              std::span<const std::vector<ModelPoint>> points,
                              std::span<const MagnitudePyramid> pyramids, int level,
                              const Se3& world_from_object) {
-  return sum_over_points(
-      views, points, world_from_object,
-      [&](WorldSystem& sum, std::size_t v, std::size_t, const PosedPoint<double>& posed,
-          const ProjectedEdge<double>& at) {
-        const int own = std::min(level, int(pyramids[v].size()) - 1);
-        // A pixel of a halved image lies on every second one of the image before.
-        const double shrink = std::ldexp(1.0, -own);
-        const Sample m = sample(pyramids[v][own], shrink * at.u, shrink * at.v);
-        const double r = 1 - m.value;
-        add_residual(sum, r, 1, 0.5 * r * r,
-                     image_motion(-shrink * m.by_x, -shrink * m.by_y, posed, views[v].view->intrinsics));
-        sum.residual_sum += r;
-        sum.weight_sum += 1;
-        sum.points += 1;
-      });
+  return sum_over_points(views, points, world_from_object,
+                         [&](WorldSystem& sum, std::size_t v, std::size_t,
+                             const PosedPoint<double>& posed, const ProjectedEdge<double>& at) {
+                           const int own = std::min(level, int(pyramids[v].size()) - 1);
+                           // A pixel of a halved image lies on every second one of the image
+                           // before.
+                           const double shrink = std::ldexp(1.0, -own);
+                           const Sample m = sample(pyramids[v][own], shrink * at.u, shrink * at.v);
+                           const double r = 1 - m.value;
+                           add_residual(sum, r, 1, 0.5 * r * r,
+                                        image_motion(-shrink * m.by_x, -shrink * m.by_y, posed,
+                                                     views[v].view->intrinsics));
+                           sum.residual_sum += r;
+                           sum.weight_sum += 1;
+                           sum.points += 1;
+                         });
 }
 
 PoseSolver prepare_direct(std::span<const RegisterView> views, const BaselineOptions& options) {
@@ -77,16 +79,17 @@ PoseSolver prepare_direct(std::span<const RegisterView> views, const BaselineOpt
     pyramids->push_back(magnitude_pyramid(*view.image, options.pyramid_levels));
     levels = std::max(levels, int(pyramids->back().size()));
   }
-  return
-      [views, options, pyramids, levels](const Se3& start, std::span<const std::vector<ModelPoint>> points) {
-        PoseTrack track;
-        track.pose = start;
-        for (int level = levels - 1; level >= 0; --level)
-          levenberg_marquardt(
-              track, [&](const Se3& pose) { return magnitude_system(views, points, *pyramids, level, pose); },
-              options.inner_iterations, options.min_step_m, options.min_step_rad);
-        return track;
-      };
+  return [views, options, pyramids, levels](const Se3& start,
+                                            std::span<const std::vector<ModelPoint>> points) {
+    PoseTrack track;
+    track.pose = start;
+    for (int level = levels - 1; level >= 0; --level)
+      levenberg_marquardt(
+          track,
+          [&](const Se3& pose) { return magnitude_system(views, points, *pyramids, level, pose); },
+          options.inner_iterations, options.min_step_m, options.min_step_rad);
+    return track;
+  };
 }
 
 }  // namespace edgescout

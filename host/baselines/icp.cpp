@@ -6,8 +6,9 @@
 
 namespace edgescout {
 
-Pairs associate_all(std::span<const RegisterView> views, std::span<const std::vector<ModelPoint>> points,
-                    const Se3& world_from_object, const Associate& associate) {
+Pairs associate_all(std::span<const RegisterView> views,
+                    std::span<const std::vector<ModelPoint>> points, const Se3& world_from_object,
+                    const Associate& associate) {
   Pairs pairs;
   for (const std::vector<ModelPoint>& list : points) pairs.emplace_back(list.size(), nullptr);
   sum_over_points(views, points, world_from_object,
@@ -18,28 +19,29 @@ Pairs associate_all(std::span<const RegisterView> views, std::span<const std::ve
   return pairs;
 }
 
-WorldSystem pair_system(std::span<const RegisterView> views, std::span<const std::vector<ModelPoint>> points,
-                        const Pairs& pairs, const Se3& world_from_object, double loss_scale_px) {
-  return sum_over_points(views, points, world_from_object,
-                         [&](WorldSystem& sum, std::size_t v, std::size_t i, const PosedPoint<double>& posed,
-                             const ProjectedEdge<double>& at) {
-                           const EdgePoint* edge = pairs[v][i];
-                           if (!edge) return;
-                           const Intrinsics& k = views[v].view->intrinsics;
-                           const double dx = at.u - edge->x_px, dy = at.v - edge->y_px,
-                                        distance = std::hypot(dx, dy);
-                           const Weighted loss = huber(distance, loss_scale_px);
-                           add_residual(sum, dx, loss.weight, loss.rho, image_motion(1, 0, posed, k));
-                           add_residual(sum, dy, loss.weight, 0, image_motion(0, 1, posed, k));
-                           sum.residual_sum += distance;
-                           sum.weight_sum += loss.weight;
-                           sum.points += 1;
-                         });
+WorldSystem pair_system(std::span<const RegisterView> views,
+                        std::span<const std::vector<ModelPoint>> points, const Pairs& pairs,
+                        const Se3& world_from_object, double loss_scale_px) {
+  return sum_over_points(
+      views, points, world_from_object,
+      [&](WorldSystem& sum, std::size_t v, std::size_t i, const PosedPoint<double>& posed,
+          const ProjectedEdge<double>& at) {
+        const EdgePoint* edge = pairs[v][i];
+        if (!edge) return;
+        const Intrinsics& k = views[v].view->intrinsics;
+        const double dx = at.u - edge->x_px, dy = at.v - edge->y_px, distance = std::hypot(dx, dy);
+        const Weighted loss = huber(distance, loss_scale_px);
+        add_residual(sum, dx, loss.weight, loss.rho, image_motion(1, 0, posed, k));
+        add_residual(sum, dy, loss.weight, 0, image_motion(0, 1, posed, k));
+        sum.residual_sum += distance;
+        sum.weight_sum += loss.weight;
+        sum.points += 1;
+      });
 }
 
 PoseTrack iterate_closest_points(const Se3& start, std::span<const RegisterView> views,
-                                 std::span<const std::vector<ModelPoint>> points, const Associate& associate,
-                                 const BaselineOptions& options) {
+                                 std::span<const std::vector<ModelPoint>> points,
+                                 const Associate& associate, const BaselineOptions& options) {
   PoseTrack track;
   track.pose = start;
   for (int outer = 0; outer < options.outer_iterations && track.active; ++outer) {

@@ -29,11 +29,14 @@ float turn_to_sector(float theta_rad, int sector) {
                   turn_between(theta_rad, (sector + 1) * sector_rad));
 }
 
-int cell_of(float position_px) { return static_cast<int>(std::floor(position_px / JointIndex::CELL_PX)); }
+int cell_of(float position_px) {
+  return static_cast<int>(std::floor(position_px / JointIndex::CELL_PX));
+}
 
 }  // namespace
 
-JointIndex::JointIndex(std::span<const EdgePoint> edges, int width, int height, float lambda_px_per_rad)
+JointIndex::JointIndex(std::span<const EdgePoint> edges, int width, int height,
+                       float lambda_px_per_rad)
     : columns_((width + CELL_PX - 1) / CELL_PX),
       rows_((height + CELL_PX - 1) / CELL_PX),
       lambda_px_per_rad_(lambda_px_per_rad) {
@@ -41,7 +44,8 @@ JointIndex::JointIndex(std::span<const EdgePoint> edges, int width, int height, 
     return e.x_px >= 0 && e.y_px >= 0 && e.x_px < float(width) && e.y_px < float(height);
   };
   const auto cell = [&](const EdgePoint& e) {
-    return (std::size_t(sector_of(e.theta_rad)) * rows_ + cell_of(e.y_px)) * columns_ + cell_of(e.x_px);
+    return (std::size_t(sector_of(e.theta_rad)) * rows_ + cell_of(e.y_px)) * columns_ +
+           cell_of(e.x_px);
   };
   cell_end_.assign(std::size_t(SECTORS) * rows_ * columns_ + 1, 0);
   for (const EdgePoint& edge : edges)
@@ -53,19 +57,23 @@ JointIndex::JointIndex(std::span<const EdgePoint> edges, int width, int height, 
     if (inside(edge)) points_[next[cell(edge)]++] = edge;
 }
 
-void JointIndex::search_cell(int sector, int column, int row, const Query& query, Best& best) const {
+void JointIndex::search_cell(int sector, int column, int row, const Query& query,
+                             Best& best) const {
   const std::size_t cell = (std::size_t(sector) * rows_ + row) * columns_ + column;
   for (std::uint32_t i = cell_end_[cell]; i < cell_end_[cell + 1]; ++i) {
     const EdgePoint& edge = points_[i];
-    const float dx = edge.x_px - query.x_px, dy = edge.y_px - query.y_px, distance2 = dx * dx + dy * dy;
+    const float dx = edge.x_px - query.x_px, dy = edge.y_px - query.y_px,
+                distance2 = dx * dx + dy * dy;
     const float turn_px = lambda_px_per_rad_ * turn_between(edge.theta_rad, query.theta_rad);
     const float reach_px = best.cost_px - turn_px;
-    if (reach_px > 0 && distance2 < reach_px * reach_px) best = {&edge, turn_px + std::sqrt(distance2)};
+    if (reach_px > 0 && distance2 < reach_px * reach_px)
+      best = {&edge, turn_px + std::sqrt(distance2)};
   }
 }
 
-// Rings of cells about the query's nearest place in the image, until the nearest cell of a ring is too far:
-// from outside the image all of it is at least as far as the hypotenuse over the way to that place and on.
+// Rings of cells about the query's nearest place in the image, until the nearest cell of a ring is
+// too far: from outside the image all of it is at least as far as the hypotenuse over the way to
+// that place and on.
 void JointIndex::search_sector(int sector, const Query& query, Best& best) const {
   const float turn_px = lambda_px_per_rad_ * turn_to_sector(query.theta_rad, sector);
   const float x_px = std::clamp(query.x_px, 0.0f, float(columns_ * CELL_PX)),
@@ -74,7 +82,8 @@ void JointIndex::search_sector(int sector, const Query& query, Best& best) const
   const int cx = std::min(cell_of(x_px), columns_ - 1), cy = std::min(cell_of(y_px), rows_ - 1);
   const int last = std::max({cx, columns_ - 1 - cx, cy, rows_ - 1 - cy});
   for (int ring = 0; ring <= last; ++ring) {
-    if (turn_px + std::hypot(outside_px, float(std::max(0, ring - 1) * CELL_PX)) >= best.cost_px) return;
+    if (turn_px + std::hypot(outside_px, float(std::max(0, ring - 1) * CELL_PX)) >= best.cost_px)
+      return;
     for (int row = std::max(0, cy - ring); row <= std::min(rows_ - 1, cy + ring); ++row) {
       const int stride = std::abs(row - cy) == ring ? 1 : std::max(1, 2 * ring);
       for (int column = cx - ring; column <= cx + ring; column += stride)
@@ -88,7 +97,8 @@ const EdgePoint* JointIndex::closest(float x_px, float y_px, float theta_rad) co
   const Query query{x_px, y_px, theta_rad};
   Best best{nullptr, std::numeric_limits<float>::max()};
   const int own = sector_of(theta_rad);
-  // Its own sector first, then those on either side of it: most are then too far in direction alone.
+  // Its own sector first, then those on either side of it: most are then too far in direction
+  // alone.
   for (int step = 0; step < SECTORS; ++step) {
     const int offset = step % 2 == 0 ? step / 2 : SECTORS - (step + 1) / 2;
     search_sector((own + offset) % SECTORS, query, best);

@@ -1,5 +1,5 @@
-// The edge point closest to an oriented image point in the joint space of place and direction (paper, Eq. 4;
-// Liu et al., IJRR 2012).
+// The edge point closest to an oriented image point in the joint space of place and direction
+// (paper, Eq. 4; Liu et al., IJRR 2012).
 #pragma once
 
 #include <span>
@@ -9,13 +9,13 @@
 
 namespace edgescout {
 
-// Exact: |x - e| + lambda * |theta - theta_e|_pi, directions undirected and not rounded to bins. Edge points
-// outside the image are left out.
+// Exact: |x - e| + lambda * |theta - theta_e|_pi, directions undirected and not rounded to bins.
+// Edge points outside the image are left out.
 class JointIndex {
  public:
   JointIndex(std::span<const EdgePoint> edges, int width, int height, float lambda_px_per_rad);
-  // Null where there are no edge points at all, and of a place that is not finite or too far for a float to
-  // hold the square of its distance. (x, y) may lie outside the image; theta in [0, pi].
+  // Null where there are no edge points at all, and of a place that is not finite or too far for a
+  // float to hold the square of its distance. (x, y) may lie outside the image; theta in [0, pi].
   const EdgePoint* closest(float x_px, float y_px, float theta_rad) const;
 
   static constexpr int CELL_PX = 16;

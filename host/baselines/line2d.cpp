@@ -16,13 +16,16 @@ namespace edgescout {
 namespace {
 
 constexpr int directions = 8;  // of linemod, over pi
-constexpr int margin_px = 8;   // around a template: what blur, Sobel and the vote of neighbours reach
+constexpr int margin_px =
+    8;  // around a template: what blur, Sobel and the vote of neighbours reach
 
-// A template in the image, its features relative to the corner of the patch that it is compared with.
+// A template in the image, its features relative to the corner of the patch that it is compared
+// with.
 struct PlacedTemplate {
   cv::linemod::Template features;
   cv::Rect patch;
-  int asked = 0;  // features that the candidate has; those outside the image are not among `features`
+  int asked =
+      0;  // features that the candidate has; those outside the image are not among `features`
 };
 
 // Gradients point across the edge, polarity does not count.
@@ -32,8 +35,8 @@ int label_of(double edge_rad) {
          directions;
 }
 
-// Whole steps of the spread either way; rows that all begin at a multiple of 16 bytes, as linemod's vector
-// code takes for granted.
+// Whole steps of the spread either way; rows that all begin at a multiple of 16 bytes, as linemod's
+// vector code takes for granted.
 cv::Size patch_size(const cv::Rect& box, int spread_px) {
   const auto whole = [](int length_px, int unit) {
     return (length_px + 2 * margin_px + unit - 1) / unit * unit;
@@ -51,11 +54,13 @@ PlacedTemplate place_template(std::span<const ModelPoint> points, const Se3& cam
     const PosedPoint<double> posed = pose_point<double>(pose, model);
     if (!can_be_seen(posed.point)) continue;
     const ProjectedEdge<double> at = project_edge(posed, view.view->intrinsics);
-    if (!(at.u >= 0 && at.v >= 0 && at.u <= view.camera.width - 1 && at.v <= view.camera.height - 1))
+    if (!(at.u >= 0 && at.v >= 0 && at.u <= view.camera.width - 1 &&
+          at.v <= view.camera.height - 1))
       continue;
-    // linemod spreads a direction to the pixels left of and above it: half of that back, and it is spread
-    // evenly.
-    const cv::Point place(int(std::lround(at.u)) - spread_px / 2, int(std::lround(at.v)) - spread_px / 2);
+    // linemod spreads a direction to the pixels left of and above it: half of that back, and it is
+    // spread evenly.
+    const cv::Point place(int(std::lround(at.u)) - spread_px / 2,
+                          int(std::lround(at.v)) - spread_px / 2);
     places.push_back(place);
     placed.features.features.emplace_back(place.x, place.y, label_of(orientation(at.dx, at.dy)));
   }
@@ -79,22 +84,25 @@ cv::Mat patch_of(const cv::Mat& image, const cv::Rect& patch) {
   return filled;
 }
 
-double similarity(const PlacedTemplate& placed, const cv::Mat& image, const Line2dOptions& options) {
+double similarity(const PlacedTemplate& placed, const cv::Mat& image,
+                  const Line2dOptions& options) {
   const std::vector<cv::linemod::Feature>& features = placed.features.features;
   if (features.empty()) return 0;
   // A patch of the template's own size has room for it at one place only.
   cv::linemod::Detector detector(
-      {cv::linemod::ColorGradient::create(options.weak_gradient, features.size(), options.weak_gradient)},
+      {cv::linemod::ColorGradient::create(options.weak_gradient, features.size(),
+                                          options.weak_gradient)},
       {options.spread_px});
   detector.addSyntheticTemplate({placed.features}, "candidate");
-  // linemod counts its threshold from half the largest similarity on, which is what chance gives: this is
-  // none.
+  // linemod counts its threshold from half the largest similarity on, which is what chance gives:
+  // this is none.
   constexpr float no_threshold = -100;
   std::vector<cv::linemod::Match> matches;
   detector.match({patch_of(image, placed.patch)}, no_threshold, matches);
   check(matches.size() <= 1, "line2d: more than one place");
   // It adds half a per cent, as if to round.
-  return matches.empty() ? 0 : (matches[0].similarity - 0.5) * double(features.size()) / placed.asked;
+  return matches.empty() ? 0
+                         : (matches[0].similarity - 0.5) * double(features.size()) / placed.asked;
 }
 
 }  // namespace
@@ -109,8 +117,9 @@ void Line2dOptions::validate() const {
   if (!(weak_gradient >= 0)) refuse("weak_gradient", weak_gradient, "a gradient of 0 or more");
 }
 
-std::vector<double> line2d_scores(std::span<const EdgeModel> models, std::span<const Candidate> candidates,
-                                  const RegisterView& view, Backend& backend, const Line2dOptions& options) {
+std::vector<double> line2d_scores(std::span<const EdgeModel> models,
+                                  std::span<const Candidate> candidates, const RegisterView& view,
+                                  Backend& backend, const Line2dOptions& options) {
   options.validate();
   check(view.image != nullptr, "line2d: a view without its image");
   cv::Mat image;  // linemod takes colour
@@ -120,10 +129,10 @@ std::vector<double> line2d_scores(std::span<const EdgeModel> models, std::span<c
   std::vector<double> scores;
   for (const std::vector<ModelPoint>& points :
        visible_points(models, candidates, view, backend, options.visibility))
-    scores.push_back(
-        similarity(place_template(thinned(points, options.features),
-                                  candidates[scores.size()].camera_from_object, view, options.spread_px),
-                   image, options));
+    scores.push_back(similarity(
+        place_template(thinned(points, options.features),
+                       candidates[scores.size()].camera_from_object, view, options.spread_px),
+        image, options));
   return scores;
 }
 

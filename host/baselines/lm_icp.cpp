@@ -1,5 +1,5 @@
-// LM-ICP: Fitzgibbon, Robust registration of 2D and 3D point sets, BMVC 2001: Levenberg-Marquardt straight on
-// the distance transform, which stands for the closest points, with a robust loss.
+// LM-ICP: Fitzgibbon, Robust registration of 2D and 3D point sets, BMVC 2001: Levenberg-Marquardt
+// straight on the distance transform, which stands for the closest points, with a robust loss.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -33,12 +33,13 @@ WorldSystem distance_system(std::span<const RegisterView> views,
                             std::span<const ScalarImage> distances, const Se3& world_from_object,
                             double loss_scale_px) {
   return sum_over_points(views, points, world_from_object,
-                         [&](WorldSystem& sum, std::size_t v, std::size_t, const PosedPoint<double>& posed,
-                             const ProjectedEdge<double>& at) {
+                         [&](WorldSystem& sum, std::size_t v, std::size_t,
+                             const PosedPoint<double>& posed, const ProjectedEdge<double>& at) {
                            const Sample d = distance_at(distances[v], at.u, at.v);
                            const Weighted loss = huber(d.value, loss_scale_px);
-                           add_residual(sum, d.value, loss.weight, loss.rho,
-                                        image_motion(d.by_x, d.by_y, posed, views[v].view->intrinsics));
+                           add_residual(
+                               sum, d.value, loss.weight, loss.rho,
+                               image_motion(d.by_x, d.by_y, posed, views[v].view->intrinsics));
                            sum.residual_sum += d.value;
                            sum.weight_sum += loss.weight;
                            sum.points += 1;
@@ -50,10 +51,11 @@ PoseSolver prepare_lm_icp(std::span<const RegisterView> views, const BaselineOpt
   for (const RegisterView& view : views) {
     check(view.edges != nullptr, "lm-icp: a view without edge points");
     const std::span<const EdgePoint> edges = view.edges->points();
-    distances->push_back(distance_image(nearest_edges(edges, view.camera.width, view.camera.height), edges,
-                                        view.view->options.cap_px));
+    distances->push_back(distance_image(nearest_edges(edges, view.camera.width, view.camera.height),
+                                        edges, view.view->options.cap_px));
   }
-  return [views, options, distances](const Se3& start, std::span<const std::vector<ModelPoint>> points) {
+  return [views, options, distances](const Se3& start,
+                                     std::span<const std::vector<ModelPoint>> points) {
     PoseTrack track;
     track.pose = start;
     levenberg_marquardt(

@@ -15,9 +15,11 @@ Seed pixel_of(const EdgePoint& edge, int width, int height) {
 // Every pixel's nearest seed in its own column.
 void along_columns(NearestEdges& map, std::vector<int>& seed_row) {
   const auto take = [&](int x, int y, int from) {
-    const std::size_t here = std::size_t(y) * map.width + x, there = std::size_t(from) * map.width + x;
+    const std::size_t here = std::size_t(y) * map.width + x,
+                      there = std::size_t(from) * map.width + x;
     if (map.index[there] < 0) return;
-    if (map.index[here] >= 0 && std::abs(seed_row[here] - y) <= std::abs(seed_row[there] - y)) return;
+    if (map.index[here] >= 0 && std::abs(seed_row[here] - y) <= std::abs(seed_row[there] - y))
+      return;
     map.index[here] = map.index[there];
     seed_row[here] = seed_row[there];
   };
@@ -27,12 +29,15 @@ void along_columns(NearestEdges& map, std::vector<int>& seed_row) {
     for (int x = 0; x < map.width; ++x) take(x, y, y + 1);
 }
 
-// Lower envelope of the parabolas that the columns' seeds span over one row (Felzenszwalb and Huttenlocher,
-// 2012).
+// Lower envelope of the parabolas that the columns' seeds span over one row (Felzenszwalb and
+// Huttenlocher, 2012).
 void along_row(NearestEdges& map, const std::vector<int>& seed_row, int y) {
   const std::size_t row = std::size_t(y) * map.width;
-  const std::vector<std::int32_t> column_seed(map.index.begin() + row, map.index.begin() + row + map.width);
-  const auto height2 = [&](int x) { return double(seed_row[row + x] - y) * (seed_row[row + x] - y); };
+  const std::vector<std::int32_t> column_seed(map.index.begin() + row,
+                                              map.index.begin() + row + map.width);
+  const auto height2 = [&](int x) {
+    return double(seed_row[row + x] - y) * (seed_row[row + x] - y);
+  };
   std::vector<int> apex;     // columns whose parabolas make up the envelope
   std::vector<double> from;  // where each begins to be the lowest
   for (int x = 0; x < map.width; ++x) {
@@ -73,8 +78,10 @@ NearestEdges nearest_edges(std::span<const EdgePoint> edges, int width, int heig
   return map;
 }
 
-ScalarImage distance_image(const NearestEdges& nearest, std::span<const EdgePoint> edges, float far_px) {
-  ScalarImage image{nearest.width, nearest.height, std::vector<float>(nearest.index.size(), far_px)};
+ScalarImage distance_image(const NearestEdges& nearest, std::span<const EdgePoint> edges,
+                           float far_px) {
+  ScalarImage image{nearest.width, nearest.height,
+                    std::vector<float>(nearest.index.size(), far_px)};
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
       const std::size_t pixel = std::size_t(y) * image.width + x;

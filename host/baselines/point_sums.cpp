@@ -2,8 +2,8 @@
 
 namespace edgescout {
 
-void levenberg_marquardt(PoseTrack& track, const SystemAt& system_at, int iterations, double min_step_m,
-                         double min_step_rad) {
+void levenberg_marquardt(PoseTrack& track, const SystemAt& system_at, int iterations,
+                         double min_step_m, double min_step_rad) {
   restart(track);
   begin_at(track, system_at(track.trial));
   for (int i = 0; i < iterations && track.active; ++i) {

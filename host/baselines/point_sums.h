@@ -8,7 +8,8 @@
 
 namespace edgescout {
 
-// One scalar residual r with weight w and loss rho; `motion` is its derivative by the camera's tangent.
+// One scalar residual r with weight w and loss rho; `motion` is its derivative by the camera's
+// tangent.
 inline void add_residual(WorldSystem& sum, double residual, double weight, double rho,
                          const Vector6d& motion) {
   sum.hessian += weight * motion * motion.transpose();
@@ -23,12 +24,12 @@ inline Weighted huber(double r, double scale) {
   return r <= scale ? Weighted{0.5 * r * r, 1} : Weighted{scale * (r - 0.5 * scale), scale / r};
 }
 
-// Calls visit(sum, view, point index, posed point, projection) for every point in front of its camera: `sum`
-// is in the camera's tangent.
+// Calls visit(sum, view, point index, posed point, projection) for every point in front of its
+// camera: `sum` is in the camera's tangent.
 template <typename Visit>
 WorldSystem sum_over_points(std::span<const RegisterView> views,
-                            std::span<const std::vector<ModelPoint>> points, const Se3& world_from_object,
-                            const Visit& visit) {
+                            std::span<const std::vector<ModelPoint>> points,
+                            const Se3& world_from_object, const Visit& visit) {
   WorldSystem sum;
   for (std::size_t v = 0; v < views.size(); ++v) {
     const Pose pose = to_pose(views[v].camera_from_world * world_from_object);
@@ -45,7 +46,7 @@ WorldSystem sum_over_points(std::span<const RegisterView> views,
 
 // Levenberg-Marquardt from the track's pose on, at most `iterations` steps.
 using SystemAt = std::function<WorldSystem(const Se3& world_from_object)>;
-void levenberg_marquardt(PoseTrack& track, const SystemAt& system_at, int iterations, double min_step_m,
-                         double min_step_rad);
+void levenberg_marquardt(PoseTrack& track, const SystemAt& system_at, int iterations,
+                         double min_step_m, double min_step_rad);
 
 }  // namespace edgescout

@@ -11,8 +11,8 @@ struct ScalarImage {
   std::vector<float> values;  // row-major
 };
 
-// Bilinear value and the derivative of the same interpolant. Outside the image: that of the nearest border
-// point, without slope across it.
+// Bilinear value and the derivative of the same interpolant. Outside the image: that of the nearest
+// border point, without slope across it.
 struct Sample {
   double value, by_x, by_y;
 };

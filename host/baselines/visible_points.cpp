@@ -8,7 +8,8 @@ namespace edgescout {
 
 std::vector<std::vector<ModelPoint>> visible_points(std::span<const EdgeModel> models,
                                                     std::span<const Hypothesis> hypotheses,
-                                                    std::span<const RegisterView> views, Backend& backend,
+                                                    std::span<const RegisterView> views,
+                                                    Backend& backend,
                                                     const VisibilityOptions& visibility) {
   std::vector<std::vector<ModelPoint>> points;
   for (VisibleInView& seen : visible_in_views(models, hypotheses, views, backend, visibility))

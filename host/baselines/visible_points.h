@@ -11,7 +11,8 @@ namespace edgescout {
 // One list a hypothesis and view: [hypothesis * views + view].
 std::vector<std::vector<ModelPoint>> visible_points(std::span<const EdgeModel> models,
                                                     std::span<const Hypothesis> hypotheses,
-                                                    std::span<const RegisterView> views, Backend& backend,
+                                                    std::span<const RegisterView> views,
+                                                    Backend& backend,
                                                     const VisibilityOptions& visibility);
 
 // Of candidates in one view, one list each, in their order.

@@ -46,8 +46,8 @@ std::vector<Group> group_images(std::span<const InputImage> images, bool joint,
   return groups;
 }
 
-// What an image is before its device work: decoding and edges run on a thread and a CPU backend of their own,
-// beside the device's work on the group before.
+// What an image is before its device work: decoding and edges run on a thread and a CPU backend of
+// their own, beside the device's work on the group before.
 struct Prepared {
   std::vector<PreparedImage> images;
   std::vector<std::string> failures;  // empty where the image is good
@@ -76,11 +76,12 @@ class Preparer {
     const auto start = Clock::now();
     const Image image = load_image(input.file);
     const double decode_seconds = seconds_since(start);
-    const Camera camera =
-        camera_of(input, image.width, image.height, {camera_, options_.camera_file, options_.scale_camera});
+    const Camera camera = camera_of(input, image.width, image.height,
+                                    {camera_, options_.camera_file, options_.scale_camera});
     const Se3 from_world = options_.joint ? *input.camera_from_world : Se3{};
-    PreparedImage prepared =
-        naming(input, [&] { return prepare_image(image, camera, from_world, *backend_, options_.pipeline); });
+    PreparedImage prepared = naming(input, [&] {
+      return prepare_image(image, camera, from_world, *backend_, options_.pipeline);
+    });
     prepared.stages.insert(prepared.stages.begin(), {"decode", decode_seconds});
     return prepared;
   }
@@ -90,10 +91,12 @@ class Preparer {
   std::unique_ptr<Backend> backend_;
 };
 
-ImageResult result_of(const InputImage& input, const PreparedImage& prepared, const Detections& detections,
-                      std::span<const TemplateSet> sets, const Backend& backend, bool joint) {
+ImageResult result_of(const InputImage& input, const PreparedImage& prepared,
+                      const Detections& detections, std::span<const TemplateSet> sets,
+                      const Backend& backend, bool joint) {
   ImageResult result = begin_result(input, prepared, detections, backend);
-  for (const TemplateSet& set : sets) result.objects.push_back({set.object_id, set.model.mesh.name});
+  for (const TemplateSet& set : sets)
+    result.objects.push_back({set.object_id, set.model.mesh.name});
   result.detections = detections.detections;
   if (!joint) carry_to_world(result);
   return result;
@@ -161,7 +164,8 @@ class Detector {
     require_writable_folder(options_.out);
     // Not before there is something in their place.
     if (!options_.resume && summary.finished.empty()) start_anew(options_.out, images_);
-    for (const StageSeconds& stage : found.stages) summary.stage_seconds[stage.name] += stage.seconds;
+    for (const StageSeconds& stage : found.stages)
+      summary.stage_seconds[stage.name] += stage.seconds;
     for (std::size_t i = 0; i < images.size(); ++i) {
       const InputImage& input = *group.images[i];
       if (options_.overlays) save_overlay(input, images[i], found, models_, backend_, options_.out);
@@ -193,7 +197,8 @@ class Detector {
 void work_through(const std::vector<Group>& open, Preparer& preparer, Detector& detector) {
   Progress progress("detect", open.size(), std::cerr, stderr_is_terminal());
   std::future<Prepared> next;
-  if (!open.empty()) next = std::async(std::launch::async, [&] { return preparer.prepare(open[0]); });
+  if (!open.empty())
+    next = std::async(std::launch::async, [&] { return preparer.prepare(open[0]); });
   for (std::size_t g = 0; g < open.size(); ++g) {
     Prepared prepared = next.get();
     if (g + 1 < open.size())

@@ -21,8 +21,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Whether a file holds JSON that is a result, or that is none; nothing where it is not JSON, as what a disk
-// spoilt.
+// Whether a file holds JSON that is a result, or that is none; nothing where it is not JSON, as
+// what a disk spoilt.
 std::optional<bool> holds_result(const fs::path& file) {
   try {
     return is_image_result(file);
@@ -33,7 +33,9 @@ std::optional<bool> holds_result(const fs::path& file) {
 
 }  // namespace
 
-fs::path json_of(const fs::path& out, const InputImage& input) { return out / (input.name + ".json"); }
+fs::path json_of(const fs::path& out, const InputImage& input) {
+  return out / (input.name + ".json");
+}
 
 fs::path overlay_of(const fs::path& out, const InputImage& input) {
   return out / (input.name + "_overlay.png");
@@ -43,7 +45,8 @@ fs::path place_of(const InputImage& input) { return fs::absolute(input.file).lex
 
 void carry_to_world(ImageResult& result) {
   if (!result.camera_from_world) return;
-  for (Detection& found : result.detections) found = candidate_in_world(found, *result.camera_from_world);
+  for (Detection& found : result.detections)
+    found = candidate_in_world(found, *result.camera_from_world);
 }
 
 bool is_done(const fs::path& out, const InputImage& input, const Settings& settings) {
@@ -55,8 +58,8 @@ bool is_done(const fs::path& out, const InputImage& input, const Settings& setti
   } catch (const InputError&) {
     return false;  // cut short, of an older format or another file: done again
   }
-  if (result.image.string() != as_in_json(place_of(input).string()) || result.scene_id != input.scene_id ||
-      result.image_id != input.image_id)
+  if (result.image.string() != as_in_json(place_of(input).string()) ||
+      result.scene_id != input.scene_id || result.image_id != input.image_id)
     return false;
   require_same(result.settings, settings, file.string());
   return true;
@@ -64,8 +67,8 @@ bool is_done(const fs::path& out, const InputImage& input, const Settings& setti
 
 void save_result(const ImageResult& result, const fs::path& out, const InputImage& input) {
   save_image_result(result, json_of(out, input));
-  log(LogLevel::Debug, fmt::format("{}: {} poses, {}", input.file.string(), result.detections.size(),
-                                   stage_times(result.stages)));
+  log(LogLevel::Debug, fmt::format("{}: {} poses, {}", input.file.string(),
+                                   result.detections.size(), stage_times(result.stages)));
 }
 
 void require_no_other_results(const fs::path& out, std::span<const InputImage> images) {
@@ -77,7 +80,8 @@ void require_no_other_results(const fs::path& out, std::span<const InputImage> i
     const bool is_named = names.contains(entry.path().stem().string());
     const std::optional<bool> is_result = holds_result(entry.path());
     if (!is_named && is_result == true)
-      throw InputError(out.string(), "output folder", entry.path().filename().string() + " of another run",
+      throw InputError(out.string(), "output folder",
+                       entry.path().filename().string() + " of another run",
                        "another --out, or a folder without results of other images");
     if (is_named && is_result == false)
       throw InputError(entry.path().string(), "file", "no result of this program",
@@ -104,12 +108,12 @@ void write_csv(std::span<const InputImage> images, BatchSummary& summary, const 
     const ImageResult result = load_image_result(json_of(out, input));
     double seconds = 0;
     for (const StageSeconds& stage : result.stages) seconds += stage.seconds;
-    summary.lost +=
-        static_cast<int>(std::ranges::count(result.detections, OUT_OF_SIGHT, &Detection::convergence));
+    summary.lost += static_cast<int>(
+        std::ranges::count(result.detections, OUT_OF_SIGHT, &Detection::convergence));
     for (const Detection& d : result.detections)
-      rows.push_back({result.scene_id, result.image_id, result.objects[static_cast<std::size_t>(d.object)].id,
-                      d.probability, result.camera_from_world.value_or(Se3{}) * d.world_from_object,
-                      seconds});
+      rows.push_back({result.scene_id, result.image_id,
+                      result.objects[static_cast<std::size_t>(d.object)].id, d.probability,
+                      result.camera_from_world.value_or(Se3{}) * d.world_from_object, seconds});
   }
   save_bop_results(rows, out / "results.csv");
   summary.poses = static_cast<int>(rows.size());
@@ -135,8 +139,8 @@ void write_summary(const BatchSummary& summary, const std::string& device, const
   write_file_atomically(out / "summary.json", json_text(json, 2));
 }
 
-void write_ended(std::span<const InputImage> images, BatchSummary& summary, const std::string& device,
-                 const fs::path& out) {
+void write_ended(std::span<const InputImage> images, BatchSummary& summary,
+                 const std::string& device, const fs::path& out) {
   const auto try_to = [](const std::function<void()>& write) {
     try {
       write();

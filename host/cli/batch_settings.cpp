@@ -14,14 +14,16 @@ namespace {
 
 std::string text_of(const std::optional<Camera>& camera) {
   if (!camera) return "none";
-  return fmt::format("{}x{} px, fx {}, fy {}, cx {}, cy {}, distortion {}", camera->width, camera->height,
-                     camera->fx, camera->fy, camera->cx, camera->cy, fmt::join(camera->distortion, " "));
+  return fmt::format("{}x{} px, fx {}, fy {}, cx {}, cy {}, distortion {}", camera->width,
+                     camera->height, camera->fx, camera->fy, camera->cx, camera->cy,
+                     fmt::join(camera->distortion, " "));
 }
 
 std::string text_of(const Se3& pose) {
   const Eigen::Vector3d& t = pose.translation_m;
   const Eigen::Quaterniond& q = pose.rotation;
-  return fmt::format("at {} {} {} m, turned {} {} {} {}", t.x(), t.y(), t.z(), q.w(), q.x(), q.y(), q.z());
+  return fmt::format("at {} {} {} m, turned {} {} {} {}", t.x(), t.y(), t.z(), q.w(), q.x(), q.y(),
+                     q.z());
 }
 
 std::string text_of(const Symmetries& symmetries) {
@@ -33,9 +35,11 @@ std::string text_of(const Symmetries& symmetries) {
 // The creases are there already where the model was made.
 std::string text_of(const TemplateOptions& o) {
   return fmt::format(
-      "frequency {}, latitude {} to {}, longitude {} to {}, {} in-plane steps, {} to {} m in ratios of {}",
+      "frequency {}, latitude {} to {}, longitude {} to {}, {} in-plane steps, {} to {} m in "
+      "ratios of {}",
       o.frequency, o.range.latitude_min_deg, o.range.latitude_max_deg, o.range.longitude_min_deg,
-      o.range.longitude_max_deg, o.in_plane_steps, o.distance_min_m, o.distance_max_m, o.distance_ratio);
+      o.range.longitude_max_deg, o.in_plane_steps, o.distance_min_m, o.distance_max_m,
+      o.distance_ratio);
 }
 
 std::string text_of_checksum(std::uint64_t sum) { return fmt::format("checksum {:016x}", sum); }
@@ -57,8 +61,10 @@ Settings settings_of(std::span<const TemplateSet> sets) {
   Settings settings;
   for (const TemplateSet& set : sets) {
     settings.push_back(setting_of(set.object_id, set.model));
-    settings.emplace_back(fmt::format("symmetries of object {}", set.object_id), text_of(set.symmetries));
-    settings.emplace_back(fmt::format("templates of object {}", set.object_id), text_of(set.options));
+    settings.emplace_back(fmt::format("symmetries of object {}", set.object_id),
+                          text_of(set.symmetries));
+    settings.emplace_back(fmt::format("templates of object {}", set.object_id),
+                          text_of(set.options));
   }
   return settings;
 }
@@ -87,8 +93,9 @@ void require_same(const Settings& found, const Settings& expected, const std::st
   all.insert(all.end(), found.begin(), found.end());
   for (const auto& [name, value] : all)
     if (value_in(found, name) != value_in(expected, name))
-      throw InputError(file, name, value_in(found, name),
-                       value_in(expected, name) + " as in this run (or no --resume, or another --out)");
+      throw InputError(
+          file, name, value_in(found, name),
+          value_in(expected, name) + " as in this run (or no --resume, or another --out)");
 }
 
 }  // namespace edgescout

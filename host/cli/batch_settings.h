@@ -1,5 +1,6 @@
-// What the result of an image is made with beside the image itself: models, options, cameras. It is written
-// with every result, so that a batch that is taken up again tells its own results from those of another run.
+// What the result of an image is made with beside the image itself: models, options, cameras. It is
+// written with every result, so that a batch that is taken up again tells its own results from
+// those of another run.
 #pragma once
 
 #include <optional>

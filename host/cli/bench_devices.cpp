@@ -31,7 +31,8 @@ void run(DevicesRequest& request, CLI::App& verb) {
   {
     Progress progress("devices", static_cast<std::size_t>(request.options.repetitions), std::cerr,
                       stderr_is_terminal());
-    report = time_devices(request.options, [&](std::size_t done, std::size_t) { progress.move_to(done); });
+    report = time_devices(request.options,
+                          [&](std::size_t done, std::size_t) { progress.move_to(done); });
   }
   report.commit = EDGESCOUT_COMMIT;
   report.settings = settings_of(verb, {"Measurement", "Templates", "Edges", "Tensor", "Detection"});
@@ -46,14 +47,16 @@ void run(DevicesRequest& request, CLI::App& verb) {
 }  // namespace
 
 void add_bench_devices(CLI::App& bench, int& exit_code) {
-  CLI::App* verb = bench.add_subcommand("devices", "Time every stage on every device found, against the CPU");
+  CLI::App* verb =
+      bench.add_subcommand("devices", "Time every stage on every device found, against the CPU");
   auto request = std::make_shared<DevicesRequest>();
   DevicesOptions& o = request->options;
   verb->add_option("--out", request->out, "Folder of devices.json and devices.md")
       ->required()
       ->type_name("DIR");
-  verb->add_option("--device", o.devices,
-                   "cpu-reference, vulkan or vulkan:INDEX, beside cpu; default: every Vulkan device");
+  verb->add_option(
+      "--device", o.devices,
+      "cpu-reference, vulkan or vulkan:INDEX, beside cpu; default: every Vulkan device");
   OptionTable(*verb, "Measurement")
       .bounded("repetitions", o.repetitions, 3, 1000, "Of every stage")
       .bounded("image-scale", o.image_scale, 0.1, 4.0, "Of 1024 x 768")

@@ -27,10 +27,14 @@ struct ExperimentsRequest {
 
 // The numbers that a form sets and an option changes.
 constexpr std::pair<const char*, int ExperimentSettings::*> SIZES[] = {
-    {"scenes", &ExperimentSettings::scenes},         {"groups", &ExperimentSettings::groups},
-    {"starts", &ExperimentSettings::starts},         {"group-starts", &ExperimentSettings::group_starts},
-    {"every", &ExperimentSettings::every},           {"frames-every", &ExperimentSettings::frames_every},
-    {"candidates", &ExperimentSettings::candidates}, {"bins", &ExperimentSettings::bins},
+    {"scenes", &ExperimentSettings::scenes},
+    {"groups", &ExperimentSettings::groups},
+    {"starts", &ExperimentSettings::starts},
+    {"group-starts", &ExperimentSettings::group_starts},
+    {"every", &ExperimentSettings::every},
+    {"frames-every", &ExperimentSettings::frames_every},
+    {"candidates", &ExperimentSettings::candidates},
+    {"bins", &ExperimentSettings::bins},
     {"cad-bins", &ExperimentSettings::cad_bins},
 };
 
@@ -88,7 +92,8 @@ void run(const ExperimentsRequest& request, const CLI::App& verb) {
 
 std::string names_text() {
   std::string text;
-  for (const Experiment& experiment : experiments()) text += (text.empty() ? "" : ", ") + experiment.name;
+  for (const Experiment& experiment : experiments())
+    text += (text.empty() ? "" : ", ") + experiment.name;
   return text;
 }
 
@@ -105,19 +110,24 @@ void add_sizes(CLI::App& verb, ExperimentsRequest& r) {
   ExperimentSettings& s = r.settings;
   OptionTable(verb, "Sizes (default: those of the form)")
       .flag("short", r.is_short, "Minutes (default)")
-      .flag("full", r.is_full, "The paper's numbers of images, and a few bins: about an hour on two cores")
+      .flag("full", r.is_full,
+            "The paper's numbers of images, and a few bins: about an hour on two cores")
       .bounded("scenes", s.scenes, 1, 10000, "Images with up to five parts")
       .bounded("groups", s.groups, 1, 10000, "Groups of three images with up to twenty parts")
-      .bounded("starts", s.starts, 1, 1000, "Registrations around every instance; the paper has 100")
+      .bounded("starts", s.starts, 1, 1000,
+               "Registrations around every instance; the paper has 100")
       .bounded("group-starts", s.group_starts, 1, 1000, "The same in the groups")
       .bounded("every", s.every, 1, 10000, "Of the recorded starts those whose number this divides")
       .bounded("frames-every", s.frames_every, 1, 100,
                "Of the cat's photographs one in so many, and of a pile's as the first view")
-      .bounded("candidates", s.candidates, 1, 100000, "Of the detection, in every image and for every type")
+      .bounded("candidates", s.candidates, 1, 100000,
+               "Of the detection, in every image and for every type")
       .bounded("bins", s.bins, 0, 10000, "Of piled parts, for the next best view")
-      .bounded("cad-bins", s.cad_bins, 0, 10000, "The same with parts of DIR/cad, where there is --data")
+      .bounded("cad-bins", s.cad_bins, 0, 10000,
+               "The same with parts of DIR/cad, where there is --data")
       .bounded("image-scale", s.image_scale, 0.1, 2.0, "Of the paper's image sizes")
-      .bounded("supersampling", s.supersampling, 1, 7, "Samples a pixel and axis of rendered images; odd");
+      .bounded("supersampling", s.supersampling, 1, 7,
+               "Samples a pixel and axis of rendered images; odd");
 }
 
 void add_method_options(CLI::App& verb, ExperimentsRequest& r) {
@@ -128,8 +138,10 @@ void add_method_options(CLI::App& verb, ExperimentsRequest& r) {
   add_tensor_value_options(verb, group, r.settings.tensor);
   OptionTable(verb, group)
       .bounded("associations", m.outer_iterations, 1, 1000, "Of the ICPs, at most")
-      .bounded("solve-steps", m.inner_iterations, 1, 1000, "Of one least-squares solve of a method, at most")
-      .bounded("loss-scale", m.loss_scale_px, 0.01, 1000.0, "Of the Huber loss of all but edgescout, px");
+      .bounded("solve-steps", m.inner_iterations, 1, 1000,
+               "Of one least-squares solve of a method, at most")
+      .bounded("loss-scale", m.loss_scale_px, 0.01, 1000.0,
+               "Of the Huber loss of all but edgescout, px");
 }
 
 }  // namespace
@@ -138,12 +150,13 @@ void add_bench_experiments(CLI::App& bench, int& exit_code) {
   CLI::App* verb = bench.add_subcommand(
       "experiments", "Rerun the paper's experiments: tables, plots and every row behind them");
   auto request = std::make_shared<ExperimentsRequest>();
-  verb->add_option("names", request->names, "Of the experiments: " + names_text() + "; default: all")
+  verb->add_option("names", request->names,
+                   "Of the experiments: " + names_text() + "; default: all")
       ->type_name("NAME");
   verb->add_option("--out", request->out, "Folder of the results")->required()->type_name("DIR");
-  verb->add_option(
-          "--data", request->data,
-          "Folder with d2co-starts, brackets, cat, triangle and cad; without it rendered images alone")
+  verb->add_option("--data", request->data,
+                   "Folder with d2co-starts, brackets, cat, triangle and cad; without it rendered "
+                   "images alone")
       ->type_name("DIR");
   verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
       ->capture_default_str();
@@ -158,22 +171,24 @@ void add_bench_experiments(CLI::App& bench, int& exit_code) {
             "Measured times among the rows (default); without, two runs give the same bytes");
   add_sizes(*verb, *request);
   add_method_options(*verb, *request);
-  verb->add_option("--only-bins", request->settings.only_bins,
-                   "These, in place of the first --bins and --cad-bins; of a kind that is given as 0 none")
+  verb->add_option(
+          "--only-bins", request->settings.only_bins,
+          "These, in place of the first --bins and --cad-bins; of a kind that is given as 0 none")
       ->type_name("NUMBER,..")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->group("Bins");
-  verb->add_option(
-          "--searches", request->settings.searches,
-          "In the bins: of one (type, another from bin to bin), each (type by itself) and all (together); "
-          "default: one,all")
+  verb->add_option("--searches", request->settings.searches,
+                   "In the bins: of one (type, another from bin to bin), each (type by itself) and "
+                   "all (together); "
+                   "default: one,all")
       ->type_name("NAME,..")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->group("Bins");
   verb->add_option("--strategies", request->settings.strategies,
-                   "In the bins: of mi-max, random, dis, fixed (default: these) and clairvoyant, which knows "
+                   "In the bins: of mi-max, random, dis, fixed (default: these) and clairvoyant, "
+                   "which knows "
                    "the scene")
       ->type_name("NAME,..")
       ->delimiter(',')
@@ -181,7 +196,8 @@ void add_bench_experiments(CLI::App& bench, int& exit_code) {
       ->group("Bins");
   OptionTable(*verb, "Bins")
       .bounded("random-draws", request->settings.random_draws, 1, 100,
-               "Of random in a bin: those after the first look once more each, for the mean at two views");
+               "Of random in a bin: those after the first look once more each, for the mean at two "
+               "views");
   add_bin_options(*verb, request->settings.scout);
   verb->callback([request, verb, &exit_code] {
     run(*request, *verb);

@@ -25,7 +25,9 @@ CLI::Validator within(T low, T high) {
       [=](const std::string& found) {
         T value{};
         const bool is_number = CLI::detail::lexical_cast(found, value);
-        return is_number && value >= low && value <= high ? "" : "found " + found + ", expected " + bounds;
+        return is_number && value >= low && value <= high
+                   ? ""
+                   : "found " + found + ", expected " + bounds;
       },
       "in " + bounds);
 }
@@ -70,13 +72,15 @@ class YamlReader {
 
  private:
   void read_section(const std::string& verb, const YAML::Node& section, std::size_t depth) {
-    const auto verbs =
-        running_.apps[depth]->get_subcommands([&](const CLI::App* app) { return app->get_name() == verb; });
-    if (verbs.empty()) throw InputError(source_, verb, "a section", "an option or the name of a verb");
+    const auto verbs = running_.apps[depth]->get_subcommands(
+        [&](const CLI::App* app) { return app->get_name() == verb; });
+    if (verbs.empty())
+      throw InputError(source_, verb, "a section", "an option or the name of a verb");
     if (depth < running_.names.size() && running_.names[depth] == verb) read(section, depth + 1);
   }
 
-  // Keys above the verb's own section reach the verb too: the nearest app that knows the option takes it.
+  // Keys above the verb's own section reach the verb too: the nearest app that knows the option
+  // takes it.
   void add_item(const std::string& key, const YAML::Node& value, std::size_t depth) {
     std::size_t level = running_.apps.size();
     while (level > 0 && !has_option(*running_.apps[level - 1], key)) --level;
@@ -111,7 +115,8 @@ void emit_options(YAML::Emitter& out, const CLI::App& app, bool default_also) {
     else
       out << YAML::Flow << option->results();
   }
-  for (const CLI::App* verb : app.get_subcommands([](const CLI::App* verb) { return verb->parsed(); })) {
+  for (const CLI::App* verb :
+       app.get_subcommands([](const CLI::App* verb) { return verb->parsed(); })) {
     out << YAML::Key << verb->get_name() << YAML::Value << YAML::BeginMap;
     emit_options(out, *verb, default_also);
     out << YAML::EndMap;
@@ -121,15 +126,21 @@ void emit_options(YAML::Emitter& out, const CLI::App& app, bool default_also) {
 }  // namespace
 
 template <typename T>
-OptionTable& OptionTable::bounded(const std::string& name, T& field, T low, T high, const std::string& help) {
-  verb_.add_option("--" + name, field, help)->check(within(low, high))->capture_default_str()->group(group_);
+OptionTable& OptionTable::bounded(const std::string& name, T& field, T low, T high,
+                                  const std::string& help) {
+  verb_.add_option("--" + name, field, help)
+      ->check(within(low, high))
+      ->capture_default_str()
+      ->group(group_);
   return *this;
 }
 template OptionTable& OptionTable::bounded(const std::string&, int&, int, int, const std::string&);
 template OptionTable& OptionTable::bounded(const std::string&, unsigned&, unsigned, unsigned,
                                            const std::string&);
-template OptionTable& OptionTable::bounded(const std::string&, float&, float, float, const std::string&);
-template OptionTable& OptionTable::bounded(const std::string&, double&, double, double, const std::string&);
+template OptionTable& OptionTable::bounded(const std::string&, float&, float, float,
+                                           const std::string&);
+template OptionTable& OptionTable::bounded(const std::string&, double&, double, double,
+                                           const std::string&);
 
 OptionTable& OptionTable::flag(const std::string& name, bool& field, const std::string& help) {
   verb_.add_flag("--" + name, field, help)->group(group_)->default_function([&field] {
@@ -155,7 +166,9 @@ OptionTable& OptionTable::choice(const std::string& name, std::string& field,
 std::vector<std::pair<std::string, std::string>> settings_of(CLI::App& verb,
                                                              const std::set<std::string>& groups) {
   std::vector<std::pair<std::string, std::string>> settings{{"verb", verb.get_name()}};
-  const auto is_row = [&](const CLI::Option* option) { return groups.contains(option->get_group()); };
+  const auto is_row = [&](const CLI::Option* option) {
+    return groups.contains(option->get_group());
+  };
   for (CLI::Option* option : verb.get_options(is_row)) {
     option->capture_default_str();  // of the field, whatever filled it
     settings.emplace_back(option->get_lnames().front(), option->get_default_str());
@@ -170,7 +183,8 @@ std::vector<CLI::ConfigItem> YamlConfig::from_config(std::istream& input) const 
   try {
     const YAML::Node root = YAML::Load(input);
     if (root.IsNull()) return {};
-    if (!root.IsMap()) throw InputError(source, "configuration", "no keys", "lines such as \"device: auto\"");
+    if (!root.IsMap())
+      throw InputError(source, "configuration", "no keys", "lines such as \"device: auto\"");
     reader.read(root, 0);
   } catch (const YAML::Exception& error) {
     throw InputError(source, "line " + std::to_string(error.mark.line + 1), error.msg, "YAML");
@@ -187,7 +201,8 @@ std::string YamlConfig::to_config(const CLI::App* app, bool default_also, bool, 
 }
 
 void add_yaml_config(CLI::App& program) {
-  program.set_config("--config", "", "YAML file with options by the same names; the command line wins")
+  program
+      .set_config("--config", "", "YAML file with options by the same names; the command line wins")
       ->type_name("FILE")
       ->configurable(false);
   program.config_formatter(std::make_shared<YamlConfig>(program));

@@ -28,8 +28,8 @@ struct DetectRequest {
   BatchOptions batch;
 };
 
-// The camera that default distances are taken from: that of the first image that can be used. Where none can,
-// the last one's error.
+// The camera that default distances are taken from: that of the first image that can be used. Where
+// none can, the last one's error.
 Camera first_camera(const DetectRequest& request, std::span<const InputImage> images) {
   GivenCamera given{{}, request.batch.camera_file, request.batch.scale_camera};
   if (!given.file.empty()) given.camera = load_camera(given.file);
@@ -44,9 +44,10 @@ Camera first_camera(const DetectRequest& request, std::span<const InputImage> im
   throw InputError("command line", "inputs", "no image", "at least one");
 }
 
-// What can be judged without work is judged first: nothing is written for a request that cannot be met.
-std::vector<TemplateSet> template_sets(const DetectRequest& request, std::span<const InputImage> images,
-                                       Backend& backend) {
+// What can be judged without work is judged first: nothing is written for a request that cannot be
+// met.
+std::vector<TemplateSet> template_sets(const DetectRequest& request,
+                                       std::span<const InputImage> images, Backend& backend) {
   const KnownModels known = load_models(request.models);
   const Camera camera = first_camera(request, images);
   if (request.batch.joint) require_joinable(images);
@@ -69,7 +70,8 @@ int detect(DetectRequest& request) {
       fmt::format("{} images, {} models, on {}", images.size(), sets.size(), backend->name()));
   const BatchSummary summary = run_batch(images, sets, *backend, request.batch);
   std::cout << fmt::format(
-      "{} images: {} done, {} skipped, {} failed in {:.1f} s ({:.2f} images/s); {} poses in {} images; "
+      "{} images: {} done, {} skipped, {} failed in {:.1f} s ({:.2f} images/s); {} poses in {} "
+      "images; "
       "results in {}\n",
       summary.images, summary.done, summary.skipped, summary.failures.size(), summary.seconds,
       summary.done / std::max(1e-9, summary.seconds), summary.poses, summary.done + summary.skipped,
@@ -80,15 +82,16 @@ int detect(DetectRequest& request) {
 }  // namespace
 
 void add_detect(CLI::App& app, int& exit_code) {
-  CLI::App* verb =
-      app.add_subcommand("detect", "Find objects of known CAD models and their 6-DoF poses in images");
+  CLI::App* verb = app.add_subcommand(
+      "detect", "Find objects of known CAD models and their 6-DoF poses in images");
   auto request = std::make_shared<DetectRequest>();
-  verb->add_option("inputs", request->inputs, "Images, folders of images, BOP scenes or folders of them")
+  verb->add_option("inputs", request->inputs,
+                   "Images, folders of images, BOP scenes or folders of them")
       ->required();
   add_model_arguments(*verb, request->models);
-  verb->add_option(
-          "--camera", request->batch.camera_file,
-          "Calibration of the images: ROS or OpenCV YAML, or BOP camera JSON; BOP scenes bring their own")
+  verb->add_option("--camera", request->batch.camera_file,
+                   "Calibration of the images: ROS or OpenCV YAML, or BOP camera JSON; BOP scenes "
+                   "bring their own")
       ->type_name("FILE");
   verb->add_option("--out", request->out, "Folder of the results")->required()->type_name("DIR");
   verb->add_option("--device", request->device,
@@ -99,7 +102,8 @@ void add_detect(CLI::App& app, int& exit_code) {
             "Accept images whose size is a pure scale of the calibration's")
       .flag("resume", request->batch.resume,
             "Skip images whose result is there, made with the same models and options")
-      .flag("joint", request->batch.joint, "Detect in all views of a BOP scene at once (needs world poses)")
+      .flag("joint", request->batch.joint,
+            "Detect in all views of a BOP scene at once (needs world poses)")
       .flag("no-overlays", request->no_overlays, "Write no overlay pictures");
   add_template_options(*verb, request->templates);
   add_edge_and_tensor_options(*verb, request->batch.pipeline, request->edge_method);

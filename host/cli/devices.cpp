@@ -34,14 +34,16 @@ void list_devices(const DevicesOptions& options) {
   if (options.as_json) {
     nlohmann::json list = nlohmann::json::array();
     for (const DeviceInfo& device : devices) list.push_back(device_json(device));
-    std::cout << json_text(nlohmann::json{{"devices", list}, {"asked", options.device}, {"taken", taken}});
+    std::cout << json_text(
+        nlohmann::json{{"devices", list}, {"asked", options.device}, {"taken", taken}});
     return;
   }
   for (const DeviceInfo& device : devices)
     std::cout << fmt::format(
         "vulkan:{}  {}, {}, driver {}, Vulkan {}, {:.1f} GiB, buffers up to {} MiB\n", device.index,
         device.name, device.hardware ? "hardware" : "software", device.driver, device.api_version,
-        static_cast<double>(device.memory_bytes) / (1u << 30), device.max_storage_buffer_bytes >> 20);
+        static_cast<double>(device.memory_bytes) / (1u << 30),
+        device.max_storage_buffer_bytes >> 20);
   if (devices.empty()) std::cout << "no Vulkan device\n";
   std::cout << "cpu\n" << options.device << " takes: " << taken << "\n";
 }
@@ -49,7 +51,8 @@ void list_devices(const DevicesOptions& options) {
 }  // namespace
 
 void add_devices(CLI::App& app, int& exit_code) {
-  CLI::App* verb = app.add_subcommand("devices", "List the Vulkan devices and the one that --device takes");
+  CLI::App* verb =
+      app.add_subcommand("devices", "List the Vulkan devices and the one that --device takes");
   auto options = std::make_shared<DevicesOptions>();
   verb->add_option("--device", options->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
       ->capture_default_str();

@@ -26,7 +26,8 @@ struct Place {
 constexpr double PLOT_RADIUS = 150, PLOT_MIDDLE = 180;  // 90 degrees from the top lie on the radius
 
 Place place_of(const Eigen::Vector3d& direction, const Eigen::Vector3d& above) {
-  const Eigen::Vector3d d = Eigen::Quaterniond::FromTwoVectors(above, Eigen::Vector3d::UnitZ()) * direction;
+  const Eigen::Vector3d d =
+      Eigen::Quaterniond::FromTwoVectors(above, Eigen::Vector3d::UnitZ()) * direction;
   const double r = PLOT_RADIUS * std::acos(std::clamp(d.z(), -1.0, 1.0)) / (PI / 2),
                azimuth = std::atan2(d.y(), d.x());
   return {PLOT_MIDDLE + r * std::cos(azimuth), PLOT_MIDDLE - r * std::sin(azimuth)};
@@ -41,7 +42,8 @@ std::string rings_svg() {
         PLOT_MIDDLE, r, PLOT_MIDDLE - r - 3, 90 - ring);
   }
   for (int spoke = 0; spoke < 4; ++spoke) {
-    const double x = PLOT_RADIUS * std::cos(spoke * PI / 4), y = PLOT_RADIUS * std::sin(spoke * PI / 4);
+    const double x = PLOT_RADIUS * std::cos(spoke * PI / 4),
+                 y = PLOT_RADIUS * std::sin(spoke * PI / 4);
     svg += fmt::format("<path class=ring d='M{:.1f} {:.1f}L{:.1f} {:.1f}'/>", PLOT_MIDDLE - x,
                        PLOT_MIDDLE - y, PLOT_MIDDLE + x, PLOT_MIDDLE + y);
   }
@@ -60,25 +62,27 @@ std::string path_svg(std::span<const DrawnView> views, const std::vector<Place>&
   return "<path class=way d='" + line + "'/>";
 }
 
-std::string view_svg(const DrawnView& view, std::size_t number, const Place& p, double low, double high,
-                     const std::string& unit) {
+std::string view_svg(const DrawnView& view, std::size_t number, const Place& p, double low,
+                     double high, const std::string& unit) {
   const std::string title =
       fmt::format("<title>view {}{}</title>", number,
                   view.information ? fmt::format(": {:.4f} {}", *view.information, unit) : "");
   std::string svg;
   if (view.unreachable)
-    return fmt::format("<g><path class=cross d='M{:.1f} {:.1f}l10 10m0 -10l-10 10'/>{}</g>", p.x - 5, p.y - 5,
-                       title);
+    return fmt::format("<g><path class=cross d='M{:.1f} {:.1f}l10 10m0 -10l-10 10'/>{}</g>",
+                       p.x - 5, p.y - 5, title);
   if (view.chosen) svg += fmt::format("<circle class=chosen cx={:.1f} cy={:.1f} r=14 />", p.x, p.y);
   if (view.taken > 0)
-    return svg + fmt::format(
-                     "<g><circle class=taken cx={0:.1f} cy={1:.1f} r=9 /><text class=number x={0:.1f} "
-                     "y={2:.1f}>{3}</text>{4}</g>",
-                     p.x, p.y, p.y + 4, view.taken, title);
+    return svg +
+           fmt::format(
+               "<g><circle class=taken cx={0:.1f} cy={1:.1f} r=9 /><text class=number x={0:.1f} "
+               "y={2:.1f}>{3}</text>{4}</g>",
+               p.x, p.y, p.y + 4, view.taken, title);
   const std::string fill =
-      view.information ? heat_colour(high > low ? (*view.information - low) / (high - low) : 0.5) : "none";
-  return svg + fmt::format("<circle class=view fill='{}' cx={:.1f} cy={:.1f} r=9>{}</circle>", fill, p.x, p.y,
-                           title);
+      view.information ? heat_colour(high > low ? (*view.information - low) / (high - low) : 0.5)
+                       : "none";
+  return svg + fmt::format("<circle class=view fill='{}' cx={:.1f} cy={:.1f} r=9>{}</circle>", fill,
+                           p.x, p.y, title);
 }
 
 std::string colour_bar_svg(double low, double high, const std::string& unit) {
@@ -94,8 +98,9 @@ std::string colour_bar_svg(double low, double high, const std::string& unit) {
 }
 
 // Depth of the nearest surface of all members at every pixel.
-std::vector<float> surface_of(std::span<const EdgeModel> models, std::span<const Hypothesis> members,
-                              const Camera& camera, const Se3& camera_from_world, ThreadPool& pool) {
+std::vector<float> surface_of(std::span<const EdgeModel> models,
+                              std::span<const Hypothesis> members, const Camera& camera,
+                              const Se3& camera_from_world, ThreadPool& pool) {
   std::vector<TriangleCorners> triangles;
   for (const Hypothesis& member : members) {
     const Mesh& mesh = models[static_cast<std::size_t>(member.object)].mesh;
@@ -108,14 +113,16 @@ std::vector<float> surface_of(std::span<const EdgeModel> models, std::span<const
   return rasterize(triangles, camera, camera_from_world, pool).depth_m;
 }
 
-// Whether a point lies in the image with no surface clearly before it in any of the 3 x 3 pixels around; on a
-// contour the background is among them.
+// Whether a point lies in the image with no surface clearly before it in any of the 3 x 3 pixels
+// around; on a contour the background is among them.
 bool shows(const Eigen::Vector2d& pixel, double z_m, double tolerance_m, const Camera& camera,
            const std::vector<float>& depth_m) {
-  const int x = static_cast<int>(std::lround(pixel.x())), y = static_cast<int>(std::lround(pixel.y()));
+  const int x = static_cast<int>(std::lround(pixel.x())),
+            y = static_cast<int>(std::lround(pixel.y()));
   if (x < 1 || y < 1 || x >= camera.width - 1 || y >= camera.height - 1) return false;
   for (int i = 0; i < 9; ++i)
-    if (depth_m[static_cast<std::size_t>(y + i / 3 - 1) * camera.width + x + i % 3 - 1] >= z_m - tolerance_m)
+    if (depth_m[static_cast<std::size_t>(y + i / 3 - 1) * camera.width + x + i % 3 - 1] >=
+        z_m - tolerance_m)
       return true;
   return false;
 }
@@ -130,7 +137,8 @@ std::string inline_png(const std::string& png) {
     std::uint32_t word = 0;
     for (std::size_t k = 0; k < 3; ++k)
       word = word << 8 | (k < bytes ? static_cast<unsigned char>(png[i + k]) : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= bytes ? letters[word >> (18 - 6 * k) & 63] : '=';
+    for (std::size_t k = 0; k < 4; ++k)
+      text += k <= bytes ? letters[word >> (18 - 6 * k) & 63] : '=';
   }
   return text;
 }
@@ -144,7 +152,8 @@ std::string heat_colour(double fraction) {
   const int i = std::min(7, static_cast<int>(at));
   std::array<int, 3> rgb;
   for (int k = 0; k < 3; ++k)
-    rgb[k] = static_cast<int>(std::lround(stops[i][k] + (at - i) * (stops[i + 1][k] - stops[i][k])));
+    rgb[k] =
+        static_cast<int>(std::lround(stops[i][k] + (at - i) * (stops[i + 1][k] - stops[i][k])));
   return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
 }
 
@@ -169,20 +178,23 @@ std::string hemisphere_svg(std::span<const DrawnView> views, const std::string& 
     high = std::max(high, *view.information);
   }
   // Where the views look at nothing in common any point shows their order.
-  const Eigen::Vector3d center_m = looked_at_m(poses).value_or(inverse(poses[0]) * Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d center_m =
+      looked_at_m(poses).value_or(inverse(poses[0]) * Eigen::Vector3d::UnitZ());
   const std::vector<Eigen::Vector3d> directions = directions_to(poses, center_m);
   const Eigen::Vector3d above = direction_above(directions).value_or(Eigen::Vector3d::UnitZ());
   std::vector<Place> places;
   for (const Eigen::Vector3d& direction : directions) places.push_back(place_of(direction, above));
-  std::string svg =
-      "<svg class=hemisphere viewBox='0 0 440 360' role=img>" + rings_svg() + path_svg(views, places);
-  for (std::size_t v = 0; v < views.size(); ++v) svg += view_svg(views[v], v, places[v], low, high, unit);
+  std::string svg = "<svg class=hemisphere viewBox='0 0 440 360' role=img>" + rings_svg() +
+                    path_svg(views, places);
+  for (std::size_t v = 0; v < views.size(); ++v)
+    svg += view_svg(views[v], v, places[v], low, high, unit);
   if (high >= low) svg += colour_bar_svg(low, high, unit);
   return svg + "</svg>";
 }
 
 std::string particles_svg(const std::string& image_id, const Camera& camera,
-                          std::span<const DrawnParticle> particles, std::span<const EdgeModel> models) {
+                          std::span<const DrawnParticle> particles,
+                          std::span<const EdgeModel> models) {
   double heaviest = 0;
   for (const DrawnParticle& particle : particles) heaviest = std::max(heaviest, particle.weight);
   std::string svg = fmt::format("<svg class=picture viewBox='0 0 {} {}' role=img><use href='#{}'/>",
@@ -193,8 +205,9 @@ std::string particles_svg(const std::string& image_id, const Camera& camera,
     if (center.z() <= 0) continue;
     const Eigen::Vector2d p = project(camera, center);
     const auto [r, g, b] = distinct_colour(particle.object);
-    svg += fmt::format("<g opacity={:.2f} stroke='#{:02x}{:02x}{:02x}'><circle cx={:.1f} cy={:.1f} r=2.5 />",
-                       0.15 + 0.75 * particle.weight / heaviest, r, g, b, p.x(), p.y());
+    svg += fmt::format(
+        "<g opacity={:.2f} stroke='#{:02x}{:02x}{:02x}'><circle cx={:.1f} cy={:.1f} r=2.5 />",
+        0.15 + 0.75 * particle.weight / heaviest, r, g, b, p.x(), p.y());
     for (int axis : {0, 1}) {
       const Eigen::Vector3d end =
           particle.camera_from_object *
@@ -212,19 +225,23 @@ RgbImage edge_map(std::span<const EdgeModel> models, std::span<const Hypothesis>
                   std::span<const int> colours, const Camera& camera, const Se3& camera_from_world,
                   int width_px, Backend& backend) {
   const Camera small = scaled(camera, std::min(1.0, static_cast<double>(width_px) / camera.width));
-  const std::vector<float> depth_m = surface_of(models, members, small, camera_from_world, backend.threads());
+  const std::vector<float> depth_m =
+      surface_of(models, members, small, camera_from_world, backend.threads());
   cv::Mat canvas(small.height, small.width, CV_8UC3, cv::Scalar(255, 255, 255));
   for (std::size_t m = 0; m < members.size(); ++m) {
     const EdgeModel& model = models[static_cast<std::size_t>(members[m].object)];
     const Se3 camera_from_object = camera_from_world * members[m].world_from_object;
     const auto [r, g, b] = distinct_colour(colours[m]);
-    const std::vector<ModelPoint> points = visible_edges(model, {&camera_from_object, 1}, backend)[0];
+    const std::vector<ModelPoint> points =
+        visible_edges(model, {&camera_from_object, 1}, backend)[0];
     for (const ModelPoint& point : points) {
-      const Eigen::Vector3d x = camera_from_object * Eigen::Vector3d(point.x_m, point.y_m, point.z_m);
+      const Eigen::Vector3d x =
+          camera_from_object * Eigen::Vector3d(point.x_m, point.y_m, point.z_m);
       const Eigen::Vector2d pixel = project(small, x);
       if (!shows(pixel, x.z(), 0.02 * model.mesh.diameter_m, small, depth_m)) continue;
       constexpr int bits = 4;
-      cv::circle(canvas, cv::Point(int(std::lround(16 * pixel.x())), int(std::lround(16 * pixel.y()))), 16,
+      cv::circle(canvas,
+                 cv::Point(int(std::lround(16 * pixel.x())), int(std::lround(16 * pixel.y()))), 16,
                  cv::Scalar(r, g, b), cv::FILLED, cv::LINE_AA, bits);
     }
   }

@@ -1,4 +1,5 @@
-// Pictures of an active detection as text that stands in an HTML page by itself: SVG, and PNG in base64.
+// Pictures of an active detection as text that stands in an HTML page by itself: SVG, and PNG in
+// base64.
 #pragma once
 
 #include <array>
@@ -31,9 +32,9 @@ struct DrawnView {
   bool unreachable = false;
   bool chosen = false;  // now
 };
-// The views' directions from what they look at, seen from above (direction_above, active/views.h; +z where
-// there is none): the middle is straight up, each ring 30 degrees lower. Coloured by information, which is in
-// `unit`.
+// The views' directions from what they look at, seen from above (direction_above, active/views.h;
+// +z where there is none): the middle is straight up, each ring 30 degrees lower. Coloured by
+// information, which is in `unit`.
 std::string hemisphere_svg(std::span<const DrawnView> views, const std::string& unit);
 
 struct DrawnParticle {
@@ -41,13 +42,14 @@ struct DrawnParticle {
   Se3 camera_from_object;
   double weight = 0;  // of all particles: sums to 1
 };
-// Over the image with this id in the page: each particle a place and the object's x and y axes, darker the
-// heavier.
+// Over the image with this id in the page: each particle a place and the object's x and y axes,
+// darker the heavier.
 std::string particles_svg(const std::string& image_id, const Camera& camera,
-                          std::span<const DrawnParticle> particles, std::span<const EdgeModel> models);
+                          std::span<const DrawnParticle> particles,
+                          std::span<const EdgeModel> models);
 
-// The edges a scene made of these objects would show, hidden ones removed, each object in its colour; at most
-// `width_px` wide.
+// The edges a scene made of these objects would show, hidden ones removed, each object in its
+// colour; at most `width_px` wide.
 RgbImage edge_map(std::span<const EdgeModel> models, std::span<const Hypothesis> members,
                   std::span<const int> colours, const Camera& camera, const Se3& camera_from_world,
                   int width_px, Backend& backend);

@@ -44,12 +44,14 @@ std::vector<BopScene> load_scenes(const std::vector<std::string>& arguments) {
         if (is_bop_scene(entry.path())) scenes.push_back(load_bop_scene(entry.path()));
     }
     if (scenes.size() == before)
-      throw InputError(argument, "scene", "no scene_camera.json", "a BOP scene or a folder of BOP scenes");
+      throw InputError(argument, "scene", "no scene_camera.json",
+                       "a BOP scene or a folder of BOP scenes");
   }
   std::ranges::sort(scenes, {}, &BopScene::scene_id);
   for (std::size_t i = 1; i < scenes.size(); ++i)
     if (scenes[i].scene_id == scenes[i - 1].scene_id)
-      throw InputError(scenes[i].folder.string(), "scene id", std::to_string(scenes[i].scene_id) + " twice",
+      throw InputError(scenes[i].folder.string(), "scene id",
+                       std::to_string(scenes[i].scene_id) + " twice",
                        "scenes of different numbers");
   return scenes;
 }
@@ -64,7 +66,8 @@ void read_image_sizes(BopScene& scene) {
 }
 
 // Said here and not by the evaluation, which does not know the file's name.
-void require_images(const BopScene& scene, std::span<const BopResult> results, const std::string& file) {
+void require_images(const BopScene& scene, std::span<const BopResult> results,
+                    const std::string& file) {
   std::set<int> ids;
   for (const BopImage& image : scene.images) ids.insert(image.image_id);
   for (const BopResult& result : results)
@@ -73,7 +76,8 @@ void require_images(const BopScene& scene, std::span<const BopResult> results, c
                        "an image of scene " + std::to_string(scene.scene_id));
 }
 
-std::vector<EvaluationImage> load_images(const EvalRequest& request, std::span<const BopResult> results) {
+std::vector<EvaluationImage> load_images(const EvalRequest& request,
+                                         std::span<const BopResult> results) {
   std::vector<BopScene> scenes = load_scenes(request.scenes);
   std::vector<EvaluationImage> images;
   for (BopScene& scene : scenes) {
@@ -82,13 +86,14 @@ std::vector<EvaluationImage> load_images(const EvalRequest& request, std::span<c
                        "the scene's true poses");
     require_images(scene, results, request.results);
     read_image_sizes(scene);
-    for (EvaluationImage& image : evaluation_images(scene, results)) images.push_back(std::move(image));
+    for (EvaluationImage& image : evaluation_images(scene, results))
+      images.push_back(std::move(image));
   }
   std::size_t used = 0;
   for (const EvaluationImage& image : images) used += image.estimates.size();
   if (used < results.size())
-    log(LogLevel::Warning, fmt::format("{}: {} of {} results are of scenes not given here", request.results,
-                                       results.size() - used, results.size()));
+    log(LogLevel::Warning, fmt::format("{}: {} of {} results are of scenes not given here",
+                                       request.results, results.size() - used, results.size()));
   return images;
 }
 
@@ -99,10 +104,11 @@ struct Evaluation {
   std::set<int> left_out;  // objects of the scenes without a model here
 };
 
-// Truths and estimates of objects without a model say nothing of the others. Returns their ids. InputError:
-// an estimate of an object that is not in the scenes either, no object of the scenes has a model.
-std::set<int> leave_out_others(std::vector<EvaluationImage>& images, const std::map<int, Object>& objects,
-                               const EvalRequest& request) {
+// Truths and estimates of objects without a model say nothing of the others. Returns their ids.
+// InputError: an estimate of an object that is not in the scenes either, no object of the scenes
+// has a model.
+std::set<int> leave_out_others(std::vector<EvaluationImage>& images,
+                               const std::map<int, Object>& objects, const EvalRequest& request) {
   std::set<int> left_out;
   std::size_t judged = 0;
   for (const EvaluationImage& image : images)
@@ -112,16 +118,17 @@ std::set<int> leave_out_others(std::vector<EvaluationImage>& images, const std::
       else
         left_out.insert(truth.object_id);
   if (judged == 0 && !left_out.empty())
-    throw InputError(
-        "command line", "--model", "none of the scenes' objects",
-        fmt::format("one of obj_id {} (--object-id says which a file is)", fmt::join(left_out, ", ")));
+    throw InputError("command line", "--model", "none of the scenes' objects",
+                     fmt::format("one of obj_id {} (--object-id says which a file is)",
+                                 fmt::join(left_out, ", ")));
   for (EvaluationImage& image : images) {
     for (const BopResult& estimate : image.estimates)
       if (!objects.contains(estimate.object_id) && !left_out.contains(estimate.object_id))
         throw InputError(request.results, "obj_id", std::to_string(estimate.object_id),
                          "the id of a given model or of an object in the scenes");
     std::erase_if(image.truth, [&](const BopTruth& t) { return left_out.contains(t.object_id); });
-    std::erase_if(image.estimates, [&](const BopResult& e) { return left_out.contains(e.object_id); });
+    std::erase_if(image.estimates,
+                  [&](const BopResult& e) { return left_out.contains(e.object_id); });
   }
   return left_out;
 }
@@ -176,30 +183,35 @@ void save_json(const Evaluation& evaluation, const EvalRequest& request) {
 // What the figures leave out.
 void print_limits(const Evaluation& evaluation, const EvalRequest& request) {
   if (!evaluation.left_out.empty())
-    std::cout << fmt::format("left out, truths and estimates, as they have no --model: objects {}\n",
-                             fmt::join(evaluation.left_out, ", "));
+    std::cout << fmt::format(
+        "left out, truths and estimates, as they have no --model: objects {}\n",
+        fmt::join(evaluation.left_out, ", "));
   if (request.models.models_info.empty())
-    std::cout << "no symmetries without --models-info: a pose that looks the same as the truth counts as a "
+    std::cout << "no symmetries without --models-info: a pose that looks the same as the truth "
+                 "counts as a "
                  "miss\n";
 }
 
 void print_table(const std::vector<Row>& rows, const RecallOptions& o) {
-  const std::string estimates =
-      std::isinf(o.min_score) ? "all estimates" : fmt::format("estimates of score {} or more", o.min_score);
+  const std::string estimates = std::isinf(o.min_score)
+                                    ? "all estimates"
+                                    : fmt::format("estimates of score {} or more", o.min_score);
   std::cout << fmt::format(
       "{} images; truths seen by at least {:.0f} %; {}\n"
-      "AR(MSSD,MSPD): mean of BOP's average recalls MSSD and MSPD; BOP's own AR has VSD in it, which needs "
+      "AR(MSSD,MSPD): mean of BOP's average recalls MSSD and MSPD; BOP's own AR has VSD in it, "
+      "which needs "
       "depth\n"
-      "pose: below {} rad and {} mm; mspd: below {} px; fp: estimates that match no truth so, an image\n\n"
+      "pose: below {} rad and {} mm; mspd: below {} px; fp: estimates that match no truth so, an "
+      "image\n\n"
       "{:>6} {:>7} {:>9} {:>13} {:>7} {:>7} {:>9} {:>9} {:>7} {:>7}\n",
       rows.back().second.images, 100 * o.min_visible_fraction, estimates, o.max_angle_rad,
-      1000 * o.max_distance_m, o.max_mspd_px, "object", "truths", "estimates", "AR(MSSD,MSPD)", "MSSD",
-      "MSPD", "pose", "pose/sym", "mspd", "fp");
+      1000 * o.max_distance_m, o.max_mspd_px, "object", "truths", "estimates", "AR(MSSD,MSPD)",
+      "MSSD", "MSPD", "pose", "pose/sym", "mspd", "fp");
   for (const auto& [object, r] : rows)
     std::cout << fmt::format(
-        "{:>6} {:>7} {:>9} {:>13.3f} {:>7.3f} {:>7.3f} {:>9.3f} {:>9.3f} {:>7.3f} {:>7.2f}\n", object,
-        r.truths, r.estimates, 0.5 * (r.ar_mssd + r.ar_mspd), r.ar_mssd, r.ar_mspd, r.recall_raw,
-        r.recall_symmetric, r.recall_mspd, r.false_positives_per_image);
+        "{:>6} {:>7} {:>9} {:>13.3f} {:>7.3f} {:>7.3f} {:>9.3f} {:>9.3f} {:>7.3f} {:>7.2f}\n",
+        object, r.truths, r.estimates, 0.5 * (r.ar_mssd + r.ar_mspd), r.ar_mssd, r.ar_mspd,
+        r.recall_raw, r.recall_symmetric, r.recall_mspd, r.false_positives_per_image);
 }
 
 void run_eval(const EvalRequest& request) {
@@ -219,14 +231,17 @@ void add_eval(CLI::App& app, int& exit_code) {
   verb->add_option("scenes", request->scenes, "BOP scenes with scene_gt.json, or folders of them")
       ->required()
       ->type_name("DIR");
-  verb->add_option("--model", request->models.models,
-                   "STL, PLY, OBJ or CAO files of the objects to judge; the scenes' others are left out")
+  verb->add_option(
+          "--model", request->models.models,
+          "STL, PLY, OBJ or CAO files of the objects to judge; the scenes' others are left out")
       ->required()
       ->type_name("FILE");
-  verb->add_option("--unit", request->models.unit, "Length unit of the model files: mm, cm, m or in")
+  verb->add_option("--unit", request->models.unit,
+                   "Length unit of the model files: mm, cm, m or in")
       ->required();
   verb->add_option("--models-info", request->models.models_info,
-                   "BOP models_info.json with symmetries; without it a pose that looks the same as the truth "
+                   "BOP models_info.json with symmetries; without it a pose that looks the same as "
+                   "the truth "
                    "is a miss")
       ->type_name("FILE");
   verb->add_option("--object-id", request->models.object_ids,
@@ -238,7 +253,8 @@ void add_eval(CLI::App& app, int& exit_code) {
                "Truths of which a smaller fraction is seen are ignored")
       .bounded("min-score", o.min_score, -std::numeric_limits<double>::infinity(), 1e6,
                "Estimates of a lower score are dropped")
-      .bounded("max-angle", o.max_angle_rad, 1e-6, 3.2, "Largest angle of a right pose to the truth, rad")
+      .bounded("max-angle", o.max_angle_rad, 1e-6, 3.2,
+               "Largest angle of a right pose to the truth, rad")
       .bounded("max-distance", o.max_distance_m, 1e-9, 100.0,
                "Largest distance of a right pose from the truth, m")
       .bounded("max-mspd", o.max_mspd_px, 0.01, 10000.0, "Largest MSPD of a true find, px");

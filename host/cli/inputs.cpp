@@ -20,8 +20,10 @@ namespace {
 
 bool has_image_extension(const fs::path& file) {
   std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-  static const std::set<std::string> known{".png", ".jpg", ".jpeg", ".pgm", ".ppm", ".bmp", ".tif", ".tiff"};
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return char(std::tolower(c)); });
+  static const std::set<std::string> known{".png", ".jpg", ".jpeg", ".pgm",
+                                           ".ppm", ".bmp", ".tif",  ".tiff"};
   return known.contains(extension);
 }
 
@@ -34,9 +36,11 @@ bool is_folder(const fs::path& path) {
 std::vector<fs::path> sorted_entries(const fs::path& folder) {
   std::vector<fs::path> entries;
   std::error_code failure;
-  for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure))
+  for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end;
+       entry.increment(failure))
     entries.push_back(entry->path());
-  if (failure) throw InputError(folder.string(), "folder", failure.message(), "one that can be read");
+  if (failure)
+    throw InputError(folder.string(), "folder", failure.message(), "one that can be read");
   std::ranges::sort(entries);
   return entries;
 }
@@ -45,7 +49,8 @@ void add_scene(const fs::path& folder, std::vector<InputImage>& images) {
   const BopScene scene = load_bop_scene(folder);
   for (const BopImage& image : scene.images)
     images.push_back({image.file, folder, scene.scene_id, image.image_id, image.camera,
-                      image.camera_from_world, fmt::format("{:06}_{:06}", scene.scene_id, image.image_id)});
+                      image.camera_from_world,
+                      fmt::format("{:06}_{:06}", scene.scene_id, image.image_id)});
   if (scene.images.empty())
     throw InputError((folder / "scene_camera.json").string(), "images", "none", "at least one");
 }
@@ -105,10 +110,12 @@ std::vector<InputImage> list_images(const std::vector<std::string>& arguments) {
   return images;
 }
 
-std::vector<std::span<const InputImage>> groups_of(std::span<const InputImage> images, bool by_scene) {
+std::vector<std::span<const InputImage>> groups_of(std::span<const InputImage> images,
+                                                   bool by_scene) {
   std::vector<std::span<const InputImage>> groups;
   for (std::size_t first = 0, i = 1; i <= images.size(); ++i) {
-    if (by_scene && i < images.size() && images[i].scene_folder == images[first].scene_folder) continue;
+    if (by_scene && i < images.size() && images[i].scene_folder == images[first].scene_folder)
+      continue;
     groups.push_back(images.subspan(first, i - first));
     first = i;
   }
@@ -118,47 +125,51 @@ std::vector<std::span<const InputImage>> groups_of(std::span<const InputImage> i
 void require_other_folder(std::span<const InputImage> images, const fs::path& out) {
   std::error_code not_there;
   for (const InputImage& image : images)
-    if (image.scene_folder.empty() && fs::equivalent(image.file.parent_path() / ".", out, not_there))
+    if (image.scene_folder.empty() &&
+        fs::equivalent(image.file.parent_path() / ".", out, not_there))
       throw InputError("command line", "--out", "the folder of the images", "another one");
 }
 
 void warn_of_unknown_size(const GivenCamera& given) {
   if (given.camera && given.camera->width == 0)
-    log(LogLevel::Warning,
-        fmt::format(
-            "{}: width, height: found none, expected the size of the calibration's images: taken to be "
-            "that of every image",
-            given.file));
+    log(LogLevel::Warning, fmt::format("{}: width, height: found none, expected the size of the "
+                                       "calibration's images: taken to be "
+                                       "that of every image",
+                                       given.file));
 }
 
 Camera camera_of(const InputImage& image, int width, int height, const GivenCamera& given) {
   if (!given.camera && !image.camera)
     throw InputError(image.file.string(), "camera", "none", "--camera FILE");
-  const std::string source = given.camera ? given.file : (image.scene_folder / "scene_camera.json").string();
+  const std::string source =
+      given.camera ? given.file : (image.scene_folder / "scene_camera.json").string();
   return naming(image, [&] {
-    return camera_for_image(given.camera ? *given.camera : *image.camera, width, height, given.may_scale,
-                            source);
+    return camera_for_image(given.camera ? *given.camera : *image.camera, width, height,
+                            given.may_scale, source);
   });
 }
 
 std::vector<Object> load_objects(const ModelArguments& arguments, int continuous_steps) {
   for (const std::string& file : arguments.models)
     if (is_template_file(file))
-      throw InputError(file, "model", "a template file", "a CAD file (templates are given with --templates)");
+      throw InputError(file, "model", "a template file",
+                       "a CAD file (templates are given with --templates)");
   if (arguments.unit.empty())
     throw InputError("command line", "--unit", "none", "mm, cm, m or in: mesh files carry no unit");
   if (!arguments.object_ids.empty() && arguments.object_ids.size() != arguments.models.size())
-    throw InputError("command line", "--object-id", std::to_string(arguments.object_ids.size()) + " ids",
+    throw InputError("command line", "--object-id",
+                     std::to_string(arguments.object_ids.size()) + " ids",
                      "one for each of " + std::to_string(arguments.models.size()) + " models");
   const LengthUnit unit = length_unit(arguments.unit);
   std::map<int, Symmetries> symmetries;
-  if (!arguments.models_info.empty()) symmetries = load_symmetries(arguments.models_info, continuous_steps);
+  if (!arguments.models_info.empty())
+    symmetries = load_symmetries(arguments.models_info, continuous_steps);
   std::vector<Object> objects;
   std::set<int> ids;
   for (std::size_t i = 0; i < arguments.models.size(); ++i) {
     Object object;
-    object.id =
-        arguments.object_ids.empty() ? id_in_name(arguments.models[i], int(i) + 1) : arguments.object_ids[i];
+    object.id = arguments.object_ids.empty() ? id_in_name(arguments.models[i], int(i) + 1)
+                                             : arguments.object_ids[i];
     if (!ids.insert(object.id).second)
       throw InputError(arguments.models[i], "object id", std::to_string(object.id) + " twice",
                        "ids that differ: give --object-id");

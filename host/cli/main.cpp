@@ -81,7 +81,8 @@ int run(int argc, char** argv) {
     return fail(explanation(error, app), exit_bad_request);
   }
   if (!std::cout.flush())
-    return fail("standard output: found a write error, expected room for the result", exit_bad_request);
+    return fail("standard output: found a write error, expected room for the result",
+                exit_bad_request);
   return exit_code;
 }
 
@@ -91,7 +92,8 @@ int run_and_catch(int argc, char** argv) {
   } catch (const InputError& error) {
     return fail(error.what(), exit_bad_request);
   } catch (const std::filesystem::filesystem_error& error) {
-    return fail(fmt::format("{}: {}", error.path1().string(), error.code().message()), exit_bad_request);
+    return fail(fmt::format("{}: {}", error.path1().string(), error.code().message()),
+                exit_bad_request);
   } catch (const GpuError& error) {
     return fail(error.what(), exit_device_failed);
   } catch (const std::bad_alloc&) {
@@ -106,7 +108,8 @@ int run_and_catch(int argc, char** argv) {
 }  // namespace edgescout
 
 int main(int argc, char** argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file-size limit is then an error of write(), told like a full disk
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a file-size limit is then an error of write(), told like a full disk
   edgescout::send_log_to_stderr();
   return edgescout::run_and_catch(argc, argv);
 }

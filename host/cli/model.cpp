@@ -50,9 +50,11 @@ nlohmann::json inspection_json(const std::string& file, const Mesh& mesh, const 
 }
 
 void print_inspection(const std::string& file, const Mesh& mesh, const EdgeCounts& edges) {
-  const Eigen::Vector3d low = 1000 * mesh.box_min_m, high = 1000 * mesh.box_max_m, size = high - low;
+  const Eigen::Vector3d low = 1000 * mesh.box_min_m, high = 1000 * mesh.box_max_m,
+                        size = high - low;
   std::cout << fmt::format(
-      "{}\n  box       {:.3f} x {:.3f} x {:.3f} mm, from ({:.3f}, {:.3f}, {:.3f}) to ({:.3f}, {:.3f}, "
+      "{}\n  box       {:.3f} x {:.3f} x {:.3f} mm, from ({:.3f}, {:.3f}, {:.3f}) to ({:.3f}, "
+      "{:.3f}, "
       "{:.3f})\n"
       "  diameter  {:.3f} mm\n  vertices  {} (welded)\n  triangles {}\n"
       "  edges     {}, of which {} on open borders and {} shared by more than two triangles\n",
@@ -87,8 +89,11 @@ void add_inspect(CLI::App& model, int& exit_code) {
   CLI::App* verb =
       model.add_subcommand("inspect", "Print box, diameter, counts and open borders of CAD files");
   auto options = std::make_shared<InspectOptions>();
-  verb->add_option("files", options->files, "STL, PLY, OBJ or CAO files")->required()->type_name("FILE");
-  verb->add_option("--unit", options->unit, "Length unit of the files: mm, cm, m or in")->required();
+  verb->add_option("files", options->files, "STL, PLY, OBJ or CAO files")
+      ->required()
+      ->type_name("FILE");
+  verb->add_option("--unit", options->unit, "Length unit of the files: mm, cm, m or in")
+      ->required();
   verb->add_flag("--json", options->as_json, "Print JSON");
   verb->callback([options, &exit_code] {
     inspect(*options);

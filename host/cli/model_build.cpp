@@ -64,7 +64,8 @@ void build(const BuildRequest& request) {
   std::size_t points = 0;
   for (const TemplateView& view : set.views) points += view.points.size();
   std::cout << fmt::format(
-      "{}: object {}, diameter {:.1f} mm, {} viewpoints of {} edge points on average, {} in-plane rotations, "
+      "{}: object {}, diameter {:.1f} mm, {} viewpoints of {} edge points on average, {} in-plane "
+      "rotations, "
       "{} distances from "
       "{:.3f} to "
       "{:.3f} m, {} symmetries\n",
@@ -79,15 +80,19 @@ void add_model_build(CLI::App& model, int& exit_code) {
   CLI::App* verb =
       model.add_subcommand("build", "Build the templates of a CAD file, once for many detections");
   auto request = std::make_shared<BuildRequest>();
-  verb->add_option("file", request->file, "STL, PLY, OBJ or CAO file")->required()->type_name("FILE");
-  verb->add_option("--unit", request->unit, "Length unit of the file: mm, cm, m or in")->required();
-  verb->add_option("--models-info,--symmetries", request->models_info, "BOP models_info.json with symmetries")
+  verb->add_option("file", request->file, "STL, PLY, OBJ or CAO file")
+      ->required()
       ->type_name("FILE");
-  verb->add_option(
-      "--symmetry", request->symmetry,
-      "In place of --models-info: z2 for a half turn about z, x4 for quarter turns about x, z alone for a "
-      "surface of revolution; several for all their products");
-  verb->add_option("--camera", request->camera, "Calibration from which a range of distances is chosen")
+  verb->add_option("--unit", request->unit, "Length unit of the file: mm, cm, m or in")->required();
+  verb->add_option("--models-info,--symmetries", request->models_info,
+                   "BOP models_info.json with symmetries")
+      ->type_name("FILE");
+  verb->add_option("--symmetry", request->symmetry,
+                   "In place of --models-info: z2 for a half turn about z, x4 for quarter turns "
+                   "about x, z alone for a "
+                   "surface of revolution; several for all their products");
+  verb->add_option("--camera", request->camera,
+                   "Calibration from which a range of distances is chosen")
       ->type_name("FILE");
   verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
       ->capture_default_str();

@@ -33,9 +33,10 @@ struct Viewpoints {
 
 Viewpoints of_templates(const TemplateSet& set) {
   Viewpoints viewpoints;
-  for (const TemplateView& view : set.views) viewpoints.camera_from_object.push_back(view.camera_from_object);
-  viewpoints.distance_m =
-      std::max(std::sqrt(set.options.distance_min_m * set.options.distance_max_m), 1.2 * set.model.radius_m);
+  for (const TemplateView& view : set.views)
+    viewpoints.camera_from_object.push_back(view.camera_from_object);
+  viewpoints.distance_m = std::max(
+      std::sqrt(set.options.distance_min_m * set.options.distance_max_m), 1.2 * set.model.radius_m);
   return viewpoints;
 }
 
@@ -48,25 +49,28 @@ Viewpoints of_model(const EdgeModel& model) {
 }
 
 std::string caption(const Eigen::Quaterniond& camera_from_object) {
-  const Eigen::Vector3d towards_camera = -(camera_from_object.conjugate() * Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d towards_camera =
+      -(camera_from_object.conjugate() * Eigen::Vector3d::UnitZ());
   constexpr double degrees = 180 / std::numbers::pi;
   return fmt::format("lat {} lon {}",
                      std::lround(std::asin(std::clamp(towards_camera.z(), -1.0, 1.0)) * degrees),
                      std::lround(std::atan2(towards_camera.y(), towards_camera.x()) * degrees));
 }
 
-RgbImage draw_tile(const EdgeModel& model, const Eigen::Quaterniond& camera_from_object, double distance_m,
-                   int size, Backend& backend) {
-  const Image empty{size, size, std::vector<std::uint8_t>(static_cast<std::size_t>(size) * size, 0)};
+RgbImage draw_tile(const EdgeModel& model, const Eigen::Quaterniond& camera_from_object,
+                   double distance_m, int size, Backend& backend) {
+  const Image empty{size, size,
+                    std::vector<std::uint8_t>(static_cast<std::size_t>(size) * size, 0)};
   Camera camera;
   camera.width = camera.height = size;
-  // The bounding sphere's outline, a little wider than its radius for the perspective, fills 94 % of the
-  // tile.
+  // The bounding sphere's outline, a little wider than its radius for the perspective, fills 94 %
+  // of the tile.
   const double outline =
       model.radius_m / std::sqrt(distance_m * distance_m - model.radius_m * model.radius_m);
   camera.fx = camera.fy = 0.47 * size / outline;
   camera.cx = camera.cy = 0.5 * (size - 1);
-  const Se3 pose{camera_from_object, Eigen::Vector3d(0, 0, distance_m) - camera_from_object * model.center_m};
+  const Se3 pose{camera_from_object,
+                 Eigen::Vector3d(0, 0, distance_m) - camera_from_object * model.center_m};
   const OverlayPose overlay{0, pose, std::nullopt, caption(camera_from_object)};
   return draw_overlay(empty, camera, {&overlay, 1}, {&model, 1}, nullptr, backend);
 }
@@ -79,16 +83,16 @@ void paste(const RgbImage& tile, int left, int top, RgbImage& sheet) {
   }
 }
 
-RgbImage contact_sheet(const EdgeModel& model, const Viewpoints& viewpoints, const DrawRequest& request,
-                       Backend& backend) {
+RgbImage contact_sheet(const EdgeModel& model, const Viewpoints& viewpoints,
+                       const DrawRequest& request, Backend& backend) {
   const std::size_t tiles = static_cast<std::size_t>(request.columns) * request.rows,
                     all = viewpoints.camera_from_object.size();
   RgbImage sheet{request.columns * request.tile_px, request.rows * request.tile_px, {}};
   sheet.pixels.assign(std::size_t{3} * sheet.width * sheet.height, 32);
   for (std::size_t i = 0; i < std::min(tiles, all); ++i) {
     const std::size_t view = all <= tiles ? i : i * all / tiles;
-    const RgbImage tile = draw_tile(model, viewpoints.camera_from_object[view], viewpoints.distance_m,
-                                    request.tile_px, backend);
+    const RgbImage tile = draw_tile(model, viewpoints.camera_from_object[view],
+                                    viewpoints.distance_m, request.tile_px, backend);
     paste(tile, static_cast<int>(i) % request.columns * request.tile_px,
           static_cast<int>(i) / request.columns * request.tile_px, sheet);
   }
@@ -102,7 +106,8 @@ void draw(const DrawRequest& request) {
   if (holds_templates && !request.unit.empty())
     throw InputError("command line", "--unit", "beside " + request.file, "it with a CAD file");
   if (!holds_templates && request.unit.empty() && std::filesystem::exists(request.file))
-    throw InputError(request.file, "--unit", "none", "mm, cm, m or in: no template file, which needs none");
+    throw InputError(request.file, "--unit", "none",
+                     "mm, cm, m or in: no template file, which needs none");
   if (request.unit.empty())
     set = load_templates(request.file);
   else

@@ -33,12 +33,14 @@ void add_tensor_value_options(CLI::App& verb, const std::string& group, TensorOp
 void add_hit_options(CLI::App& verb, const std::string& group, DetectOptions& d) {
   OptionTable(verb, group)
       .bounded("scan-hits", d.scan.kept, 1, 10000000,
-               "Best hits of the scan that are kept, an image and object; other images of the scene judge "
+               "Best hits of the scan that are kept, an image and object; other images of the "
+               "scene judge "
                "all of them")
       .bounded("aligned", d.aligned, 1, 1000000,
                "Best hits of the scan that are aligned, on the coarse tensor")
       .bounded("aligned-jointly", d.aligned_jointly, 1, 1000000,
-               "Best hits of the scan that are aligned where other images of the scene help, in place of "
+               "Best hits of the scan that are aligned where other images of the scene help, in "
+               "place of "
                "--aligned")
       .bounded("promising", d.promising, 1, 1000000,
                "Best of the hits of --aligned-jointly, which are aligned in full resolution");
@@ -62,7 +64,8 @@ void add_choice_options(CLI::App& verb, double& min_probability, EvidenceOptions
   OptionTable(verb, "Detection")
       .bounded("max-spent", evidence.max_spent, 0.0, 1.0,
                "A pose goes where better poses explain more than this fraction of its edges")
-      .bounded("min-probability", min_probability, 0.0, 1.0, "Less probable poses are not reported");
+      .bounded("min-probability", min_probability, 0.0, 1.0,
+               "Less probable poses are not reported");
 }
 
 void add_detection_options(CLI::App& verb, PipelineOptions& o) {
@@ -71,21 +74,26 @@ void add_detection_options(CLI::App& verb, PipelineOptions& o) {
   add_choice_options(verb, d.min_probability, d.evidence);
   OptionTable(verb, "Detection")
       .bounded("region-x", d.scan.within.x, 0.0, 1e6,
-               "Left border of the part of every undistorted image where objects' centres are looked for, px")
-      .bounded(
-          "region-y", d.scan.within.y, 0.0, 1e6,
-          "Upper border of the part of every undistorted image where objects' centres are looked for, px")
+               "Left border of the part of every undistorted image where objects' centres are "
+               "looked for, px")
+      .bounded("region-y", d.scan.within.y, 0.0, 1e6,
+               "Upper border of the part of every undistorted image where objects' centres are "
+               "looked for, px")
       .bounded("region-width", d.scan.within.width, 0.0, 1e6,
-               "Width of the part of every undistorted image where objects' centres are looked for, px; 0: "
+               "Width of the part of every undistorted image where objects' centres are looked "
+               "for, px; 0: "
                "to the image's border")
       .bounded("region-height", d.scan.within.height, 0.0, 1e6,
-               "Height of the part of every undistorted image where objects' centres are looked for, px; 0: "
+               "Height of the part of every undistorted image where objects' centres are looked "
+               "for, px; 0: "
                "to the image's border")
       .bounded("second-look", d.second_look_rad, 0.0, 1.0,
                "Angle by which starts around the chosen poses are turned, rad; 0: no second look")
-      .bounded("max-detections", d.max_detections, 1, 100000, "Largest number of poses reported for an image")
+      .bounded("max-detections", d.max_detections, 1, 100000,
+               "Largest number of poses reported for an image")
       .bounded("penetration", d.penetration_m, 0.0, 1.0,
-               "How far parts may reach into each other, m; of poses from several images of a scene that "
+               "How far parts may reach into each other, m; of poses from several images of a "
+               "scene that "
                "reach further the less probable is doubted");
 }
 
@@ -98,38 +106,47 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
       .bounded("free-sight", o.next_view.free_sight, 0.0, 100.0,
                "How much lower cameras are hidden by what is unknown; 0: not at all")
       .bounded("repeat-angle", o.next_view.repeat_rad, 0.0, 100.0,
-               "Angle within which two views tell much the same of a candidate, rad; 0: every view is new")
+               "Angle within which two views tell much the same of a candidate, rad; 0: every view "
+               "is new")
       .bounded("unknown", o.next_view.unknown_nats, 0.0, 1000.0,
                "Information expected of a view about what is no candidate yet, nats")
       .bounded("unknown-angle", o.next_view.unknown_repeat_rad, 0.0, 100.0,
-               "Angle within which two views tell much the same of what is no candidate yet, rad; 0: every "
+               "Angle within which two views tell much the same of what is no candidate yet, rad; "
+               "0: every "
                "view is new")
       .bounded("seen", o.next_view.seen_px, 0.0, 8.0,
-               "A part's point counts as seen in an image with an edge this near, px; 0: wherever it lies in "
+               "A part's point counts as seen in an image with an edge this near, px; 0: wherever "
+               "it lies in "
                "an image, as in the paper")
       .flag("literal", o.next_view.literal, "Expect the information by the paper's own formula")
       .bounded("combinations", o.combinations.count, 1, 1000000,
                "Scenes imagined for a decision on the next view")
       .bounded("sharpness", o.combinations.sharpness, 0.0, 500.0,
-               "How much imagined scenes prefer candidates of high psi, with --scenes-by-psi; 1: the paper's")
+               "How much imagined scenes prefer candidates of high psi, with --scenes-by-psi; 1: "
+               "the paper's")
       .flag("scenes-by-probability,!--scenes-by-psi", o.probable_combinations,
-            "Imagine scenes as often as they are believed in (default), or as in the paper's Algorithm 1");
+            "Imagine scenes as often as they are believed in (default), or as in the paper's "
+            "Algorithm 1");
   OptionTable(verb, "Belief")
       .bounded("sigma", o.next_view.sigma_px, 0.001, 1000.0,
-               "Standard deviation of the mean distance of a right pose, image px, in weights and in the "
+               "Standard deviation of the mean distance of a right pose, image px, in weights and "
+               "in the "
                "information; at least 1/141 of --chamfer-cap")
       .bounded("penetration", o.particles.penetration_m, 0.0, 1.0,
-               "How far parts may reach into each other, m: else no scene has both, and the less probable is "
+               "How far parts may reach into each other, m: else no scene has both, and the less "
+               "probable is "
                "doubted")
       .bounded("particles", o.particles.count, 1, 16384,
                "Poses that the belief follows; new candidates add to them until they are resampled")
       .bounded("max-candidates", o.max_candidates, 1, 10000,
                "Candidates of all objects together that are kept from image to image")
       .bounded("known-probability", o.known_probability, 0.0, 2.0,
-               "Reported instances at least this probable are not sought again and hide what is behind them; "
+               "Reported instances at least this probable are not sought again and hide what is "
+               "behind them; "
                "above 1: none do")
       .bounded("max-searches", o.max_searches, 1, 100,
-               "Searches of one image at most: another follows while the last one made more instances known")
+               "Searches of one image at most: another follows while the last one made more "
+               "instances known")
       .flag("jointly,!--alone", o.detect_jointly,
             "Detect in later images with the help of those before (default), or in each alone")
       .flag("every-image,!--first-image-only", o.detect_in_every_image,
@@ -139,10 +156,12 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
 void add_template_options(CLI::App& verb, TemplateOptions& o) {
   OptionTable(verb, "Templates")
       .bounded("distance-min", o.distance_min_m, 0.0, 1000.0,
-               "Smallest distance from the camera to an object's centre, m; 0, with --distance-max 0: by the "
+               "Smallest distance from the camera to an object's centre, m; 0, with --distance-max "
+               "0: by the "
                "object's size and the camera, in scout by what the views see")
       .bounded("distance-max", o.distance_max_m, 0.0, 1000.0,
-               "Largest distance from the camera to an object's centre, m; 0, with --distance-min 0: by the "
+               "Largest distance from the camera to an object's centre, m; 0, with --distance-min "
+               "0: by the "
                "object's size and the camera, in scout by what the views see")
       .bounded("distance-ratio", o.distance_ratio, 1.001, 2.0,
                "Ratio of neighbouring distances that templates are made for")

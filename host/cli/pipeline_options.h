@@ -1,4 +1,5 @@
-// The options of pipeline and active detection as rows of the table: one place for all verbs that have them.
+// The options of pipeline and active detection as rows of the table: one place for all verbs that
+// have them.
 #pragma once
 
 #include "host/active/scout.h"
@@ -8,7 +9,8 @@
 namespace edgescout {
 
 // `edge_method` receives the word of --edges; edge_method_from_name (edge/edges.h) reads it.
-void add_edge_and_tensor_options(CLI::App& verb, PipelineOptions& options, std::string& edge_method);
+void add_edge_and_tensor_options(CLI::App& verb, PipelineOptions& options,
+                                 std::string& edge_method);
 // Its part that others have too: what the values of a tensor are made of beside lambda.
 void add_tensor_value_options(CLI::App& verb, const std::string& group, TensorOptions& tensor);
 // What a detection in single images has: the search, the choice among what it found, a second look.

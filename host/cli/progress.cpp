@@ -47,18 +47,21 @@ void Progress::draw() {
 
 std::string Progress::line() const {
   const std::string counts = std::to_string(done_) + "/" + std::to_string(total_);
-  const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const double elapsed_s =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   std::string rest;
   if (done_ == total_)
     rest = ", took " + std::to_string(static_cast<long>(elapsed_s)) + " s";
   else if (done_ > done_before_)
-    rest = ", " + std::to_string(static_cast<long>(elapsed_s * (total_ - done_) / (done_ - done_before_))) +
-           " s left";
+    rest =
+        ", " +
+        std::to_string(static_cast<long>(elapsed_s * (total_ - done_) / (done_ - done_before_))) +
+        " s left";
   if (!on_terminal_) return title_ + ": " + counts + rest;
   const std::size_t filled = bar_width * done_ / total_;
   // Return, the new text, and clear what an older, longer text left on the line.
-  return "\r" + title_ + " [" + std::string(filled, '#') + std::string(bar_width - filled, '.') + "] " +
-         counts + rest + "\x1b[K";
+  return "\r" + title_ + " [" + std::string(filled, '#') + std::string(bar_width - filled, '.') +
+         "] " + counts + rest + "\x1b[K";
 }
 
 }  // namespace edgescout

@@ -49,7 +49,8 @@ void require_safe_starts(const RegisterRequest& request) {
   std::error_code not_there;
   const fs::path folder = fs::absolute(request.poses).parent_path();
   if (!request.options.resume && fs::equivalent(folder, request.out, not_there))
-    throw InputError("command line", "--poses", "a file in the folder of the results", "another --out");
+    throw InputError("command line", "--poses", "a file in the folder of the results",
+                     "another --out");
 }
 
 int register_all(RegisterRequest& request) {
@@ -67,10 +68,12 @@ int register_all(RegisterRequest& request) {
   const std::vector<StartPose> poses = load_start_poses(request.poses);
   const std::vector<InputImage> images = list_images(request.inputs);
   require_other_folder(images, options.out);
-  const std::vector<RegisterJob> jobs = make_jobs(images, models, poses, request.multi_view, request.poses);
+  const std::vector<RegisterJob> jobs =
+      make_jobs(images, models, poses, request.multi_view, request.poses);
   const RegisterSummary summary = run_register(jobs, models, *backend, options);
   std::cout << fmt::format(
-      "{} poses in {} images refined on {}, {} out of sight, {} images skipped, {} failed in {:.1f} s; "
+      "{} poses in {} images refined on {}, {} out of sight, {} images skipped, {} failed in "
+      "{:.1f} s; "
       "results in {}\n",
       summary.refined, summary.done, backend->name(), summary.lost, summary.skipped,
       summary.images - summary.done - summary.skipped, summary.seconds, request.out);
@@ -78,15 +81,18 @@ int register_all(RegisterRequest& request) {
 }
 
 void add_files(CLI::App& verb, RegisterRequest& request) {
-  verb.add_option("inputs", request.inputs, "Images, folders of images, BOP scenes or folders of them")
+  verb.add_option("inputs", request.inputs,
+                  "Images, folders of images, BOP scenes or folders of them")
       ->required();
   verb.add_option(
           "--poses", request.poses,
-          "Poses to start from: a BOP results CSV (t in mm), a result of this program, or a JSON list of "
+          "Poses to start from: a BOP results CSV (t in mm), a result of this program, or a JSON "
+          "list of "
           "{image, object, R, t} (t in m); R and t map the object frame to the camera frame")
       ->required()
       ->type_name("FILE");
-  verb.add_option("--model", request.models.models, "CAD files of the objects: STL, PLY, OBJ or CAO")
+  verb.add_option("--model", request.models.models,
+                  "CAD files of the objects: STL, PLY, OBJ or CAO")
       ->type_name("FILE");
   verb.add_option("--unit", request.models.unit, "Length unit of the model files: mm, cm, m or in");
   verb.add_option("--object-id", request.models.object_ids,
@@ -94,9 +100,9 @@ void add_files(CLI::App& verb, RegisterRequest& request) {
   verb.add_option("--templates", request.template_files,
                   "Template files of `edgescout model build`, in place of --model")
       ->type_name("FILE");
-  verb.add_option(
-          "--camera", request.options.camera_file,
-          "Calibration of the images: ROS or OpenCV YAML, or BOP camera JSON; BOP scenes bring their own")
+  verb.add_option("--camera", request.options.camera_file,
+                  "Calibration of the images: ROS or OpenCV YAML, or BOP camera JSON; BOP scenes "
+                  "bring their own")
       ->type_name("FILE");
   verb.add_option("--out", request.out, "Folder of the results")->required()->type_name("DIR");
   verb.add_option("--device", request.device,
@@ -115,10 +121,12 @@ void add_register(CLI::App& app, int& exit_code) {
   OptionTable(*verb, "Registration")
       .flag("multi-view", request->multi_view,
             "Refine each pose over all views of its BOP scene at once (needs world poses)")
-      .bounded("search-rotation", refine.search.rotation_rad, 0.0, 1.0,
-               "Angle by which starts are also turned, about 14 axes, rad; 0: from the given pose alone")
+      .bounded(
+          "search-rotation", refine.search.rotation_rad, 0.0, 1.0,
+          "Angle by which starts are also turned, about 14 axes, rad; 0: from the given pose alone")
       .bounded("survivors", refine.search.survivors, 1, 15,
-               "Starts of each pose that are registered in full: the best, of the given one and those turned")
+               "Starts of each pose that are registered in full: the best, of the given one and "
+               "those turned")
       .flag("no-polish", request->no_polish,
             "Leave out the last step of the refinement, on sub-pixel edge points");
   OptionTable(*verb, "Batch")

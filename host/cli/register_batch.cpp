@@ -25,7 +25,8 @@ using Clock = std::chrono::steady_clock;
 std::vector<std::size_t> views_with_starts(const RegisterJob& job) {
   std::vector<std::size_t> views;
   for (std::size_t view = 0; view < job.views.size(); ++view)
-    if (std::ranges::any_of(job.starts, [&](const RegisterJob::Start& start) { return start.view == view; }))
+    if (std::ranges::any_of(job.starts,
+                            [&](const RegisterJob::Start& start) { return start.view == view; }))
       views.push_back(view);
   return views;
 }
@@ -37,7 +38,8 @@ BatchSettings settings_of(std::span<const RegisterModel> models, const RegisterO
   return settings;
 }
 
-std::string text_of(const std::vector<RegisterJob::Start>& starts, std::span<const RegisterModel> models) {
+std::string text_of(const std::vector<RegisterJob::Start>& starts,
+                    std::span<const RegisterModel> models) {
   BinaryWriter out;
   for (const RegisterJob::Start& start : starts) {
     out.put(static_cast<std::uint64_t>(start.view));
@@ -103,7 +105,8 @@ class Registrar {
       summary.finished.insert(job.views[view].name);
       ++summary.done;
     }
-    for (const StageSeconds& stage : found.stages) summary.stage_seconds[stage.name] += stage.seconds;
+    for (const StageSeconds& stage : found.stages)
+      summary.stage_seconds[stage.name] += stage.seconds;
     summary.refined += static_cast<int>(std::ranges::count_if(
         found.detections, [](const Detection& d) { return d.convergence != OUT_OF_SIGHT; }));
   }
@@ -171,8 +174,9 @@ void work_through(const std::vector<const RegisterJob*>& open, Registrar& regist
 
 }  // namespace
 
-RegisterSummary run_register(std::span<const RegisterJob> jobs, std::span<const RegisterModel> models,
-                             Backend& backend, const RegisterOptions& options) {
+RegisterSummary run_register(std::span<const RegisterJob> jobs,
+                             std::span<const RegisterModel> models, Backend& backend,
+                             const RegisterOptions& options) {
   const auto start = Clock::now();
   const std::vector<InputImage> images = images_of(jobs);
   Registrar registrar(all_views(jobs), models, backend, options);

@@ -20,18 +20,22 @@ PreparedImage prepare_view(const InputImage& input, bool is_alone, Backend& back
   const Camera camera = camera_of(input, image.width, image.height,
                                   {options.camera, options.camera_file, options.scale_camera});
   const Se3 camera_from_world = is_alone ? Se3{} : *input.camera_from_world;
-  return naming(input,
-                [&] { return prepare_image(image, camera, camera_from_world, backend, options.pipeline); });
+  return naming(input, [&] {
+    return prepare_image(image, camera, camera_from_world, backend, options.pipeline);
+  });
 }
 
-// Of the smallest object as the starts have it in this view; the image's size where none is in front of it.
+// Of the smallest object as the starts have it in this view; the image's size where none is in
+// front of it.
 double smallest_size_px(const ReadyJob& ready, const PreparedImage& view,
                         std::span<const RegisterModel> models) {
   double smallest = std::max(view.camera.width, view.camera.height);
   for (const Hypothesis& start : ready.starts) {
     const EdgeModel& model = models[static_cast<std::size_t>(start.object)].edges;
-    const double depth_m = (view.camera_from_world * (start.world_from_object * model.center_m)).z();
-    if (depth_m > 0) smallest = std::min(smallest, model.mesh.diameter_m / depth_m * view.camera.fx);
+    const double depth_m =
+        (view.camera_from_world * (start.world_from_object * model.center_m)).z();
+    if (depth_m > 0)
+      smallest = std::min(smallest, model.mesh.diameter_m / depth_m * view.camera.fx);
   }
   return smallest;
 }
@@ -48,23 +52,23 @@ bool reaches_into(const PreparedImage& view, const EdgeModel& model, const Se3& 
          center_px.y() > -radius_px && center_px.y() < camera.height + radius_px;
 }
 
-// What starts outside of every image is drawn to anything inside, however far away; what is a speck fits
-// everywhere.
+// What starts outside of every image is drawn to anything inside, however far away; what is a speck
+// fits everywhere.
 bool is_out_of_sight(const ReadyJob& ready, const Hypothesis& start, const EdgeModel& model,
                      const PoseFeatures& refined) {
   constexpr double least_px = 20;  // of visible edges, in all images together
-  return refined.length_px < least_px || std::ranges::none_of(ready.views, [&](const PreparedImage& view) {
+  return refined.length_px < least_px ||
+         std::ranges::none_of(ready.views, [&](const PreparedImage& view) {
            return reaches_into(view, model, start.world_from_object);
          });
 }
 
 void tell_out_of_sight(const ReadyJob& ready, std::size_t start, const RegisterModel& model) {
   const InputImage& input = ready.job->views[ready.job->starts[start].view];
-  log(LogLevel::Warning,
-      fmt::format(
-          "{}: object {}: found a start that no image shows, expected one in sight (lengths are in mm "
-          "in a BOP results CSV, in m in JSON)",
-          input.file.string(), model.object_id));
+  log(LogLevel::Warning, fmt::format("{}: object {}: found a start that no image shows, expected "
+                                     "one in sight (lengths are in mm "
+                                     "in a BOP results CSV, in m in JSON)",
+                                     input.file.string(), model.object_id));
 }
 
 }  // namespace
@@ -74,8 +78,8 @@ ReadyJob prepare_job(const RegisterJob& job, Backend& backend, const RegisterOpt
   for (const InputImage& view : job.views)
     ready.views.push_back(prepare_view(view, job.views.size() == 1, backend, options));
   for (const RegisterJob::Start& start : job.starts)
-    ready.starts.push_back(
-        {start.model, inverse(ready.views[start.view].camera_from_world) * start.camera_from_object});
+    ready.starts.push_back({start.model, inverse(ready.views[start.view].camera_from_world) *
+                                             start.camera_from_object});
   return ready;
 }
 
@@ -91,8 +95,8 @@ Detections refine_job(const ReadyJob& ready, std::span<const RegisterModel> mode
     const PreparedImage& view = ready.views[i];
     const double reduction = reduction_for(smallest_size_px(ready, view, models));
     views.push_back(naming(ready.job->views[i], [&] {
-                      return observe(view.image, view.camera, view.camera_from_world, view.edges, reduction,
-                                     options.pipeline.tensor, backend);
+                      return observe(view.image, view.camera, view.camera_from_world, view.edges,
+                                     reduction, options.pipeline.tensor, backend);
                     }).view);
   }
   watch.lap("tensors");

@@ -19,8 +19,8 @@ struct ReadyJob {
 // InputError: an image or a camera that cannot be used.
 ReadyJob prepare_job(const RegisterJob& job, Backend& backend, const RegisterOptions& options);
 
-// The starts refined in all views, in their order; out of sight where no image shows them, with a warning.
-// `edge_models` are those of `models`. InputError: an image too large for the device.
+// The starts refined in all views, in their order; out of sight where no image shows them, with a
+// warning. `edge_models` are those of `models`. InputError: an image too large for the device.
 Detections refine_job(const ReadyJob& ready, std::span<const RegisterModel> models,
                       std::span<const EdgeModel> edge_models, Backend& backend,
                       const RegisterOptions& options);

@@ -20,35 +20,41 @@ std::optional<std::size_t> image_of(const StartPose& pose, std::span<const Input
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < images.size(); ++i) {
     // Images of BOP scenes bring their camera; others are of no scene.
-    const std::optional<int> scene = images[i].camera ? std::optional(images[i].scene_id) : std::nullopt;
+    const std::optional<int> scene =
+        images[i].camera ? std::optional(images[i].scene_id) : std::nullopt;
     scene_is_here |= !scene || scene == pose.scene_id;
     if (!belongs_to(pose, images[i].file, scene, images[i].image_id)) continue;
-    if (!found.empty() && same_ending(pose, images[i].file) > same_ending(pose, images[found[0]].file))
+    if (!found.empty() &&
+        same_ending(pose, images[i].file) > same_ending(pose, images[found[0]].file))
       found.clear();
-    if (found.empty() || same_ending(pose, images[i].file) == same_ending(pose, images[found[0]].file))
+    if (found.empty() ||
+        same_ending(pose, images[i].file) == same_ending(pose, images[found[0]].file))
       found.push_back(i);
   }
   if (found.size() > 1)
     throw InputError(poses_file, "image",
-                     fmt::format("{}, which is {} and {}", described(pose), images[found[0]].file.string(),
-                                 images[found[1]].file.string()),
+                     fmt::format("{}, which is {} and {}", described(pose),
+                                 images[found[0]].file.string(), images[found[1]].file.string()),
                      "one that fits a single image");
   if (!found.empty()) return found[0];
-  if (scene_is_here) throw InputError(poses_file, "image", described(pose), "one of the images given");
+  if (scene_is_here)
+    throw InputError(poses_file, "image", described(pose), "one of the images given");
   return std::nullopt;
 }
 
-RegisterJob::Start start_of(const StartPose& pose, std::size_t view, std::span<const RegisterModel> models,
-                            const std::string& poses_file) {
+RegisterJob::Start start_of(const StartPose& pose, std::size_t view,
+                            std::span<const RegisterModel> models, const std::string& poses_file) {
   for (std::size_t m = 0; m < models.size(); ++m) {
     if (models[m].object_id != pose.object_id) continue;
     if (!((pose.camera_from_object * models[m].edges.center_m).z() > 0))
-      throw InputError(poses_file, "t",
-                       fmt::format("object {} behind the camera of {}", pose.object_id, described(pose)),
-                       "an object in front of it");
+      throw InputError(
+          poses_file, "t",
+          fmt::format("object {} behind the camera of {}", pose.object_id, described(pose)),
+          "an object in front of it");
     return {view, static_cast<int>(m), pose.camera_from_object};
   }
-  throw InputError(poses_file, "object", std::to_string(pose.object_id), "the id of one of the models given");
+  throw InputError(poses_file, "object", std::to_string(pose.object_id),
+                   "the id of one of the models given");
 }
 
 void require_world_poses(const RegisterJob& job) {
@@ -60,7 +66,8 @@ void require_world_poses(const RegisterJob& job) {
 
 }  // namespace
 
-std::vector<RegisterJob> make_jobs(std::span<const InputImage> images, std::span<const RegisterModel> models,
+std::vector<RegisterJob> make_jobs(std::span<const InputImage> images,
+                                   std::span<const RegisterModel> models,
                                    std::span<const StartPose> poses, bool multi_view,
                                    const std::string& poses_file) {
   std::vector<RegisterJob> jobs;
@@ -83,7 +90,8 @@ std::vector<RegisterJob> make_jobs(std::span<const InputImage> images, std::span
     throw InputError(poses_file, "poses", poses.empty() ? "none" : "only such of other scenes",
                      "at least one for the images given");
   if (passed_over > 0)
-    log(LogLevel::Info, fmt::format("{}: {} poses of other scenes passed over", poses_file, passed_over));
+    log(LogLevel::Info,
+        fmt::format("{}: {} poses of other scenes passed over", poses_file, passed_over));
   std::erase_if(jobs, [](const RegisterJob& job) { return job.starts.empty(); });
   if (multi_view)
     for (const RegisterJob& job : jobs) require_world_poses(job);

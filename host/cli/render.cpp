@@ -65,8 +65,8 @@ void require_no_other_scenes(const RenderRequest& request) {
     const int images = static_cast<int>(old.images.size());
     if (old.scene_id >= request.scenes || images > request.options.views)
       throw InputError(request.out, "output folder",
-                       "scene " + entry.path().filename().string() + " of " + std::to_string(images) +
-                           " images of an earlier run",
+                       "scene " + entry.path().filename().string() + " of " +
+                           std::to_string(images) + " images of an earlier run",
                        "another --out, or at least as many --scenes and --views");
   }
 }
@@ -78,7 +78,8 @@ void render_scenes(const RenderRequest& request) {
   const std::filesystem::path out = request.out;
   write_bop_models(objects, turning_axes(objects), out / "models");
   ThreadPool pool;
-  Progress progress("render", static_cast<std::size_t>(request.scenes), std::cerr, stderr_is_terminal());
+  Progress progress("render", static_cast<std::size_t>(request.scenes), std::cerr,
+                    stderr_is_terminal());
   for (int i = 0; i < request.scenes; ++i) {
     RenderOptions options = request.options;
     options.seed += static_cast<unsigned>(i);
@@ -106,8 +107,8 @@ void add_camera_options(CLI::App& verb, RenderOptions& o) {
 }  // namespace
 
 void add_render(CLI::App& app, int& exit_code) {
-  CLI::App* verb =
-      app.add_subcommand("render", "Render scenes with known poses from CAD models, in BOP's layout");
+  CLI::App* verb = app.add_subcommand(
+      "render", "Render scenes with known poses from CAD models, in BOP's layout");
   auto request = std::make_shared<RenderRequest>();
   verb->add_option("--model", request->models, "CAD files of the parts: STL, PLY, OBJ or CAO")
       ->type_name("FILE");
@@ -115,10 +116,10 @@ void add_render(CLI::App& app, int& exit_code) {
   verb->add_option("--models-info", request->models_info,
                    "BOP models_info.json with symmetries; id 1 is the first --model")
       ->type_name("FILE");
-  verb->add_option(
-      "--part", request->parts,
-      "The project's own parts, in place of --model: l_bracket, bearing_block, stepped_shaft, hex_nut, "
-      "u_channel, gear_plate");
+  verb->add_option("--part", request->parts,
+                   "The project's own parts, in place of --model: l_bracket, bearing_block, "
+                   "stepped_shaft, hex_nut, "
+                   "u_channel, gear_plate");
   verb->add_option("--out", request->out, "Folder of the dataset")->required()->type_name("DIR");
   OptionTable(*verb, "Scene")
       .bounded("scenes", request->scenes, 1, 100000, "Scenes to render, in folders 000000 and on");

@@ -1,5 +1,5 @@
-// What a rendered scene holds and how its images look, as rows of the table: one place for `render` and
-// `scout`.
+// What a rendered scene holds and how its images look, as rows of the table: one place for `render`
+// and `scout`.
 #pragma once
 
 #include "host/cli/config.h"

@@ -26,7 +26,8 @@ struct ScoutRequest {
   ModelArguments models;
   TemplateOptions templates;
   ScoutOptions options;
-  std::string strategy = to_string(Strategy::Information), device = "auto", edge_method = "gradient", out;
+  std::string strategy = to_string(Strategy::Information), device = "auto",
+              edge_method = "gradient", out;
   std::vector<int> sequence;
   unsigned draws_seed = 1;
   bool resume = false, watch = false;
@@ -40,14 +41,15 @@ std::vector<Object> objects_of(const KnownModels& known) {
   return objects;
 }
 
-// Where the user says nothing: what the views see, 15 % on either side. Where they look at nothing in common
-// the distances stay open, to be taken from the objects' sizes.
+// Where the user says nothing: what the views see, 15 % on either side. Where they look at nothing
+// in common the distances stay open, to be taken from the objects' sizes.
 TemplateOptions with_distances_of(TemplateOptions options, const std::vector<Se3>& views) {
   if (options.distance_min_m > 0 || options.distance_max_m > 0) return options;
   const std::optional<Eigen::Vector3d> center_m = looked_at_m(views);
   if (!center_m) {
     log(LogLevel::Warning,
-        "the views look at no point in common: distances are guessed from the objects' sizes; --distance-min "
+        "the views look at no point in common: distances are guessed from the objects' sizes; "
+        "--distance-min "
         "and --distance-max say them");
     return options;
   }
@@ -62,11 +64,14 @@ TemplateOptions with_distances_of(TemplateOptions options, const std::vector<Se3
   return options;
 }
 
-// Options that look as if they changed something and would not, or would set nats against points and ranks.
+// Options that look as if they changed something and would not, or would set nats against points
+// and ranks.
 void refuse_idle_options(const ScoutRequest& request, const CLI::App& verb) {
   const ScoutOptions& o = request.options;
-  const auto refuse = [&](const std::string& option, const std::string& beside, const char* expected) {
-    if (verb.count(option) > 0) throw InputError("command line", option, "beside " + beside, expected);
+  const auto refuse = [&](const std::string& option, const std::string& beside,
+                          const char* expected) {
+    if (verb.count(option) > 0)
+      throw InputError("command line", option, "beside " + beside, expected);
   };
   if (o.next_view.strategy != Strategy::Fixed)
     refuse("--sequence", "--strategy " + request.strategy, "fixed");
@@ -76,7 +81,8 @@ void refuse_idle_options(const ScoutRequest& request, const CLI::App& verb) {
   if (o.probable_combinations) refuse("--sharpness", "--scenes-by-probability", "--scenes-by-psi");
   if (o.next_view.literal) {
     for (const char* option : in_nats) refuse(option, "--literal", "the information by default");
-    for (const char* option : {"--free-sight", "--repeat-angle", "--seen", "--unknown", "--unknown-angle"})
+    for (const char* option :
+         {"--free-sight", "--repeat-angle", "--seen", "--unknown", "--unknown-angle"})
       refuse(option, "--literal", "the information by default");
   }
 }
@@ -89,7 +95,8 @@ void settle_options(ScoutRequest& request, const CLI::App& verb) {
   o.next_view.sequence = request.sequence;
   refuse_idle_options(request, verb);
   o.next_view.seed = o.combinations.seed = o.particles.seed = request.draws_seed;
-  if (!request.sequence.empty() && verb.count("--first-view") == 0) o.first_view = request.sequence.front();
+  if (!request.sequence.empty() && verb.count("--first-view") == 0)
+    o.first_view = request.sequence.front();
   o.validate();
   request.templates.validate();
 }
@@ -97,7 +104,8 @@ void settle_options(ScoutRequest& request, const CLI::App& verb) {
 void require_known_views(const ScoutOptions& options, std::size_t count) {
   const auto require = [&](const char* option, int view) {
     if (view < 0 || view >= static_cast<int>(count))
-      throw InputError("command line", option, std::to_string(view), fmt::format("one of {} views", count));
+      throw InputError("command line", option, std::to_string(view),
+                       fmt::format("one of {} views", count));
   };
   require("--first-view", options.first_view);
   for (const int view : options.next_view.sequence) require("--sequence", view);
@@ -105,18 +113,19 @@ void require_known_views(const ScoutOptions& options, std::size_t count) {
 
 // Says on standard error what an image brought. Of a view that failed the scout has told.
 void tell(const ScoutState& state) {
-  const bool just_failed = !state.failed.empty() && state.failed.back().after_step == state.steps.size();
+  const bool just_failed =
+      !state.failed.empty() && state.failed.back().after_step == state.steps.size();
   if (state.steps.empty() || just_failed) return;
   const ScoutStep& step = state.steps.back();
   log(LogLevel::Info,
       fmt::format("image {} from view {}: {} objects, entropy {:.3f} nats", state.steps.size(),
                   step.decision.view, state.detections.size(), state.entropy_nats));
-  log(LogLevel::Debug,
-      fmt::format("decision: {}; image: {}", stage_times(step.decision.stages), stage_times(step.stages)));
+  log(LogLevel::Debug, fmt::format("decision: {}; image: {}", stage_times(step.decision.stages),
+                                   stage_times(step.stages)));
 }
 
-void write_all(const ScoutState& state, const ScoutReport& report, const ScoutRequest& request, bool last,
-               Backend& backend) {
+void write_all(const ScoutState& state, const ScoutReport& report, const ScoutRequest& request,
+               bool last, Backend& backend) {
   const fs::path out = request.out;
   // The state last: without it there is nothing to go on from, and the log tells of what it is.
   save_scout_log(state, report, out);
@@ -145,7 +154,8 @@ ScoutReport report_of(const ScoutRequest& request, const ScoutSource& source,
 int scout(ScoutRequest& request, const CLI::App& verb) {
   settle_options(request, verb);
   for (auto& [name, value] : request.planning)
-    if (name == "first-view") value = std::to_string(request.options.first_view);  // may be the sequence's
+    if (name == "first-view")
+      value = std::to_string(request.options.first_view);  // may be the sequence's
   const std::unique_ptr<Backend> backend = make_backend(request.device);
   const KnownModels known = load_models(request.models);
   ScoutSource source = make_source(request.source, objects_of(known), backend->threads());
@@ -161,7 +171,8 @@ int scout(ScoutRequest& request, const CLI::App& verb) {
   require_writable_folder(request.out);
   const TemplateOptions templates =
       known.objects.empty() ? request.templates : with_distances_of(request.templates, views);
-  const std::vector<TemplateSet> sets = template_sets_of(known, templates, source.source->camera(), *backend);
+  const std::vector<TemplateSet> sets =
+      template_sets_of(known, templates, source.source->camera(), *backend);
   Scout scout(sets, source.source->camera(), views, request.options, *backend);
   if (goes_on) scout.resume(std::move(state_before), saved.string());
   if (!goes_on) remove_scout_results(request.out);
@@ -186,19 +197,23 @@ void add_loop_options(CLI::App& verb, ScoutRequest& r) {
   OptionTable(verb, "Budget")
       .bounded("max-views", o.max_views, 1, 1000000, "Largest number of images")
       .bounded("min-entropy", o.min_entropy_nats, 0.0, 1e6,
-               "End where the modes are as certain as that and the last image showed no new candidate, nats; "
+               "End where the modes are as certain as that and the last image showed no new "
+               "candidate, nats; "
                "0: never")
       .bounded("min-information", o.min_information_nats, 0.0, 1e6,
-               "End where every view is expected to tell less about the candidates, its way's cost taken "
+               "End where every view is expected to tell less about the candidates, its way's cost "
+               "taken "
                "off, nats; what is expected of the unknown (--unknown) does not count; 0: never")
       .bounded("min-gained", o.min_gained_nats, 0.0, 1e6,
                "End where the last image told less and showed no new candidate, nats; 0: never")
       .bounded("max-seconds", o.max_seconds, 0.0, 1e9,
-               "End after so much time of computing, s; asked between images only: an image that is begun is "
+               "End after so much time of computing, s; asked between images only: an image that "
+               "is begun is "
                "finished; 0: no limit");
   OptionTable(verb, "Next view")
       .choice("strategy", r.strategy, {"mi-max", "dis", "random", "fixed"},
-              "What the next view is chosen by, mi-max: most information; dis: most disoccluded points; "
+              "What the next view is chosen by, mi-max: most information; dis: most disoccluded "
+              "points; "
               "random: any; fixed: the order of --sequence")
       .bounded("first-view", o.first_view, 0, 1000000,
                "Number of the view that the first image is taken from")
@@ -218,8 +233,8 @@ void add_loop_options(CLI::App& verb, ScoutRequest& r) {
 }  // namespace
 
 void add_scout(CLI::App& app, int& exit_code) {
-  CLI::App* verb =
-      app.add_subcommand("scout", "Look again from the best place: detection with a next best view");
+  CLI::App* verb = app.add_subcommand(
+      "scout", "Look again from the best place: detection with a next best view");
   auto request = std::make_shared<ScoutRequest>();
   add_source_options(*verb, request->source);
   add_model_arguments(*verb, request->models);
@@ -228,9 +243,11 @@ void add_scout(CLI::App& app, int& exit_code) {
                    "Device to compute on: auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
       ->capture_default_str();
   OptionTable(*verb, "Run")
-      .flag("watch", request->watch, "Write the page after every step, so that a browser follows it")
+      .flag("watch", request->watch,
+            "Write the page after every step, so that a browser follows it")
       .flag("resume", request->resume,
-            "Go on from DIR/scout.state where there is one, of the same source and detection; budget, next "
+            "Go on from DIR/scout.state where there is one, of the same source and detection; "
+            "budget, next "
             "view and information may be others");
   add_loop_options(*verb, *request);
   add_template_options(*verb, request->templates);
@@ -240,8 +257,8 @@ void add_scout(CLI::App& app, int& exit_code) {
   add_choice_options(*verb, request->options.detections.min_probability,
                      request->options.detections.evidence);
   verb->callback([request, verb, &exit_code] {
-    // A run may go on with another budget, strategy and way to expect information: these change nothing of
-    // what was seen and believed.
+    // A run may go on with another budget, strategy and way to expect information: these change
+    // nothing of what was seen and believed.
     std::set<std::string> groups{"Belief", "Templates", "Edges", "Tensor", "Detection"};
     if (request->source.source == "cell") groups.insert({"Scene", "Image", "Arm"});
     request->source.settings = settings_of(*verb, groups);

@@ -23,7 +23,8 @@ json pose_json(const Se3& pose) {
 }
 
 json camera_json(const Camera& c) {
-  return {{"width", c.width}, {"height", c.height}, {"fx", c.fx}, {"fy", c.fy}, {"cx", c.cx}, {"cy", c.cy}};
+  return {{"width", c.width}, {"height", c.height}, {"fx", c.fx},
+          {"fy", c.fy},       {"cx", c.cx},         {"cy", c.cy}};
 }
 
 json stages_json(const std::vector<StageSeconds>& stages) {
@@ -43,7 +44,8 @@ json modes_json(const std::vector<ModeDetection>& modes, const ScoutReport& repo
                {"weight", mode.weight},
                {"psi", d.psi},
                {"world_from_object", pose_json(d.world_from_object)},
-               {"covariance", std::vector<double>(transposed.data(), transposed.data() + transposed.size())},
+               {"covariance",
+                std::vector<double>(transposed.data(), transposed.data() + transposed.size())},
                {"supporting_images", mode.supporting_images}};
     if (const auto off = distance_to_truth(d, report))
       entry["off_truth"] = {
@@ -103,7 +105,8 @@ ImageResult result_of(const ScoutState& state, const ScoutStep& step, const Scou
   result.device = report.device;
   result.stages = step.stages;
   result.camera_from_world = step.camera_from_world;
-  for (const TemplateSet& set : report.sets) result.objects.push_back({set.object_id, set.model.mesh.name});
+  for (const TemplateSet& set : report.sets)
+    result.objects.push_back({set.object_id, set.model.mesh.name});
   for (const ModeDetection& mode : state.detections) result.detections.push_back(mode.detection);
   return result;
 }
@@ -128,20 +131,23 @@ const char* unit_of(const ScoutDecision& decision) {
   return decision.strategy == Strategy::Disocclusion ? "points" : "";
 }
 
-std::optional<DistanceToTruth> distance_to_truth(const Detection& detection, const ScoutReport& report) {
+std::optional<DistanceToTruth> distance_to_truth(const Detection& detection,
+                                                 const ScoutReport& report) {
   std::optional<DistanceToTruth> nearest;
   for (std::size_t i = 0; i < report.truth.size(); ++i) {
     const TrueObject& there = report.truth[i];
     if (there.object != detection.object) continue;
-    const PoseError error = pose_error(detection.world_from_object, there.world_from_object,
-                                       report.sets[static_cast<std::size_t>(there.object)].symmetries);
+    const PoseError error =
+        pose_error(detection.world_from_object, there.world_from_object,
+                   report.sets[static_cast<std::size_t>(there.object)].symmetries);
     if (!nearest || error.distance_m < nearest->distance_m)
       nearest = {i, error.angle_rad, error.distance_m, error.passes()};
   }
   return nearest;
 }
 
-void save_scout_log(const ScoutState& state, const ScoutReport& report, const std::filesystem::path& folder) {
+void save_scout_log(const ScoutState& state, const ScoutReport& report,
+                    const std::filesystem::path& folder) {
   json log{{"edgescout_scout", 1},
            {"device", report.device},
            {"source", report.source},
@@ -161,8 +167,9 @@ void save_scout_log(const ScoutState& state, const ScoutReport& report, const st
                              {"decision_ms", stages_json(failed.stages)}});
   log["detections"] = modes_json(state.detections, report);
   for (const TrueObject& there : report.truth)
-    log["truth"].push_back({{"object_id", report.sets[static_cast<std::size_t>(there.object)].object_id},
-                            {"world_from_object", pose_json(there.world_from_object)}});
+    log["truth"].push_back(
+        {{"object_id", report.sets[static_cast<std::size_t>(there.object)].object_id},
+         {"world_from_object", pose_json(there.world_from_object)}});
   if (!state.last_decision.stages.empty())
     log["last_decision"] = {
         {"information", of_open_views(state.last_decision.views, &ViewInformation::information)},
@@ -182,7 +189,8 @@ void remove_scout_results(const std::filesystem::path& folder) {
     const nlohmann::json old = read_json(log);
     for (const JsonField& step : JsonField{old, log.string(), ""}.at("steps").elements())
       files.push_back(view_file(folder, step.at("view").integer()));
-    for (const char* name : {"results.csv", "scout.html", "scout.json"}) files.push_back(folder / name);
+    for (const char* name : {"results.csv", "scout.html", "scout.json"})
+      files.push_back(folder / name);
   }
   remove_earlier_files(files);
 }
@@ -192,7 +200,8 @@ void require_same_source(const Settings& settings, const std::filesystem::path& 
   const nlohmann::json log = read_json(file);
   const JsonField saved = JsonField{log, file, ""}.at("settings");
   Settings found;
-  for (const auto& item : saved.value.items()) found.emplace_back(item.key(), saved.at(item.key()).text());
+  for (const auto& item : saved.value.items())
+    found.emplace_back(item.key(), saved.at(item.key()).text());
   require_same(found, settings, file);
 }
 
@@ -203,8 +212,9 @@ void save_scout_results(const ScoutState& state, const ScoutReport& report,
     const ImageResult result = result_of(state, step, report);
     save_image_result(result, view_file(folder, step.decision.view));
     for (const Detection& d : result.detections)
-      rows.push_back({result.scene_id, result.image_id, result.objects[static_cast<std::size_t>(d.object)].id,
-                      d.probability, step.camera_from_world * d.world_from_object, state.seconds()});
+      rows.push_back({result.scene_id, result.image_id,
+                      result.objects[static_cast<std::size_t>(d.object)].id, d.probability,
+                      step.camera_from_world * d.world_from_object, state.seconds()});
   }
   save_bop_results(rows, folder / "results.csv");
 }

@@ -30,7 +30,8 @@ std::string figure(const std::string& picture, const std::string& caption) {
 }
 
 std::string png_figure(const RgbImage& image, const std::string& caption) {
-  return figure(fmt::format("<img class=picture alt='' src='{}'>", inline_png(encode_png(image))), caption);
+  return figure(fmt::format("<img class=picture alt='' src='{}'>", inline_png(encode_png(image))),
+                caption);
 }
 
 std::string tile(const std::string& value, const std::string& label) {
@@ -48,7 +49,8 @@ class Page {
   Page(const ScoutState& state, const ScoutReport& report, Backend& backend)
       : state_(state), report_(report), backend_(backend), models_(models_of(report.sets)) {
     for (const ScoutStep& step : state.steps)
-      edges_.emplace_back(find_edges(step.image, report.edges, backend), step.image.width, step.image.height);
+      edges_.emplace_back(find_edges(step.image, report.edges, backend), step.image.width,
+                          step.image.height);
   }
 
   std::string body() const {
@@ -70,15 +72,16 @@ class Page {
     html += tile(fmt::format("{} of {}", steps.size(), state_.views.size()), "views taken");
     html += tile(std::to_string(state_.detections.size()), "objects found");
     if (!report_.truth.empty())
-      html +=
-          tile(fmt::format("{} of {}", right_ones(), report_.truth.size()), "right, of those that are there");
+      html += tile(fmt::format("{} of {}", right_ones(), report_.truth.size()),
+                   "right, of those that are there");
     if (!steps.empty())
       html += tile(fmt::format("{:.2f} → {:.2f}", steps.front().entropy_nats, state_.entropy_nats),
                    "entropy after the first and last image, nats");
     if (const std::string images = disagreeing_images(state_); !images.empty())
       html += tile(images, "images whose camera pose disagrees");
     html += tile(fmt::format("{:.1f} s", state_.seconds()), "computing");
-    return html + tile(state_.end == ScoutEnd::No ? "looking …" : to_string(state_.end), "state") + "</div>";
+    return html + tile(state_.end == ScoutEnd::No ? "looking …" : to_string(state_.end), "state") +
+           "</div>";
   }
 
   // Each instance once, however many detections are right about it.
@@ -93,13 +96,15 @@ class Page {
   // Referred to by every picture of particles.
   std::string first_image() const {
     const Image& image = state_.steps[0].image;
-    return fmt::format("<svg class=hidden><defs><image id=first width={} height={} href='{}'/></defs></svg>",
-                       image.width, image.height, inline_png(encode_png(image)));
+    return fmt::format(
+        "<svg class=hidden><defs><image id=first width={} height={} href='{}'/></defs></svg>",
+        image.width, image.height, inline_png(encode_png(image)));
   }
 
   std::string found_table() const {
     std::string html =
-        "<table><tr><th>object<th>probability<th>ψ<th>edges<th>σ place<th>σ direction<th>images that support "
+        "<table><tr><th>object<th>probability<th>ψ<th>edges<th>σ place<th>σ direction<th>images "
+        "that support "
         "it";
     if (!report_.truth.empty()) html += "<th>off the truth";
     for (const ModeDetection& mode : state_.detections) {
@@ -108,9 +113,10 @@ class Page {
                    turn_rad = std::sqrt(d.covariance.bottomRightCorner<3, 3>().trace() / 3);
       std::string support;
       for (const int image : mode.supporting_images) support += fmt::format(" {}", image + 1);
-      html += fmt::format("<tr><td>{}<td>{:.2f}<td>{:.2f}<td>{:.0f} %<td>{:.2f} mm<td>{:.2f}°<td>{}",
-                          escaped(name_of(d)), d.probability, d.psi, 100 * d.matched_fraction, 1000 * place_m,
-                          turn_rad * 57.29578, support.empty() ? "none alone" : support);
+      html += fmt::format(
+          "<tr><td>{}<td>{:.2f}<td>{:.2f}<td>{:.0f} %<td>{:.2f} mm<td>{:.2f}°<td>{}",
+          escaped(name_of(d)), d.probability, d.psi, 100 * d.matched_fraction, 1000 * place_m,
+          turn_rad * 57.29578, support.empty() ? "none alone" : support);
       if (const auto off = distance_to_truth(d, report_))
         html += fmt::format("<td class={}>{:.1f} mm, {:.1f}°", off->right ? "right" : "wrong",
                             1000 * off->distance_m, off->angle_rad * 57.29578);
@@ -129,7 +135,8 @@ class Page {
     const ScoutStep& step = state_.steps[image];
     std::vector<OverlayPose> poses;
     for (const ModeDetection& mode : detections)
-      poses.push_back({mode.detection.object, step.camera_from_world * mode.detection.world_from_object,
+      poses.push_back({mode.detection.object,
+                       step.camera_from_world * mode.detection.world_from_object,
                        mode.detection.probability, ""});
     return draw_overlay(step.image, report_.camera, poses, models_, &edges_[image], backend_);
   }
@@ -137,14 +144,15 @@ class Page {
   std::string step(std::size_t i) const {
     const ScoutStep& s = state_.steps[i];
     const ScoutDecision& why = s.decision;
-    std::string html = fmt::format("<section><h2>Image {} <small>view {}{}</small></h2>{}<div class=row>",
-                                   i + 1, why.view, promise(why), warnings(s));
+    std::string html =
+        fmt::format("<section><h2>Image {} <small>view {}{}</small></h2>{}<div class=row>", i + 1,
+                    why.view, promise(why), warnings(s));
     html += figure(hemisphere(i), hemisphere_caption(why));
-    html +=
-        png_figure(overlay(i, s.detections), fmt::format("{} objects after this image", s.detections.size()));
-    html +=
-        "</div><div class=row>" +
-        figure(particles(s.before), fmt::format("{} particles before, seen from image 1", s.before.size()));
+    html += png_figure(overlay(i, s.detections),
+                       fmt::format("{} objects after this image", s.detections.size()));
+    html += "</div><div class=row>" +
+            figure(particles(s.before),
+                   fmt::format("{} particles before, seen from image 1", s.before.size()));
     html += figure(particles(s.after),
                    fmt::format("and after: {}, {:.3f} nats gained, effective sample size {:.0f}{}",
                                s.after.size(), s.update.gained_nats, s.update.effective,
@@ -172,15 +180,17 @@ class Page {
 
   static std::string hemisphere_caption(const ScoutDecision& why) {
     if (why.views.empty()) return "The views, from above. Nothing is known before the first image.";
-    const char* by = why.strategy == Strategy::Information    ? "the information expected of it"
-                     : why.strategy == Strategy::Disocclusion ? "the points it shows that no image has shown"
-                     : why.strategy == Strategy::Random       ? "its draw"
-                                                              : "its place in the sequence";
+    const char* by = why.strategy == Strategy::Information ? "the information expected of it"
+                     : why.strategy == Strategy::Disocclusion
+                         ? "the points it shows that no image has shown"
+                     : why.strategy == Strategy::Random ? "its draw"
+                                                        : "its place in the sequence";
     return fmt::format("Every view by {}, from above. Ringed: the one chosen.", by);
   }
 
   static std::string of_the_unknown(const ViewInformation& view) {
-    return view.discovery > 0 ? fmt::format(", {:.3f} of them of what is unknown", view.discovery) : "";
+    return view.discovery > 0 ? fmt::format(", {:.3f} of them of what is unknown", view.discovery)
+                              : "";
   }
 
   // Of this image and of earlier ones, on which this one has had its say.
@@ -189,9 +199,11 @@ class Page {
     for (std::size_t i = 0; i < s.agreement.size(); ++i)
       if (const ViewAgreement& view = s.agreement[i]; view.disagrees)
         html += fmt::format(
-            "<p class=warning>The camera pose of image {} disagrees with the others: {}.</p>", i + 1,
+            "<p class=warning>The camera pose of image {} disagrees with the others: {}.</p>",
+            i + 1,
             view.missing > 0
-                ? fmt::format("it shows none of {} objects, or something unknown hides them", view.missing)
+                ? fmt::format("it shows none of {} objects, or something unknown hides them",
+                              view.missing)
                 : fmt::format("the objects lie {:.1f} px off", view.residual_px));
     return html;
   }
@@ -227,8 +239,8 @@ class Page {
         poses.push_back({why.candidates[c].object, why.candidates[c].world_from_object});
       const RgbImage map =
           edge_map(models_, poses, members, report_.camera, state_.views[why.view], 560, backend_);
-      return png_figure(map, fmt::format("{} scene imagined from this view: {} of {} candidates", caption,
-                                         members.size(), why.candidates.size()));
+      return png_figure(map, fmt::format("{} scene imagined from this view: {} of {} candidates",
+                                         caption, members.size(), why.candidates.size()));
     };
     return drawn(why.likeliest, "Likeliest") + drawn(why.unlikeliest, "Unlikeliest");
   }
@@ -237,12 +249,13 @@ class Page {
     const auto row = [](const std::vector<StageSeconds>& stages) {
       std::string cells;
       for (const StageSeconds& stage : stages)
-        cells +=
-            fmt::format("<span class=stage>{} <b>{:.0f} ms</b></span>", stage.name, 1000 * stage.seconds);
+        cells += fmt::format("<span class=stage>{} <b>{:.0f} ms</b></span>", stage.name,
+                             1000 * stage.seconds);
       return cells;
     };
     return fmt::format(
-        "<p class=numbers>entropy <b>{:.3f} nats</b> · {} new candidates in {} · decision {} {}· image {} "
+        "<p class=numbers>entropy <b>{:.3f} nats</b> · {} new candidates in {} · decision {} {}· "
+        "image {} "
         "{}</p>",
         s.entropy_nats, s.new_candidates,
         s.searches == 1 ? "one search" : fmt::format("{} searches", s.searches),
@@ -277,8 +290,9 @@ std::string scout_page(const ScoutState& state, const ScoutReport& report, bool 
   return std::string(
              "<!doctype html>\n<html lang=en><head><meta charset=utf-8><meta name=viewport "
              "content='width=device-width'>") +
-         (refreshing ? "<meta http-equiv=refresh content=2>" : "") + "<title>edgescout scout</title><style>" +
-         PAGE_STYLE + "</style></head><body>" + Page(state, report, backend).body() + "</body></html>\n";
+         (refreshing ? "<meta http-equiv=refresh content=2>" : "") +
+         "<title>edgescout scout</title><style>" + PAGE_STYLE + "</style></head><body>" +
+         Page(state, report, backend).body() + "</body></html>\n";
 }
 
 }  // namespace edgescout

@@ -18,7 +18,8 @@ namespace {
 std::vector<Se3> cell_views(const SourceRequest& request, const Scene& scene) {
   if (!request.views_file.empty()) return load_views(request.views_file);
   if (request.center_m.size() != 3)
-    throw InputError("command line", "--center", std::to_string(request.center_m.size()) + " numbers", "3");
+    throw InputError("command line", "--center",
+                     std::to_string(request.center_m.size()) + " numbers", "3");
   HemisphereOptions hemisphere = request.hemisphere;
   hemisphere.center_m = {request.center_m[0], request.center_m[1], request.center_m[2]};
   if (hemisphere.radius_m == 0)
@@ -26,7 +27,8 @@ std::vector<Se3> cell_views(const SourceRequest& request, const Scene& scene) {
   return hemisphere_views(hemisphere);
 }
 
-ScoutSource make_cell(const SourceRequest& request, std::span<const Object> objects, ThreadPool& pool) {
+ScoutSource make_cell(const SourceRequest& request, std::span<const Object> objects,
+                      ThreadPool& pool) {
   if (!request.camera_file.empty())
     throw InputError("command line", "--camera", "one for a cell", "--width, --height and --focal");
   RenderOptions options = request.scene;
@@ -39,11 +41,12 @@ ScoutSource make_cell(const SourceRequest& request, std::span<const Object> obje
               std::to_string(options.seed);
   made.settings = request.settings;
   made.settings.emplace_back("source", "cell");
-  made.settings.emplace_back("radius", fmt::format("{}", request.hemisphere.radius_m));  // sizes the board
+  made.settings.emplace_back("radius",
+                             fmt::format("{}", request.hemisphere.radius_m));  // sizes the board
   for (const PlacedObject& placed : scene.placed)
     if (placed.target) made.truth.push_back({placed.object, placed.world_from_object});
-  made.source =
-      std::make_unique<SimulatedCell>(scene, scene.views[0].camera, cell_views(request, scene), arm, pool);
+  made.source = std::make_unique<SimulatedCell>(scene, scene.views[0].camera,
+                                                cell_views(request, scene), arm, pool);
   return made;
 }
 
@@ -63,7 +66,8 @@ ScoutSource make_recorded(const SourceRequest& request) {
   if (!request.views_file.empty())
     throw InputError("command line", "--views", "a list for recorded views", "their own poses");
   if (!std::filesystem::is_directory(request.source))
-    throw InputError(request.source, "source", "no folder", "\"cell\" or a folder of recorded views");
+    throw InputError(request.source, "source", "no folder",
+                     "\"cell\" or a folder of recorded views");
   if (!is_bop_scene(request.source) &&
       !std::filesystem::exists(std::filesystem::path(request.source) / "CameraPose"))
     if (const std::filesystem::path scene = scene_below(request.source); !scene.empty())
@@ -76,8 +80,9 @@ ScoutSource make_recorded(const SourceRequest& request) {
   made.name = folder.filename().string();
   made.settings = request.settings;
   made.settings.emplace_back("source", folder.string());
-  made.settings.emplace_back(
-      "camera", request.camera_file.empty() ? "its own" : checksum_text(read_file(request.camera_file)));
+  made.settings.emplace_back("camera", request.camera_file.empty()
+                                           ? "its own"
+                                           : checksum_text(read_file(request.camera_file)));
   auto views = std::make_unique<RecordedViews>(load_recorded_views(request.source, camera));
   for (const RecordedViews::Recording& recording : views->recordings())
     made.image_files.push_back(recording.file);
@@ -93,12 +98,13 @@ ScoutSource make_recorded(const SourceRequest& request) {
 
 void add_source_options(CLI::App& verb, SourceRequest& r) {
   verb.add_option("source", r.source,
-                  "\"cell\": a rendered scene of the models; or a folder of recorded views: a BOP scene, or "
+                  "\"cell\": a rendered scene of the models; or a folder of recorded views: a BOP "
+                  "scene, or "
                   "one with CameraPose and Images")
       ->required();
-  verb.add_option(
-          "--camera", r.camera_file,
-          "Camera of recorded views: ROS or OpenCV YAML, or BOP camera JSON; BOP scenes bring their own")
+  verb.add_option("--camera", r.camera_file,
+                  "Camera of recorded views: ROS or OpenCV YAML, or BOP camera JSON; BOP scenes "
+                  "bring their own")
       ->type_name("FILE");
   verb.add_option("--views", r.views_file,
                   "Views of a cell, in place of the hemisphere: [{camera_from_world: {R, t}} ..]")
@@ -125,7 +131,8 @@ void add_source_options(CLI::App& verb, SourceRequest& r) {
 }
 
 void refuse_unused(const CLI::App& verb) {
-  const bool is_cell = verb["source"]->as<std::string>() == "cell", has_list = verb.count("--views") > 0;
+  const bool is_cell = verb["source"]->as<std::string>() == "cell",
+             has_list = verb.count("--views") > 0;
   for (const CLI::Option* option : verb.get_options()) {
     const std::string &name = option->get_name(), &group = option->get_group();
     if (option->count() == 0 || name == "--views") continue;
@@ -136,8 +143,10 @@ void refuse_unused(const CLI::App& verb) {
   }
 }
 
-ScoutSource make_source(const SourceRequest& request, std::span<const Object> objects, ThreadPool& pool) {
-  ScoutSource made = request.source == "cell" ? make_cell(request, objects, pool) : make_recorded(request);
+ScoutSource make_source(const SourceRequest& request, std::span<const Object> objects,
+                        ThreadPool& pool) {
+  ScoutSource made =
+      request.source == "cell" ? make_cell(request, objects, pool) : make_recorded(request);
   if (made.image_ids.empty()) {
     made.image_ids.resize(made.source->views().size());
     std::iota(made.image_ids.begin(), made.image_ids.end(), 0);

@@ -21,8 +21,8 @@ struct SourceRequest {
 
 void add_source_options(CLI::App& verb, SourceRequest& request);
 
-// Of what was given on the command line. InputError: options of a cell with recorded views, of the hemisphere
-// with a list of views.
+// Of what was given on the command line. InputError: options of a cell with recorded views, of the
+// hemisphere with a list of views.
 void refuse_unused(const CLI::App& verb);
 
 struct ScoutSource {
@@ -31,12 +31,14 @@ struct ScoutSource {
   Settings settings;              // what tells it from other runs with the same views and models
   std::vector<TrueObject> truth;  // of a cell
   std::vector<int> image_ids;     // one a view: BOP's, else its number
-  std::vector<std::filesystem::path> image_files;  // one a view; empty in a cell, whose images have none
+  std::vector<std::filesystem::path>
+      image_files;  // one a view; empty in a cell, whose images have none
   int scene_id = 0;
 };
 
-// `objects` lie in a cell. InputError: neither "cell" nor a folder of recorded views, a file of the one with
-// the other.
-ScoutSource make_source(const SourceRequest& request, std::span<const Object> objects, ThreadPool& pool);
+// `objects` lie in a cell. InputError: neither "cell" nor a folder of recorded views, a file of the
+// one with the other.
+ScoutSource make_source(const SourceRequest& request, std::span<const Object> objects,
+                        ThreadPool& pool);
 
 }  // namespace edgescout

@@ -13,7 +13,8 @@ namespace edgescout {
 inline std::string stage_times(std::span<const StageSeconds> stages) {
   std::string text;
   for (const StageSeconds& stage : stages)
-    text += fmt::format("{}{} {:.0f} ms", text.empty() ? "" : ", ", stage.name, 1000 * stage.seconds);
+    text +=
+        fmt::format("{}{} {:.0f} ms", text.empty() ? "" : ", ", stage.name, 1000 * stage.seconds);
   return text;
 }
 

@@ -12,7 +12,8 @@
 namespace edgescout {
 
 void add_model_arguments(CLI::App& verb, ModelArguments& arguments) {
-  verb.add_option("--model", arguments.models, "CAD files of the objects to look for: STL, PLY, OBJ or CAO")
+  verb.add_option("--model", arguments.models,
+                  "CAD files of the objects to look for: STL, PLY, OBJ or CAO")
       ->type_name("FILE");
   verb.add_option("--unit", arguments.unit, "Length unit of the model files: mm, cm, m or in");
   verb.add_option("--models-info", arguments.models_info, "BOP models_info.json with symmetries")
@@ -37,8 +38,8 @@ void refuse_beside_templates(const CLI::App& verb) {
 
 KnownModels load_models(const ModelArguments& arguments) {
   if (arguments.models.empty() == arguments.templates.empty())
-    throw InputError("command line", "--model, --templates", arguments.models.empty() ? "neither" : "both",
-                     "one of the two");
+    throw InputError("command line", "--model, --templates",
+                     arguments.models.empty() ? "neither" : "both", "one of the two");
   KnownModels known;
   for (const std::string& file : arguments.templates) {
     known.sets.push_back(load_templates(file));
@@ -56,9 +57,10 @@ namespace {
 // Where a unit or a distance is wrong by a factor, these two do not fit together.
 void tell_sizes(const TemplateSet& set) {
   log(LogLevel::Info,
-      fmt::format("object {} ({}): diameter {:.1f} mm, looked for {:.3f} to {:.3f} m from the camera",
-                  set.object_id, set.model.mesh.name, 1000 * set.model.mesh.diameter_m,
-                  set.options.distance_min_m, set.options.distance_max_m));
+      fmt::format(
+          "object {} ({}): diameter {:.1f} mm, looked for {:.3f} to {:.3f} m from the camera",
+          set.object_id, set.model.mesh.name, 1000 * set.model.mesh.diameter_m,
+          set.options.distance_min_m, set.options.distance_max_m));
 }
 
 }  // namespace
@@ -68,8 +70,9 @@ std::vector<TemplateSet> template_sets_of(const KnownModels& known, const Templa
   std::vector<TemplateSet> sets = known.sets;
   for (const Object& object : known.objects) {
     Progress progress("templates of " + object.mesh.name, 100, std::cerr, stderr_is_terminal());
-    sets.push_back(build_templates(object, with_default_distances(options, object.mesh.diameter_m, camera),
-                                   backend, [&](int done, int all) { progress.move_to(100 * done / all); }));
+    sets.push_back(
+        build_templates(object, with_default_distances(options, object.mesh.diameter_m, camera),
+                        backend, [&](int done, int all) { progress.move_to(100 * done / all); }));
   }
   for (const TemplateSet& set : sets) tell_sizes(set);
   return sets;

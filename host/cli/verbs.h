@@ -1,4 +1,5 @@
-// Every verb adds its subcommand and what runs it. The verb's callback may throw; only main catches.
+// Every verb adds its subcommand and what runs it. The verb's callback may throw; only main
+// catches.
 #pragma once
 
 #include <CLI/CLI.hpp>

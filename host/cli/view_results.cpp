@@ -5,8 +5,8 @@
 
 namespace edgescout {
 
-ImageResult begin_result(const InputImage& input, const PreparedImage& prepared, const Detections& found,
-                         const Backend& backend) {
+ImageResult begin_result(const InputImage& input, const PreparedImage& prepared,
+                         const Detections& found, const Backend& backend) {
   ImageResult result;
   result.image = place_of(input);
   result.scene_id = input.scene_id;
@@ -19,7 +19,8 @@ ImageResult begin_result(const InputImage& input, const PreparedImage& prepared,
 }
 
 void save_overlay(const InputImage& input, const PreparedImage& prepared, const Detections& found,
-                  std::span<const EdgeModel> models, Backend& backend, const std::filesystem::path& out) {
+                  std::span<const EdgeModel> models, Backend& backend,
+                  const std::filesystem::path& out) {
   std::vector<OverlayPose> poses;
   for (const Detection& d : found.detections)
     poses.push_back({d.object, prepared.camera_from_world * d.world_from_object, d.probability,

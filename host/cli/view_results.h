@@ -10,11 +10,12 @@
 namespace edgescout {
 
 // All but objects and detections: which of these are the view's, the verb knows.
-ImageResult begin_result(const InputImage& input, const PreparedImage& prepared, const Detections& found,
-                         const Backend& backend);
+ImageResult begin_result(const InputImage& input, const PreparedImage& prepared,
+                         const Detections& found, const Backend& backend);
 
 // NAME_overlay.png: the image with all that was found.
 void save_overlay(const InputImage& input, const PreparedImage& prepared, const Detections& found,
-                  std::span<const EdgeModel> models, Backend& backend, const std::filesystem::path& out);
+                  std::span<const EdgeModel> models, Backend& backend,
+                  const std::filesystem::path& out);
 
 }  // namespace edgescout

@@ -13,7 +13,8 @@ bool Camera::has_distortion() const {
 }
 
 bool same_intrinsics(const Camera& a, const Camera& b) {
-  return a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy && a.distortion == b.distortion;
+  return a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy &&
+         a.distortion == b.distortion;
 }
 
 bool same_camera(const Camera& a, const Camera& b) {
@@ -22,8 +23,10 @@ bool same_camera(const Camera& a, const Camera& b) {
 
 void validate(const Camera& camera, const std::string& source) {
   const auto number = [](double v) { return std::to_string(v); };
-  if (camera.width < 1) throw InputError(source, "width", std::to_string(camera.width), "at least 1");
-  if (camera.height < 1) throw InputError(source, "height", std::to_string(camera.height), "at least 1");
+  if (camera.width < 1)
+    throw InputError(source, "width", std::to_string(camera.width), "at least 1");
+  if (camera.height < 1)
+    throw InputError(source, "height", std::to_string(camera.height), "at least 1");
   for (auto [name, value] : {std::pair{"fx", camera.fx}, {"fy", camera.fy}})
     if (!std::isfinite(value) || value <= 0)
       throw InputError(source, name, number(value), "a positive focal length in px");

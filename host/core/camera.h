@@ -24,8 +24,8 @@ struct Camera {
 bool same_intrinsics(const Camera& a, const Camera& b);  // and distortion
 bool same_camera(const Camera& a, const Camera& b);      // and size
 
-// Throws InputError naming `source` and the field: size below 1, a value not finite, focal length not
-// positive, principal point further from the image than one image size.
+// Throws InputError naming `source` and the field: size below 1, a value not finite, focal length
+// not positive, principal point further from the image than one image size.
 void validate(const Camera& camera, const std::string& source);
 
 // Ideal (undistorted) projection of a point in the camera frame, z > 0; px.

@@ -16,8 +16,8 @@ class Random {
  public:
   explicit Random(std::uint64_t seed);
 
-  // An independent stream for a named or numbered purpose. Depends on this stream's seed only, not on how
-  // much was drawn from it.
+  // An independent stream for a named or numbered purpose. Depends on this stream's seed only, not
+  // on how much was drawn from it.
   Random split(std::string_view name) const;
   Random split(std::uint64_t index) const;
 

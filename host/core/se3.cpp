@@ -24,7 +24,8 @@ void require_rigid(const Se3& transform, const std::string& source, const std::s
     throw InputError(source, field, "a value that is not finite", "a rigid transform");
   const double length = transform.rotation.norm();
   if (std::abs(length - 1) > 1e-3)
-    throw InputError(source, field, "a quaternion of length " + std::to_string(length), "a rigid transform");
+    throw InputError(source, field, "a quaternion of length " + std::to_string(length),
+                     "a rigid transform");
 }
 
 Se3 inverse(const Se3& b_from_a) {
@@ -33,11 +34,13 @@ Se3 inverse(const Se3& b_from_a) {
 }
 
 Se3 se3_from_matrix(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& translation_m) {
-  const double defect = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  const double defect =
+      (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!rotation.allFinite() || !translation_m.allFinite())
     throw InputError("pose: found a value that is not finite, expected a rigid transform");
   if (defect > 1e-3 || rotation.determinant() < 0)
-    throw InputError("pose: found a 3x3 matrix that is no rotation, expected R'R = I and det R = +1");
+    throw InputError(
+        "pose: found a 3x3 matrix that is no rotation, expected R'R = I and det R = +1");
   return {Eigen::Quaterniond(rotation).normalized(), translation_m};
 }
 
@@ -68,11 +71,12 @@ Se3 retract_about(const Se3& b_from_a, const Eigen::Vector3d& center_m, const Ve
   return moved;
 }
 
-Matrix6d covariance_about(const Se3& b_from_a, const Eigen::Vector3d& center_m, const Matrix6d& covariance) {
+Matrix6d covariance_about(const Se3& b_from_a, const Eigen::Vector3d& center_m,
+                          const Matrix6d& covariance) {
   const Eigen::Vector3d lever_m = b_from_a.rotation * center_m;
   Matrix6d about = Matrix6d::Identity();  // the centre moves by the translation plus turn x lever
-  about.topRightCorner<3, 3>() << 0, lever_m.z(), -lever_m.y(), -lever_m.z(), 0, lever_m.x(), lever_m.y(),
-      -lever_m.x(), 0;
+  about.topRightCorner<3, 3>() << 0, lever_m.z(), -lever_m.y(), -lever_m.z(), 0, lever_m.x(),
+      lever_m.y(), -lever_m.x(), 0;
   return about * covariance * about.transpose();
 }
 
@@ -86,6 +90,8 @@ double angle_between_rad(const Se3& a, const Se3& b) {
   return so3_log(a.rotation * b.rotation.conjugate()).norm();
 }
 
-double distance_between_m(const Se3& a, const Se3& b) { return (a.translation_m - b.translation_m).norm(); }
+double distance_between_m(const Se3& a, const Se3& b) {
+  return (a.translation_m - b.translation_m).norm();
+}
 
 }  // namespace edgescout

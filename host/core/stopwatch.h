@@ -24,7 +24,8 @@ class Stopwatch {
   void lap(const char* stage) {
     const auto now = std::chrono::steady_clock::now();
     const auto known = std::ranges::find(stages_, stage, &StageSeconds::name);
-    StageSeconds& lapped = known == stages_.end() ? stages_.emplace_back(StageSeconds{stage}) : *known;
+    StageSeconds& lapped =
+        known == stages_.end() ? stages_.emplace_back(StageSeconds{stage}) : *known;
     lapped.seconds += std::chrono::duration<double>(now - last_).count();
     last_ = now;
   }

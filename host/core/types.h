@@ -30,8 +30,8 @@ struct Mesh {
   double diameter_m = 0;  // largest distance between two vertices
 };
 
-// Transforms that map the object onto itself. The identity is always the first member of `discrete`;
-// a continuous symmetry (axis through a point) is sampled into `discrete` on load.
+// Transforms that map the object onto itself. The identity is always the first member of
+// `discrete`; a continuous symmetry (axis through a point) is sampled into `discrete` on load.
 struct Symmetries {
   std::vector<Se3> discrete{Se3{}};
 };
@@ -51,16 +51,18 @@ struct Candidate {
 
 struct Detection {
   int object = 0;
-  Se3 world_from_object;                   // the world is the camera frame where only one view exists
+  Se3 world_from_object;  // the world is the camera frame where only one view exists
   Matrix6d covariance = Matrix6d::Zero();  // tangent of core/se3.h
   double probability = 0;                  // calibrated, [0, 1]
   double psi = 0;                          // Eq. 10, [0, 1]
   double cost_px = 0;                      // mean tensor value over visible points
-  double matched_fraction = 0;  // of the predicted edge points, those with an edge of the image near
-  double evidence = 0;  // of gradient directions, in standard errors above chance (register/pose_features.h)
-  double unexplained_grey = 1;  // of the contrast inside the silhouette, what the surface does not explain
-                                // (register/shading.h), [0, 1]
-  std::string convergence;      // why the refinement stopped
+  double matched_fraction =
+      0;  // of the predicted edge points, those with an edge of the image near
+  double evidence =
+      0;  // of gradient directions, in standard errors above chance (register/pose_features.h)
+  double unexplained_grey = 1;  // of the contrast inside the silhouette, what the surface does not
+                                // explain (register/shading.h), [0, 1]
+  std::string convergence;  // why the refinement stopped
 };
 
 }  // namespace edgescout

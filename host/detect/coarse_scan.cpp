@@ -14,7 +14,8 @@ namespace edgescout {
 
 namespace {
 
-// A template's parameters by its number: viewpoints, in-plane steps and distances, the last fastest.
+// A template's parameters by its number: viewpoints, in-plane steps and distances, the last
+// fastest.
 struct Numbering {
   int steps;
   std::vector<double> distances;
@@ -33,7 +34,8 @@ struct Anchors {
 // Those of a coarse image that lie between two places of the full one; at least one.
 Anchors anchors_between(double from_px, double to_px, double reduction, int coarse_px, int step) {
   const auto place = [&](double px) { return ((px + 0.5) / reduction - 0.5) / step; };
-  const int all = (coarse_px + step - 1) / step, begin = std::min(int(std::ceil(place(from_px))), all - 1);
+  const int all = (coarse_px + step - 1) / step,
+            begin = std::min(int(std::ceil(place(from_px))), all - 1);
   return {begin, int(std::clamp(std::ceil(place(to_px)), double(begin + 1), double(all)))};
 }
 
@@ -46,16 +48,17 @@ std::vector<Region> cut_into_regions(const Observation& observation, const ScanO
   const Camera &full = observation.view.camera, &camera = observation.coarse_camera;
   const ImageRegion& within = options.within;
   if (within.x >= full.width || within.y >= full.height)
-    throw InputError("options", "detect.region", fmt::format("a corner at {}, {}", within.x, within.y),
+    throw InputError("options", "detect.region",
+                     fmt::format("a corner at {}, {}", within.x, within.y),
                      fmt::format("one in an image of {}x{}", full.width, full.height));
   const int step = options.anchor_step;
   const auto end_px = [](double from_px, double size_px) {
     return size_px > 0 ? from_px + size_px : INFINITY;
   };
-  const Anchors across = anchors_between(within.x, end_px(within.x, within.width), observation.reduction,
-                                         camera.width, step),
-                down = anchors_between(within.y, end_px(within.y, within.height), observation.reduction,
-                                       camera.height, step);
+  const Anchors across = anchors_between(within.x, end_px(within.x, within.width),
+                                         observation.reduction, camera.width, step),
+                down = anchors_between(within.y, end_px(within.y, within.height),
+                                       observation.reduction, camera.height, step);
   std::vector<Region> regions;
   for (int r = down.begin; r < down.end; r += options.region_rows)
     for (int c = across.begin; c < across.end; c += options.region_columns) {
@@ -93,14 +96,15 @@ void scan_region(const TemplateSet& set, const Numbering& numbering, const Regio
   constexpr std::size_t chunk = 256;
   backend.threads().for_each((templates + chunk - 1) / chunk, [&](std::size_t c) {
     for (std::size_t t = c * chunk; t < std::min(templates, (c + 1) * chunk); ++t) {
-      const Se3 pose = place_template(set, set.views[numbering.view(t)], numbering.in_plane_rad(t),
-                                      numbering.distance_m(t), region.middle, observation.coarse_camera);
+      const Se3 pose =
+          place_template(set, set.views[numbering.view(t)], numbering.in_plane_rad(t),
+                         numbering.distance_m(t), region.middle, observation.coarse_camera);
       const ThinnedView& view = work.views[numbering.view(t)];
       TemplatePoint* points = work.points.data() + t * options.points;
       int count = view.count();
-      work.drawn[t] =
-          count > 0 && view.project(to_pose(pose), salient.intrinsics, float(region.middle.x()),
-                                    float(region.middle.y()), salient.shape.bins, nearest_m, points);
+      work.drawn[t] = count > 0 &&
+                      view.project(to_pose(pose), salient.intrinsics, float(region.middle.x()),
+                                   float(region.middle.y()), salient.shape.bins, nearest_m, points);
       if (!work.drawn[t]) points[0] = {}, count = 1;  // a job needs a point; its answer is not read
       work.jobs[t] = {static_cast<std::uint32_t>(t * options.points),
                       static_cast<std::uint32_t>(count),
@@ -110,21 +114,24 @@ void scan_region(const TemplateSet& set, const Numbering& numbering, const Regio
                       static_cast<std::uint32_t>(region.rows)};
     }
   });
-  backend.template_score(*observation.salient, work.points, work.jobs, options.anchor_step, work.hits);
+  backend.template_score(*observation.salient, work.points, work.jobs, options.anchor_step,
+                         work.hits);
   const auto mean = [&](std::size_t t) {
     return double(work.hits[t].sum) / (4.0 * work.jobs[t].point_count);
   };
   std::vector<double> weights;  // by distance
-  for (const double distance_m : numbering.distances) weights.push_back(scan_size_weight(distance_m));
+  for (const double distance_m : numbering.distances)
+    weights.push_back(scan_size_weight(distance_m));
   const auto rank = [&](std::size_t t) { return mean(t) * weights[t % weights.size()]; };
   std::vector<std::size_t> order;
   for (std::size_t t = 0; t < templates; ++t)
     if (work.drawn[t]) order.push_back(t);
   const std::size_t kept = std::min(most, order.size());
-  std::partial_sort(order.begin(), order.begin() + kept, order.end(), [&](std::size_t a, std::size_t b) {
-    const double ra = rank(a), rb = rank(b);
-    return ra != rb ? ra < rb : a < b;
-  });
+  std::partial_sort(order.begin(), order.begin() + kept, order.end(),
+                    [&](std::size_t a, std::size_t b) {
+                      const double ra = rank(a), rb = rank(b);
+                      return ra != rb ? ra < rb : a < b;
+                    });
   for (std::size_t i = 0; i < kept; ++i) {
     const std::size_t t = order[i];
     const Eigen::Vector2d anchor(work.hits[t].x, work.hits[t].y);
@@ -137,17 +144,19 @@ void scan_region(const TemplateSet& set, const Numbering& numbering, const Regio
 
 }  // namespace
 
-Se3 place_template(const TemplateSet& set, const TemplateView& view, double in_plane_rad, double distance_m,
-                   const Eigen::Vector2d& pixel, const Camera& camera) {
+Se3 place_template(const TemplateSet& set, const TemplateView& view, double in_plane_rad,
+                   double distance_m, const Eigen::Vector2d& pixel, const Camera& camera) {
   const Eigen::Vector3d ray = ray_through(camera, pixel).normalized();
-  const Eigen::Quaterniond towards_ray = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ray);
-  const Eigen::Quaterniond rotation =
-      towards_ray * Eigen::AngleAxisd(in_plane_rad, Eigen::Vector3d::UnitZ()) * view.camera_from_object;
+  const Eigen::Quaterniond towards_ray =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), ray);
+  const Eigen::Quaterniond rotation = towards_ray *
+                                      Eigen::AngleAxisd(in_plane_rad, Eigen::Vector3d::UnitZ()) *
+                                      view.camera_from_object;
   return {rotation.normalized(), distance_m * ray - rotation * set.model.center_m};
 }
 
-std::vector<ScanHit> coarse_scan(const TemplateSet& set, const Observation& observation, Backend& backend,
-                                 const ScanOptions& options) {
+std::vector<ScanHit> coarse_scan(const TemplateSet& set, const Observation& observation,
+                                 Backend& backend, const ScanOptions& options) {
   check(options.points >= 4 && options.points <= int(TEMPLATE_SCORE_MAX_POINTS),
         "coarse_scan: points of a template");
   const Numbering numbering{set.options.in_plane_steps, template_distances_m(set.options)};

@@ -10,7 +10,8 @@
 
 namespace edgescout {
 
-// Part of an image, px: pixels from (x, y) on. A width or height of 0 reaches to the image's border.
+// Part of an image, px: pixels from (x, y) on. A width or height of 0 reaches to the image's
+// border.
 struct ImageRegion {
   double x = 0, y = 0, width = 0, height = 0;
 };
@@ -22,12 +23,12 @@ struct ScanOptions {
   int region_rows = 16;
   // hits, shared evenly among the regions: texture must not crowd out the rest of the image
   int kept = 10000;
-  ImageRegion within;  // of the undistorted image: where objects' centres are looked for; from there
-                       // registration may lead a pixel or two out of it
+  ImageRegion within;  // of the undistorted image: where objects' centres are looked for; from
+                       // there registration may lead a pixel or two out of it
 };
 
-// Of ScanHit::rank: the fourth root; the square root finds one more of 54 rendered parts and loses four of
-// 16 cats.
+// Of ScanHit::rank: the fourth root; the square root finds one more of 54 rendered parts and loses
+// four of 16 cats.
 inline double scan_size_weight(double distance_m) { return std::sqrt(std::sqrt(distance_m)); }
 
 // One template at one place.
@@ -38,19 +39,19 @@ struct ScanHit {
   double rank = 0;     // mean_px times the fourth root of the distance in metres; lower is better
 };
 
-// Pose of a template turned by `in_plane_rad` about its line of sight whose centre is seen at `pixel`,
-// `distance_m` away along the ray.
-Se3 place_template(const TemplateSet& set, const TemplateView& view, double in_plane_rad, double distance_m,
-                   const Eigen::Vector2d& pixel, const Camera& camera);
+// Pose of a template turned by `in_plane_rad` about its line of sight whose centre is seen at
+// `pixel`, `distance_m` away along the ray.
+Se3 place_template(const TemplateSet& set, const TemplateView& view, double in_plane_rad,
+                   double distance_m, const Eigen::Vector2d& pixel, const Camera& camera);
 
-// The best hits of every region of the image, best first within a region. Templates stand some 0.2 rad apart,
-// so the best of them lies off by an angle: by the more pixels, the nearer and larger the object. Ranked by
-// the mean alone, small templates on clutter win over large ones on their object; multiplied with the
-// distance itself it is the other way round. `rank` lies between. In each region templates are projected
-// exactly at its middle and then shifted: perspective across the image is respected. InputError where
-// options.within lies beside the image.
-std::vector<ScanHit> coarse_scan(const TemplateSet& set, const Observation& observation, Backend& backend,
-                                 const ScanOptions& options);
+// The best hits of every region of the image, best first within a region. Templates stand some 0.2
+// rad apart, so the best of them lies off by an angle: by the more pixels, the nearer and larger
+// the object. Ranked by the mean alone, small templates on clutter win over large ones on their
+// object; multiplied with the distance itself it is the other way round. `rank` lies between. In
+// each region templates are projected exactly at its middle and then shifted: perspective across
+// the image is respected. InputError where options.within lies beside the image.
+std::vector<ScanHit> coarse_scan(const TemplateSet& set, const Observation& observation,
+                                 Backend& backend, const ScanOptions& options);
 
 // Observation::hits of these objects, unless they are there.
 void scan_for(std::span<const TemplateSet> sets, Observation& observation, Backend& backend,

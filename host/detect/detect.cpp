@@ -10,23 +10,24 @@ namespace edgescout {
 
 namespace {
 
-// Of the object's diameter: poses closer than that are the same, and a hit so near to a known instance is
-// drawn to it by the alignment.
+// Of the object's diameter: poses closer than that are the same, and a hit so near to a known
+// instance is drawn to it by the alignment.
 constexpr double SAME_POSE = 0.1, DRAWN_TO = 0.2;
 
 // Of a template, before known objects hide some of them.
 constexpr int GLANCE_POINTS = 120;
 
 // Of one object, in metres and modulo its symmetry; `key` of an index is lower for better ones.
-std::vector<std::size_t> best_of(std::span<const Se3> poses, const TemplateSet& set, std::size_t most,
-                                 const auto& key) {
+std::vector<std::size_t> best_of(std::span<const Se3> poses, const TemplateSet& set,
+                                 std::size_t most, const auto& key) {
   std::vector<double> keys;
   for (std::size_t i = 0; i < poses.size(); ++i) keys.push_back(key(i));
-  return best_different(poses, keys, set.model.mesh, set.symmetries, SAME_POSE * set.model.mesh.diameter_m,
-                        most);
+  return best_different(poses, keys, set.model.mesh, set.symmetries,
+                        SAME_POSE * set.model.mesh.diameter_m, most);
 }
 
-std::vector<Hypothesis> hypotheses_at(std::span<const Se3> poses, std::span<const std::size_t> chosen) {
+std::vector<Hypothesis> hypotheses_at(std::span<const Se3> poses,
+                                      std::span<const std::size_t> chosen) {
   std::vector<Hypothesis> out;
   for (std::size_t i : chosen) out.push_back({0, poses[i]});
   return out;
@@ -46,20 +47,23 @@ KnownPoses in_camera(std::span<const Se3> known_in_world, const TemplateSet& set
 }
 
 // The image's camera frame is the world.
-std::vector<RegisterView> views_around(const Observation& observation, std::span<const Observation> others) {
+std::vector<RegisterView> views_around(const Observation& observation,
+                                       std::span<const Observation> others) {
   std::vector<RegisterView> views = views_of(others);
   views.insert(views.begin(), observation.view);
   const Se3 world_from_first = inverse(observation.view.camera_from_world);
-  for (RegisterView& view : views) view.camera_from_world = view.camera_from_world * world_from_first;
+  for (RegisterView& view : views)
+    view.camera_from_world = view.camera_from_world * world_from_first;
   views[0].camera_from_world = Se3{};
   return views;
 }
 
-// What a pose that several views were aligned in costs where it lies. Few points, of what hardly shows, can
-// be fitted to anything.
+// What a pose that several views were aligned in costs where it lies. Few points, of what hardly
+// shows, can be fitted to anything.
 double cost_of(const Registration& registration) {
   constexpr int least_points = 12;
-  return registration.points >= least_points ? registration.cost_px2 / registration.points : INFINITY;
+  return registration.points >= least_points ? registration.cost_px2 / registration.points
+                                             : INFINITY;
 }
 
 std::vector<RegisterView> coarse_of(std::vector<RegisterView> views) {
@@ -78,10 +82,11 @@ std::vector<Hypothesis> aligned_hits(const TemplateSet& set, std::span<const Sca
       poses, best_of(poses, set, std::size_t(jointly ? options.aligned_jointly : options.aligned),
                      [&](std::size_t i) { return hits[i].rank; }));
   if (!jointly)
-    return as_hypotheses(
-        starts, register_poses({&set.model, 1}, starts, coarse, backend, options.refine.search.coarse));
-  const std::vector<Registration> registrations = register_seen(
-      starts, coarse, template_points(set, coarse, GLANCE_POINTS, backend), backend, options.glance);
+    return as_hypotheses(starts, register_poses({&set.model, 1}, starts, coarse, backend,
+                                                options.refine.search.coarse));
+  const std::vector<Registration> registrations =
+      register_seen(starts, coarse, template_points(set, coarse, GLANCE_POINTS, backend), backend,
+                    options.glance);
   poses = poses_of(as_hypotheses(starts, registrations));
   return hypotheses_at(poses, best_of(poses, set, std::size_t(options.promising),
                                       [&](std::size_t i) { return cost_of(registrations[i]); }));
@@ -91,7 +96,8 @@ std::vector<Hypothesis> aligned_hits(const TemplateSet& set, std::span<const Sca
 
 D2coOptions DetectOptions::glance_defaults() {
   D2coOptions options;
-  // By a cost this sharp they are told apart: what is hidden costs no more than what is a little off.
+  // By a cost this sharp they are told apart: what is hidden costs no more than what is a little
+  // off.
   options.rounds = {{LOSS_GEMAN_MCCLURE, 10, 8, 60}, {LOSS_GEMAN_MCCLURE, 1, 4, 60}};
   return options;
 }
@@ -160,25 +166,28 @@ UnwantedPose drawn_to(std::span<const Se3> known_in_world, const TemplateSet& se
   };
 }
 
-std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation, Backend& backend,
-                                     const DetectOptions& options) {
+std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation,
+                                     Backend& backend, const DetectOptions& options) {
   return find_candidates(set, observation, {}, {}, backend, options);
 }
 
 std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation,
-                                     std::span<const Observation> others, std::span<const Se3> known,
-                                     Backend& backend, const DetectOptions& options) {
+                                     std::span<const Observation> others,
+                                     std::span<const Se3> known, Backend& backend,
+                                     const DetectOptions& options) {
   const std::vector<Observation> helping =
       helping_views(observation, others, std::size_t(options.helping_views));
-  std::vector<ScanHit> hits = judged_by_all(set, coarse_scan(set, observation, backend, options.scan),
-                                            observation, helping, backend, options.scan);
+  std::vector<ScanHit> hits =
+      judged_by_all(set, coarse_scan(set, observation, backend, options.scan), observation, helping,
+                    backend, options.scan);
   std::erase_if(hits, [unwanted = drawn_to(known, set, observation.view.camera_from_world)](
                           const ScanHit& hit) { return unwanted(hit.camera_from_object); });
   return find_candidates(set, hits, observation, others, known, backend, options);
 }
 
 std::vector<Refined> find_candidates(const TemplateSet& set, std::span<const ScanHit> hits,
-                                     const Observation& observation, std::span<const Observation> all_others,
+                                     const Observation& observation,
+                                     std::span<const Observation> all_others,
                                      std::span<const Se3> known, Backend& backend,
                                      const DetectOptions& options) {
   const std::vector<Observation> others =
@@ -190,7 +199,8 @@ std::vector<Refined> find_candidates(const TemplateSet& set, std::span<const Sca
     return known_here.any_within(SAME_POSE * set.model.mesh.diameter_m, pose);
   };
   std::vector<Hypothesis> hypotheses = aligned_hits(set, hits, coarse_of(full), backend, options);
-  hypotheses = as_hypotheses(hypotheses, register_poses(models, hypotheses, full, backend, options.touch_up));
+  hypotheses = as_hypotheses(hypotheses,
+                             register_poses(models, hypotheses, full, backend, options.touch_up));
   std::erase_if(hypotheses, [&](const Hypothesis& h) { return is_known(h.world_from_object); });
   const std::vector<Se3> poses = poses_of(hypotheses);
   const std::vector<PoseFeatures> features = pose_features_by_view(
@@ -199,18 +209,21 @@ std::vector<Refined> find_candidates(const TemplateSet& set, std::span<const Sca
     return std::span(features).subspan(i * full.size(), full.size());
   };
   const std::vector<std::size_t> chosen =
-      best_of(poses, set, std::size_t(options.candidates), [&](std::size_t i) { return -merit(of_pose(i)); });
+      best_of(poses, set, std::size_t(options.candidates),
+              [&](std::size_t i) { return -merit(of_pose(i)); });
 
   RefineOptions refine = options.refine;
   if (!others.empty())
     refine.search.rotation_rad = 0;  // several views leave no doubt that a search could settle
-  std::vector<Refined> refined = refine_poses(models, hypotheses_at(poses, chosen), full, backend, refine);
-  std::erase_if(refined, [&](const Refined& r) { return is_known(r.registration.world_from_object); });
+  std::vector<Refined> refined =
+      refine_poses(models, hypotheses_at(poses, chosen), full, backend, refine);
+  std::erase_if(refined,
+                [&](const Refined& r) { return is_known(r.registration.world_from_object); });
   std::vector<Se3> final_poses;
   for (const Refined& r : refined) final_poses.push_back(r.registration.world_from_object);
   std::vector<Refined> different;
-  for (std::size_t i :
-       best_of(final_poses, set, refined.size(), [&](std::size_t i) { return -merit(refined[i].by_view); }))
+  for (std::size_t i : best_of(final_poses, set, refined.size(),
+                               [&](std::size_t i) { return -merit(refined[i].by_view); }))
     different.push_back(refined[i]);
   return different;
 }

@@ -21,7 +21,9 @@ struct EdgeKey {
   bool operator==(const EdgeKey&) const = default;
 };
 struct EdgeKeyHash {
-  std::size_t operator()(const EdgeKey& key) const { return std::hash<const void*>()(key.edge) ^ key.view; }
+  std::size_t operator()(const EdgeKey& key) const {
+    return std::hash<const void*>()(key.edge) ^ key.view;
+  }
 };
 
 struct Explained {
@@ -32,7 +34,8 @@ struct Explained {
 // The image edges a pose explains, one entry a visible model point.
 std::vector<Explained> explained_edges(const EdgeModel& model, const Hypothesis& pose,
                                        std::span<const RegisterView> views,
-                                       std::span<const VisibleInView> seen, const EvidenceOptions& options) {
+                                       std::span<const VisibleInView> seen,
+                                       const EvidenceOptions& options) {
   std::vector<Explained> explained;
   for (std::size_t v = 0; v < views.size(); ++v) {
     if (!views[v].edges) continue;
@@ -41,8 +44,8 @@ std::vector<Explained> explained_edges(const EdgeModel& model, const Hypothesis&
       const PosedPoint<float> posed = pose_point<float>(transform, point);
       if (!can_be_seen(posed.point)) continue;
       const ProjectedEdge<float> edge = project_edge(posed, views[v].view->intrinsics);
-      const EdgePoint* match = views[v].edges->nearest(edge.u, edge.v, orientation(edge.dx, edge.dy),
-                                                       options.match_px, options.max_turn_rad);
+      const EdgePoint* match = views[v].edges->nearest(
+          edge.u, edge.v, orientation(edge.dx, edge.dy), options.match_px, options.max_turn_rad);
       const double px_per_m = std::hypot(edge.dx, edge.dy) / (posed.point.z * posed.point.z);
       if (match) explained.push_back({{v, match}, model.raster_step_m * px_per_m});
     }
@@ -76,11 +79,13 @@ double fresh_fraction(const std::vector<Explained>& explained, const SpentEdges&
   return total > 0 ? fresh / total : 0;
 }
 
-// More than chance in all views together, or clearly so in two of them: others may hide it from the rest.
+// More than chance in all views together, or clearly so in two of them: others may hide it from the
+// rest.
 bool has_evidence(std::span<const PoseFeatures> by_view) {
   constexpr double clearly = 2;  // standard errors
   return evidence(together(by_view)) > 0 ||
-         std::ranges::count_if(by_view, [](const PoseFeatures& f) { return evidence(f) > clearly; }) > 1;
+         std::ranges::count_if(by_view,
+                               [](const PoseFeatures& f) { return evidence(f) > clearly; }) > 1;
 }
 
 }  // namespace
@@ -92,14 +97,16 @@ void EvidenceOptions::validate() const {
   in("max_spent", max_spent, 0, 1);
 }
 
-std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
+std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models,
+                                      std::span<const Hypothesis> poses,
                                       std::span<const std::vector<PoseFeatures>> features,
                                       std::span<const RegisterView> views, Backend& backend,
                                       const EvidenceOptions& options) {
   check(features.size() == poses.size(), "explain_image: as many features as poses");
   std::vector<std::vector<Explained>> explained(poses.size());
   for (std::size_t p = 0; p < poses.size(); ++p) {
-    const std::vector<VisibleInView> seen = visible_in_views(models, poses.subspan(p, 1), views, backend);
+    const std::vector<VisibleInView> seen =
+        visible_in_views(models, poses.subspan(p, 1), views, backend);
     explained[p] = explained_edges(models[poses[p].object], poses[p], views, seen, options);
   }
   SpentEdges spent(views);

@@ -1,8 +1,8 @@
-// How much of the image a pose explains, and which poses remain when every edge of the image may be explained
-// only once.
+// How much of the image a pose explains, and which poses remain when every edge of the image may be
+// explained only once.
 //
-// Of poses that compete for the same edges the one of most merit is taken first; the image edges it explains
-// are spent.
+// Of poses that compete for the same edges the one of most merit is taken first; the image edges it
+// explains are spent.
 #pragma once
 
 #include <span>
@@ -24,10 +24,11 @@ struct ChosenPose {
   double fresh = 1;       // fraction of its explained edge length no better pose had claimed
 };
 
-// Greedy choice among candidates (poses with their features, those of one pose's views side by side): the
-// most probable (merit, probability_over_views.h) times fresh first, those without evidence never; all views
-// count together. Views without an edge index do not take part.
-std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
+// Greedy choice among candidates (poses with their features, those of one pose's views side by
+// side): the most probable (merit, probability_over_views.h) times fresh first, those without
+// evidence never; all views count together. Views without an edge index do not take part.
+std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models,
+                                      std::span<const Hypothesis> poses,
                                       std::span<const std::vector<PoseFeatures>> features,
                                       std::span<const RegisterView> views, Backend& backend,
                                       const EvidenceOptions& options = {});

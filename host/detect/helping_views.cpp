@@ -8,7 +8,8 @@ namespace edgescout {
 namespace {
 
 double between_cameras_m(const Observation& a, const Observation& b) {
-  return (inverse(a.view.camera_from_world).translation_m - inverse(b.view.camera_from_world).translation_m)
+  return (inverse(a.view.camera_from_world).translation_m -
+          inverse(b.view.camera_from_world).translation_m)
       .norm();
 }
 

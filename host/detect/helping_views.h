@@ -8,9 +8,10 @@
 
 namespace edgescout {
 
-// At most `most` of the others, in the order given: every hit is judged and every candidate registered in all
-// of them, which would grow with the square of a scene's views. They are spread evenly from the camera that
-// stands nearest to the farthest: near ones see the same sides of a part, far ones what hides it here.
+// At most `most` of the others, in the order given: every hit is judged and every candidate
+// registered in all of them, which would grow with the square of a scene's views. They are spread
+// evenly from the camera that stands nearest to the farthest: near ones see the same sides of a
+// part, far ones what hides it here.
 std::vector<Observation> helping_views(const Observation& own, std::span<const Observation> others,
                                        std::size_t most);
 

@@ -23,23 +23,25 @@ std::vector<Hypothesis> gather(int object, const TemplateSet& set,
       keys.push_back(-probability_over_views(refined.by_view));
     }
   std::vector<Hypothesis> gathered;
-  for (std::size_t i :
-       best_different(poses, keys, set.model.mesh, set.symmetries, 0.05 * set.model.mesh.diameter_m, most))
+  for (std::size_t i : best_different(poses, keys, set.model.mesh, set.symmetries,
+                                      0.05 * set.model.mesh.diameter_m, most))
     gathered.push_back({object, poses[i]});
   return gathered;
 }
 
 }  // namespace
 
-std::vector<Detection> join_views(std::span<const TemplateSet> sets, std::span<const EdgeModel> models,
+std::vector<Detection> join_views(std::span<const TemplateSet> sets,
+                                  std::span<const EdgeModel> models,
                                   std::span<const std::vector<std::vector<Refined>>> candidates,
                                   std::span<const Observation> observations, Backend& backend,
                                   const DetectOptions& options) {
   const std::vector<RegisterView> views = views_of(observations);
   std::vector<Hypothesis> poses;
   for (std::size_t object = 0; object < sets.size(); ++object) {
-    const std::vector<Hypothesis> gathered = gather(int(object), sets[object], candidates, observations,
-                                                    VIEWS_WORTH * std::size_t(options.candidates));
+    const std::vector<Hypothesis> gathered =
+        gather(int(object), sets[object], candidates, observations,
+               VIEWS_WORTH * std::size_t(options.candidates));
     poses.insert(poses.end(), gathered.begin(), gathered.end());
   }
   const std::vector<Refined> refined = refine_poses(models, poses, views, backend, options.refine);

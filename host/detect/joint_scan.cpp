@@ -19,8 +19,8 @@ namespace {
 constexpr std::size_t AT_ONCE = 4096;  // hits: 10 MB of points
 constexpr double CHANCE_PX = TEMPLATE_SCORE_OUTSIDE / 4.0;
 
-// How closely a hit is looked at: points of its template, and distances tried, evenly over the gap between
-// templates.
+// How closely a hit is looked at: points of its template, and distances tried, evenly over the gap
+// between templates.
 struct Care {
   int points, steps;
   double further(int step, double distance_ratio) const {
@@ -61,13 +61,14 @@ struct MovedHit {
   }
 };
 
-// What a view says of a hit: `rank`, as ScanHit's, of what known objects leave of it, and how much that is.
+// What a view says of a hit: `rank`, as ScanHit's, of what known objects leave of it, and how much
+// that is.
 struct Say {
   double rank = 1, weight = 1;
 };
 
-// Known objects before the points of one tensor's pixels. One pixel of their map is looked at, where
-// Occluders::hide asks nine: a rank over sixty points bears one that falls on the other side.
+// Known objects before the points of one tensor's pixels. One pixel of their map is looked at,
+// where Occluders::hide asks nine: a rank over sixty points bears one that falls on the other side.
 class Hiding {
  public:
   Hiding(const Observation& view, double tolerance_m)
@@ -77,9 +78,11 @@ class Hiding {
   bool any() const { return occluders_ != nullptr; }
   bool hides(const TemplatePoint& point, float depth_m) const {
     const int x = int((point.dx_px + 0.5f) * scale_), y = int((point.dy_px + 0.5f) * scale_);
-    if (point.dx_px < 0 || point.dy_px < 0 || x >= occluders_->camera.width || y >= occluders_->camera.height)
+    if (point.dx_px < 0 || point.dy_px < 0 || x >= occluders_->camera.width ||
+        y >= occluders_->camera.height)
       return false;
-    return occluders_->depth_m[std::size_t(y) * std::size_t(occluders_->camera.width) + std::size_t(x)] <
+    return occluders_
+               ->depth_m[std::size_t(y) * std::size_t(occluders_->camera.width) + std::size_t(x)] <
            depth_m - tolerance_m_;
   }
 
@@ -102,9 +105,11 @@ Pose moved_to(Pose pose, const Eigen::Vector3d& translation_m) {
   return pose;
 }
 
-// What this view says of the hits, in the frame of its camera: all steps of every one, side by side.
-std::vector<Say> says_of(const Observation& view, const TemplateSet& set, const NearestViews& templates,
-                         std::span<const MovedHit> moved, Backend& backend, const Care& care) {
+// What this view says of the hits, in the frame of its camera: all steps of every one, side by
+// side.
+std::vector<Say> says_of(const Observation& view, const TemplateSet& set,
+                         const NearestViews& templates, std::span<const MovedHit> moved,
+                         Backend& backend, const Care& care) {
   const auto& salient = *view.salient;
   const std::size_t width = std::size_t(care.points), steps = std::size_t(care.steps),
                     count = moved.size() * steps;
@@ -124,12 +129,15 @@ std::vector<Say> says_of(const Observation& view, const TemplateSet& set, const 
     jobs[j] = {std::uint32_t(j * width), std::uint32_t(std::max(1, shown[j])), 0, 0, 1, 1};
   };
   const auto look_all_steps = [&](std::size_t h) {
-    // at the default distances three degrees at most between the steps, where viewpoints stand eleven apart
+    // at the default distances three degrees at most between the steps, where viewpoints stand
+    // eleven apart
     const SeenTemplate seen = templates.seen_at(moved[h].camera_from_object);
     const Pose turned = to_pose(moved[h].camera_from_object * *seen.symmetry);
     const Eigen::Vector3d middle_m = moved[h].camera_from_object.rotation * set.model.center_m,
-                          place_m = moved[h].camera_from_object.rotation * seen.symmetry->translation_m;
-    // one weight for all steps, or where nothing shows the step nearest to this camera would fit best
+                          place_m =
+                              moved[h].camera_from_object.rotation * seen.symmetry->translation_m;
+    // one weight for all steps, or where nothing shows the step nearest to this camera would fit
+    // best
     const double size_weight =
         scan_size_weight((moved[h].camera_from_object.translation_m + middle_m).norm());
     for (std::size_t step = 0; step < steps; ++step) {
@@ -142,7 +150,8 @@ std::vector<Say> says_of(const Observation& view, const TemplateSet& set, const 
   };
   constexpr std::size_t chunk = 64;
   backend.threads().for_each((moved.size() + chunk - 1) / chunk, [&](std::size_t c) {
-    for (std::size_t h = c * chunk; h < std::min(moved.size(), (c + 1) * chunk); ++h) look_all_steps(h);
+    for (std::size_t h = c * chunk; h < std::min(moved.size(), (c + 1) * chunk); ++h)
+      look_all_steps(h);
   });
   std::vector<TemplateHit> hits(count);
   backend.template_score(salient, points, jobs, 1, hits);
@@ -153,18 +162,21 @@ std::vector<Say> says_of(const Observation& view, const TemplateSet& set, const 
 
 // In place.
 void judge(const TemplateSet& set, const NearestViews& templates, std::span<ScanHit> hits,
-           const Observation& own, std::span<const Observation> others, Backend& backend, const Care& care) {
+           const Observation& own, std::span<const Observation> others, Backend& backend,
+           const Care& care) {
   const std::size_t steps = std::size_t(care.steps);
   std::vector<MovedHit> moved;
   for (const ScanHit& hit : hits)
     moved.push_back({hit.camera_from_object, hit.camera_from_object * set.model.center_m});
-  std::vector<double> sums(moved.size() * steps), weights(sums.size(), 1);  // its own view's say is whole
+  std::vector<double> sums(moved.size() * steps),
+      weights(sums.size(), 1);  // its own view's say is whole
   for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = hits[i / steps].rank;
   std::vector<MovedHit> there(moved.size());
   for (const Observation& other : others) {
     const Se3 other_from_own = other.view.camera_from_world * inverse(own.view.camera_from_world);
     std::ranges::transform(moved, there.begin(), [&](const MovedHit& hit) {
-      return MovedHit{other_from_own * hit.camera_from_object, other_from_own.rotation * hit.towards_m};
+      return MovedHit{other_from_own * hit.camera_from_object,
+                      other_from_own.rotation * hit.towards_m};
     });
     const std::vector<Say> says = says_of(other, set, templates, there, backend, care);
     for (std::size_t i = 0; i < sums.size(); ++i)
@@ -174,20 +186,23 @@ void judge(const TemplateSet& set, const NearestViews& templates, std::span<Scan
     std::size_t best = h * steps + steps / 2;  // where it is, unless another is better
     for (std::size_t i = h * steps; i < (h + 1) * steps; ++i)
       if (sums[i] / weights[i] < sums[best] / weights[best]) best = i;
-    hits[h].camera_from_object = moved[h].at(care.further(int(best % steps), set.options.distance_ratio));
+    hits[h].camera_from_object =
+        moved[h].at(care.further(int(best % steps), set.options.distance_ratio));
     hits[h].rank = sums[best] / weights[best];
   }
 }
 
 // In the order given.
-std::vector<ScanHit> judged(const TemplateSet& set, std::span<const ScanHit> hits, const Observation& own,
-                            std::span<const Observation> others, Backend& backend, const Care& care) {
+std::vector<ScanHit> judged(const TemplateSet& set, std::span<const ScanHit> hits,
+                            const Observation& own, std::span<const Observation> others,
+                            Backend& backend, const Care& care) {
   std::vector<ScanHit> judged(hits.begin(), hits.end());
   if (others.empty()) return judged;
   const NearestViews templates(set, care.points);
   for (std::size_t begin = 0; begin < judged.size(); begin += AT_ONCE)
-    judge(set, templates, std::span(judged).subspan(begin, std::min(AT_ONCE, judged.size() - begin)), own,
-          others, backend, care);
+    judge(set, templates,
+          std::span(judged).subspan(begin, std::min(AT_ONCE, judged.size() - begin)), own, others,
+          backend, care);
   return judged;
 }
 
@@ -205,7 +220,8 @@ struct Judges {
 };
 
 // The hits of each image that are among the `most` which a quick look ranks best.
-std::vector<std::vector<ScanHit>> worth_judging(const TemplateSet& set, std::span<const Observation> images,
+std::vector<std::vector<ScanHit>> worth_judging(const TemplateSet& set,
+                                                std::span<const Observation> images,
                                                 std::span<const std::span<const ScanHit>> hits,
                                                 const Judges& judges, const UnwantedPose& unwanted,
                                                 std::size_t most, Backend& backend,
@@ -213,7 +229,8 @@ std::vector<std::vector<ScanHit>> worth_judging(const TemplateSet& set, std::spa
   std::vector<std::vector<double>> ranks(images.size());
   std::vector<double> all;
   for (std::size_t i = 0; i < images.size(); ++i)
-    for (const ScanHit& hit : judged(set, hits[i], images[i], judges.others[i], backend, quick(options))) {
+    for (const ScanHit& hit :
+         judged(set, hits[i], images[i], judges.others[i], backend, quick(options))) {
       const bool left_out = unwanted(judges.last_from_own[i] * hit.camera_from_object);
       ranks[i].push_back(left_out ? INFINITY : hit.rank);
       if (!left_out) all.push_back(hit.rank);
@@ -248,7 +265,8 @@ std::vector<ScanHit> pooled_hits(const TemplateSet& set, std::span<const Observa
       worth_judging(set, images, hits, judges, unwanted, most, backend, options);
   std::vector<ScanHit> pooled;
   for (std::size_t i = 0; i < images.size(); ++i)
-    for (ScanHit hit : judged_by_all(set, worth[i], images[i], judges.others[i], backend, options)) {
+    for (ScanHit hit :
+         judged_by_all(set, worth[i], images[i], judges.others[i], backend, options)) {
       hit.camera_from_object = judges.last_from_own[i] * hit.camera_from_object;
       if (!unwanted(hit.camera_from_object)) pooled.push_back(hit);
     }

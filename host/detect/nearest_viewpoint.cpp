@@ -14,7 +14,8 @@ NearestViewpoint::Found NearestViewpoint::of(const Se3& camera_from_object) cons
   double largest = -2;
   for (const Se3& symmetry : set_.symmetries.discrete) {
     const Se3 equal = camera_from_object * symmetry;
-    const Eigen::Vector3d to_camera = (inverse(equal).translation_m - set_.model.center_m).normalized();
+    const Eigen::Vector3d to_camera =
+        (inverse(equal).translation_m - set_.model.center_m).normalized();
     Eigen::Index nearest = 0;
     const double cosine = (towards_camera_ * to_camera).maxCoeff(&nearest);
     if (cosine > largest) largest = cosine, best = {std::size_t(nearest), &symmetry};

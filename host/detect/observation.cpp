@@ -21,9 +21,9 @@ Observation observe(const Image& image, const Camera& camera, const Se3& camera_
   o.view.camera_from_world = camera_from_world;
   o.view.image = std::make_shared<Image>(image);
   o.view.edges = std::make_shared<EdgeIndex>(edges, camera.width, camera.height);
-  o.view.view =
-      backend.make_view(edges, camera.width, camera.height, {image.width, image.height, image.pixels.data()},
-                        intrinsics_of(camera), tensor);
+  o.view.view = backend.make_view(edges, camera.width, camera.height,
+                                  {image.width, image.height, image.pixels.data()},
+                                  intrinsics_of(camera), tensor);
   TensorOptions coarse = tensor;
   coarse.lambda_px_per_rad = float(tensor.lambda_px_per_rad / reduction);
   const auto reduced_view = [&](std::vector<EdgePoint> points) {

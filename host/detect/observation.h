@@ -1,5 +1,5 @@
-// What detection and registration need of one image: its edge points, the DCD tensor at full resolution and
-// one reduced.
+// What detection and registration need of one image: its edge points, the DCD tensor at full
+// resolution and one reduced.
 #pragma once
 
 #include <memory>
@@ -16,20 +16,22 @@ struct ScanHit;
 using ScanHits = std::shared_ptr<const std::vector<ScanHit>>;
 
 struct Observation {
-  RegisterView view;   // full and coarse tensors, camera, edge index
-  ViewHandle salient;  // the coarse tensor of the salient edges alone, for the scan (edge/salient_edges.h)
+  RegisterView view;  // full and coarse tensors, camera, edge index
+  ViewHandle
+      salient;  // the coarse tensor of the salient edges alone, for the scan (edge/salient_edges.h)
   Camera coarse_camera;
   double reduction = 1;  // image pixels to a coarse pixel
-  // What scans of the image found of each object, where they have been made (scan_for, coarse_scan.h).
+  // What scans of the image found of each object, where they have been made (scan_for,
+  // coarse_scan.h).
   std::vector<ScanHits> hits;
 };
 
-// Reduction at which something of `size_px` in the image spans about 48 coarse pixels: in [1, 8], whole
-// numbers.
+// Reduction at which something of `size_px` in the image spans about 48 coarse pixels: in [1, 8],
+// whole numbers.
 double reduction_for(double size_px);
 
-// `image` must be undistorted and `camera` its ideal camera. The coarse tensor's orientation weight is lambda
-// / reduction, so that both weigh direction against image distance alike.
+// `image` must be undistorted and `camera` its ideal camera. The coarse tensor's orientation weight
+// is lambda / reduction, so that both weigh direction against image distance alike.
 Observation observe(const Image& image, const Camera& camera, const Se3& camera_from_world,
                     std::span<const EdgePoint> edges, double reduction, const TensorOptions& tensor,
                     Backend& backend);

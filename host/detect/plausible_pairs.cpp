@@ -21,8 +21,8 @@ namespace {
 
 using Tree = fcl::BVHModel<fcl::OBBRSSd>;
 
-// A mesh made ready: its triangles in a tree and one vertex of every connected piece, enough to know whether
-// the piece lies inside something it does not cut.
+// A mesh made ready: its triangles in a tree and one vertex of every connected piece, enough to
+// know whether the piece lies inside something it does not cut.
 struct Solid {
   const EdgeModel* model;
   std::shared_ptr<Tree> tree;
@@ -54,8 +54,8 @@ Solid make_solid(const EdgeModel& model) {
   return {&model, std::move(tree), a_vertex_of_each_piece(model.mesh)};
 }
 
-// By the winding number: the solid angle of all triangles seen from the point, over 4 pi (Van Oosterom &
-// Strackee 1983). Meshes with small holes have an inside, too.
+// By the winding number: the solid angle of all triangles seen from the point, over 4 pi (Van
+// Oosterom & Strackee 1983). Meshes with small holes have an inside, too.
 bool inside(const Mesh& mesh, const Eigen::Vector3d& point) {
   double half_angles = 0;
   for (const std::array<int, 3>& t : mesh.triangles) {
@@ -117,8 +117,8 @@ class Pair {
   std::vector<fcl::Contactd> contacts(const Se3& a_from_b, std::size_t most) const {
     const fcl::CollisionRequestd request(most);
     fcl::CollisionResultd result;
-    fcl::collide(a_.tree.get(), fcl::Transform3d::Identity(), b_.tree.get(), transform(a_from_b), request,
-                 result);
+    fcl::collide(a_.tree.get(), fcl::Transform3d::Identity(), b_.tree.get(), transform(a_from_b),
+                 request, result);
     std::vector<fcl::Contactd> found;
     result.getContacts(found);
     return found;
@@ -147,7 +147,8 @@ bool can_exist_together(const Pair& pair, double penetration_m) {
 BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Hypothesis> candidates,
                           double penetration_m, ThreadPool& pool) {
   if (!(penetration_m >= 0 && penetration_m <= 1))
-    throw InputError("options", "penetration", std::to_string(penetration_m), "a length in [0, 1] m");
+    throw InputError("options", "penetration", std::to_string(penetration_m),
+                     "a length in [0, 1] m");
   const std::size_t count = candidates.size();
   std::vector<Solid> solids;
   if (count > 1)
@@ -159,7 +160,8 @@ BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Hyp
     const Hypothesis &a = candidates[i], &b = candidates[j];
     const Solid &solid_a = solids[a.object], &solid_b = solids[b.object];
     const double reach_m = solid_a.model->radius_m + solid_b.model->radius_m;
-    if (((a.world_from_object * solid_a.model->center_m) - (b.world_from_object * solid_b.model->center_m))
+    if (((a.world_from_object * solid_a.model->center_m) -
+         (b.world_from_object * solid_b.model->center_m))
             .norm() > reach_m)
       return;
     together[cell] = together[j * count + i] = can_exist_together(
@@ -174,13 +176,15 @@ BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Hyp
 
 namespace {
 
-// The chance that none of these is there. Those that exclude each other add up, others are independent.
-double chance_of_none(std::span<const std::size_t> candidates, std::span<const double> probabilities,
-                      const BitMatrix& plausible) {
+// The chance that none of these is there. Those that exclude each other add up, others are
+// independent.
+double chance_of_none(std::span<const std::size_t> candidates,
+                      std::span<const double> probabilities, const BitMatrix& plausible) {
   std::vector<std::vector<std::size_t>> groups;  // whose members exclude each other
   for (const std::size_t c : candidates) {
     const auto home = std::ranges::find_if(groups, [&](const auto& group) {
-      return std::ranges::none_of(group, [&](std::size_t other) { return plausible.has(c, other); });
+      return std::ranges::none_of(group,
+                                  [&](std::size_t other) { return plausible.has(c, other); });
     });
     if (home == groups.end())
       groups.push_back({c});

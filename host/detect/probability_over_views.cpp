@@ -25,18 +25,21 @@ const PoseFeatures& the_one_that_speaks(std::span<const PoseFeatures> by_view) {
 }
 
 double log_odds_of(const SeveralViews& sums) {
-  constexpr double bias = -9.184, of_a_view = 0.198, by_log_evidence = 2.463, by_log_over_beside = 2.745,
-                   by_unexplained_grey = -3.324;
-  constexpr int most = 5;  // views that it is fitted to: more are not more than these, each says less
+  constexpr double bias = -9.184, of_a_view = 0.198, by_log_evidence = 2.463,
+                   by_log_over_beside = 2.745, by_unexplained_grey = -3.324;
+  constexpr int most =
+      5;  // views that it is fitted to: more are not more than these, each says less
   const double sum = of_a_view * sums.views + by_log_evidence * sums.log_evidence +
-                     by_log_over_beside * sums.log_over_beside + by_unexplained_grey * sums.unexplained_grey;
+                     by_log_over_beside * sums.log_over_beside +
+                     by_unexplained_grey * sums.unexplained_grey;
   return bias + sum / sums.views * std::sqrt(double(std::min(sums.views, most)));
 }
 
 }  // namespace
 
 SeveralViews sum_of_speaking(std::span<const PoseFeatures> by_view) {
-  constexpr double least = 2;  // standard errors: below that a view shows nothing of it, it may be hidden
+  constexpr double least =
+      2;  // standard errors: below that a view shows nothing of it, it may be hidden
   SeveralViews sums;
   for (const PoseFeatures& f : by_view) {
     if (!speaks(f)) continue;
@@ -51,7 +54,8 @@ SeveralViews sum_of_speaking(std::span<const PoseFeatures> by_view) {
 double probability_over_views(std::span<const PoseFeatures> by_view) {
   const SeveralViews sums = sum_of_speaking(by_view);
   if (sums.views == 0) return 0;
-  return sums.views == 1 ? pose_probability(the_one_that_speaks(by_view)) : logistic(log_odds_of(sums));
+  return sums.views == 1 ? pose_probability(the_one_that_speaks(by_view))
+                         : logistic(log_odds_of(sums));
 }
 
 double merit(std::span<const PoseFeatures> by_view) {
@@ -62,7 +66,8 @@ double merit(std::span<const PoseFeatures> by_view) {
   return std::log(p / (1 - p));
 }
 
-std::vector<double> probabilities_apart(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
+std::vector<double> probabilities_apart(std::span<const EdgeModel> models,
+                                        std::span<const Hypothesis> poses,
                                         std::span<const std::vector<PoseFeatures>> by_view,
                                         double penetration_m, ThreadPool& pool) {
   check(by_view.size() == poses.size(), "probabilities_apart: as many features as poses");

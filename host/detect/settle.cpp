@@ -27,15 +27,15 @@ void add_probable(Pool& pool, std::span<const Hypothesis> starts, std::span<cons
                   double min_probability) {
   for (std::size_t i = 0; i < refined.size(); ++i)
     if (const double p = probability_over_views(refined[i].by_view); p >= min_probability)
-      pool.add({starts[i].object, refined[i].registration.world_from_object}, refined[i].registration,
-               refined[i].by_view, p);
+      pool.add({starts[i].object, refined[i].registration.world_from_object},
+               refined[i].registration, refined[i].by_view, p);
 }
 
 // Without those that would stand inside a more probable one.
 Pool standing_apart(const Pool& pool, std::span<const EdgeModel> models, Backend& backend,
                     const DetectOptions& options) {
-  const std::vector<double> left =
-      probabilities_apart(models, pool.poses, pool.by_view, options.penetration_m, backend.threads());
+  const std::vector<double> left = probabilities_apart(models, pool.poses, pool.by_view,
+                                                       options.penetration_m, backend.threads());
   Pool apart;
   for (std::size_t i = 0; i < left.size(); ++i)
     if (left[i] >= options.min_probability)
@@ -74,8 +74,9 @@ std::vector<Detection> settle(std::span<const EdgeModel> models, std::span<const
                                       together(apart.by_view[c.index])));
     detections.back().probability = apart.probabilities[c.index];
   }
-  std::ranges::stable_sort(
-      detections, [](const Detection& a, const Detection& b) { return a.probability > b.probability; });
+  std::ranges::stable_sort(detections, [](const Detection& a, const Detection& b) {
+    return a.probability > b.probability;
+  });
   if (int(detections.size()) > options.max_detections) detections.resize(options.max_detections);
   return detections;
 }

@@ -43,9 +43,9 @@ double pose_distance_m(const Se3& a, const Se3& b, const Mesh& mesh, const Symme
   return best;
 }
 
-std::vector<std::size_t> suppress_duplicates(std::span<const Se3> poses_best_first, const Mesh& mesh,
-                                             const Symmetries& symmetries, double radius_m,
-                                             std::size_t most) {
+std::vector<std::size_t> suppress_duplicates(std::span<const Se3> poses_best_first,
+                                             const Mesh& mesh, const Symmetries& symmetries,
+                                             double radius_m, std::size_t most) {
   const std::array<Eigen::Vector3d, 8> corners = box_corners(mesh);
   const Eigen::Vector3d center = 0.5 * (mesh.box_min_m + mesh.box_max_m);
   std::vector<std::size_t> kept;
@@ -54,11 +54,12 @@ std::vector<std::size_t> suppress_duplicates(std::span<const Se3> poses_best_fir
     const Eigen::Vector3d here = poses_best_first[i] * center;
     bool known = false;
     for (std::size_t k = 0; !known && k < kept.size(); ++k) {
-      if ((centers[k] - here).squaredNorm() > radius_m * radius_m && symmetries.discrete.size() == 1)
+      if ((centers[k] - here).squaredNorm() > radius_m * radius_m &&
+          symmetries.discrete.size() == 1)
         continue;
       for (const Se3& symmetry : symmetries.discrete)
-        known |= corner_distance_m(poses_best_first[i], poses_best_first[kept[k]] * symmetry, corners,
-                                   radius_m) < radius_m;
+        known |= corner_distance_m(poses_best_first[i], poses_best_first[kept[k]] * symmetry,
+                                   corners, radius_m) < radius_m;
     }
     if (known) continue;
     kept.push_back(i);
@@ -68,8 +69,8 @@ std::vector<std::size_t> suppress_duplicates(std::span<const Se3> poses_best_fir
 }
 
 std::vector<std::size_t> best_different(std::span<const Se3> poses, std::span<const double> keys,
-                                        const Mesh& mesh, const Symmetries& symmetries, double radius_m,
-                                        std::size_t most) {
+                                        const Mesh& mesh, const Symmetries& symmetries,
+                                        double radius_m, std::size_t most) {
   check(poses.size() == keys.size(), "best_different: one key a pose");
   std::vector<std::size_t> order(poses.size());
   std::iota(order.begin(), order.end(), 0);

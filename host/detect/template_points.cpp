@@ -10,13 +10,17 @@ namespace {
 ModelPoint moved(const Se3& to_from_object, const ModelPoint& p) {
   const Eigen::Vector3d at = to_from_object * Eigen::Vector3d(p.x_m, p.y_m, p.z_m),
                         along = to_from_object.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz);
-  return {float(at.x()), float(at.y()), float(at.z()), float(along.x()), float(along.y()), float(along.z())};
+  return {float(at.x()),    float(at.y()),    float(at.z()),
+          float(along.x()), float(along.y()), float(along.z())};
 }
 
 class Lookup {
  public:
   Lookup(const TemplateSet& set, std::span<const RegisterView> views, int most, ThreadPool& threads)
-      : tolerance_m_(occlusion_tolerance_m(set.model)), views_(views), nearest_(set), threads_(threads) {
+      : tolerance_m_(occlusion_tolerance_m(set.model)),
+        views_(views),
+        nearest_(set),
+        threads_(threads) {
     for (const TemplateView& view : set.views) points_.push_back(thinned(view.points, most));
   }
   std::vector<std::vector<ModelPoint>> operator()(std::span<const Hypothesis> poses) const {

@@ -21,8 +21,9 @@ inline int rounded(float pixel) {
 // Returns how many points are nearer than `nearest_m`. Eq. 1's projection with d = z^2 *
 // d(projection)(tangent), as kernels/pose_geometry.h.
 EDGESCOUT_SIMD_CLONES
-int project_points(const Pose& pose, const Intrinsics& k, const float* const* coordinates, int count,
-                   float x_px, float y_px, int bins, float nearest_m, TemplatePoint* out) {
+int project_points(const Pose& pose, const Intrinsics& k, const float* const* coordinates,
+                   int count, float x_px, float y_px, int bins, float nearest_m,
+                   TemplatePoint* out) {
   const float* m = pose.m;
   const float *x = coordinates[0], *y = coordinates[1], *z = coordinates[2], *tx = coordinates[3],
               *ty = coordinates[4], *tz = coordinates[5];
@@ -41,7 +42,8 @@ int project_points(const Pose& pose, const Intrinsics& k, const float* const* co
     dx[i] = rounded(k.fx * px * inverse + k.cx - x_px);
     dy[i] = rounded(k.fy * py * inverse + k.cy - y_px);
     const int turn = static_cast<int>(
-        undirected_angle(k.fx * (pz * qx - px * qz), k.fy * (pz * qy - py * qz)) * bins_per_rad + 0.5f);
+        undirected_angle(k.fx * (pz * qx - px * qz), k.fy * (pz * qy - py * qz)) * bins_per_rad +
+        0.5f);
     bin[i] = turn >= bins ? 0 : turn;
   }
   for (int i = 0; i < count; ++i)
@@ -66,8 +68,8 @@ bool ThinnedView::project(const Pose& camera_from_object, const Intrinsics& intr
                           float y_px, int bins, float nearest_m, TemplatePoint* out) const {
   const float* coordinates[6];
   for (int c = 0; c < 6; ++c) coordinates[c] = coordinates_[c].data();
-  return project_points(camera_from_object, intrinsics, coordinates, count_, x_px, y_px, bins, nearest_m,
-                        out) == 0;
+  return project_points(camera_from_object, intrinsics, coordinates, count_, x_px, y_px, bins,
+                        nearest_m, out) == 0;
 }
 
 }  // namespace edgescout

@@ -1,4 +1,5 @@
-// A template's points in the image under a pose: what the scan draws once for every template and region.
+// A template's points in the image under a pose: what the scan draws once for every template and
+// region.
 #pragma once
 
 #include <vector>
@@ -8,24 +9,24 @@
 
 namespace edgescout {
 
-// The points of one viewpoint, evenly thinned, coordinate by coordinate: projecting them is a loop the
-// compiler turns into vectors.
+// The points of one viewpoint, evenly thinned, coordinate by coordinate: projecting them is a loop
+// the compiler turns into vectors.
 class ThinnedView {
  public:
   // At most `most` points, 1 to TEMPLATE_SCORE_MAX_POINTS.
   ThinnedView(const TemplateView& view, int most);
   int count() const { return count_; }
 
-  // Pixels relative to (x_px, y_px), rounded; bins of the orientation, of `bins` over pi. Writes count()
-  // points to `out`; returns false, and what it wrote means nothing, where a point is nearer than
-  // `nearest_m`.
-  bool project(const Pose& camera_from_object, const Intrinsics& intrinsics, float x_px, float y_px, int bins,
-               float nearest_m, TemplatePoint* out) const;
+  // Pixels relative to (x_px, y_px), rounded; bins of the orientation, of `bins` over pi. Writes
+  // count() points to `out`; returns false, and what it wrote means nothing, where a point is
+  // nearer than `nearest_m`.
+  bool project(const Pose& camera_from_object, const Intrinsics& intrinsics, float x_px, float y_px,
+               int bins, float nearest_m, TemplatePoint* out) const;
   // Of one of the points, along the optical axis.
   float depth_m(const Pose& camera_from_object, int point) const {
     const float* m = camera_from_object.m;
-    return m[8] * coordinates_[0][point] + m[9] * coordinates_[1][point] + m[10] * coordinates_[2][point] +
-           m[11];
+    return m[8] * coordinates_[0][point] + m[9] * coordinates_[1][point] +
+           m[10] * coordinates_[2][point] + m[11];
   }
 
  private:

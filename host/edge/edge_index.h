@@ -12,19 +12,19 @@ namespace edgescout {
 class EdgeIndex {
  public:
   EdgeIndex(std::span<const EdgePoint> edges, int width, int height);
-  // The edge point nearest to (x, y) within `radius_px` (at most CELL_PX) whose direction differs from
-  // `theta_rad` by less than `max_turn_rad`; null where there is none.
+  // The edge point nearest to (x, y) within `radius_px` (at most CELL_PX) whose direction differs
+  // from `theta_rad` by less than `max_turn_rad`; null where there is none.
   const EdgePoint* nearest(float x_px, float y_px, float theta_rad, float radius_px,
                            float max_turn_rad) const;
 
-  // Calls visit(const EdgePoint&) for every edge point within `radius_px` (at most CELL_PX), whatever its
-  // direction.
+  // Calls visit(const EdgePoint&) for every edge point within `radius_px` (at most CELL_PX),
+  // whatever its direction.
   template <typename Visit>
   void for_each_near(float x_px, float y_px, float radius_px, const Visit& visit) const {
     const Cells cells = cells_around(x_px, y_px, radius_px);
     for (int y = cells.y0; y <= cells.y1; ++y)
-      for (std::uint32_t i = cell_end_[y * columns_ + cells.x0]; i < cell_end_[y * columns_ + cells.x1 + 1];
-           ++i) {
+      for (std::uint32_t i = cell_end_[y * columns_ + cells.x0];
+           i < cell_end_[y * columns_ + cells.x1 + 1]; ++i) {
         const float dx = points_[i].x_px - x_px, dy = points_[i].y_px - y_px;
         if (dx * dx + dy * dy < radius_px * radius_px) visit(points_[i]);
       }

@@ -23,7 +23,8 @@ EdgeMethod edge_method_from_name(const std::string& name) {
 
 std::string name_of(EdgeMethod method) { return method == EdgeMethod::Lsd ? "lsd" : "gradient"; }
 
-std::vector<EdgePoint> find_edges(const Image& image, const EdgesOptions& options, Backend& backend) {
+std::vector<EdgePoint> find_edges(const Image& image, const EdgesOptions& options,
+                                  Backend& backend) {
   options.validate();
   if (options.method == EdgeMethod::Lsd) return lsd_edges(image, options.lsd);
   const ImageView view{image.width, image.height, image.pixels.data()};
@@ -32,7 +33,8 @@ std::vector<EdgePoint> find_edges(const Image& image, const EdgesOptions& option
   constexpr float any_direction = 4;
   const EdgeIndex fine(edges, image.width, image.height);
   for (const EdgePoint& edge : backend.detect_edges(view, options.faint))
-    if (!fine.nearest(edge.x_px, edge.y_px, edge.theta_rad, options.faint_clearance_px, any_direction))
+    if (!fine.nearest(edge.x_px, edge.y_px, edge.theta_rad, options.faint_clearance_px,
+                      any_direction))
       edges.push_back(edge);
   return edges;
 }

@@ -13,13 +13,14 @@ namespace edgescout {
 class Backend;
 
 enum class EdgeMethod {
-  Gradient,  // the project's own detector, on whatever device the backend is; curves and low contrast too
+  Gradient,  // the project's own detector, on whatever device the backend is; curves and low
+             // contrast too
   Lsd,       // straight segments, always on the CPU
 };
 
-// The gradient detector runs twice: once fine, once on a stronger blur with lower thresholds, where only long
-// chains count. The second pass finds faint edges of a grey level or two; its points are taken only where the
-// first pass has none near, since blur displaces edges.
+// The gradient detector runs twice: once fine, once on a stronger blur with lower thresholds, where
+// only long chains count. The second pass finds faint edges of a grey level or two; its points are
+// taken only where the first pass has none near, since blur displaces edges.
 struct EdgesOptions {
   EdgeMethod method = EdgeMethod::Gradient;
   EdgeOptions gradient;
@@ -34,6 +35,7 @@ struct EdgesOptions {
 EdgeMethod edge_method_from_name(const std::string& name);
 std::string name_of(EdgeMethod method);
 
-std::vector<EdgePoint> find_edges(const Image& image, const EdgesOptions& options, Backend& backend);
+std::vector<EdgePoint> find_edges(const Image& image, const EdgesOptions& options,
+                                  Backend& backend);
 
 }  // namespace edgescout

@@ -50,8 +50,9 @@ class PointGrid {
   std::vector<std::vector<EdgePoint>> cells_;
 };
 
-// Segments of one image, pixel centres at integers. LSD works on a copy shrunk to 4/5 and maps back without
-// the half pixel that lies between a pixel's corner and its centre: 0.5 / 0.8 - 0.5 px are missing.
+// Segments of one image, pixel centres at integers. LSD works on a copy shrunk to 4/5 and maps back
+// without the half pixel that lies between a pixel's corner and its centre: 0.5 / 0.8 - 0.5 px are
+// missing.
 std::vector<cv::Vec4f> detect_segments(const cv::Mat& image) {
   constexpr float shrink = 0.8f, missing_px = 0.5f / shrink - 0.5f;
   std::vector<cv::Vec4f> segments;
@@ -69,7 +70,8 @@ float gradient_at(const Image& image, float x, float y) {
 
 // Draws a segment of the image itself, 1 px a step.
 void draw_segment(const cv::Vec4f& segment, const Image& image, std::vector<EdgePoint>& points) {
-  const float dx = segment[2] - segment[0], dy = segment[3] - segment[1], length = std::hypot(dx, dy);
+  const float dx = segment[2] - segment[0], dy = segment[3] - segment[1],
+              length = std::hypot(dx, dy);
   const int steps = std::max(1, static_cast<int>(std::lround(length)));
   constexpr float pi = std::numbers::pi_v<float>;
   float theta = std::atan2(dy, dx);
@@ -95,7 +97,8 @@ std::vector<EdgePoint> lsd_edges(const Image& image, const LsdOptions& options) 
   cv::Mat level(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data()));
   std::vector<EdgePoint> found;
   PointGrid finer(image.width, image.height);
-  float scale = 1;  // level pixels to image pixels: pyrDown keeps every second pixel centre where it is
+  float scale =
+      1;  // level pixels to image pixels: pyrDown keeps every second pixel centre where it is
   for (int k = 0; k < options.levels; ++k, scale *= 2) {
     if (k > 0) {
       cv::Mat half;
@@ -104,7 +107,8 @@ std::vector<EdgePoint> lsd_edges(const Image& image, const LsdOptions& options) 
     }
     if (std::min(level.cols, level.rows) < smallest_level_px && k > 0) break;
     std::vector<EdgePoint> points;
-    for (const cv::Vec4f& segment : detect_segments(level)) draw_segment(segment * scale, image, points);
+    for (const cv::Vec4f& segment : detect_segments(level))
+      draw_segment(segment * scale, image, points);
     if (k > 0) std::erase_if(points, [&](const EdgePoint& p) { return finer.has_similar(p); });
     for (const EdgePoint& p : points) finer.add(p);
     found.insert(found.end(), points.begin(), points.end());

@@ -17,7 +17,9 @@ float strong_quantile(std::span<const EdgePoint> edges) {
 
 // A number in [0, 1) by place. Edges of one strength are thinned by it: evenly, and
 // alike in every run.
-double scattered(const EdgePoint& edge) { return std::fmod(12.9898 * edge.x_px + 78.233 * edge.y_px, 1.0); }
+double scattered(const EdgePoint& edge) {
+  return std::fmod(12.9898 * edge.x_px + 78.233 * edge.y_px, 1.0);
+}
 
 bool stronger(const EdgePoint& a, const EdgePoint& b) {
   return a.strength != b.strength ? a.strength > b.strength : scattered(a) < scattered(b);
@@ -41,7 +43,8 @@ std::vector<EdgePoint> salient_edges(std::span<const EdgePoint> edges, int width
   for (int row = 0; row < rows; ++row)
     for (int column = 0; column < columns; ++column) {
       std::vector<EdgePoint>& here = blocks[std::size_t(row) * columns + column];
-      const int w = std::min(block, width - column * block), h = std::min(block, height - row * block);
+      const int w = std::min(block, width - column * block),
+                h = std::min(block, height - row * block);
       const std::size_t most = std::min(here.size(), std::size_t(options.max_density * w * h));
       std::partial_sort(here.begin(), here.begin() + std::ptrdiff_t(most), here.end(), stronger);
       salient.insert(salient.end(), here.begin(), here.begin() + std::ptrdiff_t(most));

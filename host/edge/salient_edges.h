@@ -1,8 +1,8 @@
 // The edges a scan of the whole image should look at.
 //
-// A template at a wrong place finds edges by chance, the more the denser they are: on texture it outscores
-// the object. So faint edges are left out, and of every block of the image only the strongest stay, up to a
-// density at which chance says little. Registration takes all edges again.
+// A template at a wrong place finds edges by chance, the more the denser they are: on texture it
+// outscores the object. So faint edges are left out, and of every block of the image only the
+// strongest stay, up to a density at which chance says little. Registration takes all edges again.
 #pragma once
 
 #include <span>
@@ -13,7 +13,8 @@
 namespace edgescout {
 
 struct SalientOptions {
-  double min_strength = 0.1;  // of the strength that 5 % of the edge points exceed: whatever the exposure
+  double min_strength =
+      0.1;  // of the strength that 5 % of the edge points exceed: whatever the exposure
   double max_density = 0.12;  // edge points a pixel of a block
   int block_px = 48;
 };

@@ -28,8 +28,10 @@ std::vector<CurvePoint> detection_curve(std::vector<ScoredPose> poses, int insta
 
 namespace {
 
-// As the curve's last point with at most so many false positives; every pose counts as often as its image.
-int found_in(const std::vector<ScoredPose>& sorted, const std::vector<int>& times, double most_false) {
+// As the curve's last point with at most so many false positives; every pose counts as often as its
+// image.
+int found_in(const std::vector<ScoredPose>& sorted, const std::vector<int>& times,
+             double most_false) {
   std::set<int> found;
   int found_times = 0, false_positives = 0, kept = 0;
   for (std::size_t i = 0; i < sorted.size(); kept = found_times) {
@@ -61,15 +63,18 @@ Draws draw_images(std::size_t images, int draws, std::uint64_t seed) {
   return result;
 }
 
-std::vector<double> resampled_rates(std::vector<ScoredPose> poses, const std::vector<int>& instances,
+std::vector<double> resampled_rates(std::vector<ScoredPose> poses,
+                                    const std::vector<int>& instances,
                                     double false_positives_per_image, const Draws& draws) {
   std::ranges::sort(poses, std::ranges::greater{}, &ScoredPose::score);
   std::vector<double> rates;
   for (const std::vector<int>& times : draws) {
     int all = 0, images = 0;
-    for (std::size_t i = 0; i < instances.size(); ++i) all += times[i] * instances[i], images += times[i];
+    for (std::size_t i = 0; i < instances.size(); ++i)
+      all += times[i] * instances[i], images += times[i];
     if (all > 0)
-      rates.push_back(static_cast<double>(found_in(poses, times, false_positives_per_image * images)) / all);
+      rates.push_back(
+          static_cast<double>(found_in(poses, times, false_positives_per_image * images)) / all);
   }
   return rates;
 }

@@ -29,7 +29,8 @@ Interval percentile_interval(std::vector<double> values) {
   if (values.empty()) return {};
   std::ranges::sort(values);
   const auto at = [&](double quantile) {
-    return values[static_cast<std::size_t>(std::lround(quantile * static_cast<double>(values.size() - 1)))];
+    return values[static_cast<std::size_t>(
+        std::lround(quantile * static_cast<double>(values.size() - 1)))];
   };
   return {at(0.025), at(0.975)};
 }
@@ -51,14 +52,15 @@ Interval bootstrap_interval(std::span<const Cluster> clusters, int resamples, st
   std::vector<double> rates;
   std::vector<Cluster> drawn(with_trials.size());
   for (int i = 0; i < resamples; ++i) {
-    for (Cluster& cluster : drawn) cluster = with_trials[random.below(static_cast<int>(with_trials.size()))];
+    for (Cluster& cluster : drawn)
+      cluster = with_trials[random.below(static_cast<int>(with_trials.size()))];
     rates.push_back(rate(drawn));
   }
   return resampled_interval(std::move(rates), static_cast<double>(with_trials.size()));
 }
 
-Interval paired_difference_interval(std::span<const Cluster> a, std::span<const Cluster> b, int resamples,
-                                    std::uint64_t seed) {
+Interval paired_difference_interval(std::span<const Cluster> a, std::span<const Cluster> b,
+                                    int resamples, std::uint64_t seed) {
   check(a.size() == b.size(), "paired_difference_interval: the same clusters");
   std::vector<std::pair<Cluster, Cluster>> pairs;
   for (std::size_t i = 0; i < a.size(); ++i) {

@@ -9,22 +9,25 @@
 
 namespace edgescout {
 
-// What counts as correct: below both of the paper's bounds on the pose; or, where the true pose is known in
-// the image alone, no vertex so far from its place.
+// What counts as correct: below both of the paper's bounds on the pose; or, where the true pose is
+// known in the image alone, no vertex so far from its place.
 inline constexpr double CORRECT_ANGLE_RAD = 0.1;
 inline constexpr double CORRECT_DISTANCE_M = 0.005;
 inline constexpr double CORRECT_MSPD_PX = 10;
 
-// Maximum symmetry-aware surface distance, m: min over symmetries S of max over vertices |P x - T S x|.
+// Maximum symmetry-aware surface distance, m: min over symmetries S of max over vertices |P x - T S
+// x|.
 double mssd_m(const Se3& estimate, const Se3& truth, const Object& object);
 // The same in the image, px (both poses camera_from_object).
 double mspd_px(const Se3& estimate, const Se3& truth, const Object& object, const Camera& camera);
-// Rotation and translation error, at the symmetry where the pair passes the bounds most easily (smallest max
-// of angle and distance, each over its bound; of those alike the one with the smallest angle).
+// Rotation and translation error, at the symmetry where the pair passes the bounds most easily
+// (smallest max of angle and distance, each over its bound; of those alike the one with the
+// smallest angle).
 struct PoseError {
   double angle_rad = 0;
   double distance_m = 0;
-  bool passes(double max_angle_rad = CORRECT_ANGLE_RAD, double max_distance_m = CORRECT_DISTANCE_M) const {
+  bool passes(double max_angle_rad = CORRECT_ANGLE_RAD,
+              double max_distance_m = CORRECT_DISTANCE_M) const {
     return angle_rad < max_angle_rad && distance_m < max_distance_m;
   }
   // Of the bound that it is worse by: below 1 where it is correct.
@@ -34,6 +37,7 @@ struct PoseError {
   }
 };
 PoseError pose_error(const Se3& estimate, const Se3& truth, const Symmetries& symmetries,
-                     double max_angle_rad = CORRECT_ANGLE_RAD, double max_distance_m = CORRECT_DISTANCE_M);
+                     double max_angle_rad = CORRECT_ANGLE_RAD,
+                     double max_distance_m = CORRECT_DISTANCE_M);
 
 }  // namespace edgescout

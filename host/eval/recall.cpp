@@ -11,8 +11,8 @@
 namespace edgescout {
 namespace {
 
-// The instances of one object in one image, with the error of every estimate (rows, best score first) against
-// every truth.
+// The instances of one object in one image, with the error of every estimate (rows, best score
+// first) against every truth.
 struct Instances {
   int truths = 0;
   std::vector<char> counts;            // per truth: not ignored
@@ -38,15 +38,17 @@ Matches match(const Instances& pair, std::span<const double> errors, double thre
   return matches;
 }
 
-// How many truths that count BOP finds: the others take no estimate, and as many estimates are looked at as
-// there are truths that count.
+// How many truths that count BOP finds: the others take no estimate, and as many estimates are
+// looked at as there are truths that count.
 int found_by_bop(const Instances& pair, std::span<const double> errors, double threshold) {
   std::vector<double> counting;
   for (std::size_t i = 0; i < errors.size(); ++i)
     if (pair.counts[i % pair.counts.size()]) counting.push_back(errors[i]);
   const int truths = pair.counting();
-  const std::size_t looked_at = static_cast<std::size_t>(std::min(pair.estimates(), truths)) * truths;
-  const std::vector<int> matched = match_in_order(std::span(counting).first(looked_at), truths, threshold);
+  const std::size_t looked_at =
+      static_cast<std::size_t>(std::min(pair.estimates(), truths)) * truths;
+  const std::vector<int> matched =
+      match_in_order(std::span(counting).first(looked_at), truths, threshold);
   return static_cast<int>(matched.size() - std::ranges::count(matched, UNMATCHED));
 }
 
@@ -63,15 +65,16 @@ Instances compare(const Object& object, const Camera& camera, const std::vector<
                    [](const BopResult& a, const BopResult& b) { return a.score > b.score; });
   Instances pair;
   pair.truths = static_cast<int>(truth.size());
-  for (const BopTruth& t : truth) pair.counts.push_back(t.visible_fraction >= options.min_visible_fraction);
+  for (const BopTruth& t : truth)
+    pair.counts.push_back(t.visible_fraction >= options.min_visible_fraction);
   for (const BopResult& e : estimates)
     for (const BopTruth& t : truth) {
       pair.mssd.push_back(mssd_m(e.camera_from_object, t.camera_from_object, object) /
                           object.mesh.diameter_m);
       pair.mspd.push_back(mspd_px(e.camera_from_object, t.camera_from_object, object, camera));
       const auto paper_error_with = [&](const Symmetries& symmetries) {
-        return pose_error(e.camera_from_object, t.camera_from_object, symmetries, options.max_angle_rad,
-                          options.max_distance_m)
+        return pose_error(e.camera_from_object, t.camera_from_object, symmetries,
+                          options.max_angle_rad, options.max_distance_m)
             .of_bounds(options.max_angle_rad, options.max_distance_m);
       };
       pair.raw.push_back(paper_error_with(Symmetries{}));
@@ -104,7 +107,8 @@ void count_image(const EvaluationImage& image, const std::map<int, Object>& obje
   for (const auto& [id, instances] : by_object) {
     const auto& [truth, estimates] = instances;
     const Instances pair = compare(object_of(objects, id), image.camera, truth, estimates, options);
-    count(pair, static_cast<int>(estimates.size()), 5.0 * image.camera.width / 640.0, options, sums);
+    count(pair, static_cast<int>(estimates.size()), 5.0 * image.camera.width / 640.0, options,
+          sums);
   }
 }
 
@@ -119,7 +123,8 @@ void finish(Recalls& sums) {
   sums.recall_raw /= truths;
   sums.recall_symmetric /= truths;
   sums.recall_mspd /= truths;
-  sums.false_positives_per_image = static_cast<double>(sums.false_positives) / std::max(1, sums.images);
+  sums.false_positives_per_image =
+      static_cast<double>(sums.false_positives) / std::max(1, sums.images);
 }
 
 void require(bool holds, const char* field, double found, const char* expected) {
@@ -131,20 +136,23 @@ void require(bool holds, const char* field, double found, const char* expected) 
 void RecallOptions::validate() const {
   require(min_visible_fraction >= 0 && min_visible_fraction <= 1, "min_visible_fraction",
           min_visible_fraction, "[0, 1]");
-  require(min_score < std::numeric_limits<double>::infinity(), "min_score", min_score, "a number, or -inf");
+  require(min_score < std::numeric_limits<double>::infinity(), "min_score", min_score,
+          "a number, or -inf");
   require(max_angle_rad > 0, "max_angle_rad", max_angle_rad, "above 0");
   require(max_distance_m > 0, "max_distance_m", max_distance_m, "above 0");
   require(max_mspd_px > 0, "max_mspd_px", max_mspd_px, "above 0");
 }
 
-std::vector<EvaluationImage> evaluation_images(const BopScene& scene, std::span<const BopResult> results) {
+std::vector<EvaluationImage> evaluation_images(const BopScene& scene,
+                                               std::span<const BopResult> results) {
   std::map<int, EvaluationImage> by_id;
   for (const BopImage& image : scene.images) {
     const std::string name = image.file.string();
     if (!scene.truth.contains(image.image_id))
-      throw InputError(scene.folder.string(), "scene_gt.json", "no entry " + std::to_string(image.image_id),
-                       "the truth of " + name);
-    if (image.camera.width < 1) throw InputError(name, "width", "none", "the image's size in its camera");
+      throw InputError(scene.folder.string(), "scene_gt.json",
+                       "no entry " + std::to_string(image.image_id), "the truth of " + name);
+    if (image.camera.width < 1)
+      throw InputError(name, "width", "none", "the image's size in its camera");
     by_id[image.image_id] = {image.camera, scene.truth.at(image.image_id), {}};
   }
   for (const BopResult& result : results) {

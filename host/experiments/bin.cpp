@@ -47,7 +47,8 @@ std::vector<int> fixed_sequence(const Bin& bin) {
   return sequence;
 }
 
-std::vector<int> clairvoyant_sequence(const Bin& bin, std::span<const BinInstance> sought, int views) {
+std::vector<int> clairvoyant_sequence(const Bin& bin, std::span<const BinInstance> sought,
+                                      int views) {
   const int all = static_cast<int>(bin.cell->views().size());
   std::vector<double> shown(sought.size(), 0);  // by the images so far
   const auto with = [&](int view, std::size_t i) {

@@ -32,7 +32,9 @@ class BinCell : public ViewSource {
 class RenderedCell : public BinCell {
  public:
   RenderedCell(const Scene& scene, std::vector<Se3> views, ThreadPool& pool)
-      : scene_(scene), cell_(scene, scene.views[0].camera, std::move(views), {}, pool), pool_(pool) {}
+      : scene_(scene),
+        cell_(scene, scene.views[0].camera, std::move(views), {}, pool),
+        pool_(pool) {}
   Camera camera() const override { return cell_.camera(); }
   std::vector<Se3> views() const override { return cell_.views(); }
   Shot acquire(int view) override;
@@ -60,10 +62,13 @@ inline constexpr double BIN_DEPTH_MARGIN_M = 0.16;  // on either side of the hem
 
 // Around the hemisphere and through its rings from the first view, as somebody would lay it out.
 std::vector<int> fixed_sequence(const Bin& bin);
-// Views that show as much as they can of `sought`, one after the other, first view and all. What an image
-// shows of an instance helps from three tenths on, where the first hits are, and several images together.
-std::vector<int> clairvoyant_sequence(const Bin& bin, std::span<const BinInstance> sought, int views);
+// Views that show as much as they can of `sought`, one after the other, first view and all. What an
+// image shows of an instance helps from three tenths on, where the first hits are, and several
+// images together.
+std::vector<int> clairvoyant_sequence(const Bin& bin, std::span<const BinInstance> sought,
+                                      int views);
 
-Bin make_bin(std::span<const Object> types, const ExperimentSettings& settings, int number, ThreadPool& pool);
+Bin make_bin(std::span<const Object> types, const ExperimentSettings& settings, int number,
+             ThreadPool& pool);
 
 }  // namespace edgescout

@@ -18,7 +18,8 @@ Tally& group_of(Judgement& judgement, const BinInstance& instance) {
 // Of the instance that is nearest to a wrong pose; where there is none at all, highly occluded.
 Tally& group_near(Judgement& judgement, std::span<const BinInstance> instances, const Se3& pose) {
   if (instances.empty()) return judgement.heavy;
-  return group_of(judgement, *std::ranges::min_element(instances, {}, [&](const BinInstance& instance) {
+  return group_of(judgement,
+                  *std::ranges::min_element(instances, {}, [&](const BinInstance& instance) {
                     return distance_between_m(instance.world_from_object, pose);
                   }));
 }
@@ -30,7 +31,8 @@ void match(std::span<const BinInstance> instances, std::span<const ModeDetection
   std::vector<double> errors;
   for (const ModeDetection& mode : detections)
     for (const BinInstance& instance : instances)
-      errors.push_back(instance.object == mode.detection.object ? error(mode.detection, instance) : INFINITY);
+      errors.push_back(instance.object == mode.detection.object ? error(mode.detection, instance)
+                                                                : INFINITY);
   const std::vector<int> matched = match_in_order(errors, static_cast<int>(instances.size()), 1);
   for (std::size_t d = 0; d < detections.size(); ++d) {
     if (matched.empty() || matched[d] == UNMATCHED) {
@@ -47,7 +49,8 @@ double error_of(const Se3& pose, const BinInstance& instance, const Object& obje
   return pose_error(pose, instance.world_from_object, object.symmetries).of_bounds();
 }
 
-bool is_followed(const BinInstance& instance, std::span<const Particle> particles, const Object& object) {
+bool is_followed(const BinInstance& instance, std::span<const Particle> particles,
+                 const Object& object) {
   return std::ranges::any_of(particles, [&](const Particle& particle) {
     return particle.object == instance.object &&
            distance_between_m(particle.world_from_object, instance.world_from_object) <
@@ -59,8 +62,11 @@ bool is_followed(const BinInstance& instance, std::span<const Particle> particle
 }  // namespace
 
 Judgement judge(std::span<const BinInstance> instances, const ScoutStep& step,
-                std::span<const Object> objects, const Camera& camera, const Se3& camera_from_world) {
-  const auto object_of = [&](int index) -> const Object& { return objects[static_cast<std::size_t>(index)]; };
+                std::span<const Object> objects, const Camera& camera,
+                const Se3& camera_from_world) {
+  const auto object_of = [&](int index) -> const Object& {
+    return objects[static_cast<std::size_t>(index)];
+  };
   Judgement judgement;
   for (const BinInstance& instance : instances) {
     if (instance.visible < LEAST_VISIBLE) continue;
@@ -76,7 +82,8 @@ Judgement judge(std::span<const BinInstance> instances, const ScoutStep& step,
   match(instances, step.detections, judgement, &Tally::correct_px, &Tally::wrong_px,
         [&](const Detection& found, const BinInstance& instance) {
           return mspd_px(camera_from_world * found.world_from_object,
-                         camera_from_world * instance.world_from_object, object_of(found.object), camera) /
+                         camera_from_world * instance.world_from_object, object_of(found.object),
+                         camera) /
                  CORRECT_MSPD_PX;
         });
   return judgement;

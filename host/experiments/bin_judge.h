@@ -1,5 +1,5 @@
-// What was found of a bin's instances, and what was reported that is none, split by how much of an instance
-// shows in the first view.
+// What was found of a bin's instances, and what was reported that is none, split by how much of an
+// instance shows in the first view.
 #pragma once
 
 #include <span>
@@ -10,11 +10,11 @@
 
 namespace edgescout {
 
-// An instance of which less than LEAST_VISIBLE shows: not finding it is no miss, finding it is not wrong. A
-// pose is right below 0.1 rad and 5 mm modulo symmetry; "_px": where no vertex of it is 10 px or more from
-// its place in the first view. Detections, best first, each take the free instance they fit best. Wrong ones
-// belong to the group of the instance that is nearest to them, ignored ones being highly occluded; so are all
-// wrong ones where there is no instance.
+// An instance of which less than LEAST_VISIBLE shows: not finding it is no miss, finding it is not
+// wrong. A pose is right below 0.1 rad and 5 mm modulo symmetry; "_px": where no vertex of it is 10
+// px or more from its place in the first view. Detections, best first, each take the free instance
+// they fit best. Wrong ones belong to the group of the instance that is nearest to them, ignored
+// ones being highly occluded; so are all wrong ones where there is no instance.
 struct Tally {
   int instances = 0;  // that count
   int correct = 0, correct_px = 0;
@@ -30,6 +30,7 @@ struct Judgement {
 
 // After a step. All poses in the world; `camera` and `camera_from_world` are the first view's.
 Judgement judge(std::span<const BinInstance> instances, const ScoutStep& step,
-                std::span<const Object> objects, const Camera& camera, const Se3& camera_from_world);
+                std::span<const Object> objects, const Camera& camera,
+                const Se3& camera_from_world);
 
 }  // namespace edgescout

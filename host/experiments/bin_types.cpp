@@ -28,7 +28,9 @@ std::vector<Object> cad_bin_types(const std::filesystem::path& data) {
   const Se3 half_turn_about_y{Eigen::Quaterniond(0, 0, 1, 0), Eigen::Vector3d::Zero()};
   return {{1, centred(load_mesh(cad / "AX-01_bearing_box.stl", LengthUnit::Millimetre)), {}},
           {2, centred(load_mesh(cad / "flange.stl", LengthUnit::Metre)), {}},
-          {3, centred(load_mesh(cad / "t13.stl", LengthUnit::Millimetre)), {{Se3{}, half_turn_about_y}}}};
+          {3,
+           centred(load_mesh(cad / "t13.stl", LengthUnit::Millimetre)),
+           {{Se3{}, half_turn_about_y}}}};
 }
 
 std::vector<TemplateSet> templates_between(std::span<const Object> types, double distance_min_m,
@@ -43,7 +45,8 @@ std::vector<TemplateSet> templates_between(std::span<const Object> types, double
 
 std::vector<TemplateSet> bin_templates(std::span<const Object> types, Backend& backend) {
   const double radius_m = bin_views().radius_m;
-  return templates_between(types, radius_m - BIN_DEPTH_MARGIN_M, radius_m + BIN_DEPTH_MARGIN_M, backend);
+  return templates_between(types, radius_m - BIN_DEPTH_MARGIN_M, radius_m + BIN_DEPTH_MARGIN_M,
+                           backend);
 }
 
 }  // namespace edgescout

@@ -12,9 +12,9 @@ namespace edgescout {
 
 // Three of the project's own parts.
 const std::vector<Object>& bin_types();
-// Three parts that others drew, of `data`/cad, each with its origin in the middle of its box: AX-01, a
-// bearing box of the paper; a flange; a plug adapter, which a half turn maps onto itself. InputError naming
-// the file.
+// Three parts that others drew, of `data`/cad, each with its origin in the middle of its box:
+// AX-01, a bearing box of the paper; a flange; a plug adapter, which a half turn maps onto itself.
+// InputError naming the file.
 std::vector<Object> cad_bin_types(const std::filesystem::path& data);
 
 // One set a type.

@@ -22,11 +22,13 @@ constexpr const char* COMMIT = "commit";
 fs::path file_of(const Cell& cell, const CellRun& run) { return run.folder / (cell.name + ".csv"); }
 
 void require_same_settings(const Table& finished, const CellRun& run, const std::string& file) {
-  const auto fail = [&](const std::string& name, const std::string& found, const std::string& expected) {
+  const auto fail = [&](const std::string& name, const std::string& found,
+                        const std::string& expected) {
     throw InputError(file, name, found, expected + " as in this run, or another output folder");
   };
   for (const auto& [name, value] : run.settings) {
-    const auto note = std::ranges::find(finished.notes, name, &std::pair<std::string, std::string>::first);
+    const auto note =
+        std::ranges::find(finished.notes, name, &std::pair<std::string, std::string>::first);
     if (note == finished.notes.end()) fail(name, "nothing", value);
     if (note->second != value) fail(name, note->second, value);
   }
@@ -35,7 +37,8 @@ void require_same_settings(const Table& finished, const CellRun& run, const std:
         std::ranges::find(run.settings, name, &std::pair<std::string, std::string>::first) ==
             run.settings.end())
       fail(name, value, "nothing");
-  const auto commit = std::ranges::find(finished.notes, COMMIT, &std::pair<std::string, std::string>::first);
+  const auto commit =
+      std::ranges::find(finished.notes, COMMIT, &std::pair<std::string, std::string>::first);
   if (commit == finished.notes.end()) fail(COMMIT, "nothing", run.commit);
   if (commit->second != run.commit && !run.any_commit)
     throw InputError(file, COMMIT, commit->second,
@@ -65,14 +68,16 @@ void require_same_columns(std::span<const Cell> cells, const CellRun& run,
                           const std::vector<std::optional<Table>>& tables, const Table& table) {
   for (std::size_t i = 0; i < cells.size(); ++i)
     if (tables[i] && tables[i]->columns != table.columns)
-      throw InputError(file_of(cells[i], run).string(), "columns", "others than those of other cells",
+      throw InputError(file_of(cells[i], run).string(), "columns",
+                       "others than those of other cells",
                        "cells of one program, or another output folder");
 }
 
 // Takes open cells one after the other until none is left or one failed.
 class Workers {
  public:
-  Workers(std::span<const Cell> cells, const CellRun& run, std::vector<std::optional<Table>>& tables)
+  Workers(std::span<const Cell> cells, const CellRun& run,
+          std::vector<std::optional<Table>>& tables)
       : cells_(cells), run_(run), tables_(tables) {
     for (std::size_t i = 0; i < cells.size(); ++i)
       if (!tables[i]) open_.push_back(i);

@@ -39,8 +39,8 @@ std::string data_mark(const fs::path& data) {
   for (const char* file : NEEDED) read_file(data / file);
   std::vector<fs::path> files;
   for (const char* set : SETS)
-    for (const auto& entry :
-         fs::recursive_directory_iterator(data / set, fs::directory_options::follow_directory_symlink))
+    for (const auto& entry : fs::recursive_directory_iterator(
+             data / set, fs::directory_options::follow_directory_symlink))
       if (entry.is_regular_file()) files.push_back(entry.path());
   std::ranges::sort(files);
   std::string marks;

@@ -21,7 +21,9 @@ Detection candidate_near(const BinInstance& instance, const EdgeModel& model, Ra
 
 }  // namespace
 
-Bin decision_bin(ThreadPool& pool) { return make_bin(bin_types(), ExperimentSettings::full_form(), 2, pool); }
+Bin decision_bin(ThreadPool& pool) {
+  return make_bin(bin_types(), ExperimentSettings::full_form(), 2, pool);
+}
 
 DecisionWork make_decision_work(const Bin& bin, const DecisionSize& size, Backend& backend) {
   DecisionWork work;
@@ -44,16 +46,16 @@ DecisionWork make_decision_work(const Bin& bin, const DecisionSize& size, Backen
     const EdgeModel& model = work.models[static_cast<std::size_t>(instance.object)];
     work.candidates.push_back(candidate_near(instance, model, random));
   }
-  work.particles =
-      draw_particles(work.models, work.candidates, size.particles, {0.02, 0.1}, random.split("particles"));
+  work.particles = draw_particles(work.models, work.candidates, size.particles, {0.02, 0.1},
+                                  random.split("particles"));
   return work;
 }
 
 int decide(const DecisionWork& work, Backend& backend) {
   CombinationOptions combinations;
   combinations.count = work.size.combinations;
-  const BitMatrix scenes = candidate_combinations(work.models, work.candidates, true, DEFAULT_PENETRATION_M,
-                                                  combinations, backend.threads());
+  const BitMatrix scenes = candidate_combinations(
+      work.models, work.candidates, true, DEFAULT_PENETRATION_M, combinations, backend.threads());
   const std::vector<ViewInformation> information =
       view_information({work.models, work.tables, work.camera, work.views, work.closed, work.real,
                         work.candidates, &scenes, work.particles},

@@ -54,24 +54,28 @@ TensorOptions capped(TensorOptions options, float cap_px) {
 }
 
 // What each FDCM sees. The edges must outlive it.
-std::vector<RegisterView> fdcm_views(const KnownScene& scene, const SceneEdges& edges, const SceneEdges& lsd,
-                                     const TensorOptions& tensor, Backend& backend) {
+std::vector<RegisterView> fdcm_views(const KnownScene& scene, const SceneEdges& edges,
+                                     const SceneEdges& lsd, const TensorOptions& tensor,
+                                     Backend& backend) {
   const TensorOptions papers = with_lambda(tensor, PAPER_LAMBDA_PX_PER_RAD);
   const auto seen = [&](const SceneEdges& points, const TensorOptions& of_tensor) {
     return register_views(scene, points, of_tensor, backend)[0];
   };
-  return {seen(edges, papers), seen(lsd, papers), seen(edges, with_lambda(tensor, OWN_LAMBDA_PX_PER_RAD)),
+  return {seen(edges, papers), seen(lsd, papers),
+          seen(edges, with_lambda(tensor, OWN_LAMBDA_PX_PER_RAD)),
           seen(edges, capped(papers, LOW_CAP_PX))};
 }
 
-// Columns: set, image, object, instances (of the object in the image), candidate, instance and how much of it
-// is visible (both empty: of none), and the scores.
-Table score_candidates(const KnownScene& scene, const ExperimentSettings& settings, Backend& backend) {
+// Columns: set, image, object, instances (of the object in the image), candidate, instance and how
+// much of it is visible (both empty: of none), and the scores.
+Table score_candidates(const KnownScene& scene, const ExperimentSettings& settings,
+                       Backend& backend) {
   Table table{{}, {"set", "image", "object", "instances", "candidate", "instance", "visible"}, {}};
   for (const Detector& detector : DETECTORS) table.columns.emplace_back(detector.column);
   std::vector<EdgeModel> models;
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
-  const SceneEdges edges = edges_of(scene, backend), lsd = edges_of(scene, backend, EdgeMethod::Lsd);
+  const SceneEdges edges = edges_of(scene, backend),
+                   lsd = edges_of(scene, backend, EdgeMethod::Lsd);
   const std::vector<RegisterView> views = fdcm_views(scene, edges, lsd, settings.tensor, backend);
   for (int object = 0; object < static_cast<int>(scene.objects.size()); ++object) {
     const auto instances = std::ranges::count(scene.instances, object, &KnownInstance::object);
@@ -82,7 +86,8 @@ Table score_candidates(const KnownScene& scene, const ExperimentSettings& settin
     for (const PoseCandidate& candidate : candidates)
       poses.push_back({object, candidate.camera_from_object, 0});
     std::vector<std::vector<double>> scores;  // by detector
-    for (const RegisterView& view : views) scores.push_back(fdcm_scores(models, poses, view, backend));
+    for (const RegisterView& view : views)
+      scores.push_back(fdcm_scores(models, poses, view, backend));
     scores.push_back(line2d_scores(models, poses, views[0], backend));
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       const int of = candidates[i].instance;
@@ -93,7 +98,8 @@ Table score_candidates(const KnownScene& scene, const ExperimentSettings& settin
                                    std::to_string(i),
                                    of < 0 ? "" : scene.instances[of].name,
                                    of < 0 ? "" : number_text(scene.instances[of].visible)};
-      for (const std::vector<double>& of_detector : scores) row.push_back(number_text(of_detector[i]));
+      for (const std::vector<double>& of_detector : scores)
+        row.push_back(number_text(of_detector[i]));
       table.rows.push_back(std::move(row));
     }
   }
@@ -104,12 +110,12 @@ std::vector<Cell> cells(const ExperimentSettings& s) {
   std::vector<Cell> list;
   for (int number = 0; number < s.scenes; ++number) {
     const std::string name = fmt::format("scene_{:03}", number);
-    list.push_back(
-        {"rendered/" + name, [s, number, name](Backend& backend) {
-           return score_candidates(
-               rendered_scene(name, rendered_types(), single_image_options(s, number), backend.threads()), s,
-               backend);
-         }});
+    list.push_back({"rendered/" + name, [s, number, name](Backend& backend) {
+                      return score_candidates(
+                          rendered_scene(name, rendered_types(), single_image_options(s, number),
+                                         backend.threads()),
+                          s, backend);
+                    }});
   }
   if (s.data.empty()) return list;
   const std::filesystem::path recorded = s.data / "d2co-starts";
@@ -143,15 +149,15 @@ Scored scored_by(const Detector& detector, const Table& table) {
       scored.instances[index] += static_cast<int>(number_in(table, row, "instances"));
     ScoredPose pose{detector.sign * number_in(table, row, detector.column), -1, index};
     if (const std::string& instance = text_in(table, row, "instance"); !instance.empty())
-      pose.instance =
-          instances.emplace(image + "/" + instance, static_cast<int>(instances.size())).first->second;
+      pose.instance = instances.emplace(image + "/" + instance, static_cast<int>(instances.size()))
+                          .first->second;
     scored.poses.push_back(pose);
   }
   return scored;
 }
 
-// The corners of the staircase: where the rate rises, and the ends. On a logarithmic axis no false positive
-// at all is drawn as half of one.
+// The corners of the staircase: where the rate rises, and the ends. On a logarithmic axis no false
+// positive at all is drawn as half of one.
 PlotLine line_of(const char* name, const std::vector<CurvePoint>& points, std::size_t images) {
   PlotLine line{name, {}};
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -191,13 +197,15 @@ std::vector<Part> parts_of(const Table& table) {
 
 constexpr double ALLOWED[] = {0, 0.1, 1, 10};  // false positives an image
 
-// Rates of one detector, and what they would be in other images: resampled, of the same draws for all.
+// Rates of one detector, and what they would be in other images: resampled, of the same draws for
+// all.
 struct Rates {
   double rate = 0;
   std::vector<double> resampled;
 };
 
-std::vector<Rates> rates_of(const Scored& scored, const std::vector<CurvePoint>& curve, const Draws& draws) {
+std::vector<Rates> rates_of(const Scored& scored, const std::vector<CurvePoint>& curve,
+                            const Draws& draws) {
   std::vector<Rates> rates;
   for (const double allowed : ALLOWED)
     rates.push_back({rate_at(curve, allowed * static_cast<double>(scored.instances.size())),
@@ -206,14 +214,15 @@ std::vector<Rates> rates_of(const Scored& scored, const std::vector<CurvePoint>&
 }
 
 // In points of percent, an FDCM's less LINE-2D's.
-std::string difference_row(const std::string& name, const Detector& detector, const std::vector<Rates>& fdcm,
-                           const std::vector<Rates>& line2d) {
+std::string difference_row(const std::string& name, const Detector& detector,
+                           const std::vector<Rates>& fdcm, const std::vector<Rates>& line2d) {
   std::string text = "| " + name + " | " + detector.name + " less LINE-2D, points";
   for (std::size_t i = 0; i < fdcm.size(); ++i) {
     std::vector<double> differences;
     for (std::size_t d = 0; d < fdcm[i].resampled.size(); ++d)
       differences.push_back(fdcm[i].resampled[d] - line2d[i].resampled[d]);
-    text += " | " + points(fdcm[i].rate - line2d[i].rate, percentile_interval(std::move(differences)));
+    text +=
+        " | " + points(fdcm[i].rate - line2d[i].rate, percentile_interval(std::move(differences)));
   }
   return text + " | |\n";
 }
@@ -221,12 +230,16 @@ std::string difference_row(const std::string& name, const Detector& detector, co
 Report report(const ExperimentSettings& settings, const Table& table) {
   Report result;
   result.markdown = fmt::format(
-      "{} candidates an image and type: {} around every instance of which at least a tenth shows, within {} "
+      "{} candidates an image and type: {} around every instance of which at least a tenth shows, "
+      "within {} "
       "rad and {:.0f} mm; all others anywhere in a cube that holds the instances. "
-      "FDCM ranks by the mean distance of the tensor (with the paper's weight of the orientation, {} px/rad, "
-      "or another; of this project's edges or, as in the paper, of LSD's; no distance above {:.0f} px, or "
+      "FDCM ranks by the mean distance of the tensor (with the paper's weight of the orientation, "
+      "{} px/rad, "
+      "or another; of this project's edges or, as in the paper, of LSD's; no distance above {:.0f} "
+      "px, or "
       "above a lower cap; the paper has none), LINE-2D by the similarity of "
-      "OpenCV's linemod. An instance is found where a candidate of it is accepted. 95 % intervals by "
+      "OpenCV's linemod. An instance is found where a candidate of it is accepted. 95 % intervals "
+      "by "
       "bootstrap over images; of the difference over the same draws of images.{}\n\n"
       "| candidates | method | no false positive | 0.1 an image | 1 | 10 | instances "
       "|\n|---|---|---|---|---|---|---|\n",
@@ -234,7 +247,12 @@ Report report(const ExperimentSettings& settings, const Table& table) {
       PAPER_LAMBDA_PX_PER_RAD, settings.tensor.cap_px,
       settings.data.empty() ? "" : std::string(" ") + PHOTOGRAPHS_COUNT_APART);
   for (const Part& part : parts_of(table)) {
-    Panel panel{part.name, "false positives an image (none: as half of one)", "true positive rate", {}, 0, 1,
+    Panel panel{part.name,
+                "false positives an image (none: as half of one)",
+                "true positive rate",
+                {},
+                0,
+                1,
                 true};
     std::vector<std::vector<Rates>> of_detector;
     const Draws draws = draw_images(values_of(part.rows, "image").size());
@@ -246,12 +264,14 @@ Report report(const ExperimentSettings& settings, const Table& table) {
       result.markdown += "| " + part.name + " | " + detector.name;
       for (const Rates& rates : of_detector.back())
         result.markdown +=
-            " | " + percent(rates.rate, resampled_interval(rates.resampled,
-                                                           static_cast<double>(scored.instances.size())));
+            " | " +
+            percent(rates.rate, resampled_interval(rates.resampled,
+                                                   static_cast<double>(scored.instances.size())));
       result.markdown += fmt::format(" | {} |\n", scored.all_instances());
     }
     for (std::size_t d = 0; d + 1 < of_detector.size(); ++d)
-      result.markdown += difference_row(part.name, DETECTORS[d], of_detector[d], of_detector.back());
+      result.markdown +=
+          difference_row(part.name, DETECTORS[d], of_detector[d], of_detector.back());
     result.panels.push_back(std::move(panel));
   }
   return result;

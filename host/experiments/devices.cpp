@@ -54,7 +54,8 @@ Work make_work(const DevicesOptions& o, Backend& cpu) {
   render.pile = 0.3;
   work.scene = rendered_scene("devices", {make_part("bearing_block")}, render, cpu.threads());
   if (work.scene.instances.empty())
-    throw InputError("bench devices", "seed", std::to_string(o.seed), "one whose parts can be seen");
+    throw InputError("bench devices", "seed", std::to_string(o.seed),
+                     "one whose parts can be seen");
   TemplateOptions templates = o.templates;
   double nearest_m = 1e9, farthest_m = 0;
   for (const KnownInstance& instance : work.scene.instances) {
@@ -73,8 +74,8 @@ Work make_work(const DevicesOptions& o, Backend& cpu) {
   for (const Start& start : starts_around(work.scene, each, o.seed)) {
     if (static_cast<int>(work.starts.size()) == POSES) break;
     work.starts.push_back({0, start.camera_from_object});
-    work.truths.push_back(
-        {0, work.scene.images[0].camera_from_world * work.scene.instances[start.instance].world_from_object});
+    work.truths.push_back({0, work.scene.images[0].camera_from_world *
+                                  work.scene.instances[start.instance].world_from_object});
   }
   return work;
 }
@@ -100,24 +101,27 @@ class Stages {
 void run_stages(const Work& work, Backend& backend, std::vector<StageSamples>& samples) {
   const KnownImage& image = work.scene.images[0];
   Stages stages(samples);
-  const PreparedImage prepared = stages.time(
-      "edges", [&] { return prepare_image(image.image, image.camera, Se3{}, backend, work.options); });
-  const Observation observation =
-      stages.time("tensors", [&] { return observe_prepared(prepared, work.sets, backend, work.options); });
+  const PreparedImage prepared = stages.time("edges", [&] {
+    return prepare_image(image.image, image.camera, Se3{}, backend, work.options);
+  });
+  const Observation observation = stages.time(
+      "tensors", [&] { return observe_prepared(prepared, work.sets, backend, work.options); });
   const RegisterView& view = observation.view;
   const std::span<const RegisterView> views(&view, 1);
-  stages.time("scan",
-              [&] { return coarse_scan(work.sets[0], observation, backend, work.options.detect.scan); });
+  stages.time("scan", [&] {
+    return coarse_scan(work.sets[0], observation, backend, work.options.detect.scan);
+  });
   stages.time("registration", [&] {
     return refine_poses(work.models, work.starts, views, backend, work.options.detect.refine);
   });
   stages.time("scoring", [&] {
-    return pose_features(work.models, work.truths, views, backend, work.options.detect.refine.score);
+    return pose_features(work.models, work.truths, views, backend,
+                         work.options.detect.refine.score);
   });
   stages.time("next view", [&] { return decide(work.decision, backend); });
   stages.time("image to poses", [&] {
-    return detect_objects(prepare_image(image.image, image.camera, Se3{}, backend, work.options), work.sets,
-                          backend, work.options);
+    return detect_objects(prepare_image(image.image, image.camera, Se3{}, backend, work.options),
+                          work.sets, backend, work.options);
   });
 }
 
@@ -132,7 +136,8 @@ std::vector<Runner> make_runners(const DevicesOptions& options) {
   const std::vector<DeviceInfo> known = vulkan_devices();
   std::vector<std::string> choices{"cpu"};
   if (options.devices.empty())
-    for (const DeviceInfo& device : known) choices.push_back("vulkan:" + std::to_string(device.index));
+    for (const DeviceInfo& device : known)
+      choices.push_back("vulkan:" + std::to_string(device.index));
   for (const std::string& choice : options.devices)
     if (std::ranges::find(choices, choice) == choices.end()) choices.push_back(choice);
   std::vector<Runner> runners;
@@ -172,7 +177,8 @@ void DevicesOptions::validate() const {
   const auto require = [](bool holds, const char* field, double found, const char* expected) {
     if (!holds) throw InputError("bench devices", field, number_text(found), expected);
   };
-  require(repetitions >= LEAST_REPETITIONS && repetitions <= 1000, "repetitions", repetitions, "3 to 1000");
+  require(repetitions >= LEAST_REPETITIONS && repetitions <= 1000, "repetitions", repetitions,
+          "3 to 1000");
   templates.validate();
   pipeline.validate();
   require(image_scale >= 0.1 && image_scale <= 4, "image_scale", image_scale, "0.1 to 4");
@@ -210,7 +216,8 @@ DevicesReport time_devices(const DevicesOptions& options,
       run_stages(work, *runner.backend, runner.times.stages);
       runner.spent_ms += ms_since(start);
     }
-    if (progress) progress(static_cast<std::size_t>(i) + 1, static_cast<std::size_t>(options.repetitions));
+    if (progress)
+      progress(static_cast<std::size_t>(i) + 1, static_cast<std::size_t>(options.repetitions));
   }
   for (Runner& runner : runners) {
     if (options.kernels) time_kernels(runner, options.repetitions);

@@ -1,5 +1,5 @@
-// Every stage from an image to poses, and the decision where to look next, timed on every device beside the
-// CPU in one run.
+// Every stage from an image to poses, and the decision where to look next, timed on every device
+// beside the CPU in one run.
 #pragma once
 
 #include <functional>
@@ -13,11 +13,11 @@
 namespace edgescout {
 
 struct DevicesOptions {
-  std::vector<std::string> devices;  // as make_backend takes them; empty: cpu and every Vulkan device. "cpu"
-                                     // is always among them, first
-  int repetitions = 7;               // of every stage; a slow device gets fewer, but three
-  double image_scale = 1;            // of 1024 x 768
-  TemplateOptions templates;         // distances of 0: from those of the parts in the image
+  std::vector<std::string> devices;  // as make_backend takes them; empty: cpu and every Vulkan
+                                     // device. "cpu" is always among them, first
+  int repetitions = 7;        // of every stage; a slow device gets fewer, but three
+  double image_scale = 1;     // of 1024 x 768
+  TemplateOptions templates;  // distances of 0: from those of the parts in the image
   PipelineOptions pipeline;
   unsigned seed = 1;      // of the image
   bool kernels = true;    // also every kernel on its own, against the device's copying speed
@@ -33,13 +33,15 @@ struct StageSamples {
 
 struct DeviceTimes {
   std::string choice, name, driver;
-  bool is_software = false;  // a rasteriser on the processor: right, but no measure of a graphics card
+  bool is_software =
+      false;  // a rasteriser on the processor: right, but no measure of a graphics card
   // "edges", "tensors", "scan", "registration", "scoring", "next view", "image to poses"
   std::vector<StageSamples> stages;
   // of the whole process while an image was searched, with what the devices before it keep
   std::size_t peak_host_bytes = 0;
-  std::size_t peak_device_bytes = 0;  // in the device's buffers; part of the host's where memory is unified
-  double copy_bytes_per_s = 0;        // read and written
+  std::size_t peak_device_bytes =
+      0;  // in the device's buffers; part of the host's where memory is unified
+  double copy_bytes_per_s = 0;  // read and written
   std::vector<bench::Row> kernels;
 };
 

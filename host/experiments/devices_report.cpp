@@ -17,7 +17,9 @@ constexpr double MIB = 1 << 20;
 double least(const StageSamples& stage) { return *std::ranges::min_element(stage.ms); }
 double most(const StageSamples& stage) { return *std::ranges::max_element(stage.ms); }
 
-double images_per_second(const DeviceTimes& device) { return 1000 / device.stages.back().median_ms(); }
+double images_per_second(const DeviceTimes& device) {
+  return 1000 / device.stages.back().median_ms();
+}
 
 // What copying as many bytes would take.
 double floor_ms(const bench::Row& kernel, const DeviceTimes& device) {
@@ -25,7 +27,9 @@ double floor_ms(const bench::Row& kernel, const DeviceTimes& device) {
 }
 
 // How long the kernel itself took: the host's share is no matter of the device's memory.
-double kernel_ms(const bench::Row& kernel) { return kernel.on_device_ms().value_or(kernel.median_ms); }
+double kernel_ms(const bench::Row& kernel) {
+  return kernel.on_device_ms().value_or(kernel.median_ms);
+}
 
 double times_floor(const bench::Row& kernel, const DeviceTimes& device) {
   return kernel_ms(kernel) / floor_ms(kernel, device);
@@ -81,29 +85,32 @@ std::string stage_table(const DevicesReport& report) {
 
 std::string device_table(const DevicesReport& report) {
   std::string text =
-      "| device | driver | images/s | peak host memory, MiB | peak device memory, MiB | copies, GB/s "
+      "| device | driver | images/s | peak host memory, MiB | peak device memory, MiB | copies, "
+      "GB/s "
       "|\n|---|---|---|---|---|---|\n";
   for (const DeviceTimes& device : report.devices)
-    text +=
-        fmt::format("| {} | {} | {:.2f} | {:.0f} | {:.0f} | {} |\n", device.name, device.driver,
-                    images_per_second(device), static_cast<double>(device.peak_host_bytes) / MIB,
-                    static_cast<double>(device.peak_device_bytes) / MIB,
-                    device.copy_bytes_per_s > 0 ? fmt::format("{:.1f}", 1e-9 * device.copy_bytes_per_s) : "");
+    text += fmt::format(
+        "| {} | {} | {:.2f} | {:.0f} | {:.0f} | {} |\n", device.name, device.driver,
+        images_per_second(device), static_cast<double>(device.peak_host_bytes) / MIB,
+        static_cast<double>(device.peak_device_bytes) / MIB,
+        device.copy_bytes_per_s > 0 ? fmt::format("{:.1f}", 1e-9 * device.copy_bytes_per_s) : "");
   return text;
 }
 
 std::string kernel_table(const DeviceTimes& device) {
   std::string text = fmt::format(
-      "\n## Kernels on {}\n\nThe floor is the time of copying as many bytes as the kernel must read and "
-      "write at least; it is held against the kernel's own time (on a device by its clock, the mean; a call "
+      "\n## Kernels on {}\n\nThe floor is the time of copying as many bytes as the kernel must "
+      "read and "
+      "write at least; it is held against the kernel's own time (on a device by its clock, the "
+      "mean; a call "
       "has "
       "uploads, submission and downloads beside it).\n\n"
       "| kernel | size | a call, median ms | kernel, ms | floor, ms | times floor "
       "|\n|---|---|---|---|---|---|\n",
       device.name);
   for (const bench::Row& kernel : device.kernels)
-    text += fmt::format("| {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.1f} |\n", kernel.kernel, kernel.size,
-                        kernel.median_ms, kernel_ms(kernel), floor_ms(kernel, device),
+    text += fmt::format("| {} | {} | {:.3f} | {:.3f} | {:.3f} | {:.1f} |\n", kernel.kernel,
+                        kernel.size, kernel.median_ms, kernel_ms(kernel), floor_ms(kernel, device),
                         times_floor(kernel, device));
   return text;
 }
@@ -133,16 +140,20 @@ std::string devices_json(const DevicesReport& report) {
 
 std::string devices_markdown(const DevicesReport& report) {
   std::string text = fmt::format(
-      "# Devices\n\nOne rendered image of {} x {} with {} instances of one part; {} templates; {} poses "
+      "# Devices\n\nOne rendered image of {} x {} with {} instances of one part; {} templates; {} "
+      "poses "
       "registered "
-      "and scored; one decision among {} views with {} candidates, {} particles and {} scenes. Medians of {} "
+      "and scored; one decision among {} views with {} candidates, {} particles and {} scenes. "
+      "Medians of {} "
       "repetitions (fewer where a device is slow), "
-      "devices in turn within one run. {} threads, load average {:.2f}, {:.0f} % of the processors to be had "
+      "devices in turn within one run. {} threads, load average {:.2f}, {:.0f} % of the processors "
+      "to be had "
       "before, {:.0f} % at the end. Seed {}, commit {}.\n\n",
-      report.width, report.height, report.instances, report.templates, report.poses, DecisionSize{}.views,
-      DecisionSize{}.candidates, DecisionSize{}.particles, DecisionSize{}.combinations,
-      report.options.repetitions, report.load.threads, report.load.load_average, 100 * report.load.share,
-      100 * report.load_at_end.share, report.options.seed, report.commit);
+      report.width, report.height, report.instances, report.templates, report.poses,
+      DecisionSize{}.views, DecisionSize{}.candidates, DecisionSize{}.particles,
+      DecisionSize{}.combinations, report.options.repetitions, report.load.threads,
+      report.load.load_average, 100 * report.load.share, 100 * report.load_at_end.share,
+      report.options.seed, report.commit);
   text += "Options: ";
   for (const auto& [name, value] : report.settings) text += fmt::format("{} {}, ", name, value);
   text += "on " + machine_name() + ".\n\n";

@@ -31,8 +31,9 @@ int workers_on(const std::string& device, int jobs) {
 
 Notes settings_notes(const Experiment& experiment, const ExperimentSettings& settings,
                      const std::string& device_name) {
-  Notes notes{
-      {"experiment", experiment.name}, {"seed", std::to_string(settings.seed)}, {"device", device_name}};
+  Notes notes{{"experiment", experiment.name},
+              {"seed", std::to_string(settings.seed)},
+              {"device", device_name}};
   for (const auto& note : experiment.options(settings)) notes.push_back(note);
   notes.emplace_back("times", settings.times ? "yes" : "no");
   if (settings.times) notes.emplace_back("machine", machine_name());  // its times are no other's
@@ -50,15 +51,16 @@ std::string provenance(const Table& table, const std::string& commit) {
   return "Made with: " + text + (same_commit ? "" : "; this report by commit " + commit) + ".\n";
 }
 
-void write_report(const Experiment& experiment, const ExperimentSettings& settings, const Table& table,
-                  const fs::path& out, const std::string& commit) {
+void write_report(const Experiment& experiment, const ExperimentSettings& settings,
+                  const Table& table, const fs::path& out, const std::string& commit) {
   const Report report = experiment.report(settings, table);
   const std::string &name = experiment.name, made_with = provenance(table, commit);
   write_file_atomically(out / (name + ".csv"), to_csv(table));
   write_file_atomically(out / (name + ".svg"), svg_of(report.panels, report.columns, made_with));
-  write_file_atomically(out / (name + ".md"),
-                        fmt::format("# {0}\n\n{1}\n![{0}]({2}.svg)\n\nRows: [{2}.csv]({2}.csv). {3}",
-                                    experiment.title, report.markdown, name, made_with));
+  write_file_atomically(
+      out / (name + ".md"),
+      fmt::format("# {0}\n\n{1}\n![{0}]({2}.svg)\n\nRows: [{2}.csv]({2}.csv). {3}",
+                  experiment.title, report.markdown, name, made_with));
 }
 
 // Lists every experiment whose report is there, of this run or of an earlier one.
@@ -80,13 +82,12 @@ CellRun cell_run_of(const Experiment& experiment, const Notes& settings, const E
   cell_run.resume = run.resume;
   cell_run.any_commit = run.any_commit;
   cell_run.workers = workers_on(device_name, run.jobs);
-  cell_run.make_backend = [device = run.device == "auto" && device_name == "cpu" ? "cpu" : run.device] {
-    return backend_of_cell(device);
-  };
+  cell_run.make_backend = [device = run.device == "auto" && device_name == "cpu"
+                                        ? "cpu"
+                                        : run.device] { return backend_of_cell(device); };
   if (run.progress)
-    cell_run.progress = [progress = run.progress, name = experiment.name](std::size_t done, std::size_t all) {
-      progress(name, done, all);
-    };
+    cell_run.progress = [progress = run.progress, name = experiment.name](
+                            std::size_t done, std::size_t all) { progress(name, done, all); };
   return cell_run;
 }
 
@@ -102,10 +103,12 @@ std::vector<Experiment> experiments_named(const std::vector<std::string>& names)
   if (names.empty()) return experiments();
   std::vector<Experiment> chosen;
   std::string known;
-  for (const Experiment& experiment : experiments()) known += (known.empty() ? "" : ", ") + experiment.name;
+  for (const Experiment& experiment : experiments())
+    known += (known.empty() ? "" : ", ") + experiment.name;
   for (const std::string& name : names) {
     const auto found = std::ranges::find(experiments(), name, &Experiment::name);
-    if (found == experiments().end()) throw InputError("experiments", "name", name, "one of " + known);
+    if (found == experiments().end())
+      throw InputError("experiments", "name", name, "one of " + known);
     if (std::ranges::count(names, name) > 1)
       throw InputError("experiments", "name", name + " twice", "each once");
     chosen.push_back(*found);
@@ -125,8 +128,8 @@ void run_experiments(const std::vector<Experiment>& chosen, const ExperimentSett
   std::vector<CellRun> runs;
   for (const Experiment& experiment : chosen) {
     cells.push_back(experiment.cells(settings));
-    runs.push_back(
-        cell_run_of(experiment, settings_notes(experiment, settings, device_name), run, device_name));
+    runs.push_back(cell_run_of(experiment, settings_notes(experiment, settings, device_name), run,
+                               device_name));
     require_resumable(cells.back(), runs.back());
   }
   require_writable_folder(run.out);

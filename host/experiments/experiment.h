@@ -19,7 +19,8 @@ struct Report {
 
 struct Experiment {
   std::string name, title;
-  Notes (*options)(const ExperimentSettings&);  // what its results depend on, beside seed, device and commit
+  Notes (*options)(
+      const ExperimentSettings&);  // what its results depend on, beside seed, device and commit
   std::vector<Cell> (*cells)(const ExperimentSettings&);
   Report (*report)(const ExperimentSettings&, const Table&);  // of the rows of all cells
 };
@@ -40,10 +41,10 @@ struct ExperimentRun {
   std::function<void(const std::string& experiment, std::size_t done, std::size_t all)> progress;
 };
 
-// Writes into `out`: cells/NAME/.., and when the experiment's cells are finished NAME.csv (all rows),
-// NAME.md, NAME.svg; at the end index.md. On a CPU `jobs` cells run side by side, each on one thread; on a
-// device one after the other. InputError as run_cells; for settings out of bounds and for
-// data that is not there before anything is written.
+// Writes into `out`: cells/NAME/.., and when the experiment's cells are finished NAME.csv (all
+// rows), NAME.md, NAME.svg; at the end index.md. On a CPU `jobs` cells run side by side, each on
+// one thread; on a device one after the other. InputError as run_cells; for settings out of bounds
+// and for data that is not there before anything is written.
 void run_experiments(const std::vector<Experiment>& chosen, const ExperimentSettings& settings,
                      const ExperimentRun& run);
 

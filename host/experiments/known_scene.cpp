@@ -31,8 +31,8 @@ double smallest_size_px(const KnownScene& scene, const KnownImage& view) {
   for (const KnownInstance& instance : scene.instances) {
     const double depth_m = (view.camera_from_world * instance.world_from_object).translation_m.z();
     if (depth_m > 0)
-      smallest =
-          std::min(smallest, view.camera.fx * scene.objects[instance.object].mesh.diameter_m / depth_m);
+      smallest = std::min(
+          smallest, view.camera.fx * scene.objects[instance.object].mesh.diameter_m / depth_m);
   }
   return std::min<double>(smallest, std::max(view.camera.width, view.camera.height));
 }
@@ -60,13 +60,15 @@ const BopImage& image_of(const BopScene& scene, int id) {
 
 std::vector<Object> rendered_types() {
   std::vector<Object> types;
-  for (const char* name : {"bearing_block", "l_bracket", "u_channel", "gear_plate", "stepped_shaft"})
+  for (const char* name :
+       {"bearing_block", "l_bracket", "u_channel", "gear_plate", "stepped_shaft"})
     types.push_back(make_part(name));
   for (const auto& [id, axis] : turning_axes(types)) {
     Symmetries& symmetries = std::ranges::find(types, id, &Object::id)->symmetries;
     symmetries.discrete.clear();
     for (int step = 0; step < TURNS; ++step)
-      symmetries.discrete.push_back({so3_exp(2 * std::numbers::pi * step / TURNS * axis), {0, 0, 0}});
+      symmetries.discrete.push_back(
+          {so3_exp(2 * std::numbers::pi * step / TURNS * axis), {0, 0, 0}});
   }
   return types;
 }
@@ -80,11 +82,13 @@ KnownScene rendered_scene(const std::string& name, const std::vector<Object>& ty
   const Scene scene = make_scene(known.objects, options);
   const std::vector<Rendering> renderings = render(scene, pool);
   for (std::size_t v = 0; v < scene.views.size(); ++v)
-    known.images.push_back({renderings[v].image, scene.views[v].camera, scene.views[v].camera_from_world});
+    known.images.push_back(
+        {renderings[v].image, scene.views[v].camera, scene.views[v].camera_from_world});
   for (std::size_t i = 0; i < scene.placed.size(); ++i)
     if (const PlacedObject& placed = scene.placed[i]; placed.target)
       known.instances.push_back({fmt::format("{}_{}", known.objects[placed.object].mesh.name, i),
-                                 placed.object, placed.world_from_object, renderings[0].visible_fraction[i]});
+                                 placed.object, placed.world_from_object,
+                                 renderings[0].visible_fraction[i]});
   std::erase_if(known.instances,
                 [](const KnownInstance& instance) { return instance.visible < LEAST_VISIBLE; });
   return known;
@@ -100,8 +104,8 @@ KnownScene bop_scene(const std::string& set, const fs::path& scene_folder, const
   for (const int id : image_ids) {
     const BopImage& entry = image_of(scene, id);
     if (image_ids.size() > 1 && !entry.camera_from_world)
-      throw InputError((scene_folder / "scene_camera.json").string(), std::to_string(id), "no cam_R_w2c",
-                       "the camera's pose in every image of several");
+      throw InputError((scene_folder / "scene_camera.json").string(), std::to_string(id),
+                       "no cam_R_w2c", "the camera's pose in every image of several");
     const Image image = load_image(entry.file);
     Camera camera = entry.camera;
     camera.width = image.width;
@@ -110,15 +114,17 @@ KnownScene bop_scene(const std::string& set, const fs::path& scene_folder, const
         {undistort(image, camera), undistorted(camera), entry.camera_from_world.value_or(Se3{})});
   }
   if (!scene.truth.contains(image_ids.front()))
-    throw InputError((scene_folder / "scene_gt.json").string(), std::to_string(image_ids.front()), "no entry",
-                     "the poses in this image");
+    throw InputError((scene_folder / "scene_gt.json").string(), std::to_string(image_ids.front()),
+                     "no entry", "the poses in this image");
   std::map<int, int> index_of;
   for (const BopTruth& truth : scene.truth.at(image_ids.front())) {
-    const auto [index, is_new] = index_of.emplace(truth.object_id, static_cast<int>(known.objects.size()));
+    const auto [index, is_new] =
+        index_of.emplace(truth.object_id, static_cast<int>(known.objects.size()));
     if (is_new) known.objects.push_back(load_bop_object(models, truth.object_id));
     if (truth.visible_fraction < LEAST_VISIBLE) continue;
-    known.instances.push_back({fmt::format("{}_{}", truth.object_id, known.instances.size()), index->second,
-                               inverse(first_from_world) * truth.camera_from_object, truth.visible_fraction});
+    known.instances.push_back({fmt::format("{}_{}", truth.object_id, known.instances.size()),
+                               index->second, inverse(first_from_world) * truth.camera_from_object,
+                               truth.visible_fraction});
   }
   return known;
 }
@@ -127,7 +133,8 @@ SceneEdges edges_of(const KnownScene& scene, Backend& backend, EdgeMethod method
   EdgesOptions options;
   options.method = method;
   SceneEdges edges;
-  for (const KnownImage& view : scene.images) edges.push_back(find_edges(view.image, options, backend));
+  for (const KnownImage& view : scene.images)
+    edges.push_back(find_edges(view.image, options, backend));
   return edges;
 }
 

@@ -46,14 +46,15 @@ std::vector<Object> rendered_types();
 KnownScene rendered_scene(const std::string& name, const std::vector<Object>& types,
                           const RenderOptions& options, ThreadPool& pool);
 
-// A BOP scene's image, or several of them as one scene. Types: the meshes named obj_NNNNNN.ply under
-// `models`, with the symmetries of its models_info.json. InputError naming the missing file.
+// A BOP scene's image, or several of them as one scene. Types: the meshes named obj_NNNNNN.ply
+// under `models`, with the symmetries of its models_info.json. InputError naming the missing file.
 KnownScene bop_scene(const std::string& set, const std::filesystem::path& scene_folder,
                      const std::filesystem::path& models, const std::vector<int>& image_ids);
 
 // Edge points of every image, as found once for all tensors.
 using SceneEdges = std::vector<std::vector<EdgePoint>>;
-SceneEdges edges_of(const KnownScene& scene, Backend& backend, EdgeMethod method = EdgeMethod::Gradient);
+SceneEdges edges_of(const KnownScene& scene, Backend& backend,
+                    EdgeMethod method = EdgeMethod::Gradient);
 
 // What registration asks of the images, one view each: edges, tensors, the image itself.
 std::vector<RegisterView> register_views(const KnownScene& scene, const SceneEdges& edges,

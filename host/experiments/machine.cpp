@@ -36,7 +36,8 @@ std::string processor_name() {
   std::ifstream info("/proc/cpuinfo");
   for (std::string line; std::getline(info, line);)
     if (line.starts_with("model name"))
-      if (const std::size_t at = line.find(": "); at != std::string::npos) return line.substr(at + 2);
+      if (const std::size_t at = line.find(": "); at != std::string::npos)
+        return line.substr(at + 2);
   return "unknown processor";
 }
 
@@ -57,7 +58,8 @@ MachineLoad machine_load() {
   std::vector<double> shares(static_cast<std::size_t>(load.threads));
   {
     std::vector<std::jthread> threads;
-    for (double& share : shares) threads.emplace_back([&share, LENGTH] { share = share_of_one(LENGTH); });
+    for (double& share : shares)
+      threads.emplace_back([&share, LENGTH] { share = share_of_one(LENGTH); });
   }
   load.share = 0;
   for (const double share : shares) load.share += share / load.threads;
@@ -71,15 +73,16 @@ std::vector<std::string> warnings_of(const MachineLoad& load) {
     warnings.push_back(fmt::format("the machine is busy: load average {:.2f} on {} threads",
                                    load.load_average, load.threads));
   if (load.share < LEAST_SHARE)
-    warnings.push_back(
-        fmt::format("the machine is busy: only {:.0f} % of its processors are to be had", 100 * load.share));
+    warnings.push_back(fmt::format(
+        "the machine is busy: only {:.0f} % of its processors are to be had", 100 * load.share));
   return warnings;
 }
 
 std::vector<std::string> warnings_at_end(const MachineLoad& load) {
   if (load.share >= LEAST_SHARE) return {};
-  return {fmt::format("the machine was busy at the end: only {:.0f} % of its processors were to be had",
-                      100 * load.share)};
+  return {
+      fmt::format("the machine was busy at the end: only {:.0f} % of its processors were to be had",
+                  100 * load.share)};
 }
 
 bool forget_peak_memory() {

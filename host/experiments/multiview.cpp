@@ -18,8 +18,8 @@ namespace {
 
 constexpr int VIEWS = 3;  // the first and N_v = 2 more
 
-// Of the recorded starts more are taken than in one view, on the one pile of photographs more starts: there
-// are few images of which there are others.
+// Of the recorded starts more are taken than in one view, on the one pile of photographs more
+// starts: there are few images of which there are others.
 int recorded_every(const ExperimentSettings& s) { return (s.every + 2) / 3; }
 int pile_starts(const ExperimentSettings& s) { return 5 * s.group_starts; }
 
@@ -45,23 +45,24 @@ Notes options(const ExperimentSettings& s) {
   return notes;
 }
 
-Table run_recorded(const fs::path& folder, const std::string& image, const ExperimentSettings& settings,
-                   Backend& backend) {
+Table run_recorded(const fs::path& folder, const std::string& image,
+                   const ExperimentSettings& settings, Backend& backend) {
   const KnownScene scene = recorded_scene(folder, image, VIEWS - 1);
-  return run_trials(scene, as_starts(recorded_starts(folder, scene, recorded_every(settings))), trials(),
-                    settings, backend);
+  return run_trials(scene, as_starts(recorded_starts(folder, scene, recorded_every(settings))),
+                    trials(), settings, backend);
 }
 
 std::vector<Cell> cells(const ExperimentSettings& s) {
   std::vector<Cell> list;
   for (int number = 0; number < s.groups; ++number) {
     const std::string name = fmt::format("group_{:03}", number);
-    list.push_back(
-        {"rendered/" + name, [s, number, name](Backend& backend) {
-           const KnownScene scene =
-               rendered_scene(name, rendered_types(), image_group_options(s, number), backend.threads());
-           return run_trials(scene, starts_around(scene, s.group_starts, s.seed), trials(), s, backend);
-         }});
+    list.push_back({"rendered/" + name, [s, number, name](Backend& backend) {
+                      const KnownScene scene =
+                          rendered_scene(name, rendered_types(), image_group_options(s, number),
+                                         backend.threads());
+                      return run_trials(scene, starts_around(scene, s.group_starts, s.seed),
+                                        trials(), s, backend);
+                    }});
   }
   if (s.data.empty()) return list;
   const fs::path recorded = s.data / "d2co-starts";
@@ -73,8 +74,8 @@ std::vector<Cell> cells(const ExperimentSettings& s) {
   const Photographs pile = photographs_in(s.data, s.frames_every)[0];
   list.push_back({"brackets/pile", [s, pile](Backend& backend) {
                     const KnownScene scene = photographed_scene(pile);
-                    return run_trials(scene, starts_around(scene, pile_starts(s), s.seed), trials(), s,
-                                      backend);
+                    return run_trials(scene, starts_around(scene, pile_starts(s), s.seed), trials(),
+                                      s, backend);
                   }});
   return list;
 }
@@ -111,8 +112,10 @@ std::vector<Series> series() {
 Report report(const ExperimentSettings& settings, const Table& table) {
   Report result;
   result.markdown = fmt::format(
-      "The first image of three alone, and all three together. Rendered: {} groups of up to twenty parts, {} "
-      "starts around every instance of which at least a tenth shows in the first image; correct modulo "
+      "The first image of three alone, and all three together. Rendered: {} groups of up to twenty "
+      "parts, {} "
+      "starts around every instance of which at least a tenth shows in the first image; correct "
+      "modulo "
       "symmetry.\n\n",
       settings.groups, settings.group_starts);
   const auto rows_of = [&](const std::function<bool(const Table&, std::size_t)>& fits) {
@@ -131,22 +134,27 @@ Report report(const ExperimentSettings& settings, const Table& table) {
     return number_in(t, row, "visible") > LIGHTLY_OCCLUDED;
   };
   add("Rendered groups", rows_of(is_rendered), pose_criterion());
-  add("Rendered groups, lightly occluded",
-      rows_of([&](const Table& t, std::size_t row) { return is_rendered(t, row) && is_light(t, row); }),
+  add("Rendered groups, lightly occluded", rows_of([&](const Table& t, std::size_t row) {
+        return is_rendered(t, row) && is_light(t, row);
+      }),
       pose_criterion());
-  add("Rendered groups, highly occluded",
-      rows_of([&](const Table& t, std::size_t row) { return is_rendered(t, row) && !is_light(t, row); }),
+  add("Rendered groups, highly occluded", rows_of([&](const Table& t, std::size_t row) {
+        return is_rendered(t, row) && !is_light(t, row);
+      }),
       pose_criterion());
   for (const auto& [set, criterion] :
        {std::pair{"d2co-starts", pose_criterion()}, {"brackets", image_criterion()}})
     add(fmt::format("{} ({})", set,
                     set == std::string("brackets") ? "photographs of a pile" : "recorded starts"),
-        rows_of([&](const Table& t, std::size_t row) { return text_in(t, row, "set") == set; }), criterion);
+        rows_of([&](const Table& t, std::size_t row) { return text_in(t, row, "set") == set; }),
+        criterion);
   return result;
 }
 
 }  // namespace
 
-Experiment multiview_experiment() { return {"multiview", "One view against three", options, cells, report}; }
+Experiment multiview_experiment() {
+  return {"multiview", "One view against three", options, cells, report};
+}
 
 }  // namespace edgescout

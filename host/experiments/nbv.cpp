@@ -18,8 +18,8 @@ namespace edgescout {
 
 namespace {
 
-// What is found in the images of a bin: each is scanned for each type once, for all searches and strategies
-// that look there.
+// What is found in the images of a bin: each is scanned for each type once, for all searches and
+// strategies that look there.
 class Detector {
  public:
   Detector(const std::vector<TemplateSet>& sets, const DetectOptions& options, Backend& backend)
@@ -31,9 +31,9 @@ class Detector {
     for (std::size_t i = 0; i < scanned.size(); ++i)
       for (int type = first_type; type < first_type + count; ++type)
         scanned[i].hits.push_back(hits(views[i], images[i], static_cast<std::size_t>(type)));
-    return candidates_in_images(
-        std::span(sets_).subspan(static_cast<std::size_t>(first_type), static_cast<std::size_t>(count)),
-        scanned, known, backend_, options_);
+    return candidates_in_images(std::span(sets_).subspan(static_cast<std::size_t>(first_type),
+                                                         static_cast<std::size_t>(count)),
+                                scanned, known, backend_, options_);
   }
 
  private:
@@ -70,16 +70,18 @@ struct Search {
   std::vector<BinInstance> instances;  // objects counted from first_type
 };
 
-Search make_search(const std::string& name, const Bin& bin, const BinParts& parts, int first_type, int count,
-                   std::span<const TemplateSet> sets) {
+Search make_search(const std::string& name, const Bin& bin, const BinParts& parts, int first_type,
+                   int count, std::span<const TemplateSet> sets) {
   Search search;
   search.name = name;
   search.parts = parts.name;
   search.count = count;
   search.first_type = first_type;
-  search.sets = sets.subspan(static_cast<std::size_t>(search.first_type), static_cast<std::size_t>(count));
-  search.objects = std::span(parts.types)
-                       .subspan(static_cast<std::size_t>(search.first_type), static_cast<std::size_t>(count));
+  search.sets =
+      sets.subspan(static_cast<std::size_t>(search.first_type), static_cast<std::size_t>(count));
+  search.objects =
+      std::span(parts.types)
+          .subspan(static_cast<std::size_t>(search.first_type), static_cast<std::size_t>(count));
   for (BinInstance instance : bin.instances) {
     instance.object -= search.first_type;
     if (instance.object >= 0 && instance.object < count) search.instances.push_back(instance);
@@ -93,7 +95,8 @@ std::vector<Search> searches_of(const ExperimentSettings& s, const Bin& bin, con
   const int types = static_cast<int>(sets.size());
   std::vector<Search> searches;
   for (const std::string& name : s.searches) {
-    if (name == "one") searches.push_back(make_search(name, bin, parts, bin.number % types, 1, sets));
+    if (name == "one")
+      searches.push_back(make_search(name, bin, parts, bin.number % types, 1, sets));
     if (name == "all") searches.push_back(make_search(name, bin, parts, 0, types, sets));
     for (int type = 0; name == "each" && type < types; ++type)
       searches.push_back(make_search(name, bin, parts, type, 1, sets));
@@ -122,7 +125,8 @@ ScoutOptions options_for(const ExperimentSettings& s, const Bin& bin, const Sear
   options.next_view.seed = options.combinations.seed = options.particles.seed =
       static_cast<std::uint64_t>(bin.number) + 1;
   if (draw > 0) {
-    options.next_view.seed = Random(options.next_view.seed).split(static_cast<std::uint64_t>(draw)).bits();
+    options.next_view.seed =
+        Random(options.next_view.seed).split(static_cast<std::uint64_t>(draw)).bits();
     options.max_views = std::min(options.max_views, 2);
   }
   options.next_view.sequence =
@@ -143,8 +147,8 @@ void look_from(int view, const Bin& bin, std::vector<BinInstance>& instances) {
     instance.most_visible = std::max(instance.most_visible, visible[instance.placed]);
 }
 
-// Two a step, which chose and used an image. The first image, of which all draws know the same, is the first
-// draw's.
+// Two a step, which chose and used an image. The first image, of which all draws know the same, is
+// the first draw's.
 void add_rows(Table& table, const ExperimentSettings& s, const Bin& bin, const Search& search,
               const std::string& strategy, int draw, const ScoutState& state) {
   std::vector<BinInstance> instances = search.instances;
@@ -152,16 +156,18 @@ void add_rows(Table& table, const ExperimentSettings& s, const Bin& bin, const S
     const ScoutStep& step = state.steps[i];
     look_from(step.decision.view, bin, instances);
     if (draw > 0 && i == 0) continue;
-    const Judgement judgement =
-        judge(instances, step, search.objects, bin.cell->camera(), state.steps[0].camera_from_world);
-    for (const auto& [group, tally] : {std::pair{"light", judgement.light}, {"heavy", judgement.heavy}})
-      table.rows.push_back({std::to_string(bin.number), search.parts, std::to_string(bin.parts), search.name,
-                            sought_text(search), strategy, std::to_string(draw), std::to_string(i + 1),
-                            std::to_string(step.decision.view), group, std::to_string(tally.instances),
-                            std::to_string(tally.correct), std::to_string(tally.correct_px),
-                            std::to_string(tally.wrong), std::to_string(tally.wrong_px),
-                            std::to_string(tally.followed), std::to_string(tally.shown),
-                            number_text(step.entropy_nats), s.times ? number_text(seconds_of(step)) : ""});
+    const Judgement judgement = judge(instances, step, search.objects, bin.cell->camera(),
+                                      state.steps[0].camera_from_world);
+    for (const auto& [group, tally] :
+         {std::pair{"light", judgement.light}, {"heavy", judgement.heavy}})
+      table.rows.push_back({std::to_string(bin.number), search.parts, std::to_string(bin.parts),
+                            search.name, sought_text(search), strategy, std::to_string(draw),
+                            std::to_string(i + 1), std::to_string(step.decision.view), group,
+                            std::to_string(tally.instances), std::to_string(tally.correct),
+                            std::to_string(tally.correct_px), std::to_string(tally.wrong),
+                            std::to_string(tally.wrong_px), std::to_string(tally.followed),
+                            std::to_string(tally.shown), number_text(step.entropy_nats),
+                            s.times ? number_text(seconds_of(step)) : ""});
   }
 }
 
@@ -188,11 +194,11 @@ void run_search(Table& table, const ExperimentSettings& s, const Bin& bin, const
 }
 
 Table no_rows() {
-  return {
-      {},
-      {"bin", "types", "parts", "search", "sought", "strategy", "draw", "views", "view", "group", "instances",
-       "correct", "correct_px", "wrong", "wrong_px", "followed", "shown", "entropy_nats", "seconds"},
-      {}};
+  return {{},
+          {"bin", "types", "parts", "search", "sought", "strategy", "draw", "views", "view",
+           "group", "instances", "correct", "correct_px", "wrong", "wrong_px", "followed", "shown",
+           "entropy_nats", "seconds"},
+          {}};
 }
 
 Table run_bin(const ExperimentSettings& s, const BinParts& parts, int number, Backend& backend) {
@@ -261,10 +267,12 @@ std::vector<Cell> cells(const ExperimentSettings& s) {
   if (s.bins == 0 && (s.cad_bins == 0 || s.data.empty()))
     throw InputError("experiments", "bins", "0", "at least one, where there are no CAD parts");
   std::vector<Cell> list;
-  const auto add = [&](const std::string& name, const BinParts& parts, const std::vector<int>& numbers) {
+  const auto add = [&](const std::string& name, const BinParts& parts,
+                       const std::vector<int>& numbers) {
     for (const int number : numbers)
-      list.push_back({fmt::format("{}_{:03}", name, number),
-                      [s, parts, number](Backend& backend) { return run_bin(s, parts, number, backend); }});
+      list.push_back({fmt::format("{}_{:03}", name, number), [s, parts, number](Backend& backend) {
+                        return run_bin(s, parts, number, backend);
+                      }});
   };
   add("bin", own_parts(), s.bin_numbers(s.bins));
   if (s.data.empty()) return list;
@@ -273,8 +281,9 @@ std::vector<Cell> cells(const ExperimentSettings& s) {
   // Every photograph in turn is the first; of few frames the first alone.
   const Photographs pile = photographs_in(s.data, s.frames_every)[0];
   for (int view = 0; view < static_cast<int>(pile.images.size()); view += s.frames_every)
-    list.push_back({fmt::format("{}_pile_{:03}", pile.set, view),
-                    [s, pile, view](Backend& backend) { return run_pile(s, pile, view, backend); }});
+    list.push_back(
+        {fmt::format("{}_pile_{:03}", pile.set, view),
+         [s, pile, view](Backend& backend) { return run_pile(s, pile, view, backend); }});
   return list;
 }
 

@@ -1,6 +1,6 @@
-// Experiment 4: where to look next. MI-MAX against Random, DIS and a fixed sequence in bins of piled parts:
-// how many instances are localised, and how many false ones reported, after every view (paper, Sec. 6.4,
-// figure 15).
+// Experiment 4: where to look next. MI-MAX against Random, DIS and a fixed sequence in bins of
+// piled parts: how many instances are localised, and how many false ones reported, after every view
+// (paper, Sec. 6.4, figure 15).
 #pragma once
 
 #include "host/experiments/experiment.h"

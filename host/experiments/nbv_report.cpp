@@ -23,8 +23,8 @@ struct BinOutcome {
 
 struct Outcome {
   std::vector<std::string> bins;  // number and types of each
-  // One a bin number: bins of one number have the same draws of their layout, whatever their parts, and are
-  // no two independent samples.
+  // One a bin number: bins of one number have the same draws of their layout, whatever their parts,
+  // and are no two independent samples.
   std::vector<Cluster> correct, wrong, shown;
 };
 
@@ -42,8 +42,8 @@ std::string title_of(const std::string& search) {
 
 Table rows_of(const Table& table, const Searched& searched, const std::string& strategy) {
   return rows_where(table, [&](const Table& t, std::size_t row) {
-    return text_in(t, row, "search") == searched.search && text_in(t, row, "group") == searched.group &&
-           text_in(t, row, "strategy") == strategy;
+    return text_in(t, row, "search") == searched.search &&
+           text_in(t, row, "group") == searched.group && text_in(t, row, "strategy") == strategy;
   });
 }
 
@@ -79,13 +79,15 @@ std::vector<BinSet> sets_in(const Table& table) {
 std::vector<Searched> searches_in(const Table& table, const BinSet& set) {
   std::vector<Searched> list;
   for (const std::string& search : values_of(table, "search"))
-    for (const auto& [group, text] : {std::pair{"light", "lightly occluded"}, {"heavy", "highly occluded"}}) {
+    for (const auto& [group, text] :
+         {std::pair{"light", "lightly occluded"}, {"heavy", "highly occluded"}}) {
       const Table rows = rows_where(table, [&, g = group](const Table& t, std::size_t row) {
         return text_in(t, row, "search") == search && text_in(t, row, "group") == g &&
                number_in(t, row, "instances") > 0;
       });
       if (!rows.rows.empty())
-        list.push_back({search, group, fmt::format("{}{}, {}", set.prefix, title_of(search), text)});
+        list.push_back(
+            {search, group, fmt::format("{}{}, {}", set.prefix, title_of(search), text)});
     }
   return list;
 }
@@ -95,7 +97,8 @@ void add(Cluster& cluster, double hits, double trials) {
   cluster.trials += trials;
 }
 
-BinOutcome& bin_of(std::vector<BinOutcome>& bins, const std::string& number, const std::string& types) {
+BinOutcome& bin_of(std::vector<BinOutcome>& bins, const std::string& number,
+                   const std::string& types) {
   const auto known = std::ranges::find_if(
       bins, [&](const BinOutcome& bin) { return bin.number == number && bin.types == types; });
   return known == bins.end() ? bins.emplace_back(BinOutcome{number, types}) : *known;
@@ -128,7 +131,8 @@ Outcome outcome_of(const Table& rows, const std::string& views) {
   std::vector<std::string> numbers;
   for (const BinOutcome& bin : bins_after(rows, views)) {
     outcome.bins.push_back(bin.types + " " + bin.number);
-    const auto index = static_cast<std::size_t>(std::ranges::find(numbers, bin.number) - numbers.begin());
+    const auto index =
+        static_cast<std::size_t>(std::ranges::find(numbers, bin.number) - numbers.begin());
     if (index == numbers.size()) numbers.push_back(bin.number);
     for (const auto& [clusters, cluster] : {std::pair{&outcome.correct, &bin.correct},
                                             {&outcome.wrong, &bin.wrong},
@@ -204,12 +208,14 @@ std::string table_of(const Outcomes& outcomes, const std::vector<std::string>& s
 
 bool all_shown(const Outcomes& outcomes) {
   return std::ranges::all_of(outcomes, [](const std::vector<Outcome>& of_strategy) {
-    return std::ranges::all_of(of_strategy, [](const Outcome& outcome) { return rate(outcome.shown) == 1; });
+    return std::ranges::all_of(of_strategy,
+                               [](const Outcome& outcome) { return rate(outcome.shown) == 1; });
   });
 }
 
 std::string tables_of(const Table& table, const Searched& searched,
-                      const std::vector<std::string>& strategies, const std::vector<std::string>& views) {
+                      const std::vector<std::string>& strategies,
+                      const std::vector<std::string>& views) {
   Outcomes outcomes;
   for (const std::string& strategy : strategies) {
     const Table rows = rows_of(table, searched, strategy);
@@ -240,11 +246,13 @@ std::string ranges_text(const std::vector<int>& numbers) {
 std::string draws_text(const Table& table) {
   std::string text;
   for (const std::string& search : values_of(table, "search")) {
-    const Table rows = rows_where(
-        table, [&](const Table& t, std::size_t row) { return text_in(t, row, "search") == search; });
+    const Table rows = rows_where(table, [&](const Table& t, std::size_t row) {
+      return text_in(t, row, "search") == search;
+    });
     if (const std::size_t draws = values_of(rows, "draw").size(); draws > 1)
       text += fmt::format(
-          " Of {} Random's second view is the mean of {} draws a bin, later ones those of the first.",
+          " Of {} Random's second view is the mean of {} draws a bin, later ones those of the "
+          "first.",
           title_of(search), draws);
   }
   return text;
@@ -253,7 +261,8 @@ std::string draws_text(const Table& table) {
 // Where there are both kinds of parts.
 std::string pairs_text(const Table& table) {
   if (kinds_of_rendered_bins(table).size() < 2) return "";
-  return " Bins of one number share number of parts, first view and random views, whatever the parts: in the "
+  return " Bins of one number share number of parts, first view and random views, whatever the "
+         "parts: in the "
          "intervals of all bins they are drawn together.";
 }
 
@@ -262,8 +271,10 @@ std::string photographs_text(const Table& table) {
   const std::size_t first_views = values_of(rows_of_set(table, PHOTOGRAPHED_BINS), "bin").size();
   if (first_views == 0) return "";
   return fmt::format(
-      " Photographs: one pile, {} of its views in turn the first, the others to choose from; correct is {}; "
-      "nobody knows how much of a part shows, so that all count as lightly occluded. The intervals take the "
+      " Photographs: one pile, {} of its views in turn the first, the others to choose from; "
+      "correct is {}; "
+      "nobody knows how much of a part shows, so that all count as lightly occluded. The intervals "
+      "take the "
       "first views for independent piles.",
       first_views, image_criterion().text);
 }
@@ -282,8 +293,9 @@ std::string bins_text(const Table& table) {
   return text;
 }
 
-Panel panel_of(const Table& table, const Searched& searched, const std::vector<std::string>& strategies,
-               const std::vector<std::string>& views, Measure measure) {
+Panel panel_of(const Table& table, const Searched& searched,
+               const std::vector<std::string>& strategies, const std::vector<std::string>& views,
+               Measure measure) {
   Panel panel{searched.title,
               "views",
               measure == Measure::Correct ? "correct localisations" : "false positives a search",
@@ -314,13 +326,16 @@ std::string times_text(const Table& table) {
           !text_in(table, row, "seconds").empty())
         seconds.push_back(number_in(table, row, "seconds"));
     if (!seconds.empty())
-      text += fmt::format("{}{} {:.1f}", text.empty() ? "" : ", ", name_of(strategy), median(seconds));
+      text +=
+          fmt::format("{}{} {:.1f}", text.empty() ? "" : ", ", name_of(strategy), median(seconds));
   }
   if (text.empty()) return "";
   return fmt::format(
-      "Seconds of a step, median: {}. That is the decision, and what its image brings; an image's scan is "
+      "Seconds of a step, median: {}. That is the decision, and what its image brings; an image's "
+      "scan is "
       "the "
-      "step's of the strategy that looked from there first. On a CPU as many bins run side by side as it has "
+      "step's of the strategy that looked from there first. On a CPU as many bins run side by side "
+      "as it has "
       "threads.\n",
       text);
 }
@@ -331,27 +346,34 @@ std::string times_text(const Table& table) {
 Report nbv_report(const ExperimentSettings&, const Table& table) {
   Report report;
   report.markdown = fmt::format(
-      "Bins: {}. Correctly localised: {}, after so many views. Shown by some image so far: more than 70 % of "
-      "the instance; where all are, there is no such table. Differences in points of percent, their "
+      "Bins: {}. Correctly localised: {}, after so many views. Shown by some image so far: more "
+      "than 70 % of "
+      "the instance; where all are, there is no such table. Differences in points of percent, "
+      "their "
       "intervals "
-      "over the same draws of bins; 0: the same in every bin. MI-MAX is edgescout's choice, the paper's "
+      "over the same draws of bins; 0: the same in every bin. MI-MAX is edgescout's choice, the "
+      "paper's "
       "mutual information with the terms of docs/next_view.md.{}{}{}\n\n",
-      bins_text(table), pose_criterion().text, pairs_text(table), draws_text(rows_of_set(table, "")),
-      photographs_text(table));
+      bins_text(table), pose_criterion().text, pairs_text(table),
+      draws_text(rows_of_set(table, "")), photographs_text(table));
   const auto rows_in = [&](const BinSet& set) { return rows_of_set(table, set.types); };
   std::size_t columns = 1;
-  for (const BinSet& set : sets_in(table)) columns = std::max(columns, searches_in(rows_in(set), set).size());
+  for (const BinSet& set : sets_in(table))
+    columns = std::max(columns, searches_in(rows_in(set), set).size());
   report.columns = static_cast<int>(columns);
   for (const BinSet& set : sets_in(table)) {
     const Table rows = rows_in(set);
     // Of fewer photographs fewer views; nobody is clairvoyant there.
-    const std::vector<std::string> views = values_of(rows, "views"), strategies = values_of(rows, "strategy");
+    const std::vector<std::string> views = values_of(rows, "views"),
+                                   strategies = values_of(rows, "strategy");
     const std::vector<Searched> searches = searches_in(rows, set);
-    for (const Searched& searched : searches) report.markdown += tables_of(rows, searched, strategies, views);
+    for (const Searched& searched : searches)
+      report.markdown += tables_of(rows, searched, strategies, views);
     for (const Measure measure : {Measure::Correct, Measure::Wrong}) {
       for (const Searched& searched : searches)
         report.panels.push_back(panel_of(rows, searched, strategies, views, measure));
-      report.panels.resize((report.panels.size() + columns - 1) / columns * columns);  // each in its row
+      report.panels.resize((report.panels.size() + columns - 1) / columns *
+                           columns);  // each in its row
     }
   }
   report.markdown += times_text(table);

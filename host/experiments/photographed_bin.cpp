@@ -33,7 +33,8 @@ class PhotographedCell : public BinCell {
 void require_one_camera(const KnownScene& scene) {
   for (const KnownImage& image : scene.images)
     if (!same_camera(image.camera, scene.images[0].camera))
-      throw InputError(scene.set + "/" + scene.name, "cameras", "several", "one that takes every image");
+      throw InputError(scene.set + "/" + scene.name, "cameras", "several",
+                       "one that takes every image");
 }
 
 }  // namespace
@@ -57,8 +58,8 @@ std::vector<TemplateSet> pile_templates(const KnownScene& scene, Backend& backen
     for (const KnownInstance& instance : scene.instances)
       sum_m += (image.camera_from_world * instance.world_from_object).translation_m.norm();
   const double mean_m = sum_m / static_cast<double>(scene.images.size() * scene.instances.size());
-  return templates_between(scene.objects, mean_m / std::numbers::sqrt2, mean_m * std::numbers::sqrt2,
-                           backend);
+  return templates_between(scene.objects, mean_m / std::numbers::sqrt2,
+                           mean_m * std::numbers::sqrt2, backend);
 }
 
 }  // namespace edgescout

@@ -1,4 +1,5 @@
-// A pile that was photographed from several places, as a bin: what can be chosen are the other photographs.
+// A pile that was photographed from several places, as a bin: what can be chosen are the other
+// photographs.
 #pragma once
 
 #include "host/experiments/bin.h"
@@ -7,9 +8,9 @@
 
 namespace edgescout {
 
-// `scene`: all photographs, in the order of the views; its objects are the bin's types. Nobody knows how much
-// of a part shows: all of it counts as visible. The bin's number is its first view. InputError where the
-// photographs are of different cameras.
+// `scene`: all photographs, in the order of the views; its objects are the bin's types. Nobody
+// knows how much of a part shows: all of it counts as visible. The bin's number is its first view.
+// InputError where the photographs are of different cameras.
 Bin photographed_bin(const KnownScene& scene, int first_view);
 
 // For distances of 2:1 about the pile.

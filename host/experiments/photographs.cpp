@@ -25,7 +25,8 @@ void require_files(const Photographs& source) {
   for (const int image : source.images)
     files.push_back(source.scene / "rgb" / fmt::format("{:06}.png", image));
   for (const fs::path& file : files)
-    if (!fs::exists(file)) throw InputError(file.string(), "file", "nothing", "a file of the photographs");
+    if (!fs::exists(file))
+      throw InputError(file.string(), "file", "nothing", "a file of the photographs");
 }
 
 }  // namespace
@@ -45,7 +46,8 @@ std::vector<Photographs> photographs_in(const fs::path& data, int every) {
 KnownScene photographed_scene(const Photographs& source) {
   KnownScene scene = bop_scene(source.set, source.scene, source.models, source.images);
   if (!source.symmetry.empty())
-    for (Object& object : scene.objects) object.symmetries = axis_symmetries(object.mesh, source.symmetry);
+    for (Object& object : scene.objects)
+      object.symmetries = axis_symmetries(object.mesh, source.symmetry);
   return scene;
 }
 
@@ -55,7 +57,8 @@ std::vector<NamedPhotograph> single_photographs(const fs::path& data, int every)
     for (const int image : std::vector(source.images)) {
       source.images = {image};
       singles.push_back(
-          {fmt::format("{}/{}_{:06}", source.set, source.scene.filename().string(), image), source});
+          {fmt::format("{}/{}_{:06}", source.set, source.scene.filename().string(), image),
+           source});
     }
   return singles;
 }

@@ -40,7 +40,8 @@ struct Style {
 };
 
 Style style_of(std::size_t index) {
-  return {COLOURS[index % std::size(COLOURS)], DASHES[index / std::size(COLOURS) % std::size(DASHES)]};
+  return {COLOURS[index % std::size(COLOURS)],
+          DASHES[index / std::size(COLOURS) % std::size(DASHES)]};
 }
 
 std::vector<std::string> names_in(std::span<const Panel> panels) {
@@ -58,7 +59,8 @@ bool is_drawn(const PlotPoint& point, const Panel& panel) {
 // Values to places on the page.
 class Axes {
  public:
-  Axes(const Panel& panel, double left, double top) : panel_(panel), left_(left + LEFT), top_(top + TOP) {
+  Axes(const Panel& panel, double left, double top)
+      : panel_(panel), left_(left + LEFT), top_(top + TOP) {
     double x_low = std::numeric_limits<double>::infinity(), x_high = -x_low, y_low = panel.y_min,
            y_high = panel.y_max;
     for (const PlotLine& line : panel.lines)
@@ -70,7 +72,8 @@ class Axes {
         y_high = std::max({y_high, point.y, point.high.value_or(point.y)});
       }
     if (!(x_low <= x_high)) x_low = 0, x_high = 1;
-    x_ticks = panel.logarithmic_x ? decades(x_low, x_high) : tick_values(std::min(0.0, x_low), x_high);
+    x_ticks =
+        panel.logarithmic_x ? decades(x_low, x_high) : tick_values(std::min(0.0, x_low), x_high);
     y_ticks = tick_values(y_low, y_high);
   }
   double x(double value) const {
@@ -92,7 +95,8 @@ class Axes {
   static std::vector<double> decades(double low, double high) {
     const double first = std::floor(low), last = std::max(std::ceil(high), first + 1);
     std::vector<double> ticks;
-    for (double exponent = first; exponent <= last; ++exponent) ticks.push_back(std::pow(10, exponent));
+    for (double exponent = first; exponent <= last; ++exponent)
+      ticks.push_back(std::pow(10, exponent));
     return ticks;
   }
 
@@ -108,19 +112,25 @@ std::string frame(const Panel& panel, const Axes& axes) {
   const double right = axes.left() + Axes::width(), bottom = axes.top() + Axes::height();
   std::string svg;
   for (const double tick : axes.x_ticks) {
-    svg += fmt::format("<line class=\"grid\" x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{0:.1f}\" y2=\"{2:.1f}\"/>\n",
-                       axes.x(tick), axes.top(), bottom);
+    svg += fmt::format(
+        "<line class=\"grid\" x1=\"{0:.1f}\" y1=\"{1:.1f}\" x2=\"{0:.1f}\" y2=\"{2:.1f}\"/>\n",
+        axes.x(tick), axes.top(), bottom);
     svg += text_at(axes.x(tick), bottom + 15, fmt::format("{:g}", tick), " text-anchor=\"middle\"");
   }
   for (const double tick : axes.y_ticks) {
-    svg += fmt::format("<line class=\"grid\" x1=\"{1:.1f}\" y1=\"{0:.1f}\" x2=\"{2:.1f}\" y2=\"{0:.1f}\"/>\n",
-                       axes.y(tick), axes.left(), right);
-    svg += text_at(axes.left() - 6, axes.y(tick) + 4, fmt::format("{:g}", tick), " text-anchor=\"end\"");
+    svg += fmt::format(
+        "<line class=\"grid\" x1=\"{1:.1f}\" y1=\"{0:.1f}\" x2=\"{2:.1f}\" y2=\"{0:.1f}\"/>\n",
+        axes.y(tick), axes.left(), right);
+    svg += text_at(axes.left() - 6, axes.y(tick) + 4, fmt::format("{:g}", tick),
+                   " text-anchor=\"end\"");
   }
-  svg += fmt::format("<rect class=\"axes\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n",
-                     axes.left(), axes.top(), Axes::width(), Axes::height());
-  const double middle_x = axes.left() + Axes::width() / 2, middle_y = axes.top() + Axes::height() / 2;
-  svg += text_at(middle_x, axes.top() - 10, panel.title, " text-anchor=\"middle\" font-weight=\"bold\"");
+  svg += fmt::format(
+      "<rect class=\"axes\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n",
+      axes.left(), axes.top(), Axes::width(), Axes::height());
+  const double middle_x = axes.left() + Axes::width() / 2,
+               middle_y = axes.top() + Axes::height() / 2;
+  svg += text_at(middle_x, axes.top() - 10, panel.title,
+                 " text-anchor=\"middle\" font-weight=\"bold\"");
   svg += text_at(middle_x, bottom + 34, panel.x_label, " text-anchor=\"middle\"");
   svg += text_at(axes.left() - 44, middle_y, panel.y_label,
                  fmt::format(" text-anchor=\"middle\" transform=\"rotate(-90 {:.1f} {:.1f})\"",
@@ -136,8 +146,9 @@ std::string band(const PlotLine& line, const Panel& panel, const Axes& axes, con
     lower = fmt::format("{:.1f},{:.1f} ", axes.x(point.x), axes.y(*point.low)) + lower;
   }
   if (upper.empty()) return {};
-  return fmt::format("<polygon points=\"{}{}\" fill=\"{}\" fill-opacity=\"0.13\" stroke=\"none\"/>\n", upper,
-                     lower, style.colour);
+  return fmt::format(
+      "<polygon points=\"{}{}\" fill=\"{}\" fill-opacity=\"0.13\" stroke=\"none\"/>\n", upper,
+      lower, style.colour);
 }
 
 std::string stroke(const Style& style) {
@@ -151,8 +162,8 @@ std::string curve(const PlotLine& line, const Panel& panel, const Axes& axes, co
   for (const PlotPoint& point : line.points) {
     if (!is_drawn(point, panel)) continue;
     points += fmt::format("{:.1f},{:.1f} ", axes.x(point.x), axes.y(point.y));
-    marks += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\" fill=\"{}\"/>\n", axes.x(point.x),
-                         axes.y(point.y), style.colour);
+    marks += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\" fill=\"{}\"/>\n",
+                         axes.x(point.x), axes.y(point.y), style.colour);
   }
   return fmt::format("<polyline class=\"curve\" points=\"{}\" {}/>\n", points, stroke(style)) +
          (line.points.size() > MOST_MARKED ? "" : marks);
@@ -172,8 +183,9 @@ std::string legend(const std::vector<std::string>& names, double top, int a_row)
   for (std::size_t i = 0; i < names.size(); ++i) {
     const double x = MARGIN + LEFT + column * static_cast<double>(i % a_row),
                  y = top + LEGEND_LINE * static_cast<double>(i / a_row);
-    svg += fmt::format("<line class=\"curve\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n",
-                       x, y, x + 26, y, stroke(style_of(i)));
+    svg += fmt::format(
+        "<line class=\"curve\" x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n", x,
+        y, x + 26, y, stroke(style_of(i)));
     svg += text_at(x + 32, y + 4, names[i]);
   }
   return svg;
@@ -205,14 +217,17 @@ std::string svg_of(std::span<const Panel> panels, int columns, const std::string
   const int a_row = std::max(1, static_cast<int>((across * WIDTH - LEFT) / legend_column(names)));
   const double legend_top = MARGIN + HEIGHT * ((count + across - 1) / across);
   const double width = 2 * MARGIN + across * WIDTH,
-               height = legend_top + LEGEND_LINE * static_cast<double>((names.size() + a_row - 1) / a_row) +
+               height = legend_top +
+                        LEGEND_LINE * static_cast<double>((names.size() + a_row - 1) / a_row) +
                         MARGIN;
   std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 "
+      "0 {0:.0f} "
       "{1:.0f}\" "
       "font-family=\"sans-serif\" "
       "font-size=\"12\">\n<style>.grid{{stroke:#ddd}}.axes{{fill:none;stroke:#333}}"
-      ".curve{{fill:none;stroke-width:1.8}}</style>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
+      ".curve{{fill:none;stroke-width:1.8}}</style>\n<rect width=\"100%\" height=\"100%\" "
+      "fill=\"white\"/>\n",
       width, height);
   if (!description.empty()) svg += "<desc>" + escaped(description) + "</desc>\n";
   for (int i = 0; i < count; ++i) {

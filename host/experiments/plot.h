@@ -1,4 +1,5 @@
-// Line plots as SVG: axes with ticks, a legend, intervals as bands. Panels stand side by side in one file.
+// Line plots as SVG: axes with ticks, a legend, intervals as bands. Panels stand side by side in
+// one file.
 #pragma once
 
 #include <optional>
@@ -25,12 +26,13 @@ struct Panel {
   bool logarithmic_x = false;   // all x above 0; otherwise 0 belongs to the axis
 };
 
-// Steps of 1, 2 or 5 times a power of ten that cover [low, high] with at most `most` steps; the first is at
-// or below low, the last at or above high.
+// Steps of 1, 2 or 5 times a power of ten that cover [low, high] with at most `most` steps; the
+// first is at or below low, the last at or above high.
 std::vector<double> tick_values(double low, double high, int most = 6);
 
-// A whole SVG file, at most `columns` panels a row, of one without title and lines the place left free, with
-// a description for whoever opens it as text. Numbers that are not finite are left out.
-std::string svg_of(std::span<const Panel> panels, int columns = 3, const std::string& description = "");
+// A whole SVG file, at most `columns` panels a row, of one without title and lines the place left
+// free, with a description for whoever opens it as text. Numbers that are not finite are left out.
+std::string svg_of(std::span<const Panel> panels, int columns = 3,
+                   const std::string& description = "");
 
 }  // namespace edgescout

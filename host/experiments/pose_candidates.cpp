@@ -67,7 +67,8 @@ Se3 far_pose(const Cube& cube, const Camera& camera, double diameter_m, Random& 
 
 }  // namespace
 
-std::vector<PoseCandidate> pose_candidates(const KnownScene& scene, int object, int count, unsigned seed) {
+std::vector<PoseCandidate> pose_candidates(const KnownScene& scene, int object, int count,
+                                           unsigned seed) {
   Random random = Random(seed)
                       .split("candidates")
                       .split(scene.set)
@@ -75,13 +76,14 @@ std::vector<PoseCandidate> pose_candidates(const KnownScene& scene, int object, 
                       .split(static_cast<std::uint64_t>(object));
   std::vector<Se3> poses;
   for (const KnownInstance& instance : scene.instances)
-    for (int i = 0;
-         instance.object == object && i < CANDIDATES_AN_INSTANCE && static_cast<int>(poses.size()) < count;
+    for (int i = 0; instance.object == object && i < CANDIDATES_AN_INSTANCE &&
+                    static_cast<int>(poses.size()) < count;
          ++i)
       poses.push_back(near_pose(camera_from_instance(scene, instance), random));
   const Cube cube = cube_around(scene);
   while (static_cast<int>(poses.size()) < count)
-    poses.push_back(far_pose(cube, scene.images[0].camera, scene.objects[object].mesh.diameter_m, random));
+    poses.push_back(
+        far_pose(cube, scene.images[0].camera, scene.objects[object].mesh.diameter_m, random));
   std::vector<PoseCandidate> candidates;
   for (const Se3& pose : poses) candidates.push_back({pose, instance_at(scene, object, pose)});
   return candidates;

@@ -64,7 +64,8 @@ std::string difference_text(const std::vector<Cluster>& a, const std::vector<Clu
   return points(rate(a) - rate(b), paired_difference_interval(a, b));
 }
 
-std::string difference_row(const std::string& name, const LevelRates& first, const LevelRates& other) {
+std::string difference_row(const std::string& name, const LevelRates& first,
+                           const LevelRates& other) {
   std::string text = "| " + name;
   for (std::size_t level = 0; level < std::size(LEVELS_RAD); ++level)
     text += " | " + difference_text(first.clusters[level], other.clusters[level]);
@@ -84,25 +85,29 @@ std::string intervals_text(const Table& table) {
 // Recorded starts lie at the levels' ends; drawn ones anywhere.
 double step_rad(const Table& table) {
   const auto is_end = [](const std::string& distance) {
-    return std::ranges::any_of(LEVELS_RAD, [&](double level) { return number_text(level) == distance; });
+    return std::ranges::any_of(LEVELS_RAD,
+                               [&](double level) { return number_text(level) == distance; });
   };
   return std::ranges::all_of(values_of(table, "distance_rad"), is_end) ? 0.1 : 0.05;
 }
 
-PlotLine line_of(const Series& series, const Table& table, const Criterion& criterion, double step) {
+PlotLine line_of(const Series& series, const Table& table, const Criterion& criterion,
+                 double step) {
   std::map<int, Clusters> bins;
   const ClusterKeys keys(table);
   constexpr double SLACK = 1e-6;  // a distance written with six digits stays in its bin
   for (std::size_t row = 0; row < table.rows.size(); ++row)
     if (series.has(table, row))
-      count(bins[static_cast<int>(std::ceil(number_in(table, row, "distance_rad") / step - SLACK))], keys,
-            table, row, criterion);
+      count(bins[static_cast<int>(std::ceil(number_in(table, row, "distance_rad") / step - SLACK))],
+            keys, table, row, criterion);
   PlotLine line{series.name, {}};
-  const bool at_the_end = step == 0.1;  // of its bin lies every start, else the middle stands for them
+  const bool at_the_end =
+      step == 0.1;  // of its bin lies every start, else the middle stands for them
   for (const auto& [bin, clusters] : bins) {
     const std::vector<Cluster> list = as_list(clusters);
     const Interval interval = bootstrap_interval(list);
-    line.points.push_back({step * (at_the_end ? bin : bin - 0.5), rate(list), interval.low, interval.high});
+    line.points.push_back(
+        {step * (at_the_end ? bin : bin - 0.5), rate(list), interval.low, interval.high});
   }
   return line;
 }
@@ -116,7 +121,8 @@ Criterion pose_criterion() {
 }
 
 Criterion image_criterion() {
-  return {fmt::format("MSPD < {} px", number_text(CORRECT_MSPD_PX)), [](const Table& table, std::size_t row) {
+  return {fmt::format("MSPD < {} px", number_text(CORRECT_MSPD_PX)),
+          [](const Table& table, std::size_t row) {
             return number_in(table, row, "mspd_px") < CORRECT_MSPD_PX;
           }};
 }
@@ -128,7 +134,8 @@ int level_of(double distance_rad) {
 }
 
 bool is_of_one_commit(const Table& table) {
-  const auto commit = std::ranges::find(table.notes, "commit", &std::pair<std::string, std::string>::first);
+  const auto commit =
+      std::ranges::find(table.notes, "commit", &std::pair<std::string, std::string>::first);
   return commit == table.notes.end() || commit->second.find(' ') == std::string::npos;
 }
 
@@ -141,7 +148,8 @@ LevelRates rates_of(const Table& table, const Series& series, const Criterion& c
     if (!series.has(table, row)) continue;
     count(levels[level_of(number_in(table, row, "distance_rad")) - 1], keys, table, row, criterion);
     count(all, keys, table, row, criterion);
-    if (is_timed && !text_in(table, row, "ms").empty()) rates.ms.push_back(number_in(table, row, "ms"));
+    if (is_timed && !text_in(table, row, "ms").empty())
+      rates.ms.push_back(number_in(table, row, "ms"));
   }
   for (std::size_t level = 0; level < std::size(LEVELS_RAD); ++level)
     rates.clusters[level] = as_list(levels[level]);
@@ -149,8 +157,8 @@ LevelRates rates_of(const Table& table, const Series& series, const Criterion& c
   return rates;
 }
 
-std::string rate_table(const Table& table, const std::vector<Series>& series, const Criterion& criterion,
-                       const std::vector<Comparison>& compared) {
+std::string rate_table(const Table& table, const std::vector<Series>& series,
+                       const Criterion& criterion, const std::vector<Comparison>& compared) {
   std::string text =
       "| method | up to 0.1 rad, 5 mm | 0.2 / 10 | 0.3 / 15 | 0.4 / 20 | all | starts | mean ms "
       "|\n|---|---|---|---|---|---|---|---|\n";
@@ -174,8 +182,9 @@ std::string rate_table(const Table& table, const std::vector<Series>& series, co
 
 Panel rate_panel(const std::string& title, const Table& table, const std::vector<Series>& series,
                  const Criterion& criterion) {
-  Panel panel{title, "distance of the start, rad (0.1 rad with 5 mm)", "correct registrations", {}, 0, 1,
-              false};
+  Panel panel{
+      title, "distance of the start, rad (0.1 rad with 5 mm)", "correct registrations", {}, 0, 1,
+      false};
   const double step = step_rad(table);
   for (const Series& one : series)
     if (PlotLine line = line_of(one, table, criterion, step); !line.points.empty())
@@ -183,7 +192,8 @@ Panel rate_panel(const std::string& title, const Table& table, const std::vector
   return panel;
 }
 
-Table rows_where(const Table& table, const std::function<bool(const Table&, std::size_t row)>& fits) {
+Table rows_where(const Table& table,
+                 const std::function<bool(const Table&, std::size_t row)>& fits) {
   Table result{table.notes, table.columns, {}};
   for (std::size_t row = 0; row < table.rows.size(); ++row)
     if (fits(table, row)) result.rows.push_back(table.rows[row]);
@@ -209,7 +219,8 @@ std::string percent(double rate, const Interval& interval) {
 }
 
 std::string points(double difference, const Interval& interval) {
-  return fmt::format("{:+.1f} [{:+.1f}, {:+.1f}]", 100 * difference, 100 * interval.low, 100 * interval.high);
+  return fmt::format("{:+.1f} [{:+.1f}, {:+.1f}]", 100 * difference, 100 * interval.low,
+                     100 * interval.high);
 }
 
 double median(std::vector<double> values) {
@@ -219,9 +230,9 @@ double median(std::vector<double> values) {
 }
 
 double mean(const std::vector<double>& values) {
-  return values.empty()
-             ? 0
-             : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  return values.empty() ? 0
+                        : std::accumulate(values.begin(), values.end(), 0.0) /
+                              static_cast<double>(values.size());
 }
 
 }  // namespace edgescout

@@ -35,26 +35,27 @@ int level_of(double distance_rad);
 struct LevelRates {
   std::vector<Cluster> clusters[4];  // by level
   std::vector<Cluster> all;          // of all levels together
-  std::vector<double> ms;            // of every registration whose time is known: its batch's mean; none of a
-                                     // table of several commits
+  std::vector<double> ms;  // of every registration whose time is known: its batch's mean; none of a
+                           // table of several commits
 };
 LevelRates rates_of(const Table& table, const Series& series, const Criterion& criterion);
 
 // Two series by their names: what the first has more than the other.
 using Comparison = std::pair<std::string, std::string>;
 
-// Markdown: a row a series, a column a level with its 95 % interval (bootstrap over images, of one image over
-// its instances), starts and mean milliseconds; then a row a comparison of series that ran from the same
-// starts, over the same draws; and over how many the intervals are.
-std::string rate_table(const Table& table, const std::vector<Series>& series, const Criterion& criterion,
-                       const std::vector<Comparison>& compared = {});
-// The rate over the start's distance, in steps of 0.05 rad, or of 0.1 where all starts lie at the levels'
-// ends.
+// Markdown: a row a series, a column a level with its 95 % interval (bootstrap over images, of one
+// image over its instances), starts and mean milliseconds; then a row a comparison of series that
+// ran from the same starts, over the same draws; and over how many the intervals are.
+std::string rate_table(const Table& table, const std::vector<Series>& series,
+                       const Criterion& criterion, const std::vector<Comparison>& compared = {});
+// The rate over the start's distance, in steps of 0.05 rad, or of 0.1 where all starts lie at the
+// levels' ends.
 Panel rate_panel(const std::string& title, const Table& table, const std::vector<Series>& series,
                  const Criterion& criterion);
 
 // The rows that fit, columns and notes kept.
-Table rows_where(const Table& table, const std::function<bool(const Table&, std::size_t row)>& fits);
+Table rows_where(const Table& table,
+                 const std::function<bool(const Table&, std::size_t row)>& fits);
 // Cells of several programs have no one time.
 bool is_of_one_commit(const Table& table);
 // Different texts of a column, in the order they come.

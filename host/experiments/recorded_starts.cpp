@@ -17,14 +17,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Rotations stand in the files with as few as six digits: the nearest rotation is taken. Millimetres become
-// metres.
+// Rotations stand in the files with as few as six digits: the nearest rotation is taken.
+// Millimetres become metres.
 Se3 pose_of(const std::vector<double>& rotation, const std::vector<double>& translation_mm) {
   const Eigen::Matrix3d given =
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation.data());
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(given, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return se3_from_matrix(svd.matrixU() * svd.matrixV().transpose(),
-                         1e-3 * Eigen::Vector3d(translation_mm[0], translation_mm[1], translation_mm[2]));
+  return se3_from_matrix(
+      svd.matrixU() * svd.matrixV().transpose(),
+      1e-3 * Eigen::Vector3d(translation_mm[0], translation_mm[1], translation_mm[2]));
 }
 
 // Nine numbers of the rotation by row, then three of the translation, from `column` on.
@@ -38,10 +39,12 @@ Se3 pose_in(const Table& table, std::size_t row, std::string_view first_column) 
   return pose_of({numbers.begin(), numbers.begin() + 9}, {numbers.begin() + 9, numbers.end()});
 }
 
-void require_columns(const Table& table, const fs::path& file, std::initializer_list<const char*> names) {
+void require_columns(const Table& table, const fs::path& file,
+                     std::initializer_list<const char*> names) {
   for (const char* name : names)
     if (std::ranges::find(table.columns, name) == table.columns.end())
-      throw InputError(file.string(), "columns", "no " + std::string(name), "a column of this name");
+      throw InputError(file.string(), "columns", "no " + std::string(name),
+                       "a column of this name");
 }
 
 // Of a start, 1 to 4. InputError naming file and row.
@@ -72,7 +75,8 @@ void require_files_of(const fs::path& folder) {
   const nlohmann::json json = read_json(file);
   const auto require = [&](const JsonField& name, const char* what) {
     if (const fs::path named = folder / name.text(); !fs::exists(named))
-      throw InputError(named.string(), "file", "nothing", std::string(what) + " of the set d2co-starts");
+      throw InputError(named.string(), "file", "nothing",
+                       std::string(what) + " of the set d2co-starts");
   };
   for (const JsonField& entry : JsonField{json, file.string(), ""}.at("images").elements()) {
     require(entry.at("file"), "an image");
@@ -97,7 +101,8 @@ KnownImage load_known_image(const fs::path& folder, const JsonField& entry) {
     throw InputError((folder / entry.at("file").text()).string(), "size",
                      std::to_string(image.width) + " x " + std::to_string(image.height),
                      "that of ground_truth.json");
-  return {image, camera, pose_of(entry.at("R_cam_world").numbers(9), entry.at("t_cam_world").numbers(3))};
+  return {image, camera,
+          pose_of(entry.at("R_cam_world").numbers(9), entry.at("t_cam_world").numbers(3))};
 }
 
 // Targets of the image; their types are loaded as they appear.
@@ -142,7 +147,8 @@ std::vector<std::string> scene_images(const fs::path& folder, const std::string&
 std::vector<std::string> recorded_images(const fs::path& folder) {
   for (const char* file : {"ground_truth.json", "starts.csv"})
     if (!fs::exists(folder / file))
-      throw InputError((folder / file).string(), "file", "nothing", "a file of the set d2co-starts");
+      throw InputError((folder / file).string(), "file", "nothing",
+                       "a file of the set d2co-starts");
   const Table starts = load_starts(folder);
   std::vector<std::string> names;
   for (std::size_t row = 0; row < starts.rows.size(); ++row)
@@ -178,7 +184,8 @@ KnownScene recorded_scene(const fs::path& folder, const std::string& image, int 
   return scene;
 }
 
-std::vector<RecordedStart> recorded_starts(const fs::path& folder, const KnownScene& scene, int every) {
+std::vector<RecordedStart> recorded_starts(const fs::path& folder, const KnownScene& scene,
+                                           int every) {
   const Table table = load_starts(folder);
   std::vector<RecordedStart> starts;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
@@ -195,15 +202,18 @@ std::vector<RecordedStart> recorded_starts(const fs::path& folder, const KnownSc
 
 std::vector<RecordedResult> recorded_results(const fs::path& file) {
   const Table table = load_table(file);
-  require_columns(table, file, {"start_id", "image", "object_id", "level", "method", "cpu_ms", "ok", "tz"});
-  const std::string first = std::ranges::find(table.columns, "r00") == table.columns.end() ? "R00" : "r00";
+  require_columns(table, file,
+                  {"start_id", "image", "object_id", "level", "method", "cpu_ms", "ok", "tz"});
+  const std::string first =
+      std::ranges::find(table.columns, "r00") == table.columns.end() ? "R00" : "r00";
   require_columns(table, file, {first.c_str()});
   std::vector<RecordedResult> results;
   for (std::size_t row = 0; row < table.rows.size(); ++row)
-    results.push_back({static_cast<int>(number_in(table, row, "start_id")), text_in(table, row, "image"),
-                       text_in(table, row, "object_id"), text_in(table, row, "method"),
-                       level_in(table, row, file), pose_in(table, row, first),
-                       number_in(table, row, "ok") != 0, number_in(table, row, "cpu_ms")});
+    results.push_back({static_cast<int>(number_in(table, row, "start_id")),
+                       text_in(table, row, "image"), text_in(table, row, "object_id"),
+                       text_in(table, row, "method"), level_in(table, row, file),
+                       pose_in(table, row, first), number_in(table, row, "ok") != 0,
+                       number_in(table, row, "cpu_ms")});
   return results;
 }
 

@@ -35,8 +35,8 @@ void require_words(const std::vector<std::string>& words, std::span<const std::s
   }
 }
 
-// Every second image has a cluttered board, as "many images" of the paper do; how many parts there are and
-// how much they hide each other changes from scene to scene.
+// Every second image has a cluttered board, as "many images" of the paper do; how many parts there
+// are and how much they hide each other changes from scene to scene.
 RenderOptions options_of(const ExperimentSettings& settings, const char* dataset, int number,
                          int most_parts) {
   Random random = Random(settings.seed).split(dataset).split(static_cast<std::uint64_t>(number));
@@ -114,8 +114,8 @@ void ExperimentSettings::validate() const {
   methods.validate();
   scout.validate();
   require(image_scale >= 0.1 && image_scale <= 2, "image_scale", image_scale, "0.1 to 2");
-  require(supersampling % 2 == 1 && supersampling >= 1 && supersampling <= 7, "supersampling", supersampling,
-          "1, 3, 5 or 7");
+  require(supersampling % 2 == 1 && supersampling >= 1 && supersampling <= 7, "supersampling",
+          supersampling, "1, 3, 5 or 7");
 }
 
 RenderOptions bin_image_options(const ExperimentSettings& settings) {

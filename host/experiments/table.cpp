@@ -49,7 +49,8 @@ std::size_t Table::column(std::string_view name) const {
 std::string to_csv(const Table& table) {
   std::string text;
   for (const auto& [name, value] : table.notes) {
-    check(name.find_first_of(":\n\r") == std::string::npos, "a note's name holds no colon or line break");
+    check(name.find_first_of(":\n\r") == std::string::npos,
+          "a note's name holds no colon or line break");
     check(value.find_first_of("\n\r") == std::string::npos, "a note is one line");
     text += "# " + name + ": " + value + "\n";
   }
@@ -72,7 +73,8 @@ Table table_from_csv(std::string_view text, const std::string& source) {
       table.notes.push_back(note_of(line, source));
     } else if (table.columns.empty()) {
       table.columns = cells_of(line);
-    } else if (table.rows.emplace_back(cells_of(line)); table.rows.back().size() != table.columns.size()) {
+    } else if (table.rows.emplace_back(cells_of(line));
+               table.rows.back().size() != table.columns.size()) {
       throw InputError(source, "line " + std::to_string(line_number),
                        std::to_string(table.rows.back().size()) + " cells",
                        std::to_string(table.columns.size()) + " as there are columns");
@@ -82,7 +84,9 @@ Table table_from_csv(std::string_view text, const std::string& source) {
   return table;
 }
 
-Table load_table(const std::filesystem::path& file) { return table_from_csv(read_file(file), file.string()); }
+Table load_table(const std::filesystem::path& file) {
+  return table_from_csv(read_file(file), file.string());
+}
 
 Table joined(const std::vector<Table>& tables) {
   check(!tables.empty(), "at least one table to join");

@@ -20,15 +20,15 @@ struct Table {
   std::size_t column(std::string_view name) const;  // LogicError where there is none of this name
 };
 
-// Columns and cells must hold no comma and no line break, notes no line break and their names no colon:
-// LogicError otherwise.
+// Columns and cells must hold no comma and no line break, notes no line break and their names no
+// colon: LogicError otherwise.
 std::string to_csv(const Table& table);
 // InputError naming `source` and the line: no line of columns, a row of another length.
 Table table_from_csv(std::string_view text, const std::string& source);
 Table load_table(const std::filesystem::path& file);
 
-// The rows of all tables, which have the same columns and notes; of a note that differs all values, joined by
-// a blank.
+// The rows of all tables, which have the same columns and notes; of a note that differs all values,
+// joined by a blank.
 Table joined(const std::vector<Table>& tables);
 
 // As results are written: six significant digits.

@@ -21,10 +21,12 @@ namespace {
 
 constexpr const char* EDGESCOUT = "edgescout";
 
-// On a CPU the thread's own time: other work on the machine does not count. On a device the time that passes.
+// On a CPU the thread's own time: other work on the machine does not count. On a device the time
+// that passes.
 double seconds_now(const Backend& backend) {
   if (backend.is_gpu())
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
   timespec time{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
@@ -77,17 +79,19 @@ struct TimedRegistrations {
 };
 
 // All starts of one call have one type, so that every method works on batches alike.
-TimedRegistrations run_trial(const Trial& trial, const KnownScene& scene, const std::vector<Start>& starts,
-                             std::span<const EdgeModel> models, std::span<const RegisterView> views,
-                             const BaselineOptions& options, Backend& backend) {
+TimedRegistrations run_trial(const Trial& trial, const KnownScene& scene,
+                             const std::vector<Start>& starts, std::span<const EdgeModel> models,
+                             std::span<const RegisterView> views, const BaselineOptions& options,
+                             Backend& backend) {
   const Registrar registrar =
-      trial.method == EDGESCOUT ? edgescout_itself(models, views, backend)
-                                : prepare_method(method_from(trial.method), models, views, backend, options);
+      trial.method == EDGESCOUT
+          ? edgescout_itself(models, views, backend)
+          : prepare_method(method_from(trial.method), models, views, backend, options);
   const Se3& camera_from_world = scene.images[0].camera_from_world;
   std::vector<Hypothesis> hypotheses;
   for (const Start& start : starts)
-    hypotheses.push_back(
-        {scene.instances[start.instance].object, inverse(camera_from_world) * start.camera_from_object});
+    hypotheses.push_back({scene.instances[start.instance].object,
+                          inverse(camera_from_world) * start.camera_from_object});
   const double begin = seconds_now(backend);
   TimedRegistrations result;
   result.registrations = registrar(hypotheses);
@@ -120,7 +124,8 @@ std::vector<std::string> row_of(const KnownScene& scene, const Start& start, con
           ms};
 }
 
-std::vector<std::vector<Start>> by_object(const KnownScene& scene, const std::vector<Start>& starts) {
+std::vector<std::vector<Start>> by_object(const KnownScene& scene,
+                                          const std::vector<Start>& starts) {
   std::vector<std::vector<Start>> groups(scene.objects.size());
   for (const Start& start : starts) groups[scene.instances[start.instance].object].push_back(start);
   std::erase_if(groups, [](const std::vector<Start>& group) { return group.empty(); });
@@ -137,8 +142,8 @@ Se3 nearest_equal(const Se3& truth, const Symmetries& symmetries, const Se3& pos
          });
 }
 
-// Turned by as much as the step says from the nearest pose that looks like the truth: of a turn about the
-// axis of a shaft nothing is left, so what is left sets the direction.
+// Turned by as much as the step says from the nearest pose that looks like the truth: of a turn
+// about the axis of a shaft nothing is left, so what is left sets the direction.
 Se3 moved_off(Se3 truth, const Symmetries& symmetries, Vector6d step) {
   constexpr int corrections = 10;
   const double turn_rad = step.tail<3>().norm();
@@ -151,8 +156,8 @@ Se3 moved_off(Se3 truth, const Symmetries& symmetries, Vector6d step) {
   return start;
 }
 
-// In random directions, so far off as `offset_of` the truth, the start's number around its instance and a
-// source of chance says.
+// In random directions, so far off as `offset_of` the truth, the start's number around its instance
+// and a source of chance says.
 std::vector<Start> starts_off(const KnownScene& scene, int count, const Random& seed,
                               const std::function<Offset(const Se3&, int, Random&)>& offset_of) {
   std::vector<Start> starts;
@@ -177,7 +182,8 @@ std::vector<Start> starts_off(const KnownScene& scene, int count, const Random& 
 std::vector<Start> as_starts(const std::vector<RecordedStart>& recorded) {
   std::vector<Start> starts;
   for (const RecordedStart& start : recorded)
-    starts.push_back({start.id, start.instance, LEVELS_RAD[start.level - 1], start.camera_from_object});
+    starts.push_back(
+        {start.id, start.instance, LEVELS_RAD[start.level - 1], start.camera_from_object});
   return starts;
 }
 
@@ -197,14 +203,16 @@ std::vector<Start> starts_around(const KnownScene& scene, int count, unsigned se
 }
 
 std::vector<Start> starts_by_distance(const KnownScene& scene, int count, unsigned seed) {
-  return starts_off(scene, count, Random(seed).split("by distance"), [](const Se3& truth, int, Random&) {
-    return Offset{0.1, 0.02 * truth.translation_m.norm()};
-  });
+  return starts_off(scene, count, Random(seed).split("by distance"),
+                    [](const Se3& truth, int, Random&) {
+                      return Offset{0.1, 0.02 * truth.translation_m.norm()};
+                    });
 }
 
 std::vector<std::string> trial_columns() {
-  return {"set",   "image",     "object",      "instance", "start", "distance_rad", "visible", "method",
-          "views", "angle_rad", "distance_mm", "mspd_px",  "right", "steps",        "cut_off", "ms"};
+  return {"set",     "image",  "object",  "instance",  "start",       "distance_rad",
+          "visible", "method", "views",   "angle_rad", "distance_mm", "mspd_px",
+          "right",   "steps",  "cut_off", "ms"};
 }
 
 Notes trial_notes(const ExperimentSettings& s) {
@@ -217,8 +225,9 @@ Notes trial_notes(const ExperimentSettings& s) {
           {"loss_scale_px", number_text(s.methods.loss_scale_px)}};
 }
 
-Table run_trials(const KnownScene& scene, const std::vector<Start>& starts, const std::vector<Trial>& trials,
-                 const ExperimentSettings& settings, Backend& backend) {
+Table run_trials(const KnownScene& scene, const std::vector<Start>& starts,
+                 const std::vector<Trial>& trials, const ExperimentSettings& settings,
+                 Backend& backend) {
   std::vector<EdgeModel> models;
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
   TrialViews seen(scene, settings, backend);
@@ -227,8 +236,8 @@ Table run_trials(const KnownScene& scene, const std::vector<Start>& starts, cons
     for (const Trial& trial : trials) {
       const std::span<const RegisterView> views = seen.of(trial);
       if (trial.views > static_cast<int>(views.size())) continue;
-      const TimedRegistrations found =
-          run_trial(trial, scene, group, models, views.first(trial.views), settings.methods, backend);
+      const TimedRegistrations found = run_trial(
+          trial, scene, group, models, views.first(trial.views), settings.methods, backend);
       for (std::size_t i = 0; i < group.size(); ++i)
         table.rows.push_back(row_of(scene, group[i], trial, found.registrations[i],
                                     settings.times ? number_text(found.ms) : ""));

@@ -1,5 +1,5 @@
-// Internal to host: the project's own binary files. A header that can be checked before anything is believed
-// (magic, version, length, checksum), then plain little-endian numbers.
+// Internal to host: the project's own binary files. A header that can be checked before anything is
+// believed (magic, version, length, checksum), then plain little-endian numbers.
 #pragma once
 
 #include <array>
@@ -68,7 +68,8 @@ class BinaryReader {
   std::vector<T> get_list() {
     static_assert(std::is_trivially_copyable_v<T>);
     std::vector<T> list(count(sizeof(T)));
-    if (!list.empty()) std::memcpy(list.data(), take(list.size() * sizeof(T)), list.size() * sizeof(T));
+    if (!list.empty())
+      std::memcpy(list.data(), take(list.size() * sizeof(T)), list.size() * sizeof(T));
     return list;
   }
   std::string get_text() {
@@ -94,8 +95,8 @@ std::uint64_t checksum(std::string_view bytes);
 // Header and payload, atomically.
 void write_binary_file(const std::filesystem::path& file, const BinaryFormat& format,
                        std::string_view payload);
-// The payload. InputError naming the file for a file cut short, of another version, with a wrong checksum or
-// of another kind.
+// The payload. InputError naming the file for a file cut short, of another version, with a wrong
+// checksum or of another kind.
 std::string read_binary_file(const std::filesystem::path& file, const BinaryFormat& format);
 
 }  // namespace edgescout

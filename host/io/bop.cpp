@@ -30,8 +30,8 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, unknown);
 }
 
-// The image under gray/ or rgb/; where none is there, the name that one would have, so that reading it says
-// what is missing.
+// The image under gray/ or rgb/; where none is there, the name that one would have, so that reading
+// it says what is missing.
 fs::path image_file(const fs::path& folder, int image_id) {
   const std::string digits = std::to_string(image_id);
   const std::string stem = std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits;
@@ -55,7 +55,8 @@ std::map<int, BopImage> read_images(const fs::path& folder) {
     judged.width = judged.height = 1 << 20;  // the real size is the image's
     validate(judged, entry.source + ": " + entry.path);
     if (entry.has("cam_R_w2c"))
-      image.camera_from_world = pose_from(entry.at("cam_R_w2c"), entry.at("cam_t_w2c"), metres_per_mm);
+      image.camera_from_world =
+          pose_from(entry.at("cam_R_w2c"), entry.at("cam_t_w2c"), metres_per_mm);
     images[image.image_id] = image;
   }
   return images;
@@ -69,7 +70,8 @@ void read_truth(const fs::path& folder, std::map<int, std::vector<BopTruth>>& tr
     std::vector<BopTruth>& objects = truth[integer_key(key, root)];  // also where there are none
     for (const JsonField& entry : root.at(key).elements())
       objects.push_back({entry.at("obj_id").integer(),
-                         pose_from(entry.at("cam_R_m2c"), entry.at("cam_t_m2c"), metres_per_mm), 1.0});
+                         pose_from(entry.at("cam_R_m2c"), entry.at("cam_t_m2c"), metres_per_mm),
+                         1.0});
   }
 }
 
@@ -88,7 +90,8 @@ void read_visible_fractions(const fs::path& folder, std::map<int, std::vector<Bo
       entries.fail(std::to_string(infos.size()) + " objects",
                    std::to_string(objects.size()) + " as in scene_gt.json");
     for (std::size_t i = 0; i < infos.size(); ++i)
-      if (infos[i].has("visib_fract")) objects[i].visible_fraction = infos[i].at("visib_fract").number();
+      if (infos[i].has("visib_fract"))
+        objects[i].visible_fraction = infos[i].at("visib_fract").number();
   }
 }
 
@@ -119,14 +122,16 @@ BopScene load_bop_scene(const fs::path& folder) {
 
 void save_bop_scene(const BopScene& scene, const fs::path& folder) {
   json cameras = json::object(), poses = json::object(), infos = json::object();
-  for (const BopImage& image : scene.images) cameras[std::to_string(image.image_id)] = camera_entry(image);
+  for (const BopImage& image : scene.images)
+    cameras[std::to_string(image.image_id)] = camera_entry(image);
   for (const auto& [image_id, objects] : scene.truth) {
     json& image_poses = poses[std::to_string(image_id)] = json::array();
     json& image_infos = infos[std::to_string(image_id)] = json::array();
     for (const BopTruth& object : objects) {
-      image_poses.push_back({{"obj_id", object.object_id},
-                             {"cam_R_m2c", rotation_numbers(object.camera_from_object)},
-                             {"cam_t_m2c", translation_numbers(object.camera_from_object, metres_per_mm)}});
+      image_poses.push_back(
+          {{"obj_id", object.object_id},
+           {"cam_R_m2c", rotation_numbers(object.camera_from_object)},
+           {"cam_t_m2c", translation_numbers(object.camera_from_object, metres_per_mm)}});
       image_infos.push_back({{"visib_fract", object.visible_fraction}});
     }
   }

@@ -13,8 +13,8 @@ namespace edgescout {
 
 struct BopImage {
   int image_id = 0;
-  std::filesystem::path file;            // under gray/ or rgb/: .png, .jpg, .jpeg or .tif
-  Camera camera;                         // size 0 x 0 until the image is read; `dist` is read where given
+  std::filesystem::path file;  // under gray/ or rgb/: .png, .jpg, .jpeg or .tif
+  Camera camera;               // size 0 x 0 until the image is read; `dist` is read where given
   std::optional<Se3> camera_from_world;  // where cam_R_w2c and cam_t_w2c are given
 };
 
@@ -39,10 +39,10 @@ inline constexpr int DETECTION_SYMMETRY_STEPS = 64;
 // as the BOP toolkit evaluates (max_sym_disc_step 0.01): 0.01 rad
 inline constexpr int EVALUATION_SYMMETRY_STEPS = 315;
 
-// models_info.json: symmetries by object id. Continuous symmetries are sampled in `continuous_steps` steps.
-// Discrete ones are closed to the group that they generate; they may be measured, to 0.1 rad and 1 % of the
-// diameter. Where they generate no finite one they are taken as listed. Every discrete one is combined with
-// every sample, as BOP does.
+// models_info.json: symmetries by object id. Continuous symmetries are sampled in
+// `continuous_steps` steps. Discrete ones are closed to the group that they generate; they may be
+// measured, to 0.1 rad and 1 % of the diameter. Where they generate no finite one they are taken as
+// listed. Every discrete one is combined with every sample, as BOP does.
 std::map<int, Symmetries> load_symmetries(const std::filesystem::path& models_info,
                                           int continuous_steps = DETECTION_SYMMETRY_STEPS);
 
@@ -57,8 +57,8 @@ std::vector<BopResult> load_bop_results(const std::filesystem::path& file);
 void save_bop_results(const std::vector<BopResult>& results,
                       const std::filesystem::path& file);  // atomically
 
-// Writes scene_camera.json, scene_gt.json and scene_gt_info.json of a rendered scene; images are the caller's
-// to write.
+// Writes scene_camera.json, scene_gt.json and scene_gt_info.json of a rendered scene; images are
+// the caller's to write.
 void save_bop_scene(const BopScene& scene, const std::filesystem::path& folder);
 
 }  // namespace edgescout

@@ -57,8 +57,10 @@ BopResult read_result(const std::string& text, const CsvLine& line) {
   result.image_id = line.integer(fields[1], "im_id");
   result.object_id = line.integer(fields[2], "obj_id");
   result.score = line.numbers(fields[3], "score", 1)[0];
-  const std::vector<double> r = line.numbers(fields[4], "R", 9), t = line.numbers(fields[5], "t", 3);
-  const Eigen::Matrix3d rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(r.data());
+  const std::vector<double> r = line.numbers(fields[4], "R", 9),
+                            t = line.numbers(fields[5], "t", 3);
+  const Eigen::Matrix3d rotation =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(r.data());
   try {
     result.camera_from_object = se3_from_matrix(rotation, 1e-3 * Eigen::Vector3d(t[0], t[1], t[2]));
   } catch (const InputError&) {
@@ -92,7 +94,8 @@ std::vector<BopResult> load_bop_results(const std::filesystem::path& file) {
 void save_bop_results(const std::vector<BopResult>& results, const std::filesystem::path& file) {
   std::string text = std::string(header) + "\n";
   for (const BopResult& result : results) {
-    for (int id : {result.scene_id, result.image_id, result.object_id}) text += std::to_string(id) + ",";
+    for (int id : {result.scene_id, result.image_id, result.object_id})
+      text += std::to_string(id) + ",";
     append(text, result.score, ',');
     const Eigen::Matrix3d r = result.camera_from_object.rotation.toRotationMatrix();
     for (int i = 0; i < 9; ++i) append(text, r(i / 3, i % 3), i < 8 ? ' ' : ',');

@@ -11,22 +11,24 @@ namespace edgescout {
 
 namespace {
 
-constexpr std::size_t max_discrete = 240;  // twice the largest finite rotation group of a solid, with room
+constexpr std::size_t max_discrete =
+    240;  // twice the largest finite rotation group of a solid, with room
 
-// Published symmetries are measured: the squares of LINEMOD's two half turns are 0.007 and 0.053 rad, 0.15
-// and 0.06 mm off the identity.
+// Published symmetries are measured: the squares of LINEMOD's two half turns are 0.007 and 0.053
+// rad, 0.15 and 0.06 mm off the identity.
 constexpr double measured_angle_rad = 0.1;
 constexpr double measured_share_of_diameter = 0.01;
 
-// BOP lists every symmetry, others may list generators. What generates no group exactly is taken for measured
-// where the members are then clearly no noise of each other (orders up to 31). Otherwise the list is what
-// there is.
+// BOP lists every symmetry, others may list generators. What generates no group exactly is taken
+// for measured where the members are then clearly no noise of each other (orders up to 31).
+// Otherwise the list is what there is.
 std::vector<Se3> group_of(std::span<const Se3> given, double diameter_m) {
   std::vector<Se3> group = generated_group(given, max_discrete);
   if (!group.empty()) return group;
   const MemberTolerance measured{measured_angle_rad, measured_share_of_diameter * diameter_m};
   group = generated_group(given, max_discrete, measured);
-  if (!group.empty() && stand_apart(group, {2 * measured.angle_rad, 2 * measured.distance_m})) return group;
+  if (!group.empty() && stand_apart(group, {2 * measured.angle_rad, 2 * measured.distance_m}))
+    return group;
   return with_identity(given);
 }
 
@@ -35,9 +37,11 @@ std::vector<Se3> read_discrete(const JsonField& object) {
   if (!object.has("symmetries_discrete")) return {Se3{}};
   for (const JsonField& entry : object.at("symmetries_discrete").elements()) {
     const std::vector<double> m = entry.numbers(16);
-    const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(m.data());
+    const Eigen::Matrix4d matrix =
+        Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(m.data());
     try {
-      given.push_back(se3_from_matrix(matrix.topLeftCorner<3, 3>(), 1e-3 * matrix.topRightCorner<3, 1>()));
+      given.push_back(
+          se3_from_matrix(matrix.topLeftCorner<3, 3>(), 1e-3 * matrix.topRightCorner<3, 1>()));
     } catch (const InputError&) {
       entry.fail("a matrix that is no rotation", "a rigid 4x4 transform by row, in mm");
     }
@@ -45,14 +49,17 @@ std::vector<Se3> read_discrete(const JsonField& object) {
   return group_of(given, object.has("diameter") ? 1e-3 * object.at("diameter").number() : 0);
 }
 
-// Rotations about every given axis in equal steps; several axes (a ball) are sampled one by one, as BOP does.
+// Rotations about every given axis in equal steps; several axes (a ball) are sampled one by one, as
+// BOP does.
 std::vector<Se3> read_continuous(const JsonField& object, int steps) {
   std::vector<Se3> samples{Se3{}};
   if (!object.has("symmetries_continuous")) return samples;
   for (const JsonField& entry : object.at("symmetries_continuous").elements()) {
     const std::vector<double> a = entry.at("axis").numbers(3), o = entry.at("offset").numbers(3);
-    const Eigen::Vector3d axis(a[0], a[1], a[2]), offset_m = 1e-3 * Eigen::Vector3d(o[0], o[1], o[2]);
-    if (!(axis.norm() > 1e-9)) entry.at("axis").fail("a vector of no length", "the direction of an axis");
+    const Eigen::Vector3d axis(a[0], a[1], a[2]),
+        offset_m = 1e-3 * Eigen::Vector3d(o[0], o[1], o[2]);
+    if (!(axis.norm() > 1e-9))
+      entry.at("axis").fail("a vector of no length", "the direction of an axis");
     for (int i = 1; i < steps; ++i) {
       const Eigen::Quaterniond turn = so3_exp(2 * std::numbers::pi * i / steps * axis.normalized());
       add_unless_known(samples, {turn, offset_m - turn * offset_m});
@@ -63,7 +70,8 @@ std::vector<Se3> read_continuous(const JsonField& object, int steps) {
 
 }  // namespace
 
-std::map<int, Symmetries> load_symmetries(const std::filesystem::path& models_info, int continuous_steps) {
+std::map<int, Symmetries> load_symmetries(const std::filesystem::path& models_info,
+                                          int continuous_steps) {
   check(continuous_steps >= 1, "load_symmetries: continuous_steps");
   const nlohmann::json content = read_json(models_info);
   const JsonField root{content, models_info.string(), ""};

@@ -20,7 +20,8 @@ YAML::Node any_of(const YAML::Node& root, std::initializer_list<const char*> nam
   return YAML::Node(YAML::NodeType::Undefined);
 }
 
-// Numbers, or lists of them nested `depth` deep at most. An alias can make a list an element of itself.
+// Numbers, or lists of them nested `depth` deep at most. An alias can make a list an element of
+// itself.
 void flatten(const YAML::Node& node, int depth, std::vector<double>& numbers) {
   if (node.IsSequence() && depth > 0)
     for (const YAML::Node& element : node) flatten(element, depth - 1, numbers);
@@ -29,7 +30,8 @@ void flatten(const YAML::Node& node, int depth, std::vector<double>& numbers) {
 }
 
 // A matrix as ROS and OpenCV write it (rows, cols, data) or as plain, perhaps nested, lists.
-std::vector<double> matrix_numbers(const YAML::Node& node, const std::string& source, const char* field) {
+std::vector<double> matrix_numbers(const YAML::Node& node, const std::string& source,
+                                   const char* field) {
   if (!node) throw InputError(source, field, "nothing", "a matrix");
   std::vector<double> numbers;
   try {
@@ -39,7 +41,8 @@ std::vector<double> matrix_numbers(const YAML::Node& node, const std::string& so
     throw InputError(source, field, "something else than numbers", "a matrix");
   }
   for (double x : numbers)
-    if (!std::isfinite(x)) throw InputError(source, field, "a value that is not finite", "finite numbers");
+    if (!std::isfinite(x))
+      throw InputError(source, field, "a value that is not finite", "finite numbers");
   return numbers;
 }
 
@@ -55,7 +58,8 @@ int image_side(const YAML::Node& node, const std::string& source, const char* fi
 void set_distortion_model(Camera& camera, const YAML::Node& root, const std::string& source) {
   const YAML::Node node =
       any_of(root, {"distortion_coefficients", "dist_coeffs", "distCoeffs", "distortion", "D"});
-  const std::string model = root["distortion_model"] ? root["distortion_model"].as<std::string>("?") : "";
+  const std::string model =
+      root["distortion_model"] ? root["distortion_model"].as<std::string>("?") : "";
   if (!model.empty() && model != "plumb_bob" && model != "rational_polynomial" && model != "none")
     throw InputError(source, "distortion_model", model, "plumb_bob or rational_polynomial");
   if (!node && model != "none" && !model.empty())
@@ -68,8 +72,10 @@ void set_distortion_model(Camera& camera, const YAML::Node& root, const std::str
 Camera camera_from_yaml(const YAML::Node& root, const std::string& source) {
   if (!root.IsMap()) throw InputError(source, "YAML", "no fields", "a camera calibration");
   Camera camera;
-  camera.width = image_side(any_of(root, {"image_width", "imageWidth", "width"}), source, "image_width");
-  camera.height = image_side(any_of(root, {"image_height", "imageHeight", "height"}), source, "image_height");
+  camera.width =
+      image_side(any_of(root, {"image_width", "imageWidth", "width"}), source, "image_width");
+  camera.height =
+      image_side(any_of(root, {"image_height", "imageHeight", "height"}), source, "image_height");
   const YAML::Node k = any_of(root, {"camera_matrix", "cameraMatrix", "Camera_Matrix", "K"});
   set_intrinsics(camera, matrix_numbers(k, source, "camera_matrix"), source, "camera_matrix");
   set_distortion_model(camera, root, source);
@@ -80,7 +86,8 @@ Camera camera_from_json(const std::filesystem::path& file) {
   const nlohmann::json content = read_json(file);
   const JsonField root{content, file.string(), ""};
   constexpr const char* forms =
-      "fx, fy, cx, cy, width and height (BOP's camera.json), or cam_K, or an entry with cam_K for each image "
+      "fx, fy, cx, cy, width and height (BOP's camera.json), or cam_K, or an entry with cam_K for "
+      "each image "
       "(scene_camera.json)";
   if (!content.is_object()) root.fail("no fields", forms);
   for (const char* name : {"fx", "fy", "cx", "cam_K"})
@@ -136,8 +143,8 @@ Camera camera_for_image(const Camera& calibration, int width, int height, bool a
       throw InputError(source, "image size", size(width, height),
                        "the calibration's " + size(calibration.width, calibration.height) +
                            (pure_scale ? " (a pure scale: allow it with --scale-camera)" : ""));
-    // Axis by axis, as the rounding of the image's size leaves two slightly different factors; see scaled()
-    // for the half pixels.
+    // Axis by axis, as the rounding of the image's size leaves two slightly different factors; see
+    // scaled() for the half pixels.
     camera.fx *= x;
     camera.fy *= y;
     camera.cx = x * (camera.cx + 0.5) - 0.5;

@@ -10,24 +10,27 @@ namespace edgescout {
 void set_intrinsics(Camera& camera, const std::vector<double>& k, const std::string& source,
                     const std::string& field) {
   if (k.size() != 9)
-    throw InputError(source, field, std::to_string(k.size()) + " numbers", "9 (a 3x3 matrix by row)");
+    throw InputError(source, field, std::to_string(k.size()) + " numbers",
+                     "9 (a 3x3 matrix by row)");
   if (std::abs(k[1]) > 1e-3 || k[3] != 0 || k[6] != 0 || k[7] != 0 || k[8] != 1)
-    throw InputError(source, field, "a matrix with skew or another scale", "fx 0 cx, 0 fy cy, 0 0 1");
+    throw InputError(source, field, "a matrix with skew or another scale",
+                     "fx 0 cx, 0 fy cy, 0 0 1");
   camera.fx = k[0];
   camera.fy = k[4];
   camera.cx = k[2];
   camera.cy = k[5];
 }
 
-void set_distortion(Camera& camera, const std::vector<double>& coefficients, const std::string& source,
-                    const std::string& field) {
+void set_distortion(Camera& camera, const std::vector<double>& coefficients,
+                    const std::string& source, const std::string& field) {
   const std::size_t kept = std::min(coefficients.size(), camera.distortion.size());
   if (std::any_of(coefficients.begin() + static_cast<std::ptrdiff_t>(kept), coefficients.end(),
                   [](double x) { return x != 0; }))
     throw InputError(source, field, "thin-prism or tilt coefficients",
                      "at most 8 coefficients k1 k2 p1 p2 k3 k4 k5 k6");
   if (kept != 0 && kept != 4 && kept != 5 && kept != 8)
-    throw InputError(source, field, std::to_string(coefficients.size()) + " coefficients", "0, 4, 5 or 8");
+    throw InputError(source, field, std::to_string(coefficients.size()) + " coefficients",
+                     "0, 4, 5 or 8");
   std::copy_n(coefficients.begin(), kept, camera.distortion.begin());
 }
 

@@ -1,6 +1,7 @@
-// ViSP's text CAD format: V1, then counted sections: points, segments, faces by segments, faces by points and
-// (optional) cylinders and circles. `#` starts a comment; `load("file")` includes another file; a line may
-// end in name=... and other settings of the tracker, which mean nothing here.
+// ViSP's text CAD format: V1, then counted sections: points, segments, faces by segments, faces by
+// points and (optional) cylinders and circles. `#` starts a comment; `load("file")` includes
+// another file; a line may end in name=... and other settings of the tracker, which mean nothing
+// here.
 #include <Eigen/Geometry>
 #include <numbers>
 
@@ -37,8 +38,9 @@ CaoText split_text(const std::string& text) {
       line.resize(load);
     }
     if (const std::size_t setting = line.find('='); setting != std::string::npos)
-      line.resize(line.find_last_of(" \t", setting) == std::string::npos ? 0
-                                                                         : line.find_last_of(" \t", setting));
+      line.resize(line.find_last_of(" \t", setting) == std::string::npos
+                      ? 0
+                      : line.find_last_of(" \t", setting));
     result.sections += line + "\n";
   }
   return result;
@@ -73,7 +75,8 @@ class CaoReader {
 
   int index(const char* what, int size) {
     const int i = tokens_.count(what);
-    if (i >= size) tokens_.fail(std::string(what) + " below " + std::to_string(size), std::to_string(i));
+    if (i >= size)
+      tokens_.fail(std::string(what) + " below " + std::to_string(size), std::to_string(i));
     return i;
   }
   int point() { return base_ + index("point index", points_); }
@@ -145,7 +148,8 @@ class CaoReader {
     const Vector3d x = mesh_.vertices[centre], a = mesh_.vertices[point()] - x,
                    b = mesh_.vertices[point()] - x;
     const Vector3d normal = a.cross(b);
-    if (!(normal.norm() > 0)) tokens_.fail("three points that span a plane", "a circle without a plane");
+    if (!(normal.norm() > 0))
+      tokens_.fail("three points that span a plane", "a circle without a plane");
     const std::vector<int> ring = add_ring(x, normal.normalized(), r);
     for (int i = 0; i < circle_corners; ++i)
       mesh_.triangles.push_back({centre, ring[i], ring[(i + 1) % circle_corners]});
@@ -162,7 +166,8 @@ void read_into(RawMesh& mesh, const std::filesystem::path& file, int depth) {
   if (depth > max_include_depth)
     throw InputError(file.string(), "load()", "files that include each other", "at most 8 levels");
   const CaoText text = split_text(read_file(file));
-  for (const std::string& include : text.includes) read_into(mesh, file.parent_path() / include, depth + 1);
+  for (const std::string& include : text.includes)
+    read_into(mesh, file.parent_path() / include, depth + 1);
   CaoReader(text.sections, file.string(), mesh).read();
 }
 

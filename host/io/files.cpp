@@ -20,8 +20,8 @@ namespace {
 
 std::string reason(int error) { return std::strerror(error); }
 
-// A name beside `file` that no other writer uses now. A killed run may have left one: in a container every
-// run has the same process id.
+// A name beside `file` that no other writer uses now. A killed run may have left one: in a
+// container every run has the same process id.
 fs::path temporary_beside(const fs::path& file) {
   static std::atomic<unsigned> counter{0};
   std::ostringstream name;
@@ -78,14 +78,16 @@ class TemporaryFile {
 void prove_writable(const fs::path& where, const fs::path& folder) {
   TemporaryFile proof(where / "probe");
   if (const int error = proof.write("x"))
-    throw InputError(folder.string(), "output folder", reason(error), "a folder that can be written");
+    throw InputError(folder.string(), "output folder", reason(error),
+                     "a folder that can be written");
 }
 
 }  // namespace
 
 std::string read_file(const fs::path& file) {
   std::error_code unknown;  // told by opening it
-  if (fs::is_directory(file, unknown)) throw InputError(file.string(), "file", "a folder", "a readable file");
+  if (fs::is_directory(file, unknown))
+    throw InputError(file.string(), "file", "a folder", "a readable file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file.string(), "file", reason(errno), "a readable file");
   std::ostringstream content;
@@ -99,7 +101,8 @@ void write_file_atomically(const fs::path& file, std::string_view content) {
   TemporaryFile temporary(file);
   int error = temporary.write(content);
   if (!error) error = temporary.rename_to(file);
-  if (error) throw InputError(file.string(), "output file", reason(error), "a file that can be written");
+  if (error)
+    throw InputError(file.string(), "output file", reason(error), "a file that can be written");
 }
 
 void remove_earlier_files(std::span<const fs::path> files) {
@@ -107,7 +110,8 @@ void remove_earlier_files(std::span<const fs::path> files) {
     std::error_code failure;
     fs::remove(file, failure);
     if (failure)
-      throw InputError(file.string(), "file of an earlier run", failure.message(), "one that can be removed");
+      throw InputError(file.string(), "file of an earlier run", failure.message(),
+                       "one that can be removed");
   }
 }
 
@@ -115,7 +119,8 @@ void require_writable_place(const fs::path& folder) {
   std::error_code missing;
   fs::path there = fs::weakly_canonical(fs::absolute(folder, missing), missing);
   if (folder.empty() || there.empty())
-    throw InputError(folder.string(), "output folder", folder.empty() ? "no name" : missing.message(),
+    throw InputError(folder.string(), "output folder",
+                     folder.empty() ? "no name" : missing.message(),
                      "a folder that can be created");
   while (!fs::exists(there, missing) && there.has_relative_path()) there = there.parent_path();
   prove_writable(there, folder);
@@ -125,7 +130,8 @@ void require_writable_folder(const fs::path& folder) {
   std::error_code failure;
   fs::create_directories(folder, failure);
   if (failure)
-    throw InputError(folder.string(), "output folder", failure.message(), "a folder that can be created");
+    throw InputError(folder.string(), "output folder", failure.message(),
+                     "a folder that can be created");
   prove_writable(folder, folder);
 }
 

@@ -19,14 +19,17 @@ namespace {
 constexpr int min_side_px = 16;
 constexpr int max_distorted_side_px = SHRT_MAX - 1;  // of cv::remap
 
-std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+std::string size_text(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
 
-// Decoders fill the missing rest of a cut image with grey and only warn; the end marks of the two common
-// formats tell.
+// Decoders fill the missing rest of a cut image with grey and only warn; the end marks of the two
+// common formats tell.
 bool is_cut_short(const std::string& bytes) {
   if (bytes.starts_with("\x89PNG")) return bytes.find("IEND") == std::string::npos;
   if (!bytes.starts_with("\xff\xd8")) return false;
-  // Coded data never holds these two-byte marks, and an embedded thumbnail ends before the scan starts.
+  // Coded data never holds these two-byte marks, and an embedded thumbnail ends before the scan
+  // starts.
   const std::size_t end = bytes.rfind("\xff\xd9"), scan = bytes.rfind("\xff\xda");
   return end == std::string::npos || (scan != std::string::npos && end < scan);
 }
@@ -41,7 +44,8 @@ bool is_out_of_memory(const std::exception& error) {
 cv::Mat decode(const std::string& bytes, const std::string& source) {
   const InputError not_an_image(source, "image", "data that no image decoder accepts",
                                 "a PNG, JPEG or other image");
-  if (bytes.empty()) throw InputError(source, "image", "an empty file", "a PNG, JPEG or other image");
+  if (bytes.empty())
+    throw InputError(source, "image", "an empty file", "a PNG, JPEG or other image");
   if (is_cut_short(bytes)) throw InputError(source, "image", "a file cut short", "a whole image");
   cv::Mat image;
   try {
@@ -58,13 +62,16 @@ cv::Mat decode(const std::string& bytes, const std::string& source) {
 
 cv::Mat to_grey(const cv::Mat& image, const std::string& source) {
   if (image.depth() != CV_8U)
-    throw InputError(source, "bit depth", std::to_string(8 * image.elemSize1()) + " bit a channel", "8 bit");
+    throw InputError(source, "bit depth", std::to_string(8 * image.elemSize1()) + " bit a channel",
+                     "8 bit");
   if (image.channels() == 1) return image;
   if (image.channels() != 3 && image.channels() != 4)
-    throw InputError(source, "channels", std::to_string(image.channels()), "1 (grey), 3 or 4 (colour)");
+    throw InputError(source, "channels", std::to_string(image.channels()),
+                     "1 (grey), 3 or 4 (colour)");
   static std::atomic_flag said;
   if (!said.test_and_set())
-    log(LogLevel::Info, source + ": colour image converted to grey (not repeated for further images)");
+    log(LogLevel::Info,
+        source + ": colour image converted to grey (not repeated for further images)");
   cv::Mat grey;
   cv::cvtColor(image, grey, image.channels() == 3 ? cv::COLOR_BGR2GRAY : cv::COLOR_BGRA2GRAY);
   return grey;
@@ -74,13 +81,15 @@ Image from_mat(const cv::Mat& grey) {
   Image image{grey.cols, grey.rows, {}};
   image.pixels.reserve(grey.total());
   for (int y = 0; y < grey.rows; ++y)
-    image.pixels.insert(image.pixels.end(), grey.ptr<std::uint8_t>(y), grey.ptr<std::uint8_t>(y) + grey.cols);
+    image.pixels.insert(image.pixels.end(), grey.ptr<std::uint8_t>(y),
+                        grey.ptr<std::uint8_t>(y) + grey.cols);
   return image;
 }
 
 // An image may come from a caller's own program.
 void require_all_pixels(const Image& image) {
-  const std::size_t expected = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  const std::size_t expected =
+      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
   if (image.pixels.size() != expected)
     throw InputError("image", "pixels", std::to_string(image.pixels.size()),
                      std::to_string(expected) + " of " + size_text(image.width, image.height));
@@ -113,24 +122,30 @@ Image undistort(const Image& image, const Camera& camera) {
                          " px where a lens distortion is taken out");
   const cv::Matx33d k(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
   const cv::Mat distortion(1, 8, CV_64F, const_cast<double*>(camera.distortion.data()));
-  const cv::Mat source(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data()));
+  const cv::Mat source(image.height, image.width, CV_8U,
+                       const_cast<std::uint8_t*>(image.pixels.data()));
   cv::Mat map_x, map_y, result;
-  cv::initUndistortRectifyMap(k, distortion, cv::noArray(), k, source.size(), CV_32FC1, map_x, map_y);
+  cv::initUndistortRectifyMap(k, distortion, cv::noArray(), k, source.size(), CV_32FC1, map_x,
+                              map_y);
   cv::remap(source, result, map_x, map_y, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
   return from_mat(result);
 }
 
 std::string encode_png(const RgbImage& image) {
-  check(image.pixels.size() == std::size_t{3} * image.width * image.height, "encode_png: pixel count");
-  const cv::Mat rgb(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.pixels.data()));
+  check(image.pixels.size() == std::size_t{3} * image.width * image.height,
+        "encode_png: pixel count");
+  const cv::Mat rgb(image.height, image.width, CV_8UC3,
+                    const_cast<std::uint8_t*>(image.pixels.data()));
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
   return png_of(bgr);
 }
 
 std::string encode_png(const Image& image) {
-  check(image.pixels.size() == std::size_t{1} * image.width * image.height, "encode_png: pixel count");
-  return png_of(cv::Mat(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data())));
+  check(image.pixels.size() == std::size_t{1} * image.width * image.height,
+        "encode_png: pixel count");
+  return png_of(
+      cv::Mat(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data())));
 }
 
 void save_png(const RgbImage& image, const std::filesystem::path& file) {

@@ -66,7 +66,8 @@ std::vector<double> JsonField::numbers() const {
 
 std::vector<double> JsonField::numbers(std::size_t count) const {
   std::vector<double> result = numbers();
-  if (result.size() != count) fail(std::to_string(result.size()) + " numbers", std::to_string(count));
+  if (result.size() != count)
+    fail(std::to_string(result.size()) + " numbers", std::to_string(count));
   return result;
 }
 
@@ -80,7 +81,8 @@ int integer_key(const std::string& key, const JsonField& parent) {
 
 Se3 pose_from(const JsonField& rotation, const JsonField& translation, double metres_per_unit) {
   const std::vector<double> r = rotation.numbers(9), t = translation.numbers(3);
-  const Eigen::Matrix3d matrix = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(r.data());
+  const Eigen::Matrix3d matrix =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(r.data());
   try {
     return se3_from_matrix(matrix, metres_per_unit * Eigen::Vector3d(t[0], t[1], t[2]));
   } catch (const InputError&) {

@@ -1,7 +1,7 @@
 // JSON as it is written to files and standard output. Not installed.
 //
-// A path or a name may hold bytes that are no UTF-8, which JSON cannot: they become U+FFFD, one and the same
-// for all of them, rather than lose the result.
+// A path or a name may hold bytes that are no UTF-8, which JSON cannot: they become U+FFFD, one and
+// the same for all of them, rather than lose the result.
 #pragma once
 
 #include <algorithm>

@@ -14,8 +14,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Closer than this share of the diameter, two vertices are one; thinner than this, a triangle has no usable
-// normal.
+// Closer than this share of the diameter, two vertices are one; thinner than this, a triangle has
+// no usable normal.
 constexpr double weld_share = 1e-6;
 // Beyond any unit mistaken for another; keeps squares and grid indices far from overflow.
 constexpr double max_coordinate_m = 1e9;
@@ -38,7 +38,8 @@ void require_usable(const std::string& name, const std::vector<Vector3d>& vertic
 }
 
 // Keeps only vertices that a triangle uses: a stray point would falsify the box and the diameter.
-void drop_unused_vertices(std::vector<Vector3d>& vertices, std::vector<std::array<int, 3>>& triangles) {
+void drop_unused_vertices(std::vector<Vector3d>& vertices,
+                          std::vector<std::array<int, 3>>& triangles) {
   std::vector<int> new_index(vertices.size(), -1);
   std::vector<Vector3d> used;
   for (auto& triangle : triangles)
@@ -77,7 +78,8 @@ class WeldGrid {
   std::vector<Vector3d> take() { return std::move(vertices_); }
 
  private:
-  // At most 1e6 * sqrt(3) / 16 cells an axis, so 21 bits hold each index (offset by one for the border).
+  // At most 1e6 * sqrt(3) / 16 cells an axis, so 21 bits hold each index (offset by one for the
+  // border).
   static std::uint64_t key(int i, int j, int k) {
     const auto part = [](int n) { return static_cast<std::uint64_t>(n + 1) & 0x1fffff; };
     return part(i) | part(j) << 21 | part(k) << 42;
@@ -88,7 +90,8 @@ class WeldGrid {
   std::unordered_map<std::uint64_t, std::vector<int>> cells_;
 };
 
-void weld(std::vector<Vector3d>& vertices, std::vector<std::array<int, 3>>& triangles, double tolerance) {
+void weld(std::vector<Vector3d>& vertices, std::vector<std::array<int, 3>>& triangles,
+          double tolerance) {
   Vector3d origin = vertices.front();
   for (const Vector3d& x : vertices) origin = origin.cwiseMin(x);
   WeldGrid grid(origin, tolerance);
@@ -107,11 +110,12 @@ double thinnest_height(const std::array<int, 3>& t, const std::vector<Vector3d>&
   return longest > 0 ? a.cross(b).norm() / longest : 0;
 }
 
-void drop_degenerate_and_duplicate(std::vector<std::array<int, 3>>& triangles, const std::vector<Vector3d>& x,
-                                   double tolerance) {
+void drop_degenerate_and_duplicate(std::vector<std::array<int, 3>>& triangles,
+                                   const std::vector<Vector3d>& x, double tolerance) {
   std::set<std::array<int, 3>> seen;
   std::erase_if(triangles, [&](const std::array<int, 3>& t) {
-    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || thinnest_height(t, x) <= tolerance) return true;
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || thinnest_height(t, x) <= tolerance)
+      return true;
     std::array<int, 3> corners = t;
     std::sort(corners.begin(), corners.end());
     return !seen.insert(corners).second;

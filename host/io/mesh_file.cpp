@@ -32,7 +32,8 @@ void append(const aiMesh& part, RawMesh& mesh, const std::string& source) {
     for (unsigned k = 0; k < part.mFaces[i].mNumIndices; ++k) {
       const unsigned index = part.mFaces[i].mIndices[k];
       if (index >= part.mNumVertices)
-        throw InputError(source, "face " + std::to_string(i), "vertex index " + std::to_string(index),
+        throw InputError(source, "face " + std::to_string(i),
+                         "vertex index " + std::to_string(index),
                          "an index below " + std::to_string(part.mNumVertices));
       corners.push_back(base + static_cast<int>(index));
     }
@@ -86,10 +87,11 @@ Mesh load_mesh(const std::filesystem::path& file, LengthUnit unit) {
 }
 
 void save_ply_mm(const Mesh& mesh, const std::filesystem::path& file) {
-  std::string bytes =
-      "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.vertices_m.size()) +
-      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-      std::to_string(mesh.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
+                      std::to_string(mesh.vertices_m.size()) +
+                      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+                      std::to_string(mesh.triangles.size()) +
+                      "\nproperty list uchar int vertex_indices\nend_header\n";
   for (const Eigen::Vector3d& x : mesh.vertices_m)
     for (int axis = 0; axis < 3; ++axis) put(bytes, static_cast<float>(1000 * x[axis]));
   for (const auto& triangle : mesh.triangles) {

@@ -34,7 +34,8 @@ class Canvas {
     if (from_in_camera.z() <= 0 || to_in_camera.z() <= 0) return;
     const Eigen::Vector2d a = project(camera_, from_in_camera), b = project(camera_, to_in_camera);
     if (!is_near(a) || !is_near(b)) return;
-    cv::line(canvas_, fixed_point(a), fixed_point(b), colour, thickness, cv::LINE_AA, fraction_bits);
+    cv::line(canvas_, fixed_point(a), fixed_point(b), colour, thickness, cv::LINE_AA,
+             fraction_bits);
   }
 
   void text(const std::string& words, const Eigen::Vector2d& at) {
@@ -43,7 +44,8 @@ class Canvas {
                            static_cast<int>(std::lround(at.y())) - 6);
     const double size = std::clamp(canvas_.cols / 1600.0, 0.4, 1.5);
     cv::putText(canvas_, words, corner, cv::FONT_HERSHEY_SIMPLEX, size, {0, 0, 0}, 3, cv::LINE_AA);
-    cv::putText(canvas_, words, corner, cv::FONT_HERSHEY_SIMPLEX, size, {255, 255, 255}, 1, cv::LINE_AA);
+    cv::putText(canvas_, words, corner, cv::FONT_HERSHEY_SIMPLEX, size, {255, 255, 255}, 1,
+                cv::LINE_AA);
   }
 
   RgbImage take() const {
@@ -66,21 +68,24 @@ class Canvas {
   cv::Mat canvas_;
 };
 
-bool explains_edge(const EdgeIndex& edges, const Camera& camera, const Eigen::Vector3d& from_in_camera,
-                   const Eigen::Vector3d& to_in_camera) {
+bool explains_edge(const EdgeIndex& edges, const Camera& camera,
+                   const Eigen::Vector3d& from_in_camera, const Eigen::Vector3d& to_in_camera) {
   const Eigen::Vector2d a = project(camera, from_in_camera), b = project(camera, to_in_camera),
                         middle = 0.5 * (a + b);
   const Eigen::Vector2d along = b - a;
   double theta = std::atan2(along.y(), along.x());
   if (theta < 0) theta += std::numbers::pi;
-  if (middle.x() < 0 || middle.y() < 0 || middle.x() > camera.width - 1 || middle.y() > camera.height - 1)
+  if (middle.x() < 0 || middle.y() < 0 || middle.x() > camera.width - 1 ||
+      middle.y() > camera.height - 1)
     return false;
-  return edges.nearest(float(middle.x()), float(middle.y()), float(theta), match_px, max_turn_rad) != nullptr;
+  return edges.nearest(float(middle.x()), float(middle.y()), float(theta), match_px,
+                       max_turn_rad) != nullptr;
 }
 
 // Each raster point stands for a piece of edge one raster step long.
-void draw_edges(Canvas& canvas, const Camera& camera, const OverlayPose& pose, const EdgeModel& model,
-                std::span<const ModelPoint> points, const EdgeIndex* edges) {
+void draw_edges(Canvas& canvas, const Camera& camera, const OverlayPose& pose,
+                const EdgeModel& model, std::span<const ModelPoint> points,
+                const EdgeIndex* edges) {
   for (const ModelPoint& point : points) {
     const Eigen::Vector3d x(point.x_m, point.y_m, point.z_m),
         half = 0.5 * model.raster_step_m * Eigen::Vector3d(point.tx, point.ty, point.tz);
@@ -101,7 +106,8 @@ std::string caption_of(const OverlayPose& pose) {
   return pose.label.empty() ? score : pose.label + " " + score;
 }
 
-void draw_axes(Canvas& canvas, const Camera& camera, const OverlayPose& pose, const EdgeModel& model) {
+void draw_axes(Canvas& canvas, const Camera& camera, const OverlayPose& pose,
+               const EdgeModel& model) {
   const Eigen::Vector3d center = pose.camera_from_object * model.center_m;
   for (int axis = 0; axis < 3; ++axis)
     canvas.line(center,
@@ -121,8 +127,8 @@ RgbImage draw_overlay(const Image& image, const Camera& camera, std::span<const 
   for (const OverlayPose& pose : poses) {
     const EdgeModel& model = models[static_cast<std::size_t>(pose.object)];
     if ((pose.camera_from_object * model.center_m).z() <= 0) continue;
-    draw_edges(canvas, camera, pose, model, visible_edges(model, {&pose.camera_from_object, 1}, backend)[0],
-               edges);
+    draw_edges(canvas, camera, pose, model,
+               visible_edges(model, {&pose.camera_from_object, 1}, backend)[0], edges);
     draw_axes(canvas, camera, pose, model);
   }
   return canvas.take();

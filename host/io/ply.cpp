@@ -1,5 +1,5 @@
-// PLY, text and binary of either byte order. Read here and not by assimp, which fills up what a cut file
-// lacks.
+// PLY, text and binary of either byte order. Read here and not by assimp, which fills up what a cut
+// file lacks.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -19,7 +19,7 @@ namespace {
 
 struct Property {
   std::string name;
-  char type = 'f';         // b, h, i: signed of 1, 2, 4 bytes; B, H, I: unsigned; f, d: float, double
+  char type = 'f';  // b, h, i: signed of 1, 2, 4 bytes; B, H, I: unsigned; f, d: float, double
   char count_type = '\0';  // of a list
 };
 
@@ -131,14 +131,16 @@ class Numbers {
   }
   void require_end() {
     if (text_ ? !text_->at_end() : at_ != body_.size())
-      throw InputError(source_, "PLY counts", "more data than the header says", "the counts of the header");
+      throw InputError(source_, "PLY counts", "more data than the header says",
+                       "the counts of the header");
   }
 
  private:
   template <typename T>
   T take(const char* what) {
     if (body_.size() - at_ < sizeof(T))
-      throw InputError(source_, what, "the end of the file (truncated?)", "the counts of the header");
+      throw InputError(source_, what, "the end of the file (truncated?)",
+                       "the counts of the header");
     char bytes[sizeof(T)];
     std::memcpy(bytes, body_.data() + at_, sizeof(T));
     if (swapped_) std::reverse(bytes, bytes + sizeof(T));
@@ -163,10 +165,12 @@ std::vector<int> read_list(Numbers& numbers, const Property& property) {
 }
 
 bool is_corners(const Property& property) {
-  return property.count_type && (property.name == "vertex_indices" || property.name == "vertex_index");
+  return property.count_type &&
+         (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
-void read_row(const Element& element, Numbers& numbers, Eigen::Vector3d& vertex, std::vector<int>& corners) {
+void read_row(const Element& element, Numbers& numbers, Eigen::Vector3d& vertex,
+              std::vector<int>& corners) {
   for (const Property& property : element.properties) {
     if (property.count_type) {
       std::vector<int> list = read_list(numbers, property);
@@ -193,16 +197,18 @@ void require_properties(const Header& header, const std::string& source) {
     if (element.name == "face" && std::ranges::none_of(element.properties, is_corners))
       throw InputError(source, "PLY header", "faces without vertex_indices", "a list of them");
     if (element.count > 0 && element.properties.empty())
-      throw InputError(source, "PLY header",
-                       std::to_string(element.count) + " of " + element.name + " without a property",
-                       "one at least");
+      throw InputError(
+          source, "PLY header",
+          std::to_string(element.count) + " of " + element.name + " without a property",
+          "one at least");
   }
 }
 
 void add_face(RawMesh& mesh, const std::vector<int>& corners, int face, const std::string& source) {
   for (int corner : corners)
     if (corner < 0 || corner >= static_cast<int>(mesh.vertices.size()))
-      throw InputError(source, "face " + std::to_string(face), "vertex index " + std::to_string(corner),
+      throw InputError(source, "face " + std::to_string(face),
+                       "vertex index " + std::to_string(corner),
                        "an index below " + std::to_string(mesh.vertices.size()));
   triangulate(corners, mesh.vertices, mesh.triangles);
 }
@@ -230,7 +236,8 @@ RawMesh read_ply(const std::filesystem::path& file) {
       if (element.name == "face") faces.push_back(std::move(corners));
     }
   numbers.require_end();
-  for (std::size_t i = 0; i < faces.size(); ++i) add_face(mesh, faces[i], static_cast<int>(i), source);
+  for (std::size_t i = 0; i < faces.size(); ++i)
+    add_face(mesh, faces[i], static_cast<int>(i), source);
   return mesh;
 }
 

@@ -23,7 +23,8 @@ double turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return ab.x() * ac.y() - ab.y() * ac.x();
 }
 
-// Whether corner i of the remaining polygon can be cut off: convex, and no other corner in its triangle.
+// Whether corner i of the remaining polygon can be cut off: convex, and no other corner in its
+// triangle.
 bool is_ear(const std::vector<int>& rest, std::size_t i, const std::vector<Vector2d>& flat) {
   const std::size_t n = rest.size(), before = (i + n - 1) % n, after = (i + 1) % n;
   const Vector2d &a = flat[rest[before]], &b = flat[rest[i]], &c = flat[rest[after]];
@@ -55,7 +56,8 @@ void triangulate(const std::vector<int>& corners, const std::vector<Vector3d>& v
     while (ear < rest.size() && !is_ear(rest, ear, flat)) ++ear;
     if (ear == rest.size()) break;
     const std::size_t n = rest.size();
-    triangles.push_back({corners[rest[(ear + n - 1) % n]], corners[rest[ear]], corners[rest[(ear + 1) % n]]});
+    triangles.push_back(
+        {corners[rest[(ear + n - 1) % n]], corners[rest[ear]], corners[rest[(ear + 1) % n]]});
     rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(ear));
   }
   for (std::size_t i = 1; i + 1 < rest.size(); ++i)

@@ -13,7 +13,8 @@ namespace {
 std::vector<StartPose> from_bop_results(const std::filesystem::path& file) {
   std::vector<StartPose> poses;
   for (const BopResult& row : load_bop_results(file))
-    poses.push_back({row.scene_id, row.image_id, "", row.object_id, row.camera_from_object, row.score});
+    poses.push_back(
+        {row.scene_id, row.image_id, "", row.object_id, row.camera_from_object, row.score});
   return poses;
 }
 
@@ -21,7 +22,8 @@ std::vector<StartPose> from_image_result(const std::filesystem::path& file) {
   const ImageResult result = load_image_result(file);
   const Se3 camera_from_world = result.camera_from_world.value_or(Se3{});
   // A result of an image outside of every scene says 0 as well.
-  const std::optional<int> scene = result.scene_id == 0 ? std::nullopt : std::optional(result.scene_id);
+  const std::optional<int> scene =
+      result.scene_id == 0 ? std::nullopt : std::optional(result.scene_id);
   std::vector<StartPose> poses;
   for (const Detection& found : result.detections)
     poses.push_back({scene, result.image_id, result.image,
@@ -56,8 +58,8 @@ std::vector<StartPose> load_start_poses(const std::filesystem::path& file) {
   return poses;
 }
 
-bool belongs_to(const StartPose& pose, const std::filesystem::path& image, std::optional<int> scene_id,
-                int image_id) {
+bool belongs_to(const StartPose& pose, const std::filesystem::path& image,
+                std::optional<int> scene_id, int image_id) {
   if (pose.scene_id && scene_id && *pose.scene_id != *scene_id) return false;
   if (pose.image.empty()) return pose.image_id == image_id;
   return pose.image.filename() == as_in_json(image.filename().string());
@@ -65,7 +67,8 @@ bool belongs_to(const StartPose& pose, const std::filesystem::path& image, std::
 
 int same_ending(const StartPose& pose, const std::filesystem::path& image) {
   const std::filesystem::path a = pose.image.lexically_normal(),
-                              b = as_in_json(std::filesystem::absolute(image).lexically_normal().string());
+                              b = as_in_json(
+                                  std::filesystem::absolute(image).lexically_normal().string());
   int count = 0;
   for (auto i = a.end(), j = b.end(); i != a.begin() && j != b.begin() && *--i == *--j;) ++count;
   return count;

@@ -1,4 +1,5 @@
-// Internal to host/io: triangles as a file gives them, in the file's unit, before make_mesh cleans them.
+// Internal to host/io: triangles as a file gives them, in the file's unit, before make_mesh cleans
+// them.
 #pragma once
 
 #include <array>
@@ -21,8 +22,8 @@ RawMesh read_ply(const std::filesystem::path& file);
 RawMesh read_cao(const std::filesystem::path& file);
 RawMesh read_obj(const std::filesystem::path& file);
 
-// Cuts the ears off a simple, (nearly) planar polygon; corners are indices into `vertices`. The triangles
-// keep the polygon's sense. What a self-crossing polygon leaves over becomes a fan.
+// Cuts the ears off a simple, (nearly) planar polygon; corners are indices into `vertices`. The
+// triangles keep the polygon's sense. What a self-crossing polygon leaves over becomes a fan.
 void triangulate(const std::vector<int>& corners, const std::vector<Eigen::Vector3d>& vertices,
                  std::vector<std::array<int, 3>>& triangles);
 

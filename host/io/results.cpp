@@ -43,7 +43,8 @@ json detection_json(const Detection& detection, const ImageResult& result) {
           {"convergence", detection.convergence},
           {"world_from_object", pose_json(detection.world_from_object)},
           {"camera_from_object", pose_json(camera_from_world * detection.world_from_object)},
-          {"covariance", std::vector<double>(transposed.data(), transposed.data() + transposed.size())}};
+          {"covariance",
+           std::vector<double>(transposed.data(), transposed.data() + transposed.size())}};
 }
 
 double number_or_nan(const JsonField& field) {
@@ -68,7 +69,8 @@ Camera read_camera(const JsonField& field) {
 
 Settings read_settings(const JsonField& field) {
   Settings settings;
-  for (const auto& item : field.value.items()) settings.emplace_back(item.key(), field.at(item.key()).text());
+  for (const auto& item : field.value.items())
+    settings.emplace_back(item.key(), field.at(item.key()).text());
   return settings;
 }
 
@@ -134,7 +136,8 @@ ImageResult load_image_result(const std::filesystem::path& file) {
   result.device = root.at("device").text();
   result.camera = read_camera(root.at("camera"));
   if (root.has("settings")) result.settings = read_settings(root.at("settings"));
-  if (root.has("camera_from_world")) result.camera_from_world = read_pose(root.at("camera_from_world"));
+  if (root.has("camera_from_world"))
+    result.camera_from_world = read_pose(root.at("camera_from_world"));
   for (const JsonField& stage : root.at("timings_ms").elements())
     result.stages.push_back({stage.at("stage").text(), stage.at("ms").number() / 1000});
   for (const JsonField& object : root.at("objects").elements())

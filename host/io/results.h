@@ -1,7 +1,7 @@
 // What is found in one image, as JSON: the tool's own result file.
 //
-// Poses are `{"R": 9 numbers by row, "t": 3 in metres, "quaternion_wxyz": 4}`; covariances 36 numbers by row
-// in the tangent of core/se3.h.
+// Poses are `{"R": 9 numbers by row, "t": 3 in metres, "quaternion_wxyz": 4}`; covariances 36
+// numbers by row in the tangent of core/se3.h.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,8 @@ struct ObjectName {
   std::string name;
 };
 
-// What a result was made with beside its image, by name: checksums of models, numbers of the camera, options.
+// What a result was made with beside its image, by name: checksums of models, numbers of the
+// camera, options.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 struct ImageResult {
@@ -36,15 +37,16 @@ struct ImageResult {
   std::vector<Detection> detections;
 };
 
-// Atomically. The fields: edgescout_result (version of the format, 2), image, scene_id, image_id, device,
-// camera, settings {name: text} (optional), world (whose frame it is, for who reads the file: "scene" or
-// "camera"), camera_from_world (of a scene), timings_ms [{stage, ms}], objects
+// Atomically. The fields: edgescout_result (version of the format, 2), image, scene_id, image_id,
+// device, camera, settings {name: text} (optional), world (whose frame it is, for who reads the
+// file: "scene" or "camera"), camera_from_world (of a scene), timings_ms [{stage, ms}], objects
 // [{id, name}], detections [{object_id, object, world_from_object, camera_from_object, covariance,
-// probability, psi, cost_px, matched_fraction, evidence, unexplained_grey, convergence}]. A number that is
-// not finite becomes null.
+// probability, psi, cost_px, matched_fraction, evidence, unexplained_grey, convergence}]. A number
+// that is not finite becomes null.
 void save_image_result(const ImageResult& result, const std::filesystem::path& file);
 
-// InputError naming file and field: missing, no JSON, another version, a field missing or of another type.
+// InputError naming file and field: missing, no JSON, another version, a field missing or of
+// another type.
 ImageResult load_image_result(const std::filesystem::path& file);
 
 // Whether the file holds the fields of a result (of any version).

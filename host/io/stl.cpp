@@ -1,5 +1,5 @@
-// STL, binary and ASCII. Read here and not by assimp: the format is tiny, and a file that is cut short or
-// whose count lies must be an error, where assimp loads what it can.
+// STL, binary and ASCII. Read here and not by assimp: the format is tiny, and a file that is cut
+// short or whose count lies must be an error, where assimp loads what it can.
 #include <cstdint>
 #include <cstring>
 
@@ -82,13 +82,15 @@ RawMesh read_stl(const std::filesystem::path& file) {
   if (is_text && start != std::string::npos && bytes.compare(start, 5, "solid") == 0)
     return read_ascii(bytes, source);
   if (!has_header)
-    throw InputError(source, "STL header", std::to_string(bytes.size()) + " bytes", "at least 84 bytes");
+    throw InputError(source, "STL header", std::to_string(bytes.size()) + " bytes",
+                     "at least 84 bytes");
   const std::uint64_t promised = promised_bytes(bytes);
-  throw InputError(source, "STL triangle count in the header",
-                   std::to_string((promised - header_bytes) / triangle_bytes) + " triangles and " +
-                       std::to_string(bytes.size()) + " bytes",
-                   std::to_string(promised) + " bytes for that count (" +
-                       (bytes.size() < promised ? "the file is truncated" : "the count is too small") + ")");
+  throw InputError(
+      source, "STL triangle count in the header",
+      std::to_string((promised - header_bytes) / triangle_bytes) + " triangles and " +
+          std::to_string(bytes.size()) + " bytes",
+      std::to_string(promised) + " bytes for that count (" +
+          (bytes.size() < promised ? "the file is truncated" : "the count is too small") + ")");
 }
 
 }  // namespace edgescout

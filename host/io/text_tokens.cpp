@@ -52,7 +52,8 @@ int TextTokens::count(const char* what) {
 void TextTokens::skip_line() { at_ = std::min(text_.find('\n', at_), text_.size()); }
 
 void TextTokens::fail(const std::string& expected, std::string_view found) const {
-  throw InputError(source_, "line " + std::to_string(line_), std::string(found.substr(0, 60)), expected);
+  throw InputError(source_, "line " + std::to_string(line_), std::string(found.substr(0, 60)),
+                   expected);
 }
 
 }  // namespace edgescout

@@ -17,7 +17,8 @@ Eigen::Vector3d surface_centroid_m(const Mesh& mesh) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double area = 0;
   for (const auto& t : mesh.triangles) {
-    const Eigen::Vector3d &a = mesh.vertices_m[t[0]], &b = mesh.vertices_m[t[1]], &c = mesh.vertices_m[t[2]];
+    const Eigen::Vector3d &a = mesh.vertices_m[t[0]], &b = mesh.vertices_m[t[1]],
+                          &c = mesh.vertices_m[t[2]];
     const double weight = (b - a).cross(c - a).norm();
     sum += weight * (a + b + c) / 3;
     area += weight;
@@ -32,23 +33,27 @@ struct Turns {
 };
 
 Turns turns_of(const std::string& word, int continuous_steps) {
-  const InputError unknown("command line", "--symmetry", "\"" + word + "\"",
-                           "x, y or z for any turn, or followed by 2 to 360 for an order, as in z2");
+  const InputError unknown(
+      "command line", "--symmetry", "\"" + word + "\"",
+      "x, y or z for any turn, or followed by 2 to 360 for an order, as in z2");
   if (word.empty() || word[0] < 'x' || word[0] > 'z') throw unknown;
   Turns turns{Eigen::Vector3d::Unit(word[0] - 'x'), continuous_steps, word.size() > 1};
   if (!turns.is_finite) return turns;
   const char* end = word.data() + word.size();
   const auto [rest, error] = std::from_chars(word.data() + 1, end, turns.order);
-  if (error != std::errc{} || rest != end || turns.order < 2 || turns.order > MOST_TURNS) throw unknown;
+  if (error != std::errc{} || rest != end || turns.order < 2 || turns.order > MOST_TURNS)
+    throw unknown;
   return turns;
 }
 
 }  // namespace
 
-Symmetries axis_symmetries(const Mesh& mesh, std::span<const std::string> words, int continuous_steps) {
+Symmetries axis_symmetries(const Mesh& mesh, std::span<const std::string> words,
+                           int continuous_steps) {
   const Eigen::Vector3d center = surface_centroid_m(mesh);
   const auto about_center = [&](const Turns& turns, int count) {
-    const Eigen::Quaterniond turn(Eigen::AngleAxisd(2 * std::numbers::pi * count / turns.order, turns.axis));
+    const Eigen::Quaterniond turn(
+        Eigen::AngleAxisd(2 * std::numbers::pi * count / turns.order, turns.axis));
     return Se3{turn, center - turn * center};
   };
   std::vector<Turns> continuous;
@@ -63,7 +68,8 @@ Symmetries axis_symmetries(const Mesh& mesh, std::span<const std::string> words,
   Symmetries all;
   all.discrete = generated_group(generators, MOST_MEMBERS);
   if (all.discrete.empty())
-    throw InputError("command line", "--symmetry", "turns that generate no finite group", "those of a solid");
+    throw InputError("command line", "--symmetry", "turns that generate no finite group",
+                     "those of a solid");
   for (const Turns& turns : continuous) {
     std::vector<Se3> products;
     for (int i = 0; i < turns.order; ++i)

@@ -27,11 +27,12 @@ FacesByEdge faces_by_edge(const Mesh& mesh) {
 }
 
 bool is_smooth(const Mesh& mesh, const std::vector<int>& faces, double cos_crease) {
-  return faces.size() == 2 && mesh.face_normals[faces[0]].dot(mesh.face_normals[faces[1]]) > cos_crease;
+  return faces.size() == 2 &&
+         mesh.face_normals[faces[0]].dot(mesh.face_normals[faces[1]]) > cos_crease;
 }
 
-// Corners (3 * triangle + corner) that share a vertex and a smooth edge at it belong to one piece of surface:
-// union-find.
+// Corners (3 * triangle + corner) that share a vertex and a smooth edge at it belong to one piece
+// of surface: union-find.
 class CornerGroups {
  public:
   explicit CornerGroups(std::size_t corners) : parent_(corners) {
@@ -52,7 +53,8 @@ int corner_at(const Mesh& mesh, int triangle, int vertex) {
   return 3 * triangle + int(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
 }
 
-std::vector<std::array<Eigen::Vector3d, 3>> average_normals(const Mesh& mesh, const FacesByEdge& faces,
+std::vector<std::array<Eigen::Vector3d, 3>> average_normals(const Mesh& mesh,
+                                                            const FacesByEdge& faces,
                                                             double cos_crease) {
   CornerGroups groups(3 * mesh.triangles.size());
   for (const auto& [edge, sides] : faces)
@@ -116,8 +118,8 @@ EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options) {
   return model;
 }
 
-void add_raster_points(const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m, double raster_step_m,
-                       std::vector<RasterPoint>& points) {
+void add_raster_points(const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m,
+                       double raster_step_m, std::vector<RasterPoint>& points) {
   const Eigen::Vector3d along = to_m - from_m;
   const double length = along.norm();
   if (length <= 0) return;

@@ -1,5 +1,5 @@
-// The edges a mesh can show, prepared once: sharp creases, open borders and the fields from which the
-// silhouette of a curved surface is drawn for each viewpoint (paper, Sec. 3.1).
+// The edges a mesh can show, prepared once: sharp creases, open borders and the fields from which
+// the silhouette of a curved surface is drawn for each viewpoint (paper, Sec. 3.1).
 #pragma once
 
 #include <vector>
@@ -28,9 +28,9 @@ struct EdgeModel {
   };
   std::vector<Segment> creases;
   std::vector<RasterPoint> crease_points;  // along them
-  // Normals at the corners of every triangle, averaged by area over the smooth surface around the vertex:
-  // they stay apart across a crease. Only triangles whose corner normals differ can carry a contour; `curved`
-  // lists them.
+  // Normals at the corners of every triangle, averaged by area over the smooth surface around the
+  // vertex: they stay apart across a crease. Only triangles whose corner normals differ can carry a
+  // contour; `curved` lists them.
   std::vector<std::array<Eigen::Vector3d, 3>> corner_normals;
   std::vector<int> curved;
 
@@ -47,14 +47,14 @@ struct EdgeModel {
 
 EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options = {});
 
-// Appends what an edge from one place to another is sampled to. Short segments (a finely tessellated curve)
-// get a point with the probability of their length, decided by where they lie, so that curves are sampled as
-// densely as straight edges and equally in every run.
-void add_raster_points(const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m, double raster_step_m,
-                       std::vector<RasterPoint>& points);
+// Appends what an edge from one place to another is sampled to. Short segments (a finely
+// tessellated curve) get a point with the probability of their length, decided by where they lie,
+// so that curves are sampled as densely as straight edges and equally in every run.
+void add_raster_points(const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m,
+                       double raster_step_m, std::vector<RasterPoint>& points);
 
-// Of its mesh, creases and raster step: what was made with a model of another one is not taken up with this
-// (a batch's results, an active detection's state).
+// Of its mesh, creases and raster step: what was made with a model of another one is not taken up
+// with this (a batch's results, an active detection's state).
 std::uint64_t fingerprint(const EdgeModel& model);
 
 }  // namespace edgescout

@@ -26,12 +26,12 @@ void put_options(BinaryWriter& out, const TemplateOptions& o) {
 TemplateOptions get_options(BinaryReader& in) {
   TemplateOptions o;
   o.frequency = in.get<int>();
-  for (double* v : {&o.range.latitude_min_deg, &o.range.latitude_max_deg, &o.range.longitude_min_deg,
-                    &o.range.longitude_max_deg})
+  for (double* v : {&o.range.latitude_min_deg, &o.range.latitude_max_deg,
+                    &o.range.longitude_min_deg, &o.range.longitude_max_deg})
     *v = in.get<double>();
   o.in_plane_steps = in.get<int>();
-  for (double* v : {&o.distance_min_m, &o.distance_max_m, &o.distance_ratio, &o.edges.crease_angle_deg,
-                    &o.edges.raster_step_m})
+  for (double* v : {&o.distance_min_m, &o.distance_max_m, &o.distance_ratio,
+                    &o.edges.crease_angle_deg, &o.edges.raster_step_m})
     *v = in.get<double>();
   o.validate();
   return o;
@@ -45,7 +45,8 @@ std::string payload_of(const TemplateSet& set) {
   out.put(static_cast<std::uint64_t>(set.symmetries.discrete.size()));
   for (const Se3& s : set.symmetries.discrete) out.put_pose(s);
   std::vector<std::array<double, 3>> vertices;
-  for (const Eigen::Vector3d& v : set.model.mesh.vertices_m) vertices.push_back({v.x(), v.y(), v.z()});
+  for (const Eigen::Vector3d& v : set.model.mesh.vertices_m)
+    vertices.push_back({v.x(), v.y(), v.z()});
   out.put_list(vertices);
   out.put_list(set.model.mesh.triangles);
   out.put(static_cast<std::uint64_t>(set.views.size()));
@@ -66,7 +67,8 @@ TemplateSet set_from(std::string_view payload, const std::string& source) {
   for (std::size_t i = in.count(7 * sizeof(double)); i > 0; --i)
     set.symmetries.discrete.push_back(in.get_pose());
   std::vector<Eigen::Vector3d> vertices;
-  for (const auto& v : in.get_list<std::array<double, 3>>()) vertices.emplace_back(v[0], v[1], v[2]);
+  for (const auto& v : in.get_list<std::array<double, 3>>())
+    vertices.emplace_back(v[0], v[1], v[2]);
   const Mesh mesh = make_mesh(name, std::move(vertices), in.get_list<std::array<int, 3>>());
   set.model = make_edge_model(mesh, set.options.edges);
   for (std::size_t i = in.count(4 * sizeof(double)); i > 0; --i) {

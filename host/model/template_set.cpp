@@ -28,9 +28,11 @@ void TemplateOptions::validate() const {
   edges.validate();
 }
 
-TemplateOptions with_default_distances(TemplateOptions options, double diameter_m, const Camera& camera) {
+TemplateOptions with_default_distances(TemplateOptions options, double diameter_m,
+                                       const Camera& camera) {
   if (options.distance_min_m > 0) return options;
-  const double pixels = std::min(camera.width, camera.height), focal = 0.5 * (camera.fx + camera.fy);
+  const double pixels = std::min(camera.width, camera.height),
+               focal = 0.5 * (camera.fx + camera.fy);
   options.distance_min_m = focal * diameter_m / (pixels / 3);
   options.distance_max_m = 2 * options.distance_min_m;
   return options;
@@ -39,7 +41,8 @@ TemplateOptions with_default_distances(TemplateOptions options, double diameter_
 std::vector<double> template_distances_m(const TemplateOptions& options) {
   check(options.distance_min_m > 0, "template_distances_m: distances not set");
   const double span = std::log(options.distance_max_m / options.distance_min_m);
-  const int steps = std::max(0, static_cast<int>(std::ceil(span / std::log(options.distance_ratio) - 1e-9)));
+  const int steps =
+      std::max(0, static_cast<int>(std::ceil(span / std::log(options.distance_ratio) - 1e-9)));
   std::vector<double> distances;
   for (int i = 0; i <= steps; ++i)
     distances.push_back(options.distance_min_m * std::exp(steps ? span * i / steps : 0));
@@ -58,8 +61,8 @@ TemplateSet build_templates(const Object& object, const TemplateOptions& options
   const std::vector<Eigen::Vector3d> directions =
       viewpoints_in(options.range, object.symmetries, options.frequency);
   // The visible set hardly depends on the distance within 2 : 1; take the geometric middle.
-  const double distance =
-      std::max(std::sqrt(options.distance_min_m * options.distance_max_m), 1.2 * set.model.radius_m);
+  const double distance = std::max(std::sqrt(options.distance_min_m * options.distance_max_m),
+                                   1.2 * set.model.radius_m);
   constexpr std::size_t chunk = 32;
   for (std::size_t first = 0; first < directions.size(); first += chunk) {
     std::vector<Se3> poses;

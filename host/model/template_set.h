@@ -1,9 +1,10 @@
-// An object's templates: the visible edge points of every viewpoint, from which detection makes its image
-// templates.
+// An object's templates: the visible edge points of every viewpoint, from which detection makes its
+// image templates.
 //
-// In-plane rotation and image position need no templates of their own: they turn and shift the camera about
-// the line of sight, which leaves the visible points as they are. Detection applies them relative to the
-// viewing ray, not to the image plane, so that perspective at the image's border is right.
+// In-plane rotation and image position need no templates of their own: they turn and shift the
+// camera about the line of sight, which leaves the visible points as they are. Detection applies
+// them relative to the viewing ray, not to the image plane, so that perspective at the image's
+// border is right.
 #pragma once
 
 #include <filesystem>
@@ -28,9 +29,10 @@ struct TemplateOptions {
   void validate() const;  // throws InputError naming the field and the violated bound
 };
 
-// Fills distances left at 0: the object's diameter spans between a sixth and a third of the image's smaller
-// side (a range of 2 : 1).
-TemplateOptions with_default_distances(TemplateOptions options, double diameter_m, const Camera& camera);
+// Fills distances left at 0: the object's diameter spans between a sixth and a third of the image's
+// smaller side (a range of 2 : 1).
+TemplateOptions with_default_distances(TemplateOptions options, double diameter_m,
+                                       const Camera& camera);
 std::vector<double> template_distances_m(const TemplateOptions& options);
 
 struct TemplateView {
@@ -46,14 +48,14 @@ struct TemplateSet {
   std::vector<TemplateView> views;
 };
 
-// `progress` is called with (views done, views in all), from this thread. InputError: options out of bounds,
-// no viewpoint that shows an edge; LogicError: distances that are not set.
+// `progress` is called with (views done, views in all), from this thread. InputError: options out
+// of bounds, no viewpoint that shows an edge; LogicError: distances that are not set.
 TemplateSet build_templates(const Object& object, const TemplateOptions& options, Backend& backend,
                             const std::function<void(int, int)>& progress = {});
 
-// One file: magic, version, length and checksum, then the payload (mesh included: a set needs no other file).
-// Written atomically. Loading throws InputError naming the file for a file cut short, of another version,
-// with a wrong checksum or no template file at all.
+// One file: magic, version, length and checksum, then the payload (mesh included: a set needs no
+// other file). Written atomically. Loading throws InputError naming the file for a file cut short,
+// of another version, with a wrong checksum or no template file at all.
 void save_templates(const TemplateSet& set, const std::filesystem::path& file);
 TemplateSet load_templates(const std::filesystem::path& file);
 // By how it begins; false where it cannot be read.

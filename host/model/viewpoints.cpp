@@ -53,8 +53,8 @@ std::vector<Eigen::Vector3d> modulo_symmetry(const std::vector<Eigen::Vector3d>&
   for (const Eigen::Vector3d& d : directions) {
     bool canonical = true;
     for (const Se3& symmetry : symmetries.discrete) {
-      // d may stand this far beyond the plane that halves w and its image under the symmetry, times |S w -
-      // w|.
+      // d may stand this far beyond the plane that halves w and its image under the symmetry, times
+      // |S w - w|.
       const double margin = std::sin(margin_rad) * (symmetry.rotation * generic - generic).norm();
       canonical &= d.dot(generic) >= (symmetry.rotation * d).dot(generic) - margin;
     }
@@ -75,7 +75,8 @@ std::vector<Eigen::Vector3d> viewpoints_in(const SphereRange& range, const Symme
 
 Eigen::Quaterniond looking_from(const Eigen::Vector3d& direction) {
   const Eigen::Vector3d z = -direction.normalized();
-  const Eigen::Vector3d helper = std::abs(z.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d helper =
+      std::abs(z.z()) < 0.9 ? Eigen::Vector3d::UnitZ() : Eigen::Vector3d::UnitX();
   const Eigen::Vector3d x = z.cross(helper).normalized(), y = z.cross(x);
   Eigen::Matrix3d object_from_camera;
   object_from_camera << x, y, z;

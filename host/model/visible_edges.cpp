@@ -50,14 +50,14 @@ struct Looking {
     for (const auto& [point_m, tangent] : from) {
       const Eigen::Vector3d in_camera = turn * point_m + shift_m;
       if (in_camera.z() > 0 && window.shows(in_camera, tolerance_m))
-        points.push_back({float(point_m.x()), float(point_m.y()), float(point_m.z()), float(tangent.x()),
-                          float(tangent.y()), float(tangent.z())});
+        points.push_back({float(point_m.x()), float(point_m.y()), float(point_m.z()),
+                          float(tangent.x()), float(tangent.y()), float(tangent.z())});
     }
   }
 };
 
-// The contour of a curved surface inside one triangle: where the interpolated normal is perpendicular to the
-// line of sight.
+// The contour of a curved surface inside one triangle: where the interpolated normal is
+// perpendicular to the line of sight.
 bool contour_in_triangle(const EdgeModel& model, int triangle, const Eigen::Vector3d& eye,
                          Eigen::Vector3d ends[2]) {
   double facing[3];
@@ -69,14 +69,14 @@ bool contour_in_triangle(const EdgeModel& model, int triangle, const Eigen::Vect
     const double a = facing[c], b = facing[(c + 1) % 3];
     if ((a < 0) == (b < 0)) continue;
     const double s = a / (a - b);
-    ends[found++] =
-        (1 - s) * model.mesh.vertices_m[corners[c]] + s * model.mesh.vertices_m[corners[(c + 1) % 3]];
+    ends[found++] = (1 - s) * model.mesh.vertices_m[corners[c]] +
+                    s * model.mesh.vertices_m[corners[(c + 1) % 3]];
   }
   return found == 2;
 }
 
-std::vector<ModelPoint> points_of_pose(const EdgeModel& model, const Se3& pose, const Window& window,
-                                       double tolerance_m) {
+std::vector<ModelPoint> points_of_pose(const EdgeModel& model, const Se3& pose,
+                                       const Window& window, double tolerance_m) {
   Looking looking{pose.rotation.toRotationMatrix(), pose.translation_m, window, tolerance_m, {}};
   looking.add_visible(model.crease_points);
   const Eigen::Vector3d eye = inverse(pose).translation_m;
@@ -92,7 +92,9 @@ std::vector<ModelPoint> points_of_pose(const EdgeModel& model, const Se3& pose, 
 
 }  // namespace
 
-Intrinsics intrinsics_of(const Camera& c) { return {float(c.fx), float(c.fy), float(c.cx), float(c.cy)}; }
+Intrinsics intrinsics_of(const Camera& c) {
+  return {float(c.fx), float(c.fy), float(c.cx), float(c.cy)};
+}
 
 Pose to_pose(const Se3& b_from_a) {
   const Eigen::Matrix3d r = b_from_a.rotation.toRotationMatrix();
@@ -111,7 +113,8 @@ void VisibilityOptions::validate() const {
 }
 
 std::vector<std::vector<ModelPoint>> visible_edges(const EdgeModel& model,
-                                                   std::span<const Se3> camera_from_object, Backend& backend,
+                                                   std::span<const Se3> camera_from_object,
+                                                   Backend& backend,
                                                    const VisibilityOptions& options) {
   options.validate();
   const int size = options.depth_map_size_px;
@@ -124,15 +127,16 @@ std::vector<std::vector<ModelPoint>> visible_edges(const EdgeModel& model,
     const std::size_t count = std::min(chunk, camera_from_object.size() - first);
     jobs.clear();
     for (std::size_t i = 0; i < count; ++i)
-      jobs.push_back(
-          {to_pose(camera_from_object[first + i]), frame_object(model, camera_from_object[first + i], size)});
+      jobs.push_back({to_pose(camera_from_object[first + i]),
+                      frame_object(model, camera_from_object[first + i], size)});
     depth.resize(count * size * size);
     backend.depth_raster(model.triangle_mesh(), jobs, size, size, depth);
     backend.threads().for_each(count, [&](std::size_t i) {
       const Se3& pose = camera_from_object[first + i];
       if ((pose * model.center_m).z() <= model.radius_m * 0.05) return;
       const Window window{depth.data() + i * size * size, size, jobs[i].intrinsics};
-      result[first + i] = points_of_pose(model, pose, window, options.tolerance * model.mesh.diameter_m);
+      result[first + i] =
+          points_of_pose(model, pose, window, options.tolerance * model.mesh.diameter_m);
     });
   }
   return result;

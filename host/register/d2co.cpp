@@ -25,9 +25,11 @@ struct PointSets {
 PointSets collect_points(std::span<const Hypothesis> hypotheses, std::span<const PoseTrack> tracks,
                          const PointsInViews& points, std::size_t views, int most) {
   std::vector<Hypothesis> poses;
-  for (std::size_t h = 0; h < hypotheses.size(); ++h) poses.push_back({hypotheses[h].object, tracks[h].pose});
+  for (std::size_t h = 0; h < hypotheses.size(); ++h)
+    poses.push_back({hypotheses[h].object, tracks[h].pose});
   const std::vector<std::vector<ModelPoint>> in_views = points(poses);
-  check(in_views.size() == poses.size() * views, "register_seen: one list of points a pose and view");
+  check(in_views.size() == poses.size() * views,
+        "register_seen: one list of points a pose and view");
   PointSets sets;
   for (const std::vector<ModelPoint>& seen : in_views) {
     const std::vector<ModelPoint> kept = thinned(seen, most);
@@ -46,14 +48,15 @@ class Evaluator {
     for (const RegisterView& view : views) handles_.push_back(view.view);
   }
 
-  // Systems at the trial poses of the active tracks, in the tracks' order; inactive ones stay empty.
+  // Systems at the trial poses of the active tracks, in the tracks' order; inactive ones stay
+  // empty.
   std::vector<WorldSystem> at_trials(std::span<const PoseTrack> tracks) {
     problems_.clear();
     for (std::size_t h = 0; h < tracks.size(); ++h)
       for (std::size_t v = 0; tracks[h].active && v < views_.size(); ++v) {
         const std::size_t slot = h * views_.size() + v;
-        problems_.push_back({to_pose(views_[v].camera_from_world * tracks[h].trial), sets_.first[slot],
-                             sets_.count[slot], static_cast<std::uint32_t>(v)});
+        problems_.push_back({to_pose(views_[v].camera_from_world * tracks[h].trial),
+                             sets_.first[slot], sets_.count[slot], static_cast<std::uint32_t>(v)});
       }
     results_.resize(problems_.size());
     backend_.pose_normal_equations(handles_, sets_.points, problems_, loss_, results_);
@@ -170,14 +173,17 @@ std::vector<Registration> register_poses(std::span<const EdgeModel> models,
 }
 
 std::vector<Registration> register_seen(std::span<const Hypothesis> hypotheses,
-                                        std::span<const RegisterView> views, const PointsInViews& points,
-                                        Backend& backend, const D2coOptions& options) {
+                                        std::span<const RegisterView> views,
+                                        const PointsInViews& points, Backend& backend,
+                                        const D2coOptions& options) {
   options.validate();
   check_problem(hypotheses, std::numeric_limits<std::size_t>::max(), views);
   std::vector<PoseTrack> tracks(hypotheses.size());
-  for (std::size_t h = 0; h < hypotheses.size(); ++h) tracks[h].pose = hypotheses[h].world_from_object;
+  for (std::size_t h = 0; h < hypotheses.size(); ++h)
+    tracks[h].pose = hypotheses[h].world_from_object;
   for (const D2coRound& round : options.rounds) {
-    const PointSets sets = collect_points(hypotheses, tracks, points, views.size(), round.max_points);
+    const PointSets sets =
+        collect_points(hypotheses, tracks, points, views.size(), round.max_points);
     Evaluator evaluator(sets, views, backend, {round.loss, round.scale_px});
     run_round(tracks, evaluator, round, options);
   }

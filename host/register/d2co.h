@@ -1,10 +1,10 @@
-// D2CO: registration of object poses directly on the DCD tensors of one or several views (paper, Secs. 4.1
-// and 4.3).
+// D2CO: registration of object poses directly on the DCD tensors of one or several views (paper,
+// Secs. 4.1 and 4.3).
 //
-// Minimises E(pose) = sum over views, points of rho(DT3_view(x_i, xi_i)) by Levenberg-Marquardt over the
-// tangent of core/se3.h at world_from_object (Eqs. 8 and 11). Projections and orientations are recomputed at
-// every evaluation; the visible points at the start of every round. All poses of a call are refined side by
-// side: one kernel call gives the systems of all of them in all views.
+// Minimises E(pose) = sum over views, points of rho(DT3_view(x_i, xi_i)) by Levenberg-Marquardt
+// over the tangent of core/se3.h at world_from_object (Eqs. 8 and 11). Projections and orientations
+// are recomputed at every evaluation; the visible points at the start of every round. All poses of
+// a call are refined side by side: one kernel call gives the systems of all of them in all views.
 #pragma once
 
 #include <memory>
@@ -41,10 +41,12 @@ struct Occluders;  // occluders.h
 struct RegisterView {
   ViewHandle view;
   Camera camera;
-  Se3 camera_from_world;                   // identity where the world is the camera frame
-  std::shared_ptr<const EdgeIndex> edges;  // the edge points themselves; register_poses does without
+  Se3 camera_from_world;  // identity where the world is the camera frame
+  std::shared_ptr<const EdgeIndex>
+      edges;          // the edge points themselves; register_poses does without
   ViewHandle coarse;  // the same edges on a reduced tensor: a wider basin for the search (refine.h)
-  std::shared_ptr<const Image> image;  // undistorted; for shading (shading.h) and baselines that look at grey
+  std::shared_ptr<const Image>
+      image;  // undistorted; for shading (shading.h) and baselines that look at grey
   std::shared_ptr<const Occluders> occluders;  // what known objects hide here; none: nothing
 };
 
@@ -58,8 +60,8 @@ std::string to_string(Convergence reason);
 
 struct Registration {
   Se3 world_from_object;
-  // inverse of the final J'WJ, times the residual variance: points taken for independent; of a polished pose
-  // that of edge_covariance.h; infinite where singular
+  // inverse of the final J'WJ, times the residual variance: points taken for independent; of a
+  // polished pose that of edge_covariance.h; infinite where singular
   Matrix6d covariance = Matrix6d::Zero();
   double cost_px2 = 0;  // final sum of rho over all points and views
   double mean_px = 0;   // mean residual
@@ -68,8 +70,8 @@ struct Registration {
   Convergence reason = Convergence::NoPoints;
 };
 
-// Covariance of a pose from its final system: variance * hessian^-1 in the tangent of core/se3.h, infinite
-// where singular.
+// Covariance of a pose from its final system: variance * hessian^-1 in the tangent of core/se3.h,
+// infinite where singular.
 Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance);
 
 // The same objects at their registered poses: starts for what comes next.
@@ -79,8 +81,8 @@ std::vector<Hypothesis> as_hypotheses(std::span<const Hypothesis> starts,
 // Evenly; all of them where `most` is 0 or enough.
 std::vector<ModelPoint> thinned(const std::vector<ModelPoint>& points, int most);
 
-// Results in the order of the hypotheses. InputError: options out of bounds; LogicError: no view, a view or a
-// start that stands nowhere, an object that no model is of.
+// Results in the order of the hypotheses. InputError: options out of bounds; LogicError: no view, a
+// view or a start that stands nowhere, an object that no model is of.
 std::vector<Registration> register_poses(std::span<const EdgeModel> models,
                                          std::span<const Hypothesis> hypotheses,
                                          std::span<const RegisterView> views, Backend& backend,

@@ -46,8 +46,8 @@ struct RoundProblem {
   }
 };
 
-void add_visible_points(RoundProblem& round, const EdgeModel& model, const HostView& view, Backend& backend,
-                        const VisibilityOptions& visibility, int most) {
+void add_visible_points(RoundProblem& round, const EdgeModel& model, const HostView& view,
+                        Backend& backend, const VisibilityOptions& visibility, int most) {
   const Se3& camera_from_world = view.view.camera_from_world;
   const Hypothesis pose{0, from_parameters(round.pose.data())};
   const std::vector<ModelPoint> visible =
@@ -64,8 +64,8 @@ ceres::Solver::Options solver_options(const D2coRound& round, const D2coOptions&
   solver.linear_solver_type = ceres::DENSE_QR;
   solver.logging_type = ceres::SILENT;
   solver.max_num_iterations = round.iterations;
-  // Ceres judges the step by its length among the 7 parameters, relative to theirs, which is at least that of
-  // the quaternion, one: a rotation counts half.
+  // Ceres judges the step by its length among the 7 parameters, relative to theirs, which is at
+  // least that of the quaternion, one: a rotation counts half.
   solver.parameter_tolerance = std::min(options.min_step_m, 0.5 * options.min_step_rad);
   solver.function_tolerance = 0;
   solver.gradient_tolerance = 0;
@@ -83,8 +83,8 @@ Convergence reason_of(const ceres::Solver::Summary& summary) {
   }
 }
 
-// The weighted system at the solution, in the world's tangent. Ceres counts no point that it could not
-// evaluate: then the system is empty.
+// The weighted system at the solution, in the world's tangent. Ceres counts no point that it could
+// not evaluate: then the system is empty.
 WorldSystem system_at_solution(RoundProblem& round) {
   ceres::Problem::EvaluateOptions bare;
   bare.apply_loss_function = false;
@@ -110,7 +110,8 @@ void fill(Registration& result, const WorldSystem& system) {
   result.cost_px2 = system.cost;
   result.points = static_cast<int>(system.points);
   result.mean_px = system.points > 0 ? system.residual_sum / system.points : 0;
-  result.covariance = pose_covariance(system.hessian, 2 * system.cost / std::max(1.0, system.weight_sum - 6));
+  result.covariance =
+      pose_covariance(system.hessian, 2 * system.cost / std::max(1.0, system.weight_sum - 6));
 }
 
 void solve_round(Registration& result, const EdgeModel& model, std::span<const HostView> views,
@@ -136,8 +137,8 @@ void solve_round(Registration& result, const EdgeModel& model, std::span<const H
 
 std::vector<Registration> register_poses_ceres(std::span<const EdgeModel> models,
                                                std::span<const Hypothesis> hypotheses,
-                                               std::span<const RegisterView> views, Backend& backend,
-                                               const D2coOptions& options) {
+                                               std::span<const RegisterView> views,
+                                               Backend& backend, const D2coOptions& options) {
   options.validate();
   check_problem(hypotheses, models.size(), views);
   const std::vector<HostView> host = download(views);

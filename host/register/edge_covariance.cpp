@@ -6,7 +6,8 @@
 
 namespace edgescout {
 
-void EdgeCovariance::add(std::uint64_t edge, double distance_px, double weight, const Vector6d& jacobian) {
+void EdgeCovariance::add(std::uint64_t edge, double distance_px, double weight,
+                         const Vector6d& jacobian) {
   Sums& sums = edges_[edge];
   sums.jacobian += weight * jacobian;
   sums.distance_px += weight * distance_px;
@@ -30,12 +31,14 @@ Matrix6d EdgeCovariance::covariance() const {
     between_px2 += sums.distance_px * sums.distance_px;
     free_within += sums.weight * (1 - 1.0 / sums.points);
   }
-  // E[within] = b free_within; E[between] = a free_between + b own_between, with the pose at its optimum.
+  // E[within] = b free_within; E[between] = a free_between + b own_between, with the pose at its
+  // optimum.
   const double own_px2 = std::max(0.0, squares_px2_ - explained_px2) / std::max(1.0, free_within);
   const Matrix6d taken = inverse * by_edge;
   const double own_between = std::max(0.0, weight - taken.trace()),
-               free_between = std::max(
-                   0.0, squared_weight - 2 * (inverse * by_weighted_edge).trace() + (taken * taken).trace());
+               free_between =
+                   std::max(0.0, squared_weight - 2 * (inverse * by_weighted_edge).trace() +
+                                     (taken * taken).trace());
   const double expected_free = EXPECTED_FROM_EDGES * squared_weight / double(edges_.size()),
                expected_px2 = EXPECTED_DISPLACEMENT_PX * EXPECTED_DISPLACEMENT_PX;
   const double shared_px2 =

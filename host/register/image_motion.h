@@ -6,8 +6,10 @@
 
 namespace edgescout {
 
-// Derivative of nx * u + ny * v by the camera's tangent (core/se3.h), (u, v) the projection of the point.
-inline Vector6d image_motion(double nx, double ny, const PosedPoint<double>& p, const Intrinsics& k) {
+// Derivative of nx * u + ny * v by the camera's tangent (core/se3.h), (u, v) the projection of the
+// point.
+inline Vector6d image_motion(double nx, double ny, const PosedPoint<double>& p,
+                             const Intrinsics& k) {
   const double z = p.point.z;
   const Vec3<double> by_point{nx * k.fx / z, ny * k.fy / z,
                               -(nx * k.fx * p.point.x + ny * k.fy * p.point.y) / (z * z)};

@@ -25,12 +25,15 @@ void draw(const EdgeModel& model, std::span<const Se3> camera_from_object, Occlu
   }
 }
 
-// How many of the 3 x 3 pixels around a point's projection show something nearer; none outside the image.
-int nearer_around(const Occluders& occluders, const Eigen::Vector3d& in_camera, double tolerance_m) {
+// How many of the 3 x 3 pixels around a point's projection show something nearer; none outside the
+// image.
+int nearer_around(const Occluders& occluders, const Eigen::Vector3d& in_camera,
+                  double tolerance_m) {
   const Camera& camera = occluders.camera;
   if (in_camera.z() <= 0) return 0;
   const Eigen::Vector2d pixel = project(camera, in_camera).array().round();
-  if (!(pixel.x() >= 1 && pixel.y() >= 1 && pixel.x() < camera.width - 1 && pixel.y() < camera.height - 1))
+  if (!(pixel.x() >= 1 && pixel.y() >= 1 && pixel.x() < camera.width - 1 &&
+        pixel.y() < camera.height - 1))
     return 0;
   const float limit = float(in_camera.z() - tolerance_m);
   const std::size_t width = std::size_t(camera.width),
@@ -51,21 +54,21 @@ bool Occluders::may_hide(const Eigen::Vector3d& in_camera, double tolerance_m) c
   return nearer_around(*this, in_camera, tolerance_m) > 0;
 }
 
-void remove_hidden(std::vector<ModelPoint>& points, const Occluders& occluders, const Se3& camera_from_object,
-                   double tolerance_m) {
+void remove_hidden(std::vector<ModelPoint>& points, const Occluders& occluders,
+                   const Se3& camera_from_object, double tolerance_m) {
   std::erase_if(points, [&](const ModelPoint& p) {
     return occluders.hide(camera_from_object * Eigen::Vector3d(p.x_m, p.y_m, p.z_m), tolerance_m);
   });
 }
 
 std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> models,
-                                                std::span<const Hypothesis> known, const RegisterView& view,
-                                                Backend& backend) {
+                                                std::span<const Hypothesis> known,
+                                                const RegisterView& view, Backend& backend) {
   if (known.empty()) return nullptr;
   auto occluders = std::make_shared<Occluders>();
   occluders->camera = scaled(view.camera, 1 / REDUCTION);
-  occluders->depth_m.assign(std::size_t(occluders->camera.width) * std::size_t(occluders->camera.height),
-                            DEPTH_EMPTY);
+  occluders->depth_m.assign(
+      std::size_t(occluders->camera.width) * std::size_t(occluders->camera.height), DEPTH_EMPTY);
   for (std::size_t object = 0; object < models.size(); ++object) {
     std::vector<Se3> poses;
     for (const Hypothesis& h : known)

@@ -1,5 +1,5 @@
-// The one form of both fits of scripts/fit_probability.py: log_odds (pose_features.h), which ranks, and
-// pose_probability (detect/probability.h), which is reported.
+// The one form of both fits of scripts/fit_probability.py: log_odds (pose_features.h), which ranks,
+// and pose_probability (detect/probability.h), which is reported.
 #pragma once
 
 #include "host/register/pose_features.h"

@@ -36,8 +36,8 @@ Eigen::Matrix<double, 3, 6> image_by_edge(const Intrinsics& k, const Eigen::Vect
   by_edge.topLeftCorner<2, 3>() = by_point;
   const Eigen::Vector2d d = by_point * tangent;
   if (d.norm() < POSE_MIN_FORESHORTENING * k.fx / p.z()) return by_edge;
-  // z d = [fx (tx - tz x/z), fy (ty - tz y/z)] has the same direction; x/z and y/z move as the projection
-  // does.
+  // z d = [fx (tx - tz x/z), fy (ty - tz y/z)] has the same direction; x/z and y/z move as the
+  // projection does.
   Eigen::Matrix<double, 2, 6> by_both;
   by_both.leftCols<3>() = -tangent.z() * by_point;
   by_both.rightCols<3>() = p.z() * by_point;
@@ -54,7 +54,8 @@ PointCost::PointCost(const TensorView& view, const Se3& camera_from_world, const
       point_m_(point.x_m, point.y_m, point.z_m),
       tangent_(point.tx, point.ty, point.tz) {}
 
-bool PointCost::Evaluate(double const* const* parameters, double* residuals, double** jacobians) const {
+bool PointCost::Evaluate(double const* const* parameters, double* residuals,
+                         double** jacobians) const {
   const Se3 world_from_object = from_parameters(parameters[0]);
   const Eigen::Vector3d arm = world_from_object.rotation * point_m_,
                         tangent_in_world = world_from_object.rotation * tangent_;
@@ -64,8 +65,9 @@ bool PointCost::Evaluate(double const* const* parameters, double* residuals, dou
   const Intrinsics& k = view_.intrinsics;
   const Eigen::Vector2d direction = projection_by_point(k, p) * tangent;
   float slope[3];
-  residuals[0] = tensor_lookup(view_, float(k.fx * p.x() / p.z() + k.cx), float(k.fy * p.y() / p.z() + k.cy),
-                               float(undirected(direction)), slope);
+  residuals[0] =
+      tensor_lookup(view_, float(k.fx * p.x() / p.z() + k.cx), float(k.fy * p.y() / p.z() + k.cy),
+                    float(undirected(direction)), slope);
   if (!jacobians || !jacobians[0]) return true;
   const Eigen::Matrix3d camera_from_world = camera_from_world_.rotation.toRotationMatrix();
   Matrix6d edge_by_pose = Matrix6d::Zero();

@@ -1,6 +1,6 @@
-// One model point in one view as a residual of Ceres: the tensor's value in px where the point falls, as
-// kernels/pose_normal_equations.h defines it, with the derivative worked out a second time, in matrices.
-// Private to host/register and its tests.
+// One model point in one view as a residual of Ceres: the tensor's value in px where the point
+// falls, as kernels/pose_normal_equations.h defines it, with the derivative worked out a second
+// time, in matrices. Private to host/register and its tests.
 #pragma once
 
 #include <memory>
@@ -13,12 +13,14 @@
 
 namespace edgescout {
 
-// Parameters: world_from_object in the order of se3_manifold.h. Not owned: the tensor behind `view`. A pose
-// that brings the point to POSE_MIN_DEPTH_M or nearer cannot be evaluated: Ceres takes such a step back.
+// Parameters: world_from_object in the order of se3_manifold.h. Not owned: the tensor behind
+// `view`. A pose that brings the point to POSE_MIN_DEPTH_M or nearer cannot be evaluated: Ceres
+// takes such a step back.
 class PointCost : public ceres::SizedCostFunction<1, 7> {
  public:
   PointCost(const TensorView& view, const Se3& camera_from_world, const ModelPoint& point);
-  bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override;
+  bool Evaluate(double const* const* parameters, double* residuals,
+                double** jacobians) const override;
 
  private:
   TensorView view_;

@@ -16,8 +16,8 @@ namespace edgescout {
 
 namespace {
 
-// One model point against its edge point: signed distance to the edge's tangent line, px, and its derivative
-// by the camera's tangent.
+// One model point against its edge point: signed distance to the edge's tangent line, px, and its
+// derivative by the camera's tangent.
 struct LineResidual {
   double nx, ny;  // normal of the line
   double value;
@@ -35,12 +35,12 @@ struct Counts {
   int points = 0, matched = 0;
 };
 
-// Calls visit(residual, weight, projected point) for every point that finds an edge. Derivatives are by the
-// camera's tangent.
+// Calls visit(residual, weight, projected point) for every point that finds an edge. Derivatives
+// are by the camera's tangent.
 template <typename Visit>
 Counts match_points(const RegisterView& view, const Se3& world_from_object,
-                    std::span<const ModelPoint> points, const PolishRound& round, float max_turn_rad,
-                    const Visit& visit) {
+                    std::span<const ModelPoint> points, const PolishRound& round,
+                    float max_turn_rad, const Visit& visit) {
   const Pose pose = to_pose(view.camera_from_world * world_from_object);
   const Intrinsics& k = view.view->intrinsics;
   Counts counts;
@@ -49,9 +49,9 @@ Counts match_points(const RegisterView& view, const Se3& world_from_object,
     if (!can_be_seen(posed.point)) continue;
     ++counts.points;
     const ProjectedEdge<double> projected = project_edge(posed, k);
-    const EdgePoint* edge =
-        view.edges->nearest(float(projected.u), float(projected.v),
-                            float(orientation(projected.dx, projected.dy)), round.radius_px, max_turn_rad);
+    const EdgePoint* edge = view.edges->nearest(float(projected.u), float(projected.v),
+                                                float(orientation(projected.dx, projected.dy)),
+                                                round.radius_px, max_turn_rad);
     if (!edge) continue;
     ++counts.matched;
     const LineResidual r = residual_to(*edge, posed, projected, k);
@@ -91,23 +91,27 @@ void add_points(LineSystem& sum, const RegisterView& view, const Se3& world_from
   sum.counts.matched += counts.matched;
 }
 
-// Points on one straight line of a view share a number, those of a curve one for every 15 degrees of it.
+// Points on one straight line of a view share a number, those of a curve one for every 15 degrees
+// of it.
 std::uint64_t line_number(std::size_t view, double theta_rad, double offset_px) {
   constexpr double arc_rad = std::numbers::pi / 12, width_px = 4;
   constexpr std::int64_t arcs = 16, offsets = 1 << 24;  // more than there are of either
-  const auto arc = std::int64_t(theta_rad / arc_rad), offset = std::int64_t(std::floor(offset_px / width_px));
+  const auto arc = std::int64_t(theta_rad / arc_rad),
+             offset = std::int64_t(std::floor(offset_px / width_px));
   return std::uint64_t((std::int64_t(view) * arcs + arc) * offsets + offset + offsets / 2);
 }
 
 Matrix6d covariance_at(const Se3& pose, std::span<const RegisterView> views,
-                       std::span<const VisibleInView> seen, const PolishRound& round, float max_turn_rad) {
+                       std::span<const VisibleInView> seen, const PolishRound& round,
+                       float max_turn_rad) {
   EdgeCovariance sum;
   for (std::size_t v = 0; v < views.size(); ++v) {
     if (!views[v].edges) continue;
     const Matrix6d to_camera = camera_tangent(views[v]);
     match_points(views[v], pose, seen[v].points, round, max_turn_rad,
                  [&](const LineResidual& r, double weight, const ProjectedEdge<double>& p) {
-                   const double theta = orientation(p.dx, p.dy), nx = -std::sin(theta), ny = std::cos(theta);
+                   const double theta = orientation(p.dx, p.dy), nx = -std::sin(theta),
+                                ny = std::cos(theta);
                    // The edge's direction may have wrapped where the point's has not.
                    const double sign = r.nx * nx + r.ny * ny < 0 ? -1 : 1;
                    sum.add(line_number(v, theta, nx * p.u + ny * p.v), sign * r.value, weight,
@@ -118,7 +122,8 @@ Matrix6d covariance_at(const Se3& pose, std::span<const RegisterView> views,
 }
 
 LineSystem system_at(const Se3& pose, std::span<const RegisterView> views,
-                     std::span<const VisibleInView> seen, const PolishRound& round, float max_turn_rad) {
+                     std::span<const VisibleInView> seen, const PolishRound& round,
+                     float max_turn_rad) {
   LineSystem sum;
   for (std::size_t v = 0; v < views.size(); ++v)
     if (views[v].edges) add_points(sum, views[v], pose, seen[v].points, round, max_turn_rad);
@@ -142,12 +147,16 @@ void polish_one(Registration& registration, std::span<const RegisterView> views,
       const Vector6d step = -system.hessian.ldlt().solve(system.gradient);
       if (!step.allFinite()) return;
       pose = retract(pose, step);
-      if (step.head<3>().norm() < options.min_step_m && step.tail<3>().norm() < options.min_step_rad) break;
+      if (step.head<3>().norm() < options.min_step_m &&
+          step.tail<3>().norm() < options.min_step_rad)
+        break;
     }
-  const LineSystem final_system = system_at(pose, views, seen, options.rounds.back(), options.max_turn_rad);
+  const LineSystem final_system =
+      system_at(pose, views, seen, options.rounds.back(), options.max_turn_rad);
   if (!enough(final_system, options)) return;
   registration.world_from_object = pose;
-  registration.covariance = covariance_at(pose, views, seen, options.rounds.back(), options.max_turn_rad);
+  registration.covariance =
+      covariance_at(pose, views, seen, options.rounds.back(), options.max_turn_rad);
 }
 
 }  // namespace
@@ -169,13 +178,14 @@ void PolishOptions::validate() const {
 }
 
 void polish_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
-                  std::span<const RegisterView> views, Backend& backend, const PolishOptions& options,
-                  std::span<Registration> registrations) {
-  std::vector<VisibleInView> seen =
-      visible_in_views(models, as_hypotheses(hypotheses, registrations), views, backend, options.visibility);
+                  std::span<const RegisterView> views, Backend& backend,
+                  const PolishOptions& options, std::span<Registration> registrations) {
+  std::vector<VisibleInView> seen = visible_in_views(
+      models, as_hypotheses(hypotheses, registrations), views, backend, options.visibility);
   for (VisibleInView& view : seen) view.points = thinned(view.points, options.max_points);
   backend.threads().for_each(hypotheses.size(), [&](std::size_t h) {
-    polish_one(registrations[h], views, std::span(seen).subspan(h * views.size(), views.size()), options);
+    polish_one(registrations[h], views, std::span(seen).subspan(h * views.size(), views.size()),
+               options);
   });
 }
 

@@ -13,9 +13,10 @@ namespace edgescout {
 
 namespace {
 
-// A raster point stands for raster_step of edge, seen at an angle; end-on edges are short in the image.
-double length_in_image_px(const EdgeModel& model, const Se3& camera_from_object, const BackendView& view,
-                          std::span<const ModelPoint> points) {
+// A raster point stands for raster_step of edge, seen at an angle; end-on edges are short in the
+// image.
+double length_in_image_px(const EdgeModel& model, const Se3& camera_from_object,
+                          const BackendView& view, std::span<const ModelPoint> points) {
   const Pose pose = to_pose(camera_from_object);
   double length = 0;
   for (const ModelPoint& point : points) {
@@ -28,8 +29,9 @@ double length_in_image_px(const EdgeModel& model, const Se3& camera_from_object,
   return length * model.raster_step_m;
 }
 
-constexpr int BESIDE = 8;           // directions in which a pose is moved aside
-constexpr double ASIDE = 0.05;      // of the diameter: further than edges are wide, in the same surroundings
+constexpr int BESIDE = 8;  // directions in which a pose is moved aside
+constexpr double ASIDE =
+    0.05;  // of the diameter: further than edges are wide, in the same surroundings
 constexpr int BESIDE_POINTS = 150;  // enough for a mean
 
 // Poses with their points, as the kernel takes them.
@@ -49,7 +51,8 @@ struct Problems {
     for (int i = 0; i < BESIDE; ++i) {
       const double angle = 2 * std::numbers::pi * i / BESIDE;
       Se3 beside = camera_from_object;
-      beside.translation_m += ASIDE * diameter_m * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+      beside.translation_m +=
+          ASIDE * diameter_m * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
       add_one(beside, view, some.size());
     }
     points.insert(points.end(), some.begin(), some.end());
@@ -88,7 +91,8 @@ std::vector<PoseFeatures> features_by_view(std::span<const EdgeModel> models,
     const Se3 camera_from_object = views[v].camera_from_world * pose.world_from_object;
     features[slot].visible = double(seen.unoccluded);
     const EdgeModel& model = models[std::size_t(pose.object)];
-    features[slot].length_px = length_in_image_px(model, camera_from_object, *views[v].view, seen.points);
+    features[slot].length_px =
+        length_in_image_px(model, camera_from_object, *views[v].view, seen.points);
     problems.add(camera_from_object, v, seen.points);
     if (look_beside) problems.add_beside(camera_from_object, model.mesh.diameter_m, v, seen.points);
   }
@@ -113,7 +117,9 @@ std::vector<PoseFeatures> features_by_view(std::span<const EdgeModel> models,
 
 }  // namespace
 
-double evidence(const PoseFeatures& features) { return standard_errors(features, features.psi - CHANCE_PSI); }
+double evidence(const PoseFeatures& features) {
+  return standard_errors(features, features.psi - CHANCE_PSI);
+}
 
 double evidence_over_beside(const PoseFeatures& features) {
   return standard_errors(features, features.psi - features.beside_psi);
@@ -122,7 +128,8 @@ double evidence_over_beside(const PoseFeatures& features) {
 double weighted_odds(const PoseFeatures& features, const OddsWeights& w) {
   constexpr double least_evidence = 0.5;  // below that all poses are as bad
   return w.bias + w.by_log_evidence * std::log(std::max(evidence(features), least_evidence)) +
-         w.by_mean_px * features.mean_px + w.by_unexplained_grey * unexplained_grey(features.shading);
+         w.by_mean_px * features.mean_px +
+         w.by_unexplained_grey * unexplained_grey(features.shading);
 }
 
 double log_odds(const PoseFeatures& features) {
@@ -131,8 +138,8 @@ double log_odds(const PoseFeatures& features) {
 
 std::vector<PoseFeatures> pose_features_by_view(std::span<const EdgeModel> models,
                                                 std::span<const Hypothesis> poses,
-                                                std::span<const RegisterView> views, Backend& backend,
-                                                const PoseScoreOptions& options,
+                                                std::span<const RegisterView> views,
+                                                Backend& backend, const PoseScoreOptions& options,
                                                 const VisibilityOptions& visibility) {
   return features_by_view(models, poses, views, backend, options, visibility, views.size() > 1);
 }
@@ -151,7 +158,8 @@ PoseFeatures together(std::span<const PoseFeatures> by_view) {
     add(sum.shading, f.shading);
   }
   if (sum.points > 0) {
-    sum.psi /= sum.points, sum.beside_psi /= sum.points, sum.mean_px /= sum.points, sum.matched /= sum.points;
+    sum.psi /= sum.points, sum.beside_psi /= sum.points, sum.mean_px /= sum.points,
+        sum.matched /= sum.points;
   } else {
     sum.mean_px = by_view[0].mean_px;
   }
@@ -159,7 +167,8 @@ PoseFeatures together(std::span<const PoseFeatures> by_view) {
   return sum;
 }
 
-std::vector<PoseFeatures> pose_features(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
+std::vector<PoseFeatures> pose_features(std::span<const EdgeModel> models,
+                                        std::span<const Hypothesis> poses,
                                         std::span<const RegisterView> views, Backend& backend,
                                         const PoseScoreOptions& options,
                                         const VisibilityOptions& visibility) {

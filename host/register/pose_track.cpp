@@ -44,8 +44,8 @@ void propose(PoseTrack& track) {
 void judge(PoseTrack& track, const WorldSystem& at_trial, double min_step_m, double min_step_rad) {
   ++track.iterations;
   // Points that left through the camera plane must not look like progress: compare means.
-  const bool better =
-      at_trial.points > 0 && at_trial.cost / at_trial.points < track.system.cost / track.system.points;
+  const bool better = at_trial.points > 0 &&
+                      at_trial.cost / at_trial.points < track.system.cost / track.system.points;
   if (better) {
     track.pose = track.trial;
     track.system = at_trial;
@@ -71,7 +71,8 @@ Registration registration_of(const PoseTrack& track) {
   result.mean_px = system.points > 0 ? system.residual_sum / system.points : 0;
   result.iterations = track.iterations;
   result.reason = track.reason;
-  result.covariance = pose_covariance(system.hessian, 2 * system.cost / std::max(1.0, system.weight_sum - 6));
+  result.covariance =
+      pose_covariance(system.hessian, 2 * system.cost / std::max(1.0, system.weight_sum - 6));
   return result;
 }
 

@@ -1,5 +1,5 @@
-// One pose on its way through Levenberg-Marquardt, a step at a time, so that whoever sums the systems may do
-// so for many poses at once.
+// One pose on its way through Levenberg-Marquardt, a step at a time, so that whoever sums the
+// systems may do so for many poses at once.
 #pragma once
 
 #include "host/register/d2co.h"
@@ -24,10 +24,11 @@ void check_problem(std::span<const Hypothesis> starts, std::size_t models,
 void restart(PoseTrack& track);
 // With the system at the first trial: a pose without points in front of the camera goes no further.
 void begin_at(PoseTrack& track, const WorldSystem& system);
-// The next trial from the system at the pose. Marquardt's damping scales with the diagonal, so metres and
-// radians are damped alike: by the image motion they cause.
+// The next trial from the system at the pose. Marquardt's damping scales with the diagonal, so
+// metres and radians are damped alike: by the image motion they cause.
 void propose(PoseTrack& track);
-// Takes the trial where it lowered the mean cost; ends the track at a small step or where no step helps.
+// Takes the trial where it lowered the mean cost; ends the track at a small step or where no step
+// helps.
 void judge(PoseTrack& track, const WorldSystem& at_trial, double min_step_m, double min_step_rad);
 bool is_small(const Vector6d& step, double min_step_m, double min_step_rad);
 

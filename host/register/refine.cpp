@@ -10,10 +10,10 @@ namespace edgescout {
 
 namespace {
 
-// The start itself first, then turned in its place about the axes and the diagonals of the first view's
-// camera frame.
-std::vector<Hypothesis> spread(const Hypothesis& start, const EdgeModel& model, const Se3& camera_from_world,
-                               double rotation_rad) {
+// The start itself first, then turned in its place about the axes and the diagonals of the first
+// view's camera frame.
+std::vector<Hypothesis> spread(const Hypothesis& start, const EdgeModel& model,
+                               const Se3& camera_from_world, double rotation_rad) {
   std::vector<Hypothesis> starts{start};
   for (int x = -1; x <= 1; ++x)
     for (int y = -1; y <= 1; ++y)
@@ -21,9 +21,10 @@ std::vector<Hypothesis> spread(const Hypothesis& start, const EdgeModel& model, 
         const int axes = std::abs(x) + std::abs(y) + std::abs(z);
         if (axes != 1 && axes != 3) continue;
         Vector6d turn = Vector6d::Zero();
-        turn.tail<3>() =
-            camera_from_world.rotation.conjugate() * Eigen::Vector3d(x, y, z).normalized() * rotation_rad;
-        starts.push_back({start.object, retract_about(start.world_from_object, model.center_m, turn)});
+        turn.tail<3>() = camera_from_world.rotation.conjugate() *
+                         Eigen::Vector3d(x, y, z).normalized() * rotation_rad;
+        starts.push_back(
+            {start.object, retract_about(start.world_from_object, model.center_m, turn)});
       }
   return starts;
 }
@@ -40,19 +41,20 @@ std::vector<RegisterView> coarse_views(std::span<const RegisterView> views) {
   return coarse;
 }
 
-// For each hypothesis the different poses its search ended in, highest log-odds first; `owner` says whose
-// they are.
+// For each hypothesis the different poses its search ended in, highest log-odds first; `owner` says
+// whose they are.
 struct Searched {
   std::vector<Hypothesis> poses;
   std::vector<std::size_t> owner;
 };
 
 Searched search(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
-                std::span<const RegisterView> views, Backend& backend, const RefineOptions& options) {
+                std::span<const RegisterView> views, Backend& backend,
+                const RefineOptions& options) {
   std::vector<Hypothesis> starts;
   for (const Hypothesis& hypothesis : hypotheses)
-    for (const Hypothesis& start : spread(hypothesis, models[hypothesis.object], views[0].camera_from_world,
-                                          options.search.rotation_rad))
+    for (const Hypothesis& start : spread(hypothesis, models[hypothesis.object],
+                                          views[0].camera_from_world, options.search.rotation_rad))
       starts.push_back(start);
   const std::size_t turned = starts.size();
   std::vector<Hypothesis> poses = as_hypotheses(
@@ -67,14 +69,16 @@ Searched search(std::span<const EdgeModel> models, std::span<const Hypothesis> h
     std::vector<std::size_t> order(of_one);
     std::iota(order.begin(), order.end(), h * of_one);
     order.push_back(turned + h);
-    std::ranges::stable_sort(
-        order, [&](std::size_t a, std::size_t b) { return log_odds(features[a]) > log_odds(features[b]); });
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+      return log_odds(features[a]) > log_odds(features[b]);
+    });
     const std::size_t first = found.poses.size();
     for (std::size_t i : order) {
       if (int(found.poses.size() - first) >= options.search.survivors) break;
       const bool known =
           std::any_of(found.poses.begin() + first, found.poses.end(), [&](const Hypothesis& other) {
-            return same_pose(other.world_from_object, poses[i].world_from_object, models[poses[i].object]);
+            return same_pose(other.world_from_object, poses[i].world_from_object,
+                             models[poses[i].object]);
           });
       if (known) continue;
       found.poses.push_back(poses[i]);
@@ -97,12 +101,13 @@ std::vector<Refined> refine_together(std::span<const EdgeModel> models,
   }
   D2coOptions d2co = options.d2co;
   if (options.search.rotation_rad == 0) d2co.rounds.insert(d2co.rounds.begin(), options.unsearched);
-  std::vector<Registration> registrations = register_poses(models, found.poses, views, backend, d2co);
+  std::vector<Registration> registrations =
+      register_poses(models, found.poses, views, backend, d2co);
   if (options.polish)
     polish_poses(models, found.poses, views, backend, options.polish_options, registrations);
   const std::vector<PoseFeatures> by_view =
-      pose_features_by_view(models, as_hypotheses(found.poses, registrations), views, backend, options.score,
-                            options.d2co.visibility);
+      pose_features_by_view(models, as_hypotheses(found.poses, registrations), views, backend,
+                            options.score, options.d2co.visibility);
   std::vector<Refined> results(hypotheses.size());
   std::vector<bool> filled(hypotheses.size(), false);
   for (std::size_t i = 0; i < found.poses.size(); ++i) {
@@ -127,8 +132,9 @@ D2coOptions SearchOptions::coarse_defaults() {
 
 D2coOptions RefineOptions::full_defaults() {
   D2coOptions options;
-  options.rounds = {
-      {LOSS_GEMAN_MCCLURE, 12, 8, 300}, {LOSS_GEMAN_MCCLURE, 5, 8, 500}, {LOSS_GEMAN_MCCLURE, 2, 8, 0}};
+  options.rounds = {{LOSS_GEMAN_MCCLURE, 12, 8, 300},
+                    {LOSS_GEMAN_MCCLURE, 5, 8, 500},
+                    {LOSS_GEMAN_MCCLURE, 2, 8, 0}};
   return options;
 }
 
@@ -139,13 +145,15 @@ void RefineOptions::validate() const {
   if (!(search.rotation_rad >= 0 && search.rotation_rad <= 1))
     throw InputError("options", "register.search_rotation", std::to_string(search.rotation_rad),
                      "an angle in [0, 1] rad");
-  if (at_once < 1) throw InputError("options", "register.at_once", std::to_string(at_once), "at least 1");
+  if (at_once < 1)
+    throw InputError("options", "register.at_once", std::to_string(at_once), "at least 1");
   if (search.survivors < 1 || search.survivors > 15)
     throw InputError("options", "register.survivors", std::to_string(search.survivors),
                      "a number in [1, 15]");
 }
 
-std::vector<Refined> refine_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
+std::vector<Refined> refine_poses(std::span<const EdgeModel> models,
+                                  std::span<const Hypothesis> hypotheses,
                                   std::span<const RegisterView> views, Backend& backend,
                                   const RefineOptions& options) {
   options.validate();
@@ -153,9 +161,9 @@ std::vector<Refined> refine_poses(std::span<const EdgeModel> models, std::span<c
   const std::size_t at_once = std::max<std::size_t>(1, std::size_t(options.at_once) / views.size());
   std::vector<Refined> results;
   for (std::size_t first = 0; first < hypotheses.size(); first += at_once) {
-    std::vector<Refined> block =
-        refine_together(models, hypotheses.subspan(first, std::min(at_once, hypotheses.size() - first)),
-                        views, backend, options);
+    std::vector<Refined> block = refine_together(
+        models, hypotheses.subspan(first, std::min(at_once, hypotheses.size() - first)), views,
+        backend, options);
     std::ranges::move(block, std::back_inserter(results));
   }
   return results;

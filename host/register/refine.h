@@ -11,9 +11,9 @@
 
 namespace edgescout {
 
-// Search: besides the start itself, starts turned by `rotation_rad` about the 6 axis directions and 8 cube
-// diagonals of the camera frame are registered coarsely (few points, wide loss); of those and
-// the start as it was given the ones with the highest log-odds (pose_features.h) go on.
+// Search: besides the start itself, starts turned by `rotation_rad` about the 6 axis directions and
+// 8 cube diagonals of the camera frame are registered coarsely (few points, wide loss); of those
+// and the start as it was given the ones with the highest log-odds (pose_features.h) go on.
 struct SearchOptions {
   double rotation_rad = 0.3;  // 0: no search, the start alone; in [0, 1]
   int survivors = 4;          // different poses that go on to the full registration
@@ -29,8 +29,8 @@ struct RefineOptions {
   bool polish = true;
   PolishOptions polish_options;
   PoseScoreOptions score{1.0f, 4.0f, 60.0f};
-  int at_once = 256;  // pairs of a hypothesis and a view, with a search up to 2 MB of points each; results do
-                      // not depend on it
+  int at_once = 256;  // pairs of a hypothesis and a view, with a search up to 2 MB of points each;
+                      // results do not depend on it
   static D2coOptions full_defaults();
   void validate() const;
 };
@@ -42,7 +42,8 @@ struct Refined {
 };
 
 // Results in the order of the hypotheses.
-std::vector<Refined> refine_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
+std::vector<Refined> refine_poses(std::span<const EdgeModel> models,
+                                  std::span<const Hypothesis> hypotheses,
                                   std::span<const RegisterView> views, Backend& backend,
                                   const RefineOptions& options);
 

@@ -1,5 +1,5 @@
-// D2CO on points that the caller looks up: where poses are looked at briefly, drawing the depth maps that
-// tell which points show would cost more than the registration itself.
+// D2CO on points that the caller looks up: where poses are looked at briefly, drawing the depth
+// maps that tell which points show would cost more than the registration itself.
 #pragma once
 
 #include <functional>
@@ -9,11 +9,14 @@
 namespace edgescout {
 
 // The points of each pose that show in each view, object frame; views of one pose side by side.
-using PointsInViews = std::function<std::vector<std::vector<ModelPoint>>(std::span<const Hypothesis>)>;
+using PointsInViews =
+    std::function<std::vector<std::vector<ModelPoint>>(std::span<const Hypothesis>)>;
 
-// As register_poses; asked for the points before every round. D2coOptions::visibility plays no part.
+// As register_poses; asked for the points before every round. D2coOptions::visibility plays no
+// part.
 std::vector<Registration> register_seen(std::span<const Hypothesis> hypotheses,
-                                        std::span<const RegisterView> views, const PointsInViews& points,
-                                        Backend& backend, const D2coOptions& options = {});
+                                        std::span<const RegisterView> views,
+                                        const PointsInViews& points, Backend& backend,
+                                        const D2coOptions& options = {});
 
 }  // namespace edgescout

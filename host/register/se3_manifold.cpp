@@ -6,8 +6,8 @@ namespace edgescout {
 
 namespace {
 
-// Derivative of exp(w) * q by w at zero, rows in the order x y z w: half the product of the pure quaternion w
-// with q.
+// Derivative of exp(w) * q by w at zero, rows in the order x y z w: half the product of the pure
+// quaternion w with q.
 Eigen::Matrix<double, 4, 3> quaternion_by_rotation(const double* q) {
   const double x = q[0], y = q[1], z = q[2], w = q[3];
   Eigen::Matrix<double, 4, 3> by_rotation;
@@ -28,7 +28,8 @@ Se3 from_parameters(const double* p) {
 }
 
 bool Se3Manifold::Plus(const double* x, const double* delta, double* x_plus_delta) const {
-  const PoseParameters moved = to_parameters(retract(from_parameters(x), Eigen::Map<const Vector6d>(delta)));
+  const PoseParameters moved =
+      to_parameters(retract(from_parameters(x), Eigen::Map<const Vector6d>(delta)));
   std::copy(moved.begin(), moved.end(), x_plus_delta);
   return true;
 }
@@ -51,8 +52,8 @@ bool Se3Manifold::MinusJacobian(const double* x, double* jacobian) const {
   Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> by_ambient(jacobian);
   by_ambient.setZero();
   by_ambient.topLeftCorner<3, 3>().setIdentity();
-  // The columns of Plus' Jacobian are orthogonal, of length 1/2: four times the transpose is its inverse on
-  // the tangent.
+  // The columns of Plus' Jacobian are orthogonal, of length 1/2: four times the transpose is its
+  // inverse on the tangent.
   by_ambient.bottomRightCorner<3, 4>() = 4 * quaternion_by_rotation(x + 3).transpose();
   return true;
 }

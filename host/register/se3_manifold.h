@@ -1,7 +1,7 @@
-// The pose space of core/se3.h for Ceres: 7 parameters [tx ty tz, qx qy qz qw], tangent [translation m,
-// rotation rad]. Ceres' own quaternion manifolds take half the angle and know nothing of the project's order;
-// a covariance must not depend on who computed it. Private to host/register and its tests: the only header
-// here that brings in Ceres, with point_cost.h.
+// The pose space of core/se3.h for Ceres: 7 parameters [tx ty tz, qx qy qz qw], tangent
+// [translation m, rotation rad]. Ceres' own quaternion manifolds take half the angle and know
+// nothing of the project's order; a covariance must not depend on who computed it. Private to
+// host/register and its tests: the only header here that brings in Ceres, with point_cost.h.
 #pragma once
 
 #include <array>

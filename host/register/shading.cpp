@@ -22,8 +22,8 @@ constexpr double NOISE_GREY = 2;
 
 using Harmonics = Eigen::Matrix<double, HARMONICS, 1>;
 
-// Part of the image: window pixel (i, j) is image pixel (x + stride i, y + stride j), so that samples need no
-// interpolation.
+// Part of the image: window pixel (i, j) is image pixel (x + stride i, y + stride j), so that
+// samples need no interpolation.
 struct Window {
   int x = 0, y = 0, stride = FEWEST_STRIDE;
 };
@@ -47,13 +47,13 @@ Intrinsics intrinsics_of(const Window& w, const Intrinsics& k) {
 
 Harmonics harmonics(const Eigen::Vector3d& n) {
   Harmonics h;
-  h << 1, n.x(), n.y(), n.z(), n.x() * n.y(), n.y() * n.z(), n.z() * n.x(), n.x() * n.x() - n.y() * n.y(),
-      3 * n.z() * n.z() - 1;
+  h << 1, n.x(), n.y(), n.z(), n.x() * n.y(), n.y() * n.z(), n.z() * n.x(),
+      n.x() * n.x() - n.y() * n.y(), 3 * n.z() * n.z() - 1;
   return h;
 }
 
-// The normal at an inner pixel of a depth map: on a plane n . X = d inverse depth is linear in the pixel, 1 /
-// z = n . (u, v, 1) / d. False where the nine pixels around are not one smooth surface.
+// The normal at an inner pixel of a depth map: on a plane n . X = d inverse depth is linear in the
+// pixel, 1 / z = n . (u, v, 1) / d. False where the nine pixels around are not one smooth surface.
 bool normal_at(const float* depth, int i, int j, const Intrinsics& k, Eigen::Vector3d& normal) {
   double w[3][3];
   for (int y = -1; y <= 1; ++y)
@@ -79,10 +79,11 @@ Eigen::Vector3d point_at(const float* depth, int i, int j, const Intrinsics& k) 
 }
 
 // Least squares of grey on the harmonics, by its normal equations.
-Shading explain(const RegisterView& view, const Window& window, const float* depth, const Intrinsics& k,
-                double tolerance_m) {
+Shading explain(const RegisterView& view, const Window& window, const float* depth,
+                const Intrinsics& k, double tolerance_m) {
   const Image& image = *view.image;
-  Eigen::Matrix<double, HARMONICS, HARMONICS> system = Eigen::Matrix<double, HARMONICS, HARMONICS>::Zero();
+  Eigen::Matrix<double, HARMONICS, HARMONICS> system =
+      Eigen::Matrix<double, HARMONICS, HARMONICS>::Zero();
   Harmonics right = Harmonics::Zero();
   double count = 0, sum = 0, squares = 0;
   for (int j = 1; j + 1 < WINDOW_PX; ++j)
@@ -90,9 +91,11 @@ Shading explain(const RegisterView& view, const Window& window, const float* dep
       if (depth[std::size_t(j) * WINDOW_PX + i] == DEPTH_EMPTY) continue;
       const int x = window.x + window.stride * i, y = window.y + window.stride * j;
       Eigen::Vector3d normal;
-      if (x < 0 || y < 0 || x >= image.width || y >= image.height || !normal_at(depth, i, j, k, normal))
+      if (x < 0 || y < 0 || x >= image.width || y >= image.height ||
+          !normal_at(depth, i, j, k, normal))
         continue;
-      if (view.occluders && view.occluders->may_hide(point_at(depth, i, j, k), tolerance_m)) continue;
+      if (view.occluders && view.occluders->may_hide(point_at(depth, i, j, k), tolerance_m))
+        continue;
       const double grey = image.at(x, y);
       const Harmonics h = harmonics(normal);
       system.selfadjointView<Eigen::Lower>().rankUpdate(h);
@@ -122,14 +125,16 @@ void add(Shading& sum, const Shading& other) {
 
 double unexplained_grey(const Shading& shading) {
   const double noise = shading.pixels * NOISE_GREY * NOISE_GREY;
-  return shading.pixels > 0 ? std::sqrt((shading.unexplained + noise) / (shading.squares + noise)) : 1;
+  return shading.pixels > 0 ? std::sqrt((shading.unexplained + noise) / (shading.squares + noise))
+                            : 1;
 }
 
 std::vector<Shading> shading(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
                              std::span<const RegisterView> views, Backend& backend) {
   std::vector<Shading> result(poses.size() * views.size());
-  constexpr std::size_t chunk = 256, map = std::size_t(WINDOW_PX) *
-                                           WINDOW_PX;  // bounded memory however many poses there are
+  constexpr std::size_t chunk = 256,
+                        map = std::size_t(WINDOW_PX) *
+                              WINDOW_PX;  // bounded memory however many poses there are
   std::vector<float> depth;
   for (std::size_t object = 0; object < models.size(); ++object) {
     const double tolerance_m = occlusion_tolerance_m(models[object]);
@@ -138,7 +143,8 @@ std::vector<Shading> shading(std::span<const EdgeModel> models, std::span<const 
     for (std::size_t p = 0; p < poses.size(); ++p)
       for (std::size_t v = 0; poses[p].object == int(object) && v < views.size(); ++v) {
         const Se3 pose = views[v].camera_from_world * poses[p].world_from_object;
-        if (!views[v].image || (pose * models[object].center_m).z() <= models[object].radius_m * 0.05)
+        if (!views[v].image ||
+            (pose * models[object].center_m).z() <= models[object].radius_m * 0.05)
           continue;
         const Window window = frame_object(models[object], pose, views[v].view->intrinsics);
         tasks.push_back({window, p * views.size() + v, v});
@@ -148,8 +154,8 @@ std::vector<Shading> shading(std::span<const EdgeModel> models, std::span<const 
       const std::size_t count = std::min(chunk, tasks.size() - first);
       depth.resize(count * map);
       backend.depth_raster(models[object].triangle_mesh(),
-                           std::span<const DepthJob>(jobs).subspan(first, count), WINDOW_PX, WINDOW_PX,
-                           depth);
+                           std::span<const DepthJob>(jobs).subspan(first, count), WINDOW_PX,
+                           WINDOW_PX, depth);
       backend.threads().for_each(count, [&](std::size_t i) {
         const Task& task = tasks[first + i];
         result[task.slot] = explain(views[task.view], task.window, depth.data() + i * map,

@@ -10,7 +10,8 @@ std::vector<VisibleInView> visible_in_views(std::span<const EdgeModel> models,
                                             std::span<const RegisterView> views, Backend& backend,
                                             const VisibilityOptions& visibility) {
   for (const Hypothesis& pose : poses)
-    check(pose.object >= 0 && std::size_t(pose.object) < models.size(), "visible_in_views: no such model");
+    check(pose.object >= 0 && std::size_t(pose.object) < models.size(),
+          "visible_in_views: no such model");
   std::vector<VisibleInView> seen(poses.size() * views.size());
   for (std::size_t object = 0; object < models.size(); ++object) {
     const EdgeModel& model = models[object];

@@ -13,7 +13,8 @@ struct VisibleInView {
   std::size_t unoccluded = 0;      // how many there would be without occluders
 };
 
-// One entry a pose and view, views of one pose side by side. Points project inside the image or not.
+// One entry a pose and view, views of one pose side by side. Points project inside the image or
+// not.
 std::vector<VisibleInView> visible_in_views(std::span<const EdgeModel> models,
                                             std::span<const Hypothesis> poses,
                                             std::span<const RegisterView> views, Backend& backend,

@@ -46,9 +46,10 @@ class Printer {
 
   void ellipse(int thickness) {
     const cv::Point centre = place();
-    const double a = 0.5 * size(), b = a * random_.uniform(0.3, 1.0), angle = random_.uniform(0, 180);
-    cv::ellipse(board_, centre, {static_cast<int>(a), static_cast<int>(b)}, angle, 0, 360, ink(), thickness,
-                cv::LINE_AA);
+    const double a = 0.5 * size(), b = a * random_.uniform(0.3, 1.0),
+                 angle = random_.uniform(0, 180);
+    cv::ellipse(board_, centre, {static_cast<int>(a), static_cast<int>(b)}, angle, 0, 360, ink(),
+                thickness, cv::LINE_AA);
   }
 
   void polygon(bool filled) {
@@ -81,13 +82,13 @@ class Printer {
   // A patch drawn upright, then turned into its place.
   void stamp(const cv::Mat& ink_map, const cv::Mat& mask) {
     const cv::Point centre = place();
-    cv::Mat turn =
-        cv::getRotationMatrix2D({0.5f * ink_map.cols, 0.5f * ink_map.rows}, random_.uniform(0, 360), 1.0);
+    cv::Mat turn = cv::getRotationMatrix2D({0.5f * ink_map.cols, 0.5f * ink_map.rows},
+                                           random_.uniform(0, 360), 1.0);
     turn.at<double>(0, 2) += centre.x - 0.5 * ink_map.cols;
     turn.at<double>(1, 2) += centre.y - 0.5 * ink_map.rows;
     const int reach = static_cast<int>(0.5 * std::hypot(ink_map.cols, ink_map.rows)) + 2;
-    const cv::Rect window =
-        cv::Rect(centre.x - reach, centre.y - reach, 2 * reach, 2 * reach) & cv::Rect({}, board_.size());
+    const cv::Rect window = cv::Rect(centre.x - reach, centre.y - reach, 2 * reach, 2 * reach) &
+                            cv::Rect({}, board_.size());
     turn.at<double>(0, 2) -= window.x;
     turn.at<double>(1, 2) -= window.y;
     cv::Mat turned, cover;
@@ -115,7 +116,8 @@ class Printer {
     int baseline = 0;
     const cv::Size box = cv::getTextSize(text, font, scale, thickness, &baseline);
     cv::Mat mask = cv::Mat::zeros(box.height + 2 * baseline + 4, box.width + 8, CV_8U);
-    cv::putText(mask, text, {4, box.height + 2}, font, scale, cv::Scalar::all(255), thickness, cv::LINE_AA);
+    cv::putText(mask, text, {4, box.height + 2}, font, scale, cv::Scalar::all(255), thickness,
+                cv::LINE_AA);
     stamp(cv::Mat(mask.size(), CV_8U, ink()), mask);
   }
 
@@ -131,7 +133,8 @@ class Printer {
   }
 
   void bars() {
-    const int width = static_cast<int>(0.8 * size()) + 8, height = width * (2 + random_.below(3)) / 6;
+    const int width = static_cast<int>(0.8 * size()) + 8,
+              height = width * (2 + random_.below(3)) / 6;
     cv::Mat patch(height, width, CV_8U, cv::Scalar::all(200));
     for (int x = 0; x < width;) {
       const int bar = 1 + static_cast<int>(0.06 * width * random_.uniform());
@@ -146,7 +149,8 @@ class Printer {
   Random& random_;
 };
 
-// Low, cloudy variation of the paper: an even grey would leave nothing for an edge detector to stumble over.
+// Low, cloudy variation of the paper: an even grey would leave nothing for an edge detector to
+// stumble over.
 void add_grain(cv::Mat& board, Random& random) {
   for (const auto& [cells, amplitude] : {std::pair{6, 0.04}, {40, 0.02}, {400, 0.02}}) {
     cv::Mat coarse(cells, cells, CV_32F), fine;

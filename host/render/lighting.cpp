@@ -7,8 +7,8 @@
 namespace edgescout {
 namespace {
 
-// Corner normals of one mesh in its own frame: the mean, weighted by corner angle, of the faces that meet
-// there less sharply than a crease.
+// Corner normals of one mesh in its own frame: the mean, weighted by corner angle, of the faces
+// that meet there less sharply than a crease.
 std::vector<TriangleCorners> smooth_normals(const Mesh& mesh) {
   const double crease_cosine = std::cos(35 * std::numbers::pi / 180);
   std::vector<std::vector<std::pair<int, double>>> faces(mesh.vertices_m.size());  // face, angle
@@ -83,12 +83,13 @@ WorldTriangles world_triangles(const Scene& scene) {
   return world;
 }
 
-Lighting::Lighting(const Scene& scene, const WorldTriangles& triangles, ThreadPool& pool) : scene_(scene) {
+Lighting::Lighting(const Scene& scene, const WorldTriangles& triangles, ThreadPool& pool)
+    : scene_(scene) {
   if (!scene.options.shadows) return;
   const double reach = 1.02 * scene_reach_m(triangles);
   for (const Light& light : scene.lights) {
-    const SceneView view =
-        light_view(light.position_m, std::min(reach, 0.9 * light.position_m.norm()), light.shadow_px);
+    const SceneView view = light_view(
+        light.position_m, std::min(reach, 0.9 * light.position_m.norm()), light.shadow_px);
     Raster raster = rasterize(triangles.corners_m, view.camera, view.camera_from_world, pool);
     maps_.push_back({light.shadow_px, pixel_from_world(view), std::move(raster.depth_m),
                      light.position_m.norm() / view.camera.fx});
@@ -98,19 +99,21 @@ Lighting::Lighting(const Scene& scene, const WorldTriangles& triangles, ThreadPo
 double Lighting::lit_fraction(const ShadowMap& map, const Eigen::Vector3d& point_m,
                               const Eigen::Vector3d& normal) const {
   // Off the surface by the size of a texel, or it would shade itself.
-  const Eigen::Vector3d x = map.pixel_from_world * (point_m + 1.5 * map.texel_m * normal).homogeneous();
+  const Eigen::Vector3d x =
+      map.pixel_from_world * (point_m + 1.5 * map.texel_m * normal).homogeneous();
   const Eigen::Vector2d pixel = x.hnormalized();
   const double u = std::floor(pixel.x()), v = std::floor(pixel.y());
   if (!(u >= 1 && v >= 1 && u < map.size_px - 2 && v < map.size_px - 2)) return 1;
   const double fu = pixel.x() - u, fv = pixel.y() - v;
   const float depth = static_cast<float>(x.z() - map.texel_m);
-  // Mean over a box two texels wide about the point: percentage-closer filtering with bilinear weights.
+  // Mean over a box two texels wide about the point: percentage-closer filtering with bilinear
+  // weights.
   const double weight_x[4] = {0.5 * (1 - fu), 0.5, 0.5, 0.5 * fu},
                weight_y[4] = {0.5 * (1 - fv), 0.5, 0.5, 0.5 * fv};
   double lit = 0;
   for (int j = 0; j < 4; ++j) {
-    const float* row =
-        &map.depth_m[(static_cast<std::size_t>(v) - 1 + j) * map.size_px + static_cast<std::size_t>(u) - 1];
+    const float* row = &map.depth_m[(static_cast<std::size_t>(v) - 1 + j) * map.size_px +
+                                    static_cast<std::size_t>(u) - 1];
     for (int i = 0; i < 4; ++i)
       if (row[i] >= depth) lit += weight_x[i] * weight_y[j];
   }
@@ -126,13 +129,14 @@ ReceivedLight Lighting::at(const Eigen::Vector3d& point_m, const Eigen::Vector3d
     const Eigen::Vector3d to_light = light.position_m - point_m;
     const double distance = to_light.norm(), cosine = normal.dot(to_light) / distance;
     if (cosine <= 0) continue;
-    double irradiance = light.irradiance * cosine * light.position_m.squaredNorm() / (distance * distance);
+    double irradiance =
+        light.irradiance * cosine * light.position_m.squaredNorm() / (distance * distance);
     if (!maps_.empty()) irradiance *= lit_fraction(maps_[i], point_m, normal);
     if (irradiance <= 0) continue;
     received.diffuse += irradiance;
     const double half = std::max(0.0, normal.dot((to_light / distance + to_viewer).normalized()));
-    received.specular +=
-        material.specular * irradiance * (material.shininess + 8) / 8 * std::pow(half, material.shininess);
+    received.specular += material.specular * irradiance * (material.shininess + 8) / 8 *
+                         std::pow(half, material.shininess);
   }
   return received;
 }

@@ -11,8 +11,9 @@ namespace edgescout {
 
 struct WorldTriangles {
   std::vector<TriangleCorners> corners_m;
-  std::vector<TriangleCorners> normals;  // unit; smoothed over the surface up to creases of 35 degrees
-  std::vector<int> placed;               // whose, index into Scene::placed
+  std::vector<TriangleCorners>
+      normals;              // unit; smoothed over the surface up to creases of 35 degrees
+  std::vector<int> placed;  // whose, index into Scene::placed
 };
 
 WorldTriangles world_triangles(const Scene& scene);

@@ -35,7 +35,8 @@ void RenderOptions::validate() const {
   require(noise_grey, 0.0, 50.0, "noise_grey");
   require(supersampling, 1, 7, "supersampling");
   if (supersampling % 2 == 0)
-    throw InputError("render options", "supersampling", std::to_string(supersampling), "an odd number");
+    throw InputError("render options", "supersampling", std::to_string(supersampling),
+                     "an odd number");
 }
 
 }  // namespace edgescout

@@ -16,7 +16,8 @@ Se3 turn(const Eigen::Vector3d& axis, double angle_rad) {
   return {so3_exp(angle_rad * axis), Eigen::Vector3d::Zero()};
 }
 
-// `steps` turns about z, and each of them with the part turned over about x where it has such a twin.
+// `steps` turns about z, and each of them with the part turned over about x where it has such a
+// twin.
 Symmetries turns_about_z(int steps, bool turns_over) {
   Symmetries symmetries;
   symmetries.discrete.clear();
@@ -73,8 +74,11 @@ Object u_channel() {
   Extrusion e;
   e.outline_mm = {{0, 0}, {36, 0}, {36, 26}, {32, 26}, {32, 4}, {4, 4}, {4, 26}, {0, 26}};
   e.height_mm = 64;
-  e.cross_holes = {
-      {0, 4, 18, 32, 8}, {1, 3, 16, 14, 4}, {1, 3, 16, 50, 4}, {5, 7, 12, 14, 4}, {5, 7, 12, 50, 4}};
+  e.cross_holes = {{0, 4, 18, 32, 8},
+                   {1, 3, 16, 14, 4},
+                   {1, 3, 16, 50, 4},
+                   {5, 7, 12, 14, 4},
+                   {5, 7, 12, 50, 4}};
   return {5, extrude("u_channel", e), half_turn(Eigen::Vector3d::UnitY())};
 }
 
@@ -83,14 +87,15 @@ Object gear_plate() {
   Extrusion e;
   constexpr int TEETH = 12;
   for (int i = 0; i < TEETH; ++i)
-    for (const auto& [radius, share] : {std::pair{24.0, -0.27}, {30.0, -0.15}, {30.0, 0.15}, {24.0, 0.27}}) {
+    for (const auto& [radius, share] :
+         {std::pair{24.0, -0.27}, {30.0, -0.15}, {30.0, 0.15}, {24.0, 0.27}}) {
       const double angle = 2 * PI * (i + share) / TEETH;
       e.outline_mm.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
     }
   e.holes_mm = {circle({0, 0}, 6, true, 30)};
   for (int i = 0; i < 3; ++i)
-    e.holes_mm.push_back(
-        circle(15 * Eigen::Vector2d(std::cos(2 * PI * i / 3), std::sin(2 * PI * i / 3)), 5, true, 24));
+    e.holes_mm.push_back(circle(
+        15 * Eigen::Vector2d(std::cos(2 * PI * i / 3), std::sin(2 * PI * i / 3)), 5, true, 24));
   e.height_mm = 9;
   return {6, extrude("gear_plate", e), turns_about_z(3, true)};
 }

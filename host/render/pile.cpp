@@ -15,8 +15,8 @@ double support(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d
   return highest;
 }
 
-// Vertices about the centre of mass, those only that are extreme in one of many directions: a rest pose
-// touches with no others.
+// Vertices about the centre of mass, those only that are extreme in one of many directions: a rest
+// pose touches with no others.
 std::vector<Eigen::Vector3d> extreme_points(const Mesh& mesh, const Eigen::Vector3d& centre) {
   constexpr int DIRECTIONS = 1000;
   if (mesh.vertices_m.size() <= DIRECTIONS / 2) {
@@ -32,8 +32,8 @@ std::vector<Eigen::Vector3d> extreme_points(const Mesh& mesh, const Eigen::Vecto
     const auto further = [&](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
       return a.dot(direction) < b.dot(direction);
     };
-    const auto best =
-        std::max_element(mesh.vertices_m.begin(), mesh.vertices_m.end(), further) - mesh.vertices_m.begin();
+    const auto best = std::max_element(mesh.vertices_m.begin(), mesh.vertices_m.end(), further) -
+                      mesh.vertices_m.begin();
     if (taken[best]) continue;
     taken[best] = 1;
     points.push_back(mesh.vertices_m[best] - centre);
@@ -47,7 +47,8 @@ Eigen::Vector3d surface_centre(const Mesh& mesh) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double area = 0;
   for (const auto& [ia, ib, ic] : mesh.triangles) {
-    const Eigen::Vector3d &a = mesh.vertices_m[ia], &b = mesh.vertices_m[ib], &c = mesh.vertices_m[ic];
+    const Eigen::Vector3d &a = mesh.vertices_m[ia], &b = mesh.vertices_m[ib],
+                          &c = mesh.vertices_m[ic];
     const double weight = (b - a).cross(c - a).norm();
     sum += weight * (a + b + c) / 3;
     area += weight;
@@ -58,8 +59,8 @@ Eigen::Vector3d surface_centre(const Mesh& mesh) {
 
 Eigen::Quaterniond random_rest(const Mesh& mesh, Random& random) {
   const std::vector<Eigen::Vector3d> points = extreme_points(mesh, surface_centre(mesh));
-  // The height of the centre over the plane as a function of which direction is down has its minima where the
-  // part rests; rolling goes downhill from a random start.
+  // The height of the centre over the plane as a function of which direction is down has its minima
+  // where the part rests; rolling goes downhill from a random start.
   Eigen::Vector3d down = random.direction();
   double height = support(points, down);
   for (double step = 0.3; step > 1e-5;) {
@@ -76,7 +77,8 @@ Eigen::Quaterniond random_rest(const Mesh& mesh, Random& random) {
   return (yaw * Eigen::Quaterniond::FromTwoVectors(down, -Eigen::Vector3d::UnitZ())).normalized();
 }
 
-// Lowest and highest surface over each cell of a window of the table, relative to the object's origin.
+// Lowest and highest surface over each cell of a window of the table, relative to the object's
+// origin.
 struct PileTable::Footprint {
   int x0 = 0, y0 = 0, width = 0, height = 0;
   std::vector<float> low_m, high_m;
@@ -108,7 +110,8 @@ void scan_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eig
     for (int x = static_cast<int>(std::ceil(x_low)); x <= x_high; ++x) {
       const double v = ((x - a.x()) * (c.y() - a.y()) - (y - a.y()) * (c.x() - a.x())) / area;
       const double w = ((b.x() - a.x()) * (y - a.y()) - (b.y() - a.y()) * (x - a.x())) / area;
-      if (v >= 0 && w >= 0 && v + w <= 1) touch(x, y, a.z() + v * (b.z() - a.z()) + w * (c.z() - a.z()));
+      if (v >= 0 && w >= 0 && v + w <= 1)
+        touch(x, y, a.z() + v * (b.z() - a.z()) + w * (c.z() - a.z()));
     }
 }
 
@@ -137,7 +140,8 @@ PileTable::Footprint PileTable::footprint(const Mesh& mesh, const Eigen::Quatern
   for (const Eigen::Vector3d& v : vertices)
     f.touch(static_cast<int>(std::lround(v.x())), static_cast<int>(std::lround(v.y())), v.z());
   for (const auto& [a, b, c] : mesh.triangles)
-    scan_triangle(vertices[a], vertices[b], vertices[c], [&](int x, int y, double z) { f.touch(x, y, z); });
+    scan_triangle(vertices[a], vertices[b], vertices[c],
+                  [&](int x, int y, double z) { f.touch(x, y, z); });
   return f;
 }
 
@@ -147,7 +151,8 @@ double PileTable::rest_height(const Footprint& f) const {
     for (int x = 0; x < f.width; ++x) {
       const int column = f.x0 + x, row = f.y0 + y;
       const bool on_table = column >= 0 && row >= 0 && column < cells_ && row < cells_;
-      const float under = on_table ? heights_m_[static_cast<std::size_t>(row) * cells_ + column] : 0.0f;
+      const float under =
+          on_table ? heights_m_[static_cast<std::size_t>(row) * cells_ + column] : 0.0f;
       height = std::max<double>(height, under - f.low_m[static_cast<std::size_t>(y) * f.width + x]);
     }
   return height;
@@ -162,8 +167,8 @@ void PileTable::occupy(const Footprint& f, double height_m) {
       float& cell = heights_m_[static_cast<std::size_t>(row) * cells_ + column];
       for (int v = std::max(0, y - 1); v <= std::min(f.height - 1, y + 1); ++v)
         for (int u = std::max(0, x - 1); u <= std::min(f.width - 1, x + 1); ++u)
-          cell = std::max(cell,
-                          f.high_m[static_cast<std::size_t>(v) * f.width + u] + static_cast<float>(height_m));
+          cell = std::max(cell, f.high_m[static_cast<std::size_t>(v) * f.width + u] +
+                                    static_cast<float>(height_m));
     }
 }
 
@@ -175,11 +180,13 @@ Se3 PileTable::settle(const Mesh& mesh, Se3 pose, double radius_m, Random& rando
     const double scale = std::pow(0.97, trial);
     Se3 moved = pose;
     const Eigen::Vector3d turn_axis = random.direction();
-    moved.rotation = (so3_exp(0.25 * scale * random.uniform() * turn_axis) * pose.rotation).normalized();
+    moved.rotation =
+        (so3_exp(0.25 * scale * random.uniform() * turn_axis) * pose.rotation).normalized();
     for (int axis = 0; axis < 2; ++axis)
       moved.translation_m[axis] += 0.08 * scale * mesh.diameter_m * random.normal();
     if (moved.translation_m.head<2>().norm() > radius_m) continue;
-    moved.translation_m.z() = rest_height(footprint(mesh, moved.rotation, moved.translation_m.head<2>()));
+    moved.translation_m.z() =
+        rest_height(footprint(mesh, moved.rotation, moved.translation_m.head<2>()));
     if (energy(moved) < energy(pose)) pose = moved;
   }
   return pose;
@@ -193,9 +200,11 @@ Se3 PileTable::place(const Mesh& mesh, double radius_m, bool alone, Random& rand
   for (const Eigen::Vector3d& v : mesh.vertices_m)
     bare_height = std::max(bare_height, -(pose.rotation * v).z());
   for (int trial = 0; trial < TRIALS; ++trial) {
-    const double angle = random.uniform(0, 2 * std::numbers::pi), r = reach * std::sqrt(random.uniform());
+    const double angle = random.uniform(0, 2 * std::numbers::pi),
+                 r = reach * std::sqrt(random.uniform());
     pose.translation_m.head<2>() = Eigen::Vector2d(r * std::cos(angle), r * std::sin(angle));
-    pose.translation_m.z() = rest_height(footprint(mesh, pose.rotation, pose.translation_m.head<2>()));
+    pose.translation_m.z() =
+        rest_height(footprint(mesh, pose.rotation, pose.translation_m.head<2>()));
     const bool bare = pose.translation_m.z() < bare_height + 1e-6;
     if (bare || !alone) break;
     reach *= 1.01;

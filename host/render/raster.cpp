@@ -20,15 +20,16 @@ struct ScreenTriangle {
   int y_low, y_high;
 };
 
-bool project_triangle(const TriangleCorners& corners, const Camera& camera, const Se3& camera_from_world,
-                      ScreenTriangle& out) {
+bool project_triangle(const TriangleCorners& corners, const Camera& camera,
+                      const Se3& camera_from_world, ScreenTriangle& out) {
   Eigen::Vector3d p[3];  // x, y in px, 1/z
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d x = camera_from_world * corners[i];
     if (x.z() < NEAR_M) return false;
     p[i] << project(camera, x), 1 / x.z();
   }
-  double area = (p[1] - p[0]).head<2>().x() * (p[2] - p[0]).y() - (p[1] - p[0]).y() * (p[2] - p[0]).x();
+  double area =
+      (p[1] - p[0]).head<2>().x() * (p[2] - p[0]).y() - (p[1] - p[0]).y() * (p[2] - p[0]).x();
   if (area < 0) {
     std::swap(p[1], p[2]);
     area = -area;
@@ -46,7 +47,8 @@ bool project_triangle(const TriangleCorners& corners, const Camera& camera, cons
   out.x_high = std::max({p[0].x(), p[1].x(), p[2].x()});
   const double y_low = std::min({p[0].y(), p[1].y(), p[2].y()}),
                y_high = std::max({p[0].y(), p[1].y(), p[2].y()});
-  if (!(out.x_high >= 0 && out.x_low <= camera.width - 1 && y_high >= 0 && y_low <= camera.height - 1))
+  if (!(out.x_high >= 0 && out.x_low <= camera.width - 1 && y_high >= 0 &&
+        y_low <= camera.height - 1))
     return false;
   out.y_low = static_cast<int>(std::max(0.0, std::ceil(y_low)));
   out.y_high = static_cast<int>(std::min(camera.height - 1.0, std::floor(y_high)));
@@ -67,8 +69,8 @@ void draw_row(const ScreenTriangle& t, int y, Raster& raster) {
   if (!(low <= high)) return;
   const std::size_t row = static_cast<std::size_t>(y) * raster.width;
   for (int x = static_cast<int>(std::ceil(low)); x <= high; ++x) {
-    const auto depth =
-        static_cast<float>(1 / (t.inverse_depth[0] * x + t.inverse_depth[1] * y + t.inverse_depth[2]));
+    const auto depth = static_cast<float>(
+        1 / (t.inverse_depth[0] * x + t.inverse_depth[1] * y + t.inverse_depth[2]));
     if (depth >= raster.depth_m[row + x]) continue;
     raster.depth_m[row + x] = depth;
     raster.triangle[row + x] = t.index;
@@ -89,12 +91,15 @@ Raster rasterize(std::span<const TriangleCorners> x_in_world, const Camera& came
   const std::size_t size = static_cast<std::size_t>(camera.width) * camera.height;
   raster.depth_m.assign(size, std::numeric_limits<float>::infinity());
   raster.triangle.assign(size, -1);
-  // Bands of rows: no two threads write the same pixel, and every pixel sees its triangles in the same order.
+  // Bands of rows: no two threads write the same pixel, and every pixel sees its triangles in the
+  // same order.
   constexpr int BAND = 64;
   pool.for_each((camera.height + BAND - 1) / BAND, [&](std::size_t band) {
-    const int first = static_cast<int>(band) * BAND, last = std::min(first + BAND, camera.height) - 1;
+    const int first = static_cast<int>(band) * BAND,
+              last = std::min(first + BAND, camera.height) - 1;
     for (const ScreenTriangle& t : triangles)
-      for (int y = std::max(first, t.y_low); y <= std::min(last, t.y_high); ++y) draw_row(t, y, raster);
+      for (int y = std::max(first, t.y_low); y <= std::min(last, t.y_high); ++y)
+        draw_row(t, y, raster);
   });
   return raster;
 }

@@ -20,8 +20,8 @@ struct Raster {
   std::vector<int> triangle;   // -1 where nothing is
 };
 
-// Both windings are drawn. A triangle with a corner nearer than 1 mm is dropped. Samples sit at integer
-// pixels.
+// Both windings are drawn. A triangle with a corner nearer than 1 mm is dropped. Samples sit at
+// integer pixels.
 Raster rasterize(std::span<const TriangleCorners> x_in_world, const Camera& camera,
                  const Se3& camera_from_world, ThreadPool& pool);
 

@@ -33,7 +33,8 @@ struct ViewContext {
 
 Eigen::Vector3d interpolated_normal(const TriangleCorners& corners, const TriangleCorners& normals,
                                     const Eigen::Vector3d& point) {
-  const Eigen::Vector3d a = corners[1] - corners[0], b = corners[2] - corners[0], p = point - corners[0];
+  const Eigen::Vector3d a = corners[1] - corners[0], b = corners[2] - corners[0],
+                        p = point - corners[0];
   const Eigen::Vector3d n = a.cross(b);
   const double area = n.squaredNorm();
   const double v = std::clamp(n.dot(p.cross(b)) / area, 0.0, 1.0),
@@ -43,7 +44,8 @@ Eigen::Vector3d interpolated_normal(const TriangleCorners& corners, const Triang
 
 Hit trace(const ViewContext& view, int x, int y) {
   const std::size_t i = static_cast<std::size_t>(y) * view.fine.width + x;
-  const Eigen::Vector3d ray = view.world_from_camera.rotation * ray_through(view.fine, Eigen::Vector2d(x, y));
+  const Eigen::Vector3d ray =
+      view.world_from_camera.rotation * ray_through(view.fine, Eigen::Vector2d(x, y));
   const Eigen::Vector3d& eye = view.world_from_camera.translation_m;
   Hit hit;
   hit.triangle = view.raster.triangle[i];
@@ -66,7 +68,8 @@ Hit trace(const ViewContext& view, int x, int y) {
 }
 
 // The print's rows run downwards, the board's y upwards: words must not come out mirrored.
-double board_albedo(const Scene& scene, const Se3& board_from_world, const Eigen::Vector3d& point_m) {
+double board_albedo(const Scene& scene, const Se3& board_from_world,
+                    const Eigen::Vector3d& point_m) {
   const Eigen::Vector3d p = board_from_world * point_m;
   const double scale = scene.board.width / scene.board_side_m;
   const double u = p.x() * scale + 0.5 * (scene.board.width - 1),
@@ -80,8 +83,8 @@ double board_albedo(const Scene& scene, const Se3& board_from_world, const Eigen
   return ((1 - fv) * top + fv * bottom) / 255;
 }
 
-// Mean light of one pixel's samples, 1 is white. Light is asked for once a surface and pixel; print, which is
-// finer, once a sample.
+// Mean light of one pixel's samples, 1 is white. Light is asked for once a surface and pixel;
+// print, which is finer, once a sample.
 class PixelShader {
  public:
   explicit PixelShader(const ViewContext& view)
@@ -101,17 +104,20 @@ class PixelShader {
     constexpr double HORIZON_LIGHT = 0.3;
     if (hit.triangle == HORIZON) return HORIZON_LIGHT;
     const Material& material =
-        hit.triangle == BOARD ? board_ : view_.scene.placed[view_.triangles.placed[hit.triangle]].material;
+        hit.triangle == BOARD ? board_
+                              : view_.scene.placed[view_.triangles.placed[hit.triangle]].material;
     const ReceivedLight light = received(hit, material);
-    const double albedo =
-        hit.triangle == BOARD ? board_albedo(view_.scene, board_from_world_, hit.point_m) : material.albedo;
+    const double albedo = hit.triangle == BOARD
+                              ? board_albedo(view_.scene, board_from_world_, hit.point_m)
+                              : material.albedo;
     return albedo * light.diffuse + light.specular;
   }
 
   ReceivedLight received(const Hit& hit, const Material& material) {
     for (const auto& [triangle, light] : seen_)
       if (triangle == hit.triangle) return light;
-    seen_.emplace_back(hit.triangle, view_.lighting.at(hit.point_m, hit.normal, hit.to_viewer, material));
+    seen_.emplace_back(hit.triangle,
+                       view_.lighting.at(hit.point_m, hit.normal, hit.to_viewer, material));
     return seen_.back().second;
   }
 
@@ -140,9 +146,11 @@ Image develop(cv::Mat light, const RenderOptions& options, const Random& random)
   return image;
 }
 
-// Pixels of one object's silhouette with nothing before it and no end of the image. One that touches the
-// camera may be thousands of images wide: of such a one every so many pixels are looked at.
-double silhouette_px(const Scene& scene, const PlacedObject& part, const SceneView& view, ThreadPool& pool) {
+// Pixels of one object's silhouette with nothing before it and no end of the image. One that
+// touches the camera may be thousands of images wide: of such a one every so many pixels are looked
+// at.
+double silhouette_px(const Scene& scene, const PlacedObject& part, const SceneView& view,
+                     ThreadPool& pool) {
   const Mesh& mesh = scene.objects[part.object].mesh;
   std::vector<TriangleCorners> triangles;
   Eigen::Vector2d low = Eigen::Vector2d::Constant(1e9), high = -low;
@@ -172,7 +180,8 @@ double silhouette_px(const Scene& scene, const PlacedObject& part, const SceneVi
   return static_cast<double>(samples) * spacing_px * spacing_px;
 }
 
-void read_truth(const ViewContext& view, const SceneView& scene_view, Rendering& out, ThreadPool& pool) {
+void read_truth(const ViewContext& view, const SceneView& scene_view, Rendering& out,
+                ThreadPool& pool) {
   const int n = view.scene.options.supersampling;
   const Camera& camera = scene_view.camera;
   std::vector<std::size_t> seen(view.scene.placed.size(), 0);
@@ -199,17 +208,19 @@ std::vector<Rendering> render(const Scene& scene, ThreadPool& pool) {
   for (std::size_t v = 0; v < scene.views.size(); ++v) {
     const SceneView& scene_view = scene.views[v];
     const Camera fine = scaled(scene_view.camera, scene.options.supersampling);
-    const ViewContext view{scene,
-                           triangles,
-                           lighting,
-                           fine,
-                           inverse(scene_view.camera_from_world),
-                           rasterize(triangles.corners_m, fine, scene_view.camera_from_world, pool)};
+    const ViewContext view{
+        scene,
+        triangles,
+        lighting,
+        fine,
+        inverse(scene_view.camera_from_world),
+        rasterize(triangles.corners_m, fine, scene_view.camera_from_world, pool)};
     cv::Mat light(scene_view.camera.height, scene_view.camera.width, CV_32F);
     pool.for_each(light.rows, [&](std::size_t y) {
       PixelShader shader(view);
       for (int x = 0; x < light.cols; ++x)
-        light.at<float>(static_cast<int>(y), x) = static_cast<float>(shader.shade(x, static_cast<int>(y)));
+        light.at<float>(static_cast<int>(y), x) =
+            static_cast<float>(shader.shade(x, static_cast<int>(y)));
     });
     Rendering out;
     out.image = develop(light, scene.options, Random(scene.options.seed).split("noise").split(v));

@@ -11,8 +11,9 @@ class ThreadPool;
 
 struct Rendering {
   Image image;
-  std::vector<int> placed;     // per pixel centre: index into Scene::placed, -1 on the board
-  std::vector<float> depth_m;  // per pixel centre: camera-frame z, board included; infinity above the horizon
+  std::vector<int> placed;  // per pixel centre: index into Scene::placed, -1 on the board
+  std::vector<float>
+      depth_m;  // per pixel centre: camera-frame z, board included; infinity above the horizon
   // per placed object: its pixels seen / its whole silhouette, beyond the image too
   std::vector<double> visible_fraction;
 };

@@ -21,8 +21,8 @@ double mean_diameter_m(std::span<const Object> objects) {
 }
 
 Eigen::Vector3d on_sphere(double azimuth_rad, double elevation_rad) {
-  return {std::cos(elevation_rad) * std::cos(azimuth_rad), std::cos(elevation_rad) * std::sin(azimuth_rad),
-          std::sin(elevation_rad)};
+  return {std::cos(elevation_rad) * std::cos(azimuth_rad),
+          std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad)};
 }
 
 // Of a workshop: bare metal, dark plastic, light plastic.
@@ -47,9 +47,11 @@ Mesh foreign_part(double diameter_m, Random& random) {
       return make_ring(0.5 * size, 0.5 * size * random.uniform(0.4, 0.8), height);
     }
     case 2:
-      return make_box({size * 1.2, size * random.uniform(0.15, 0.35), size * random.uniform(0.1, 0.25)});
+      return make_box(
+          {size * 1.2, size * random.uniform(0.15, 0.35), size * random.uniform(0.1, 0.25)});
     default:
-      return make_box({size * 0.8, size * random.uniform(0.3, 0.8), size * random.uniform(0.1, 0.5)});
+      return make_box(
+          {size * 0.8, size * random.uniform(0.3, 0.8), size * random.uniform(0.1, 0.5)});
   }
 }
 
@@ -83,7 +85,8 @@ void add_targets(Scene& scene, Random random) {
 std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
   std::vector<std::size_t> order(count);
   for (std::size_t i = 0; i < count; ++i) order[i] = i;
-  for (std::size_t i = count; i > 1; --i) std::swap(order[i - 1], order[random.below(static_cast<int>(i))]);
+  for (std::size_t i = count; i > 1; --i)
+    std::swap(order[i - 1], order[random.below(static_cast<int>(i))]);
   return order;
 }
 
@@ -109,7 +112,8 @@ void lay_out(Scene& scene, double diameter_m, Random random) {
   for (const std::size_t i : shuffled(scene.placed.size(), random)) {
     PlacedObject& part = scene.placed[i];
     const bool alone = random.uniform() >= scene.options.pile;
-    part.world_from_object = place_by_middle(table, scene.objects[part.object].mesh, radius, alone, random);
+    part.world_from_object =
+        place_by_middle(table, scene.objects[part.object].mesh, radius, alone, random);
   }
 }
 
@@ -119,8 +123,8 @@ double reach_m(const Scene& scene) {
   for (const PlacedObject& part : scene.placed) {
     const Mesh& mesh = scene.objects[part.object].mesh;
     if (part.target)
-      reach =
-          std::max(reach, (part.world_from_object * middle_m(mesh)).head<2>().norm() + 0.5 * mesh.diameter_m);
+      reach = std::max(reach, (part.world_from_object * middle_m(mesh)).head<2>().norm() +
+                                  0.5 * mesh.diameter_m);
   }
   return reach;
 }
@@ -148,7 +152,8 @@ void add_views(Scene& scene, Random random) {
   const double first_azimuth = random.uniform(0, 2 * PI);
   for (int i = 0; i < o.views; ++i) {
     // The golden angle keeps any number of views apart.
-    const double azimuth = first_azimuth + i * PI * (3 - std::sqrt(5.0)) + random.uniform(-0.2, 0.2);
+    const double azimuth =
+        first_azimuth + i * PI * (3 - std::sqrt(5.0)) + random.uniform(-0.2, 0.2);
     const double elevation = random.uniform(o.min_elevation_deg, o.max_elevation_deg) * PI / 180;
     const double distance = random.uniform(low, high);
     const double target_y = 0.1 * reach * random.normal();
@@ -159,8 +164,8 @@ void add_views(Scene& scene, Random random) {
     view.camera.fx = view.camera.fy = o.focal_px;
     view.camera.cx = 0.5 * (o.width - 1);
     view.camera.cy = 0.5 * (o.height - 1);
-    view.camera_from_world = look_at(target + distance * on_sphere(azimuth, elevation), target, azimuth,
-                                     random.uniform(-0.3, 0.3));
+    view.camera_from_world = look_at(target + distance * on_sphere(azimuth, elevation), target,
+                                     azimuth, random.uniform(-0.3, 0.3));
     scene.views.push_back(view);
   }
 }
@@ -200,20 +205,22 @@ void lay_board(Scene& scene, double diameter_m, Random random) {
   for (const SceneView& view : scene.views) {
     const double distance = view.camera_from_world.translation_m.norm();
     pixel_m = std::min(pixel_m, distance / view.camera.fx);
-    seen_m = std::max(seen_m, distance / view.camera.fx * std::max(view.camera.width, view.camera.height));
+    seen_m = std::max(seen_m,
+                      distance / view.camera.fx * std::max(view.camera.width, view.camera.height));
   }
   const bool sheet = random.uniform() < 0.35;
   const double reach = reach_m(scene);
   scene.board_side_m = sheet ? reach * random.uniform(2.0, 3.0) : 3 * seen_m;
   scene.world_from_board.rotation = so3_exp({0, 0, random.uniform(0, 2 * PI)});
   if (sheet)
-    scene.world_from_board.translation_m = {0.3 * reach * random.normal(), 0.3 * reach * random.normal(), 0};
+    scene.world_from_board.translation_m = {0.3 * reach * random.normal(),
+                                            0.3 * reach * random.normal(), 0};
   scene.desk_albedo = std::pow(random.uniform(0.2, 0.8), 2);
   const int side_px =
       std::clamp(static_cast<int>(TEXELS_PER_PIXEL * scene.board_side_m / pixel_m), 64, LARGEST_PX);
   const double texels = side_px / scene.board_side_m * diameter_m;
-  scene.board =
-      print_board(side_px, scene.options.clutter, 0.15 * texels, 1.6 * texels, random.split("print"));
+  scene.board = print_board(side_px, scene.options.clutter, 0.15 * texels, 1.6 * texels,
+                            random.split("print"));
 }
 
 }  // namespace

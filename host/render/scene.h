@@ -1,7 +1,8 @@
-// Scenes with known poses: parts lying or piled on a printed board, lights, and cameras on a hemisphere.
+// Scenes with known poses: parts lying or piled on a printed board, lights, and cameras on a
+// hemisphere.
 //
-// World frame: the board is the plane z = 0, +z up, metres. A scene is fully determined by its objects and
-// options.
+// World frame: the board is the plane z = 0, +z up, metres. A scene is fully determined by its
+// objects and options.
 #pragma once
 
 #include <span>
@@ -16,17 +17,19 @@ struct RenderOptions {
   int width = 1024;
   int height = 768;
   double focal_px = 1200;
-  int objects = 8;                // instances, dealt evenly over the models; [1, 20]
-  int views = 1;                  // [1, 50]
-  int clutter = 1;                // 0: bare board; 1: printed shapes and 3 foreign parts; 2: many and 8
-  double pile = 0.5;              // 0: apart, nothing hides anything; 1: all dropped on one heap
+  int objects = 8;    // instances, dealt evenly over the models; [1, 20]
+  int views = 1;      // [1, 50]
+  int clutter = 1;    // 0: bare board; 1: printed shapes and 3 foreign parts; 2: many and 8
+  double pile = 0.5;  // 0: apart, nothing hides anything; 1: all dropped on one heap
   double min_elevation_deg = 35;  // of the cameras over the board; [10, 90]
   double max_elevation_deg = 80;
-  double min_distance_m = 0;  // camera to the middle of the parts; both 0: so that they fill the image
+  double min_distance_m =
+      0;  // camera to the middle of the parts; both 0: so that they fill the image
   double max_distance_m = 0;
   double blur_px = 0.6;   // standard deviation of a Gaussian; [0, 10]
   double noise_grey = 2;  // the same, grey levels; [0, 50]
-  int supersampling = 3;  // samples a pixel and axis; odd, so that one sits on the pixel's centre; [1, 7]
+  int supersampling =
+      3;  // samples a pixel and axis; odd, so that one sits on the pixel's centre; [1, 7]
   bool shadows = true;
   // Throws InputError naming the field and the violated bound.
   void validate() const;
@@ -63,7 +66,7 @@ struct Scene {
   std::vector<PlacedObject> placed;
   std::vector<Light> lights;  // key lights as clusters of points, then the sky
   double ambient = 0.05;      // irradiance that comes from everywhere and casts no shadow
-  Image board;                // print, albedo * 255, over the square of board_side_m about the origin
+  Image board;  // print, albedo * 255, over the square of board_side_m about the origin
   double board_side_m = 0;
   Se3 world_from_board;      // turns and shifts it in its plane
   double desk_albedo = 0.2;  // of the plane around it

@@ -24,8 +24,8 @@ struct Shell {
 };
 
 // A plane face; `x` and `y` span it, x cross y points outwards.
-void add_face(Shell& shell, const Eigen::Vector3d& x, const Eigen::Vector3d& y, const Loop3d& outline,
-              const std::vector<Loop3d>& holes) {
+void add_face(Shell& shell, const Eigen::Vector3d& x, const Eigen::Vector3d& y,
+              const Loop3d& outline, const std::vector<Loop3d>& holes) {
   const auto flat = [&](const Loop3d& loop) {
     Loop2d out;
     for (const Eigen::Vector3d& p : loop) out.emplace_back(x.dot(p), y.dot(p));
@@ -41,8 +41,8 @@ void add_face(Shell& shell, const Eigen::Vector3d& x, const Eigen::Vector3d& y, 
     shell.add(corners[a], corners[b], corners[c]);
 }
 
-// The wall between two loops of equal length. Seen from outside, `bottom` runs to the right and `top` lies
-// above it.
+// The wall between two loops of equal length. Seen from outside, `bottom` runs to the right and
+// `top` lies above it.
 void add_wall(Shell& shell, const Loop3d& bottom, const Loop3d& top) {
   for (std::size_t i = 0; i < bottom.size(); ++i) {
     const std::size_t j = (i + 1) % bottom.size();
@@ -84,15 +84,16 @@ Side side_of(const Loop2d& outline, int index) {
   return {from, to, (to - from).normalized()};
 }
 
-// The hole's rim on its first side, clockwise seen from outside that side, and the same points on the other
-// side.
+// The hole's rim on its first side, clockwise seen from outside that side, and the same points on
+// the other side.
 std::pair<Loop3d, Loop3d> rims(const Extrusion& e, const CrossHole& hole) {
   const Side from = side_of(e.outline_mm, hole.from_side), to = side_of(e.outline_mm, hole.to_side);
   check(from.along.dot(to.along) < -1 + 1e-9,
         "extrude: a cross hole needs two parallel sides that face apart");
   const double depth = (from.from - to.from).dot(from.normal());
   Loop3d near, far;
-  for (const Eigen::Vector2d& p : circle({hole.along_mm, hole.height_mm}, hole.radius_mm, true, 24)) {
+  for (const Eigen::Vector2d& p :
+       circle({hole.along_mm, hole.height_mm}, hole.radius_mm, true, 24)) {
     const Eigen::Vector2d on_side = from.from + p.x() * from.along;
     const Eigen::Vector2d opposite = on_side - depth * from.normal();
     near.emplace_back(on_side.x(), on_side.y(), p.y());

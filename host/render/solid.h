@@ -11,8 +11,8 @@
 
 namespace edgescout {
 
-// A round hole straight through two parallel sides of an extrusion. Side i runs from corner i to corner i + 1
-// of the outline.
+// A round hole straight through two parallel sides of an extrusion. Side i runs from corner i to
+// corner i + 1 of the outline.
 struct CrossHole {
   int from_side = 0;
   int to_side = 0;
@@ -33,8 +33,8 @@ Loop2d circle(const Eigen::Vector2d& centre_mm, double radius_mm, bool clockwise
 
 // Object frame: centre of the bounding box.
 Mesh extrude(const std::string& name, const Extrusion& extrusion);
-// `profile_mm` is a closed counter-clockwise loop of (r, z), r >= 0, turned about z. Corners with r = 0 lie
-// on the axis.
+// `profile_mm` is a closed counter-clockwise loop of (r, z), r >= 0, turned about z. Corners with r
+// = 0 lie on the axis.
 Mesh revolve(const std::string& name, const Loop2d& profile_mm, int segments = 48);
 
 // Volume enclosed by a closed mesh, m^3; positive where its triangles face outwards.

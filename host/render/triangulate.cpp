@@ -8,7 +8,9 @@
 namespace edgescout {
 namespace {
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   return cross(b - a, c - a);
@@ -35,8 +37,8 @@ class EarClipper {
       std::iota(rings.back().begin(), rings.back().end(), static_cast<int>(points_.size()));
       points_.insert(points_.end(), hole.begin(), hole.end());
     }
-    // Rightmost hole first: its bridge to the right cannot be blocked by another hole (Eberly, "Triangulation
-    // by Ear Clipping").
+    // Rightmost hole first: its bridge to the right cannot be blocked by another hole (Eberly,
+    // "Triangulation by Ear Clipping").
     const auto right = [&](const std::vector<int>& ring) {
       double x = points_[ring[0]].x();
       for (const int i : ring) x = std::max(x, points_[i].x());
@@ -64,8 +66,8 @@ class EarClipper {
     return {ring_[(i + n - 1) % n], ring_[i], ring_[(i + 1) % n]};
   }
 
-  // Joins a hole to the ring by the shortest segment that crosses nothing: the ring walks in, round the hole,
-  // and back.
+  // Joins a hole to the ring by the shortest segment that crosses nothing: the ring walks in, round
+  // the hole, and back.
   void bridge(const std::vector<std::vector<int>>& holes, std::size_t which) {
     const std::vector<int>& hole = holes[which];
     double shortest = std::numeric_limits<double>::infinity();
@@ -73,7 +75,8 @@ class EarClipper {
     for (std::size_t r = 0; r < ring_.size(); ++r)
       for (std::size_t h = 0; h < hole.size(); ++h) {
         const double length = (points_[ring_[r]] - points_[hole[h]]).squaredNorm();
-        if (length >= shortest || blocked(ring_[r], hole[h], holes, which) || !opens_inwards(r, hole[h]))
+        if (length >= shortest || blocked(ring_[r], hole[h], holes, which) ||
+            !opens_inwards(r, hole[h]))
           continue;
         shortest = length;
         from = r;
@@ -89,28 +92,32 @@ class EarClipper {
   // Is the point within the wedge of the polygon's inside at ring corner r?
   bool opens_inwards(std::size_t r, int point) const {
     const auto [before, at, after] = corner(r);
-    const Eigen::Vector2d &a = points_[before], &b = points_[at], &c = points_[after], &p = points_[point];
+    const Eigen::Vector2d &a = points_[before], &b = points_[at], &c = points_[after],
+                          &p = points_[point];
     if (turn(a, b, c) >= 0) return turn(a, b, p) > 0 && turn(b, c, p) > 0;
     return turn(a, b, p) > 0 || turn(b, c, p) > 0;
   }
 
-  bool blocked(int a, int b, const std::vector<std::vector<int>>& holes, std::size_t first_free) const {
+  bool blocked(int a, int b, const std::vector<std::vector<int>>& holes,
+               std::size_t first_free) const {
     const auto crosses = [&](const std::vector<int>& ring) {
       for (std::size_t i = 0; i < ring.size(); ++i)
-        if (segments_cross(points_[a], points_[b], points_[ring[i]], points_[ring[(i + 1) % ring.size()]]))
+        if (segments_cross(points_[a], points_[b], points_[ring[i]],
+                           points_[ring[(i + 1) % ring.size()]]))
           return true;
       return false;
     };
-    return crosses(ring_) ||
-           std::any_of(holes.begin() + static_cast<std::ptrdiff_t>(first_free), holes.end(), crosses);
+    return crosses(ring_) || std::any_of(holes.begin() + static_cast<std::ptrdiff_t>(first_free),
+                                         holes.end(), crosses);
   }
 
-  // How far the corner is from a sliver: 2 * area over the squared longest side; not positive where it is no
-  // ear.
+  // How far the corner is from a sliver: 2 * area over the squared longest side; not positive where
+  // it is no ear.
   double quality(std::size_t i) const {
     const auto [ia, ib, ic] = corner(i);
     const Eigen::Vector2d &a = points_[ia], &b = points_[ib], &c = points_[ic];
-    const double longest = std::max({(a - b).squaredNorm(), (b - c).squaredNorm(), (c - a).squaredNorm()});
+    const double longest =
+        std::max({(a - b).squaredNorm(), (b - c).squaredNorm(), (c - a).squaredNorm()});
     const double value = turn(a, b, c) / longest;
     if (value < 1e-9) return 0;
     for (const int k : ring_) {
@@ -138,7 +145,8 @@ class EarClipper {
 
 }  // namespace
 
-std::vector<std::array<int, 3>> triangulate(const Loop2d& outline, const std::vector<Loop2d>& holes) {
+std::vector<std::array<int, 3>> triangulate(const Loop2d& outline,
+                                            const std::vector<Loop2d>& holes) {
   check(outline.size() >= 3 && signed_area(outline) > 0,
         "triangulate: the outline must run counter-clockwise");
   for (const Loop2d& hole : holes)
@@ -148,7 +156,8 @@ std::vector<std::array<int, 3>> triangulate(const Loop2d& outline, const std::ve
 
 double signed_area(const Loop2d& loop) {
   double twice = 0;
-  for (std::size_t i = 0; i < loop.size(); ++i) twice += cross(loop[i], loop[(i + 1) % loop.size()]);
+  for (std::size_t i = 0; i < loop.size(); ++i)
+    twice += cross(loop[i], loop[(i + 1) % loop.size()]);
   return 0.5 * twice;
 }
 

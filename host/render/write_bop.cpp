@@ -40,7 +40,8 @@ json model_info(const Object& object, const std::map<int, Eigen::Vector3d>& turn
     info["symmetries_continuous"] = {{{"axis", direction}, {"offset", {0, 0, 0}}}};
     return info;
   }
-  for (std::size_t i = 1; i < object.symmetries.discrete.size(); ++i)  // the identity goes without saying
+  for (std::size_t i = 1; i < object.symmetries.discrete.size();
+       ++i)  // the identity goes without saying
     info["symmetries_discrete"].push_back(matrix_mm(object.symmetries.discrete[i]));
   return info;
 }
@@ -71,7 +72,8 @@ void write_bop_scene(const Scene& scene, std::span<const Rendering> renderings,
   save_bop_scene(bop, folder);
 }
 
-void write_bop_models(std::span<const Object> objects, const std::map<int, Eigen::Vector3d>& turning_axes,
+void write_bop_models(std::span<const Object> objects,
+                      const std::map<int, Eigen::Vector3d>& turning_axes,
                       const std::filesystem::path& folder) {
   require_writable_folder(folder);
   json infos = json::object();

@@ -14,14 +14,15 @@
 
 namespace edgescout {
 
-// One scene's folder; `renderings` one a view. Truth stands for every target, foreign parts have none.
-// InputError where the folder cannot be written.
+// One scene's folder; `renderings` one a view. Truth stands for every target, foreign parts have
+// none. InputError where the folder cannot be written.
 void write_bop_scene(const Scene& scene, std::span<const Rendering> renderings,
                      const std::filesystem::path& folder);
 
-// The models' folder. An object with an entry in `turning_axes` gets a continuous symmetry about that axis
-// through its origin in place of its discrete ones.
-void write_bop_models(std::span<const Object> objects, const std::map<int, Eigen::Vector3d>& turning_axes,
+// The models' folder. An object with an entry in `turning_axes` gets a continuous symmetry about
+// that axis through its origin in place of its discrete ones.
+void write_bop_models(std::span<const Object> objects,
+                      const std::map<int, Eigen::Vector3d>& turning_axes,
                       const std::filesystem::path& folder);
 
 }  // namespace edgescout

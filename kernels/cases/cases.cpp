@@ -24,10 +24,13 @@ constexpr Scale scale_of(Size size) {
   return {256, 192, 1900, 64, 48, 300, 4, 500, 4, 80, 60, 20, {2, 8, 10, 100, 64, 48, 100}};
 }
 
-std::string by(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+std::string by(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
 
 Intrinsics camera_of(const Scale& s) {
-  return {1.2f * float(s.width), 1.2f * float(s.width), 0.5f * float(s.width), 0.5f * float(s.height)};
+  return {1.2f * float(s.width), 1.2f * float(s.width), 0.5f * float(s.width),
+          0.5f * float(s.height)};
 }
 
 std::size_t tensor_bytes(int width, int height, int bins) {
@@ -39,10 +42,11 @@ Case tensor_case(Backend& backend, const Scale& s) {
   const auto edges = random_segments(rng, s.width, s.height, s.edge_points);
   const TensorOptions options;
   return {"dcd_tensor",
-          by(s.width, s.height) + "x" + std::to_string(options.bins) + ", " + std::to_string(s.edge_points) +
-              " points",
-          tensor_bytes(s.width, s.height, options.bins),
-          [&backend, edges, s, options] { backend.make_view(edges, s.width, s.height, {}, {}, options); }};
+          by(s.width, s.height) + "x" + std::to_string(options.bins) + ", " +
+              std::to_string(s.edge_points) + " points",
+          tensor_bytes(s.width, s.height, options.bins), [&backend, edges, s, options] {
+            backend.make_view(edges, s.width, s.height, {}, {}, options);
+          }};
 }
 
 Case template_case(Backend& backend, const Scale& s, std::uint32_t columns, std::uint32_t rows) {
@@ -51,8 +55,8 @@ Case template_case(Backend& backend, const Scale& s, std::uint32_t columns, std:
   const ViewHandle view =
       backend.make_view(random_segments(rng, s.coarse_width, s.coarse_height, s.edge_points / 10),
                         s.coarse_width, s.coarse_height, {}, {}, options);
-  const Templates work =
-      random_templates(rng, s.coarse_width, s.coarse_height, options.bins, s.templates, columns, rows);
+  const Templates work = random_templates(rng, s.coarse_width, s.coarse_height, options.bins,
+                                          s.templates, columns, rows);
   const auto hits = std::make_shared<std::vector<TemplateHit>>(work.jobs.size());
   constexpr int step = 2;
   return {
@@ -60,7 +64,9 @@ Case template_case(Backend& backend, const Scale& s, std::uint32_t columns, std:
       std::to_string(s.templates) + " templates at " + std::to_string(columns * rows) + " anchors",
       tensor_bytes(s.coarse_width, s.coarse_height, options.bins) +
           work.points.size() * sizeof(TemplatePoint) + work.jobs.size() * sizeof(TemplateHit),
-      [&backend, view, work, hits] { backend.template_score(*view, work.points, work.jobs, step, *hits); }};
+      [&backend, view, work, hits] {
+        backend.template_score(*view, work.points, work.jobs, step, *hits);
+      }};
 }
 
 struct PoseInput {
@@ -75,8 +81,8 @@ PoseInput pose_input(Backend& backend, const Scale& s) {
   const std::vector<std::uint8_t> pixels = disc_image(rng, s.width, s.height);
   const ImageView image{s.width, s.height, pixels.data()};
   constexpr std::size_t reads = sizeof(ModelPoint) + 8 * sizeof(std::uint16_t);
-  return {{backend.make_view(random_segments(rng, s.width, s.height, s.edge_points), s.width, s.height, image,
-                             camera_of(s), {})},
+  return {{backend.make_view(random_segments(rng, s.width, s.height, s.edge_points), s.width,
+                             s.height, image, camera_of(s), {})},
           random_poses(rng, s.problems, s.pose_points),
           std::to_string(s.problems) + " poses of " + std::to_string(s.pose_points) + " points",
           reads * s.problems * s.pose_points};
@@ -88,18 +94,20 @@ std::vector<Case> pose_cases(Backend& backend, const Scale& s) {
   const auto scores = std::make_shared<std::vector<PoseScore>>(input->poses.problems.size());
   return {{"pose_normal_equations", input->size, input->bytes,
            [&backend, input, systems] {
-             backend.pose_normal_equations(input->views, input->poses.points, input->poses.problems, {},
-                                           *systems);
+             backend.pose_normal_equations(input->views, input->poses.points, input->poses.problems,
+                                           {}, *systems);
            }},
           {"pose_score", input->size, input->bytes, [&backend, input, scores] {
-             backend.pose_score(input->views, input->poses.points, input->poses.problems, {}, *scores);
+             backend.pose_score(input->views, input->poses.points, input->poses.problems, {},
+                                *scores);
            }}};
 }
 
 Case depth_case(Backend& backend, const Scale& s) {
   const Mesh mesh = bumpy_ball(s.rings, 2 * s.rings);
   const std::vector<DepthJob> jobs = views_around(s.maps, s.map_width, s.map_height);
-  const auto depth = std::make_shared<std::vector<float>>(std::size_t(s.maps) * s.map_width * s.map_height);
+  const auto depth =
+      std::make_shared<std::vector<float>>(std::size_t(s.maps) * s.map_width * s.map_height);
   return {"depth_raster",
           std::to_string(s.maps) + " maps of " + by(s.map_width, s.map_height) + ", " +
               std::to_string(mesh.triangles.size() / 3) + " triangles",
@@ -135,48 +143,51 @@ std::shared_ptr<NextView> next_view(Backend& backend, const HypothesesSize& size
     made->pixels += scene.nearest.size();
     made->edges += scene.edges.size();
     made->points += scene.points.size();
-    made->cell_count += std::size_t(made->cells.back()->particles) * made->cells.back()->realizations;
+    made->cell_count +=
+        std::size_t(made->cells.back()->particles) * made->cells.back()->realizations;
   }
   return made;
 }
 
-// Operations: of the maps, an edge point tried on the pixels in its reach; of the chamfer distances, a
-// point's lookup for one realization; of the information, a likelihood.
+// Operations: of the maps, an edge point tried on the pixels in its reach; of the chamfer
+// distances, a point's lookup for one realization; of the information, a likelihood.
 std::string counted(const HypothesesSize& size, double operations) {
   char text[96];
-  std::snprintf(text, sizeof text, "%d views, %d, %d, %u: %.2g operations", size.views, size.candidates,
-                size.particles, size.realizations, operations);
+  std::snprintf(text, sizeof text, "%d views, %d, %d, %u: %.2g operations", size.views,
+                size.candidates, size.particles, size.realizations, operations);
   return text;
 }
 
 std::vector<Case> next_view_cases(Backend& backend, const HypothesesSize& size) {
   const std::shared_ptr<NextView> work = next_view(backend, size);
   constexpr double reach_px = std::numbers::pi * CANDIDATE_MAP_REACH_PX * CANDIDATE_MAP_REACH_PX;
-  const std::size_t map_bytes = work->edges * sizeof(MapEdge) + work->pixels * sizeof(std::uint32_t);
+  const std::size_t map_bytes =
+      work->edges * sizeof(MapEdge) + work->pixels * sizeof(std::uint32_t);
   const std::size_t cell_bytes = work->cell_count * sizeof(ChamferCell);
-  return {{"candidate_map", counted(size, reach_px * double(work->edges)), map_bytes,
-           [&backend, work] {
-             for (test::ChamferScene& s : work->scenes)
-               backend.candidate_map(s.edges, s.maps, s.width, s.height, s.nearest);
-           }},
-          {"combination_chamfer", counted(size, double(work->points) * size.realizations),
-           map_bytes + work->pixels * sizeof(float) + work->points * sizeof(ParticlePoint) + cell_bytes,
-           [&backend, work] {
-             for (const test::ChamferScene& s : work->scenes)
-               backend.combination_chamfer(s.view(), s.combinations(), {});
-           }},
-          {"mutual_information", counted(size, double(work->cell_count)), cell_bytes, [&backend, work] {
-             for (const ChamferHandle& cells : work->cells)
-               backend.mutual_information(*cells, work->beliefs, {});
-           }}};
+  return {
+      {"candidate_map", counted(size, reach_px * double(work->edges)), map_bytes,
+       [&backend, work] {
+         for (test::ChamferScene& s : work->scenes)
+           backend.candidate_map(s.edges, s.maps, s.width, s.height, s.nearest);
+       }},
+      {"combination_chamfer", counted(size, double(work->points) * size.realizations),
+       map_bytes + work->pixels * sizeof(float) + work->points * sizeof(ParticlePoint) + cell_bytes,
+       [&backend, work] {
+         for (const test::ChamferScene& s : work->scenes)
+           backend.combination_chamfer(s.view(), s.combinations(), {});
+       }},
+      {"mutual_information", counted(size, double(work->cell_count)), cell_bytes, [&backend, work] {
+         for (const ChamferHandle& cells : work->cells)
+           backend.mutual_information(*cells, work->beliefs, {});
+       }}};
 }
 
 }  // namespace
 
 std::vector<Case> make_cases(Backend& backend, Size size) {
   const Scale s = scale_of(size);
-  std::vector<Case> cases{edge_case(backend, s), tensor_case(backend, s), template_case(backend, s, 1, 1),
-                          template_case(backend, s, 16, 12)};
+  std::vector<Case> cases{edge_case(backend, s), tensor_case(backend, s),
+                          template_case(backend, s, 1, 1), template_case(backend, s, 16, 12)};
   for (Case& c : pose_cases(backend, s)) cases.push_back(std::move(c));
   cases.push_back(depth_case(backend, s));
   for (Case& c : next_view_cases(backend, s.hypotheses)) cases.push_back(std::move(c));

@@ -1,4 +1,5 @@
-// What is timed: every kernel through the Backend, on synthetic input that is the same on every device.
+// What is timed: every kernel through the Backend, on synthetic input that is the same on every
+// device.
 #pragma once
 
 #include <functional>
@@ -10,8 +11,8 @@
 
 namespace edgescout::bench {
 
-// One call of `run` is one repetition; `bytes` is what it must read and write at least, for comparison with
-// the memory's speed.
+// One call of `run` is one repetition; `bytes` is what it must read and write at least, for
+// comparison with the memory's speed.
 struct Case {
   std::string kernel;
   std::string size;

@@ -1,5 +1,5 @@
-// Hypotheses seen from one view, for the tests of the next-best-view kernels: random ones, which need not be
-// anything a camera could see, and boxes, which a test can draw by itself.
+// Hypotheses seen from one view, for the tests of the next-best-view kernels: random ones, which
+// need not be anything a camera could see, and boxes, which a test can draw by itself.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,8 @@ struct ChamferScene {
   // One candidate, its surface depths still empty.
   void add_candidate(const MapWindow& window, const std::vector<MapEdge>& own, float tolerance) {
     maps.push_back({window, static_cast<std::uint32_t>(surface_m.size()),
-                    static_cast<std::uint32_t>(edges.size()), static_cast<std::uint32_t>(own.size())});
+                    static_cast<std::uint32_t>(edges.size()),
+                    static_cast<std::uint32_t>(own.size())});
     edges.insert(edges.end(), own.begin(), own.end());
     surface_m.resize(surface_m.size() + window.size(), DEPTH_EMPTY);
     tolerance_m.push_back(tolerance);
@@ -65,13 +66,15 @@ struct SceneSize {
   std::uint32_t realizations;
 };
 
-// Windows, edges and points in and out of the image and of each other, surfaces full of holes, edges at equal
-// distances.
+// Windows, edges and points in and out of the image and of each other, surfaces full of holes,
+// edges at equal distances.
 inline ChamferScene random_scene(std::mt19937& rng, const SceneSize& size) {
   const auto in = [&](float low, float high) {
     return std::uniform_real_distribution<float>(low, high)(rng);
   };
-  const auto whole = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(rng); };
+  const auto whole = [&](int low, int high) {
+    return std::uniform_int_distribution<int>(low, high)(rng);
+  };
   ChamferScene scene;
   scene.width = size.width;
   scene.height = size.height;
@@ -80,7 +83,8 @@ inline ChamferScene random_scene(std::mt19937& rng, const SceneSize& size) {
     const float x = in(0, float(size.width)), y = in(0, float(size.height)), reach = in(1, 12);
     for (int e = whole(0, size.edges); e > 0; --e) {
       const MapEdge edge{x + in(-reach, reach), y + in(-reach, reach), in(0.3f, 0.6f)};
-      own.push_back(e % 3 == 0 ? MapEdge{std::round(edge.x_px), std::round(edge.y_px), edge.z_m} : edge);
+      own.push_back(e % 3 == 0 ? MapEdge{std::round(edge.x_px), std::round(edge.y_px), edge.z_m}
+                               : edge);
     }
     scene.add_candidate({int(x) - whole(0, 30), int(y) - whole(0, 30), std::uint32_t(whole(0, 50)),
                          std::uint32_t(whole(1, 50))},
@@ -99,7 +103,8 @@ inline ChamferScene random_scene(std::mt19937& rng, const SceneSize& size) {
   return scene;
 }
 
-// A box in front of the camera: a ray cast by hand, edges known to show or not by the way their faces look.
+// A box in front of the camera: a ray cast by hand, edges known to show or not by the way their
+// faces look.
 struct Box {
   std::array<std::array<double, 3>, 3> axis;  // unit, in the camera's frame
   std::array<double, 3> centre, half;         // metres
@@ -131,7 +136,8 @@ inline Box random_box(std::mt19937& rng) {
 
 // Depth where the ray of a pixel meets the box; nothing where it misses.
 inline std::optional<double> box_depth(const Box& box, const Pinhole& camera, double u, double v) {
-  const std::array<double, 3> ray{(u - camera.cx) / camera.focal, (v - camera.cy) / camera.focal, 1};
+  const std::array<double, 3> ray{(u - camera.cx) / camera.focal, (v - camera.cy) / camera.focal,
+                                  1};
   double enter = 0, leave = 1e9;
   for (int k = 0; k < 3; ++k) {
     const double along = dot(box.axis[k], ray), at = dot(box.axis[k], box.centre);
@@ -173,8 +179,9 @@ inline void add_box(ChamferScene& scene, const Box& box, const Pinhole& camera, 
   const std::vector<MapEdge> edges = box_edges(box, camera, points_per_edge);
   const auto [left, right] = std::ranges::minmax(edges, {}, &MapEdge::x_px);
   const auto [top, bottom] = std::ranges::minmax(edges, {}, &MapEdge::y_px);
-  scene.add_candidate(map_window(left.x_px, top.y_px, right.x_px, bottom.y_px, scene.width, scene.height),
-                      edges, tolerance_m);
+  scene.add_candidate(
+      map_window(left.x_px, top.y_px, right.x_px, bottom.y_px, scene.width, scene.height), edges,
+      tolerance_m);
   const CandidateMap& map = scene.maps.back();
   for (std::size_t i = 0; i < map.window.size(); ++i)
     if (const auto z = box_depth(box, camera, map.window.x0 + int(i % map.window.width),

@@ -42,8 +42,8 @@ struct Camera {
   test::Box seen(const test::Box& box) const {
     test::Box out = box;
     for (int k = 0; k < 3; ++k) out.axis[k] = turned(box.axis[k]);
-    out.centre =
-        turned({box.centre[0] - position[0], box.centre[1] - position[1], box.centre[2] - position[2]});
+    out.centre = turned(
+        {box.centre[0] - position[0], box.centre[1] - position[1], box.centre[2] - position[2]});
     return out;
   }
 };
@@ -55,8 +55,8 @@ Camera camera_around(int index, int count) {
   const Vector out{std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation),
                    std::sin(elevation)};
   const Vector right{-std::sin(azimuth), std::cos(azimuth), 0};
-  const Vector up{-std::cos(azimuth) * std::sin(elevation), -std::sin(azimuth) * std::sin(elevation),
-                  std::cos(elevation)};
+  const Vector up{-std::cos(azimuth) * std::sin(elevation),
+                  -std::sin(azimuth) * std::sin(elevation), std::cos(elevation)};
   Camera camera;
   for (int k = 0; k < 3; ++k) {
     camera.rows[0][k] = right[k];

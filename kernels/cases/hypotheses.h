@@ -1,5 +1,5 @@
-// Boxes on a table that a camera goes around: candidates, particles near them and combinations of candidates,
-// as the choice of the next view sees them.
+// Boxes on a table that a camera goes around: candidates, particles near them and combinations of
+// candidates, as the choice of the next view sees them.
 #pragma once
 
 #include "kernels/cases/chamfer_cases.h"

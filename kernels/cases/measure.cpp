@@ -8,7 +8,8 @@ namespace edgescout::bench {
 namespace {
 
 double now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch())
+  return std::chrono::duration<double, std::milli>(
+             std::chrono::steady_clock::now().time_since_epoch())
       .count();
 }
 
@@ -40,7 +41,8 @@ Row measure(Backend& backend, const Case& timed, int repetitions) {
   const std::vector<StageTime> stages = backend.take_timings();
   std::ranges::sort(times);
   const double median = 0.5 * (times[(times.size() - 1) / 2] + times[times.size() / 2]);
-  return {timed.kernel, timed.size, static_cast<int>(times.size()), median, times.front(), times.back(),
+  return {timed.kernel, timed.size,    static_cast<int>(times.size()),
+          median,       times.front(), times.back(),
           timed.bytes,  stages};
 }
 

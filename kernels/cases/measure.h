@@ -15,8 +15,8 @@ struct Row {
   double median_ms, min_ms, max_ms;
   std::size_t bytes;
   std::vector<StageTime> stages;  // of all repetitions together, by the device's clock
-  // Of one repetition, without the host's share: uploads, submission, downloads. Nothing where no device's
-  // clock ran.
+  // Of one repetition, without the host's share: uploads, submission, downloads. Nothing where no
+  // device's clock ran.
   std::optional<double> on_device_ms() const;
   double gigabytes_per_s() const { return double(bytes) / (median_ms * 1e6); }
 };

@@ -18,8 +18,8 @@ float uniform(std::mt19937& rng, float low, float high) {
 Pose random_pose(std::mt19937& rng, float z_m) {
   const float a = uniform(rng, -pi, pi), b = uniform(rng, -pi, pi);
   const float ca = std::cos(a), sa = std::sin(a), cb = std::cos(b), sb = std::sin(b);
-  return {{ca, 0, sa, uniform(rng, -0.05f, 0.05f), sb * sa, cb, -sb * ca, uniform(rng, -0.04f, 0.04f),
-           -cb * sa, sb, cb * ca, z_m}};
+  return {{ca, 0, sa, uniform(rng, -0.05f, 0.05f), sb * sa, cb, -sb * ca,
+           uniform(rng, -0.04f, 0.04f), -cb * sa, sb, cb * ca, z_m}};
 }
 
 }  // namespace
@@ -45,8 +45,8 @@ std::vector<std::uint8_t> disc_image(std::mt19937& rng, int width, int height) {
     for (int y = std::max(0, int(cy - r - 1)); y < std::min(height, int(cy + r + 2)); ++y)
       for (int x = std::max(0, int(cx - r - 1)); x < std::min(width, int(cx + r + 2)); ++x) {
         float& pixel = grey[std::size_t(y) * width + x];
-        pixel +=
-            std::clamp(r - std::hypot(float(x) - cx, float(y) - cy) + 0.5f, 0.0f, 1.0f) * (level - pixel);
+        pixel += std::clamp(r - std::hypot(float(x) - cx, float(y) - cy) + 0.5f, 0.0f, 1.0f) *
+                 (level - pixel);
       }
   }
   std::vector<std::uint8_t> image;
@@ -64,14 +64,16 @@ Templates random_templates(std::mt19937& rng, int width, int height, int bins, i
                 tilt = uniform(rng, 0, pi);
     templates.jobs.push_back({static_cast<std::uint32_t>(templates.points.size()), points,
                               static_cast<std::int32_t>(uniform(rng, 0.1f, 0.8f) * float(width)),
-                              static_cast<std::int32_t>(uniform(rng, 0.1f, 0.8f) * float(height)), columns,
-                              rows});
+                              static_cast<std::int32_t>(uniform(rng, 0.1f, 0.8f) * float(height)),
+                              columns, rows});
     for (std::uint32_t p = 0; p < points; ++p) {
-      const float turn = 2 * pi * float(p) / float(points), u = a * std::cos(turn), v = b * std::sin(turn);
+      const float turn = 2 * pi * float(p) / float(points), u = a * std::cos(turn),
+                  v = b * std::sin(turn);
       const float direction = std::atan2(b * std::cos(turn), -a * std::sin(turn)) + tilt + 2 * pi;
-      templates.points.push_back({static_cast<std::int16_t>(u * std::cos(tilt) - v * std::sin(tilt)),
-                                  static_cast<std::int16_t>(u * std::sin(tilt) + v * std::cos(tilt)),
-                                  static_cast<std::uint16_t>(int(direction / pi * float(bins)) % bins)});
+      templates.points.push_back(
+          {static_cast<std::int16_t>(u * std::cos(tilt) - v * std::sin(tilt)),
+           static_cast<std::int16_t>(u * std::sin(tilt) + v * std::cos(tilt)),
+           static_cast<std::uint16_t>(int(direction / pi * float(bins)) % bins)});
     }
   }
   return templates;
@@ -100,7 +102,9 @@ Mesh bumpy_ball(int rings, int segments) {
            {std::sin(polar) * std::cos(turn), std::sin(polar) * std::sin(turn), std::cos(polar)})
         mesh.vertices_m.push_back(radius * c);
     }
-  const auto index = [&](int r, int s) { return static_cast<std::uint32_t>(r * segments + s % segments); };
+  const auto index = [&](int r, int s) {
+    return static_cast<std::uint32_t>(r * segments + s % segments);
+  };
   for (int r = 0; r < rings; ++r)
     for (int s = 0; s < segments; ++s)
       for (const std::uint32_t i : {index(r, s), index(r + 1, s), index(r, s + 1), index(r, s + 1),
@@ -114,7 +118,8 @@ std::vector<DepthJob> views_around(int count, int width, int height) {
   std::vector<DepthJob> jobs;
   const float focal = 1.2f * float(width);
   for (int i = 0; i < count; ++i)
-    jobs.push_back({random_pose(rng, 0.25f), {focal, focal, 0.5f * float(width), 0.5f * float(height)}});
+    jobs.push_back(
+        {random_pose(rng, 0.25f), {focal, focal, 0.5f * float(width), 0.5f * float(height)}});
   return jobs;
 }
 

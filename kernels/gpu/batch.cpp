@@ -12,7 +12,8 @@ namespace edgescout::gpu {
 namespace {
 
 constexpr VkAccessFlags any_write = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
-constexpr VkAccessFlags any_access = any_write | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT;
+constexpr VkAccessFlags any_access =
+    any_write | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT;
 constexpr VkPipelineStageFlags any_stage =
     VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
 
@@ -35,7 +36,8 @@ Batch::Batch(const Device& device, std::string name)
     : device_(device), name_(std::move(name)), set_(device.command_sets().take()) {}
 
 Batch::~Batch() {
-  // A wait may fail, for want of memory, while the device works on: nothing is given back under its hands.
+  // A wait may fail, for want of memory, while the device works on: nothing is given back under its
+  // hands.
   if (is_running_)
     vkDeviceWaitIdle(device_.get());
   else
@@ -89,12 +91,15 @@ void Batch::copy(const RawBuffer& from, const RawBuffer& to) {
 
 void Batch::barrier() { memory_barrier(set_.commands, any_access, any_stage); }
 
-void Batch::check_dispatch(const Kernel& kernel, Groups groups, std::span<const Bound> bound) const {
-  check(bound.size() == kernel.bindings(), "a dispatch binds as many buffers as its kernel declares");
+void Batch::check_dispatch(const Kernel& kernel, Groups groups,
+                           std::span<const Bound> bound) const {
+  check(bound.size() == kernel.bindings(),
+        "a dispatch binds as many buffers as its kernel declares");
   check(bound.size() <= BINDINGS_PER_SET, "more buffers than a descriptor pool is made for");
   const std::uint32_t* most = device_.limits().maxComputeWorkGroupCount;
   if (groups.x > most[0] || groups.y > most[1] || groups.z > most[2])
-    throw GpuError(described(kernel, groups) + ": more workgroups than " + device_.info().name + " takes");
+    throw GpuError(described(kernel, groups) + ": more workgroups than " + device_.info().name +
+                   " takes");
   for (const Bound& range : bound)
     device_.check_range(range.bytes, kernel.name() + ": buffer '" + range.buffer->name() + "'");
 }
@@ -109,7 +114,8 @@ VkDescriptorSet Batch::bind(const Kernel& kernel, std::span<const Bound> bound) 
   info.descriptorSetCount = 1;
   info.pSetLayouts = &layout;
   VkDescriptorSet set = VK_NULL_HANDLE;
-  require(vkAllocateDescriptorSets(device_.get(), &info, &set), kernel.name() + ": vkAllocateDescriptorSets");
+  require(vkAllocateDescriptorSets(device_.get(), &info, &set),
+          kernel.name() + ": vkAllocateDescriptorSets");
 
   VkDescriptorBufferInfo ranges[BINDINGS_PER_SET];
   VkWriteDescriptorSet writes[BINDINGS_PER_SET];
@@ -123,7 +129,8 @@ VkDescriptorSet Batch::bind(const Kernel& kernel, std::span<const Bound> bound) 
     writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     writes[i].pBufferInfo = &ranges[i];
   }
-  vkUpdateDescriptorSets(device_.get(), static_cast<std::uint32_t>(bound.size()), writes, 0, nullptr);
+  vkUpdateDescriptorSets(device_.get(), static_cast<std::uint32_t>(bound.size()), writes, 0,
+                         nullptr);
   return set;
 }
 
@@ -135,8 +142,8 @@ void Batch::dispatch_bytes(const Kernel& kernel, Groups groups, std::span<const 
   story_ += (story_.empty() ? "" : ", ") + described(kernel, groups);
   const VkDescriptorSet set = bind(kernel, bound);
   vkCmdBindPipeline(set_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
-  vkCmdBindDescriptorSets(set_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1, &set, 0,
-                          nullptr);
+  vkCmdBindDescriptorSets(set_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1,
+                          &set, 0, nullptr);
   vkCmdPushConstants(set_.commands, kernel.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                      static_cast<std::uint32_t>(push.size()), push.data());
   write_timestamp(0);
@@ -153,7 +160,8 @@ void Batch::write_timestamp(std::uint32_t which) {
   if (pool == set_.queries.size()) set_.queries.push_back(create_queries(device_));
   const VkQueryPool queries = set_.queries[pool].get();
   if (which == 0 && number == 0) vkCmdResetQueryPool(set_.commands, queries, 0, 2 * TIMED_PER_POOL);
-  vkCmdWriteTimestamp(set_.commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries, 2 * number + which);
+  vkCmdWriteTimestamp(set_.commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries,
+                      2 * number + which);
 }
 
 std::vector<StageTime> Batch::read_times() const {
@@ -166,8 +174,8 @@ std::vector<StageTime> Batch::read_times() const {
             .first(std::min<std::size_t>(TIMED_PER_POOL, dispatched_.size() - p * TIMED_PER_POOL));
     std::vector<std::uint64_t> ticks(2 * names.size());
     require(vkGetQueryPoolResults(device_.get(), set_.queries[p].get(), 0,
-                                  static_cast<std::uint32_t>(ticks.size()), ticks.size() * sizeof ticks[0],
-                                  ticks.data(), sizeof ticks[0],
+                                  static_cast<std::uint32_t>(ticks.size()),
+                                  ticks.size() * sizeof ticks[0], ticks.data(), sizeof ticks[0],
                                   VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
             name_ + ": vkGetQueryPoolResults");
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -191,7 +199,8 @@ std::vector<StageTime> Batch::run() {
   const VkFence fence = set_.fence.get();
   is_running_ = true;
   require(vkQueueSubmit(device_.queue(), 1, &info, fence), what + ": vkQueueSubmit");
-  require(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, UINT64_MAX), what + ": vkWaitForFences");
+  require(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, UINT64_MAX),
+          what + ": vkWaitForFences");
   is_running_ = false;
   for (const Download& download : downloads_)
     std::memcpy(download.to.data(), download.from, download.to.size());

@@ -1,5 +1,5 @@
-// Commands recorded in order, submitted once, waited for. A batch has a name; its kernels are timed by
-// theirs.
+// Commands recorded in order, submitted once, waited for. A batch has a name; its kernels are timed
+// by theirs.
 //
 //   Batch batch(device, "dcd_tensor");
 //   batch.upload(points, edges);
@@ -8,8 +8,8 @@
 //   batch.download(tensor, values);
 //   std::vector<StageTime> times = batch.run();
 //
-// Nothing is ordered but by barrier(): it stands between an upload, fill or dispatch and whatever uses its
-// result. run() orders the last commands before the host's reads itself.
+// Nothing is ordered but by barrier(): it stands between an upload, fill or dispatch and whatever
+// uses its result. run() orders the last commands before the host's reads itself.
 #pragma once
 
 #include <deque>
@@ -47,8 +47,8 @@ inline std::uint32_t groups_for(std::size_t count, std::uint32_t size) {
   return static_cast<std::uint32_t>((count + size - 1) / size);
 }
 
-// `count` workgroups in two dimensions, for kernels that number them x + y * gl_NumWorkGroups.x: a device may
-// take no more than 65535 along one.
+// `count` workgroups in two dimensions, for kernels that number them x + y * gl_NumWorkGroups.x: a
+// device may take no more than 65535 along one.
 inline Groups spread(std::uint32_t count) {
   constexpr std::uint32_t line = 1u << 15;
   return {count < line ? count : line, groups_for(count, line)};
@@ -61,8 +61,8 @@ class Batch {
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
 
-  // Copies now; the caller's memory is free afterwards. The buffer must not be in use by an earlier command
-  // of this batch.
+  // Copies now; the caller's memory is free afterwards. The buffer must not be in use by an earlier
+  // command of this batch.
   template <class T>
   void upload(const RawBuffer& to, std::span<const T> values) {
     upload_bytes(to, std::as_bytes(values));
@@ -74,18 +74,20 @@ class Batch {
   void barrier();
   // Throws GpuError where the device's limits do not take this many groups or a range this long.
   template <class Push>
-  void dispatch(const Kernel& kernel, Groups groups, std::initializer_list<Bound> bound, const Push& push) {
-    dispatch_bytes(kernel, groups, {bound.begin(), bound.size()}, std::as_bytes(std::span(&push, 1)));
+  void dispatch(const Kernel& kernel, Groups groups, std::initializer_list<Bound> bound,
+                const Push& push) {
+    dispatch_bytes(kernel, groups, {bound.begin(), bound.size()},
+                   std::as_bytes(std::span(&push, 1)));
   }
-  // The first values of the buffer, into `to` when run() returns; implies a barrier() where copies are
-  // staged.
+  // The first values of the buffer, into `to` when run() returns; implies a barrier() where copies
+  // are staged.
   template <class T>
   void download(const RawBuffer& from, std::span<T> to) {
     download_bytes(from, std::as_writable_bytes(to));
   }
 
-  // Once. Throws GpuError naming the batch, its kernels and their sizes. Returns the time each kernel took on
-  // the device, summed by name; empty where the device cannot tell.
+  // Once. Throws GpuError naming the batch, its kernels and their sizes. Returns the time each
+  // kernel took on the device, summed by name; empty where the device cannot tell.
   std::vector<StageTime> run();
 
  private:

@@ -17,7 +17,8 @@ std::uint32_t type_of(const Device& device, std::uint32_t allowed, Memory memory
                                   cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
   switch (memory) {
     case Memory::device:
-      return device.memory_type(allowed, device.unified_memory() ? local | cached | host_coherent : local, 0);
+      return device.memory_type(
+          allowed, device.unified_memory() ? local | cached | host_coherent : local, 0);
     case Memory::upload:
       return device.memory_type(allowed, host_coherent, 0);
     case Memory::download:  // cached memory is read faster, but no device must have it
@@ -64,10 +65,12 @@ RawBuffer::RawBuffer(const Device& device, VkDeviceSize bytes, Memory memory, st
   vkGetBufferMemoryRequirements(device.get(), get(), &needs);
   memory_ = {device.get(), allocate(device, needs, memory, what), vkFreeMemory};
   if (memory == Memory::device) counted_ = CountedMemory(needs.size);
-  require(vkBindBufferMemory(device.get(), get(), memory_.get(), 0), "vkBindBufferMemory for " + what);
+  require(vkBindBufferMemory(device.get(), get(), memory_.get(), 0),
+          "vkBindBufferMemory for " + what);
   if (memory == Memory::device && !device.unified_memory()) return;
   void* address = nullptr;
-  require(vkMapMemory(device.get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &address), "vkMapMemory for " + what);
+  require(vkMapMemory(device.get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &address),
+          "vkMapMemory for " + what);
   mapped_ = static_cast<std::byte*>(address);
 }
 

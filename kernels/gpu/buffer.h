@@ -1,5 +1,5 @@
-// Device memory with a name. On a device with unified memory the host sees it; elsewhere Batch copies through
-// staging.
+// Device memory with a name. On a device with unified memory the host sees it; elsewhere Batch
+// copies through staging.
 #pragma once
 
 #include <cstddef>
@@ -29,8 +29,8 @@ enum class Memory {
 class RawBuffer {
  public:
   RawBuffer() = default;
-  // Throws GpuError naming buffer and size where the memory is not to be had, OutOfDeviceMemory where it is
-  // at another time. At least 4 bytes are allocated.
+  // Throws GpuError naming buffer and size where the memory is not to be had, OutOfDeviceMemory
+  // where it is at another time. At least 4 bytes are allocated.
   RawBuffer(const Device& device, VkDeviceSize bytes, Memory memory, std::string name);
 
   VkBuffer get() const { return buffer_.get(); }
@@ -58,8 +58,8 @@ class Buffer : public RawBuffer {
   Buffer(const Device& device, std::size_t size, std::string name, Memory memory = Memory::device)
       : RawBuffer(device, size * sizeof(T), memory, std::move(name)), size_(size) {}
   std::size_t size() const { return size_; }
-  // Grows to at least `size` values; the contents are lost when it does. Throws GpuError, and stays as it is,
-  // where a kernel could not be given all of it: a dispatch binds such a buffer whole.
+  // Grows to at least `size` values; the contents are lost when it does. Throws GpuError, and stays
+  // as it is, where a kernel could not be given all of it: a dispatch binds such a buffer whole.
   void reserve(const Device& device, std::size_t size, const char* name) {
     if (size > size_ || get() == VK_NULL_HANDLE) {
       device.check_range(size * sizeof(T), "buffer '" + std::string(name) + "'");

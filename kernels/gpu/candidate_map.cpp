@@ -32,8 +32,8 @@ std::size_t CandidateMaps::take(std::span<const CandidateMap> maps) const {
   return count;
 }
 
-void CandidateMaps::record(Batch& batch, std::span<const MapEdge> edges, std::span<const CandidateMap> maps,
-                           int width, int height) {
+void CandidateMaps::record(Batch& batch, std::span<const MapEdge> edges,
+                           std::span<const CandidateMap> maps, int width, int height) {
   // Only what these maps name, one after the other.
   std::vector<MapEdge> own_edges;
   std::vector<CandidateMap> own_maps(maps.begin(), maps.end());
@@ -59,13 +59,15 @@ void CandidateMaps::record(Batch& batch, std::span<const MapEdge> edges, std::sp
   batch.upload<std::uint32_t>(tiles_, tiles);
   batch.barrier();
   const auto count = static_cast<std::uint32_t>(tiles.size() / 2);
-  const CandidateMapPush push{count, static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+  const CandidateMapPush push{count, static_cast<std::uint32_t>(width),
+                              static_cast<std::uint32_t>(height)};
   batch.dispatch(kernel_, spread(count), {edges_, maps_, tiles_, nearest_}, push);
   host_nearest_.resize(pixels);
   batch.download<std::uint32_t>(nearest_, host_nearest_);
 }
 
-void CandidateMaps::collect(std::span<const CandidateMap> maps, std::span<std::uint32_t> nearest) const {
+void CandidateMaps::collect(std::span<const CandidateMap> maps,
+                            std::span<std::uint32_t> nearest) const {
   const std::uint32_t* from = host_nearest_.data();
   for (const CandidateMap& map : maps) {
     std::copy_n(from, map.window.size(), nearest.begin() + map.first_pixel);

@@ -12,12 +12,12 @@ namespace edgescout::gpu {
 class CandidateMaps {
  public:
   explicit CandidateMaps(const Device& device);
-  // How many of the maps, from the first, one batch draws: what the device binds at once, and not so much
-  // that it fills its memory.
+  // How many of the maps, from the first, one batch draws: what the device binds at once, and not
+  // so much that it fills its memory.
   std::size_t take(std::span<const CandidateMap> maps) const;
   // What take() says, of maps that check_candidate_maps() has passed.
-  void record(Batch& batch, std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width,
-              int height);
+  void record(Batch& batch, std::span<const MapEdge> edges, std::span<const CandidateMap> maps,
+              int width, int height);
   // After the batch has run, into the caller's layout.
   void collect(std::span<const CandidateMap> maps, std::span<std::uint32_t> nearest) const;
 

@@ -1,5 +1,5 @@
-// Records combination_chamfer (kernels/combination_chamfer.h, chamfer_plan.h, chamfer_push.h): the plan is
-// made on the processor, the realizations are the device's.
+// Records combination_chamfer (kernels/combination_chamfer.h, chamfer_plan.h, chamfer_push.h): the
+// plan is made on the processor, the realizations are the device's.
 #pragma once
 
 #include "kernels/chamfer_plan.h"
@@ -26,7 +26,8 @@ class CombinationChamfer {
   void upload(Batch& batch, const ChamferPlan& plan, const CombinationBits& combinations);
   // Words of 32 realizations whose rows fit the device together.
   std::uint32_t tile_words(const ChamferPlan& plan, std::uint32_t words) const;
-  void record_tile(Batch& batch, const ChamferPlan& plan, const ChamferPush& tile, const DeviceCells& cells);
+  void record_tile(Batch& batch, const ChamferPlan& plan, const ChamferPush& tile,
+                   const DeviceCells& cells);
 
   const Device& device_;
   Kernel masks_kernel_, rows_kernel_, sums_kernel_;

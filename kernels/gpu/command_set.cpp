@@ -66,7 +66,8 @@ Handle<VkQueryPool> create_queries(const Device& device) {
 }
 
 Handle<VkDescriptorPool> create_descriptors(const Device& device) {
-  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, SETS_PER_POOL * BINDINGS_PER_SET};
+  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                  SETS_PER_POOL * BINDINGS_PER_SET};
   VkDescriptorPoolCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
   info.maxSets = SETS_PER_POOL;

@@ -1,5 +1,5 @@
-// What a batch is recorded in, timed and waited for, kept for the next one: to make it anew may cost a driver
-// more than a short kernel takes.
+// What a batch is recorded in, timed and waited for, kept for the next one: to make it anew may
+// cost a driver more than a short kernel takes.
 #pragma once
 
 #include <vector>
@@ -29,7 +29,8 @@ Handle<VkDescriptorPool> create_descriptors(const Device& device);
 class CommandSets {
  public:
   explicit CommandSets(const Device& device) : device_(device) {}
-  // Its commands are being recorded, its fence is not signalled, no descriptor is allocated. Throws GpuError.
+  // Its commands are being recorded, its fence is not signalled, no descriptor is allocated. Throws
+  // GpuError.
   CommandSet take();
   // Of commands that have run, or never will.
   void give_back(CommandSet set);

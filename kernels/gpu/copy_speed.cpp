@@ -30,8 +30,8 @@ double copy_bytes_per_s(int device_index) {
     const auto start = std::chrono::steady_clock::now();
     copies.run();
     if (i > 0)
-      best_s =
-          std::min(best_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+      best_s = std::min(
+          best_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   return 2.0 * COPIES * static_cast<double>(bytes) / best_s;
 }

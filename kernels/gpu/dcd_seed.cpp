@@ -42,8 +42,9 @@ void DcdSeed::record(Batch& batch, std::span<const EdgePoint> edges, const Tenso
                          words,           lists.cell_columns,
                          lists.cell_rows, shape.bins / std::numbers::pi_v<float>};
   const auto dispatch = [&](std::uint32_t pass, std::size_t invocations) {
-    batch.dispatch(passes_[pass], spread(groups_for(invocations, DCD_SEED_GROUP)),
-                   {lists.points, lists.planes, lists.cells, lists.seeds, lists.slots, lists.placed}, push);
+    batch.dispatch(
+        passes_[pass], spread(groups_for(invocations, DCD_SEED_GROUP)),
+        {lists.points, lists.planes, lists.cells, lists.seeds, lists.slots, lists.placed}, push);
     batch.barrier();
   };
   batch.upload(lists.points, edges);

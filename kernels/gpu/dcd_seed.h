@@ -10,7 +10,8 @@
 
 namespace edgescout::gpu {
 
-// The lists, and the scratch they are made with; grows and stays, so that a stream of images allocates once.
+// The lists, and the scratch they are made with; grows and stays, so that a stream of images
+// allocates once.
 struct SeedLists {
   std::uint32_t cell_columns = 0, cell_rows = 0;
   Buffer<EdgePoint> points;

@@ -19,7 +19,8 @@ const Kernel& DcdSweep::kernel_of(std::uint32_t radius) {
 
 void DcdSweep::record(Batch& batch, const TensorOptions& options, std::uint32_t cap,
                       const DeviceTensor& tensor) {
-  const std::vector<std::uint16_t> narrow = smoothing_weights(options.smoothing_variance, options.bins);
+  const std::vector<std::uint16_t> narrow =
+      smoothing_weights(options.smoothing_variance, options.bins);
   const std::vector<std::uint32_t> weights(narrow.begin(), narrow.end());
   weights_.reserve(device_, DCD_MAX_BINS, "smoothing weights");
   batch.upload<std::uint32_t>(weights_, weights);

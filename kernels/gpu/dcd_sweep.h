@@ -1,4 +1,5 @@
-// Records dcd_sweep: the recursion over orientation and its smoothing, in place (kernels/dcd_sweep.h).
+// Records dcd_sweep: the recursion over orientation and its smoothing, in place
+// (kernels/dcd_sweep.h).
 #pragma once
 
 #include <map>
@@ -12,7 +13,8 @@ class DcdSweep {
  public:
   explicit DcdSweep(const Device& device) : device_(device) {}
   // `cap` and the tensor's values in 1/256 px.
-  void record(Batch& batch, const TensorOptions& options, std::uint32_t cap, const DeviceTensor& tensor);
+  void record(Batch& batch, const TensorOptions& options, std::uint32_t cap,
+              const DeviceTensor& tensor);
 
  private:
   const Kernel& kernel_of(std::uint32_t radius);

@@ -12,7 +12,8 @@ namespace edgescout::gpu {
 
 class DcdTensorBuilder {
  public:
-  explicit DcdTensorBuilder(const Device& device) : seed_(device), distance_(device), sweep_(device) {}
+  explicit DcdTensorBuilder(const Device& device)
+      : seed_(device), distance_(device), sweep_(device) {}
   // The builder's scratch is in use until the batch has run.
   void record(Batch& batch, std::span<const EdgePoint> edges, const TensorOptions& options,
               const DeviceTensor& tensor);

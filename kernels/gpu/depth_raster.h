@@ -11,13 +11,13 @@ namespace edgescout::gpu {
 class DepthRaster {
  public:
   explicit DepthRaster(const Device& device);
-  // Maps one batch may draw, at least one: what the device binds at once, not so many that they fill its
-  // memory, and with so many triangles as a driver that ends long work lets it draw.
+  // Maps one batch may draw, at least one: what the device binds at once, not so many that they
+  // fill its memory, and with so many triangles as a driver that ends long work lets it draw.
   std::size_t max_jobs(std::size_t triangles, int width, int height) const;
   // At most max_jobs() jobs; `depth` is there when the batch has run. Throws LogicError where
   // check_depth_raster() does.
-  void record(Batch& batch, const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
-              std::span<float> depth);
+  void record(Batch& batch, const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width,
+              int height, std::span<float> depth);
 
  private:
   const Device& device_;

@@ -14,8 +14,8 @@ namespace {
 VkPhysicalDevice pick(const Instance& instance, int index) {
   const std::vector<VkPhysicalDevice> devices = instance.physical_devices();
   if (index < 0 || index >= static_cast<int>(devices.size()))
-    throw GpuError("no Vulkan device " + std::to_string(index) + ": " + std::to_string(devices.size()) +
-                   " found");
+    throw GpuError("no Vulkan device " + std::to_string(index) + ": " +
+                   std::to_string(devices.size()) + " found");
   return devices[index];
 }
 
@@ -96,7 +96,8 @@ Device::Device(const DeviceOptions& options)
     throw GpuError(info_.name + ": Vulkan " + info_.api_version + ", at least 1.2 is needed");
   limits_ = properties.properties.limits;
   max_allocation_bytes_ = maintenance.maxMemoryAllocationSize;
-  max_band_bytes_ = options.max_band_bytes > 0 ? options.max_band_bytes : limits_.maxStorageBufferRange;
+  max_band_bytes_ =
+      options.max_band_bytes > 0 ? options.max_band_bytes : limits_.maxStorageBufferRange;
   vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
   if (options.staging) hide_cached(memory_);
   unified_memory_ = is_unified(memory_);
@@ -116,15 +117,16 @@ Device::~Device() = default;
 
 void Device::check_range(VkDeviceSize bytes, const std::string& name) const {
   if (bytes > limits_.maxStorageBufferRange)
-    throw GpuError(name + " of " + std::to_string(bytes) + " bytes, " + info_.name + " binds at most " +
-                   std::to_string(limits_.maxStorageBufferRange));
+    throw GpuError(name + " of " + std::to_string(bytes) + " bytes, " + info_.name +
+                   " binds at most " + std::to_string(limits_.maxStorageBufferRange));
 }
 
 std::uint32_t Device::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags needed,
                                   VkMemoryPropertyFlags wanted) const {
   for (const VkMemoryPropertyFlags flags : {needed | wanted, needed})
     for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i)
-      if ((allowed >> i & 1u) != 0 && (memory_.memoryTypes[i].propertyFlags & flags) == flags) return i;
+      if ((allowed >> i & 1u) != 0 && (memory_.memoryTypes[i].propertyFlags & flags) == flags)
+        return i;
   throw GpuError(info_.name + ": no memory type with property flags " + std::to_string(needed));
 }
 

@@ -1,5 +1,5 @@
-// One Vulkan device with one compute queue: its limits, its memory types, what every other object here is
-// made from. Used by one thread at a time, like the Backend that owns it.
+// One Vulkan device with one compute queue: its limits, its memory types, what every other object
+// here is made from. Used by one thread at a time, like the Backend that owns it.
 #pragma once
 
 #include <cstdint>
@@ -49,8 +49,8 @@ class Device {
   StagingPool& staging() const { return *staging_; }
   CommandSets& command_sets() const { return *command_sets_; }
 
-  // First memory type of `allowed` (a bit set) with all of `needed` and `wanted`, or, where there is none, of
-  // `needed` alone; throws GpuError where there is none of these either.
+  // First memory type of `allowed` (a bit set) with all of `needed` and `wanted`, or, where there
+  // is none, of `needed` alone; throws GpuError where there is none of these either.
   std::uint32_t memory_type(std::uint32_t allowed, VkMemoryPropertyFlags needed,
                             VkMemoryPropertyFlags wanted) const;
 

@@ -22,7 +22,8 @@ DeviceInfo describe(VkPhysicalDevice device, int index) {
   info.index = index;
   info.name = p.deviceName;
   info.driver = driver.driverName;
-  if (driver.driverInfo[0] != '\0') info.driver += std::string(" ") + driver.driverInfo;  // some say nothing
+  if (driver.driverInfo[0] != '\0')
+    info.driver += std::string(" ") + driver.driverInfo;  // some say nothing
   info.api_version = std::to_string(VK_API_VERSION_MAJOR(p.apiVersion)) + "." +
                      std::to_string(VK_API_VERSION_MINOR(p.apiVersion)) + "." +
                      std::to_string(VK_API_VERSION_PATCH(p.apiVersion));

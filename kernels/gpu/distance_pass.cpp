@@ -7,7 +7,8 @@ namespace edgescout::gpu {
 
 DistancePass::DistancePass(const Device& device)
     : plain_(device, {"distance_pass", distance_pass_spv, 3, sizeof(DistancePassPush), {1}}),
-      many_(device, {"distance_pass", distance_pass_spv, 3, sizeof(DistancePassPush), {DISTANCE_MANY}}) {}
+      many_(device,
+            {"distance_pass", distance_pass_spv, 3, sizeof(DistancePassPush), {DISTANCE_MANY}}) {}
 
 void DistancePass::record(Batch& batch, const SeedLists& lists, std::uint32_t cap,
                           const DeviceTensor& tensor) const {

@@ -12,7 +12,8 @@ class DistancePass {
  public:
   explicit DistancePass(const Device& device);
   // `cap` in 1/256 px. The lists must have been made for the tensor's shape.
-  void record(Batch& batch, const SeedLists& lists, std::uint32_t cap, const DeviceTensor& tensor) const;
+  void record(Batch& batch, const SeedLists& lists, std::uint32_t cap,
+              const DeviceTensor& tensor) const;
 
  private:
   Kernel plain_, many_;

@@ -13,7 +13,8 @@ namespace edgescout::gpu {
 
 namespace {
 
-constexpr std::size_t MOST_AT_FIRST = std::size_t{1} << 16;  // edge pixels; 1024x768 hardly ever has as many
+constexpr std::size_t MOST_AT_FIRST = std::size_t{1}
+                                      << 16;  // edge pixels; 1024x768 hardly ever has as many
 
 Kernel gradient_pass(const Device& device, std::uint32_t pass) {
   return Kernel(device, {"edge_gradient", edge_gradient_spv, 4, sizeof(EdgeGradientPush), {pass}});
@@ -21,11 +22,13 @@ Kernel gradient_pass(const Device& device, std::uint32_t pass) {
 
 // A word a pixel is the most a plane takes.
 void check_size(const Device& device, const ImageView& image) {
-  check(image.width > 0 && image.height > 0 && image.pixels, "detect_edges: an image without pixels");
+  check(image.width > 0 && image.height > 0 && image.pixels,
+        "detect_edges: an image without pixels");
   const std::uint64_t most = device.limits().maxStorageBufferRange / sizeof(std::uint32_t) - 1;
   const std::uint64_t pixels = std::uint64_t(image.width) * std::uint64_t(image.height);
   if (pixels > most)
-    throw InputError("image", "size", std::to_string(image.width) + "x" + std::to_string(image.height),
+    throw InputError("image", "size",
+                     std::to_string(image.width) + "x" + std::to_string(image.height),
                      "at most " + std::to_string(most) + " pixels on " + device.info().name);
 }
 
@@ -52,8 +55,8 @@ void EdgeDetect::record_gradient(Batch& batch, const ImageView& image, float sig
   batch.barrier();
   const EdgeGradientPush push{width_, height_, static_cast<std::uint32_t>(weights.radius)};
   for (const Kernel& pass : gradient_passes_) {
-    batch.dispatch(pass, {groups_for(width_, EDGE_GROUP), height_}, {image_, weights_, rows_, gradient_},
-                   push);
+    batch.dispatch(pass, {groups_for(width_, EDGE_GROUP), height_},
+                   {image_, weights_, rows_, gradient_}, push);
     batch.barrier();
   }
 }
@@ -102,7 +105,8 @@ void EdgeDetect::record_rest(Batch& batch) {
 
 std::vector<std::uint32_t> EdgeDetect::pixels() const {
   check(lists_all(), "edge_detect: a list that was cut");
-  std::vector<std::uint32_t> list(host_kept_.begin() + 1, host_kept_.begin() + 1 + host_kept_.front());
+  std::vector<std::uint32_t> list(host_kept_.begin() + 1,
+                                  host_kept_.begin() + 1 + host_kept_.front());
   std::ranges::sort(list);
   return list;
 }

@@ -13,7 +13,8 @@ class Handle {
   using Destroy = void(VKAPI_PTR*)(VkDevice, T, const VkAllocationCallbacks*);
 
   Handle() = default;
-  Handle(VkDevice device, T handle, Destroy destroy) : device_(device), handle_(handle), destroy_(destroy) {}
+  Handle(VkDevice device, T handle, Destroy destroy)
+      : device_(device), handle_(handle), destroy_(destroy) {}
   ~Handle() {
     if (handle_ != VK_NULL_HANDLE) destroy_(device_, handle_, nullptr);
   }

@@ -32,11 +32,11 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT
 VkDebugUtilsMessengerCreateInfoEXT messenger_info() {
   VkDebugUtilsMessengerCreateInfoEXT info{};
   info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
-  info.messageSeverity =
-      VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+  info.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
+                         VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
   // Not "general": the loader's remarks about other drivers of the machine are none of ours.
-  info.messageType =
-      VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+  info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
+                     VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
   info.pfnUserCallback = on_message;
   return info;
 }
@@ -47,7 +47,8 @@ VkInstance create_instance(bool validation) {
   app.pApplicationName = "edgescout";
   app.apiVersion = VK_API_VERSION_1_2;
 
-  const VkValidationFeatureEnableEXT enable = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+  const VkValidationFeatureEnableEXT enable =
+      VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
   VkValidationFeaturesEXT features{};
   features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
   features.enabledValidationFeatureCount = 1;
@@ -86,8 +87,8 @@ Function instance_function(VkInstance instance, const char* name) {
 
 Instance::Instance(bool validation) : instance_(create_instance(validation)) {
   if (!validation) return;
-  const auto create =
-      instance_function<PFN_vkCreateDebugUtilsMessengerEXT>(instance_, "vkCreateDebugUtilsMessengerEXT");
+  const auto create = instance_function<PFN_vkCreateDebugUtilsMessengerEXT>(
+      instance_, "vkCreateDebugUtilsMessengerEXT");
   const VkDebugUtilsMessengerCreateInfoEXT info = messenger_info();
   const VkResult result = create(instance_, &info, nullptr, &messenger_);
   if (result == VK_SUCCESS) return;
@@ -97,8 +98,8 @@ Instance::Instance(bool validation) : instance_(create_instance(validation)) {
 
 Instance::~Instance() {
   if (messenger_ != VK_NULL_HANDLE)
-    instance_function<PFN_vkDestroyDebugUtilsMessengerEXT>(instance_, "vkDestroyDebugUtilsMessengerEXT")(
-        instance_, messenger_, nullptr);
+    instance_function<PFN_vkDestroyDebugUtilsMessengerEXT>(
+        instance_, "vkDestroyDebugUtilsMessengerEXT")(instance_, messenger_, nullptr);
   vkDestroyInstance(instance_, nullptr);
 }
 
@@ -106,7 +107,8 @@ std::vector<VkPhysicalDevice> Instance::physical_devices() const {
   std::uint32_t count = 0;
   require(vkEnumeratePhysicalDevices(instance_, &count, nullptr), "vkEnumeratePhysicalDevices");
   std::vector<VkPhysicalDevice> devices(count);
-  require(vkEnumeratePhysicalDevices(instance_, &count, devices.data()), "vkEnumeratePhysicalDevices");
+  require(vkEnumeratePhysicalDevices(instance_, &count, devices.data()),
+          "vkEnumeratePhysicalDevices");
   devices.resize(count);
   return devices;
 }

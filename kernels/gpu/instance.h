@@ -1,4 +1,5 @@
-// The Vulkan loader's instance and, where asked for, the validation layer (with synchronization validation).
+// The Vulkan loader's instance and, where asked for, the validation layer (with synchronization
+// validation).
 #pragma once
 
 #include <vector>
@@ -23,8 +24,9 @@ class Instance {
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
 
-// The process's instance, made when first asked for and never destroyed: with the last instance the loader
-// unloads the drivers, and loading them again costs as much as a small image. Throws as the constructor does.
+// The process's instance, made when first asked for and never destroyed: with the last instance the
+// loader unloads the drivers, and loading them again costs as much as a small image. Throws as the
+// constructor does.
 const Instance& shared_instance(bool validation);
 
 }  // namespace edgescout::gpu

@@ -14,8 +14,8 @@ void check_limits(const Device& device, const KernelSource& source) {
                    " bytes of push constants, " + device.info().name + " takes " +
                    std::to_string(limits.maxPushConstantsSize));
   if (source.bindings > limits.maxPerStageDescriptorStorageBuffers)
-    throw GpuError(std::string(source.name) + ": " + std::to_string(source.bindings) + " storage buffers, " +
-                   device.info().name + " takes " +
+    throw GpuError(std::string(source.name) + ": " + std::to_string(source.bindings) +
+                   " storage buffers, " + device.info().name + " takes " +
                    std::to_string(limits.maxPerStageDescriptorStorageBuffers));
 }
 
@@ -33,7 +33,8 @@ VkDescriptorSetLayout create_set_layout(VkDevice device, const KernelSource& sou
   return layout;
 }
 
-VkPipelineLayout create_layout(VkDevice device, VkDescriptorSetLayout set, const KernelSource& source) {
+VkPipelineLayout create_layout(VkDevice device, VkDescriptorSetLayout set,
+                               const KernelSource& source) {
   const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, source.push_bytes};
   VkPipelineLayoutCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
@@ -58,7 +59,8 @@ Handle<VkShaderModule> create_module(VkDevice device, const KernelSource& source
   return {device, shader, vkDestroyShaderModule};
 }
 
-VkPipeline create_pipeline(const Device& device, VkPipelineLayout layout, const KernelSource& source) {
+VkPipeline create_pipeline(const Device& device, VkPipelineLayout layout,
+                           const KernelSource& source) {
   const Handle<VkShaderModule> shader = create_module(device.get(), source);
   std::vector<VkSpecializationMapEntry> entries;
   for (std::uint32_t i = 0; i < source.constants.size(); ++i) entries.push_back({i, 4 * i, 4});
@@ -73,8 +75,9 @@ VkPipeline create_pipeline(const Device& device, VkPipelineLayout layout, const 
   info.stage.pSpecializationInfo = &constants;
   info.layout = layout;
   VkPipeline pipeline = VK_NULL_HANDLE;
-  require(vkCreateComputePipelines(device.get(), device.pipeline_cache(), 1, &info, nullptr, &pipeline),
-          std::string(source.name) + ": vkCreateComputePipelines");
+  require(
+      vkCreateComputePipelines(device.get(), device.pipeline_cache(), 1, &info, nullptr, &pipeline),
+      std::string(source.name) + ": vkCreateComputePipelines");
   return pipeline;
 }
 
@@ -83,8 +86,10 @@ VkPipeline create_pipeline(const Device& device, VkPipelineLayout layout, const 
 Kernel::Kernel(const Device& device, const KernelSource& source)
     : name_(source.name), bindings_(source.bindings), push_bytes_(source.push_bytes) {
   check_limits(device, source);
-  set_layout_ = {device.get(), create_set_layout(device.get(), source), vkDestroyDescriptorSetLayout};
-  layout_ = {device.get(), create_layout(device.get(), set_layout(), source), vkDestroyPipelineLayout};
+  set_layout_ = {device.get(), create_set_layout(device.get(), source),
+                 vkDestroyDescriptorSetLayout};
+  layout_ = {device.get(), create_layout(device.get(), set_layout(), source),
+             vkDestroyPipelineLayout};
   pipeline_ = {device.get(), create_pipeline(device, layout(), source), vkDestroyPipeline};
 }
 

@@ -1,5 +1,5 @@
-// A compute pipeline made from embedded SPIR-V: storage buffers at bindings 0..n-1 of set 0, push constants
-// in one struct.
+// A compute pipeline made from embedded SPIR-V: storage buffers at bindings 0..n-1 of set 0, push
+// constants in one struct.
 #pragma once
 
 #include <cstdint>

@@ -29,12 +29,15 @@ std::vector<InformationBelief> beliefs_for_device(std::span<const ParticleBelief
 
 MutualInformation::MutualInformation(const Device& device)
     : device_(device),
-      rows_kernel_(device, {"information_rows", information_rows_spv, 4, sizeof(InformationPush), {}}),
-      columns_kernel_(device,
-                      {"information_columns", information_columns_spv, 5, sizeof(InformationPush), {}}) {}
+      rows_kernel_(device,
+                   {"information_rows", information_rows_spv, 4, sizeof(InformationPush), {}}),
+      columns_kernel_(
+          device,
+          {"information_columns", information_columns_spv, 5, sizeof(InformationPush), {}}) {}
 
 void MutualInformation::record(Batch& batch, const DeviceCells& cells, double cap_px,
-                               std::span<const ParticleBelief> beliefs, const InformationOptions& options) {
+                               std::span<const ParticleBelief> beliefs,
+                               const InformationOptions& options) {
   check_information(cells.particles, cells.realizations, beliefs, options);
   const std::vector<InformationBelief> own = beliefs_for_device(beliefs, options);
   beliefs_.reserve(device_, own.size(), "beliefs");
@@ -51,8 +54,8 @@ void MutualInformation::record(Batch& batch, const DeviceCells& cells, double ca
   const InformationPush push{cells.particles, cells.realizations, float(cap_px),
                              float(1 / options.scale_px2)};
   if (!options.literal) {
-    batch.dispatch(rows_kernel_, spread(cells.particles), {cells.sums, cells.counts, beliefs_, shifts_},
-                   push);
+    batch.dispatch(rows_kernel_, spread(cells.particles),
+                   {cells.sums, cells.counts, beliefs_, shifts_}, push);
     batch.barrier();
   }
   batch.dispatch(columns_kernel_, spread(groups_for(cells.realizations, INFORMATION_GROUP)),

@@ -1,4 +1,5 @@
-// Records mutual_information (kernels/mutual_information.h, information_push.h) on the cells of one view.
+// Records mutual_information (kernels/mutual_information.h, information_push.h) on the cells of one
+// view.
 #pragma once
 
 #include <span>
@@ -14,8 +15,8 @@ class MutualInformation {
  public:
   explicit MutualInformation(const Device& device);
   // Throws LogicError where check_information() does.
-  void record(Batch& batch, const DeviceCells& cells, double cap_px, std::span<const ParticleBelief> beliefs,
-              const InformationOptions& options);
+  void record(Batch& batch, const DeviceCells& cells, double cap_px,
+              std::span<const ParticleBelief> beliefs, const InformationOptions& options);
   // After the batch has run, nats.
   double information() const;
 

@@ -10,7 +10,8 @@ namespace edgescout::gpu {
 static_assert(sizeof(NormalEquations) == sizeof(float) * POSE_SYSTEM_SUMS);
 
 PoseNormalEquations::PoseNormalEquations(const Device& device, std::uint32_t min_groups)
-    : kernel_(device, {"pose_normal_equations", pose_normal_equations_spv, 7, sizeof(PoseSystemPush), {}}),
+    : kernel_(device,
+              {"pose_normal_equations", pose_normal_equations_spv, 7, sizeof(PoseSystemPush), {}}),
       min_groups_(min_groups > 0 ? min_groups : groups_to_fill(device)),
       device_(device),
       buffers_(device) {}
@@ -20,18 +21,18 @@ std::size_t PoseNormalEquations::that_fit(std::span<const PoseProblem> problems)
 }
 
 void PoseNormalEquations::record(Batch& batch, std::span<const PoseView> views,
-                                 std::span<const ModelPoint> points, std::span<const PoseProblem> problems,
-                                 const PoseLoss& loss) {
+                                 std::span<const ModelPoint> points,
+                                 std::span<const PoseProblem> problems, const PoseLoss& loss) {
   plan_ = plan_poses(problems, points.size(), views.size(), min_groups_);
   buffers_.upload(batch, plan_, points, problems, POSE_SYSTEM_SUMS);
   for (const PosePlan::Run& run : plan_.runs) {
     const PoseView& view = views[run.view];
     const DeviceTensor& t = *view.tensor;
-    const PoseSystemPush push{t.grid(),     pose_camera(view.intrinsics), run.first, plan_.parts, loss.kind,
-                              loss.scale_px};
+    const PoseSystemPush push{
+        t.grid(), pose_camera(view.intrinsics), run.first, plan_.parts, loss.kind, loss.scale_px};
     batch.dispatch(kernel_.of(t), {plan_.parts, run.count},
-                   {t.band(0), t.band(1), t.band(2), t.band(3), buffers_.points(), buffers_.problems(),
-                    buffers_.results()},
+                   {t.band(0), t.band(1), t.band(2), t.band(3), buffers_.points(),
+                    buffers_.problems(), buffers_.results()},
                    push);
   }
   buffers_.download(batch);

@@ -22,7 +22,8 @@ std::uint32_t groups_to_fill(const Device& device) {
   return device.info().hardware || !device.unified_memory() ? 1024 : 1;
 }
 
-std::size_t poses_that_fit(const Device& device, std::span<const PoseProblem> problems, std::uint32_t sums) {
+std::size_t poses_that_fit(const Device& device, std::span<const PoseProblem> problems,
+                           std::uint32_t sums) {
   const std::size_t most = device.max_band_bytes();
   PointRange range;
   std::size_t count = 0;
@@ -56,8 +57,8 @@ PosePlan plan_poses(std::span<const PoseProblem> problems, std::size_t points, s
       plan.runs.push_back({view, n, 0});
     ++plan.runs.back().count;
   }
-  const std::uint32_t wanted =
-      groups_for(min_groups, std::max<std::uint32_t>(1, static_cast<std::uint32_t>(problems.size())));
+  const std::uint32_t wanted = groups_for(
+      min_groups, std::max<std::uint32_t>(1, static_cast<std::uint32_t>(problems.size())));
   plan.parts = std::clamp(wanted, 1u, groups_for(longest, POSE_GROUP));
   return plan;
 }

@@ -1,4 +1,5 @@
-// Many poses in many views as a few dispatches: what pose_normal_equations and pose_score have in common.
+// Many poses in many views as a few dispatches: what pose_normal_equations and pose_score have in
+// common.
 #pragma once
 
 #include <span>
@@ -18,8 +19,8 @@ struct PoseView {
   const RawBuffer* gradient_x2;
 };
 
-// Problems in the order of their views; a run of them is one dispatch. The device holds the points they name,
-// [first_point, first_point + point_count).
+// Problems in the order of their views; a run of them is one dispatch. The device holds the points
+// they name, [first_point, first_point + point_count).
 struct PosePlan {
   struct Run {
     std::uint32_t view, first, count;
@@ -30,19 +31,22 @@ struct PosePlan {
   std::uint32_t parts = 1;  // workgroups a problem
 };
 
-// `min_groups`: workgroups that keep the device busy. Throws LogicError on problems that break the contract.
+// `min_groups`: workgroups that keep the device busy. Throws LogicError on problems that break the
+// contract.
 PosePlan plan_poses(std::span<const PoseProblem> problems, std::size_t points, std::size_t views,
                     std::uint32_t min_groups);
-// How many problems from the front a device binds at once, with the points they name and `sums` floats of
-// results each: at least one.
-std::size_t poses_that_fit(const Device& device, std::span<const PoseProblem> problems, std::uint32_t sums);
-// Workgroups that keep the device busy: many on a graphics card (or where tests ask for one's ways: staging),
-// one on a processor's few cores.
+// How many problems from the front a device binds at once, with the points they name and `sums`
+// floats of results each: at least one.
+std::size_t poses_that_fit(const Device& device, std::span<const PoseProblem> problems,
+                           std::uint32_t sums);
+// Workgroups that keep the device busy: many on a graphics card (or where tests ask for one's ways:
+// staging), one on a processor's few cores.
 std::uint32_t groups_to_fill(const Device& device);
 
 PoseCamera pose_camera(const Intrinsics& intrinsics);
 
-// The device's copy of points and problems, and the sums that come back, `sums` floats a problem and part.
+// The device's copy of points and problems, and the sums that come back, `sums` floats a problem
+// and part.
 class PoseBuffers {
  public:
   explicit PoseBuffers(const Device& device) : device_(device) {}

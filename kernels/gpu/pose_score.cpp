@@ -15,8 +15,9 @@ std::size_t PoseScorer::that_fit(std::span<const PoseProblem> problems) const {
   return poses_that_fit(device_, problems, POSE_SCORE_SUMS);
 }
 
-void PoseScorer::record(Batch& batch, std::span<const PoseView> views, std::span<const ModelPoint> points,
-                        std::span<const PoseProblem> problems, const PoseScoreOptions& options) {
+void PoseScorer::record(Batch& batch, std::span<const PoseView> views,
+                        std::span<const ModelPoint> points, std::span<const PoseProblem> problems,
+                        const PoseScoreOptions& options) {
   cap_px_ = options.cap_px;
   plan_ = plan_poses(problems, points.size(), views.size(), min_groups_);
   buffers_.upload(batch, plan_, points, problems, POSE_SCORE_SUMS);
@@ -28,8 +29,8 @@ void PoseScorer::record(Batch& batch, std::span<const PoseView> views, std::span
                              options.match_px};
     const RawBuffer& gradient = view.gradient_x2 ? *view.gradient_x2 : buffers_.points();
     batch.dispatch(kernel_.of(t), {plan_.parts, run.count},
-                   {t.band(0), t.band(1), t.band(2), t.band(3), buffers_.points(), buffers_.problems(),
-                    buffers_.results(), gradient},
+                   {t.band(0), t.band(1), t.band(2), t.band(3), buffers_.points(),
+                    buffers_.problems(), buffers_.results(), gradient},
                    push);
   }
   buffers_.download(batch);

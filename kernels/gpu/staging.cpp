@@ -19,8 +19,9 @@ RawBuffer StagingPool::take(VkDeviceSize bytes, Memory memory, const std::string
   for (auto it = free_.begin(); it != free_.end(); ++it)
     if (fits(*it) && (best == free_.end() || it->bytes() < best->bytes())) best = it;
   if (best == free_.end())
-    return RawBuffer(device_, bytes > largest_kept ? bytes : std::max(smallest, std::bit_ceil(bytes)), memory,
-                     name);
+    return RawBuffer(device_,
+                     bytes > largest_kept ? bytes : std::max(smallest, std::bit_ceil(bytes)),
+                     memory, name);
   RawBuffer buffer = std::move(*best);
   free_.erase(best);
   free_bytes_ -= buffer.bytes();

@@ -1,5 +1,5 @@
-// Host-visible buffers kept for the next copy: on a discrete card allocating one costs more than most copies
-// do.
+// Host-visible buffers kept for the next copy: on a discrete card allocating one costs more than
+// most copies do.
 #pragma once
 
 #include <vector>

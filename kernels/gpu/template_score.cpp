@@ -44,8 +44,9 @@ std::size_t TemplateScore::that_fit(std::span<const TemplateJob> jobs) const {
   return count;
 }
 
-void TemplateScore::record(Batch& batch, const DeviceTensor& tensor, std::span<const TemplatePoint> points,
-                           std::span<const TemplateJob> jobs, int anchor_step, std::span<TemplateHit> hits) {
+void TemplateScore::record(Batch& batch, const DeviceTensor& tensor,
+                           std::span<const TemplatePoint> points, std::span<const TemplateJob> jobs,
+                           int anchor_step, std::span<TemplateHit> hits) {
   PointRange range;
   for (const TemplateJob& job : jobs) range.include(job.first_point, job.point_count);
   std::vector<TemplateJob> moved(jobs.begin(), jobs.end());
@@ -58,9 +59,10 @@ void TemplateScore::record(Batch& batch, const DeviceTensor& tensor, std::span<c
   batch.barrier();
   const auto count = static_cast<std::uint32_t>(jobs.size());
   const TemplateScorePush push{tensor.grid(), count, static_cast<std::uint32_t>(anchor_step)};
-  batch.dispatch(kernel_.of(tensor), spread(count),
-                 {tensor.band(0), tensor.band(1), tensor.band(2), tensor.band(3), points_, jobs_, hits_},
-                 push);
+  batch.dispatch(
+      kernel_.of(tensor), spread(count),
+      {tensor.band(0), tensor.band(1), tensor.band(2), tensor.band(3), points_, jobs_, hits_},
+      push);
   batch.download(hits_, hits);
 }
 

@@ -12,10 +12,11 @@ namespace edgescout::gpu {
 class TemplateScore {
  public:
   explicit TemplateScore(const Device& device);
-  // How many jobs from the front go into one batch: with the points they name as much as the device binds,
-  // and so little work that no watchdog takes the device for hung. At least one.
+  // How many jobs from the front go into one batch: with the points they name as much as the device
+  // binds, and so little work that no watchdog takes the device for hung. At least one.
   std::size_t that_fit(std::span<const TemplateJob> jobs) const;
-  // `hits` are there when the batch has run. The jobs are those of a call that check_template_jobs has seen.
+  // `hits` are there when the batch has run. The jobs are those of a call that check_template_jobs
+  // has seen.
   void record(Batch& batch, const DeviceTensor& tensor, std::span<const TemplatePoint> points,
               std::span<const TemplateJob> jobs, int anchor_step, std::span<TemplateHit> hits);
 

@@ -11,8 +11,8 @@ namespace {
 [[noreturn]] void too_large(const TensorShape& shape, const std::string& room) {
   throw InputError("image", "size",
                    std::to_string(shape.width) + "x" + std::to_string(shape.height) + " with " +
-                       std::to_string(shape.bins) + " bins: a tensor of " + std::to_string(2 * shape.size()) +
-                       " bytes",
+                       std::to_string(shape.bins) + " bins: a tensor of " +
+                       std::to_string(2 * shape.size()) + " bytes",
                    room + " (a smaller image, fewer bins, or --device cpu)");
 }
 
@@ -56,8 +56,8 @@ Bound DeviceTensor::band(std::uint32_t band) const {
 
 TensorGrid DeviceTensor::grid() const {
   return {static_cast<std::uint32_t>(shape_.width), static_cast<std::uint32_t>(shape_.height),
-          static_cast<std::uint32_t>(shape_.bins), static_cast<std::uint32_t>(shape_.tiles_per_row()),
-          band_rows_};
+          static_cast<std::uint32_t>(shape_.bins),
+          static_cast<std::uint32_t>(shape_.tiles_per_row()), band_rows_};
 }
 
 const Kernel& BandedKernel::of(const DeviceTensor& tensor) {

@@ -1,8 +1,8 @@
 // A DCD tensor in device memory, in the layout of tensor_layout.h.
 //
-// A device binds at most maxStorageBufferRange bytes at once (128 MiB on lavapipe, where a 1920x1200x60
-// tensor has 276 MB), so the tensor is cut into up to TENSOR_MAX_BANDS bands of whole rows, one binding each.
-// All bands but the last have the same number of rows.
+// A device binds at most maxStorageBufferRange bytes at once (128 MiB on lavapipe, where a
+// 1920x1200x60 tensor has 276 MB), so the tensor is cut into up to TENSOR_MAX_BANDS bands of whole
+// rows, one binding each. All bands but the last have the same number of rows.
 #pragma once
 
 #include <map>
@@ -26,8 +26,8 @@ class DeviceTensor {
   std::uint32_t band_rows() const { return band_rows_; }
   std::uint32_t first_row(std::uint32_t band) const { return band * band_rows_; }
   std::uint32_t row_count(std::uint32_t band) const;
-  // Band `band` as a binding; a band that does not exist repeats the last one, so that every binding of a
-  // reader is valid.
+  // Band `band` as a binding; a band that does not exist repeats the last one, so that every
+  // binding of a reader is valid.
   Bound band(std::uint32_t band) const;
   // What a reader has to know.
   TensorGrid grid() const;
@@ -42,7 +42,8 @@ class DeviceTensor {
 // A kernel that reads tensors: specialized to the number of bands, made when first needed.
 class BandedKernel {
  public:
-  BandedKernel(const Device& device, KernelSource source) : device_(device), source_(std::move(source)) {}
+  BandedKernel(const Device& device, KernelSource source)
+      : device_(device), source_(std::move(source)) {}
   const Kernel& of(const DeviceTensor& tensor);
 
  private:

@@ -114,8 +114,9 @@ class VulkanBackend : public Backend {
     return points;
   }
 
-  ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height, const ImageView& image,
-                       const Intrinsics& intrinsics, const TensorOptions& options) override {
+  ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height,
+                       const ImageView& image, const Intrinsics& intrinsics,
+                       const TensorOptions& options) override {
     options.validate();
     check(width > 0 && height > 0, "make_view: an image without pixels");
     check(image.width == 0 || (image.width == width && image.height == height),
@@ -193,7 +194,8 @@ class VulkanBackend : public Backend {
     chamfer->options = options;
     const auto start = std::chrono::steady_clock::now();
     const ChamferPlan plan = plan_chamfer(view, options, pool_);
-    add_time("chamfer_plan", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    add_time("chamfer_plan",
+             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     Batch batch(*device_, "combination_chamfer");
     chamfer_.record(batch, plan, combinations, chamfer->values);
     run(batch);
@@ -239,8 +241,8 @@ class VulkanBackend : public Backend {
     }
   }
 
-  // Kernels by their names on the device's clock; what the call took beyond them (copies, waiting, the
-  // driver's compiler) as "vulkan_host".
+  // Kernels by their names on the device's clock; what the call took beyond them (copies, waiting,
+  // the driver's compiler) as "vulkan_host".
   void run(Batch& batch) {
     const auto start = std::chrono::steady_clock::now();
     double rest = 0;

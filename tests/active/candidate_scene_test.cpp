@@ -7,8 +7,8 @@
 namespace edgescout::test {
 namespace {
 
-// The maps against brute force: every pixel's distance to the candidate's visible edge points, and the
-// surface in a picture of the whole image.
+// The maps against brute force: every pixel's distance to the candidate's visible edge points, and
+// the surface in a picture of the whole image.
 TEST(CandidateScene, HoldsEdgesAndSurfacesOfEveryView) {
   Plan t(3);
   const Camera camera = scaled(test_camera(), 0.25);
@@ -17,7 +17,8 @@ TEST(CandidateScene, HoldsEdgesAndSurfacesOfEveryView) {
   ASSERT_EQ(scene.maps.size(), t.views.size() * 3);
   ASSERT_EQ(scene.tolerance_m.size(), 3u);
   for (std::size_t c = 0; c < 3; ++c)
-    EXPECT_FLOAT_EQ(scene.seen_from(1).tolerance_m[c], float(0.1 * t.models[c % 2].mesh.diameter_m));
+    EXPECT_FLOAT_EQ(scene.seen_from(1).tolerance_m[c],
+                    float(0.1 * t.models[c % 2].mesh.diameter_m));
   for (std::size_t v = 0; v < t.views.size(); v += 3) {
     const ChamferView seen = scene.seen_from(v);
     for (std::size_t c = 0; c < 3; ++c) {
@@ -27,17 +28,17 @@ TEST(CandidateScene, HoldsEdgesAndSurfacesOfEveryView) {
           visible_edges(model, std::span(&pose, 1), *t.backend, t.options.visibility)[0];
       const DepthJob whole{to_pose(pose), intrinsics_of(camera)};
       std::vector<float> depth(std::size_t(camera.width) * camera.height);
-      t.backend->depth_raster(model.triangle_mesh(), std::span(&whole, 1), camera.width, camera.height,
-                              depth);
+      t.backend->depth_raster(model.triangle_mesh(), std::span(&whole, 1), camera.width,
+                              camera.height, depth);
       const CandidateMap& map = seen.candidates[c];
       int covered = 0, differing = 0;
       for (int y = 0; y < camera.height; ++y)
         for (int x = 0; x < camera.width; ++x) {
           double least = 1e9;
           for (const ModelPoint& p : points)
-            least = std::min(
-                least, (project(camera, pose * Eigen::Vector3d(p.x_m, p.y_m, p.z_m)) - Eigen::Vector2d(x, y))
-                           .norm());
+            least = std::min(least, (project(camera, pose * Eigen::Vector3d(p.x_m, p.y_m, p.z_m)) -
+                                     Eigen::Vector2d(x, y))
+                                        .norm());
           const float here = depth[std::size_t(y) * camera.width + x];
           if (!map.window.contains(x, y)) {
             EXPECT_GT(least, 15);

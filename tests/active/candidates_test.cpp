@@ -22,7 +22,8 @@ struct BlankLast : SmallCell {
       Shot shot = cell.acquire(view);
       if (view == 4) std::ranges::fill(shot.image.pixels, 128);
       images.push_back(observe_prepared(
-          prepare_image(shot.image, camera(), shot.camera_from_world, *backend, {}), sets, *backend, {}));
+          prepare_image(shot.image, camera(), shot.camera_from_world, *backend, {}), sets, *backend,
+          {}));
     }
   }
   bool is_right(const Se3& world_from_object) const {
@@ -36,11 +37,12 @@ TEST(Candidates, AreFoundWhereTheNewestImageShowsNothing) {
   const auto in_world = [&](const Refined& r) {
     return inverse(t.images[2].view.camera_from_world) * r.registration.world_from_object;
   };
-  for (const Refined& r :
-       find_candidates(t.sets[0], t.images[2], std::span(t.images).first(2), {}, *t.backend, t.options))
+  for (const Refined& r : find_candidates(t.sets[0], t.images[2], std::span(t.images).first(2), {},
+                                          *t.backend, t.options))
     EXPECT_FALSE(t.is_right(in_world(r))) << "by its own hits";
   for (Observation& image : t.images) scan_for(t.sets, image, *t.backend, t.options.scan);
-  const std::vector<Detection> found = candidates_in_images(t.sets, t.images, {}, *t.backend, t.options);
+  const std::vector<Detection> found =
+      candidates_in_images(t.sets, t.images, {}, *t.backend, t.options);
   ASSERT_FALSE(found.empty());
   EXPECT_TRUE(t.is_right(found[0].world_from_object));
   const std::vector<Hypothesis> known{{0, t.scene.placed[0].world_from_object}};
@@ -67,14 +69,17 @@ TEST(Candidates, KeepAPlaceForWhatHasNobodyInItsWay) {
     candidate.probability = probability;
     return candidate;
   };
-  const std::vector<Detection> candidates{at(0, 0.999), at(0.1, 0.99), at(-0.1, 0.99), at(0.15, 0.98),
-                                          at(3, 0.3),   at(6, 0.1),    at(9, 1e-4)};
+  const std::vector<Detection> candidates{at(0, 0.999),   at(0.1, 0.99), at(-0.1, 0.99),
+                                          at(0.15, 0.98), at(3, 0.3),    at(6, 0.1),
+                                          at(9, 1e-4)};
   const auto kept = [&](std::size_t most) {
     std::vector<double> places;
-    for (const Detection& c : best_beside_others(
-             candidates, most, models, t.options().pipeline.detect.penetration_m, t.backend->threads()))
-      places.push_back(std::round(c.world_from_object.translation_m.x() / models[0].mesh.diameter_m * 100) /
-                       100);
+    for (const Detection& c :
+         best_beside_others(candidates, most, models, t.options().pipeline.detect.penetration_m,
+                            t.backend->threads()))
+      places.push_back(
+          std::round(c.world_from_object.translation_m.x() / models[0].mesh.diameter_m * 100) /
+          100);
     return places;
   };
   EXPECT_EQ(kept(1), (std::vector<double>{0}));

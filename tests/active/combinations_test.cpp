@@ -32,8 +32,9 @@ std::uint32_t row_of(const BitMatrix& m, std::size_t row) {
 }
 
 // Probability of every outcome of Algorithm 1, by following every sequence of draws.
-void follow(const std::vector<double>& weights, const BitMatrix& plausible, int draws, std::uint32_t drawn,
-            std::uint32_t set, double probability, std::map<std::uint32_t, double>& outcome) {
+void follow(const std::vector<double>& weights, const BitMatrix& plausible, int draws,
+            std::uint32_t drawn, std::uint32_t set, double probability,
+            std::map<std::uint32_t, double>& outcome) {
   if (draws == 0) {
     outcome[set] += probability;
     return;
@@ -70,7 +71,8 @@ TEST(SampleCombinations, HasTheDistributionOfAlgorithm1) {
   for (std::size_t j = 0; j < drawn.rows; ++j) found[row_of(drawn, j)] += 1.0 / options.count;
   ASSERT_EQ(found.size(), expected.size());
   for (const auto& [set, probability] : expected)
-    EXPECT_NEAR(found[set], probability, 5 * std::sqrt(probability / options.count)) << std::hex << set;
+    EXPECT_NEAR(found[set], probability, 5 * std::sqrt(probability / options.count))
+        << std::hex << set;
 }
 
 TEST(SampleCombinations, NeverJoinsWhatClashes) {
@@ -119,7 +121,8 @@ TEST(SampleCombinations, SharpnessPrefersTheGood) {
 
 // All pairs clash: what is left are scenes of one object, and the empty one where no coin fell.
 TEST(SampleCombinations, AllImplausibleLeavesSingleObjects) {
-  const BitMatrix drawn = sample_combinations(std::vector<double>(8, 0.9), each_alone(8), {4000, 1, 1});
+  const BitMatrix drawn =
+      sample_combinations(std::vector<double>(8, 0.9), each_alone(8), {4000, 1, 1});
   int empty = 0;
   for (std::size_t j = 0; j < drawn.rows; ++j) {
     const int members = std::popcount(row_of(drawn, j));
@@ -131,8 +134,8 @@ TEST(SampleCombinations, AllImplausibleLeavesSingleObjects) {
 
 // Probability of every scene, by asking each candidate in turn.
 void ask(const std::vector<double>& probabilities, const BitMatrix& plausible,
-         const std::vector<std::size_t>& order, std::size_t asked, std::uint32_t set, double probability,
-         std::map<std::uint32_t, double>& outcome) {
+         const std::vector<std::size_t>& order, std::size_t asked, std::uint32_t set,
+         double probability, std::map<std::uint32_t, double>& outcome) {
   if (asked == order.size()) {
     outcome[set] += probability;
     return;
@@ -142,7 +145,8 @@ void ask(const std::vector<double>& probabilities, const BitMatrix& plausible,
   for (std::size_t m = 0; m < order.size(); ++m) fits &= !(set >> m & 1) || plausible.has(c, m);
   const double p = fits ? probabilities[c] : 0;
   ask(probabilities, plausible, order, asked + 1, set, probability * (1 - p), outcome);
-  if (fits) ask(probabilities, plausible, order, asked + 1, set | 1u << c, probability * p, outcome);
+  if (fits)
+    ask(probabilities, plausible, order, asked + 1, set | 1u << c, probability * p, outcome);
 }
 
 TEST(SampleProbableCombinations, HasTheProbabilitiesOfTheCandidates) {
@@ -158,7 +162,8 @@ TEST(SampleProbableCombinations, HasTheProbabilitiesOfTheCandidates) {
   for (std::size_t j = 0; j < drawn.rows; ++j) found[row_of(drawn, j)] += 1.0 / options.count;
   ASSERT_EQ(found.size(), expected.size());
   for (const auto& [set, probability] : expected)
-    EXPECT_NEAR(found[set], probability, 5 * std::sqrt(probability / options.count)) << std::hex << set;
+    EXPECT_NEAR(found[set], probability, 5 * std::sqrt(probability / options.count))
+        << std::hex << set;
 }
 
 // What is certain is still left out now and then, what is ruled out still imagined.
@@ -181,7 +186,8 @@ TEST(SampleProbableCombinations, DependsOnTheSeedAlone) {
 }
 
 TEST(SampleProbableCombinations, NeedsACandidate) {
-  expect_input_error([] { sample_probable_combinations({}, BitMatrix(0, 0), {}); }, {"candidates", "none"});
+  expect_input_error([] { sample_probable_combinations({}, BitMatrix(0, 0), {}); },
+                     {"candidates", "none"});
 }
 
 TEST(SampleCombinations, NeedsACandidate) {
@@ -198,7 +204,8 @@ TEST(SampleCombinations, NeedsACandidate) {
       {"combinations.sharpness"});
 }
 
-// Probabilities of all eight scenes of three candidates, multiplied out: 0.9 or 0.1, 0.3 or 0.7, 0.6 or 0.4.
+// Probabilities of all eight scenes of three candidates, multiplied out: 0.9 or 0.1, 0.3 or 0.7,
+// 0.6 or 0.4.
 TEST(ExtremeCombinations, AreTheMostAndTheLeastProbable) {
   const std::vector<double> probabilities{0.9, 0.3, 0.6};
   const auto extremes = [&](std::initializer_list<std::uint32_t> rows) {
@@ -222,7 +229,8 @@ TEST(ExtremeCombinations, AreTheMostAndTheLeastProbable) {
 TEST(ExtremeCombinations, BearCertainty) {
   BitMatrix combinations(3, 3);
   combinations.words = {0b001, 0b101, 0b011};
-  const CombinationExtremes extremes = extreme_combinations(combinations, std::vector{1.0, 0.0, 0.8});
+  const CombinationExtremes extremes =
+      extreme_combinations(combinations, std::vector{1.0, 0.0, 0.8});
   EXPECT_EQ(extremes.likeliest, (std::vector{0, 2}));
   EXPECT_EQ(extremes.unlikeliest, (std::vector{0, 1}));
 }

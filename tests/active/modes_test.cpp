@@ -42,8 +42,8 @@ struct Nuts {
   mutable ThreadPool threads{1};
 };
 
-// With a small sigma one particle has all the weight that a number can say; another that is as probable by
-// its images stays a mode and keeps its particles.
+// With a small sigma one particle has all the weight that a number can say; another that is as
+// probable by its images stays a mode and keeps its particles.
 TEST(FindModes, ForgetsNoneForBeingLight) {
   const Nuts t;
   std::vector<Particle> particles;
@@ -98,7 +98,8 @@ TEST(FindModes, DoubtsWhatStandsInAMoreProbableMode) {
                                   particle(1, there, 0.2, true)};
   particles[1].by_view[0].psi -= 0.05;
   const double alone = find_modes(particles, t.sets, t.models, t.options, t.threads)[1].probability;
-  EXPECT_EQ(alone, probability_over_views(particles[1].by_view)) << "one view does not tell how far away";
+  EXPECT_EQ(alone, probability_over_views(particles[1].by_view))
+      << "one view does not tell how far away";
   for (Particle& p : particles) p.by_view.push_back(p.by_view[0]);
   const std::vector<Mode> modes = find_modes(particles, t.sets, t.models, t.options, t.threads);
   ASSERT_EQ(modes.size(), 3u);
@@ -115,13 +116,16 @@ TEST(Resample, KeepsProbableModesAndLetsOthersDie) {
   const Nuts t;
   std::vector<Particle> particles;
   // A heavy mode, a light probable one, a light improbable one.
-  for (int i = 0; i < 10; ++i) particles.push_back(particle(1, {{1, 0, 0, 0}, {0, 0, 0}}, 0.09995, true));
-  for (int i = 0; i < 5; ++i) particles.push_back(particle(1, {{1, 0, 0, 0}, {1, 0, 0}}, 0.00004, true));
-  for (int i = 0; i < 5; ++i) particles.push_back(particle(1, {{1, 0, 0, 0}, {2, 0, 0}}, 0.00006, false));
+  for (int i = 0; i < 10; ++i)
+    particles.push_back(particle(1, {{1, 0, 0, 0}, {0, 0, 0}}, 0.09995, true));
+  for (int i = 0; i < 5; ++i)
+    particles.push_back(particle(1, {{1, 0, 0, 0}, {1, 0, 0}}, 0.00004, true));
+  for (int i = 0; i < 5; ++i)
+    particles.push_back(particle(1, {{1, 0, 0, 0}, {2, 0, 0}}, 0.00006, false));
   for (Particle& p : particles) p.upsilon_px2 = 7;
   const std::vector<Particle> next =
-      resample(particles, find_modes(particles, t.sets, t.models, t.options, t.threads), t.models, 100,
-               t.options, Random(5));
+      resample(particles, find_modes(particles, t.sets, t.models, t.options, t.threads), t.models,
+               100, t.options, Random(5));
   ASSERT_EQ(next.size(), 100u);
   int count[3] = {0, 0, 0};
   double weight[3] = {0, 0, 0};
@@ -130,8 +134,10 @@ TEST(Resample, KeepsProbableModesAndLetsOthersDie) {
     ++count[mode];
     weight[mode] += std::exp(p.log_weight);
     // What weighing the same images again would make of it, up to a constant common to all.
-    EXPECT_NEAR((p.spent_px2 - p.upsilon_px2) / t.options.scale_px2() - p.log_weight,
-                (next[0].spent_px2 - next[0].upsilon_px2) / t.options.scale_px2() - next[0].log_weight, 1e-9);
+    EXPECT_NEAR(
+        (p.spent_px2 - p.upsilon_px2) / t.options.scale_px2() - p.log_weight,
+        (next[0].spent_px2 - next[0].upsilon_px2) / t.options.scale_px2() - next[0].log_weight,
+        1e-9);
   }
   EXPECT_GE(count[1], t.options.min_per_mode);
   EXPECT_LE(count[1], t.options.min_per_mode + 1);
@@ -153,8 +159,8 @@ TEST(Resample, DrawsSystematicallyByWeight) {
   options.roughened = {0, 0};
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const std::vector<Particle> next =
-        resample(particles, find_modes(particles, t.sets, t.models, options, t.threads), t.models, 33,
-                 options, Random(seed));
+        resample(particles, find_modes(particles, t.sets, t.models, options, t.threads), t.models,
+                 33, options, Random(seed));
     ASSERT_EQ(next.size(), 33u);
     for (int i = 0; i < 5; ++i) {
       const auto copies = std::ranges::count_if(next, [&](const Particle& p) {
@@ -169,8 +175,8 @@ TEST(Resample, RoughensCopiesButKeepsOneOfEach) {
   const Nuts t;
   const std::vector<Particle> particles{particle(1, {{1, 0, 0, 0}, {0.3, 0, 0}}, 1, true)};
   const std::vector<Particle> next =
-      resample(particles, find_modes(particles, t.sets, t.models, t.options, t.threads), t.models, 50,
-               t.options, Random(5));
+      resample(particles, find_modes(particles, t.sets, t.models, t.options, t.threads), t.models,
+               50, t.options, Random(5));
   int exact = 0;
   for (const Particle& p : next) {
     const double off = distance_between_m(p.world_from_object, particles[0].world_from_object);

@@ -35,10 +35,11 @@ TEST(ViewInformation, IsMutualInformationOfEveryOpenView) {
 TEST(ViewInformation, IsTheSameOnEveryDevice) {
   Plan t;
   const std::vector<ViewInformation> fast = t.information(),
-                                     reference =
-                                         view_information(t.planning(), *make_reference_backend(), t.options);
+                                     reference = view_information(
+                                         t.planning(), *make_reference_backend(), t.options);
   for (std::size_t v = 0; v < fast.size(); ++v)
-    EXPECT_NEAR(fast[v].information, reference[v].information, 1e-3 * (1 + reference[v].information));
+    EXPECT_NEAR(fast[v].information, reference[v].information,
+                1e-3 * (1 + reference[v].information));
   if (vulkan_devices().empty()) GTEST_SKIP() << "no Vulkan device";
   const std::vector<ViewInformation> device =
       view_information(t.planning(), *make_vulkan_backend(0), t.options);
@@ -46,7 +47,8 @@ TEST(ViewInformation, IsTheSameOnEveryDevice) {
     EXPECT_NEAR(fast[v].information, device[v].information, 5e-3 * (1 + fast[v].information));
 }
 
-// More candidates than maps of all views fit at once: judged in blocks, and the same as each by itself.
+// More candidates than maps of all views fit at once: judged in blocks, and the same as each by
+// itself.
 TEST(ViewInformation, OfManyViewsIsThatOfEachByItself) {
   Plan t;
   const std::vector<Detection> few = t.candidates;
@@ -66,8 +68,8 @@ TEST(ViewInformation, OfManyViewsIsThatOfEachByItself) {
   }
 }
 
-// A large object that is sought but nowhere believed in changes nothing: what the small ones hide is a matter
-// of their size.
+// A large object that is sought but nowhere believed in changes nothing: what the small ones hide
+// is a matter of their size.
 TEST(ViewInformation, DoesNotDependOnObjectsThatAreNotThere) {
   Plan t;
   const std::vector<ViewInformation> before = t.information();
@@ -140,8 +142,8 @@ TEST(ViewInformation, WithoutCandidatesOrParticlesIsZero) {
   }
 }
 
-// All candidates at one place: each combination is one of them or none, and there is still something to
-// learn.
+// All candidates at one place: each combination is one of them or none, and there is still
+// something to learn.
 TEST(ViewInformation, WorksWhereAllPairsAreImplausible) {
   Plan t;
   for (Detection& c : t.candidates) c.world_from_object.translation_m = {0, 0, 0.03};
@@ -159,8 +161,10 @@ TEST(ViewInformation, WorksWhereAllPairsAreImplausible) {
 TEST(ViewInformation, PrefersTheViewThatTellsHypothesesApart) {
   Plan t(1);
   t.candidates.clear();
-  // Two brackets that differ by a shift along the line of sight of view `front`, hardly visible from there.
-  const Se3 front = look_at({0.6, 0, 0.03}, {0, 0, 0.03}), side = look_at({0, 0.6, 0.03}, {0, 0, 0.03});
+  // Two brackets that differ by a shift along the line of sight of view `front`, hardly visible
+  // from there.
+  const Se3 front = look_at({0.6, 0, 0.03}, {0, 0, 0.03}),
+            side = look_at({0, 0.6, 0.03}, {0, 0, 0.03});
   for (const double x : {-0.012, 0.012}) {
     Detection c;
     c.world_from_object = {Eigen::Quaterniond(0.9, 0.3, 0.2, 0.1).normalized(), {x, 0, 0.03}};
@@ -179,8 +183,8 @@ TEST(ViewInformation, PrefersTheViewThatTellsHypothesesApart) {
   EXPECT_GT(views[1].information, 2 * views[0].information);
 }
 
-// Cameras on rings of 35 and 70 degrees: what is unknown leaves a line of sight free with the sine's power,
-// whatever the strategy knows besides.
+// Cameras on rings of 35 and 70 degrees: what is unknown leaves a line of sight free with the
+// sine's power, whatever the strategy knows besides.
 TEST(ViewInformation, IsWorthLessWhereTheUnknownMayHideMore) {
   Plan t;
   const std::vector<ViewInformation> free = t.information();
@@ -205,13 +209,15 @@ TEST(ViewInformation, IsWorthLessWhereTheUnknownMayHideMore) {
   const std::vector<ViewInformation> turned = t.information();
   for (std::size_t v = 1; v < views.size(); ++v)
     EXPECT_NEAR(turned[v].information, views[v].information, 0.02 * views[v].information) << v;
-  // The paper's own formula stays what it is, and other strategies do not imagine what they would see.
+  // The paper's own formula stays what it is, and other strategies do not imagine what they would
+  // see.
   const auto does_not_matter = [&] {
     t.options.free_sight = 2;
     const std::vector<ViewInformation> some = t.information();
     t.options.free_sight = 0;
     const std::vector<ViewInformation> all = t.information();
-    for (std::size_t v = 1; v < views.size(); ++v) EXPECT_EQ(some[v].information, all[v].information);
+    for (std::size_t v = 1; v < views.size(); ++v)
+      EXPECT_EQ(some[v].information, all[v].information);
   };
   t.options.literal = true;
   does_not_matter();
@@ -233,7 +239,8 @@ TEST(ViewInformation, OfThePapersFormulaWeighsAllParticlesAlike) {
   }
 }
 
-// An image that shows no edge has shown no point, by default; in the paper what projects into it was seen.
+// An image that shows no edge has shown no point, by default; in the paper what projects into it
+// was seen.
 TEST(ViewInformation, AsksTheImagesEdgesUnlessThePaperDoesNot) {
   const auto views_with = [](const auto& change, bool edgeless) {
     Plan t;
@@ -257,7 +264,8 @@ TEST(ViewInformation, IsWorthLessNearARealView) {
   t.real = {looked_from(t.views[0]), looked_from(t.views[3])};
   t.closed[3] = 1;
   const auto direction = [&](std::size_t v) {
-    return Eigen::Vector3d((inverse(t.views[v]).translation_m - Eigen::Vector3d(0, 0, 0.02)).normalized());
+    return Eigen::Vector3d(
+        (inverse(t.views[v]).translation_m - Eigen::Vector3d(0, 0, 0.02)).normalized());
   };
   const std::vector<ViewInformation> all_new = t.information();
   t.options.repeat_rad = 0.8;
@@ -281,7 +289,8 @@ TEST(ViewInformation, IsWorthLessNearARealView) {
   for (std::size_t v = 1; v < views.size(); ++v) EXPECT_EQ(some[v].information, all[v].information);
 }
 
-// What no candidate is for is expected where no view has looked yet, whatever is expected of the candidates.
+// What no candidate is for is expected where no view has looked yet, whatever is expected of the
+// candidates.
 TEST(ViewInformation, ExpectsSomethingOfTheUnknownFarFromRealViews) {
   Plan t;
   t.options.free_sight = 0.5;
@@ -290,15 +299,16 @@ TEST(ViewInformation, ExpectsSomethingOfTheUnknownFarFromRealViews) {
   t.options.unknown_repeat_rad = 1.2;
   const std::vector<ViewInformation> views = t.information();
   const auto direction = [&](const Se3& view) {
-    return Eigen::Vector3d((inverse(view).translation_m - Eigen::Vector3d(0, 0, 0.02)).normalized());
+    return Eigen::Vector3d(
+        (inverse(view).translation_m - Eigen::Vector3d(0, 0, 0.02)).normalized());
   };
   for (std::size_t v = 1; v < views.size(); ++v) {
     const Eigen::Vector3d here = direction(t.views[v]);
     const double angle = std::acos(std::min(1.0, here.dot(direction(t.views[0]))));
     EXPECT_EQ(known[v].discovery, 0);
     EXPECT_EQ(views[v].information, known[v].information);
-    EXPECT_NEAR(views[v].discovery, 0.7 * std::sqrt(here.z()) * (1 - std::exp(-std::pow(angle / 1.2, 2))),
-                1e-6);
+    EXPECT_NEAR(views[v].discovery,
+                0.7 * std::sqrt(here.z()) * (1 - std::exp(-std::pow(angle / 1.2, 2))), 1e-6);
     EXPECT_DOUBLE_EQ(views[v].value(), views[v].information + views[v].discovery);
   }
   EXPECT_EQ(views[0].discovery, 0) << "taken";
@@ -322,14 +332,17 @@ TEST(ViewInformation, OfNoViewsIsNone) {
 
 TEST(ViewInformation, KnowsNoAboveWhereCamerasStandAllAround) {
   Plan t(2);
-  const Se3 upside_down{Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX())),
-                        {0, 0, 0.04}};
-  for (std::size_t v = 0, n = t.views.size(); v < n; ++v) t.views.push_back(t.views[v] * upside_down);
+  const Se3 upside_down{
+      Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX())),
+      {0, 0, 0.04}};
+  for (std::size_t v = 0, n = t.views.size(); v < n; ++v)
+    t.views.push_back(t.views[v] * upside_down);
   t.closed.resize(t.views.size(), 0);
   const std::vector<ViewInformation> free = t.information();
   t.options.free_sight = 1;
   const std::vector<ViewInformation> views = t.information();
-  for (std::size_t v = 1; v < views.size(); ++v) EXPECT_EQ(views[v].information, free[v].information) << v;
+  for (std::size_t v = 1; v < views.size(); ++v)
+    EXPECT_EQ(views[v].information, free[v].information) << v;
 }
 
 TEST(NextViewOptions, KnowsNoCostOfMotionWhereNoNatsAreCounted) {
@@ -349,7 +362,8 @@ TEST(ViewInformation, TakesMotionAndReachIntoAccount) {
   for (std::size_t v = 1; v < views.size(); ++v) {
     EXPECT_EQ(views[v].open, v % 2 == 1);
     if (!views[v].open) continue;
-    const double way = (inverse(t.views[v]).translation_m - inverse(t.views[0]).translation_m).norm(),
+    const double way =
+                     (inverse(t.views[v]).translation_m - inverse(t.views[0]).translation_m).norm(),
                  turn = angle_between_rad(t.views[v], t.views[0]);
     EXPECT_NEAR(views[v].motion_cost, 2 * way + 3 * turn, 1e-9);
     EXPECT_NEAR(views[v].value(), views[v].information - views[v].motion_cost, 1e-12);
@@ -357,8 +371,9 @@ TEST(ViewInformation, TakesMotionAndReachIntoAccount) {
   t.options.motion_cost_per_m = 1e6;  // then the nearest reachable one is best, whatever it shows
   const int best = *best_view(t.information());
   for (std::size_t v = 1; v < t.views.size(); v += 2)
-    EXPECT_LE((inverse(t.views[best]).translation_m - inverse(t.views[0]).translation_m).norm(),
-              (inverse(t.views[v]).translation_m - inverse(t.views[0]).translation_m).norm() + 1e-9);
+    EXPECT_LE(
+        (inverse(t.views[best]).translation_m - inverse(t.views[0]).translation_m).norm(),
+        (inverse(t.views[v]).translation_m - inverse(t.views[0]).translation_m).norm() + 1e-9);
   t.options.reachable = [](int) { return false; };
   EXPECT_FALSE(best_view(t.information()).has_value());
 }

@@ -28,7 +28,8 @@ TEST(CandidateInWorld, TurnsPoseAndCovariance) {
   for (int i = 0; i < 36; ++i) half(i / 6, i % 6) = random.normal();
   in_camera.covariance = half * half.transpose();
   const Detection in_world = candidate_in_world(in_camera, camera_from_world);
-  // A small step, made in the camera's tangent or in the world's: its Mahalanobis length is the same.
+  // A small step, made in the camera's tangent or in the world's: its Mahalanobis length is the
+  // same.
   for (int i = 0; i < 5; ++i) {
     Vector6d step;
     for (int k = 0; k < 6; ++k) step[k] = 1e-6 * random.normal();
@@ -53,20 +54,24 @@ TEST(Perturbed, HasTheCovarianceWithinItsBounds) {
   const int count = 20000;
   const Se3 pose{random.rotation(), {1, 2, 3}};
   for (int i = 0; i < count; ++i) {
-    const Vector6d off = local_coordinates(pose, perturbed(pose, covariance, model, spread, random));
+    const Vector6d off =
+        local_coordinates(pose, perturbed(pose, covariance, model, spread, random));
     sum += off * off.transpose() / count;
   }
-  for (int i = 0; i < 6; ++i) EXPECT_NEAR(std::sqrt(sum(i, i)), expected[i], 0.03 * expected[i]) << i;
+  for (int i = 0; i < 6; ++i)
+    EXPECT_NEAR(std::sqrt(sum(i, i)), expected[i], 0.03 * expected[i]) << i;
   covariance.diagonal().setConstant(INFINITE);
   double unknown = 0;
   for (int i = 0; i < 2000; ++i)
-    unknown +=
-        local_coordinates(pose, perturbed(pose, covariance, model, spread, random)).head<3>().squaredNorm() /
-        2000;
+    unknown += local_coordinates(pose, perturbed(pose, covariance, model, spread, random))
+                   .head<3>()
+                   .squaredNorm() /
+               2000;
   EXPECT_NEAR(std::sqrt(unknown / 3), 6e-3, 3e-4);
 }
 
-// CAD files have their origin anywhere: the same part, told from another origin, moves in the same way.
+// CAD files have their origin anywhere: the same part, told from another origin, moves in the same
+// way.
 TEST(Perturbed, MovesAPartTheSameWayWhereverItsOriginLies) {
   Random random = test_random();
   EdgeModel model, elsewhere;
@@ -78,9 +83,12 @@ TEST(Perturbed, MovesAPartTheSameWayWhereverItsOriginLies) {
   for (double& x : root.reshaped()) x = 0.003 * random.normal();
   root.bottomRows<3>() *= 10;
   const Matrix6d covariance = root * root.transpose();
-  const Matrix6d covariance_elsewhere = covariance_about(pose_elsewhere, -elsewhere.center_m, covariance);
-  EXPECT_GT((covariance - covariance_elsewhere).norm(), 0.2 * covariance.norm()) << "the origin swings";
-  for (const Matrix6d& unknown : {Matrix6d(Matrix6d::Constant(INFINITE)), Matrix6d(Matrix6d::Zero())}) {
+  const Matrix6d covariance_elsewhere =
+      covariance_about(pose_elsewhere, -elsewhere.center_m, covariance);
+  EXPECT_GT((covariance - covariance_elsewhere).norm(), 0.2 * covariance.norm())
+      << "the origin swings";
+  for (const Matrix6d& unknown :
+       {Matrix6d(Matrix6d::Constant(INFINITE)), Matrix6d(Matrix6d::Zero())}) {
     Random a = random.split("draws"), b = a;
     for (int i = 0; i < 20; ++i) {
       const Se3 here = perturbed(pose, unknown, model, {0.02, 0.1}, a);
@@ -93,7 +101,8 @@ TEST(Perturbed, MovesAPartTheSameWayWhereverItsOriginLies) {
   Matrix6d scatter = Matrix6d::Zero(), scatter_elsewhere = Matrix6d::Zero();
   const int count = 20000;
   for (int i = 0; i < count; ++i) {
-    const Vector6d off = local_coordinates(pose, perturbed(pose, covariance, model, {0.0, 10}, random));
+    const Vector6d off =
+        local_coordinates(pose, perturbed(pose, covariance, model, {0.0, 10}, random));
     const Se3 back{Eigen::Quaterniond::Identity(), elsewhere.center_m};
     const Vector6d off_elsewhere = local_coordinates(
         pose, perturbed(pose_elsewhere, covariance_elsewhere, elsewhere, {0.0, 10}, random) * back);
@@ -111,7 +120,8 @@ TEST(DrawParticles, SharesThemAmongTheCandidates) {
   for (int i = 0; i < 3; ++i)
     candidates[i].object = i % 2, candidates[i].psi = 0.5 + 0.1 * i,
     candidates[i].world_from_object = {random.rotation(), {0.3 * i, 0, 0}};
-  const std::vector<Particle> particles = draw_particles(models, candidates, 31, {0.02, 0.1}, random);
+  const std::vector<Particle> particles =
+      draw_particles(models, candidates, 31, {0.02, 0.1}, random);
   ASSERT_EQ(particles.size(), 31u);
   int around[3] = {0, 0, 0}, exactly[3] = {0, 0, 0};
   double total = 0;
@@ -142,8 +152,9 @@ ParticleUpdate updated(std::vector<Particle>& particles, std::vector<double>& un
                        const ParticleOptions& options) {
   const ParticleUpdate update =
       update_particles(particles, unseen_px2, t.models, candidates, views, backend, options);
-  resample_where_poor(particles, find_modes(particles, t.sets, t.models, options, backend.threads()),
-                      t.models, views.size(), options);
+  resample_where_poor(particles,
+                      find_modes(particles, t.sets, t.models, options, backend.threads()), t.models,
+                      views.size(), options);
   return update;
 }
 
@@ -164,16 +175,19 @@ TEST(UpdateParticles, FindsTheInstancesAndDropsTheRest) {
   const std::vector<RegisterView> all = t.views(*backend);
   for (std::size_t seen = 1; seen <= 3; ++seen) {
     const std::span<const RegisterView> views(all.data(), seen);
-    const ParticleUpdate update = updated(particles, unseen_px2, t, candidates, views, *backend, options);
+    const ParticleUpdate update =
+        updated(particles, unseen_px2, t, candidates, views, *backend, options);
     std::printf("%zu views: effective %.1f of %zu\n", seen, update.effective, particles.size());
     EXPECT_FALSE(update.reseeded);
     EXPECT_EQ(particles.size(), 40u);
   }
-  const std::vector<Mode> modes = find_modes(particles, t.sets, t.models, options, backend->threads());
+  const std::vector<Mode> modes =
+      find_modes(particles, t.sets, t.models, options, backend->threads());
   for (const Mode& m : modes)
     std::printf("mode of object %d: %zu particles, weight %.3f, probability %.3f\n", m.object,
                 m.particles.size(), m.weight, m.probability);
-  const std::vector<ModeDetection> found = mode_detections(particles, modes, t.sets, t.models, all, *backend);
+  const std::vector<ModeDetection> found =
+      mode_detections(particles, modes, t.sets, t.models, all, *backend);
   ASSERT_EQ(found.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     const PlacedObject& truth = t.scene.placed[i];
@@ -192,7 +206,9 @@ TEST(UpdateParticles, FindsTheInstancesAndDropsTheRest) {
     EXPECT_GT(d.detection.probability, 0.5);
     EXPECT_GE(d.supporting_images.size(), 2u);
     EXPECT_TRUE(d.detection.covariance.allFinite());
-    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6d>(d.detection.covariance).eigenvalues().minCoeff(), 0);
+    EXPECT_GT(
+        Eigen::SelfAdjointEigenSolver<Matrix6d>(d.detection.covariance).eigenvalues().minCoeff(),
+        0);
   }
 }
 
@@ -213,7 +229,8 @@ TEST(UpdateParticles, DrawsAnewWhereAllDied) {
   EXPECT_TRUE(update.reseeded);
   ASSERT_EQ(log.messages.size(), 1u);
   EXPECT_NE(log.messages[0].second.find("all particles died"), std::string::npos);
-  const std::vector<Mode> modes = find_modes(particles, t.sets, t.models, options, backend->threads());
+  const std::vector<Mode> modes =
+      find_modes(particles, t.sets, t.models, options, backend->threads());
   ASSERT_FALSE(modes.empty());
   EXPECT_LT(distance_between_m(particles[modes[0].particles[0]].world_from_object,
                                t.scene.placed[0].world_from_object),
@@ -277,7 +294,10 @@ TEST(ParticleOptions, NamesWhatIsOutOfBounds) {
   };
   expect_input_error(with([](ParticleOptions& o) { o.count = 0; }), {"particles.count"});
   expect_input_error(with([](ParticleOptions& o) { o.sigma_px = 0; }), {"particles.sigma"});
-  expect_input_error(with([](ParticleOptions& o) { o.drawn = {0.2, 0.1}; }), {"particles.drawn_min"});
+  expect_input_error(with([](ParticleOptions& o) {
+                       o.drawn = {0.2, 0.1};
+                     }),
+                     {"particles.drawn_min"});
   EXPECT_NO_THROW(with([](ParticleOptions&) {})());
 }
 

@@ -1,5 +1,5 @@
-// A few parts about the origin as candidates and particles, cameras around them: what a next view is chosen
-// from.
+// A few parts about the origin as candidates and particles, cameras around them: what a next view
+// is chosen from.
 #pragma once
 
 #include "host/active/combinations.h"
@@ -44,7 +44,8 @@ struct Plan {
     for (int i = 0; i < count; ++i) {
       Detection c;
       c.object = i % 2;
-      c.world_from_object = {random.rotation(), {0.07 * (i % 3) - 0.07, 0.08 * (i / 3) - 0.04, 0.03}};
+      c.world_from_object = {random.rotation(),
+                             {0.07 * (i % 3) - 0.07, 0.08 * (i / 3) - 0.04, 0.03}};
       c.psi = 0.6 + 0.05 * i;
       c.covariance.diagonal() << 1e-6, 1e-6, 1e-6, 1e-4, 1e-4, 1e-4;
       candidates.push_back(c);
@@ -53,12 +54,16 @@ struct Plan {
     draw_combinations();
   }
   void draw_combinations() {
-    combinations = candidate_combinations(models, candidates, false, 0.002, {60, 1, 1}, backend->threads());
+    combinations =
+        candidate_combinations(models, candidates, false, 0.002, {60, 1, 1}, backend->threads());
   }
   Planning planning() const {
-    return {models, tables, test_camera(), views, closed, real, candidates, &combinations, particles};
+    return {models, tables,     test_camera(), views,    closed,
+            real,   candidates, &combinations, particles};
   }
-  std::vector<ViewInformation> information() { return view_information(planning(), *backend, options); }
+  std::vector<ViewInformation> information() {
+    return view_information(planning(), *backend, options);
+  }
 };
 
 }  // namespace edgescout::test

@@ -1,4 +1,5 @@
-// Parts lying apart on a bare board, seen from several places: everything the belief about them is made of.
+// Parts lying apart on a bare board, seen from several places: everything the belief about them is
+// made of.
 #pragma once
 
 #include "host/active/particles.h"
@@ -45,12 +46,13 @@ struct RenderedScene {
   Camera camera() const { return scene.views[0].camera; }
 
   // `camera_from_world` is what the arm says; absent: the truth.
-  RegisterView view(std::size_t index, Backend& backend, std::optional<Se3> camera_from_world = {}) const {
-    const PreparedImage prepared =
-        prepare_image(renderings[index].image, scene.views[index].camera,
-                      camera_from_world.value_or(scene.views[index].camera_from_world), backend, {});
-    return observe(prepared.image, prepared.camera, prepared.camera_from_world, prepared.edges, 1, {},
-                   backend)
+  RegisterView view(std::size_t index, Backend& backend,
+                    std::optional<Se3> camera_from_world = {}) const {
+    const PreparedImage prepared = prepare_image(
+        renderings[index].image, scene.views[index].camera,
+        camera_from_world.value_or(scene.views[index].camera_from_world), backend, {});
+    return observe(prepared.image, prepared.camera, prepared.camera_from_world, prepared.edges, 1,
+                   {}, backend)
         .view;
   }
   std::vector<RegisterView> views(Backend& backend) const {
@@ -60,7 +62,8 @@ struct RenderedScene {
   }
 
   // A candidate `distance_m` and `angle_rad` off a part, in a random direction.
-  Detection candidate(std::size_t placed, double distance_m, double angle_rad, Random& random) const {
+  Detection candidate(std::size_t placed, double distance_m, double angle_rad,
+                      Random& random) const {
     Detection d;
     d.object = scene.placed[placed].object;
     Vector6d off;

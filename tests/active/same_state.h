@@ -40,11 +40,12 @@ inline void expect_same(const ScoutState& a, const ScoutState& b) {
   }
   ASSERT_EQ(a.unseen_px2.size(), b.unseen_px2.size());
   for (std::size_t v = 0; v < a.unseen_px2.size(); ++v)  // not a number in both is the same
-    EXPECT_EQ(std::bit_cast<std::uint64_t>(a.unseen_px2[v]), std::bit_cast<std::uint64_t>(b.unseen_px2[v]));
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(a.unseen_px2[v]),
+              std::bit_cast<std::uint64_t>(b.unseen_px2[v]));
   ASSERT_EQ(a.detections.size(), b.detections.size());
   for (std::size_t i = 0; i < a.detections.size(); ++i) {
-    EXPECT_TRUE(
-        same(a.detections[i].detection.world_from_object, b.detections[i].detection.world_from_object));
+    EXPECT_TRUE(same(a.detections[i].detection.world_from_object,
+                     b.detections[i].detection.world_from_object));
     EXPECT_EQ(a.detections[i].detection.probability, b.detections[i].detection.probability);
     EXPECT_EQ(a.detections[i].supporting_images, b.detections[i].supporting_images);
   }

@@ -1,4 +1,5 @@
-// Sources that fail, images that show nothing, cameras that are not where they say, options out of range.
+// Sources that fail, images that show nothing, cameras that are not where they say, options out of
+// range.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -42,9 +43,8 @@ TEST(Scout, RefusesWhatADetectorCannotHaveFound) {
   Detection found;
   found.world_from_object = t.scene.placed[0].world_from_object;
   ScoutOptions options = t.options();
-  options.detect = [&](std::span<const int>, std::span<const Observation>, std::span<const Hypothesis>) {
-    return std::vector{found};
-  };
+  options.detect = [&](std::span<const int>, std::span<const Observation>,
+                       std::span<const Hypothesis>) { return std::vector{found}; };
   Scout scout = t.scout(options);
   const auto refuses = [&](const char* word) {
     expect_input_error([&] { scout.give(0, cell.acquire(0).image); }, {"detected", word});
@@ -62,7 +62,8 @@ TEST(Scout, RefusesWhatADetectorCannotHaveFound) {
   refuses("pose");
 }
 
-// Where the first view cannot be had, a strategy that asks nothing of the belief goes on by its own rule.
+// Where the first view cannot be had, a strategy that asks nothing of the belief goes on by its own
+// rule.
 TEST(Scout, KeepsToItsStrategyWhereTheFirstViewFails) {
   SmallCell t;
   SimulatedCell cell = t.source();
@@ -87,7 +88,8 @@ TEST(Scout, KeepsToItsStrategyWhereTheFirstViewFails) {
   std::set<int> seconds;
   for (const std::uint64_t seed : {1, 2, 3, 4}) seconds.insert(views_of(Strategy::Random, seed)[1]);
   EXPECT_GT(seconds.size(), 1u);
-  EXPECT_EQ(views_of(Strategy::Information), (std::vector<int>{3, 4})) << "nothing is known: the next one";
+  EXPECT_EQ(views_of(Strategy::Information), (std::vector<int>{3, 4}))
+      << "nothing is known: the next one";
 }
 
 // A driver's fault must not end the run.
@@ -113,7 +115,8 @@ TEST(Scout, GoesOnPastAShotThatCannotBeUsed) {
   ASSERT_EQ(state.failed.size(), 4u);
   EXPECT_NE(state.failed[0].reason.find("160x120"), std::string::npos) << state.failed[0].reason;
   EXPECT_NE(state.failed[1].reason.find("100 pixels"), std::string::npos) << state.failed[1].reason;
-  EXPECT_NE(state.failed[2].reason.find("camera pose"), std::string::npos) << state.failed[2].reason;
+  EXPECT_NE(state.failed[2].reason.find("camera pose"), std::string::npos)
+      << state.failed[2].reason;
   EXPECT_EQ(state.failed[3].reason, "camera: no link");
 }
 
@@ -153,8 +156,8 @@ TEST(Scout, FlagsACameraPoseThatDisagrees) {
   EXPECT_FALSE(agreement[0].disagrees || agreement[1].disagrees);
 }
 
-// An image from a place quite other than said takes the belief in all that the others show. Be it the
-// second or the third, it is flagged, and stays so.
+// An image from a place quite other than said takes the belief in all that the others show. Be it
+// the second or the third, it is flagged, and stays so.
 TEST(Scout, FlagsAGrosslyWrongCameraPoseThatEndsAllBelief) {
   SmallCell t(3);
   SimulatedCell cell = t.source();
@@ -168,17 +171,20 @@ TEST(Scout, FlagsAGrosslyWrongCameraPoseThatEndsAllBelief) {
       const Se3 said = i == odd ? right * Se3{so3_exp({0.2, 0, 0.35}), {0, 0, 0}} : right;
       scout.give(order[i], cell.acquire(order[i]).image, said);
       const ScoutStep& step = scout.state().steps.back();
-      std::printf("image %zu%s: %zu objects;", i + 1, i == odd ? " (wrong)" : "", step.detections.size());
+      std::printf("image %zu%s: %zu objects;", i + 1, i == odd ? " (wrong)" : "",
+                  step.detections.size());
       for (const ViewAgreement& v : step.agreement)
         std::printf(" %.2f px by %d, %d missing%s;", v.residual_px, v.objects, v.missing,
                     v.disagrees ? ", disagrees" : "");
       std::printf("\n");
       // Two images alone do not tell a wrong pose from objects that are hidden.
-      for (std::size_t v = 0; i >= 2 && v <= i; ++v) EXPECT_EQ(step.agreement[v].disagrees, v == odd) << v;
+      for (std::size_t v = 0; i >= 2 && v <= i; ++v)
+        EXPECT_EQ(step.agreement[v].disagrees, v == odd) << v;
     }
     EXPECT_EQ(std::ranges::count_if(log.messages,
                                     [&](const auto& message) {
-                                      return message.second.find("image " + std::to_string(odd + 1) + " ") !=
+                                      return message.second.find("image " +
+                                                                 std::to_string(odd + 1) + " ") !=
                                              std::string::npos;
                                     }),
               1);
@@ -219,20 +225,28 @@ TEST(Scout, RefusesWhatItCannotUse) {
     spoil(spoilt);
     expect_input_error([&] { t.scout(spoilt); }, {field});
   };
-  expect_refused("region_columns", [](ScoutOptions& o) { o.pipeline.detect.scan.region_columns = 0; });
+  expect_refused("region_columns",
+                 [](ScoutOptions& o) { o.pipeline.detect.scan.region_columns = 0; });
   expect_refused("region_rows", [](ScoutOptions& o) { o.pipeline.detect.scan.region_rows = 0; });
   expect_refused("visibility.depth_map_size",
                  [](ScoutOptions& o) { o.particles.visibility.depth_map_size_px = 4; });
-  expect_refused("visibility.tolerance", [](ScoutOptions& o) { o.next_view.visibility.tolerance = NAN; });
-  expect_refused("visibility.tolerance", [](ScoutOptions& o) { o.particles.d2co.visibility.tolerance = -1; });
-  expect_refused("polish.rounds", [](ScoutOptions& o) { o.particles.polish_options.rounds.clear(); });
-  expect_refused("polish.radius",
-                 [](ScoutOptions& o) { o.pipeline.detect.refine.polish_options.rounds[0].radius_px = 8.5f; });
+  expect_refused("visibility.tolerance",
+                 [](ScoutOptions& o) { o.next_view.visibility.tolerance = NAN; });
+  expect_refused("visibility.tolerance",
+                 [](ScoutOptions& o) { o.particles.d2co.visibility.tolerance = -1; });
+  expect_refused("polish.rounds",
+                 [](ScoutOptions& o) { o.particles.polish_options.rounds.clear(); });
+  expect_refused("polish.radius", [](ScoutOptions& o) {
+    o.pipeline.detect.refine.polish_options.rounds[0].radius_px = 8.5f;
+  });
   expect_refused("evidence.match", [](ScoutOptions& o) { o.detections.evidence.match_px = 9; });
-  expect_refused("evidence.match", [](ScoutOptions& o) { o.pipeline.detect.evidence.match_px = NAN; });
-  expect_refused("absent_probability", [](ScoutOptions& o) { o.agreement.absent_probability = 0.5; });
+  expect_refused("evidence.match",
+                 [](ScoutOptions& o) { o.pipeline.detect.evidence.match_px = NAN; });
+  expect_refused("absent_probability",
+                 [](ScoutOptions& o) { o.agreement.absent_probability = 0.5; });
   expect_refused("max_residual_px", [](ScoutOptions& o) { o.agreement.max_residual_px = NAN; });
-  expect_refused("detections.min_probability", [](ScoutOptions& o) { o.detections.min_probability = -1; });
+  expect_refused("detections.min_probability",
+                 [](ScoutOptions& o) { o.detections.min_probability = -1; });
   expect_refused("min_information_nats", [](ScoutOptions& o) {
     o.next_view.literal = true;
     o.min_information_nats = 0.1;

@@ -29,21 +29,22 @@ TEST(Scout, EndsByEachOfItsLimits) {
   there.psi = 0.9;
   const auto always_there = [&](ScoutOptions& o) {
     o.min_entropy_nats = 1000;
-    o.detect = [&](std::span<const int>, std::span<const Observation>, std::span<const Hypothesis>) {
-      return std::vector{there};
-    };
+    o.detect = [&](std::span<const int>, std::span<const Observation>,
+                   std::span<const Hypothesis>) { return std::vector{there}; };
   };
   EXPECT_EQ(ended(always_there), End(ScoutEnd::Certain, 2));
   EXPECT_EQ(ended([&](ScoutOptions& o) { always_there(o), o.detect_in_every_image = false; }),
             End(ScoutEnd::Certain, 1))
       << "no other image can show more";
   EXPECT_EQ(ended([](ScoutOptions& o) { o.max_seconds = 1e-6; }), End(ScoutEnd::TimeSpent, 1));
-  EXPECT_EQ(ended([](ScoutOptions& o) { o.min_information_nats = 1000; }), End(ScoutEnd::LittleToLearn, 1));
+  EXPECT_EQ(ended([](ScoutOptions& o) { o.min_information_nats = 1000; }),
+            End(ScoutEnd::LittleToLearn, 1));
   const auto hopeful = [](ScoutOptions& o) {
     o.next_view.unknown_nats = 1000;
     o.min_information_nats = 100;
   };
-  EXPECT_EQ(ended(hopeful), End(ScoutEnd::LittleToLearn, 1)) << "it is about what is known to be there";
+  EXPECT_EQ(ended(hopeful), End(ScoutEnd::LittleToLearn, 1))
+      << "it is about what is known to be there";
   const auto dear = [](ScoutOptions& o) { o.next_view.motion_cost_per_m = 1000; };
   EXPECT_EQ(ended(dear), End(ScoutEnd::ViewBudget, 3)) << "without a limit no way is too far";
   EXPECT_EQ(ended([&](ScoutOptions& o) { dear(o), o.min_information_nats = 1e-9; }),
@@ -58,12 +59,13 @@ TEST(Scout, EndsByEachOfItsLimits) {
             End(ScoutEnd::LittleLearned, 2));
   EXPECT_EQ(ended([&](ScoutOptions& o) { found_once(o), o.min_gained_nats = 1e-9; }),
             End(ScoutEnd::ViewBudget, 3));
-  EXPECT_EQ(ended([](ScoutOptions& o) { o.next_view.reachable = [](int view) { return view == 3; }; }),
-            End(ScoutEnd::NoViewLeft, 1));
+  EXPECT_EQ(
+      ended([](ScoutOptions& o) { o.next_view.reachable = [](int view) { return view == 3; }; }),
+      End(ScoutEnd::NoViewLeft, 1));
 }
 
-// What is unknown sends the camera to a view that tells little about the candidates, while another would tell
-// more: that is not the end.
+// What is unknown sends the camera to a view that tells little about the candidates, while another
+// would tell more: that is not the end.
 TEST(Scout, GoesOnWhileAnyViewTellsEnough) {
   SmallCell t;
   SimulatedCell cell = t.source();
@@ -112,7 +114,8 @@ TEST(Scout, KeepsTheDecisionThatEndsIt) {
   EXPECT_NEAR(scout.state().seconds(), after + second, 1e-9) << "the time is spent all the same";
 }
 
-// All particles are dead at once and again when drawn anew: nothing was gained, and nothing is settled.
+// All particles are dead at once and again when drawn anew: nothing was gained, and nothing is
+// settled.
 TEST(Scout, DoesNotTakeACollapseForTheEnd) {
   SmallCell t;
   SimulatedCell cell = t.source();
@@ -132,16 +135,18 @@ TEST(Scout, GoesOnWhereTheFirstImageShowsNothing) {
   SmallCell t;
   ScoutOptions options = t.options();
   options.min_information_nats = 0.05;
-  options.detect = [](std::span<const int>, std::span<const Observation>, std::span<const Hypothesis>) {
-    return std::vector<Detection>{};
-  };
+  options.detect = [](std::span<const int>, std::span<const Observation>,
+                      std::span<const Hypothesis>) { return std::vector<Detection>{}; };
   Scout scout = t.scout(options);
   SimulatedCell cell = t.source();
   run_scout(scout, cell);
   EXPECT_EQ(scout.state().end, ScoutEnd::ViewBudget);
   EXPECT_EQ(scout.state().steps.size(), 3u);
-  // With nothing to know about, from where most of what is unknown is expected: away from the first view.
-  const auto eye = [&](int view) { return inverse(t.views[static_cast<std::size_t>(view)]).translation_m; };
+  // With nothing to know about, from where most of what is unknown is expected: away from the first
+  // view.
+  const auto eye = [&](int view) {
+    return inverse(t.views[static_cast<std::size_t>(view)]).translation_m;
+  };
   const std::vector<int> views = views_of(scout.state());
   const std::vector<ViewInformation>& expected = scout.state().steps[1].decision.views;
   for (const ViewInformation& view : expected) {

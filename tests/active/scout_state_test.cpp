@@ -14,15 +14,16 @@
 namespace edgescout::test {
 namespace {
 
-// Taken up from what was saved after so many images: the same to the end as without a stop, which is
-// returned.
+// Taken up from what was saved after so many images: the same to the end as without a stop, which
+// is returned.
 ScoutState expect_goes_on(SmallCell& t, const ScoutOptions& options, ViewSource& cell,
                           std::initializer_list<std::size_t> stops) {
   const TemporaryFolder folder;
   const auto saved_after = [&](std::size_t steps) { return folder.path() / std::to_string(steps); };
   Scout whole = t.scout(options);
-  run_scout(whole, cell,
-            [&](const ScoutState& state) { save_scout_state(state, saved_after(state.steps.size())); });
+  run_scout(whole, cell, [&](const ScoutState& state) {
+    save_scout_state(state, saved_after(state.steps.size()));
+  });
   for (const std::size_t steps : stops) {
     Scout resumed = t.scout(options);
     resumed.resume(load_scout_state(saved_after(steps)), "state");
@@ -78,8 +79,8 @@ TEST(ScoutState, GoesOnPastViewsThatFailed) {
     for (const FailedView& f : failed) EXPECT_NE(view, f.view);
 }
 
-// Parts on a heap, of which every reported one hides what is behind it: the next image's registrations depend
-// on that.
+// Parts on a heap, of which every reported one hides what is behind it: the next image's
+// registrations depend on that.
 TEST(ScoutState, GoesOnWithWhatHidesOthers) {
   SmallCell t(4, 1);
   ScoutOptions options = SmallCell::options();
@@ -105,9 +106,10 @@ class BehindLens : public ViewSource {
         const double right = std::clamp(from.x() - left, 0.0, 1.0),
                      below = std::clamp(from.y() - above, 0.0, 1.0);
         shot.image.pixels[std::size_t(y) * std::size_t(ideal.width) + std::size_t(x)] =
-            std::uint8_t(std::lround(
-                (1 - below) * ((1 - right) * ideal.at(left, above) + right * ideal.at(left + 1, above)) +
-                below * ((1 - right) * ideal.at(left, above + 1) + right * ideal.at(left + 1, above + 1))));
+            std::uint8_t(std::lround((1 - below) * ((1 - right) * ideal.at(left, above) +
+                                                    right * ideal.at(left + 1, above)) +
+                                     below * ((1 - right) * ideal.at(left, above + 1) +
+                                              right * ideal.at(left + 1, above + 1))));
       }
     return shot;
   }
@@ -192,7 +194,8 @@ TEST(ScoutState, OfAnotherRunOrDamagedIsRefused) {
   expect_input_error([&] { load_scout_state(bad); }, {"bad.state", "checksum"});
   SmallCell nut("hex_nut");
   Scout seeks_another = nut.scout();
-  expect_input_error([&] { seeks_another.resume(load_scout_state(file), file); }, {"scout.state", "objects"});
+  expect_input_error([&] { seeks_another.resume(load_scout_state(file), file); },
+                     {"scout.state", "objects"});
   Scout same = t.scout();
   const auto refused = [&](const std::function<void(ScoutState&)>& spoil) {
     ScoutState wrong = scout.state();
@@ -211,7 +214,8 @@ TEST(ScoutState, OfAnotherRunOrDamagedIsRefused) {
   Camera calibrated = t.camera();
   calibrated.fx *= 1.01;
   Scout sees_else(t.sets, calibrated, t.views, options, *t.backend);
-  expect_input_error([&] { sees_else.resume(load_scout_state(file), file); }, {"scout.state", "camera"});
+  expect_input_error([&] { sees_else.resume(load_scout_state(file), file); },
+                     {"scout.state", "camera"});
   t.views.pop_back();
   Scout other = t.scout();
   expect_input_error([&] { other.resume(load_scout_state(file), file); }, {"scout.state", "views"});

@@ -30,7 +30,8 @@ TEST(Scout, EndsWithTheRightPoses) {
     const ScoutDecision& why = state.steps[i].decision;
     ASSERT_EQ(why.views.size(), t.views.size());
     for (std::size_t v = 0; v < why.views.size(); ++v) {
-      const bool taken = std::ranges::find(views.begin(), views.begin() + i, int(v)) != views.begin() + i;
+      const bool taken =
+          std::ranges::find(views.begin(), views.begin() + i, int(v)) != views.begin() + i;
       EXPECT_EQ(why.views[v].open, !taken) << v;
       if (!taken) {
         EXPECT_GE(why.views[why.view].value(), why.views[v].value()) << v;
@@ -59,7 +60,8 @@ TEST(Scout, TakesCandidatesFromADetectorOfOnesOwn) {
     EXPECT_EQ(std::vector(views.begin(), views.end() - 1), asked);
     EXPECT_EQ(known.size(), asked.empty() ? 0u : 1u);
     for (const Hypothesis& instance : known)
-      EXPECT_LT(distance_between_m(instance.world_from_object, t.scene.placed[0].world_from_object), 0.002);
+      EXPECT_LT(distance_between_m(instance.world_from_object, t.scene.placed[0].world_from_object),
+                0.002);
     asked.push_back(views.back());
     return std::vector{near_truth};
   };
@@ -113,7 +115,8 @@ TEST(Scout, SearchesAnImageAgainThatMadeMoreKnown) {
   EXPECT_EQ(both.searches, 2);
   EXPECT_EQ(first.new_candidates, 1u);
   EXPECT_EQ(both.new_candidates, 2u);
-  // What was believed before the image's say is what both searches drew; its first part the first's alone.
+  // What was believed before the image's say is what both searches drew; its first part the first's
+  // alone.
   ASSERT_GT(both.before.size(), first.before.size());
   for (std::size_t i = 0; i < first.before.size(); ++i)
     EXPECT_TRUE(same(both.before[i].world_from_object, first.before[i].world_from_object)) << i;
@@ -127,7 +130,8 @@ TEST(Scout, SearchesAnImageAgainThatMadeMoreKnown) {
 
 TEST(Scout, SearchesAnImageOnceWhereNothingBecomesKnown) {
   RoomForOne r;
-  EXPECT_EQ(r.looked_around([](ScoutOptions& o) { o.known_probability = 2; }, 2).steps[1].searches, 1);
+  EXPECT_EQ(r.looked_around([](ScoutOptions& o) { o.known_probability = 2; }, 2).steps[1].searches,
+            1);
   EXPECT_EQ(r.known, (std::vector<std::size_t>{0, 0}));
   const auto as_in_the_paper = [](ScoutOptions& o) { o.detect_in_every_image = false; };
   const ScoutState state = r.looked_around(as_in_the_paper, 2);
@@ -214,7 +218,8 @@ TEST(Scout, CountsACandidateAsNewOnce) {
   options.next_view.strategy = Strategy::Fixed;
   options.particles.count = 1;
   options.max_views = 2;
-  options.detect = [&](std::span<const int>, std::span<const Observation>, std::span<const Hypothesis>) {
+  options.detect = [&](std::span<const int>, std::span<const Observation>,
+                       std::span<const Hypothesis>) {
     std::vector<Detection> found(2);
     for (std::size_t i = 0; i < 2; ++i) {
       found[i].psi = 0.9;
@@ -261,7 +266,8 @@ TEST(Scout, SearchesUntilThereAreCandidates) {
   there.world_from_object = t.scene.placed[0].world_from_object;
   there.psi = 0.9;
   int asked = 0;
-  options.detect = [&](std::span<const int>, std::span<const Observation>, std::span<const Hypothesis>) {
+  options.detect = [&](std::span<const int>, std::span<const Observation>,
+                       std::span<const Hypothesis>) {
     return ++asked == 1 ? std::vector<Detection>{} : std::vector{there};
   };
   Scout scout = t.scout(options);

@@ -22,7 +22,8 @@ TEST(SeenPoints, CountsWhatProjectsIntoTheImages) {
       seen_in(table, world_from_object, two, 4);  // no edge index: inside the image is enough
   std::vector<char> expected(table.total, 0);
   for (const RegisterView& view : two)
-    for (const TemplateTablePoint& p : table.seen_from(view.camera_from_world * world_from_object)) {
+    for (const TemplateTablePoint& p :
+         table.seen_from(view.camera_from_world * world_from_object)) {
       const Eigen::Vector2d at =
           project(view.camera, view.camera_from_world * world_from_object *
                                    Eigen::Vector3d(p.point.x_m, p.point.y_m, p.point.z_m));
@@ -36,7 +37,8 @@ TEST(SeenPoints, CountsWhatProjectsIntoTheImages) {
   for (const ParticlePoint& point : showing_points(table, third, test_camera(), none))
     EXPECT_EQ(point.fresh, 1u);
   std::size_t fresh = 0, new_ids = 0;
-  for (const ParticlePoint& point : showing_points(table, third, test_camera(), seen)) fresh += point.fresh;
+  for (const ParticlePoint& point : showing_points(table, third, test_camera(), seen))
+    fresh += point.fresh;
   for (const TemplateTablePoint& p : table.seen_from(third)) new_ids += !expected[p.id];
   EXPECT_EQ(fresh, new_ids);
   EXPECT_GT(fresh, 0u);
@@ -58,10 +60,12 @@ TEST(SeenPoints, AsksTheImageWhetherAnEdgeIsThere) {
     if (at.u < middle) edges.push_back({float(at.u) + 1, float(at.v), float(at.theta), 1});
   }
   view.edges = std::make_shared<EdgeIndex>(edges, 480, 360);
-  const std::uint32_t matched = seen_in(t.tables[0], world_from_object, std::span(&view, 1), 4).count;
+  const std::uint32_t matched =
+      seen_in(t.tables[0], world_from_object, std::span(&view, 1), 4).count;
   EXPECT_GE(matched, edges.size());
   EXPECT_LT(matched, all);
-  for (EdgePoint& edge : edges) edge.theta_rad = float(std::fmod(edge.theta_rad + 1.5, std::numbers::pi));
+  for (EdgePoint& edge : edges)
+    edge.theta_rad = float(std::fmod(edge.theta_rad + 1.5, std::numbers::pi));
   view.edges = std::make_shared<EdgeIndex>(edges, 480, 360);
   EXPECT_LT(seen_in(t.tables[0], world_from_object, std::span(&view, 1), 4).count, matched / 2);
 }

@@ -50,7 +50,8 @@ struct SmallCell {
     int count = 0;
     for (const PlacedObject& placed : scene.placed)
       count += std::ranges::any_of(state.detections, [&](const ModeDetection& mode) {
-        return pose_error(mode.detection.world_from_object, placed.world_from_object, part.symmetries)
+        return pose_error(mode.detection.world_from_object, placed.world_from_object,
+                          part.symmetries)
             .passes(0.05, 0.002);
       });
     return count;

@@ -1,4 +1,5 @@
-// Where images come from: rendered, recorded and called back; what cannot be had is an AcquisitionError.
+// Where images come from: rendered, recorded and called back; what cannot be had is an
+// AcquisitionError.
 #include "host/active/source.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +41,9 @@ struct Cell {
   ThreadPool pool{2};
   Scene scene = small_scene();
   std::vector<Se3> views = hemisphere_views({{0, 0, 0}, 0.3, {40, 70}, 6});
-  SimulatedCell with(const ArmNoise& noise) { return {scene, scene.views[0].camera, views, noise, pool}; }
+  SimulatedCell with(const ArmNoise& noise) {
+    return {scene, scene.views[0].camera, views, noise, pool};
+  }
 };
 
 bool same(const Se3& a, const Se3& b) {
@@ -138,10 +141,13 @@ TEST(RecordedViews, AnImageThatCannotBeReadIsAFailedAcquisition) {
 
 TEST(RecordedViews, RefuseFoldersOfNoKnownForm) {
   const Recorded t;
-  expect_input_error([&] { load_recorded_views(t.folder.path()); }, {"scene_camera.json", "CameraPose"});
+  expect_input_error([&] { load_recorded_views(t.folder.path()); },
+                     {"scene_camera.json", "CameraPose"});
   std::string cameras = content_of(t.bop / "scene_camera.json");
-  t.folder.write("a/scene_camera.json", std::string(cameras).replace(cameras.find("200.0"), 5, "201.0"));
-  expect_input_error([&] { load_recorded_views(t.folder.path() / "a"); }, {"000001", "camera", "one camera"});
+  t.folder.write("a/scene_camera.json",
+                 std::string(cameras).replace(cameras.find("200.0"), 5, "201.0"));
+  expect_input_error([&] { load_recorded_views(t.folder.path() / "a"); },
+                     {"000001", "camera", "one camera"});
   cameras.replace(cameras.rfind("cam_R_w2c"), 9, "cam_R_xyz");
   t.folder.write("b/scene_camera.json", cameras);
   expect_input_error([&] { load_recorded_views(t.folder.path() / "b"); }, {"000002", "world pose"});
@@ -152,7 +158,8 @@ TEST(RecordedViews, AreThoseOfAVispFolder) {
   const Recorded t;
   Camera camera = t.scene.views[0].camera;
   const fs::path folder = t.folder.path() / "castle";
-  t.folder.write("castle/CameraPose/Camera_001.txt", "1 0 0 0.05\n0 -1 0 0.1\n0 0 -1 0.6\n0 0 0 1\n");
+  t.folder.write("castle/CameraPose/Camera_001.txt",
+                 "1 0 0 0.05\n0 -1 0 0.1\n0 0 -1 0.6\n0 0 0 1\n");
   t.folder.write("castle/CameraPose/Camera_002.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0.5\n0 0 0 1\n");
   fs::create_directories(folder / "Images");
   fs::copy_file(t.bop / "gray/000000.png", folder / "Images/Image_0002.pgm");
@@ -175,8 +182,8 @@ TEST(RecordedViews, AreThoseOfAVispFolder) {
   expect_input_error([&] { load_recorded_views(folder, camera); }, {"Camera_002.txt"});
 }
 
-// The folder itself, where Debian's package visp-images-data is installed: the castle's edges lie where its
-// model has them, in every image.
+// The folder itself, where Debian's package visp-images-data is installed: the castle's edges lie
+// where its model has them, in every image.
 TEST(RecordedViews, AreThoseOfTheCastle) {
   const fs::path folder = "/usr/share/visp-images-data/ViSP-images/mbt-depth/Castle-simu";
   if (!fs::exists(folder)) GTEST_SKIP() << "visp-images-data is not installed";
@@ -187,14 +194,16 @@ TEST(RecordedViews, AreThoseOfTheCastle) {
   const auto backend = make_cpu_backend(2);
   const std::vector<EdgeModel> models{
       make_edge_model(load_mesh(folder / "Models" / "chateau.cao", LengthUnit::Metre))};
-  const std::vector<Hypothesis> poses{{0, Se3{}}, {0, {Eigen::Quaterniond::Identity(), {0.01, 0.01, 0}}}};
+  const std::vector<Hypothesis> poses{{0, Se3{}},
+                                      {0, {Eigen::Quaterniond::Identity(), {0.01, 0.01, 0}}}};
   double worst_px = 0;
   for (int v = 0; v < 40; v += 3) {
     const Shot shot = source.acquire(v);
     const RegisterView view = observe(shot.image, camera, shot.camera_from_world,
                                       find_edges(shot.image, {}, *backend), 1, {}, *backend)
                                   .view;
-    const std::vector<PoseFeatures> features = pose_features(models, poses, {&view, 1}, *backend, {});
+    const std::vector<PoseFeatures> features =
+        pose_features(models, poses, {&view, 1}, *backend, {});
     EXPECT_GT(features[0].points, 100) << v;
     EXPECT_GT(features[1].mean_px, 1.5 * features[0].mean_px) << v;
     worst_px = std::max(worst_px, features[0].mean_px);

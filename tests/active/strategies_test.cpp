@@ -53,7 +53,8 @@ TEST(Fixed, FollowsItsSequence) {
 }
 
 TEST(Strategies, HaveNames) {
-  for (const Strategy s : {Strategy::Information, Strategy::Disocclusion, Strategy::Random, Strategy::Fixed})
+  for (const Strategy s :
+       {Strategy::Information, Strategy::Disocclusion, Strategy::Random, Strategy::Fixed})
     EXPECT_EQ(strategy_from(to_string(s)), s);
   expect_input_error([] { strategy_from("best"); }, {"next_view.strategy", "best", "mi-max"});
   NextViewOptions options;

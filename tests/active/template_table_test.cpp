@@ -12,7 +12,9 @@
 namespace edgescout::test {
 namespace {
 
-Eigen::Vector3d place(const TemplateTablePoint& p) { return {p.point.x_m, p.point.y_m, p.point.z_m}; }
+Eigen::Vector3d place(const TemplateTablePoint& p) {
+  return {p.point.x_m, p.point.y_m, p.point.z_m};
+}
 
 TEST(TemplateTable, GivesOnePlaceOneNumber) {
   const auto backend = make_cpu_backend(2);
@@ -55,8 +57,8 @@ TEST(TemplateTable, KnowsWhatShowsFromWhere) {
     const std::vector<TemplateTablePoint>& seen = table.seen_from(camera_from_object);
     const std::vector<ModelPoint> exact =
         visible_edges(model, std::span(&camera_from_object, 1), *backend)[0];
-    // The viewpoint is off by some degrees, in which the three edges of a face may come or go, of nine or
-    // seven; nearly all points are common.
+    // The viewpoint is off by some degrees, in which the three edges of a face may come or go, of
+    // nine or seven; nearly all points are common.
     const auto beside = [](const TemplateTablePoint& p, const ModelPoint& e) {
       return (Eigen::Vector3d(e.x_m, e.y_m, e.z_m) - place(p)).norm() < 0.002;
     };
@@ -72,7 +74,8 @@ TEST(TemplateTable, KnowsWhatShowsFromWhere) {
     EXPECT_GT(known, 0.6);
     mean_right += right / poses, mean_known += known / poses;
     // Oracle: no point of the far corner.
-    const Eigen::Vector3d far_corner = -Eigen::Vector3d(0.03, 0.025, 0.02).cwiseProduct(eye.cwiseSign());
+    const Eigen::Vector3d far_corner =
+        -Eigen::Vector3d(0.03, 0.025, 0.02).cwiseProduct(eye.cwiseSign());
     if (eye.cwiseAbs().minCoeff() < 0.15) continue;  // nearly straight onto a face
     for (const TemplateTablePoint& p : seen) EXPECT_GT((place(p) - far_corner).norm(), 0.003);
   }

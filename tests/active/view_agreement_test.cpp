@@ -10,8 +10,8 @@
 namespace edgescout::test {
 namespace {
 
-// A camera pose turned about the scene's middle by some degrees: the parts stay in the image, in other
-// places.
+// A camera pose turned about the scene's middle by some degrees: the parts stay in the image, in
+// other places.
 Se3 wrong(const Se3& camera_from_world, double angle_rad) {
   return camera_from_world * Se3{so3_exp({0.6 * angle_rad, 0, 0.8 * angle_rad}), {0, 0, 0}};
 }
@@ -25,7 +25,8 @@ struct Objects {
       poses.push_back({part.object, part.world_from_object});
   }
   std::vector<ViewAgreement> judge(const std::vector<RegisterView>& views) {
-    const std::vector<ViewAgreement> agreement = view_agreement(scene.models, poses, views, *backend);
+    const std::vector<ViewAgreement> agreement =
+        view_agreement(scene.models, poses, views, *backend);
     warn_of(agreement);
     return agreement;
   }
@@ -65,7 +66,8 @@ TEST(ViewAgreement, AFlagStandsUntilTheImageIsJudgedAgain) {
   EXPECT_FALSE(now[1].disagrees) << "another image shows what it shows, in the same place";
 }
 
-// A pose that one image alone shows, by chance, moves as it likes and says nothing about the others.
+// A pose that one image alone shows, by chance, moves as it likes and says nothing about the
+// others.
 TEST(ViewAgreement, AnObjectOfOneImageIsNoWitness) {
   Objects t(3);
   std::vector<RegisterView> views = t.scene.views(*t.backend);
@@ -141,11 +143,13 @@ TEST(ViewAgreement, DoesNotDoubtAViewThatShowsTraces) {
   const std::vector<RegisterView> views = t.scene.views(*t.backend);
   int doubted = 0;
   AgreementOptions options;
-  for (options.min_probability = 0.5; options.min_probability < 1; options.min_probability += 0.05) {
+  for (options.min_probability = 0.5; options.min_probability < 1;
+       options.min_probability += 0.05) {
     const auto missing = [&](double absent_probability) {
       options.absent_probability = absent_probability;
       int most = 0;
-      for (const ViewAgreement& v : view_agreement(t.scene.models, t.poses, views, *t.backend, options))
+      for (const ViewAgreement& v :
+           view_agreement(t.scene.models, t.poses, views, *t.backend, options))
         most = std::max(most, v.missing);
       return most;
     };

@@ -51,8 +51,10 @@ TEST(Hemisphere, SpreadsARingEvenly) {
   options.count = 8;
   const std::vector<Se3> views = hemisphere_views(options);
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const Eigen::Vector3d a = inverse(views[i]).translation_m, b = inverse(views[(i + 1) % 8]).translation_m;
-    EXPECT_NEAR((a - b).norm(), 2 * 0.5 * std::cos(40 / DEGREES) * std::sin(std::numbers::pi / 8), 1e-9);
+    const Eigen::Vector3d a = inverse(views[i]).translation_m,
+                          b = inverse(views[(i + 1) % 8]).translation_m;
+    EXPECT_NEAR((a - b).norm(), 2 * 0.5 * std::cos(40 / DEGREES) * std::sin(std::numbers::pi / 8),
+                1e-9);
   }
 }
 
@@ -65,12 +67,16 @@ TEST(Hemisphere, RefusesWhatMakesNoViews) {
     };
   };
   expect_input_error(with([](HemisphereOptions& o) { o.radius_m = 0; }), {"views.radius"});
-  expect_input_error(with([](HemisphereOptions& o) { o.elevations_deg.clear(); }), {"views.elevations"});
-  expect_input_error(with([](HemisphereOptions& o) { o.elevations_deg = {95}; }), {"views.elevations", "95"});
+  expect_input_error(with([](HemisphereOptions& o) { o.elevations_deg.clear(); }),
+                     {"views.elevations"});
+  expect_input_error(with([](HemisphereOptions& o) { o.elevations_deg = {95}; }),
+                     {"views.elevations", "95"});
   expect_input_error(with([](HemisphereOptions& o) { o.count = 2; }), {"views.count", "2"});
-  expect_input_error(with([](HemisphereOptions& o) { o.center_m.x() = std::nan(""); }), {"views.center"});
+  expect_input_error(with([](HemisphereOptions& o) { o.center_m.x() = std::nan(""); }),
+                     {"views.center"});
   // More than one camera straight above the centre: two views that are one.
-  expect_input_error(with([](HemisphereOptions& o) { o.elevations_deg = {90}, o.count = 2; }), {"same pose"});
+  expect_input_error(with([](HemisphereOptions& o) { o.elevations_deg = {90}, o.count = 2; }),
+                     {"same pose"});
   expect_input_error([] { look_at({1, 2, 3}, {1, 2, 3}); }, {"two different points"});
 }
 
@@ -99,12 +105,15 @@ TEST(ViewList, NamesFileAndFieldOfWhatIsWrong) {
   EXPECT_NO_THROW(load("[" + good + "]")());
   expect_input_error(load("[]"), {"list.json", "views", "none"});
   expect_input_error(load("{}"), {"list.json", "array"});
-  expect_input_error(load("[" + good + "," + good + "]"), {"list.json", "/1/camera_from_world", "view 0"});
+  expect_input_error(load("[" + good + "," + good + "]"),
+                     {"list.json", "/1/camera_from_world", "view 0"});
   expect_input_error(load(R"([{"pose": 1}])"), {"list.json", "/0/camera_from_world"});
-  expect_input_error(load(R"([{"camera_from_world": {"R": [1,0,0,0,1,0,0,0,1.1], "t": [0,0,0.5]}}])"),
-                     {"list.json", "/0/camera_from_world/R", "no rotation"});
-  expect_input_error(load(R"([{"camera_from_world": {"R": [1,0,0,0,1,0,0,0,-1], "t": [0,0,0.5]}}])"),
-                     {"list.json", "/0/camera_from_world/R", "no rotation"});
+  expect_input_error(
+      load(R"([{"camera_from_world": {"R": [1,0,0,0,1,0,0,0,1.1], "t": [0,0,0.5]}}])"),
+      {"list.json", "/0/camera_from_world/R", "no rotation"});
+  expect_input_error(
+      load(R"([{"camera_from_world": {"R": [1,0,0,0,1,0,0,0,-1], "t": [0,0,0.5]}}])"),
+      {"list.json", "/0/camera_from_world/R", "no rotation"});
   expect_input_error(load(R"([{"camera_from_world": {"R": [1,0,0,0,1,0,0,0,1], "t": [0,0]}}])"),
                      {"list.json", "/0/camera_from_world/t", "2 numbers"});
   expect_input_error([&] { load_views(folder.path() / "none.json"); }, {"none.json"});
@@ -113,7 +122,8 @@ TEST(ViewList, NamesFileAndFieldOfWhatIsWrong) {
 TEST(ViewList, InMemoryIsJudgedAlike) {
   Se3 odd;
   odd.rotation.coeffs() *= 1.1;
-  expect_input_error([&] { validate_views(std::vector<Se3>{odd}, "robot"); }, {"robot", "/0/", "quaternion"});
+  expect_input_error([&] { validate_views(std::vector<Se3>{odd}, "robot"); },
+                     {"robot", "/0/", "quaternion"});
   Se3 lost;
   lost.translation_m.y() = std::nan("");
   expect_input_error(
@@ -151,8 +161,8 @@ TEST(DirectionAbove, IsWhereTheCamerasStand) {
   EXPECT_FALSE(direction_above(directions_to(around, {0, 0, 0})));
 }
 
-// A gantry's cameras, with 1 mrad of tilt, would "meet" tens of metres away; those of a head that pans and
-// tilts meet in themselves.
+// A gantry's cameras, with 1 mrad of tilt, would "meet" tens of metres away; those of a head that
+// pans and tilts meet in themselves.
 TEST(LookedAt, IsNothingWhereViewsHaveNoPointInCommon) {
   Random random(3);
   std::vector<Se3> one{look_at({0, 0, 0.5}, {0, 0, 0})}, gantry, head;

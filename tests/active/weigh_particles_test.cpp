@@ -25,8 +25,10 @@ Particle weighted(double weight) {
 TEST(EffectiveSampleSize, CountsTheWeightsThatMatter) {
   EXPECT_EQ(effective_sample_size({}), 0);
   EXPECT_NEAR(effective_sample_size(std::vector<Particle>(7, weighted(0.2))), 7, 1e-9);
-  EXPECT_NEAR(effective_sample_size(std::vector<Particle>{weighted(1), weighted(0), weighted(0)}), 1, 1e-9);
-  EXPECT_NEAR(effective_sample_size(std::vector<Particle>{weighted(3), weighted(1)}), 16.0 / 10, 1e-9);
+  EXPECT_NEAR(effective_sample_size(std::vector<Particle>{weighted(1), weighted(0), weighted(0)}),
+              1, 1e-9);
+  EXPECT_NEAR(effective_sample_size(std::vector<Particle>{weighted(3), weighted(1)}), 16.0 / 10,
+              1e-9);
   Particle far = weighted(1);
   far.log_weight = -5000;  // exp underflows
   EXPECT_NEAR(effective_sample_size(std::vector<Particle>(3, far)), 3, 1e-9);
@@ -39,7 +41,8 @@ struct IdealScene {
   std::vector<EdgeModel> models;
   ParticleOptions options;
   std::vector<double> unseen_px2;
-  explicit IdealScene(Random& random) : part("l_bracket", 3, random, *backend), models{part.model} {}
+  explicit IdealScene(Random& random)
+      : part("l_bracket", 3, random, *backend), models{part.model} {}
   Particle off_by(double distance_m, Random& random) const {
     Vector6d off = Vector6d::Zero();
     off.head<3>() = distance_m * random.direction();
@@ -83,7 +86,8 @@ TEST(WeighParticles, FollowsTheSquaredMeansOfAllViews) {
       int inside = 0;
       for (const ModelPoint& point : points) {
         const Landing at = land(view.view->intrinsics, pose, point);
-        if (at.u < -0.5 || at.v < -0.5 || at.u >= view.camera.width - 0.5 || at.v >= view.camera.height - 0.5)
+        if (at.u < -0.5 || at.v < -0.5 || at.u >= view.camera.width - 0.5 ||
+            at.v >= view.camera.height - 0.5)
           continue;
         sum += tensor_lookup({tensor, shape, view.view->intrinsics}, float(at.u), float(at.v),
                              float(at.theta), nullptr);
@@ -112,12 +116,13 @@ TEST(WeighParticles, AViewThatSeesNothingOfAParticleLeavesItsShare) {
   // A camera that looks the other way sees none of them.
   views.push_back(t.part.views[1]);
   views[1].camera_from_world = Se3{so3_exp({0, 3, 0}), {0, 0, 0}} * views[1].camera_from_world;
-  EXPECT_EQ(weigh_particles(t.models, particles, t.unseen_px2, views, *t.backend, t.options).living, 6u);
+  EXPECT_EQ(weigh_particles(t.models, particles, t.unseen_px2, views, *t.backend, t.options).living,
+            6u);
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(particles[i].log_weight, before[i], 1e-9);
 }
 
-// Two views of a part: one from afar that sees every particle, one that sees those at the part alone, of
-// which few fit and many do not.
+// Two views of a part: one from afar that sees every particle, one that sees those at the part
+// alone, of which few fit and many do not.
 struct HalfSeen {
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
   std::vector<EdgeModel> models{part_model("l_bracket")};
@@ -130,10 +135,11 @@ struct HalfSeen {
     const Se3 truth{random.rotation(), {1, 2, 0.5}};
     const EdgeModel dense = part_model("l_bracket", 2e-4);
     for (const double distance_m : {1.4, 0.35})
-      views.push_back(view_of(
-          dense, truth,
-          camera_looking_at(truth.translation_m + Eigen::Vector3d(0, 0, distance_m), truth.translation_m),
-          *backend));
+      views.push_back(
+          view_of(dense, truth,
+                  camera_looking_at(truth.translation_m + Eigen::Vector3d(0, 0, distance_m),
+                                    truth.translation_m),
+                  *backend));
     options.dead_px = 1000;
     options.sigma_px = 10;
     add(truth, {0.3, 0, 0});
@@ -144,7 +150,8 @@ struct HalfSeen {
     particles.emplace_back().world_from_object = {truth.rotation, truth.translation_m + off_m};
   }
   Weighing weigh(std::size_t view_count) {
-    return weigh_particles(models, particles, unseen_px2, {views.data(), view_count}, *backend, options);
+    return weigh_particles(models, particles, unseen_px2, {views.data(), view_count}, *backend,
+                           options);
   }
 };
 
@@ -159,8 +166,8 @@ TEST(WeighParticles, AViewThatSeesOthersLeavesAParticleItsShare) {
   EXPECT_NEAR(t.particles[0].log_weight, before[0].log_weight, 1e-9);
   EXPECT_GT(t.particles[1].log_weight, before[1].log_weight + 0.2);
   EXPECT_LT(t.particles[4].log_weight, before[4].log_weight - 0.2);
-  // Those that do not fit die, and a new one is drawn beside the image: what the view counts for a particle
-  // it does not see has been settled before.
+  // Those that do not fit die, and a new one is drawn beside the image: what the view counts for a
+  // particle it does not see has been settled before.
   const double ratio = t.particles[0].log_weight - t.particles[1].log_weight;
   t.particles.resize(4);
   t.particles.push_back(before[0]);
@@ -181,7 +188,8 @@ TEST(WeighParticles, AnUnseenOneKeepsItsShareOverResampling) {
   const auto share = [&] {
     double sum = 0;
     for (const Particle& p : t.particles)
-      if ((p.world_from_object.translation_m - beside_m).norm() < 1e-6) sum += std::exp(p.log_weight);
+      if ((p.world_from_object.translation_m - beside_m).norm() < 1e-6)
+        sum += std::exp(p.log_weight);
     return sum;
   };
   const double before = share();
@@ -194,7 +202,8 @@ TEST(WeighParticles, AnUnseenOneKeepsItsShareOverResampling) {
   }
 }
 
-// A view that sees nothing so far tells nothing; of one that is drawn into its image it tells what it shows.
+// A view that sees nothing so far tells nothing; of one that is drawn into its image it tells what
+// it shows.
 TEST(WeighParticles, AViewSettlesWhenItSeesTheFirstOnes) {
   Random random = test_random();
   HalfSeen t(random);
@@ -208,7 +217,8 @@ TEST(WeighParticles, AViewSettlesWhenItSeesTheFirstOnes) {
   EXPECT_NEAR(t.particles[0].log_weight, before, 1e-12);
   t.particles.push_back(all[1]);
   t.weigh(2);
-  EXPECT_NEAR(t.unseen_px2[1], t.particles[2].by_view[1].mean_px * t.particles[2].by_view[1].mean_px, 1e-9);
+  EXPECT_NEAR(t.unseen_px2[1],
+              t.particles[2].by_view[1].mean_px * t.particles[2].by_view[1].mean_px, 1e-9);
 }
 
 // Those that a view proves wrong are what it taught most about.
@@ -244,7 +254,8 @@ TEST(WeighParticles, TellsWhatTheLastViewTaught) {
   const double second = t.weigh(2).gained_nats;
   gained = 0;
   for (std::size_t i = 0; i < before.size(); ++i)
-    gained += std::exp(t.particles[i].log_weight) * (t.particles[i].log_weight - before[i].log_weight);
+    gained +=
+        std::exp(t.particles[i].log_weight) * (t.particles[i].log_weight - before[i].log_weight);
   EXPECT_GT(gained, 0.05);
   EXPECT_NEAR(second, gained, 1e-9);
   // A camera that looks the other way teaches nothing.
@@ -256,7 +267,8 @@ TEST(WeighParticles, TellsWhatTheLastViewTaught) {
 TEST(WeighParticles, TheDeadHaveNoWeight) {
   Random random = test_random();
   IdealScene t(random);
-  std::vector<Particle> particles{t.off_by(0.001, random), t.off_by(0.001, random), t.off_by(30, random)};
+  std::vector<Particle> particles{t.off_by(0.001, random), t.off_by(0.001, random),
+                                  t.off_by(30, random)};
   particles[1].world_from_object.translation_m.x() = std::nan("");
   EXPECT_EQ(t.weigh(particles).living, 1u);
   EXPECT_NEAR(particles[0].log_weight, 0, 1e-12);
@@ -284,7 +296,8 @@ TEST(WeighParticles, CountsNoViewTwiceAfterResampling) {
   const auto weight_of_truth = [&] {
     double sum = 0;
     for (const Particle& p : particles)
-      sum += distance_between_m(p.world_from_object, t.part.truth) < 0.005 ? std::exp(p.log_weight) : 0;
+      sum += distance_between_m(p.world_from_object, t.part.truth) < 0.005 ? std::exp(p.log_weight)
+                                                                           : 0;
     return sum;
   };
   const double before = weight_of_truth();
@@ -302,7 +315,8 @@ TEST(WeighParticles, CountsNoViewTwiceAfterResampling) {
   }
 }
 
-// One that is drawn after others have been resampled weighs what it would have weighed from the start.
+// One that is drawn after others have been resampled weighs what it would have weighed from the
+// start.
 TEST(WeighParticles, LateOnesFindTheirShare) {
   Random random = test_random();
   IdealScene t(random);

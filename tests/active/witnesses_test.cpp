@@ -27,8 +27,8 @@ TEST(Witnesses, AreWhatIsReportedAndWhatWas) {
   std::vector<std::pair<int, double>> found;
   for (const Hypothesis& h : witnesses(models, steps, now))
     found.emplace_back(h.object, h.world_from_object.translation_m.x());
-  EXPECT_EQ(found,
-            (std::vector<std::pair<int, double>>{{1, 0.1 * size_m}, {0, 2 + 0.2 * size_m}, {0, 6}, {1, 4}}));
+  EXPECT_EQ(found, (std::vector<std::pair<int, double>>{
+                       {1, 0.1 * size_m}, {0, 2 + 0.2 * size_m}, {0, 6}, {1, 4}}));
   EXPECT_TRUE(witnesses(models, {}, {}).empty());
 }
 

@@ -25,7 +25,8 @@ struct Rendered {
   std::vector<RegisterView> views = scene.views(*backend);
   Se3 truth = scene.scene.placed[0].world_from_object;
 
-  std::vector<Hypothesis> starts(int count, double distance_m, double angle_rad, Random random) const {
+  std::vector<Hypothesis> starts(int count, double distance_m, double angle_rad,
+                                 Random random) const {
     std::vector<Hypothesis> list;
     for (int i = 0; i < count; ++i)
       list.push_back({0, scene.candidate(0, distance_m, angle_rad, random).world_from_object});
@@ -66,23 +67,28 @@ INSTANTIATE_TEST_SUITE_P(Methods, Baseline,
                            return name;
                          });
 
-// Depth and tilt one view knows badly: what counts is where the part shows. The starts are about 4 px off.
+// Depth and tilt one view knows badly: what counts is where the part shows. The starts are about 4
+// px off.
 TEST_P(Baseline, RecoversAPartInOneView) {
   const Rendered& r = rendered();
   const Se3& camera_from_world = r.views[0].camera_from_world;
   const auto off_px = [&](const Se3& pose) {
-    return mspd_px(camera_from_world * pose, camera_from_world * r.truth, r.scene.parts[0], r.scene.camera());
+    return mspd_px(camera_from_world * pose, camera_from_world * r.truth, r.scene.parts[0],
+                   r.scene.camera());
   };
   std::vector<double> off;
-  for (const Registration& found : results(1, 0.001, 0.02)) off.push_back(off_px(found.world_from_object));
+  for (const Registration& found : results(1, 0.001, 0.02))
+    off.push_back(off_px(found.world_from_object));
   std::ranges::sort(off);
   EXPECT_LT(off[5], GetParam().one_view_px);
 }
 
 TEST_P(Baseline, RecoversAPartInThreeViews) {
   for (const Registration& found : results(3, 0.003, 0.05)) {
-    EXPECT_LT(distance_between_m(found.world_from_object, rendered().truth), GetParam().three_views_m);
-    EXPECT_LT(angle_between_rad(found.world_from_object, rendered().truth), GetParam().three_views_rad);
+    EXPECT_LT(distance_between_m(found.world_from_object, rendered().truth),
+              GetParam().three_views_m);
+    EXPECT_LT(angle_between_rad(found.world_from_object, rendered().truth),
+              GetParam().three_views_rad);
     EXPECT_GT(found.points, 600);
     EXPECT_TRUE(found.covariance.allFinite());
   }
@@ -164,8 +170,9 @@ TEST_P(Baseline, RefusesOptionsOutOfRange) {
   expect_refused("outer_iterations", [](BaselineOptions& o) { o.outer_iterations = 0; });
   expect_refused("inner_iterations", [](BaselineOptions& o) { o.inner_iterations = 1001; });
   expect_refused("min_step_m", [](BaselineOptions& o) { o.min_step_m = -1e-6; });
-  expect_refused("min_step_rad",
-                 [](BaselineOptions& o) { o.min_step_rad = std::numeric_limits<double>::quiet_NaN(); });
+  expect_refused("min_step_rad", [](BaselineOptions& o) {
+    o.min_step_rad = std::numeric_limits<double>::quiet_NaN();
+  });
   expect_refused("loss_scale_px", [](BaselineOptions& o) { o.loss_scale_px = 0; });
   expect_refused("pyramid_levels", [](BaselineOptions& o) { o.pyramid_levels = 9; });
 }
@@ -174,8 +181,9 @@ TEST(BaselineMethods, WantAViewAndTheModel) {
   const Rendered& r = rendered();
   const Hypothesis unknown{1, r.truth};
   EXPECT_THROW(register_with(Method::CIcp, r.scene.models, {}, {}, *r.backend), LogicError);
-  EXPECT_THROW(register_with(Method::CIcp, r.scene.models, std::span(&unknown, 1), r.views, *r.backend),
-               LogicError);
+  EXPECT_THROW(
+      register_with(Method::CIcp, r.scene.models, std::span(&unknown, 1), r.views, *r.backend),
+      LogicError);
 }
 
 // A wall right before the camera hides the part.
@@ -191,7 +199,8 @@ TEST(BaselineMethods, LeaveOutWhatOccludersHide) {
     EXPECT_EQ(register_with(method, r.scene.models, {&truth, 1}, {&view, 1}, *r.backend)[0].reason,
               Convergence::NoPoints)
         << to_string(method);
-  EXPECT_EQ(fdcm_scores(r.scene.models, {&candidate, 1}, view, *r.backend)[0], view.view->options.cap_px);
+  EXPECT_EQ(fdcm_scores(r.scene.models, {&candidate, 1}, view, *r.backend)[0],
+            view.view->options.cap_px);
   EXPECT_EQ(line2d_scores(r.scene.models, {&candidate, 1}, view, *r.backend)[0], 0);
 }
 
@@ -201,7 +210,8 @@ TEST(BaselineMethods, WantWhatTheyRead) {
   bare.edges = nullptr;
   bare.image = nullptr;
   for (const Method method : {Method::DcIcp, Method::LmIcp, Method::CIcp, Method::Direct})
-    EXPECT_THROW(prepare_method(method, r.scene.models, std::span(&bare, 1), *r.backend), LogicError);
+    EXPECT_THROW(prepare_method(method, r.scene.models, std::span(&bare, 1), *r.backend),
+                 LogicError);
 }
 
 TEST(BaselineMethods, AreKnownByName) {
@@ -210,8 +220,9 @@ TEST(BaselineMethods, AreKnownByName) {
     method_from("icp");
     ADD_FAILURE();
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "registration: method: found \"icp\", expected one of d2co, dc-icp, lm-icp, c-icp, direct");
+    EXPECT_STREQ(
+        error.what(),
+        "registration: method: found \"icp\", expected one of d2co, dc-icp, lm-icp, c-icp, direct");
   }
 }
 

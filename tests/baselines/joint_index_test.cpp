@@ -15,12 +15,15 @@ namespace {
 
 using namespace test;
 
-double joint_distance(const EdgePoint& edge, float x_px, float y_px, float theta_rad, float lambda) {
+double joint_distance(const EdgePoint& edge, float x_px, float y_px, float theta_rad,
+                      float lambda) {
   const double turn = std::abs(double(edge.theta_rad) - theta_rad);
-  return std::hypot(edge.x_px - x_px, edge.y_px - y_px) + lambda * std::min(turn, std::numbers::pi - turn);
+  return std::hypot(edge.x_px - x_px, edge.y_px - y_px) +
+         lambda * std::min(turn, std::numbers::pi - turn);
 }
 
-// Sparse and dense images of odd sizes, weights from none to the paper's, places inside and far outside.
+// Sparse and dense images of odd sizes, weights from none to the paper's, places inside and far
+// outside.
 TEST(JointIndex, FindsTheClosestInPlaceAndDirection) {
   Random random = test_random();
   for (const int count : {1, 3, 40, 2000})

@@ -1,5 +1,5 @@
-// Scores of given candidates: what LINE-2D says of drawn and rendered images, FDCM against its sum written
-// out.
+// Scores of given candidates: what LINE-2D says of drawn and rendered images, FDCM against its sum
+// written out.
 #include "host/baselines/candidate_scores.h"
 
 #include <gtest/gtest.h>
@@ -35,8 +35,8 @@ Image drawn_square(double turn_rad, double shift_x_px = 0) {
       const double u = x - camera.cx - shift_x_px, v = y - camera.cy, c = std::cos(turn_rad),
                    s = std::sin(turn_rad);
       const double half_px = 0.5 * square_m * camera.fx / square_z_m;
-      image.pixels.push_back(std::abs(c * u + s * v) < half_px && std::abs(c * v - s * u) < half_px ? 190
-                                                                                                    : 40);
+      image.pixels.push_back(
+          std::abs(c * u + s * v) < half_px && std::abs(c * v - s * u) < half_px ? 190 : 40);
     }
   return image;
 }
@@ -44,7 +44,8 @@ Image drawn_square(double turn_rad, double shift_x_px = 0) {
 class Line2d : public ::testing::Test {
  protected:
   // Of a flat box with the square as its front.
-  double score(const Image& image, const Se3& camera_from_object, const Line2dOptions& options = {}) {
+  double score(const Image& image, const Se3& camera_from_object,
+               const Line2dOptions& options = {}) {
     RegisterView view = view_of_image(image);
     const Camera& c = view.camera;
     view.view = backend->make_view({}, c.width, c.height, {}, intrinsics_of(c), {});
@@ -71,7 +72,8 @@ TEST_F(Line2d, IsCompleteOnADrawingOfTheObject) {
 TEST_F(Line2d, FallsWithTheDistanceFromTheObject) {
   const Image image = drawn_square(0.3);
   const double px_m = square_z_m / scene_camera().fx;
-  const double at_truth = score(image, square_pose(0.3)), off_3_px = score(image, square_pose(0.3, 3 * px_m)),
+  const double at_truth = score(image, square_pose(0.3)),
+               off_3_px = score(image, square_pose(0.3, 3 * px_m)),
                off_10_px = score(image, square_pose(0.3, 10 * px_m)),
                turned = score(image, square_pose(0.3 + 0.25));
   EXPECT_GT(at_truth, 98);
@@ -90,7 +92,8 @@ TEST_F(Line2d, CountsFeaturesOutsideTheImageAsMissed) {
   const auto inside = std::ranges::count_if(features, [&](const ModelPoint& point) {
     return land(intrinsics_of(camera), pose, point).u <= camera.width - 1;
   });
-  EXPECT_NEAR(score(drawn_square(0, right_px), pose), 100.0 * double(inside) / double(features.size()), 1);
+  EXPECT_NEAR(score(drawn_square(0, right_px), pose),
+              100.0 * double(inside) / double(features.size()), 1);
   EXPECT_LT(inside, 40);
 }
 
@@ -115,8 +118,9 @@ TEST_F(Line2d, RefusesOptionsOutOfRange) {
   expect_refused("features", [](Line2dOptions& o) { o.features = 64; });
   expect_refused("features", [](Line2dOptions& o) { o.features = 0; });
   expect_refused("spread_px", [](Line2dOptions& o) { o.spread_px = 4; });
-  expect_refused("weak_gradient",
-                 [](Line2dOptions& o) { o.weak_gradient = std::numeric_limits<float>::quiet_NaN(); });
+  expect_refused("weak_gradient", [](Line2dOptions& o) {
+    o.weak_gradient = std::numeric_limits<float>::quiet_NaN();
+  });
 }
 
 TEST_F(Line2d, WantsAnImageAndTheModel) {
@@ -125,7 +129,8 @@ TEST_F(Line2d, WantsAnImageAndTheModel) {
   const Candidate candidate{1, {}};
   EXPECT_THROW(line2d_scores(std::span(&box, 1), {}, view, *backend), LogicError);
   view = view_of_image(drawn_square(0));
-  EXPECT_THROW(line2d_scores(std::span(&box, 1), std::span(&candidate, 1), view, *backend), LogicError);
+  EXPECT_THROW(line2d_scores(std::span(&box, 1), std::span(&candidate, 1), view, *backend),
+               LogicError);
 }
 
 // Three parts on a board, each at its truth and at 20 poses beside it.
@@ -136,7 +141,8 @@ TEST(CandidateScores, PreferTheTruthInRenderedImages) {
   Random random = test_random();
   for (std::size_t placed = 0; placed < 3; ++placed) {
     const PlacedObject& object = scene.scene.placed[placed];
-    std::vector<Candidate> candidates{{object.object, view.camera_from_world * object.world_from_object}};
+    std::vector<Candidate> candidates{
+        {object.object, view.camera_from_world * object.world_from_object}};
     for (int i = 0; i < 20; ++i) {
       const Detection off = scene.candidate(placed, 0.015, 0.3, random);
       candidates.push_back({off.object, view.camera_from_world * off.world_from_object});
@@ -162,21 +168,24 @@ TEST(CandidateScores, OfFdcmAreMeansOverAllVisiblePoints) {
        {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.01, -0.02, 0.03), Eigen::Vector3d(0.12, 0, 0),
         Eigen::Vector3d(0.4, 0, 0), Eigen::Vector3d(0, 0, -0.8)})
     candidates.push_back({0, {truth.rotation, truth.translation_m + shift}});
-  const std::vector<double> scores = fdcm_scores(std::span(&scene.model, 1), candidates, view, *backend);
+  const std::vector<double> scores =
+      fdcm_scores(std::span(&scene.model, 1), candidates, view, *backend);
   const std::vector<std::uint16_t> tensor = view.view->tensor();
   const TensorView values{tensor, view.view->shape, view.view->intrinsics};
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Se3& pose = candidates[i].camera_from_object;
-    const std::vector<ModelPoint> points = visible_edges(scene.model, std::span(&pose, 1), *backend)[0];
+    const std::vector<ModelPoint> points =
+        visible_edges(scene.model, std::span(&pose, 1), *backend)[0];
     double sum = 0;
     for (const ModelPoint& point : points) {
       const Landing at = land(values.intrinsics, pose, point);
-      const bool inside =
-          at.u >= 0 && at.v >= 0 && at.u <= values.shape.width - 1 && at.v <= values.shape.height - 1;
+      const bool inside = at.u >= 0 && at.v >= 0 && at.u <= values.shape.width - 1 &&
+                          at.v <= values.shape.height - 1;
       sum += inside ? tensor_lookup(values, float(at.u), float(at.v), float(at.theta), nullptr)
                     : view.view->options.cap_px;
     }
-    const double expected = points.empty() ? view.view->options.cap_px : sum / double(points.size());
+    const double expected =
+        points.empty() ? view.view->options.cap_px : sum / double(points.size());
     EXPECT_NEAR(scores[i], expected, 2e-3 * (1 + expected)) << i;
   }
   EXPECT_LT(scores[0], 2);

@@ -32,7 +32,8 @@ TEST(NearestEdge, IsExactAtEveryPixel) {
           double least = std::numeric_limits<double>::max();
           for (const EdgePoint& edge : edges) least = std::min(least, seed_distance(edge, x, y));
           const std::size_t pixel = std::size_t(y) * width + x;
-          ASSERT_NEAR(seed_distance(edges[nearest.index[pixel]], x, y), least, 1e-9) << x << " " << y;
+          ASSERT_NEAR(seed_distance(edges[nearest.index[pixel]], x, y), least, 1e-9)
+              << x << " " << y;
           ASSERT_NEAR(distance.values[pixel], least, 1e-4) << x << " " << y;
         }
     }

@@ -1,5 +1,5 @@
-// The systems that the baselines solve, against differences of their cost, in two views that look from
-// different sides.
+// The systems that the baselines solve, against differences of their cost, in two views that look
+// from different sides.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -24,7 +24,8 @@ class Systems : public ::testing::Test {
       RegisterView view;
       view.camera = camera;
       view.camera_from_world = camera_looking_at({x, 0.2, 0.45}, pose.translation_m);
-      view.view = backend->make_view({}, camera.width, camera.height, {}, intrinsics_of(camera), {});
+      view.view =
+          backend->make_view({}, camera.width, camera.height, {}, intrinsics_of(camera), {});
       views.push_back(view);
       points.emplace_back();
       for (int i = 0; i < 40; ++i) points.back().push_back(random_point(random, 0.05));
@@ -72,9 +73,11 @@ TEST_F(Systems, OfPairsDeriveTheirCost) {
 }
 
 TEST_F(Systems, OfDistancesDeriveTheirCost) {
-  const std::vector<ScalarImage> distances{slope(480, 360, 5, 0.02, 0.01), slope(480, 360, 20, -0.03, 0.015)};
+  const std::vector<ScalarImage> distances{slope(480, 360, 5, 0.02, 0.01),
+                                           slope(480, 360, 20, -0.03, 0.015)};
   for (const double scale : {1e3, 1e-3, 12.0})
-    expect_gradient([&](const Se3& at) { return distance_system(views, points, distances, at, scale); });
+    expect_gradient(
+        [&](const Se3& at) { return distance_system(views, points, distances, at, scale); });
 }
 
 // 6 px of image: nearly all points land outside and are pulled back by their distance to it.
@@ -84,10 +87,12 @@ TEST_F(Systems, OfDistancesPullBackFromOutside) {
 }
 
 TEST_F(Systems, OfMagnitudesDeriveTheirCostOnEveryLevel) {
-  const MagnitudePyramid pyramid{slope(480, 360, 0.1, 1e-3, -2e-4), slope(240, 180, 0.6, -1e-3, 2e-3)};
+  const MagnitudePyramid pyramid{slope(480, 360, 0.1, 1e-3, -2e-4),
+                                 slope(240, 180, 0.6, -1e-3, 2e-3)};
   const std::vector<MagnitudePyramid> pyramids{pyramid, {pyramid[0]}};
   for (const int level : {0, 1})
-    expect_gradient([&](const Se3& at) { return magnitude_system(views, points, pyramids, level, at); });
+    expect_gradient(
+        [&](const Se3& at) { return magnitude_system(views, points, pyramids, level, at); });
 }
 
 TEST_F(Systems, LeaveOutPointsWithoutAnEdge) {
@@ -95,7 +100,8 @@ TEST_F(Systems, LeaveOutPointsWithoutAnEdge) {
   Pairs pairs(2, std::vector<const EdgePoint*>(40, nullptr));
   pairs[1][7] = &edge;
   const WorldSystem system = pair_system(views, points, pairs, pose, 4);
-  const Landing at = land(views[1].view->intrinsics, views[1].camera_from_world * pose, points[1][7]);
+  const Landing at =
+      land(views[1].view->intrinsics, views[1].camera_from_world * pose, points[1][7]);
   EXPECT_EQ(system.points, 1);
   EXPECT_NEAR(system.residual_sum, std::hypot(at.u - 100, at.v - 100), 1e-3);
 }

@@ -24,8 +24,9 @@ class FailingBackend : public Backend {
   std::vector<EdgePoint> detect_edges(const ImageView& image, const EdgeOptions& options) override {
     return cpu_->detect_edges(image, options);
   }
-  ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height, const ImageView& image,
-                       const Intrinsics& intrinsics, const TensorOptions& options) override {
+  ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height,
+                       const ImageView& image, const Intrinsics& intrinsics,
+                       const TensorOptions& options) override {
     if (made_++ == good_views_) failure_();
     return cpu_->make_view(edges, width, height, image, intrinsics, options);
   }
@@ -97,7 +98,8 @@ struct Batch : SmallScene {
 
 TEST(RunBatch, KeepsWhatWasFinishedWhenTheDeviceIsLost) {
   const Batch t;
-  FailingBackend backend(views_per_image, [] { throw GpuError("make_view: VK_ERROR_DEVICE_LOST"); });
+  FailingBackend backend(views_per_image,
+                         [] { throw GpuError("make_view: VK_ERROR_DEVICE_LOST"); });
   EXPECT_THROW(run_batch(t.images, t.sets, backend, t.options), GpuError);
   EXPECT_EQ(load_image_result(t.json(0)).device, "failing");
   EXPECT_FALSE(fs::exists(t.json(1)) || fs::exists(t.json(2)));
@@ -115,7 +117,8 @@ TEST(RunBatch, ListsNoOlderResultWhenTheDeviceIsLost) {
   run_batch(t.images, t.sets, *make_cpu_backend(2), t.options);
   ASSERT_EQ(t.listed(), (std::set<int>{0, 1, 2}));
   t.folder.write("out/000003_000002.json", "no result");
-  FailingBackend backend(views_per_image, [] { throw GpuError("make_view: VK_ERROR_DEVICE_LOST"); });
+  FailingBackend backend(views_per_image,
+                         [] { throw GpuError("make_view: VK_ERROR_DEVICE_LOST"); });
   EXPECT_THROW(run_batch(t.images, t.sets, backend, t.options), GpuError);
   EXPECT_EQ(t.listed(), std::set<int>{0});
 }
@@ -125,7 +128,8 @@ TEST(RunBatch, SumsUpWhatEndedItInPlaceOfAnEarlierRun) {
   run_batch(t.images, t.sets, *make_cpu_backend(2), t.options);
   ASSERT_EQ(t.summary().at("done"), 3);
   EXPECT_FALSE(t.summary().contains("error"));
-  FailingBackend backend(views_per_image, [] { throw GpuError("make_view: VK_ERROR_DEVICE_LOST"); });
+  FailingBackend backend(views_per_image,
+                         [] { throw GpuError("make_view: VK_ERROR_DEVICE_LOST"); });
   EXPECT_THROW(run_batch(t.images, t.sets, backend, t.options), GpuError);
   EXPECT_EQ(t.summary().at("done"), 1);
   EXPECT_EQ(t.summary().at("device"), "failing");
@@ -147,16 +151,19 @@ TEST(RunBatch, KeepsAnEarlierRunsResultsUntilItHasItsFirst) {
 TEST(RunBatch, TellsOfTheLostDeviceWhereTheListCannotBeWritten) {
   const Batch t;
   fs::create_directories(t.out / "results.csv/in the way");
-  FailingBackend backend(views_per_image, [] { throw GpuError("make_view: VK_ERROR_DEVICE_LOST"); });
+  FailingBackend backend(views_per_image,
+                         [] { throw GpuError("make_view: VK_ERROR_DEVICE_LOST"); });
   const CollectedLog log;
   EXPECT_THROW(run_batch(t.images, t.sets, backend, t.options), GpuError);
   ASSERT_EQ(log.messages.size(), 1u);
-  EXPECT_NE(log.messages[0].second.find("results.csv"), std::string::npos) << log.messages[0].second;
+  EXPECT_NE(log.messages[0].second.find("results.csv"), std::string::npos)
+      << log.messages[0].second;
 }
 
 TEST(RunBatch, GoesOnPastAnImageTheDeviceRefuses) {
   const Batch t;
-  FailingBackend backend(views_per_image, [] { throw InputError("image", "size", "320x240", "less"); });
+  FailingBackend backend(views_per_image,
+                         [] { throw InputError("image", "size", "320x240", "less"); });
   const BatchSummary summary = run_batch(t.images, t.sets, backend, t.options);
   EXPECT_EQ(summary.done, 2);
   ASSERT_EQ(summary.failures.size(), 1u);
@@ -173,7 +180,8 @@ TEST(RunBatch, MixesNoJointResultsWithThoseOfOneView) {
   expect_input_error([&] { run_batch(t.images, t.sets, *make_cpu_backend(1), jointly); },
                      {"000003_000000.json", "views: found alone", "expected 3 jointly"});
   fs::remove(t.json(0));  // to be done; the others would still be mixed with it
-  expect_input_error([&] { run_batch(t.images, t.sets, *make_cpu_backend(1), jointly); }, {"views"});
+  expect_input_error([&] { run_batch(t.images, t.sets, *make_cpu_backend(1), jointly); },
+                     {"views"});
 }
 
 // Where the scene says now that the camera stood elsewhere, poses in the world are others.
@@ -197,8 +205,8 @@ TEST(RunBatch, NamesTheImageThatIsTooLarge) {
   Batch t;
   const fs::path wide = t.folder.path() / "wide.png";
   save_png(Image{32767, 120, std::vector<std::uint8_t>(32767 * 120, 128)}, wide);
-  t.options.camera_file =
-      t.folder.write("lens.yaml", "K: [400, 0, 159.5, 0, 400, 119.5, 0, 0, 1]\nD: [0.1, 0, 0, 0, 0]\n");
+  t.options.camera_file = t.folder.write(
+      "lens.yaml", "K: [400, 0, 159.5, 0, 400, 119.5, 0, 0, 1]\nD: [0.1, 0, 0, 0, 0]\n");
   expect_input_error(
       [&] { run_batch(list_images({wide.string()}), t.sets, *make_cpu_backend(1), t.options); },
       {"wide.png: image: size: found 32767x120"});
@@ -258,21 +266,24 @@ TEST(ListImages, KnowsWhichImagesAreOfOneScene) {
   for (const char* scene : {"all/000001", "all/000002"})
     folder.write(std::string(scene) + "/scene_camera.json",
                  R"({"0": {"cam_K": [5,0,3,0,6,4,0,0,1]}, "1": {"cam_K": [5,0,3,0,6,4,0,0,1]}})");
-  for (const char* file : {"all/000001/gray/000000.png", "all/000001/rgb/000001.png"}) folder.write(file, "");
+  for (const char* file : {"all/000001/gray/000000.png", "all/000001/rgb/000001.png"})
+    folder.write(file, "");
   const std::vector<InputImage> images = list_images({folder.path() / "all"});
   ASSERT_EQ(images.size(), 4u);
   EXPECT_NE(images[0].file.parent_path(), images[1].file.parent_path());
   EXPECT_EQ(images[0].scene_folder, images[1].scene_folder);
   EXPECT_NE(images[1].scene_folder, images[2].scene_folder);
-  expect_input_error([&] { list_images({folder.write("000003/scene_camera.json", "{}").parent_path()}); },
-                     {"000003", "scene_camera.json", "images"});
+  expect_input_error(
+      [&] { list_images({folder.write("000003/scene_camera.json", "{}").parent_path()}); },
+      {"000003", "scene_camera.json", "images"});
 }
 
 TEST(ListImages, TellsWhatItCannotLookAt) {
   const TemporaryFolder folder;
   fs::create_symlink("loop.png", folder.path() / "loop.png");
   EXPECT_EQ(list_images({folder.path()}).size(), 1u) << "listed: reading it says what is wrong";
-  expect_input_error([&] { list_images({folder.path() / std::string(300, 'a')}); }, {"aaa", "input"});
+  expect_input_error([&] { list_images({folder.path() / std::string(300, 'a')}); },
+                     {"aaa", "input"});
 }
 
 TEST(LoadObjects, TakesTheNumberThatANameEndsIn) {

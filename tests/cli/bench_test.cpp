@@ -1,5 +1,5 @@
-// edgescout bench experiments as a user runs it: stopped and taken up again, with what it cannot use, and
-// with a disk that is full.
+// edgescout bench experiments as a user runs it: stopped and taken up again, with what it cannot
+// use, and with a disk that is full.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,14 +40,16 @@ std::vector<std::string> experiments(const fs::path& out, const std::vector<std:
   return arguments;
 }
 
-// Photographs, recorded starts and meshes of other hands, where EDGESCOUT_DATA names the folder they lie in.
+// Photographs, recorded starts and meshes of other hands, where EDGESCOUT_DATA names the folder
+// they lie in.
 TEST(BenchExperiments, RunOnRealDataWhereThereIsSome) {
   const char* data = std::getenv("EDGESCOUT_DATA");
   if (!data) GTEST_SKIP() << "no EDGESCOUT_DATA";
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out";
   const Outcome outcome = run_program(experiments(
-      out, {"--data", data, "--every", "400", "--frames-every", "16", "--strategies", "fixed"}, 1, 1));
+      out, {"--data", data, "--every", "400", "--frames-every", "16", "--strategies", "fixed"}, 1,
+      1));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto sets_of = [&](const char* name) {
     const Table rows = load_table(out / (std::string(name) + ".csv"));
@@ -58,8 +60,9 @@ TEST(BenchExperiments, RunOnRealDataWhereThereIsSome) {
   };
   using Sets = std::set<std::string>;
   EXPECT_EQ(sets_of("detection"), (Sets{"rendered", "d2co-starts", "brackets", "cat", "triangle"}));
-  EXPECT_EQ(sets_of("registration"), (Sets{"rendered", "d2co-starts", "brackets", "brackets by distance",
-                                           "cat", "cat by distance", "triangle", "triangle by distance"}));
+  EXPECT_EQ(sets_of("registration"),
+            (Sets{"rendered", "d2co-starts", "brackets", "brackets by distance", "cat",
+                  "cat by distance", "triangle", "triangle by distance"}));
   EXPECT_EQ(sets_of("multiview"), (Sets{"rendered", "d2co-starts", "brackets"}));
   EXPECT_EQ(sets_of("nbv"), (Sets{"own", "cad", "photographs"}));
 }
@@ -111,7 +114,9 @@ TEST(BenchExperiments, KilledAndResumedGiveTheSameBytes) {
   const fs::path whole = folder.path() / "whole", cut = folder.path() / "cut";
   const std::vector<std::string> more{"registration", "--no-times"};
   ASSERT_EQ(run_program(experiments(whole, more, 6)).exit_code, 0);
-  const auto finished = [&] { return fs::exists(cut / "cells") ? files_in(cut / "cells").size() : 0; };
+  const auto finished = [&] {
+    return fs::exists(cut / "cells") ? files_in(cut / "cells").size() : 0;
+  };
   ASSERT_TRUE(run_program_until(experiments(cut, more, 6), [&] { return finished() > 0; }));
   const std::map<std::string, std::string> left = files_in(cut);
   ASSERT_GE(left.size(), 1u);
@@ -132,7 +137,8 @@ TEST(BenchExperiments, RunChosenStrategiesAlone) {
   const fs::path all = folder.path() / "all", some = folder.path() / "some";
   const std::vector<std::string> nbv{"nbv", "--no-times", "--searches", "one"};
   ASSERT_EQ(run_program(experiments(all, nbv)).exit_code, 0);
-  const Outcome outcome = run_program(experiments(some, joined({nbv, {"--strategies", "fixed,dis"}})));
+  const Outcome outcome =
+      run_program(experiments(some, joined({nbv, {"--strategies", "fixed,dis"}})));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const Table expected = load_table(all / "nbv.csv"), found = load_table(some / "nbv.csv");
   const auto strategy = std::ranges::find(expected.columns, "strategy") - expected.columns.begin();
@@ -145,19 +151,20 @@ TEST(BenchExperiments, RunChosenStrategiesAlone) {
                   {"strategies", "best", "mi-max", "clairvoyant"});
   expect_one_line(run_program(experiments(folder.path() / "none", {"nbv", "--searches", "some"})),
                   {"searches", "some", "one, each, all"});
-  expect_one_line(run_program(experiments(folder.path() / "none", {"nbv", "--strategies", "dis,fixed,dis"})),
-                  {"strategies", "dis twice", "each once"});
+  expect_one_line(
+      run_program(experiments(folder.path() / "none", {"nbv", "--strategies", "dis,fixed,dis"})),
+      {"strategies", "dis twice", "each once"});
 }
 
-// The first draw goes on as if it were the only one; the others choose a second view each, and no other
-// strategy draws.
+// The first draw goes on as if it were the only one; the others choose a second view each, and no
+// other strategy draws.
 TEST(BenchExperiments, LetRandomChooseManySecondViews) {
   const TemporaryFolder folder;
   const auto rows_with = [&](const std::string& draws) {
     const fs::path out = folder.path() / draws;
-    std::vector<std::string> arguments = experiments(
-        out,
-        {"nbv", "--no-times", "--strategies", "random,fixed", "--searches", "one", "--random-draws", draws});
+    std::vector<std::string> arguments =
+        experiments(out, {"nbv", "--no-times", "--strategies", "random,fixed", "--searches", "one",
+                          "--random-draws", draws});
     *std::next(std::ranges::find(arguments, "--max-views")) = "3";
     const Outcome outcome = run_program(arguments);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -221,7 +228,8 @@ TEST(BenchExperiments, OfAnUnknownNameListTheKnownOnes) {
 TEST(BenchExperiments, NameWhatIsMissingOfTheData) {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out", data = folder.path() / "data";
-  expect_one_line(run_program(experiments(out, {"nbv", "--data", data})), {data.string(), "no folder"});
+  expect_one_line(run_program(experiments(out, {"nbv", "--data", data})),
+                  {data.string(), "no folder"});
   fs::create_directory(data);
   expect_one_line(run_program(experiments(out, {"registration", "--data", data})),
                   {(data / "d2co-starts/ground_truth.json").string()});
@@ -267,7 +275,8 @@ TEST(BenchExperiments, OfOtherSettingsAreNotMixed) {
 TEST(BenchExperiments, OnAFullDiskKeepWhatIsFinished) {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out";
-  // Cells are of a few KiB, the table of all rows is larger than 12; the shell counts in blocks of 512 bytes.
+  // Cells are of a few KiB, the table of all rows is larger than 12; the shell counts in blocks of
+  // 512 bytes.
   const std::vector<std::string> arguments = experiments(out, {"registration"}, 8);
   const Outcome outcome = run_program(arguments, "ulimit -f 24;");
   expect_one_line(outcome, {"registration.csv", "File too large"});
@@ -282,17 +291,20 @@ TEST(BenchExperiments, RefuseSizesOutOfBounds) {
   const TemporaryFolder folder;
   expect_one_line(run_program(experiments(folder.path() / "out", {"--short", "--full"})),
                   {"--short, --full", "one of the two"});
-  expect_one_line(run_program({"bench", "experiments", "--out", folder.path() / "out", "--candidates", "0"}),
-                  {"--candidates", "found 0"});
+  expect_one_line(
+      run_program({"bench", "experiments", "--out", folder.path() / "out", "--candidates", "0"}),
+      {"--candidates", "found 0"});
   expect_one_line(
       run_program({"bench", "experiments", "--out", folder.path() / "out", "--supersampling", "2"}),
       {"supersampling", "found 2", "1, 3, 5 or 7"});
-  expect_one_line(run_program({"bench", "experiments", "--out", folder.path() / "out", "--edges", "canny"}),
-                  {"--edges", "canny"});
+  expect_one_line(
+      run_program({"bench", "experiments", "--out", folder.path() / "out", "--edges", "canny"}),
+      {"--edges", "canny"});
 }
 
 std::vector<std::string> devices_in_short(const fs::path& out) {
-  std::vector<std::string> arguments{"bench", "devices", "--out", out, "--no-kernels", "--repetitions", "3"};
+  std::vector<std::string> arguments{"bench",        "devices",       "--out", out,
+                                     "--no-kernels", "--repetitions", "3"};
   for (const auto& [option, value] : {std::pair{"--image-scale", "0.25"},
                                       {"--viewpoints", "1"},
                                       {"--in-plane-steps", "6"},
@@ -317,13 +329,14 @@ TEST(BenchDevices, TimesEveryStageBesideTheCpu) {
     double parts_ms = 0, whole_ms = 0;
     for (const nlohmann::json& stage : device.at("stages")) {
       stages.push_back(stage.at("stage"));
-      (stages.back() == "image to poses" ? whole_ms : parts_ms) += stage.at("median_ms").get<double>();
+      (stages.back() == "image to poses" ? whole_ms : parts_ms) +=
+          stage.at("median_ms").get<double>();
       EXPECT_EQ(stage.at("repetitions"), 3);
       EXPECT_LE(stage.at("min_ms"), stage.at("median_ms"));
       EXPECT_LE(stage.at("median_ms"), stage.at("max_ms"));
     }
-    EXPECT_EQ(stages, (std::vector<std::string>{"edges", "tensors", "scan", "registration", "scoring",
-                                                "next view", "image to poses"}));
+    EXPECT_EQ(stages, (std::vector<std::string>{"edges", "tensors", "scan", "registration",
+                                                "scoring", "next view", "image to poses"}));
     EXPECT_GT(parts_ms, 0);
     EXPECT_NEAR(device.at("images_per_second").get<double>() * whole_ms, 1000, 1);
   }

@@ -103,7 +103,8 @@ TEST(OptionTable, BoundsAreInclusiveAndNamedWhenViolated) {
 TEST(YamlConfig, UsesTheSameNamesAndBounds) {
   const TemporaryFolder folder;
   const std::string file = folder.write(
-      "c.yaml", "lambda: 6\nfast: true\nfirst:\n  bins: 30\n  files: [a.png, b.png]\nsecond: {bins: 31}\n");
+      "c.yaml",
+      "lambda: 6\nfast: true\nfirst:\n  bins: 30\n  files: [a.png, b.png]\nsecond: {bins: 31}\n");
   Program program;
   program.parse({"first", "--config", file});
   EXPECT_EQ(program.first.lambda, 6);
@@ -116,7 +117,8 @@ TEST(YamlConfig, UsesTheSameNamesAndBounds) {
   EXPECT_EQ(other.second.bins, 31);
   EXPECT_EQ(other.second.lambda, 6);
   const std::string bad = folder.write("bad.yaml", "bins: 3\n");
-  EXPECT_EQ(Program().parse_error({"first", "--config", bad}), "--bins: found 3, expected 4 to 180");
+  EXPECT_EQ(Program().parse_error({"first", "--config", bad}),
+            "--bins: found 3, expected 4 to 180");
 }
 
 TEST(YamlConfig, TurnsFlagsOnAndOff) {
@@ -129,7 +131,8 @@ TEST(YamlConfig, TurnsFlagsOnAndOff) {
       .flag("shadows,!--no-shadows", shadows, "on at first")
       .flag("blur,!--no-blur", blur, "on at first")
       .flag("noise", noise, "off at first");
-  app.parse("verb --config " + folder.write("c.yaml", "shadows: false\nno-blur: true\nnoise: on\n").string());
+  app.parse("verb --config " +
+            folder.write("c.yaml", "shadows: false\nno-blur: true\nnoise: on\n").string());
   EXPECT_FALSE(shadows);
   EXPECT_FALSE(blur);
   EXPECT_TRUE(noise);
@@ -149,8 +152,10 @@ TEST(YamlConfig, NamesFileAndKeyOfWhatItDoesNotKnow) {
   const auto error_of = [&](const std::string& yaml) {
     return Program().parse_error({"first", "--config", folder.write("c.yaml", yaml)});
   };
-  EXPECT_NE(error_of("lamda: 6\n").find("c.yaml: lamda: found an unknown option"), std::string::npos);
-  EXPECT_NE(error_of("third: {lambda: 6}\n").find("c.yaml: third: found a section"), std::string::npos);
+  EXPECT_NE(error_of("lamda: 6\n").find("c.yaml: lamda: found an unknown option"),
+            std::string::npos);
+  EXPECT_NE(error_of("third: {lambda: 6}\n").find("c.yaml: third: found a section"),
+            std::string::npos);
   EXPECT_NE(error_of("first: {second: {bins: 5}}\n").find("c.yaml: second"), std::string::npos);
   EXPECT_NE(error_of("first: {lamda: 6}\n").find("c.yaml: lamda"), std::string::npos);
   EXPECT_NE(error_of("lambda: 6: 7\n").find("c.yaml: line 1"), std::string::npos);

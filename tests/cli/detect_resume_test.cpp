@@ -27,7 +27,8 @@ struct Copies : SmallScene {
   nlohmann::json summary() const { return nlohmann::json::parse(content_of(out / "summary.json")); }
 };
 
-std::map<fs::path, fs::file_time_type> times_in(const fs::path& folder, const std::string& extension) {
+std::map<fs::path, fs::file_time_type> times_in(const fs::path& folder,
+                                                const std::string& extension) {
   std::map<fs::path, fs::file_time_type> times;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == extension && entry.path().filename().string()[0] != '.' &&
@@ -91,7 +92,8 @@ TEST(DetectResume, TakesNoOtherImagesResult) {
   fs::copy_file(t.image(), t.folder.path() / "other/a.png");
   const auto run_in = [&](const std::string& folder, const std::vector<std::string>& more) {
     const std::vector<std::string> arguments = joined({bracket(), {"--camera", t.camera()}, more});
-    return run_program(t.detect("a.png", arguments), "cd '" + (t.folder.path() / folder).string() + "' &&");
+    return run_program(t.detect("a.png", arguments),
+                       "cd '" + (t.folder.path() / folder).string() + "' &&");
   };
   ASSERT_EQ(run_in("images", {}).exit_code, 0);
   EXPECT_EQ(load_image_result(t.json(0)).image, t.images / "a.png");
@@ -121,15 +123,16 @@ TEST(DetectResume, RefusesResultsMadeWithOtherSettings) {
       EXPECT_NE(outcome.err.find(word), std::string::npos) << word << " not in " << outcome.err;
   };
   expect_refused_with(t.arguments({"--lambda", "50"}), {"a.json: lambda: found 30, expected 50"});
-  expect_refused_with(t.arguments({"--no-faint-edges"}), {"faint-edges: found true, expected false"});
+  expect_refused_with(t.arguments({"--no-faint-edges"}),
+                      {"faint-edges: found true, expected false"});
   expect_refused_with(t.arguments({"--model", part_file(2)}), {"model of object 2: found nothing"});
   expect_refused_with(t.arguments({"--latitude-min", "0"}),
                       {"templates of object 1", "latitude -90", "latitude 0"});
   expect_refused_with(t.arguments({}, "405"), {"camera", "fx 400", "fx 405"});
   const std::string changed = t.folder.write("obj_000001.ply", content_of(part_file(2)));
   expect_refused_with(
-      t.detect(t.images,
-               joined({few_templates(), {"--model", changed, "--unit", "mm", "--camera", t.camera()}})),
+      t.detect(t.images, joined({few_templates(),
+                                 {"--model", changed, "--unit", "mm", "--camera", t.camera()}})),
       {"model of object 1: found checksum"});
   EXPECT_EQ(content_of(t.json(0)), before);
 }
@@ -152,7 +155,8 @@ TEST(DetectResume, GoesOnAfterBeingKilled) {
   ASSERT_GE(finished.size(), 1u);
   ASSERT_LT(finished.size(), 6u);
   for (const auto& [file, time] : finished) EXPECT_NO_THROW(load_image_result(file)) << file;
-  for (const auto& [file, time] : times_in(t.out, ".png")) EXPECT_NO_THROW(load_image(file)) << file;
+  for (const auto& [file, time] : times_in(t.out, ".png"))
+    EXPECT_NO_THROW(load_image(file)) << file;
   EXPECT_FALSE(fs::exists(t.out / "summary.json"));
 
   const Outcome outcome = run_program(t.arguments({"--resume"}));

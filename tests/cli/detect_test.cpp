@@ -23,8 +23,8 @@ void expect_sound(const ImageResult& result, const fs::path& image) {
     stages.push_back(stage.name);
     EXPECT_GE(stage.seconds, 0) << stage.name;
   }
-  EXPECT_EQ(stages,
-            (std::vector<std::string>{"decode", "undistort", "edges", "tensors", "candidates", "settle"}));
+  EXPECT_EQ(stages, (std::vector<std::string>{"decode", "undistort", "edges", "tensors",
+                                              "candidates", "settle"}));
   ASSERT_FALSE(result.detections.empty());
   for (std::size_t i = 0; i < result.detections.size(); ++i) {
     const Detection& d = result.detections[i];
@@ -44,8 +44,8 @@ Se3 truth_in(const SmallScene& t, int view) {
 }
 
 // Whether one of the rows of an image is the part where it is.
-bool has(const std::vector<BopResult>& rows, int image_id, const Se3& truth, double max_angle_rad = 0.05,
-         double max_distance_m = 0.003) {
+bool has(const std::vector<BopResult>& rows, int image_id, const Se3& truth,
+         double max_angle_rad = 0.05, double max_distance_m = 0.003) {
   return std::any_of(rows.begin(), rows.end(), [&](const BopResult& row) {
     return row.image_id == image_id &&
            pose_error(row.camera_from_object, truth, {}).passes(max_angle_rad, max_distance_m);
@@ -54,11 +54,14 @@ bool has(const std::vector<BopResult>& rows, int image_id, const Se3& truth, dou
 
 TEST(Detect, FindsThePartInOneImage) {
   const SmallScene t;
-  const Outcome outcome = run_program(t.detect(t.image(), joined({bracket(), {"--camera", t.camera()}})));
+  const Outcome outcome =
+      run_program(t.detect(t.image(), joined({bracket(), {"--camera", t.camera()}})));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("1 images: 1 done, 0 skipped, 0 failed"), std::string::npos) << outcome.out;
-  EXPECT_NE(outcome.err.find("object 1 (obj_000001): diameter 74.9 mm, looked for 0.270 to 0.330 m"),
-            std::string::npos)
+  EXPECT_NE(outcome.out.find("1 images: 1 done, 0 skipped, 0 failed"), std::string::npos)
+      << outcome.out;
+  EXPECT_NE(
+      outcome.err.find("object 1 (obj_000001): diameter 74.9 mm, looked for 0.270 to 0.330 m"),
+      std::string::npos)
       << outcome.err;
   const ImageResult result = load_image_result(t.out / "000000.json");
   expect_sound(result, t.image());
@@ -69,7 +72,9 @@ TEST(Detect, FindsThePartInOneImage) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     EXPECT_EQ(rows[i].score, result.detections[i].probability);
     EXPECT_EQ(rows[i].time_s, rows[0].time_s);
-    EXPECT_LT(distance_between_m(rows[i].camera_from_object, result.detections[i].world_from_object), 1e-9);
+    EXPECT_LT(
+        distance_between_m(rows[i].camera_from_object, result.detections[i].world_from_object),
+        1e-9);
   }
   EXPECT_GT(rows[0].time_s, 0);
   EXPECT_EQ(load_image(t.out / "000000_overlay.png").width, 320);
@@ -90,11 +95,13 @@ TEST(Detect, TakesFoldersAndScenes) {
     // View 1 shows the part from above, 60 px long: its depth is uncertain by millimetres.
     const double max_distance_m = image == 1 ? 0.008 : 0.003;
     EXPECT_TRUE(has(rows, image, truth_in(t, image), 0.1, max_distance_m)) << image;
-    const ImageResult result = load_image_result(t.out / ("000003_00000" + std::to_string(image) + ".json"));
+    const ImageResult result =
+        load_image_result(t.out / ("000003_00000" + std::to_string(image) + ".json"));
     expect_sound(result, t.image(image));
     EXPECT_EQ(result.scene_id, 3);
     EXPECT_EQ(result.image_id, image);
-    const Se3 camera_from_world = scene.images[static_cast<std::size_t>(image)].camera_from_world.value();
+    const Se3 camera_from_world =
+        scene.images[static_cast<std::size_t>(image)].camera_from_world.value();
     ASSERT_TRUE(result.camera_from_world.has_value());
     EXPECT_LT(distance_between_m(*result.camera_from_world, camera_from_world), 1e-9);
     const Se3 truth_in_world = inverse(camera_from_world) * truth_in(t, image);
@@ -122,15 +129,16 @@ TEST(Detect, JoinsTheViewsOfAScene) {
   const SmallScene t(2);
   ASSERT_EQ(run_program(t.detect(t.scene, joined({bracket(), {"--joint"}}))).exit_code, 0);
   const std::vector<BopResult> rows = load_bop_results(t.out / "results.csv");
-  EXPECT_TRUE(has(rows, 0, truth_in(t, 0), 0.05, 0.002) && has(rows, 1, truth_in(t, 1), 0.05, 0.002));
+  EXPECT_TRUE(has(rows, 0, truth_in(t, 0), 0.05, 0.002) &&
+              has(rows, 1, truth_in(t, 1), 0.05, 0.002));
   const ImageResult first = load_image_result(t.out / "000003_000000.json"),
                     second = load_image_result(t.out / "000003_000001.json");
   ASSERT_TRUE(first.camera_from_world && second.camera_from_world);
   ASSERT_EQ(first.detections.size(), second.detections.size());
   for (std::size_t i = 0; i < first.detections.size(); ++i)
-    EXPECT_LT(
-        distance_between_m(first.detections[i].world_from_object, second.detections[i].world_from_object),
-        1e-12);
+    EXPECT_LT(distance_between_m(first.detections[i].world_from_object,
+                                 second.detections[i].world_from_object),
+              1e-12);
 }
 
 TEST(Detect, ATemplateFileAndAConfigurationSayTheSame) {
@@ -146,20 +154,22 @@ TEST(Detect, ATemplateFileAndAConfigurationSayTheSame) {
     ASSERT_EQ(rows.size(), direct.size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
       EXPECT_EQ(rows[i].score, direct[i].score);
-      EXPECT_EQ(rows[i].camera_from_object.translation_m, direct[i].camera_from_object.translation_m);
+      EXPECT_EQ(rows[i].camera_from_object.translation_m,
+                direct[i].camera_from_object.translation_m);
     }
   };
   const std::string set = t.folder.path() / "part.est";
-  ASSERT_EQ(
-      run_program(joined({{"model", "build", part_file(1), "--unit", "mm", "--device", "cpu", "--out", set},
-                          few_templates()}))
-          .exit_code,
-      0);
+  ASSERT_EQ(run_program(joined({{"model", "build", part_file(1), "--unit", "mm", "--device", "cpu",
+                                 "--out", set},
+                                few_templates()}))
+                .exit_code,
+            0);
   expect_same(t.detect(t.scene, {"--templates", set}));
   const std::string config =
       t.folder.write("detect.yaml",
                      "device: cpu\ndetect:\n  unit: mm\n  viewpoints: 3\n  in-plane-steps: 12\n  "
-                     "distance-min: 0.27\n  distance-max: 0.33\n  aligned: 600\n  min-probability: 0.1\n  model: [" +
+                     "distance-min: 0.27\n  distance-max: 0.33\n  aligned: 600\n  min-probability: "
+                     "0.1\n  model: [" +
                          part_file(1) + "]\n");
   expect_same({"detect", t.scene, "--out", t.out, "--config", config});
 }
@@ -181,17 +191,21 @@ struct MixedFolder : SmallScene {
 
 TEST(Detect, GoesOnPastBadImages) {
   const MixedFolder t;
-  const Outcome outcome = run_program(t.detect(t.images, joined({bracket(), {"--camera", t.camera()}})));
+  const Outcome outcome =
+      run_program(t.detect(t.images, joined({bracket(), {"--camera", t.camera()}})));
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   const auto summary = nlohmann::json::parse(content_of(t.out / "summary.json"));
   EXPECT_EQ(summary.at("images"), 6);
   EXPECT_EQ(summary.at("done"), 2);
   EXPECT_EQ(summary.at("failed"), 4);
-  const std::vector<std::pair<std::string, std::string>> reasons{
-      {"a_cut.png", "cut short"}, {"b_deep.pgm", "16 bit"}, {"c_dot.pgm", "1x1"}, {"e_none.png", "empty"}};
+  const std::vector<std::pair<std::string, std::string>> reasons{{"a_cut.png", "cut short"},
+                                                                 {"b_deep.pgm", "16 bit"},
+                                                                 {"c_dot.pgm", "1x1"},
+                                                                 {"e_none.png", "empty"}};
   ASSERT_EQ(summary.at("failures").size(), reasons.size());
   for (std::size_t i = 0; i < reasons.size(); ++i) {
-    const std::string file = summary["failures"][i].at("file"), error = summary["failures"][i].at("error");
+    const std::string file = summary["failures"][i].at("file"),
+                      error = summary["failures"][i].at("error");
     EXPECT_EQ(fs::path(file).filename(), reasons[i].first);
     EXPECT_NE(error.find(reasons[i].first), std::string::npos) << error;
     EXPECT_NE(error.find(reasons[i].second), std::string::npos) << error;
@@ -199,10 +213,12 @@ TEST(Detect, GoesOnPastBadImages) {
     EXPECT_FALSE(fs::exists(t.out / (fs::path(file).stem().string() + ".json")));
   }
   for (const char* name : {"d_good", "f_good"})
-    expect_sound(load_image_result(t.out / (std::string(name) + ".json")), std::string(name) + ".png");
+    expect_sound(load_image_result(t.out / (std::string(name) + ".json")),
+                 std::string(name) + ".png");
   const std::vector<BopResult> rows = load_bop_results(t.out / "results.csv");
   for (int image : {3, 5}) EXPECT_TRUE(has(rows, image, truth_in(t, 0))) << image;
-  for (const BopResult& row : rows) EXPECT_TRUE(row.image_id == 3 || row.image_id == 5) << row.image_id;
+  for (const BopResult& row : rows)
+    EXPECT_TRUE(row.image_id == 3 || row.image_id == 5) << row.image_id;
 }
 
 TEST(Detect, RefusesWhereEveryImageIsBad) {
@@ -219,9 +235,10 @@ TEST(Detect, RefusesTheOnlyImageWhereItIsTooLarge) {
   const SmallScene t;
   const fs::path wide = t.folder.path() / "wide.png";
   save_png(Image{32767, 120, std::vector<std::uint8_t>(32767 * 120, 128)}, wide);
-  const std::string lens = t.folder.write("lens.yaml",
-                                          "image_width: 32767\nimage_height: 120\nK: [400, 0, 159.5, 0, 400, "
-                                          "59.5, 0, 0, 1]\nD: [0.1, 0, 0, 0, 0]\n");
+  const std::string lens =
+      t.folder.write("lens.yaml",
+                     "image_width: 32767\nimage_height: 120\nK: [400, 0, 159.5, 0, 400, "
+                     "59.5, 0, 0, 1]\nD: [0.1, 0, 0, 0, 0]\n");
   const Outcome outcome = run_program(t.detect(wide, joined({bracket(), {"--camera", lens}})));
   EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
   const std::size_t error = outcome.err.find("edgescout: error: ");
@@ -229,21 +246,23 @@ TEST(Detect, RefusesTheOnlyImageWhereItIsTooLarge) {
   EXPECT_TRUE(is_one_line_error(outcome.err.substr(error))) << outcome.err;
   EXPECT_NE(outcome.err.find("wide.png: image: size: found 32767x120", error), std::string::npos)
       << outcome.err;
-  EXPECT_EQ(outcome.err.find("edgescout: warning: "), std::string::npos) << "told twice: " << outcome.err;
+  EXPECT_EQ(outcome.err.find("edgescout: warning: "), std::string::npos)
+      << "told twice: " << outcome.err;
   EXPECT_FALSE(fs::exists(t.out)) << "something was written";
 }
 
 TEST(Detect, RefusesViewsThatAreJoinedTwice) {
   const SmallScene t;
-  expect_refused(
-      joined({{"detect", t.scene, t.scene, "--joint", "--out", t.out, "--device", "cpu"}, bracket()}),
-      {"000000.png", "view", "twice"});
+  expect_refused(joined({{"detect", t.scene, t.scene, "--joint", "--out", t.out, "--device", "cpu"},
+                         bracket()}),
+                 {"000000.png", "view", "twice"});
   EXPECT_FALSE(fs::exists(t.out));
 }
 
 TEST(Detect, RefusesCamerasThatDoNotFit) {
   const SmallScene t;
-  const auto refused = [&](const std::vector<std::string>& more, std::initializer_list<std::string> words) {
+  const auto refused = [&](const std::vector<std::string>& more,
+                           std::initializer_list<std::string> words) {
     expect_refused(t.detect(t.image(), joined({bracket(), more})), words);
     EXPECT_FALSE(fs::exists(t.out)) << "something was written";
   };
@@ -251,16 +270,20 @@ TEST(Detect, RefusesCamerasThatDoNotFit) {
   refused({"--camera", t.folder.path() / "none.yaml"}, {"none.yaml"});
   refused({"--camera", t.camera("-400")}, {"camera.yaml", "fx", "-400"});
   refused({"--camera", t.camera(".nan")}, {"camera.yaml", "camera_matrix", "not finite"});
-  refused({"--camera", t.camera("400", 640, 480)}, {"camera.yaml", "320x240", "640x480", "--scale-camera"});
-  refused({"--camera", t.camera("400", 640, 400), "--scale-camera"}, {"camera.yaml", "320x240", "640x400"});
+  refused({"--camera", t.camera("400", 640, 480)},
+          {"camera.yaml", "320x240", "640x480", "--scale-camera"});
+  refused({"--camera", t.camera("400", 640, 400), "--scale-camera"},
+          {"camera.yaml", "320x240", "640x400"});
   refused({"--joint", "--camera", t.camera()}, {"000000.png", "world pose", "--joint"});
 }
 
 TEST(Detect, WarnsOfACalibrationOfUnknownSize) {
   const SmallScene t;
-  const std::string sizeless = t.folder.write("k.yaml", "K: [400, 0, 159.5, 0, 400, 119.5, 0, 0, 1]\n");
+  const std::string sizeless =
+      t.folder.write("k.yaml", "K: [400, 0, 159.5, 0, 400, 119.5, 0, 0, 1]\n");
   const auto warned = [&](const std::string& camera) {
-    const Outcome outcome = run_program(t.detect(t.image(), joined({bracket(), {"--camera", camera}})));
+    const Outcome outcome =
+        run_program(t.detect(t.image(), joined({bracket(), {"--camera", camera}})));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return outcome.err.find("edgescout: warning: " + camera + ": width, height: found none") !=
            std::string::npos;
@@ -271,11 +294,11 @@ TEST(Detect, WarnsOfACalibrationOfUnknownSize) {
 
 TEST(Detect, ScalesTheCameraWhereAllowed) {
   const SmallScene t;
-  const std::string doubled = t.folder.write(
-      "camera.yaml",
-      "image_width: 640\nimage_height: 480\ncamera_matrix: [800, 0, 319.5, 0, 800, 239.5, 0, 0, 1]\n");
-  const Outcome outcome =
-      run_program(t.detect(t.image(), joined({bracket(), {"--camera", doubled, "--scale-camera"}})));
+  const std::string doubled = t.folder.write("camera.yaml",
+                                             "image_width: 640\nimage_height: 480\ncamera_matrix: "
+                                             "[800, 0, 319.5, 0, 800, 239.5, 0, 0, 1]\n");
+  const Outcome outcome = run_program(
+      t.detect(t.image(), joined({bracket(), {"--camera", doubled, "--scale-camera"}})));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(load_image_result(t.out / "000000.json").camera.fx, 400);
   EXPECT_TRUE(has(load_bop_results(t.out / "results.csv"), 0, truth_in(t, 0)));
@@ -283,12 +306,15 @@ TEST(Detect, ScalesTheCameraWhereAllowed) {
 
 TEST(Detect, RefusesOptionsDevicesAndFolders) {
   const SmallScene t;
-  const auto refused = [&](const std::vector<std::string>& more, std::initializer_list<std::string> words) {
+  const auto refused = [&](const std::vector<std::string>& more,
+                           std::initializer_list<std::string> words) {
     expect_refused(joined({{"detect", t.scene, "--out", t.out}, more}), words);
     EXPECT_FALSE(fs::exists(t.out)) << "something was written";
   };
-  refused(joined({bracket(), {"--min-probability", "1.5"}}), {"--min-probability", "1.5", "0 to 1"});
-  refused(joined({bracket(), {"--min-probability", "nan"}}), {"--min-probability", "nan", "0 to 1"});
+  refused(joined({bracket(), {"--min-probability", "1.5"}}),
+          {"--min-probability", "1.5", "0 to 1"});
+  refused(joined({bracket(), {"--min-probability", "nan"}}),
+          {"--min-probability", "nan", "0 to 1"});
   refused(joined({bracket(), {"--bins", "61"}}), {"bins", "61"});
   refused(joined({bracket(), {"--distance-ratio", "1"}}), {"--distance-ratio"});
   refused(joined({bracket(), {"--device", "vulkan:99"}}), {"device", "vulkan:99"});
@@ -296,17 +322,21 @@ TEST(Detect, RefusesOptionsDevicesAndFolders) {
   refused({"--device", "cpu", "--model", part_file(1)}, {"--unit"});
   refused({"--device", "cpu", "--unit", "mm", "--model", part_file(1), part_file(1)},
           {"obj_000001.ply", "object id", "twice"});
-  refused({"--device", "cpu", "--unit", "mm", "--model", t.folder.path() / "none.stl"}, {"none.stl"});
+  refused({"--device", "cpu", "--unit", "mm", "--model", t.folder.path() / "none.stl"},
+          {"none.stl"});
   // What a template file says itself.
-  for (const std::vector<std::string>& more : std::vector<std::vector<std::string>>{
-           {"--unit", "mm"}, {"--object-id", "1"}, {"--distance-min", "0.2"}, {"--viewpoints", "4"}})
+  for (const std::vector<std::string>& more :
+       std::vector<std::vector<std::string>>{{"--unit", "mm"},
+                                             {"--object-id", "1"},
+                                             {"--distance-min", "0.2"},
+                                             {"--viewpoints", "4"}})
     refused(joined({{"--templates", "part.est"}, more}), {more[0], "beside --templates"});
   const fs::path below = t.folder.write("file", "content") / "out";
   expect_refused(joined({{"detect", t.scene, "--out", below, "--device", "cpu"}, bracket()}),
                  {below, "output folder"});
-  expect_refused(
-      joined({{"detect", t.folder.path() / "nowhere", "--out", t.out, "--device", "cpu"}, bracket()}),
-      {"nowhere", "input"});
+  expect_refused(joined({{"detect", t.folder.path() / "nowhere", "--out", t.out, "--device", "cpu"},
+                         bracket()}),
+                 {"nowhere", "input"});
   fs::create_directories(t.folder.path() / "empty");
   expect_refused(
       joined({{"detect", t.folder.path() / "empty", "--out", t.out, "--device", "cpu"}, bracket()}),
@@ -321,7 +351,8 @@ TEST(Detect, KeepsOverlaysApartFromTheImages) {
                          bracket()}),
                  {"--out", "folder of the images"});
   expect_refused(
-      joined({{"detect", t.image(), "--out", images, "--device", "cpu", "--camera", t.camera()}, bracket()}),
+      joined({{"detect", t.image(), "--out", images, "--device", "cpu", "--camera", t.camera()},
+              bracket()}),
       {"--out", "folder of the images"});
   EXPECT_EQ(std::distance(fs::directory_iterator(images), {}), 1);
 }
@@ -329,12 +360,13 @@ TEST(Detect, KeepsOverlaysApartFromTheImages) {
 TEST(Detect, RefusesTheSameObjectInTwoTemplateFiles) {
   const SmallScene t;
   const std::string set = t.folder.path() / "part.est";
-  ASSERT_EQ(
-      run_program(joined({{"model", "build", part_file(1), "--unit", "mm", "--device", "cpu", "--out", set},
-                          few_templates()}))
-          .exit_code,
-      0);
-  expect_refused(t.detect(t.scene, {"--templates", set, set}), {"part.est", "object id", "1 twice"});
+  ASSERT_EQ(run_program(joined({{"model", "build", part_file(1), "--unit", "mm", "--device", "cpu",
+                                 "--out", set},
+                                few_templates()}))
+                .exit_code,
+            0);
+  expect_refused(t.detect(t.scene, {"--templates", set, set}),
+                 {"part.est", "object id", "1 twice"});
   expect_refused(t.detect(t.image(), {"--templates", set}), {"000000.png", "camera"});
   expect_refused(t.detect(t.image(), {"--templates", set, "--camera", t.camera("-400")}),
                  {"camera.yaml", "fx"});

@@ -1,5 +1,5 @@
-// A device that is lost in the middle of a batch: an error that names it, finished images on disk, the rest
-// done by a resumed run. And one whose memory others hold: an image that is refused.
+// A device that is lost in the middle of a batch: an error that names it, finished images on disk,
+// the rest done by a resumed run. And one whose memory others hold: an image that is refused.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -23,19 +23,22 @@ struct LostDevice : ::testing::Test {
     fs::copy_file(scene.image(), images / "a.png");
   }
   std::vector<std::string> detect(const std::vector<std::string>& more = {}) const {
-    return joined({{"detect", images, "--out", scene.out, "--device", "vulkan", "--no-overlays", "--camera",
-                    scene.camera(), "--candidates", "4"},
-                   {"--model", part_file(1), "--unit", "mm", "--viewpoints", "1", "--in-plane-steps", "12",
-                    "--distance-min", "0.27", "--distance-max", "0.33", "--aligned", "50"},
-                   more});
+    return joined(
+        {{"detect", images, "--out", scene.out, "--device", "vulkan", "--no-overlays", "--camera",
+          scene.camera(), "--candidates", "4"},
+         {"--model", part_file(1), "--unit", "mm", "--viewpoints", "1", "--in-plane-steps", "12",
+          "--distance-min", "0.27", "--distance-max", "0.33", "--aligned", "50"},
+         more});
   }
-  // ASan insists on being first; the shim replaces two functions of the loader, none of the C library.
+  // ASan insists on being first; the shim replaces two functions of the loader, none of the C
+  // library.
   Outcome run_on_device_lost_after(int submits, const std::vector<std::string>& arguments,
                                    const std::string& more_environment = "") const {
     return run_program(
-        arguments,
-        "ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD='" EDGESCOUT_FAILING_DEVICE "' SUBMITS_FILE='" +
-            submits_file.string() + "' FAIL_AFTER_SUBMITS=" + std::to_string(submits) + more_environment);
+        arguments, "ASAN_OPTIONS=verify_asan_link_order=0 LD_PRELOAD='" EDGESCOUT_FAILING_DEVICE
+                   "' SUBMITS_FILE='" +
+                       submits_file.string() + "' FAIL_AFTER_SUBMITS=" + std::to_string(submits) +
+                       more_environment);
   }
   int submits_of(const std::vector<std::string>& arguments) const {
     const Outcome alone = run_on_device_lost_after(std::numeric_limits<int>::max(), arguments);

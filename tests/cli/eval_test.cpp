@@ -33,8 +33,8 @@ Evaluated evaluate_rows(const std::vector<BopResult>& rows, const fs::path& scen
   const TemporaryFolder folder;
   save_bop_results(rows, folder.path() / "r.csv");
   const fs::path json = folder.path() / "r.json";
-  Evaluated evaluated{run_program(eval_of(folder.path() / "r.csv", scenes, joined({{"--json", json}, more}))),
-                      {}};
+  Evaluated evaluated{
+      run_program(eval_of(folder.path() / "r.csv", scenes, joined({{"--json", json}, more}))), {}};
   EXPECT_EQ(evaluated.outcome.exit_code, 0) << evaluated.outcome.err;
   evaluated.figures = nlohmann::json::parse(content_of(json));
   return evaluated;
@@ -46,17 +46,19 @@ TEST(Eval, OfTheTruthIsOne) {
   EXPECT_EQ(all.at("images"), 3);
   EXPECT_EQ(all.at("truths"), 24);
   EXPECT_EQ(all.at("estimates"), 24);
-  for (const char* figure : {"ar_mssd_mspd", "ar_mssd", "ar_mspd", "recall_pose_raw", "recall_pose_symmetric",
-                             "recall_mspd_below_max"})
+  for (const char* figure : {"ar_mssd_mspd", "ar_mssd", "ar_mspd", "recall_pose_raw",
+                             "recall_pose_symmetric", "recall_mspd_below_max"})
     EXPECT_NEAR(all.at(figure).get<double>(), 1, 1e-12) << figure;
   EXPECT_EQ(all.at("false_positives"), 0);
   EXPECT_EQ(evaluated.figures.at("objects").size(), 6u);
   EXPECT_NE(evaluated.outcome.out.find("all"), std::string::npos);
   EXPECT_EQ(evaluated.outcome.out.find("left out"), std::string::npos) << evaluated.outcome.out;
-  EXPECT_EQ(evaluated.outcome.out.find("no symmetries"), std::string::npos) << evaluated.outcome.out;
+  EXPECT_EQ(evaluated.outcome.out.find("no symmetries"), std::string::npos)
+      << evaluated.outcome.out;
 }
 
-// As BOP's own subsets are judged. What else the scenes and the results hold is neither missed nor false.
+// As BOP's own subsets are judged. What else the scenes and the results hold is neither missed nor
+// false.
 TEST(Eval, JudgesTheObjectsWhoseModelsAreGiven) {
   const TemporaryFolder folder;
   std::vector<BopResult> rows = true_results(load_bop_scene(one_view()), 0);
@@ -66,8 +68,8 @@ TEST(Eval, JudgesTheObjectsWhoseModelsAreGiven) {
     if (row.object_id != 2) row.camera_from_object.translation_m.z() -= 0.2;  // misses
   save_bop_results(rows, folder.path() / "r.csv");
   const fs::path json = folder.path() / "r.json";
-  const Outcome outcome = run_program(
-      {"eval", folder.path() / "r.csv", one_view(), "--model", part_file(2), "--unit", "mm", "--json", json});
+  const Outcome outcome = run_program({"eval", folder.path() / "r.csv", one_view(), "--model",
+                                       part_file(2), "--unit", "mm", "--json", json});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto figures = nlohmann::json::parse(content_of(json));
   EXPECT_EQ(figures.at("all").at("truths"), of_object_2);
@@ -79,15 +81,17 @@ TEST(Eval, JudgesTheObjectsWhoseModelsAreGiven) {
   for (const BopResult& row : rows)
     if (row.object_id != 2) others.insert(row.object_id);
   EXPECT_EQ(figures.at("objects_left_out").get<std::set<int>>(), others);
-  for (const char* words : {"left out, truths and estimates", "no symmetries without --models-info"})
+  for (const char* words :
+       {"left out, truths and estimates", "no symmetries without --models-info"})
     EXPECT_NE(outcome.out.find(words), std::string::npos) << outcome.out;
-  expect_refused({"eval", folder.path() / "r.csv", one_view(), "--model", part_file(2), "--unit", "mm",
-                  "--object-id", "77"},
+  expect_refused({"eval", folder.path() / "r.csv", one_view(), "--model", part_file(2), "--unit",
+                  "mm", "--object-id", "77"},
                  {"--model", "none of the scenes' objects", "--object-id"});
 }
 
-// Scene 0 holds 8 parts. Of their poses one comes 200 mm nearer to the camera: a miss by every measure and a
-// false positive. Another moves 4 mm sideways: within the paper's bound, and beyond the smallest of BOP's.
+// Scene 0 holds 8 parts. Of their poses one comes 200 mm nearer to the camera: a miss by every
+// measure and a false positive. Another moves 4 mm sideways: within the paper's bound, and beyond
+// the smallest of BOP's.
 TEST(Eval, OfKnownMistakesIsWhatAHandWorksOut) {
   const BopScene scene = load_bop_scene(one_view());
   std::vector<BopResult> rows = true_results(scene, 0);
@@ -111,8 +115,8 @@ TEST(Eval, DropsWhatIsHardlyVisibleOrUnlikely) {
   const BopScene scene = load_bop_scene(one_view());
   std::vector<BopResult> rows = true_results(scene, 0);
   rows[0].score = 0.2;  // a fully visible nut
-  const auto all =
-      evaluate_rows(rows, one_view(), {"--min-score", "0.5", "--min-visible", "0.9"}).figures.at("all");
+  const auto all = evaluate_rows(rows, one_view(), {"--min-score", "0.5", "--min-visible", "0.9"})
+                       .figures.at("all");
   EXPECT_EQ(all.at("truths"), 6);  // two are seen by 56 and 70 %
   EXPECT_EQ(all.at("estimates"), 7);
   EXPECT_DOUBLE_EQ(all.at("recall_pose_raw").get<double>(), 5.0 / 6);
@@ -125,8 +129,10 @@ TEST(Eval, DropsNothingUnlessAsked) {
   const Evaluated evaluated = evaluate_rows(rows, one_view());
   EXPECT_EQ(evaluated.figures.at("all").at("estimates"), 8);
   EXPECT_TRUE(evaluated.figures.at("min_score").is_null());
-  EXPECT_NE(evaluated.outcome.out.find("all estimates"), std::string::npos) << evaluated.outcome.out;
-  EXPECT_EQ(evaluate_rows(rows, one_view(), {"--min-score", "0"}).figures.at("all").at("estimates"), 0);
+  EXPECT_NE(evaluated.outcome.out.find("all estimates"), std::string::npos)
+      << evaluated.outcome.out;
+  EXPECT_EQ(evaluate_rows(rows, one_view(), {"--min-score", "0"}).figures.at("all").at("estimates"),
+            0);
 }
 
 TEST(Eval, RefusesWhatItCannotJudge) {

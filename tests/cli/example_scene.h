@@ -40,17 +40,19 @@ inline std::vector<std::string> joined(std::initializer_list<std::vector<std::st
 }
 
 // The true poses of one image as results, those seen by at least `min_visible`.
-inline std::vector<BopResult> true_results(const BopScene& scene, int image_id, double min_visible = 0) {
+inline std::vector<BopResult> true_results(const BopScene& scene, int image_id,
+                                           double min_visible = 0) {
   std::vector<BopResult> results;
   for (const BopTruth& truth : scene.truth.at(image_id))
     if (truth.visible_fraction >= min_visible)
-      results.push_back({scene.scene_id, image_id, truth.object_id, 1, truth.camera_from_object, -1});
+      results.push_back(
+          {scene.scene_id, image_id, truth.object_id, 1, truth.camera_from_object, -1});
   return results;
 }
 
 // The same results turned by `angle_rad` and moved by `distance_m` in random directions.
-inline std::vector<BopResult> perturbed(std::vector<BopResult> results, double angle_rad, double distance_m,
-                                        Random random) {
+inline std::vector<BopResult> perturbed(std::vector<BopResult> results, double angle_rad,
+                                        double distance_m, Random random) {
   for (BopResult& result : results) {
     Vector6d delta;
     delta.head<3>() = distance_m * random.direction();
@@ -62,7 +64,8 @@ inline std::vector<BopResult> perturbed(std::vector<BopResult> results, double a
 
 // Exit code 2, one line that holds the words, nothing on standard output.
 inline void expect_refused(const std::vector<std::string>& arguments,
-                           std::initializer_list<std::string> words, const std::string& environment = "") {
+                           std::initializer_list<std::string> words,
+                           const std::string& environment = "") {
   const Outcome outcome = run_program(arguments, environment);
   EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
   EXPECT_EQ(outcome.out, "");

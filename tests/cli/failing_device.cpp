@@ -1,6 +1,6 @@
-// A Vulkan device that is lost or full: preloaded before the loader, it lets FAIL_AFTER_SUBMITS submissions
-// pass and fails every one after them, and has no memory for more than FREE_BYTES at once, where that is set.
-// How many submissions were asked for is left in SUBMITS_FILE.
+// A Vulkan device that is lost or full: preloaded before the loader, it lets FAIL_AFTER_SUBMITS
+// submissions pass and fails every one after them, and has no memory for more than FREE_BYTES at
+// once, where that is set. How many submissions were asked for is left in SUBMITS_FILE.
 #include <dlfcn.h>
 #include <vulkan/vulkan.h>
 
@@ -22,9 +22,11 @@ extern "C" VkResult vkQueueSubmit(VkQueue queue, std::uint32_t count, const VkSu
 }
 
 extern "C" VkResult vkAllocateMemory(VkDevice device, const VkMemoryAllocateInfo* info,
-                                     const VkAllocationCallbacks* callbacks, VkDeviceMemory* memory) {
+                                     const VkAllocationCallbacks* callbacks,
+                                     VkDeviceMemory* memory) {
   static const char* free_bytes = std::getenv("FREE_BYTES");
-  static const auto allocate = reinterpret_cast<PFN_vkAllocateMemory>(dlsym(RTLD_NEXT, "vkAllocateMemory"));
+  static const auto allocate =
+      reinterpret_cast<PFN_vkAllocateMemory>(dlsym(RTLD_NEXT, "vkAllocateMemory"));
   if (free_bytes && info->allocationSize > std::strtoull(free_bytes, nullptr, 10))
     return VK_ERROR_OUT_OF_DEVICE_MEMORY;
   return allocate(device, info, callbacks, memory);

@@ -9,9 +9,9 @@ namespace edgescout::test {
 namespace {
 
 std::vector<std::string> build(const std::string& out, const std::vector<std::string>& more = {}) {
-  return joined(
-      {{"model", "build", part_file(2), "--unit", "mm", "--viewpoints", "2", "--device", "cpu", "--out", out},
-       more});
+  return joined({{"model", "build", part_file(2), "--unit", "mm", "--viewpoints", "2", "--device",
+                  "cpu", "--out", out},
+                 more});
 }
 const std::vector<std::string> distances{"--distance-min", "0.3", "--distance-max", "0.6"};
 
@@ -38,8 +38,9 @@ TEST(ModelBuild, WritesASetThatReadsBack) {
 TEST(ModelBuild, ChoosesDistancesByTheCamera) {
   const TemporaryFolder folder;
   const std::string file = folder.path() / "part.est";
-  const std::string camera = folder.write(
-      "camera.json", R"({"fx": 800, "fy": 800, "cx": 320, "cy": 240, "width": 640, "height": 480})");
+  const std::string camera =
+      folder.write("camera.json",
+                   R"({"fx": 800, "fy": 800, "cx": 320, "cy": 240, "width": 640, "height": 480})");
   ASSERT_EQ(run_program(build(file, {"--camera", camera})).exit_code, 0);
   const TemplateSet set = load_templates(file);
   EXPECT_NEAR(set.options.distance_min_m, 800 * set.model.mesh.diameter_m / 160, 1e-9);
@@ -52,14 +53,17 @@ TEST(ModelBuild, RefusesAndWritesNothing) {
   expect_refused(build(out), {"--distance-min", "--camera"});
   expect_refused(build(out, {"--distance-min", "0.6", "--distance-max", "0.3"}),
                  {"--distance-max", "found 0.3", "at least --distance-min"});
-  expect_refused(build(out, {"--distance-min", "0.6"}), {"--distance-max", "both", "--distance-min"});
-  expect_refused(build(out, {"--distance-max", "0.6"}), {"--distance-min", "both", "--distance-max"});
+  expect_refused(build(out, {"--distance-min", "0.6"}),
+                 {"--distance-max", "both", "--distance-min"});
+  expect_refused(build(out, {"--distance-max", "0.6"}),
+                 {"--distance-min", "both", "--distance-max"});
   expect_refused(build(out, {"--distance-min", "0.6", "--distance-ratio", "1"}),
                  {"--distance-ratio", "found 1"});
   expect_refused(build(out, joined({distances, {"--symmetry", "q4"}})), {"--symmetry", "q4"});
   expect_refused(build(out, joined({distances, {"--symmetry", "z2"}, models_info()})),
                  {"--symmetry", "both"});
-  expect_refused(build(out, joined({distances, {"--latitude-min", "91"}})), {"--latitude-min", "found 91"});
+  expect_refused(build(out, joined({distances, {"--latitude-min", "91"}})),
+                 {"--latitude-min", "found 91"});
   EXPECT_FALSE(fs::exists(out.parent_path()));
   expect_refused(build("/proc/part.est", distances), {"/proc"});
 }
@@ -70,10 +74,10 @@ TEST(ModelDraw, DrawsMeshesAndSets) {
   ASSERT_EQ(run_program(build(set, distances)).exit_code, 0);
   for (const std::vector<std::string>& source :
        {std::vector<std::string>{set}, {part_file(2), "--unit", "mm"}}) {
-    const Outcome outcome = run_program(
-        joined({{"model", "draw"},
-                source,
-                {"--columns", "3", "--rows", "2", "--tile", "100", "--out", picture, "--device", "cpu"}}));
+    const Outcome outcome = run_program(joined(
+        {{"model", "draw"},
+         source,
+         {"--columns", "3", "--rows", "2", "--tile", "100", "--out", picture, "--device", "cpu"}}));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const Image image = load_image(picture);
     EXPECT_EQ(image.width, 300);
@@ -82,7 +86,8 @@ TEST(ModelDraw, DrawsMeshesAndSets) {
     for (int tile = 0; tile < 6; ++tile) {
       int bright = 0;
       for (int y = 0; y < 100; ++y)
-        for (int x = 0; x < 100; ++x) bright += image.at(tile % 3 * 100 + x, tile / 3 * 100 + y) > 100;
+        for (int x = 0; x < 100; ++x)
+          bright += image.at(tile % 3 * 100 + x, tile / 3 * 100 + y) > 100;
       EXPECT_GT(bright, 100) << tile;
       EXPECT_LT(bright, 4000) << tile;
     }
@@ -108,7 +113,8 @@ TEST(Templates, DamagedFilesAreRefused) {
   save_bop_results(true_results(load_bop_scene(one_view()), 0), starts);
   const fs::path out = folder.path() / "out";
   const auto refused = [&](const std::string& bad, std::initializer_list<std::string> words) {
-    expect_refused({"register", one_view(), "--poses", starts, "--templates", bad, "--out", out}, words);
+    expect_refused({"register", one_view(), "--poses", starts, "--templates", bad, "--out", out},
+                   words);
     expect_refused({"detect", one_view(), "--templates", bad, "--out", out}, words);
     expect_refused({"model", "draw", bad, "--out", out}, words);
   };
@@ -117,11 +123,14 @@ TEST(Templates, DamagedFilesAreRefused) {
   refused(folder.write("sum.est", payload), {"sum.est", "checksum"});
   refused(folder.path() / "none.est", {"none.est", "No such file"});
   const std::string tells = "a CAD file (templates are given with --templates)";
-  expect_refused({"detect", one_view(), "--model", file, "--out", out}, {"part.est", "template file", tells});
-  expect_refused({"register", one_view(), "--poses", starts, "--model", file, "--unit", "mm", "--out", out},
+  expect_refused({"detect", one_view(), "--model", file, "--out", out},
                  {"part.est", "template file", tells});
-  expect_refused({"register", one_view(), "--poses", starts, "--templates", file, file, "--out", out},
-                 {"part.est", "object id", "2 twice"});
+  expect_refused(
+      {"register", one_view(), "--poses", starts, "--model", file, "--unit", "mm", "--out", out},
+      {"part.est", "template file", tells});
+  expect_refused(
+      {"register", one_view(), "--poses", starts, "--templates", file, file, "--out", out},
+      {"part.est", "object id", "2 twice"});
   EXPECT_FALSE(fs::exists(out));
 }
 

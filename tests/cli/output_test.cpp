@@ -1,4 +1,5 @@
-// Where results cannot be written, and options out of range: exit code 2, one line, nothing half written.
+// Where results cannot be written, and options out of range: exit code 2, one line, nothing half
+// written.
 #include <gtest/gtest.h>
 
 #include "tests/cli/program.h"
@@ -6,7 +7,8 @@
 namespace edgescout::test {
 namespace {
 
-std::vector<std::string> render_to(const std::string& folder, const std::vector<std::string>& more = {}) {
+std::vector<std::string> render_to(const std::string& folder,
+                                   const std::vector<std::string>& more = {}) {
   std::vector<std::string> arguments{"render", "--part",  "hex_nut", "--objects", "1",  "--clutter",
                                      "0",      "--width", "96",      "--height",  "64", "--out"};
   arguments.push_back(folder);
@@ -49,7 +51,8 @@ TEST(Output, MixesNoScenesOfTwoRuns) {
   const TemporaryFolder folder;
   const auto out = folder.path() / "out";
   ASSERT_EQ(run_program(render_to(out, {"--scenes", "2", "--views", "2"})).exit_code, 0);
-  EXPECT_EQ(run_program(render_to(out, {"--scenes", "2", "--views", "2"})).exit_code, 0) << "the same again";
+  EXPECT_EQ(run_program(render_to(out, {"--scenes", "2", "--views", "2"})).exit_code, 0)
+      << "the same again";
   const std::string before = content_of(out / "000000/scene_gt.json");
   expect_one_line(run_program(render_to(out, {"--views", "2", "--seed", "9"})),
                   {out.string(), "scene 000001", "another --out"});
@@ -61,8 +64,10 @@ TEST(Output, MixesNoScenesOfTwoRuns) {
 TEST(Output, IsNotTouchedWhereAnOptionIsOutOfRange) {
   const TemporaryFolder folder;
   const auto out = folder.path() / "out";
-  expect_one_line(run_program(render_to(out, {"--noise", "51"})), {"--noise", "found 51", "0 to 50"});
-  expect_one_line(run_program(render_to(out, {"--blur", "nan"})), {"--blur", "found nan", "0 to 10"});
+  expect_one_line(run_program(render_to(out, {"--noise", "51"})),
+                  {"--noise", "found 51", "0 to 50"});
+  expect_one_line(run_program(render_to(out, {"--blur", "nan"})),
+                  {"--blur", "found nan", "0 to 10"});
   expect_one_line(run_program(render_to(out, {"--views", "0"})), {"--views", "found 0", "1 to 50"});
   expect_one_line(run_program(render_to(out, {"--config", folder.write("c.yaml", "noise: -1\n")})),
                   {"--noise", "found -1", "0 to 50"});

@@ -20,7 +20,8 @@ struct Photograph : ::testing::TestWithParam<const char*> {
 
   void SetUp() override {
     if (!fs::exists(folder)) GTEST_SKIP() << "visp-images-data is not installed";
-    if (std::string(GetParam()) == "vulkan" && run_program({"devices", "--device", "vulkan"}).exit_code != 0)
+    if (std::string(GetParam()) == "vulkan" &&
+        run_program({"devices", "--device", "vulkan"}).exit_code != 0)
       GTEST_SKIP() << "no Vulkan device";
   }
 };
@@ -29,10 +30,12 @@ TEST_P(Photograph, ShowsACubeThatIsFound) {
   const TemporaryFolder out;
   const Outcome outcome = run_program(joined(
       {{"detect", folder / "cube/image0000.pgm", "--out", out.path(), "--device", GetParam()},
-       {"--model", folder / "cube.cao", "--unit", "m", "--models-info", visp / "cube_models_info.json"},
+       {"--model", folder / "cube.cao", "--unit", "m", "--models-info",
+        visp / "cube_models_info.json"},
        {"--camera", visp / "cube_camera.yaml", "--distance-min", "0.4", "--distance-max", "0.8"},
        {"--viewpoints", "3", "--aligned", "300", "--candidates", "10", "--max-detections", "1"},
-       {"--region-x", "250", "--region-y", "150", "--region-width", "250", "--region-height", "250"}}));
+       {"--region-x", "250", "--region-y", "150", "--region-width", "250", "--region-height",
+        "250"}}));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::vector<BopResult> found = load_bop_results(out.path() / "results.csv");
   ASSERT_EQ(found.size(), 1u);

@@ -24,7 +24,8 @@ struct Outcome {
 };
 
 // `environment` stands before the program, as in a shell: "NAME=value".
-inline Outcome run_program(const std::vector<std::string>& arguments, const std::string& environment = "") {
+inline Outcome run_program(const std::vector<std::string>& arguments,
+                           const std::string& environment = "") {
   const TemporaryFolder folder;
   std::string command = environment + " '" EDGESCOUT_CLI "'";
   for (const std::string& argument : arguments) command += " '" + argument + "'";
@@ -47,8 +48,8 @@ inline pid_t start_program(const std::vector<std::string>& arguments) {
   ::_exit(127);
 }
 
-// Starts the program and kills it as soon as `condition` holds, however long that takes (sanitizers are slow,
-// the test's own time limit ends a wait in vain). False where it had ended before.
+// Starts the program and kills it as soon as `condition` holds, however long that takes (sanitizers
+// are slow, the test's own time limit ends a wait in vain). False where it had ended before.
 inline bool run_program_until(const std::vector<std::string>& arguments,
                               const std::function<bool()>& condition) {
   const pid_t child = start_program(arguments);

@@ -11,7 +11,8 @@
 namespace edgescout::test {
 namespace {
 
-void expect_bad_request(const std::vector<std::string>& arguments, std::initializer_list<std::string> words,
+void expect_bad_request(const std::vector<std::string>& arguments,
+                        std::initializer_list<std::string> words,
                         const std::string& environment = "") {
   const Outcome outcome = run_program(arguments, environment);
   EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
@@ -44,19 +45,21 @@ std::vector<std::string> descriptions(const std::string& help) {
 
 // A reader comes to one option, not to the one above it.
 TEST(Program, ExplainsEveryOptionByItself) {
-  for (const std::vector<std::string>& verb : std::vector<std::vector<std::string>>{{"detect"},
-                                                                                    {"eval"},
-                                                                                    {"model", "build"},
-                                                                                    {"model", "draw"},
-                                                                                    {"register"},
-                                                                                    {"render"},
-                                                                                    {"scout"}}) {
+  for (const std::vector<std::string>& verb :
+       std::vector<std::vector<std::string>>{{"detect"},
+                                             {"eval"},
+                                             {"model", "build"},
+                                             {"model", "draw"},
+                                             {"register"},
+                                             {"render"},
+                                             {"scout"}}) {
     std::vector<std::string> arguments = verb;
     arguments.push_back("--help");
     const std::vector<std::string> texts = descriptions(run_program(arguments).out);
     EXPECT_GE(texts.size(), 8u) << verb.back();
     for (const std::string& text : texts) {
-      for (const char* fragment : {"Of ", "And ", "On it", "As ", "By which", "The same", "px", "m;"})
+      for (const char* fragment :
+           {"Of ", "And ", "On it", "As ", "By which", "The same", "px", "m;"})
         EXPECT_FALSE(text.starts_with(fragment)) << verb.back() << ": " << text;
       EXPECT_TRUE(text != "m" && text != "degrees") << verb.back();
     }
@@ -86,8 +89,9 @@ TEST(Devices, ListsThemAsTextAndJson) {
     EXPECT_GT(device.at("memory_bytes").get<std::uint64_t>(), 0u);
     EXPECT_NE(text.out.find(device.at("name").get<std::string>()), std::string::npos);
   }
-  EXPECT_EQ(nlohmann::json::parse(run_program({"devices", "--json", "--device", "cpu"}).out).at("taken"),
-            "cpu");
+  EXPECT_EQ(
+      nlohmann::json::parse(run_program({"devices", "--json", "--device", "cpu"}).out).at("taken"),
+      "cpu");
 }
 
 TEST(Devices, RejectsADeviceThatIsNotThere) {
@@ -116,7 +120,8 @@ TEST(ModelInspect, MeasuresABox) {
   const std::string file = folder.write("box.stl", binary_stl(box(30, 40, 120)));
   const Outcome text = run_program({"model", "inspect", file, "--unit", "mm"});
   EXPECT_EQ(text.exit_code, 0) << text.err;
-  for (const char* word : {"30.000 x 40.000 x 120.000 mm", "130.000 mm", "12", "18", "0 on open borders"})
+  for (const char* word :
+       {"30.000 x 40.000 x 120.000 mm", "130.000 mm", "12", "18", "0 on open borders"})
     EXPECT_NE(text.out.find(word), std::string::npos) << word << " not in " << text.out;
   const auto list =
       nlohmann::json::parse(run_program({"model", "inspect", file, "--unit", "cm", "--json"}).out);
@@ -158,23 +163,26 @@ TEST(ModelInspect, RejectsBadMeshesAndAMissingUnit) {
     return std::vector<std::string>{"model", "inspect", file, "--unit", "mm"};
   };
   expect_bad_request({"model", "inspect", good}, {"--unit"});
-  expect_bad_request({"model", "inspect", good, "--unit", "foot"}, {"unit", "foot", "mm, cm, m or in"});
+  expect_bad_request({"model", "inspect", good, "--unit", "foot"},
+                     {"unit", "foot", "mm, cm, m or in"});
   expect_bad_request({"model", "inspect", "--unit", "mm"}, {"files"});
   expect_bad_request(inspect(folder.path() / "none.stl"), {"none.stl", "No such file"});
   expect_bad_request(inspect(folder.write("cut.stl", binary_stl(b).substr(0, 500))),
                      {"cut.stl", "truncated"});
   expect_bad_request(inspect(folder.write("lie.stl", binary_stl(b, 11))), {"lie.stl", "count"});
   expect_bad_request(inspect(folder.write("zero.stl", binary_stl({}))), {"zero.stl", "triangles"});
-  expect_bad_request(inspect(folder.write("nan.stl", binary_stl(bad))), {"nan.stl", "vertex", "not finite"});
+  expect_bad_request(inspect(folder.write("nan.stl", binary_stl(bad))),
+                     {"nan.stl", "vertex", "not finite"});
   // A good file before a bad one is not half reported.
-  expect_bad_request({"model", "inspect", good, folder.path() / "none.stl", "--unit", "mm"}, {"none.stl"});
+  expect_bad_request({"model", "inspect", good, folder.path() / "none.stl", "--unit", "mm"},
+                     {"none.stl"});
 }
 
 TEST(Config, GivesAVerbItsOptions) {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("box.stl", binary_stl(box(30, 40, 120)));
-  const std::string own =
-      folder.write("own.yaml", "model:\n  inspect: {unit: mm, json: true}\ndevices: {json: true}\n");
+  const std::string own = folder.write(
+      "own.yaml", "model:\n  inspect: {unit: mm, json: true}\ndevices: {json: true}\n");
   const Outcome outcome = run_program({"model", "inspect", mesh, "--config", own});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NEAR(nlohmann::json::parse(outcome.out).at(0).at("diameter_mm").get<double>(), 130, 1e-3);
@@ -187,10 +195,12 @@ TEST(Config, NamesFileAndKeyOfWhatIsWrong) {
   expect_bad_request({"devices", "--config", folder.path() / "none.yaml"}, {"none.yaml"});
   expect_bad_request({"devices", "--config", folder.write("a.yaml", "jsn: true\n")},
                      {"a.yaml", "jsn", "unknown option"});
-  expect_bad_request({"devices", "--config", folder.write("b.yaml", "json: [true\n")}, {"b.yaml", "line"});
+  expect_bad_request({"devices", "--config", folder.write("b.yaml", "json: [true\n")},
+                     {"b.yaml", "line"});
   expect_bad_request({"devices", "--config", folder.write("c.yaml", "verb: {json: true}\n")},
                      {"c.yaml", "verb"});
-  expect_bad_request({"devices", "--config", folder.write("d.yaml", "- json\n")}, {"d.yaml", "no keys"});
+  expect_bad_request({"devices", "--config", folder.write("d.yaml", "- json\n")},
+                     {"d.yaml", "no keys"});
   expect_bad_request({"devices", "--config", folder.write("e.yaml", "log-level: loud\n")},
                      {"log-level", "loud"});
 }

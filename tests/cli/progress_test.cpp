@@ -38,7 +38,8 @@ TEST(Progress, DrawsABarOverItselfOnATerminal) {
     Progress progress("build", 10, out, true);
     EXPECT_NE(out.str().find("[..............................] 0/10"), std::string::npos);
     progress.move_to(5);
-    EXPECT_NE(out.str().find("[###############...............] 5/10"), std::string::npos) << out.str();
+    EXPECT_NE(out.str().find("[###############...............] 5/10"), std::string::npos)
+        << out.str();
     progress.move_to(3);  // never backwards
     progress.step(100);   // nor beyond the end
   }
@@ -49,8 +50,8 @@ TEST(Progress, DrawsABarOverItselfOnATerminal) {
   EXPECT_EQ(text.back(), '\n');
 }
 
-// Of a million half were there before; a hundredth takes 50 ms or more, so that what is left takes 2 s at
-// least.
+// Of a million half were there before; a hundredth takes 50 ms or more, so that what is left takes
+// 2 s at least.
 TEST(Progress, JudgesTheTimeLeftByWhatThisRunHasDone) {
   std::ostringstream out;
   {

@@ -55,10 +55,10 @@ struct SameNames {
     BopResult of_image_0 = start;
     of_image_0.image_id = 0;
     save_bop_results({of_image_0}, folder.path() / "starts.csv");
-    return register_in(
-        folder.path() / place / "000000.png", folder.path() / "starts.csv", out,
-        joined({{"--camera", two_views() / "scene_camera.json", "--search-rotation", "0", "--no-overlays"},
-                more}));
+    return register_in(folder.path() / place / "000000.png", folder.path() / "starts.csv", out,
+                       joined({{"--camera", two_views() / "scene_camera.json", "--search-rotation",
+                                "0", "--no-overlays"},
+                               more}));
   }
 };
 
@@ -88,7 +88,8 @@ TEST(Register, RefusesAFolderWithResultsOfOtherImages) {
   EXPECT_EQ(load_bop_results(out / "results.csv").size(), 2u);
 }
 
-// What a run removes must not be what it starts from, and what another program left there is not its own.
+// What a run removes must not be what it starts from, and what another program left there is not
+// its own.
 TEST(Register, RemovesNothingThatIsNotItsOwn) {
   const TemporaryFolder folder;
   const BopScene scene = load_bop_scene(two_views());
@@ -112,7 +113,8 @@ TEST(Register, RefusesResultsMadeWithOtherSettingsWhenResumed) {
   ASSERT_EQ(run_program(t.call("a", start)).exit_code, 0);
   expect_refused(t.call("a", start, {"--resume", "--lambda", "50"}),
                  {"000000.json: lambda: found 30, expected 50"});
-  expect_refused(t.call("a", start, {"--resume", "--no-polish"}), {"no-polish: found false, expected true"});
+  expect_refused(t.call("a", start, {"--resume", "--no-polish"}),
+                 {"no-polish: found false, expected true"});
   expect_refused(t.call("a", other, {"--resume"}), {"starts: found 1, checksum"});
   std::vector<std::string> fewer_models = t.call("a", start, {"--resume"});
   fewer_models.erase(std::ranges::find(fewer_models, part_file(start.object_id == 6 ? 5 : 6)));

@@ -1,4 +1,5 @@
-// edgescout register on the example scenes: poses come back to the truth, in every form that is written.
+// edgescout register on the example scenes: poses come back to the truth, in every form that is
+// written.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -14,7 +15,8 @@ namespace {
 
 void expect_at_truth(const std::vector<BopResult>& found, const std::vector<BopResult>& truth,
                      double max_angle_rad) {
-  const std::map<int, Symmetries> symmetries = load_symmetries(examples() / "parts/models_info.json", 2000);
+  const std::map<int, Symmetries> symmetries =
+      load_symmetries(examples() / "parts/models_info.json", 2000);
   ASSERT_EQ(found.size(), truth.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     EXPECT_EQ(found[i].scene_id, truth[i].scene_id);
@@ -28,8 +30,8 @@ void expect_at_truth(const std::vector<BopResult>& found, const std::vector<BopR
   }
 }
 
-// The parts whose pose one view of 640 px settles to a millimetre: the depth of the smaller and the more
-// symmetric is less certain.
+// The parts whose pose one view of 640 px settles to a millimetre: the depth of the smaller and the
+// more symmetric is less certain.
 std::vector<BopResult> certain_truths(const BopScene& scene) {
   std::vector<BopResult> truths = true_results(scene, 0, 0.9);
   std::erase_if(truths, [](const BopResult& t) { return t.object_id != 2 && t.object_id != 5; });
@@ -43,10 +45,11 @@ TEST(Register, BringsPerturbedPosesBackToTheTruth) {
   ASSERT_EQ(truth.size(), 2u);
   save_bop_results(perturbed(truth, 0.1, 0.005, test_random()), folder.path() / "starts.csv");
   const fs::path out = folder.path() / "out";
-  const Outcome outcome =
-      run_program(register_in(one_view(), folder.path() / "starts.csv", out, {"--log-level", "debug"}));
+  const Outcome outcome = run_program(
+      register_in(one_view(), folder.path() / "starts.csv", out, {"--log-level", "debug"}));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  for (const char* words : {"debug: ", ": 2 poses, ", " ms, edges ", " ms, tensors ", " ms, registration "})
+  for (const char* words :
+       {"debug: ", ": 2 poses, ", " ms, edges ", " ms, tensors ", " ms, registration "})
     EXPECT_NE(outcome.err.find(words), std::string::npos) << words << " not in " << outcome.err;
   const std::vector<BopResult> rows = load_bop_results(out / "results.csv");
   expect_at_truth(rows, truth, 0.01);
@@ -87,7 +90,9 @@ TEST(Register, GoesOnFromItsOwnResultAndFromAJsonList) {
   ASSERT_EQ(run_program(register_in(one_view(), poses, first, plain)).exit_code, 0);
   expect_at_truth(load_bop_results(first / "results.csv"), truth, 0.01);
   EXPECT_FALSE(fs::exists(first / "000000_000000_overlay.png"));
-  ASSERT_EQ(run_program(register_in(one_view(), first / "000000_000000.json", second, plain)).exit_code, 0);
+  ASSERT_EQ(
+      run_program(register_in(one_view(), first / "000000_000000.json", second, plain)).exit_code,
+      0);
   expect_at_truth(load_bop_results(second / "results.csv"), truth, 0.01);
 }
 
@@ -122,8 +127,9 @@ TEST(Register, GoesOnPastABadImage) {
   std::vector<BopResult> starts{true_results(scene, 0)[0], true_results(scene, 1)[0]};
   save_bop_results(starts, folder.path() / "starts.csv");
   const fs::path out = folder.path() / "out";
-  const Outcome outcome = run_program(register_in(folder.path() / "000001", folder.path() / "starts.csv", out,
-                                                  {"--search-rotation", "0", "--no-overlays"}));
+  const Outcome outcome =
+      run_program(register_in(folder.path() / "000001", folder.path() / "starts.csv", out,
+                              {"--search-rotation", "0", "--no-overlays"}));
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   EXPECT_NE(outcome.err.find("000000.png"), std::string::npos) << outcome.err;
   EXPECT_EQ(load_bop_results(out / "results.csv").size(), 1u);
@@ -140,11 +146,12 @@ TEST(Register, TellsPosesThatNoImageShows) {
   starts[2].camera_from_object.translation_m.x() += 1;
   save_bop_results(starts, folder.path() / "starts.csv");
   const fs::path out = folder.path() / "out";
-  const std::vector<std::string> call =
-      register_in(one_view(), folder.path() / "starts.csv", out, {"--search-rotation", "0", "--no-overlays"});
+  const std::vector<std::string> call = register_in(one_view(), folder.path() / "starts.csv", out,
+                                                    {"--search-rotation", "0", "--no-overlays"});
   const Outcome outcome = run_program(call);
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
-  EXPECT_NE(outcome.out.find("1 poses in 1 images refined on cpu, 2 out of sight"), std::string::npos)
+  EXPECT_NE(outcome.out.find("1 poses in 1 images refined on cpu, 2 out of sight"),
+            std::string::npos)
       << outcome.out;
   EXPECT_NE(outcome.err.find("000000.png: object"), std::string::npos) << outcome.err;
   const ImageResult result = load_image_result(out / "000000_000000.json");
@@ -177,7 +184,8 @@ BopResult good_start() { return true_results(load_bop_scene(one_view()), 0)[0]; 
 TEST(Register, RefusesPosesThatDoNotFit) {
   const Refused t;
   expect_refused(register_in(one_view(), t.folder.path() / "none.csv", t.out), {"none.csv"});
-  expect_refused(register_in(one_view(), t.folder.write("cut.json", "[{\"image\": 0"), t.out), {"cut.json"});
+  expect_refused(register_in(one_view(), t.folder.write("cut.json", "[{\"image\": 0"), t.out),
+                 {"cut.json"});
   expect_refused(register_in(one_view(), t.folder.write("empty.json", "[]"), t.out),
                  {"empty.json", "poses", "none"});
   expect_refused(register_in(one_view(), t.folder.write("field.json", "[{\"image\": 0}]"), t.out),
@@ -190,18 +198,21 @@ TEST(Register, RefusesPosesThatDoNotFit) {
   expect_refused(register_in(one_view(), t.starts(start), t.out), {"starts.csv", "object", "9"});
   start = good_start();
   start.camera_from_object.translation_m.z() *= -1;
-  expect_refused(register_in(one_view(), t.starts(start), t.out), {"starts.csv", "behind the camera"});
+  expect_refused(register_in(one_view(), t.starts(start), t.out),
+                 {"starts.csv", "behind the camera"});
   start = good_start();
   start.scene_id = 1;
   expect_refused(register_in(one_view(), t.starts(start), t.out), {"starts.csv", "other scenes"});
-  expect_refused(register_in(two_views() / "gray/000000.png", t.starts(start), t.out, {"--multi-view"}),
-                 {"000000.png", "world pose"});
+  expect_refused(
+      register_in(two_views() / "gray/000000.png", t.starts(start), t.out, {"--multi-view"}),
+      {"000000.png", "world pose"});
 }
 
 // The example's, for images outside of its folder.
 fs::path camera_file(const TemporaryFolder& folder) {
-  return folder.write("camera.json",
-                      R"({"fx": 700, "fy": 700, "cx": 319.5, "cy": 239.5, "width": 640, "height": 480})");
+  return folder.write(
+      "camera.json",
+      R"({"fx": 700, "fy": 700, "cx": 319.5, "cy": 239.5, "width": 640, "height": 480})");
 }
 
 // a/part.png and b/part.png.
@@ -213,15 +224,19 @@ std::pair<fs::path, fs::path> two_of_one_name(const fs::path& folder) {
   return {folder / "a/part.png", folder / "b/part.png"};
 }
 
-// Results among the images would be images the next time; a start for two images would refine in one of them.
+// Results among the images would be images the next time; a start for two images would refine in
+// one of them.
 TEST(Register, RefusesWhatWouldMixImages) {
   const Refused t;
   const auto [a, b] = two_of_one_name(t.folder.path());
   const std::string starts = t.folder.write(
-      "start.json", R"([{"image": "part.png", "object": 2, "R": [1,0,0,0,1,0,0,0,1], "t": [0, 0, 0.5]}])");
+      "start.json",
+      R"([{"image": "part.png", "object": 2, "R": [1,0,0,0,1,0,0,0,1], "t": [0, 0, 0.5]}])");
   const auto in = [&](const std::vector<std::string>& images, const fs::path& out) {
-    return joined(
-        {{"register"}, images, {"--poses", starts, "--out", out, "--device", "cpu"}, part_models()});
+    return joined({{"register"},
+                   images,
+                   {"--poses", starts, "--out", out, "--device", "cpu"},
+                   part_models()});
   };
   expect_refused(in({a}, a.parent_path()), {"--out", "folder of the images"});
   expect_refused(in({a, b}, t.out), {"start.json", "part.png", "a/part.png and ", "single image"});
@@ -239,8 +254,8 @@ TEST(Register, TellsImagesOfOneNameApartByTheirFolders) {
   for (int i = 0; i < 3; ++i) entry["t"].push_back(start.camera_from_object.translation_m[i]);
   const std::string starts = folder.write("start.json", nlohmann::json::array({entry}).dump());
   const fs::path out = folder.path() / "out";
-  const Outcome outcome = run_program(joined({{"register", a, b, "--poses", starts, "--out", out, "--device",
-                                               "cpu", "--camera", camera_file(folder)},
+  const Outcome outcome = run_program(joined({{"register", a, b, "--poses", starts, "--out", out,
+                                               "--device", "cpu", "--camera", camera_file(folder)},
                                               part_models()}));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(load_image_result(out / "part_2.json").image, b);
@@ -262,7 +277,8 @@ TEST(Register, EndsWhereAResultCannotBeWritten) {
 TEST(Register, SumsUpWhatEndedIt) {
   const TemporaryFolder folder;
   const BopScene scene = load_bop_scene(two_views());
-  save_bop_results({true_results(scene, 0)[0], true_results(scene, 1)[0]}, folder.path() / "starts.csv");
+  save_bop_results({true_results(scene, 0)[0], true_results(scene, 1)[0]},
+                   folder.path() / "starts.csv");
   const fs::path out = folder.path() / "out", blocked = out / "000001_000001.json";
   const std::vector<std::string> call = register_in(two_views(), folder.path() / "starts.csv", out,
                                                     {"--search-rotation", "0", "--no-overlays"});
@@ -272,7 +288,8 @@ TEST(Register, SumsUpWhatEndedIt) {
   ASSERT_EQ(run_program(call).exit_code, 2);
   const auto summary = nlohmann::json::parse(content_of(out / "summary.json"));
   EXPECT_EQ(summary.at("done"), 1);
-  EXPECT_NE(summary.at("error").get<std::string>().find("000001_000001.json: output file"), std::string::npos)
+  EXPECT_NE(summary.at("error").get<std::string>().find("000001_000001.json: output file"),
+            std::string::npos)
       << summary;
 }
 
@@ -285,33 +302,38 @@ TEST(Register, RefusesOptionsDevicesAndFolders) {
   expect_refused(register_in(one_view(), starts, "/proc/out"), {"/proc/out"});
   // Said before any image is looked at.
   const fs::path broken = t.folder.write("000000.png", "no image");
-  expect_refused(register_in(broken, starts, "/proc/deeper/out", {"--camera", camera_file(t.folder)}),
-                 {"/proc/deeper/out", "output folder"});
-  expect_refused(register_in(one_view() / "gray/000000.png", starts, t.out), {"000000.png", "camera"});
+  expect_refused(
+      register_in(broken, starts, "/proc/deeper/out", {"--camera", camera_file(t.folder)}),
+      {"/proc/deeper/out", "output folder"});
+  expect_refused(register_in(one_view() / "gray/000000.png", starts, t.out),
+                 {"000000.png", "camera"});
   const std::string no_drivers = "VK_DRIVER_FILES=/nonexistent VK_ICD_FILENAMES=/nonexistent";
-  expect_refused(joined({{"register", one_view(), "--poses", starts, "--out", t.out, "--device", "vulkan"},
-                         part_models()}),
-                 {"device", "vulkan"}, no_drivers);
-  expect_refused({"register", one_view(), "--poses", starts, "--out", t.out}, {"--model", "neither"});
+  expect_refused(
+      joined({{"register", one_view(), "--poses", starts, "--out", t.out, "--device", "vulkan"},
+              part_models()}),
+      {"device", "vulkan"}, no_drivers);
+  expect_refused({"register", one_view(), "--poses", starts, "--out", t.out},
+                 {"--model", "neither"});
 }
 
 TEST(Register, NamesTheImageThatIsTooLarge) {
   const Refused t;
   const fs::path wide = t.folder.path() / "wide.png";
   save_png(Image{32767, 120, std::vector<std::uint8_t>(32767 * 120, 128)}, wide);
-  const std::string lens =
-      t.folder.write("lens.yaml", "K: [400, 0, 159.5, 0, 400, 119.5, 0, 0, 1]\nD: [0.1, 0, 0, 0, 0]\n");
-  expect_refused(register_in(wide, t.starts(good_start()), t.out, {"--camera", lens, "--log-level", "error"}),
-                 {"wide.png: image: size: found 32767x120"});
+  const std::string lens = t.folder.write(
+      "lens.yaml", "K: [400, 0, 159.5, 0, 400, 119.5, 0, 0, 1]\nD: [0.1, 0, 0, 0, 0]\n");
+  expect_refused(
+      register_in(wide, t.starts(good_start()), t.out, {"--camera", lens, "--log-level", "error"}),
+      {"wide.png: image: size: found 32767x120"});
 }
 
 TEST(Register, RefusesTheOnlyImageWhereItIsBad) {
   const Refused t;
   fs::copy(one_view(), t.folder.path() / "000000", fs::copy_options::recursive);
   t.folder.write("000000/gray/000000.png", "no image");
-  expect_refused(
-      register_in(t.folder.path() / "000000", t.starts(good_start()), t.out, {"--log-level", "error"}),
-      {"000000.png"});
+  expect_refused(register_in(t.folder.path() / "000000", t.starts(good_start()), t.out,
+                             {"--log-level", "error"}),
+                 {"000000.png"});
 }
 
 }  // namespace

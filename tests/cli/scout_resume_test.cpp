@@ -9,7 +9,8 @@ namespace {
 TEST(Scout, KilledItGoesOnToTheSameEnd) {
   const SmallScout whole, t;
   ASSERT_EQ(run_program(whole.arguments()).exit_code, 0);
-  ASSERT_TRUE(run_program_until(t.arguments({"--watch"}), [&] { return fs::exists(t.out / "scout.html"); }));
+  ASSERT_TRUE(run_program_until(t.arguments({"--watch"}),
+                                [&] { return fs::exists(t.out / "scout.html"); }));
   expect_self_contained(t.page());
   EXPECT_NE(t.page().find("<meta http-equiv=refresh"), std::string::npos);
   const std::size_t steps = t.log().at("steps").size();
@@ -29,9 +30,11 @@ TEST(Scout, DoesNotGoOnInAnotherCell) {
   const SmallScout t;
   ASSERT_EQ(run_program(t.arguments()).exit_code, 0);
   const std::string before = content_of(t.out / "scout.json");
-  expect_refused(t.arguments({"--resume", "--seed", "2"}), {"scout.json", "seed", "found 1", "expected 2"});
+  expect_refused(t.arguments({"--resume", "--seed", "2"}),
+                 {"scout.json", "seed", "found 1", "expected 2"});
   expect_refused(t.arguments({"--resume", "--arm-tells"}), {"scout.json", "arm-tells"});
-  expect_refused(t.arguments({"--resume", "--sigma", "3"}), {"scout.json", "sigma", "found 4", "expected 3"});
+  expect_refused(t.arguments({"--resume", "--sigma", "3"}),
+                 {"scout.json", "sigma", "found 4", "expected 3"});
   expect_refused(t.arguments({"--resume", "--lambda", "50"}), {"scout.json", "lambda"});
   std::vector<std::string> farther = t.arguments({"--resume"});
   *(std::ranges::find(farther, "--radius") + 1) = "0.31";
@@ -50,9 +53,9 @@ TEST(Scout, DoesNotGoOnWithOtherTemplates) {
   const TemporaryFolder folder;
   const auto build = [&](const char* name, const char* viewpoints) {
     const std::string file = folder.path() / name;
-    EXPECT_EQ(run_program({"model", "build", part_file(1), "--unit", "mm", "--out", file, "--device", "cpu",
-                           "--viewpoints", viewpoints, "--in-plane-steps", "8", "--distance-min", "0.27",
-                           "--distance-max", "0.33"})
+    EXPECT_EQ(run_program({"model", "build", part_file(1), "--unit", "mm", "--out", file,
+                           "--device", "cpu", "--viewpoints", viewpoints, "--in-plane-steps", "8",
+                           "--distance-min", "0.27", "--distance-max", "0.33"})
                   .exit_code,
               0);
     return file;
@@ -70,7 +73,8 @@ TEST(Scout, DoesNotGoOnWithOtherTemplates) {
   };
   const std::string coarse = build("coarse.est", "1"), fine = build("fine.est", "2");
   ASSERT_EQ(run_program(arguments(coarse, {})).exit_code, 0);
-  expect_refused(arguments(fine, {"--resume"}), {"scout.json", "templates of object 1", "frequency 1"});
+  expect_refused(arguments(fine, {"--resume"}),
+                 {"scout.json", "templates of object 1", "frequency 1"});
   EXPECT_EQ(run_program(arguments(coarse, {"--resume"})).exit_code, 0);
 }
 
@@ -78,7 +82,8 @@ TEST(Scout, DoesNotGoOnWithOtherTemplates) {
 TEST(Scout, RemovesTheResultsOfARunBefore) {
   const SmallScout t;
   const auto follow = [&](const char* second) {
-    ASSERT_EQ(run_program(t.arguments({"--strategy", "fixed", "--sequence", "0", second})).exit_code, 0);
+    ASSERT_EQ(
+        run_program(t.arguments({"--strategy", "fixed", "--sequence", "0", second})).exit_code, 0);
   };
   follow("5");
   EXPECT_TRUE(fs::exists(t.out / "view_005.json"));
@@ -95,8 +100,8 @@ TEST(Scout, DoesNotGoOnInAnotherFolder) {
   fs::create_directories(other.parent_path());
   fs::copy(scene.scene, other, fs::copy_options::recursive);
   const auto arguments = [&](const fs::path& folder, const std::vector<std::string>& more) {
-    return joined({{"scout", folder, "--out", scene.out, "--device", "cpu", "--aligned", "200", "--max-views",
-                    "1", "--min-probability", "0.1"},
+    return joined({{"scout", folder, "--out", scene.out, "--device", "cpu", "--aligned", "200",
+                    "--max-views", "1", "--min-probability", "0.1"},
                    bracket(),
                    more});
   };
@@ -104,7 +109,8 @@ TEST(Scout, DoesNotGoOnInAnotherFolder) {
   expect_refused(arguments(other, {"--resume"}), {"scout.json", "source", scene.scene, other});
   expect_refused(arguments(scene.scene, {"--resume", "--camera", scene.camera("500")}),
                  {"scout.json", "camera", "found its own"});
-  EXPECT_EQ(run_program(arguments(scene.scene / "", {"--resume"})).exit_code, 0) << "the same folder";
+  EXPECT_EQ(run_program(arguments(scene.scene / "", {"--resume"})).exit_code, 0)
+      << "the same folder";
 }
 
 }  // namespace

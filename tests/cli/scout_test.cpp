@@ -18,7 +18,8 @@ TEST(Scout, FindsThePartAndShowsHow) {
   const SmallScout t;
   const Outcome outcome = run_program(t.arguments());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("1 objects in 3 images, 0 views failed"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("1 objects in 3 images, 0 views failed"), std::string::npos)
+      << outcome.out;
   const nlohmann::json log = t.log();
   EXPECT_EQ(log.at("end"), "view budget");
   EXPECT_EQ(log.at("camera").at("width"), 320);
@@ -87,16 +88,17 @@ TEST(Scout, FindsThePartOnAVulkanDevice) {
   EXPECT_TRUE(log["detections"][0].at("off_truth").at("right"));
 }
 
-// Recorded views of a model whose origin lies outside it, as its CAD file has it: the castle stands where the
-// recording says, at the world's origin.
+// Recorded views of a model whose origin lies outside it, as its CAD file has it: the castle stands
+// where the recording says, at the world's origin.
 TEST(Scout, FindsTheCastleOfVisp) {
   const fs::path folder = "/usr/share/visp-images-data/ViSP-images/mbt-depth/Castle-simu";
   if (!fs::exists(folder)) GTEST_SKIP() << "visp-images-data is not installed";
   const TemporaryFolder out;
-  const Outcome outcome = run_program(joined({{"scout", folder, "--out", out.path(), "--device", "cpu"},
-                                              {"--camera", examples() / "visp/castle_simu_camera.yaml"},
-                                              {"--model", folder / "Models/chateau.cao", "--unit", "m"},
-                                              {"--max-views", "3"}}));
+  const Outcome outcome =
+      run_program(joined({{"scout", folder, "--out", out.path(), "--device", "cpu"},
+                          {"--camera", examples() / "visp/castle_simu_camera.yaml"},
+                          {"--model", folder / "Models/chateau.cao", "--unit", "m"},
+                          {"--max-views", "3"}}));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const nlohmann::json log = nlohmann::json::parse(content_of(out.path() / "scout.json"));
   EXPECT_EQ(log.at("steps").size(), 3u);
@@ -120,7 +122,8 @@ TEST(Scout, LooksFromTheViewsOfAFile) {
   const fs::path file = t.folder.path() / "views.json";
   save_views(views, file);
   std::vector<std::string> arguments = t.arguments({"--views", file});
-  for (const auto& [option, values] : {std::pair{"--view-count", 1}, std::pair{"--elevations", 2}}) {
+  for (const auto& [option, values] :
+       {std::pair{"--view-count", 1}, std::pair{"--elevations", 2}}) {
     const auto at = std::ranges::find(arguments, option);
     arguments.erase(at, at + 1 + values);
   }
@@ -141,7 +144,8 @@ TEST(Scout, LooksFromTheViewsOfAFile) {
 // A fixed sequence begins with its first view.
 TEST(Scout, FollowsTheSequence) {
   const SmallScout t;
-  const Outcome outcome = run_program(t.arguments({"--strategy", "fixed", "--sequence", "5", "3", "7"}));
+  const Outcome outcome =
+      run_program(t.arguments({"--strategy", "fixed", "--sequence", "5", "3", "7"}));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const nlohmann::json log = t.log();
   ASSERT_EQ(log.at("steps").size(), 3u);
@@ -152,7 +156,8 @@ TEST(Scout, FollowsTheSequence) {
 TEST(Scout, DrawsRandomViewsFromItsSeed) {
   const auto views_of = [](const char* seed) {
     const SmallScout t;
-    EXPECT_EQ(run_program(t.arguments({"--strategy", "random", "--draws-seed", seed})).exit_code, 0);
+    EXPECT_EQ(run_program(t.arguments({"--strategy", "random", "--draws-seed", seed})).exit_code,
+              0);
     std::vector<int> views;
     const nlohmann::json log = t.log();
     for (const nlohmann::json& step : log.at("steps")) {
@@ -169,38 +174,43 @@ TEST(Scout, DrawsRandomViewsFromItsSeed) {
 TEST(Scout, TakesRecordedViewsAndGoesOnPastAMissingImage) {
   const SmallScene scene(4);
   fs::remove(scene.image(0));
-  const Outcome outcome = run_program(joined(
-      {{"scout", scene.scene, "--out", scene.out, "--device", "cpu", "--aligned", "200", "--candidates", "8",
-        "--max-views", "2", "--min-probability", "0.1", "--strategy", "dis", "--min-entropy", "0"},
-       bracket()}));
+  const Outcome outcome =
+      run_program(joined({{"scout", scene.scene, "--out", scene.out, "--device", "cpu", "--aligned",
+                           "200", "--candidates", "8", "--max-views", "2", "--min-probability",
+                           "0.1", "--strategy", "dis", "--min-entropy", "0"},
+                          bracket()}));
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   const auto log = nlohmann::json::parse(content_of(scene.out / "scout.json"));
   EXPECT_EQ(log.at("steps").size(), 2u);
   ASSERT_EQ(log.at("failed").size(), 1u);
   EXPECT_EQ(log["failed"][0].at("view"), 0);
-  EXPECT_TRUE(log["failed"][0].at("decision_ms").empty()) << "nothing is known before the first image";
+  EXPECT_TRUE(log["failed"][0].at("decision_ms").empty())
+      << "nothing is known before the first image";
   EXPECT_EQ(log["steps"][1].at("strategy"), "dis");
   EXPECT_EQ(log["steps"][1].at("information_unit"), "points");
   expect_self_contained(content_of(scene.out / "scout.html"));
   for (const nlohmann::json& step : log["steps"]) {
     const int view = step.at("view");
-    const ImageResult result = load_image_result(scene.out / ("view_00" + std::to_string(view) + ".json"));
+    const ImageResult result =
+        load_image_result(scene.out / ("view_00" + std::to_string(view) + ".json"));
     EXPECT_EQ(result.image, scene.image(view));
   }
-  for (const BopResult& row : load_bop_results(scene.out / "results.csv")) EXPECT_EQ(row.scene_id, 3);
+  for (const BopResult& row : load_bop_results(scene.out / "results.csv"))
+    EXPECT_EQ(row.scene_id, 3);
 }
 
 TEST(Scout, LeavesResultsThatRegistrationGoesOnFrom) {
   const SmallScene scene(3);
-  ASSERT_EQ(run_program(joined({{"scout", scene.scene, "--out", scene.out, "--device", "cpu", "--aligned",
-                                 "200", "--max-views", "1", "--min-probability", "0.1"},
-                                bracket()}))
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      run_program(joined({{"scout", scene.scene, "--out", scene.out, "--device", "cpu", "--aligned",
+                           "200", "--max-views", "1", "--min-probability", "0.1"},
+                          bracket()}))
+          .exit_code,
+      0);
   const fs::path out = scene.folder.path() / "registered";
   const Outcome outcome =
-      run_program({"register", scene.scene, "--poses", scene.out / "view_000.json", "--model", part_file(1),
-                   "--unit", "mm", "--out", out, "--device", "cpu", "--no-overlays"});
+      run_program({"register", scene.scene, "--poses", scene.out / "view_000.json", "--model",
+                   part_file(1), "--unit", "mm", "--out", out, "--device", "cpu", "--no-overlays"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::vector<BopResult> rows = load_bop_results(out / "results.csv");
   ASSERT_FALSE(rows.empty());
@@ -212,7 +222,8 @@ TEST(Scout, LetsModesCompeteAsMaxSpentSays) {
   const auto found = [](const char* max_spent) {
     SmallScout t;
     t.min_probability = "0.001";
-    const Outcome outcome = run_program(t.arguments({"--max-spent", max_spent, "--penetration", "1"}));
+    const Outcome outcome =
+        run_program(t.arguments({"--max-spent", max_spent, "--penetration", "1"}));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return t.log().at("detections").size();
   };
@@ -226,23 +237,32 @@ TEST(Scout, RefusesWhatItCannotUse) {
     expect_refused(arguments, words);
     EXPECT_FALSE(fs::exists(t.out)) << "something was written";
   };
-  refused({"scout", "nowhere", "--out", t.out, "--device", "cpu", "--model", part_file(1), "--unit", "mm"},
+  refused({"scout", "nowhere", "--out", t.out, "--device", "cpu", "--model", part_file(1), "--unit",
+           "mm"},
           {"nowhere", "cell"});
   for (const fs::path& dataset : {examples(), examples() / "scenes"})
-    refused({"scout", dataset, "--out", t.out, "--device", "cpu", "--model", part_file(1), "--unit", "mm"},
-            {dataset, "a folder of BOP scenes", "one of them, such as " + (examples() / "scenes").string()});
+    refused({"scout", dataset, "--out", t.out, "--device", "cpu", "--model", part_file(1), "--unit",
+             "mm"},
+            {dataset, "a folder of BOP scenes",
+             "one of them, such as " + (examples() / "scenes").string()});
   refused({"scout", "cell", "--out", t.out, "--device", "cpu"}, {"--model"});
   refused(t.arguments({"--camera", "x.yaml"}), {"--camera", "cell"});
   refused(t.arguments({"--strategy", "best"}), {"strategy", "best", "mi-max"});
   refused(t.arguments({"--first-view", "8"}), {"--first-view", "8 views"});
-  refused(t.arguments({"--strategy", "fixed", "--sequence", "1", "99"}), {"--sequence", "99", "8 views"});
-  refused(t.arguments({"--strategy", "fixed", "--sequence", "1", "-1"}), {"--sequence", "-1", "8 views"});
-  refused(t.arguments({"--views", t.folder.write("views.json", "[]")}), {"--view-count", "beside --views"});
+  refused(t.arguments({"--strategy", "fixed", "--sequence", "1", "99"}),
+          {"--sequence", "99", "8 views"});
+  refused(t.arguments({"--strategy", "fixed", "--sequence", "1", "-1"}),
+          {"--sequence", "-1", "8 views"});
+  refused(t.arguments({"--views", t.folder.write("views.json", "[]")}),
+          {"--view-count", "beside --views"});
   const std::vector<std::string> model{"--out",   t.out,        "--device", "cpu",
                                        "--model", part_file(1), "--unit",   "mm"};
-  refused(joined({{"scout", "cell", "--views", t.folder.path() / "views.json"}, model}), {"views.json"});
-  refused(joined({{"scout", one_view(), "--arm-shift", "0.01"}, model}), {"--arm-shift", "recorded views"});
-  refused(joined({{"scout", one_view(), "--view-count", "9"}, model}), {"--view-count", "recorded views"});
+  refused(joined({{"scout", "cell", "--views", t.folder.path() / "views.json"}, model}),
+          {"views.json"});
+  refused(joined({{"scout", one_view(), "--arm-shift", "0.01"}, model}),
+          {"--arm-shift", "recorded views"});
+  refused(joined({{"scout", one_view(), "--view-count", "9"}, model}),
+          {"--view-count", "recorded views"});
   refused(t.arguments({"--sequence", "1", "2"}), {"--sequence", "--strategy mi-max"});
   refused(t.arguments({"--strategy", "dis", "--min-information", "0.1"}),
           {"--min-information", "--strategy dis"});
@@ -251,7 +271,8 @@ TEST(Scout, RefusesWhatItCannotUse) {
   refused(t.arguments({"--sharpness", "2"}), {"--sharpness", "--scenes-by-psi"});
   refused(t.arguments({"--literal", "--free-sight", "1"}), {"--free-sight", "--literal"});
   refused(t.arguments({"--literal", "--seen", "0"}), {"--seen", "--literal"});
-  refused(t.arguments({"--literal", "--min-information", "0.1"}), {"--min-information", "--literal"});
+  refused(t.arguments({"--literal", "--min-information", "0.1"}),
+          {"--min-information", "--literal"});
   refused(t.arguments({"--literal", "--metre-cost", "0.1"}), {"--metre-cost", "--literal"});
   refused(t.arguments({"--elevations", "120"}), {"elevation"});
   refused(t.arguments({"--arm-shift", "nan"}), {"--arm-shift", "nan"});

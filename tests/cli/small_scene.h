@@ -22,28 +22,32 @@ struct SmallScene {
     write_bop_scene(made, render(made, pool), scene);
   }
 
-  fs::path image(int index = 0) const { return scene / ("gray/00000" + std::to_string(index) + ".png"); }
+  fs::path image(int index = 0) const {
+    return scene / ("gray/00000" + std::to_string(index) + ".png");
+  }
 
   // A ROS calibration of the scene's camera; the numbers may be replaced.
   std::string camera(const std::string& fx = "400", int width = 320, int height = 240) const {
     return folder.write("camera.yaml", "image_width: " + std::to_string(width) +
                                            "\nimage_height: " + std::to_string(height) +
-                                           "\ncamera_matrix:\n  rows: 3\n  cols: 3\n  data: [" + fx +
-                                           ", 0, 159.5, 0, 400, 119.5, 0, 0, 1]\n");
+                                           "\ncamera_matrix:\n  rows: 3\n  cols: 3\n  data: [" +
+                                           fx + ", 0, 159.5, 0, 400, 119.5, 0, 0, 1]\n");
   }
 
   // `edgescout detect INPUT`, following few hits; where the line of what is reported lies is fitted
   // elsewhere.
-  std::vector<std::string> detect(const fs::path& input, const std::vector<std::string>& more = {}) const {
-    return joined(
-        {{"detect", input, "--out", out, "--device", "cpu", "--aligned", "600", "--min-probability", "0.1"},
-         more});
+  std::vector<std::string> detect(const fs::path& input,
+                                  const std::vector<std::string>& more = {}) const {
+    return joined({{"detect", input, "--out", out, "--device", "cpu", "--aligned", "600",
+                    "--min-probability", "0.1"},
+                   more});
   }
 };
 
 // The part and the templates that detections of it are made with.
 inline std::vector<std::string> few_templates() {
-  return {"--viewpoints", "3", "--in-plane-steps", "12", "--distance-min", "0.27", "--distance-max", "0.33"};
+  return {"--viewpoints",   "3",    "--in-plane-steps", "12",
+          "--distance-min", "0.27", "--distance-max",   "0.33"};
 }
 inline std::vector<std::string> bracket() {
   return joined({{"--model", part_file(1), "--unit", "mm"}, few_templates()});

@@ -17,15 +17,16 @@ struct SmallScout {
 
   // A bracket in a rendered cell, three images of eight views, few of everything.
   std::vector<std::string> arguments(const std::vector<std::string>& more = {}) const {
-    return joined(
-        {{"scout", "cell", "--out", out, "--device", device, "--model", part_file(1), "--unit", "mm"},
-         {"--width", "320", "--height", "240", "--focal", "400", "--objects", "1", "--clutter", "0"},
-         {"--radius", "0.3", "--view-count", "8", "--elevations", "40", "70", "--max-views", "3",
-          "--min-entropy", "0"},
-         {"--viewpoints", "3", "--in-plane-steps", "12", "--aligned", "200", "--candidates", "8",
-          "--particles", "60"},
-         {"--combinations", "200", "--min-probability", min_probability},
-         more});
+    return joined({{"scout", "cell", "--out", out, "--device", device, "--model", part_file(1),
+                    "--unit", "mm"},
+                   {"--width", "320", "--height", "240", "--focal", "400", "--objects", "1",
+                    "--clutter", "0"},
+                   {"--radius", "0.3", "--view-count", "8", "--elevations", "40", "70",
+                    "--max-views", "3", "--min-entropy", "0"},
+                   {"--viewpoints", "3", "--in-plane-steps", "12", "--aligned", "200",
+                    "--candidates", "8", "--particles", "60"},
+                   {"--combinations", "200", "--min-probability", min_probability},
+                   more});
   }
   nlohmann::json log() const { return nlohmann::json::parse(content_of(out / "scout.json")); }
   std::string page() const { return content_of(out / "scout.html"); }
@@ -33,7 +34,8 @@ struct SmallScout {
 
 inline std::size_t count_of(const std::string& text, const std::string& word) {
   std::size_t count = 0;
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1))
+    ++count;
   return count;
 }
 
@@ -43,7 +45,8 @@ inline void expect_self_contained(const std::string& page) {
     EXPECT_EQ(page.find(word), std::string::npos) << word;
   const std::regex reference("(src|href)='([^']{0,12})");
   int references = 0;
-  for (std::sregex_iterator it(page.begin(), page.end(), reference), end; it != end; ++it, ++references) {
+  for (std::sregex_iterator it(page.begin(), page.end(), reference), end; it != end;
+       ++it, ++references) {
     const std::string target = (*it)[2];
     EXPECT_TRUE(target.starts_with("data:image/p") || target == "#first") << target;
   }

@@ -15,7 +15,8 @@ Camera camera() { return {640, 480, 570, 590, 311.5, 250.25, {}}; }
 TEST(Camera, ProjectsByHand) {
   // x = fx X / Z + cx.
   EXPECT_EQ(project(camera(), {0, 0, 2}), Eigen::Vector2d(311.5, 250.25));
-  EXPECT_NEAR((project(camera(), {0.1, -0.2, 0.5}) - Eigen::Vector2d(425.5, 14.25)).norm(), 0, 1e-12);
+  EXPECT_NEAR((project(camera(), {0.1, -0.2, 0.5}) - Eigen::Vector2d(425.5, 14.25)).norm(), 0,
+              1e-12);
 }
 
 TEST(Camera, RaysGoThroughTheirPixels) {
@@ -74,7 +75,8 @@ void expect_refused(Value Camera::*field, Value bad, const std::string& name) {
     validate(broken, "scene.json");
     ADD_FAILURE() << name << " accepted";
   } catch (const InputError& error) {
-    EXPECT_EQ(std::string(error.what()).rfind("scene.json: " + name + ": found ", 0), 0u) << error.what();
+    EXPECT_EQ(std::string(error.what()).rfind("scene.json: " + name + ": found ", 0), 0u)
+        << error.what();
   }
 }
 

@@ -7,7 +7,8 @@
 namespace edgescout {
 namespace {
 
-// Published test vector: xoshiro256** of the state SplitMix64 makes of seed 0 starts with this word.
+// Published test vector: xoshiro256** of the state SplitMix64 makes of seed 0 starts with this
+// word.
 TEST(Random, FollowsItsPublishedAlgorithm) {
   Random random(0);
   EXPECT_EQ(random.bits(), 0x99ec5f36cb75f2b4u);

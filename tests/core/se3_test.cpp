@@ -15,7 +15,9 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Se3 random_pose(Random& random) { return {random.rotation(), 2 * random.uniform() * random.direction()}; }
+Se3 random_pose(Random& random) {
+  return {random.rotation(), 2 * random.uniform() * random.direction()};
+}
 
 Eigen::Matrix4d homogeneous(const Se3& pose) {
   Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
@@ -38,13 +40,15 @@ TEST(Se3, MultipliesAndInvertsLikeMatrices) {
 TEST(Se3, RotationsOfManyProductsStayUnit) {
   Random random = test::test_random();
   Se3 product;
-  for (int i = 0; i < 10000; ++i) product = product * Se3{random.rotation(), Eigen::Vector3d::Zero()};
+  for (int i = 0; i < 10000; ++i)
+    product = product * Se3{random.rotation(), Eigen::Vector3d::Zero()};
   EXPECT_NEAR(product.rotation.norm(), 1, 1e-14);
 }
 
 TEST(Se3, ExponentialIsTheRotationByThatAngle) {
   Random random = test::test_random();
-  for (const double angle : {0.0, 1e-15, 1e-9, 0.999e-6, 1.001e-6, 1e-3, 1.0, pi - 1e-9, pi, 4.0, 2 * pi}) {
+  for (const double angle :
+       {0.0, 1e-15, 1e-9, 0.999e-6, 1.001e-6, 1e-3, 1.0, pi - 1e-9, pi, 4.0, 2 * pi}) {
     const Eigen::Vector3d axis = random.direction();
     const Eigen::Matrix3d expected = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
     EXPECT_NEAR((so3_exp(angle * axis).toRotationMatrix() - expected).norm(), 0, 1e-14) << angle;
@@ -85,7 +89,8 @@ TEST(Se3, RetractAndLocalCoordinatesUndoEachOther) {
     Vector6d delta;
     delta << random.direction() * random.uniform(), random.direction() * random.uniform(0, 3.1);
     EXPECT_NEAR((local_coordinates(from, retract(from, delta)) - delta).norm(), 0, 1e-9);
-    EXPECT_NEAR((homogeneous(retract(from, local_coordinates(from, to))) - homogeneous(to)).norm(), 0, 1e-9);
+    EXPECT_NEAR((homogeneous(retract(from, local_coordinates(from, to))) - homogeneous(to)).norm(),
+                0, 1e-9);
   }
 }
 
@@ -133,7 +138,8 @@ TEST(Se3, RefusesMatricesThatAreNoRotations) {
   Eigen::Matrix3d broken = identity;
   broken(2, 2) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(se3_from_matrix(broken, zero), InputError);
-  EXPECT_THROW(se3_from_matrix(identity, {0, std::numeric_limits<double>::infinity(), 0}), InputError);
+  EXPECT_THROW(se3_from_matrix(identity, {0, std::numeric_limits<double>::infinity(), 0}),
+               InputError);
 }
 
 TEST(Se3, WhatIsNotRigidIsNamed) {
@@ -146,7 +152,8 @@ TEST(Se3, WhatIsNotRigidIsNamed) {
   test::expect_input_error([&] { require_rigid(pose, "views.json", "/3"); },
                            {"views.json", "/3", "length 1.0018", "rigid"});
   pose.rotation.coeffs() = Eigen::Vector4d(0, nan, 0, 1);
-  test::expect_input_error([&] { require_rigid(pose, "views.json", "/3"); }, {"/3", "not finite", "rigid"});
+  test::expect_input_error([&] { require_rigid(pose, "views.json", "/3"); },
+                           {"/3", "not finite", "rigid"});
   pose = {Eigen::Quaterniond::Identity(), {0, 0, std::numeric_limits<double>::infinity()}};
   test::expect_input_error([&] { require_rigid(pose, "views.json", "/3"); }, {"/3", "not finite"});
 }

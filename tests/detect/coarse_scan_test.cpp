@@ -21,7 +21,8 @@ TEST(PlaceTemplate, PutsTheCentreWhereItIsAskedFor) {
     const TemplateView& view = set.views[random.below(int(set.views.size()))];
     const Eigen::Vector2d pixel(random.uniform(0, 320), random.uniform(0, 240));
     const double distance = random.uniform(0.2, 2);
-    const Se3 pose = place_template(set, view, random.uniform(0, 2 * pi), distance, pixel, small_camera());
+    const Se3 pose =
+        place_template(set, view, random.uniform(0, 2 * pi), distance, pixel, small_camera());
     const Eigen::Vector3d centre = pose * set.model.center_m;
     EXPECT_NEAR(centre.norm(), distance, 1e-9);
     EXPECT_LT((project(small_camera(), centre) - pixel).norm(), 1e-6);
@@ -29,15 +30,17 @@ TEST(PlaceTemplate, PutsTheCentreWhereItIsAskedFor) {
   }
 }
 
-// From wherever in the image, the object turns the same side to the camera: its visible points stay.
+// From wherever in the image, the object turns the same side to the camera: its visible points
+// stay.
 TEST(PlaceTemplate, ShowsTheViewpointsSideEverywhere) {
   const auto backend = make_cpu_backend(1);
   const TemplateSet set = part_templates("l_bracket", 1, 0.3, 0.3, *backend);
   Random random = test_random();
   for (int i = 0; i < 200; ++i) {
     const TemplateView& view = set.views[random.below(int(set.views.size()))];
-    const Se3 pose = place_template(set, view, random.uniform(0, 2 * pi), 0.3,
-                                    {random.uniform(0, 320), random.uniform(0, 240)}, small_camera());
+    const Se3 pose =
+        place_template(set, view, random.uniform(0, 2 * pi), 0.3,
+                       {random.uniform(0, 320), random.uniform(0, 240)}, small_camera());
     const Eigen::Vector3d to_camera = inverse(pose) * Eigen::Vector3d::Zero() - set.model.center_m;
     const Eigen::Vector3d of_view = view.camera_from_object.inverse() * -Eigen::Vector3d::UnitZ();
     EXPECT_LT((to_camera.normalized() - of_view).norm(), 1e-9);
@@ -66,7 +69,8 @@ TEST(CoarseScan, FindsTheTemplateThatMadeTheEdges) {
   const auto backend = make_cpu_backend(2);
   const TemplateSet set = part_templates("l_bracket", 2, 0.27, 0.33, *backend);
   const std::vector<double> distances = template_distances_m(set.options);
-  const EdgeModel dense = part_model("l_bracket", 7.5e-4);  // an edge point a pixel, as a detector finds
+  const EdgeModel dense =
+      part_model("l_bracket", 7.5e-4);  // an edge point a pixel, as a detector finds
   Random random = test_random();
   for (double reduction : {1.0, 2.0}) {
     const Camera coarse = scaled(small_camera(), 1 / reduction);
@@ -78,14 +82,15 @@ TEST(CoarseScan, FindsTheTemplateThatMadeTheEdges) {
       const Eigen::Vector2d place(2 * random.below(coarse.width / 4) + coarse.width / 4 / 2 * 2,
                                   2 * random.below(coarse.height / 4) + coarse.height / 4 / 2 * 2);
       const Se3 truth = place_template(set, set.views[view], turn, distance, place, coarse);
-      const Observation observation = observe_edges(ideal_edges(dense, small_camera(), truth, *backend),
-                                                    small_camera(), reduction, *backend);
+      const Observation observation = observe_edges(
+          ideal_edges(dense, small_camera(), truth, *backend), small_camera(), reduction, *backend);
       const ScanHit best = best_of(coarse_scan(set, observation, *backend, {}));
       EXPECT_LT(best.mean_px, 1.6);  // smoothing over orientation alone makes it 1.25
       EXPECT_EQ(best.view, view);
       EXPECT_LT(angle_between_rad(best.camera_from_object, truth), 1e-3);
       EXPECT_NEAR((best.camera_from_object * set.model.center_m).norm(), distance, 1e-9);
-      EXPECT_LT((project(coarse, best.camera_from_object * set.model.center_m) - place).norm(), 1e-6);
+      EXPECT_LT((project(coarse, best.camera_from_object * set.model.center_m) - place).norm(),
+                1e-6);
     }
   }
 }
@@ -99,7 +104,8 @@ TEST(CoarseScan, LooksWhereItIsToldTo) {
   std::vector<EdgePoint> edges;
   for (const Eigen::Vector2d& place : {Eigen::Vector2d(80, 120), {240, 120}}) {
     const Se3 truth = place_template(set, set.views[7], 0, distance, place, small_camera());
-    for (const EdgePoint& edge : ideal_edges(dense, small_camera(), truth, *backend)) edges.push_back(edge);
+    for (const EdgePoint& edge : ideal_edges(dense, small_camera(), truth, *backend))
+      edges.push_back(edge);
   }
   for (const double reduction : {1.0, 3.0}) {
     const Observation observation = observe_edges(edges, small_camera(), reduction, *backend);
@@ -108,7 +114,8 @@ TEST(CoarseScan, LooksWhereItIsToldTo) {
     const std::vector<ScanHit> hits = coarse_scan(set, observation, *backend, options);
     double least_x = 1e9, most_x = 0, least_y = 1e9, most_y = 0;
     for (const ScanHit& hit : hits) {
-      const Eigen::Vector2d at = project(small_camera(), hit.camera_from_object * set.model.center_m);
+      const Eigen::Vector2d at =
+          project(small_camera(), hit.camera_from_object * set.model.center_m);
       least_x = std::min(least_x, at.x()), most_x = std::max(most_x, at.x());
       least_y = std::min(least_y, at.y()), most_y = std::max(most_y, at.y());
     }
@@ -129,10 +136,10 @@ TEST(CoarseScan, LooksWhereItIsToldTo) {
                 2.9 * reduction);
     options.within = {319, 239, 0, 0};  // behind the last one: that
     for (const ScanHit& hit : coarse_scan(set, observation, *backend, options))
-      EXPECT_LT(
-          (project(small_camera(), hit.camera_from_object * set.model.center_m) - Eigen::Vector2d(319, 239))
-              .norm(),
-          3.5 * reduction);
+      EXPECT_LT((project(small_camera(), hit.camera_from_object * set.model.center_m) -
+                 Eigen::Vector2d(319, 239))
+                    .norm(),
+                3.5 * reduction);
     options.within = {0, 240, 0, 0};
     expect_input_error([&] { coarse_scan(set, observation, *backend, options); },
                        {"detect.region", "320x240"});
@@ -147,8 +154,8 @@ TEST(CoarseScan, FindsAnObjectThatReachesOverTheBorder) {
   const double distance = template_distances_m(set.options)[0];
   for (int view : {3, 11, 29}) {
     const Eigen::Vector2d place(22, 120);
-    const Se3 truth =
-        place_template(set, set.views[std::size_t(view)], 2 * pi / 12 * 5, distance, place, small_camera());
+    const Se3 truth = place_template(set, set.views[std::size_t(view)], 2 * pi / 12 * 5, distance,
+                                     place, small_camera());
     const std::vector<EdgePoint> edges = ideal_edges(dense, small_camera(), truth, *backend);
     std::vector<EdgePoint> seen;
     for (const EdgePoint& edge : edges)
@@ -160,7 +167,9 @@ TEST(CoarseScan, FindsAnObjectThatReachesOverTheBorder) {
     EXPECT_LT(best.mean_px, 1.6 + 6.5 * outside);  // 1.6: as above
     EXPECT_EQ(best.view, view);
     EXPECT_LT(angle_between_rad(best.camera_from_object, truth), 1e-3);
-    EXPECT_LT((project(small_camera(), best.camera_from_object * set.model.center_m) - place).norm(), 1e-6);
+    EXPECT_LT(
+        (project(small_camera(), best.camera_from_object * set.model.center_m) - place).norm(),
+        1e-6);
   }
 }
 
@@ -184,7 +193,8 @@ struct BruteForce {
     for (int i = 0; i < count; ++i) {
       const ModelPoint& p = view.points[std::size_t(i) * view.points.size() / count];
       const Eigen::Vector3d point = at_middle * Eigen::Vector3d(p.x_m, p.y_m, p.z_m);
-      const Eigen::Vector3d ahead = point + 1e-6 * (at_middle.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz));
+      const Eigen::Vector3d ahead =
+          point + 1e-6 * (at_middle.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz));
       const Eigen::Vector2d pixel = project(observation.coarse_camera, point),
                             along = project(observation.coarse_camera, ahead) - pixel;
       const double theta = std::fmod(std::atan2(along.y(), along.x()) + 2 * pi, pi);
@@ -203,7 +213,8 @@ struct BruteForce {
     double lowest = 1e9;
     for (int r = 0; r < rows; ++r)
       for (int c = 0; c < columns; ++c)
-        lowest = std::min(lowest, mean(view, pose, Eigen::Vector2d(x0 + step * c, y0 + step * r) - middle));
+        lowest = std::min(lowest,
+                          mean(view, pose, Eigen::Vector2d(x0 + step * c, y0 + step * r) - middle));
     return lowest;
   }
 };
@@ -217,8 +228,8 @@ TEST(CoarseScan, EqualsBruteForceOverAllPlaces) {
   Random random = test_random();
   std::vector<EdgePoint> edges;
   for (int i = 0; i < 150; ++i)
-    edges.push_back(
-        {float(random.uniform(0, 60)), float(random.uniform(0, 44)), float(random.uniform(0, pi)), 1});
+    edges.push_back({float(random.uniform(0, 60)), float(random.uniform(0, 44)),
+                     float(random.uniform(0, pi)), 1});
   const Observation observation = observe_edges(edges, camera, 1, *backend);
   ScanOptions options;  // 21 x 15 anchors: two regions by two, of different sizes
   options.points = 20;
@@ -240,13 +251,17 @@ TEST(CoarseScan, EqualsBruteForceOverAllPlaces) {
                             std::pow(distance, 0.25));
       std::ranges::sort(ranks);
       for (int kept = 0; kept < 7; ++kept, ++hit) {
-        EXPECT_NEAR(hits[hit].rank, ranks[kept], 0.026) << "one point that rounds the other way is 0.25 / 20";
-        const Eigen::Vector2d at = project(camera, hits[hit].camera_from_object * set.model.center_m);
+        EXPECT_NEAR(hits[hit].rank, ranks[kept], 0.026)
+            << "one point that rounds the other way is 0.25 / 20";
+        const Eigen::Vector2d at =
+            project(camera, hits[hit].camera_from_object * set.model.center_m);
         EXPECT_GE(at.x(), x0 - 1e-6);
         EXPECT_LE(at.x(), x0 + 3 * (columns - 1) + 1e-6);
         EXPECT_GE(at.y(), y0 - 1e-6);
         EXPECT_LE(at.y(), y0 + 3 * (rows - 1) + 1e-6);
-        EXPECT_LT(std::abs(std::remainder(at.x() - x0, 3)) + std::abs(std::remainder(at.y() - y0, 3)), 1e-6);
+        EXPECT_LT(
+            std::abs(std::remainder(at.x() - x0, 3)) + std::abs(std::remainder(at.y() - y0, 3)),
+            1e-6);
       }
     }
 }

@@ -11,7 +11,8 @@ namespace {
 struct TwoParts {
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
   std::vector<EdgeModel> models{part_model("l_bracket")};
-  Se3 left{so3_exp({0.6, 0.3, 0.2}), {-0.06, 0, 0.35}}, right{so3_exp({2.1, -0.4, 1.0}), {0.06, 0.01, 0.35}};
+  Se3 left{so3_exp({0.6, 0.3, 0.2}), {-0.06, 0, 0.35}},
+      right{so3_exp({2.1, -0.4, 1.0}), {0.06, 0.01, 0.35}};
   std::vector<RegisterView> views;
 
   TwoParts() {
@@ -25,7 +26,8 @@ struct TwoParts {
     return {pose.rotation, pose.translation_m + Eigen::Vector3d(x_m, 0, 0)};
   }
   // Poses whose edges agree fully and are so long, px; not at all where that is negative.
-  std::vector<ChosenPose> choose(const std::vector<Se3>& poses, const std::vector<double>& lengths_px,
+  std::vector<ChosenPose> choose(const std::vector<Se3>& poses,
+                                 const std::vector<double>& lengths_px,
                                  const EvidenceOptions& options = {}) const {
     std::vector<Hypothesis> hypotheses;
     for (const Se3& pose : poses) hypotheses.push_back({0, pose});
@@ -95,7 +97,8 @@ TEST(ExplainImage, CountsAllViewsTogether) {
   TwoParts t;
   const EdgeModel dense = part_model("l_bracket", 2e-4);
   const auto view_of_one = [&](const Se3& pose) {
-    return observe_edges(ideal_edges(dense, small_camera(), pose, *t.backend), small_camera(), 1, *t.backend)
+    return observe_edges(ideal_edges(dense, small_camera(), pose, *t.backend), small_camera(), 1,
+                         *t.backend)
         .view;
   };
   t.views = {view_of_one(t.left)};
@@ -118,13 +121,14 @@ TEST(ExplainImage, KeepsWhatSomeViewsShow) {
       once{good, hidden, hidden, hidden};
   ASSERT_LT(evidence(together(shown)), 0);
   const std::vector<Hypothesis> pose{{0, t.left}};
-  EXPECT_EQ(explain_image(t.models, pose, std::vector<std::vector<PoseFeatures>>{shown}, t.views, *t.backend)
+  EXPECT_EQ(explain_image(t.models, pose, std::vector<std::vector<PoseFeatures>>{shown}, t.views,
+                          *t.backend)
                 .size(),
             1u);
   for (const std::vector<PoseFeatures>& features : {never, once})
-    EXPECT_TRUE(
-        explain_image(t.models, pose, std::vector<std::vector<PoseFeatures>>{features}, t.views, *t.backend)
-            .empty());
+    EXPECT_TRUE(explain_image(t.models, pose, std::vector<std::vector<PoseFeatures>>{features},
+                              t.views, *t.backend)
+                    .empty());
 }
 
 }  // namespace

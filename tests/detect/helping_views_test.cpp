@@ -25,7 +25,8 @@ std::vector<double> places(std::span<const Observation> views) {
 TEST(HelpingViews, AreAllOfFew) {
   const std::vector<Observation> others{standing_at(3), standing_at(1), standing_at(2)};
   for (const std::size_t most : {3, 4, 100})
-    EXPECT_EQ(places(helping_views(standing_at(0), others, most)), (std::vector<double>{3, 1, 2})) << most;
+    EXPECT_EQ(places(helping_views(standing_at(0), others, most)), (std::vector<double>{3, 1, 2}))
+        << most;
   EXPECT_TRUE(helping_views(standing_at(0), {}, 4).empty());
 }
 

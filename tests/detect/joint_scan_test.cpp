@@ -1,5 +1,5 @@
-// Hits judged by several views: against sums over projected points, and what it is worth to a hit that is
-// right.
+// Hits judged by several views: against sums over projected points, and what it is worth to a hit
+// that is right.
 #include "host/detect/joint_scan.h"
 
 #include <gtest/gtest.h>
@@ -40,12 +40,13 @@ struct SeenPart {
       const Se3 pose = camera_from_world * truth;
       std::vector<EdgePoint> edges;
       for (int i = 0; i < scattered; ++i)
-        edges.push_back(
-            {float(random.uniform(0, 319)), float(random.uniform(0, 239)), float(random.uniform(0, pi)), 1});
+        edges.push_back({float(random.uniform(0, 319)), float(random.uniform(0, 239)),
+                         float(random.uniform(0, pi)), 1});
       const std::vector<ModelPoint> visible = visible_edges(set.model, {&pose, 1}, *backend)[0];
       for (const ModelPoint& p : visible) {
         const Eigen::Vector3d at = pose * Eigen::Vector3d(p.x_m, p.y_m, p.z_m);
-        const Eigen::Vector3d ahead = at + 1e-6 * (pose.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz));
+        const Eigen::Vector3d ahead =
+            at + 1e-6 * (pose.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz));
         const Eigen::Vector2d pixel = project(small_camera(), at),
                               along = project(small_camera(), ahead) - pixel;
         edges.push_back({float(pixel.x()), float(pixel.y()),
@@ -60,9 +61,9 @@ struct SeenPart {
     return judged_by_all(set, hits, views[0], others(), *backend, ScanOptions{});
   }
 
-  // Mean of a pose's points, as seen from the viewpoint nearest to where the camera sees `hit` from modulo
-  // symmetry, in this view, weighted as ScanHit::rank; of the points in columns from `first_column` on, and
-  // the fraction that they are.
+  // Mean of a pose's points, as seen from the viewpoint nearest to where the camera sees `hit` from
+  // modulo symmetry, in this view, weighted as ScanHit::rank; of the points in columns from
+  // `first_column` on, and the fraction that they are.
   double rank_in(const Observation& view, const Se3& hit, Se3 pose, double first_column = -INFINITY,
                  double* fraction = nullptr) const {
     const TemplateView* nearest = nullptr;
@@ -71,8 +72,10 @@ struct SeenPart {
     for (const TemplateView& candidate : set.views)
       for (const Se3& symmetry : set.symmetries.discrete) {
         const Se3 equal = hit * symmetry;
-        const Eigen::Vector3d eye = (inverse(equal).translation_m - set.model.center_m).normalized();
-        const double cosine = (candidate.camera_from_object.inverse() * -Eigen::Vector3d::UnitZ()).dot(eye);
+        const Eigen::Vector3d eye =
+            (inverse(equal).translation_m - set.model.center_m).normalized();
+        const double cosine =
+            (candidate.camera_from_object.inverse() * -Eigen::Vector3d::UnitZ()).dot(eye);
         if (cosine > largest) largest = cosine, nearest = &candidate, nearest_symmetry = symmetry;
       }
     pose = pose * nearest_symmetry;
@@ -82,7 +85,8 @@ struct SeenPart {
     double sum = 0;
     int shown = 0;
     for (int i = 0; i < count; ++i) {
-      const ModelPoint& p = nearest->points[std::size_t(i) * nearest->points.size() / std::size_t(count)];
+      const ModelPoint& p =
+          nearest->points[std::size_t(i) * nearest->points.size() / std::size_t(count)];
       const Eigen::Vector3d at = pose * Eigen::Vector3d(p.x_m, p.y_m, p.z_m);
       const Eigen::Vector3d ahead = at + 1e-6 * (pose.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz));
       const Eigen::Vector2d pixel = project(view.coarse_camera, at),
@@ -90,9 +94,9 @@ struct SeenPart {
       if (pixel.x() < first_column - 0.5) continue;
       ++shown;
       const int x = int(std::lround(pixel.x())), y = int(std::lround(pixel.y()));
-      const int bin =
-          int(std::lround(std::fmod(std::atan2(along.y(), along.x()) + 2 * pi, pi) * shape.bins / pi)) %
-          shape.bins;
+      const int bin = int(std::lround(std::fmod(std::atan2(along.y(), along.x()) + 2 * pi, pi) *
+                                      shape.bins / pi)) %
+                      shape.bins;
       const bool inside = x >= 0 && y >= 0 && x < shape.width && y < shape.height;
       sum += inside ? std::min(16, (tensor[shape.index(x, y, bin)] + 32) / 64) / 4.0 : 3.25;
     }
@@ -117,7 +121,8 @@ TEST(JointScan, EqualsTheBestSumOverDistances) {
   for (int i = 0; i < 40; ++i) {
     Vector6d off;
     off << 0.03 * random.direction(), 0.5 * random.direction();
-    hits.push_back(hit_at(retract(t.views[0].view.camera_from_world * t.truth, off), random.uniform(1, 3)));
+    hits.push_back(
+        hit_at(retract(t.views[0].view.camera_from_world * t.truth, off), random.uniform(1, 3)));
   }
   const std::vector<ScanHit> judged = t.judged(hits);
   ASSERT_EQ(judged.size(), hits.size());
@@ -128,7 +133,8 @@ TEST(JointScan, EqualsTheBestSumOverDistances) {
       pose.translation_m += further * (pose * t.set.model.center_m);
       double sum = hits[i].rank;
       for (const Observation& other : t.others()) {
-        const Se3 other_from_own = other.view.camera_from_world * inverse(t.views[0].view.camera_from_world);
+        const Se3 other_from_own =
+            other.view.camera_from_world * inverse(t.views[0].view.camera_from_world);
         sum += t.rank_in(other, other_from_own * hits[i].camera_from_object, other_from_own * pose);
       }
       lowest = std::min(lowest, sum / 3);
@@ -142,20 +148,22 @@ TEST(JointScan, EqualsTheBestSumOverDistances) {
   }
 }
 
-// A set holds half of the viewpoints of a part with a half turn, and a sixth and less of others. The truth
-// fits the images from all sides all the same.
+// A set holds half of the viewpoints of a part with a half turn, and a sixth and less of others.
+// The truth fits the images from all sides all the same.
 TEST(JointScan, JudgesSymmetricPartsFromAllSides) {
   Random random = test_random();
   for (const char* part : {"l_bracket", "hex_nut"}) {
     const SeenPart t(25, 0, random, part);
     ASSERT_GE(t.views.size(), 2u);
     const ScanHit hit = hit_at(t.views[0].view.camera_from_world * t.truth, 0);
-    double mean_px =
-        0;  // over all views; 1.3 where every viewpoint has its template, 1.7 to the nearest kept one
+    double mean_px = 0;  // over all views; 1.3 where every viewpoint has its template, 1.7 to the
+                         // nearest kept one
     for (const Observation& other : t.others())
-      mean_px += 2 *
-                 judged_by_all(t.set, {&hit, 1}, t.views[0], {&other, 1}, *t.backend, ScanOptions{})[0].rank /
-                 std::pow(0.31, 0.25) / double(t.others().size());
+      mean_px +=
+          2 *
+          judged_by_all(t.set, {&hit, 1}, t.views[0], {&other, 1}, *t.backend, ScanOptions{})[0]
+              .rank /
+          std::pow(0.31, 0.25) / double(t.others().size());
     EXPECT_LT(mean_px, 1.5) << part;
   }
 }
@@ -170,7 +178,8 @@ TEST(JointScan, PutsARightHitAtItsDistanceAndBeforeWrongOnes) {
     too_far.translation_m += 0.05 * (truth * t.set.model.center_m);
     std::vector<ScanHit> hits{hit_at(too_far, 1)};
     for (int wrong = 0; wrong < 200; ++wrong)
-      hits.push_back(hit_at({random.rotation(), truth.translation_m + 0.05 * random.direction()}, 1));
+      hits.push_back(
+          hit_at({random.rotation(), truth.translation_m + 0.05 * random.direction()}, 1));
     const std::vector<ScanHit> judged = t.judged(hits);
     EXPECT_LT((judged[0].camera_from_object.translation_m - truth.translation_m).norm(), 0.001);
     for (std::size_t h = 1; h < judged.size(); ++h) EXPECT_LT(judged[0].rank, judged[h].rank);
@@ -184,7 +193,8 @@ TEST(JointScan, AloneItChangesNothing) {
   const std::vector<ScanHit> judged = t.judged(hits);
   ASSERT_EQ(judged.size(), 1u);
   EXPECT_EQ(judged[0].rank, 2);
-  EXPECT_TRUE(judged[0].camera_from_object.translation_m == hits[0].camera_from_object.translation_m);
+  EXPECT_TRUE(judged[0].camera_from_object.translation_m ==
+              hits[0].camera_from_object.translation_m);
 }
 
 // Known objects before a part's half, or all of it: only what they leave has a say.
@@ -207,7 +217,8 @@ TEST(JointScan, WhatKnownObjectsHideHasNoSay) {
     t.views[1].view.occluders = occluders;
     return t.judged(hits);
   };
-  const std::vector<ScanHit> free = t.judged(hits), hidden = behind(320, 0.1f), before = behind(320, 0.9f);
+  const std::vector<ScanHit> free = t.judged(hits), hidden = behind(320, 0.1f),
+                             before = behind(320, 0.9f);
   for (std::size_t i = 0; i < hits.size(); ++i) {
     EXPECT_NEAR(hidden[i].rank, hits[i].rank, 1e-12) << "its own view's say alone";
     EXPECT_EQ(hidden[i].camera_from_object.translation_m, hits[i].camera_from_object.translation_m);
@@ -219,7 +230,8 @@ TEST(JointScan, WhatKnownObjectsHideHasNoSay) {
     for (const double further : {-0.05, -0.025, 0.0, 0.025, 0.05}) {
       Se3 pose = hits[i].camera_from_object;
       pose.translation_m += further * (pose * t.set.model.center_m);
-      const Se3 there = t.views[1].view.camera_from_world * inverse(t.views[0].view.camera_from_world);
+      const Se3 there =
+          t.views[1].view.camera_from_world * inverse(t.views[0].view.camera_from_world);
       double shown = 0;
       const double rank =
           t.rank_in(t.views[1], there * hits[i].camera_from_object, there * pose, 160, &shown);
@@ -258,21 +270,22 @@ TEST(JointScan, PoolsWhatEveryImageHas) {
     }
   const std::vector<std::span<const ScanHit>> spans(hits.begin(), hits.end());
   for (const int helping : {3, 1}) {
-    const std::vector<ScanHit> pooled =
-        pooled_hits(t.set, t.views, spans, helping, nothing_unwanted, 30, *t.backend, ScanOptions{});
+    const std::vector<ScanHit> pooled = pooled_hits(
+        t.set, t.views, spans, helping, nothing_unwanted, 30, *t.backend, ScanOptions{});
     ASSERT_EQ(pooled.size(), 30u);
     std::size_t next = 0;
     for (std::size_t v = 0; v < 4; ++v) {
       std::vector<Observation> others = t.views;
       others.erase(others.begin() + int(v));
-      const std::vector<ScanHit> judged =
-          judged_by_all(t.set, hits[v], t.views[v], helping_views(t.views[v], others, std::size_t(helping)),
-                        *t.backend, ScanOptions{});
+      const std::vector<ScanHit> judged = judged_by_all(
+          t.set, hits[v], t.views[v], helping_views(t.views[v], others, std::size_t(helping)),
+          *t.backend, ScanOptions{});
       for (const ScanHit& own : judged) {
         const ScanHit& hit = pooled[next++];
         EXPECT_EQ(hit.rank, own.rank);
         const Se3 in_world = inverse(t.views[v].view.camera_from_world) * own.camera_from_object,
-                  pooled_in_world = inverse(t.views[3].view.camera_from_world) * hit.camera_from_object;
+                  pooled_in_world =
+                      inverse(t.views[3].view.camera_from_world) * hit.camera_from_object;
         EXPECT_LT((in_world.translation_m - pooled_in_world.translation_m).norm(), 1e-12);
         EXPECT_LT(in_world.rotation.angularDistance(pooled_in_world.rotation), 1e-7);
       }
@@ -280,7 +293,8 @@ TEST(JointScan, PoolsWhatEveryImageHas) {
   }
 }
 
-// A part that the newest image does not show is a hit of the first one alone, where chance ranks better.
+// A part that the newest image does not show is a hit of the first one alone, where chance ranks
+// better.
 TEST(JointScan, AnEarlierHitComesFirstOnceOtherImagesShowIt) {
   Random random = test_random();
   for (int i = 0; i < 5; ++i) {
@@ -289,13 +303,13 @@ TEST(JointScan, AnEarlierHitComesFirstOnceOtherImagesShowIt) {
     for (std::size_t v = 0; v < 3; ++v)
       for (int wrong = 0; wrong < 100; ++wrong)
         hits[v].push_back(
-            hit_at({random.rotation(),
-                    (t.views[v].view.camera_from_world * t.truth).translation_m + 0.05 * random.direction()},
+            hit_at({random.rotation(), (t.views[v].view.camera_from_world * t.truth).translation_m +
+                                           0.05 * random.direction()},
                    1));
     hits[0].push_back(hit_at(t.views[0].view.camera_from_world * t.truth, 1.5));
     const std::vector<ScanHit> pooled =
-        pooled_hits(t.set, t.views, std::vector<std::span<const ScanHit>>(hits.begin(), hits.end()), 4,
-                    nothing_unwanted, 60, *t.backend, ScanOptions{});
+        pooled_hits(t.set, t.views, std::vector<std::span<const ScanHit>>(hits.begin(), hits.end()),
+                    4, nothing_unwanted, 60, *t.backend, ScanOptions{});
     const ScanHit& best = *std::ranges::min_element(pooled, {}, &ScanHit::rank);
     const Se3 truth = t.views[2].view.camera_from_world * t.truth;
     EXPECT_LT((best.camera_from_object.translation_m - truth.translation_m).norm(), 0.02);
@@ -303,7 +317,8 @@ TEST(JointScan, AnEarlierHitComesFirstOnceOtherImagesShowIt) {
   }
 }
 
-// What a quick look leaves is the best of what all would be, and nothing unwanted takes a place among it.
+// What a quick look leaves is the best of what all would be, and nothing unwanted takes a place
+// among it.
 TEST(JointScan, AQuickLookKeepsTheBestThatAreWanted) {
   Random random = test_random();
   const SeenPart t(3, 300, random);
@@ -311,7 +326,8 @@ TEST(JointScan, AQuickLookKeepsTheBestThatAreWanted) {
   for (std::size_t v = 0; v < 3; ++v)
     for (int i = 0; i < 400; ++i) {
       Vector6d off;
-      off << 0.03 * random.uniform() * random.direction(), 0.8 * random.uniform() * random.direction();
+      off << 0.03 * random.uniform() * random.direction(),
+          0.8 * random.uniform() * random.direction();
       hits[v].push_back(
           hit_at(retract(t.views[v].view.camera_from_world * t.truth, off), random.uniform(1, 2)));
     }
@@ -322,7 +338,8 @@ TEST(JointScan, AQuickLookKeepsTheBestThatAreWanted) {
     std::ranges::sort(found, {}, &ScanHit::rank);
     return found;
   };
-  const std::vector<ScanHit> all = pooled(nothing_unwanted, 1200), some = pooled(nothing_unwanted, 300);
+  const std::vector<ScanHit> all = pooled(nothing_unwanted, 1200),
+                             some = pooled(nothing_unwanted, 300);
   ASSERT_EQ(all.size(), 1200u);
   EXPECT_GE(some.size(), 300u);
   EXPECT_LT(some.size(), 330u) << "of ties all";
@@ -336,9 +353,12 @@ TEST(JointScan, AQuickLookKeepsTheBestThatAreWanted) {
   for (std::size_t i = 0; i < 60; ++i) kept += among(all[i], some);
   EXPECT_GE(kept, 57) << "nineteen in twenty of the best twentieth, in the best quarter";
   const Eigen::Vector3d middle_m = t.views[2].view.camera_from_world * Eigen::Vector3d::Zero();
-  const auto is_high = [&](const Se3& pose) { return (pose * t.set.model.center_m).y() < middle_m.y(); };
+  const auto is_high = [&](const Se3& pose) {
+    return (pose * t.set.model.center_m).y() < middle_m.y();
+  };
   const std::vector<ScanHit> low = pooled(is_high, 300);
-  EXPECT_GE(low.size(), 250u) << "what the unwanted leave free is taken; a closer look moves some among them";
+  EXPECT_GE(low.size(), 250u)
+      << "what the unwanted leave free is taken; a closer look moves some among them";
   for (const ScanHit& hit : low) EXPECT_FALSE(is_high(hit.camera_from_object));
   EXPECT_TRUE(pooled([](const Se3&) { return true; }, 300).empty());
 }

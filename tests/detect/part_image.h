@@ -12,10 +12,11 @@ namespace edgescout::test {
 inline Camera small_camera() { return {320, 240, 400, 400, 159.5, 119.5, {}}; }
 
 // No image, so no Psi: the edges alone. World: the camera frame.
-inline Observation observe_edges(const std::vector<EdgePoint>& edges, const Camera& camera, double reduction,
-                                 Backend& backend) {
-  const Image blank{camera.width, camera.height,
-                    std::vector<std::uint8_t>(static_cast<std::size_t>(camera.width) * camera.height)};
+inline Observation observe_edges(const std::vector<EdgePoint>& edges, const Camera& camera,
+                                 double reduction, Backend& backend) {
+  const Image blank{
+      camera.width, camera.height,
+      std::vector<std::uint8_t>(static_cast<std::size_t>(camera.width) * camera.height)};
   return observe(blank, camera, Se3{}, edges, reduction, {}, backend);
 }
 

@@ -21,7 +21,8 @@ namespace {
 bool together(const std::vector<EdgeModel>& models, const Hypothesis& a, const Hypothesis& b,
               double penetration_m) {
   ThreadPool pool(1);
-  const BitMatrix pairs = plausible_pairs(models, std::vector<Hypothesis>{a, b}, penetration_m, pool);
+  const BitMatrix pairs =
+      plausible_pairs(models, std::vector<Hypothesis>{a, b}, penetration_m, pool);
   EXPECT_TRUE(pairs.has(0, 0) && pairs.has(1, 1));
   EXPECT_EQ(pairs.has(0, 1), pairs.has(1, 0));
   return pairs.has(0, 1);
@@ -38,8 +39,10 @@ TEST(PlausiblePairs, BoxesMayOverlapByTheTolerance) {
   const double sides[] = {0.04, 0.06, 0.08};
   for (int i = 0; i < 60; ++i) {
     const int axis = random.below(3);
-    const double overlap = random.uniform(0.0005, 0.008), tolerance = overlap * (i % 2 ? 1.03 : 0.97);
-    Eigen::Vector3d shift(0.011 * random.uniform(), 0.009 * random.uniform(), 0.01 * random.uniform());
+    const double overlap = random.uniform(0.0005, 0.008),
+                 tolerance = overlap * (i % 2 ? 1.03 : 0.97);
+    Eigen::Vector3d shift(0.011 * random.uniform(), 0.009 * random.uniform(),
+                          0.01 * random.uniform());
     shift[axis] = sides[axis] - overlap;
     const Se3 world{random.rotation(), random.direction()};
     const Hypothesis a{0, world}, b{0, world * Se3{Eigen::Quaterniond::Identity(), shift}};
@@ -92,8 +95,8 @@ TEST(PlausiblePairs, HolesAreEmpty) {
                        0.002));  // 1.5 mm; the other side is only 2.5 mm away
 }
 
-// What is said to clash does so wherever it is pushed; what is said to be apart is, by the verdict at zero
-// tolerance.
+// What is said to clash does so wherever it is pushed; what is said to be apart is, by the verdict
+// at zero tolerance.
 TEST(PlausiblePairs, PartsAgreeWithPushingThemEverywhere) {
   Random random = test_random();
   const std::vector<EdgeModel> models{make_edge_model(make_part("l_bracket").mesh),
@@ -110,7 +113,8 @@ TEST(PlausiblePairs, PartsAgreeWithPushingThemEverywhere) {
     for (const Eigen::Vector3d& d : icosphere(3)) {
       if (comes_apart) break;
       const Hypothesis moved{
-          b.object, {b.world_from_object.rotation, b.world_from_object.translation_m + 0.9 * tolerance * d}};
+          b.object,
+          {b.world_from_object.rotation, b.world_from_object.translation_m + 0.9 * tolerance * d}};
       comes_apart = together(models, a, moved, 0);
     }
     EXPECT_TRUE(tolerated || !comes_apart);
@@ -131,18 +135,21 @@ TEST(PlausiblePairs, ManyCandidatesOnSeveralThreads) {
   for (int i = 0; i < 40; ++i)
     candidates.push_back(
         {i % 3,
-         {random.rotation(), {random.uniform(0, 0.15), random.uniform(0, 0.15), random.uniform(0, 0.05)}}});
+         {random.rotation(),
+          {random.uniform(0, 0.15), random.uniform(0, 0.15), random.uniform(0, 0.05)}}});
   ThreadPool one(1), two(2);
   const auto start = std::chrono::steady_clock::now();
   const BitMatrix pairs = plausible_pairs(models, candidates, 0.002, two);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   EXPECT_EQ(pairs.words, plausible_pairs(models, candidates, 0.002, one).words);
   int clashes = 0;
   for (std::size_t i = 0; i < 40; ++i)
     for (std::size_t j = 0; j < i; ++j) {
       clashes += !pairs.has(i, j);
       if ((i * 40 + j) % 7 == 0) {
-        EXPECT_EQ(pairs.has(i, j), together(models, candidates[i], candidates[j], 0.002)) << i << " " << j;
+        EXPECT_EQ(pairs.has(i, j), together(models, candidates[i], candidates[j], 0.002))
+            << i << " " << j;
       }
     }
   std::printf("40 candidates: %d of 780 pairs clash, %.1f ms\n", clashes, 1000 * seconds);
@@ -158,10 +165,13 @@ TEST(PlausiblePairs, RefusesAToleranceThatIsNone) {
 
 TEST(ExclusiveProbabilities, CountWhatStandsInTheWay) {
   BitMatrix plausible(4, 4);
-  const auto allow = [&](std::size_t i, std::size_t j) { plausible.set(i, j), plausible.set(j, i); };
+  const auto allow = [&](std::size_t i, std::size_t j) {
+    plausible.set(i, j), plausible.set(j, i);
+  };
   for (std::size_t i = 0; i < 4; ++i) allow(i, i);
   allow(0, 1), allow(0, 3), allow(1, 3), allow(2, 3);  // 2 would stand in 0 and in 1
-  const std::vector<double> left = exclusive_probabilities(std::vector{0.9, 0.3, 0.8, 0.4}, plausible);
+  const std::vector<double> left =
+      exclusive_probabilities(std::vector{0.9, 0.3, 0.8, 0.4}, plausible);
   EXPECT_DOUBLE_EQ(left[0], 0.9);
   EXPECT_DOUBLE_EQ(left[2], 0.8 * (1 - 0.9));
   // what is itself ruled out rules out as little

@@ -72,14 +72,15 @@ TEST(ProbabilityOverViews, GrowsWithWhatAgreesHereAndNotBeside) {
   EXPECT_LT(probability_over_views(std::vector{fair, darker}), p);
 }
 
-// The worst that one view can do is to show nothing of it; worse than nothing there is not, and the order of
-// views does not matter.
+// The worst that one view can do is to show nothing of it; worse than nothing there is not, and the
+// order of views does not matter.
 TEST(ProbabilityOverViews, AHiddenViewCostsSoMuchAndNoMore) {
   const PoseFeatures good = with_psi(0.95);
   PoseFeatures hidden = with_psi(0), worse = hidden;
   hidden.psi = 0.55;
   worse.beside_psi = 1;
-  const double without = log_odds_of({good, good, good}), with = log_odds_of({good, good, good, hidden});
+  const double without = log_odds_of({good, good, good}),
+               with = log_odds_of({good, good, good, hidden});
   EXPECT_LT(with, without);
   EXPECT_GT(probability_over_views(std::vector{good, good, good, hidden}), 0.5);
   EXPECT_NEAR(log_odds_of({good, good, good, worse}), with, 1e-9);

@@ -1,5 +1,5 @@
-// Rendered scenes of known pose through the whole pipeline: found, more exactly by two views than by one, and
-// alike on every device.
+// Rendered scenes of known pose through the whole pipeline: found, more exactly by two views than
+// by one, and alike on every device.
 #include <gtest/gtest.h>
 
 #include "host/detect/detect.h"
@@ -21,7 +21,8 @@ struct RenderedPart {
   std::vector<Rendering> renderings;
   std::vector<TemplateSet> sets;
 
-  explicit RenderedPart(const std::string& name, int views = 1, int count = 1) : part(make_part(name)) {
+  explicit RenderedPart(const std::string& name, int views = 1, int count = 1)
+      : part(make_part(name)) {
     scene = make_scene(std::span(&part, 1), bare_board(count, views));
     ThreadPool pool(2);
     renderings = render(scene, pool);
@@ -34,10 +35,12 @@ struct RenderedPart {
     return all;
   }
   Se3 world_truth() const { return scene.placed[0].world_from_object; }
-  Se3 truth_in(std::size_t view) const { return scene.views[view].camera_from_world * world_truth(); }
+  Se3 truth_in(std::size_t view) const {
+    return scene.views[view].camera_from_world * world_truth();
+  }
   PreparedImage prepared(std::size_t view, const Se3& camera_from_world, Backend& backend) const {
-    return prepare_image(renderings[view].image, scene.views[view].camera, camera_from_world, backend,
-                         options());
+    return prepare_image(renderings[view].image, scene.views[view].camera, camera_from_world,
+                         backend, options());
   }
   Detections detect(std::size_t view, Backend& backend) const {
     return detect_objects(prepared(view, Se3{}, backend), sets, backend, options());
@@ -55,8 +58,8 @@ struct RenderedPart {
 
 class DetectParts : public ::testing::TestWithParam<std::string> {};
 
-// The parts are 60 to 100 px long: across the line of sight their place is sure to a millimetre, along it
-// only to 2 % of the distance.
+// The parts are 60 to 100 px long: across the line of sight their place is sure to a millimetre,
+// along it only to 2 % of the distance.
 TEST_P(DetectParts, AreFoundOnTheBoard) {
   const RenderedPart t(GetParam());
   const auto backend = make_cpu_backend(2);
@@ -67,14 +70,15 @@ TEST_P(DetectParts, AreFoundOnTheBoard) {
                         ray = truth.translation_m.normalized();
   const double along_m = std::abs(off.dot(ray)), across_m = (off - off.dot(ray) * ray).norm(),
                angle_rad = t.error(best, truth).angle_rad;
-  std::printf("%.4f rad, %.2f mm across, %.2f mm along, probability %.2f\n", angle_rad, 1000 * across_m,
-              1000 * along_m, found.detections[0].probability);
+  std::printf("%.4f rad, %.2f mm across, %.2f mm along, probability %.2f\n", angle_rad,
+              1000 * across_m, 1000 * along_m, found.detections[0].probability);
   EXPECT_LT(across_m, 0.001);
   EXPECT_LT(along_m, 0.006);
   EXPECT_LT(angle_rad, 0.07);
 }
 
-INSTANTIATE_TEST_SUITE_P(Parts, DetectParts, ::testing::Values("l_bracket", "bearing_block", "u_channel"),
+INSTANTIATE_TEST_SUITE_P(Parts, DetectParts,
+                         ::testing::Values("l_bracket", "bearing_block", "u_channel"),
                          [](const auto& parameter) { return parameter.param; });
 
 TEST(DetectObjects, FindsNothingOnABareBoard) {
@@ -83,7 +87,8 @@ TEST(DetectObjects, FindsNothingOnABareBoard) {
   t.scene.placed.clear();
   t.renderings = render(t.scene, pool);
   const auto backend = make_cpu_backend(2);
-  EXPECT_TRUE(detect_objects(t.prepared(0, Se3{}, *backend), t.sets, *backend, {}).detections.empty());
+  EXPECT_TRUE(
+      detect_objects(t.prepared(0, Se3{}, *backend), t.sets, *backend, {}).detections.empty());
 }
 
 TEST(DetectJointly, IsMoreExactThanOneView) {
@@ -108,30 +113,32 @@ TEST(DetectJointly, IsMoreExactThanOneView) {
 TEST(DetectObjects, IsTheSameOnADevice) {
   if (vulkan_devices().empty()) GTEST_SKIP() << "no Vulkan device";
   const RenderedPart t("l_bracket");
-  const Detections cpu = t.detect(0, *make_cpu_backend(2)), device = t.detect(0, *make_vulkan_backend(0));
+  const Detections cpu = t.detect(0, *make_cpu_backend(2)),
+                   device = t.detect(0, *make_vulkan_backend(0));
   ASSERT_EQ(cpu.detections.size(), device.detections.size());
   ASSERT_FALSE(cpu.detections.empty());
-  // The right one. Those below it are wrong, and a wrong pose may end in either of two optima that are as
-  // good to a thousandth.
+  // The right one. Those below it are wrong, and a wrong pose may end in either of two optima that
+  // are as good to a thousandth.
   const Detection &a = cpu.detections[0], &b = device.detections[0];
   EXPECT_LT(distance_between_m(a.world_from_object, b.world_from_object), 0.0005);
   EXPECT_LT(angle_between_rad(a.world_from_object, b.world_from_object), 0.005);
   EXPECT_NEAR(a.probability, b.probability, 0.01);
 }
 
-// What one view knows least, the distance, the others see: candidates are as exact as after registration in
-// all views.
+// What one view knows least, the distance, the others see: candidates are as exact as after
+// registration in all views.
 TEST(FindCandidates, WithOtherViewsAreRightInAllOfThem) {
   const RenderedPart t("bearing_block", 3);
   const auto backend = make_cpu_backend(2);
   std::vector<Observation> views;
   for (std::size_t v = 0; v < 3; ++v)
-    views.push_back(observe_prepared(t.prepared(v, t.scene.views[v].camera_from_world, *backend), t.sets,
-                                     *backend, t.options()));
+    views.push_back(observe_prepared(t.prepared(v, t.scene.views[v].camera_from_world, *backend),
+                                     t.sets, *backend, t.options()));
   const DetectOptions options = t.options().detect;
   const std::vector<Refined> alone = find_candidates(t.sets[0], views[0], *backend, options),
-                             helped = find_candidates(t.sets[0], views[0], std::span(views).subspan(1), {},
-                                                      *backend, options);
+                             helped =
+                                 find_candidates(t.sets[0], views[0], std::span(views).subspan(1),
+                                                 {}, *backend, options);
   ASSERT_FALSE(alone.empty());
   ASSERT_FALSE(helped.empty());
   EXPECT_EQ(alone[0].by_view.size(), 1u);
@@ -148,13 +155,14 @@ TEST(FindCandidates, LeavesOutWhatIsKnown) {
   const RenderedPart t("bearing_block", 2);
   const auto backend = make_cpu_backend(2);
   // Of a scene whose world is not the camera's.
-  const Observation view = observe_prepared(t.prepared(1, t.scene.views[1].camera_from_world, *backend),
-                                            t.sets, *backend, t.options());
+  const Observation view = observe_prepared(
+      t.prepared(1, t.scene.views[1].camera_from_world, *backend), t.sets, *backend, t.options());
   const std::vector<Se3> known{t.scene.placed[0].world_from_object};
   const Mesh& mesh = t.sets[0].model.mesh;
   const auto nearest = [&](std::span<const Se3> of_known) {
     double least = 1;
-    for (const Refined& r : find_candidates(t.sets[0], view, {}, of_known, *backend, t.options().detect))
+    for (const Refined& r :
+         find_candidates(t.sets[0], view, {}, of_known, *backend, t.options().detect))
       least = std::min(least, pose_distance_m(r.registration.world_from_object, t.truth_in(1), mesh,
                                               t.sets[0].symmetries) /
                                   mesh.diameter_m);
@@ -165,20 +173,20 @@ TEST(FindCandidates, LeavesOutWhatIsKnown) {
   EXPECT_LT(nearest(known), 1) << "others are still found";
 }
 
-// Of two parts the better one is all that is found where there is one place; known, it leaves it to the
-// other.
+// Of two parts the better one is all that is found where there is one place; known, it leaves it to
+// the other.
 TEST(FindCandidates, HaveMorePlaceWhereSomethingIsKnown) {
   const RenderedPart t("bearing_block", 3, 2);
   const auto backend = make_cpu_backend(2);
   std::vector<Observation> views;
   for (std::size_t v = 0; v < 3; ++v)
-    views.push_back(observe_prepared(t.prepared(v, t.scene.views[v].camera_from_world, *backend), t.sets,
-                                     *backend, t.options()));
+    views.push_back(observe_prepared(t.prepared(v, t.scene.views[v].camera_from_world, *backend),
+                                     t.sets, *backend, t.options()));
   DetectOptions options = t.options().detect;
   options.candidates = 1;
   const auto found = [&](std::span<const Se3> known) {
-    for (const Refined& r :
-         find_candidates(t.sets[0], views[0], std::span(views).subspan(1), known, *backend, options))
+    for (const Refined& r : find_candidates(t.sets[0], views[0], std::span(views).subspan(1), known,
+                                            *backend, options))
       for (int i = 0; i < 2; ++i) {
         const Se3 truth =
             t.scene.views[0].camera_from_world * t.scene.placed[std::size_t(i)].world_from_object;
@@ -188,7 +196,8 @@ TEST(FindCandidates, HaveMorePlaceWhereSomethingIsKnown) {
   };
   const int first = found({});
   ASSERT_GE(first, 0);
-  EXPECT_EQ(found(std::vector<Se3>{t.scene.placed[std::size_t(first)].world_from_object}), 1 - first);
+  EXPECT_EQ(found(std::vector<Se3>{t.scene.placed[std::size_t(first)].world_from_object}),
+            1 - first);
 }
 
 }  // namespace

@@ -8,7 +8,8 @@
 namespace edgescout::test {
 namespace {
 
-// A part that one camera sees and four others, which look past it, do not: they say nothing about it.
+// A part that one camera sees and four others, which look past it, do not: they say nothing about
+// it.
 TEST(Settle, ViewsThatLookElsewhereTakeNothingFromAPose) {
   const RenderedScene scene({"l_bracket"}, 1, 1);
   const auto backend = make_cpu_backend(2);
@@ -25,15 +26,16 @@ TEST(Settle, ViewsThatLookElsewhereTakeNothingFromAPose) {
   EXPECT_GT(alone[0].probability, 0.5);
   for (const double turn_rad : {-1.0, -0.9, 0.9, 1.0}) {
     views.push_back(views[0]);
-    views.back().camera_from_world = Se3{so3_exp({0, turn_rad, 0}), {0, 0, 0}} * views[0].camera_from_world;
+    views.back().camera_from_world =
+        Se3{so3_exp({0, turn_rad, 0}), {0, 0, 0}} * views[0].camera_from_world;
   }
   const std::vector<Detection> among_others = settled();
   ASSERT_EQ(among_others.size(), 1u);
   EXPECT_NEAR(among_others[0].probability, alone[0].probability, 0.02);
 }
 
-// Of two poses that would stand in one another, seen by two views that make both certain, one is there. From
-// one view it cannot be told how far away they are, and both stay.
+// Of two poses that would stand in one another, seen by two views that make both certain, one is
+// there. From one view it cannot be told how far away they are, and both stay.
 TEST(Settle, OfPosesInsideEachOtherTheBetterStays) {
   const RenderedScene scene({"l_bracket"}, 1, 2);
   const auto backend = make_cpu_backend(2);
@@ -50,7 +52,9 @@ TEST(Settle, OfPosesInsideEachOtherTheBetterStays) {
   DetectOptions options;
   options.second_look_rad = 0;
   options.evidence.max_spent = 1;
-  const auto settled = [&] { return settle(scene.models, poses, refined, views, *backend, options); };
+  const auto settled = [&] {
+    return settle(scene.models, poses, refined, views, *backend, options);
+  };
   std::vector<Detection> detections = settled();
   ASSERT_EQ(detections.size(), 1u);
   EXPECT_GT(detections[0].probability, 0.9);

@@ -28,8 +28,9 @@ double brute_distance(const Se3& a, const Se3& b, const Object& object) {
     for (double x : {object.mesh.box_min_m.x(), object.mesh.box_max_m.x()})
       for (double y : {object.mesh.box_min_m.y(), object.mesh.box_max_m.y()})
         for (double z : {object.mesh.box_min_m.z(), object.mesh.box_max_m.z()})
-          worst = std::max(worst,
-                           (a * Eigen::Vector3d(x, y, z) - b * (symmetry * Eigen::Vector3d(x, y, z))).norm());
+          worst = std::max(
+              worst,
+              (a * Eigen::Vector3d(x, y, z) - b * (symmetry * Eigen::Vector3d(x, y, z))).norm());
     best = std::min(best, worst);
   }
   return best;
@@ -40,8 +41,10 @@ TEST(PoseDistance, IsTheCornersWorstAtTheBestSymmetry) {
   for (const char* part : {"l_bracket", "hex_nut"}) {
     const Object object = make_part(part);
     for (int i = 0; i < 50; ++i) {
-      const Se3 a = random_pose(random), b = i % 2 ? random_pose(random) : moved(a, 0.01, 0.5, random);
-      EXPECT_NEAR(pose_distance_m(a, b, object.mesh, object.symmetries), brute_distance(a, b, object), 1e-12);
+      const Se3 a = random_pose(random),
+                b = i % 2 ? random_pose(random) : moved(a, 0.01, 0.5, random);
+      EXPECT_NEAR(pose_distance_m(a, b, object.mesh, object.symmetries),
+                  brute_distance(a, b, object), 1e-12);
     }
   }
 }
@@ -54,7 +57,8 @@ TEST(SuppressDuplicates, KnowsAPoseUnderEverySymmetry) {
   std::vector<Se3> poses;
   for (const Se3& symmetry : nut.symmetries.discrete)
     poses.push_back(moved(pose * symmetry, 0.0005, 0.01, random));
-  EXPECT_EQ(suppress_duplicates(poses, nut.mesh, nut.symmetries, 0.003, 100), std::vector<std::size_t>{0});
+  EXPECT_EQ(suppress_duplicates(poses, nut.mesh, nut.symmetries, 0.003, 100),
+            std::vector<std::size_t>{0});
   EXPECT_GT(suppress_duplicates(poses, nut.mesh, Symmetries{}, 0.003, 100).size(), 5u);
 }
 
@@ -62,7 +66,8 @@ TEST(SuppressDuplicates, KeepsTheOrderAndAtMostSoMany) {
   const Object bracket = make_part("l_bracket");
   Random random = test_random();
   const Se3 a = random_pose(random), b = moved(a, 0.02, 0, random), c = moved(a, 0, 1.0, random);
-  const std::vector<Se3> poses{b, moved(b, 0.0005, 0, random), a, moved(a, 0.0005, 0, random), c, b};
+  const std::vector<Se3> poses{b, moved(b, 0.0005, 0, random), a, moved(a, 0.0005, 0, random), c,
+                               b};
   EXPECT_EQ(suppress_duplicates(poses, bracket.mesh, bracket.symmetries, 0.002, 100),
             (std::vector<std::size_t>{0, 2, 4}));
   EXPECT_EQ(suppress_duplicates(poses, bracket.mesh, bracket.symmetries, 0.002, 2),
@@ -81,11 +86,13 @@ TEST(BestDifferent, PrefersTheLowerKeyOfTwoThatAreOne) {
   };
   EXPECT_EQ(best(100), (std::vector<std::size_t>{2, 1}));
   EXPECT_EQ(best(1), std::vector<std::size_t>{2});
-  EXPECT_THROW(best_different(poses, std::vector<double>{1, 2}, bracket.mesh, bracket.symmetries, 0.002, 2),
-               LogicError);
+  EXPECT_THROW(
+      best_different(poses, std::vector<double>{1, 2}, bracket.mesh, bracket.symmetries, 0.002, 2),
+      LogicError);
 }
 
-// Every pose that was dropped lies within the radius of a kept one before it, and no two kept ones do.
+// Every pose that was dropped lies within the radius of a kept one before it, and no two kept ones
+// do.
 TEST(SuppressDuplicates, AgreesWithTheDistance) {
   Random random = test_random();
   for (const char* part : {"l_bracket", "u_channel", "hex_nut"}) {
@@ -119,7 +126,8 @@ TEST(KnownPoses, HoldWhatIsNearModuloSymmetry) {
     const KnownPoses poses(known, object.mesh, object.symmetries);
     int near = 0;
     for (int i = 0; i < 400; ++i) {
-      const Se3 turned = known[i % 4] * object.symmetries.discrete[i % object.symmetries.discrete.size()];
+      const Se3 turned =
+          known[i % 4] * object.symmetries.discrete[i % object.symmetries.discrete.size()];
       const Se3 pose = moved(turned, random.uniform(0, 0.02), random.uniform(0, 0.6), random);
       double nearest = 1e9;
       for (const Se3& k : known) nearest = std::min(nearest, brute_distance(pose, k, object));
@@ -128,7 +136,8 @@ TEST(KnownPoses, HoldWhatIsNearModuloSymmetry) {
     }
     EXPECT_GT(near, 40);
     EXPECT_LT(near, 360);
-    EXPECT_FALSE(KnownPoses(std::span<const Se3>{}, object.mesh, object.symmetries).any_within(1, known[0]));
+    EXPECT_FALSE(
+        KnownPoses(std::span<const Se3>{}, object.mesh, object.symmetries).any_within(1, known[0]));
   }
 }
 

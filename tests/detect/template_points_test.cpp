@@ -34,9 +34,11 @@ struct LookedAt {
   LookedAt(const char* part, Random& random) : set(part_templates(part, 5, 0.28, 0.34, *backend)) {
     for (RegisterView& view : views) {
       view.camera = small_camera();
-      view.camera_from_world = camera_looking_at(0.31 * random.direction(), Eigen::Vector3d::Zero());
+      view.camera_from_world =
+          camera_looking_at(0.31 * random.direction(), Eigen::Vector3d::Zero());
     }
-    for (int i = 0; i < 12; ++i) poses.push_back({0, {random.rotation(), 0.01 * random.direction()}});
+    for (int i = 0; i < 12; ++i)
+      poses.push_back({0, {random.rotation(), 0.01 * random.direction()}});
   }
   std::vector<std::vector<ModelPoint>> points(int most) const {
     return template_points(set, views, most, *backend)(poses);
@@ -70,14 +72,16 @@ TEST(TemplatePoints, AreThinnedEvenlyAndLackWhatIsHidden) {
   Random random = test_random();
   LookedAt t("l_bracket", random);
   const std::vector<std::vector<ModelPoint>> all = t.points(0), some = t.points(50);
-  const Hypothesis cover{0, inverse(t.views[1].camera_from_world) * Se3{random.rotation(), {0, 0, 0.2}}};
+  const Hypothesis cover{
+      0, inverse(t.views[1].camera_from_world) * Se3{random.rotation(), {0, 0, 0.2}}};
   t.views[1].occluders = make_occluders({&t.set.model, 1}, {&cover, 1}, t.views[1], *t.backend);
   const std::vector<std::vector<ModelPoint>> left = t.points(50);
   std::size_t hidden = 0;
   for (std::size_t i = 0; i < all.size(); ++i) {
     std::vector<ModelPoint> expected = thinned(all[i], 50);
     ASSERT_EQ(some[i].size(), expected.size());
-    for (std::size_t p = 0; p < expected.size(); ++p) EXPECT_EQ(place(some[i][p]), place(expected[p]));
+    for (std::size_t p = 0; p < expected.size(); ++p)
+      EXPECT_EQ(place(some[i][p]), place(expected[p]));
     if (i % 2 == 1)
       hidden += std::erase_if(expected, [&](const ModelPoint& p) {
         return t.views[1].occluders->hide(
@@ -85,7 +89,8 @@ TEST(TemplatePoints, AreThinnedEvenlyAndLackWhatIsHidden) {
             occlusion_tolerance_m(t.set.model));
       });
     ASSERT_EQ(left[i].size(), expected.size());
-    for (std::size_t p = 0; p < expected.size(); ++p) EXPECT_EQ(place(left[i][p]), place(expected[p]));
+    for (std::size_t p = 0; p < expected.size(); ++p)
+      EXPECT_EQ(place(left[i][p]), place(expected[p]));
   }
   EXPECT_GT(hidden, 50u);
 }

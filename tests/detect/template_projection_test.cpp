@@ -27,8 +27,9 @@ TEST(ThinnedView, ProjectsAndRoundsEveryPoint) {
     const int most = 1 + random.below(int(TEMPLATE_SCORE_MAX_POINTS));
     const ThinnedView thinned(view, most);
     ASSERT_EQ(thinned.count(), std::min<int>(most, int(view.points.size())));
-    const Pose pose = to_pose(place_template(set, view, random.uniform(0, 6), random.uniform(0.2, 0.6),
-                                             {random.uniform(0, 320), random.uniform(0, 240)}, camera));
+    const Pose pose =
+        to_pose(place_template(set, view, random.uniform(0, 6), random.uniform(0.2, 0.6),
+                               {random.uniform(0, 320), random.uniform(0, 240)}, camera));
     std::vector<TemplatePoint> found(std::size_t(thinned.count()));
     ASSERT_TRUE(thinned.project(pose, k, 100, 80, BINS, 0.01f, found.data()));
     for (std::size_t p = 0; p < found.size(); ++p) {
@@ -41,7 +42,8 @@ TEST(ThinnedView, ProjectsAndRoundsEveryPoint) {
       EXPECT_LT(std::abs(std::remainder(found[p].bin - bin, double(BINS))), 0.501);
       EXPECT_LT(found[p].bin, BINS);
       ++all;
-      apart += std::lround(edge.u - 100) != found[p].dx_px || std::lround(edge.v - 80) != found[p].dy_px ||
+      apart += std::lround(edge.u - 100) != found[p].dx_px ||
+               std::lround(edge.v - 80) != found[p].dy_px ||
                std::lround(bin) % BINS != found[p].bin;
     }
   }
@@ -60,13 +62,15 @@ TEST(ThinnedView, SaysWhenAPointIsTooNear) {
   EXPECT_FALSE(thinned.project(to_pose(behind), {300, 300, 0, 0}, 0, 0, BINS, 0.1f, found.data()));
 }
 
-// A point that lands far outside is still outside after the job's place is added, not wrapped around.
+// A point that lands far outside is still outside after the job's place is added, not wrapped
+// around.
 TEST(ThinnedView, ClampsWhatLandsFarOutside) {
   TemplateView view;
   view.points = {{100, -100, 0, 1, 0, 0}};
   TemplatePoint found;
-  ASSERT_TRUE(ThinnedView(view, 1).project(to_pose(Se3{Eigen::Quaterniond::Identity(), {0, 0, 0.1}}),
-                                           {1000, 1000, 0, 0}, 0, 0, BINS, 0.01f, &found));
+  ASSERT_TRUE(
+      ThinnedView(view, 1).project(to_pose(Se3{Eigen::Quaterniond::Identity(), {0, 0, 0.1}}),
+                                   {1000, 1000, 0, 0}, 0, 0, BINS, 0.01f, &found));
   EXPECT_EQ(found.dx_px, 16000);
   EXPECT_EQ(found.dy_px, -16000);
 }

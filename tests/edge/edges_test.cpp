@@ -18,16 +18,18 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// A bright half plane beyond the line through (cx, cy) with normal direction phi; pixels are covered by area
-// (nearly), blurred a little, noisy.
-Image half_plane(int width, int height, double cx, double cy, double phi, double contrast, unsigned seed) {
+// A bright half plane beyond the line through (cx, cy) with normal direction phi; pixels are
+// covered by area (nearly), blurred a little, noisy.
+Image half_plane(int width, int height, double cx, double cy, double phi, double contrast,
+                 unsigned seed) {
   std::mt19937 rng(seed);
   std::normal_distribution<double> noise(0, 2);
   Image image{width, height, {}};
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const double d = (x - cx) * std::cos(phi) + (y - cy) * std::sin(phi);
-      const double grey = 120 + contrast * 0.5 * std::erf(d / (0.7 * std::numbers::sqrt2)) + noise(rng);
+      const double grey =
+          120 + contrast * 0.5 * std::erf(d / (0.7 * std::numbers::sqrt2)) + noise(rng);
       image.pixels.push_back(static_cast<std::uint8_t>(std::clamp(std::round(grey), 0.0, 255.0)));
     }
   return image;
@@ -53,7 +55,8 @@ TEST_P(BothMethods, FindALineWithoutBias) {
       if (p.x_px < 4 || p.y_px < 4 || p.x_px > 116 || p.y_px > 92) continue;
       const double d = (p.x_px - cx) * std::cos(phi) + (p.y_px - cy) * std::sin(phi);
       EXPECT_LT(std::abs(d), 0.6) << name_of(options.method) << " phi " << phi;
-      EXPECT_LT(angle_between(p.theta_rad, phi + pi / 2), 0.05) << name_of(options.method) << " phi " << phi;
+      EXPECT_LT(angle_between(p.theta_rad, phi + pi / 2), 0.05)
+          << name_of(options.method) << " phi " << phi;
       EXPECT_GE(p.theta_rad, 0.0f);
       EXPECT_LT(p.theta_rad, std::numbers::pi_v<float>);
       EXPECT_GT(p.strength, 3.0f);
@@ -75,7 +78,8 @@ TEST(LsdEdges, CoarseLevelsAddOnlyWhatTheFineOnesMiss) {
   for (int y = 0; y < 256; ++y)
     for (int x = 110; x < 256; ++x) {
       const double grey = image.at(x, y) - 60 * 0.5 * (1 + std::erf((x - 190) / 14.0));
-      image.pixels[y * 256 + x] = static_cast<std::uint8_t>(std::clamp(std::round(grey), 0.0, 255.0));
+      image.pixels[y * 256 + x] =
+          static_cast<std::uint8_t>(std::clamp(std::round(grey), 0.0, 255.0));
     }
   const auto near = [](const std::vector<EdgePoint>& points, double x0, double reach) {
     return std::ranges::count_if(points, [&](const EdgePoint& p) {
@@ -94,7 +98,8 @@ TEST(LsdEdges, PointsStepOnePixelAlongTheSegment) {
   ASSERT_GT(points.size(), 50u);
   int unit_steps = 0;
   for (std::size_t i = 1; i < points.size(); ++i) {
-    const double step = std::hypot(points[i].x_px - points[i - 1].x_px, points[i].y_px - points[i - 1].y_px);
+    const double step =
+        std::hypot(points[i].x_px - points[i - 1].x_px, points[i].y_px - points[i - 1].y_px);
     unit_steps += std::abs(step - 1) < 0.05;
   }
   EXPECT_GT(unit_steps, 0.8 * points.size());

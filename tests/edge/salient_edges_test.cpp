@@ -36,7 +36,8 @@ TEST(SalientEdges, AreTheStrongestOfEveryBlock) {
   for (const EdgePoint& edge : edges) all[block_of(edge, 32)].push_back(edge.strength);
   for (const EdgePoint& edge : salient) kept[block_of(edge, 32)].push_back(edge.strength);
   for (auto& [block, strengths] : all) {
-    const int w = std::min(32, width - 32 * block.first), h = std::min(32, height - 32 * block.second);
+    const int w = std::min(32, width - 32 * block.first),
+              h = std::min(32, height - 32 * block.second);
     std::ranges::sort(strengths, std::greater());
     strengths.resize(std::min(strengths.size(), std::size_t(0.05 * w * h)));
     std::ranges::sort(kept[block], std::greater());
@@ -52,8 +53,8 @@ TEST(SalientEdges, LeaveOutTheFaintWhateverTheExposure) {
     std::vector<EdgePoint> exposed = edges;
     for (EdgePoint& edge : exposed) edge.strength *= exposure;
     const std::vector<EdgePoint> salient = salient_edges(exposed, width, height, {0.1, 1, 48});
-    const auto strong =
-        std::ranges::count_if(exposed, [&](const EdgePoint& e) { return e.strength > 3 * exposure; });
+    const auto strong = std::ranges::count_if(
+        exposed, [&](const EdgePoint& e) { return e.strength > 3 * exposure; });
     EXPECT_EQ(std::ptrdiff_t(salient.size()), strong);
     for (const EdgePoint& edge : salient) EXPECT_FLOAT_EQ(edge.strength, 40 * exposure);
   }

@@ -7,7 +7,8 @@
 namespace edgescout {
 namespace {
 
-// By hand: 0.9 finds A, 0.8 is false, 0.7 is A again, 0.6 finds B, 0.5 is false twice; C is never scored.
+// By hand: 0.9 finds A, 0.8 is false, 0.7 is A again, 0.6 finds B, 0.5 is false twice; C is never
+// scored.
 const std::vector<ScoredPose> poses{{0.5, -1}, {0.7, 0}, {0.9, 0}, {0.8, -1}, {0.6, 1}, {0.5, -1}};
 
 TEST(DetectionCurve, CountsEveryThreshold) {
@@ -44,7 +45,8 @@ TEST(DetectionCurve, OfNothingStaysAtZero) {
   EXPECT_EQ(curve[0].rate, 0);
 }
 
-// Image 0 has A found at 0.9 and a false one at 0.8, image 1 B at 0.6 and C, which has no candidate.
+// Image 0 has A found at 0.9 and a false one at 0.8, image 1 B at 0.6 and C, which has no
+// candidate.
 const std::vector<ScoredPose> in_two_images{{0.9, 0, 0}, {0.8, -1, 0}, {0.6, 1, 1}};
 const std::vector<int> instances_in_two{1, 2};
 

@@ -51,8 +51,8 @@ TEST(Bootstrap, OfTwoClustersKnowsItsFourDraws) {
   EXPECT_EQ(bootstrap_interval(clusters).high, 1);
 }
 
-// 40 clusters of one trial each are independent trials: the bootstrap's spread is that of the binomial
-// distribution.
+// 40 clusters of one trial each are independent trials: the bootstrap's spread is that of the
+// binomial distribution.
 TEST(Bootstrap, OfIndependentTrialsIsTheBinomialSpread) {
   std::vector<Cluster> clusters;
   for (int i = 0; i < 40; ++i) clusters.push_back({i < 20 ? 1.0 : 0.0, 1});
@@ -87,7 +87,8 @@ TEST(Resampled, WithoutSpreadIsWilsons) {
 
 // Clusters that are easy are so for both: their difference is better known than either.
 TEST(PairedDifference, IsOverTheSameDraws) {
-  const std::vector<Cluster> a{{1, 10}, {5, 10}, {9, 10}, {0, 0}}, b{{0, 10}, {4, 10}, {8, 10}, {0, 0}};
+  const std::vector<Cluster> a{{1, 10}, {5, 10}, {9, 10}, {0, 0}},
+      b{{0, 10}, {4, 10}, {8, 10}, {0, 0}};
   EXPECT_NEAR(paired_difference_interval(a, b).low, 0.1, 1e-12);
   EXPECT_NEAR(paired_difference_interval(a, b).high, 0.1, 1e-12);
   EXPECT_GT(bootstrap_interval(a).high - bootstrap_interval(a).low, 0.5);

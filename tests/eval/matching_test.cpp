@@ -18,11 +18,13 @@ TEST(Matching, EveryEstimateTakesTheNearestFreeTruth) {
 }
 
 TEST(Matching, TheFirstEstimateChoosesEvenIfAnotherFitsBetter) {
-  EXPECT_EQ(match_in_order(std::vector<double>{0.9, INFINITY, 0.1, 5}, 2, 1), (Matched{0, UNMATCHED}));
+  EXPECT_EQ(match_in_order(std::vector<double>{0.9, INFINITY, 0.1, 5}, 2, 1),
+            (Matched{0, UNMATCHED}));
 }
 
 TEST(Matching, AnErrorAtTheThresholdIsTooLarge) {
-  EXPECT_EQ(match_in_order(std::vector<double>{1, std::nextafter(1, 0)}, 1, 1), (Matched{UNMATCHED, 0}));
+  EXPECT_EQ(match_in_order(std::vector<double>{1, std::nextafter(1, 0)}, 1, 1),
+            (Matched{UNMATCHED, 0}));
 }
 
 TEST(Matching, NothingMatchesWhatIsInfiniteOrNoNumber) {

@@ -10,7 +10,8 @@ namespace {
 
 constexpr double PI = std::numbers::pi;
 
-// Corners of a bar of 40 x 20 x 10 mm about the origin: mapped onto itself by half turns about x, y and z.
+// Corners of a bar of 40 x 20 x 10 mm about the origin: mapped onto itself by half turns about x, y
+// and z.
 Object bar() {
   Object object;
   for (int corner = 0; corner < 8; ++corner)
@@ -51,8 +52,8 @@ TEST(Mssd, TakesTheBestSymmetry) {
   EXPECT_NEAR(mssd_m(turn_z(PI), Se3{}, object), 0, 1e-12);
   // The symmetry belongs to the object's side of the pose, whatever the pose.
   const Se3 truth{so3_exp({1.0, -0.4, 0.2}), {0.05, -0.02, 0.6}};
-  EXPECT_NEAR(mssd_m(truth * turn_z(PI + 0.1), truth, object), 2 * std::hypot(0.02, 0.01) * std::sin(0.05),
-              1e-12);
+  EXPECT_NEAR(mssd_m(truth * turn_z(PI + 0.1), truth, object),
+              2 * std::hypot(0.02, 0.01) * std::sin(0.05), 1e-12);
 }
 
 TEST(Mspd, OfASidewaysShiftIsItsProjectionAtTheNearestVertex) {

@@ -33,7 +33,9 @@ EvaluationImage image() {
 
 Se3 at_mm(double x_mm) { return {Eigen::Quaterniond::Identity(), {1e-3 * x_mm, 0, 10}}; }
 
-BopTruth truth(int object, double x_mm, double visible = 1) { return {object, at_mm(x_mm), visible}; }
+BopTruth truth(int object, double x_mm, double visible = 1) {
+  return {object, at_mm(x_mm), visible};
+}
 
 BopResult estimate(int object, double x_mm, double score) {
   BopResult result;
@@ -73,8 +75,8 @@ TEST(Recall, CountsThresholdsOfTheDiameter) {
   EXPECT_EQ(recalls.false_positives, 1);
 }
 
-// 2.2 mm off: 22 px. At 640 px the thresholds from 25 px on pass (6 of 10), at 1280 px they are 10, 20, 30 ..
-// (8 of 10).
+// 2.2 mm off: 22 px. At 640 px the thresholds from 25 px on pass (6 of 10), at 1280 px they are 10,
+// 20, 30 .. (8 of 10).
 TEST(Recall, ScalesPixelThresholdsWithTheImage) {
   EvaluationImage one = image();
   one.truth = {truth(1, 0)};
@@ -96,14 +98,14 @@ TEST(Recall, UsesEachTruthOnce) {
   EXPECT_EQ(recalls.false_positives, 2);
 }
 
-// The best score chooses first and takes the nearer truth, though the second would fit the other estimate
-// only.
+// The best score chooses first and takes the nearer truth, though the second would fit the other
+// estimate only.
 TEST(Recall, MatchesGreedilyByScore) {
   EvaluationImage one = image();
   one.truth = {truth(1, 0), truth(1, 0.8)};
   one.estimates = {estimate(1, 0.5, 0.9), estimate(1, 1.6, 0.8)};
-  // The first is 5 px from truth 0 and 3 px from truth 0.8: takes the latter. The second is 16 px from truth
-  // 0.
+  // The first is 5 px from truth 0 and 3 px from truth 0.8: takes the latter. The second is 16 px
+  // from truth 0.
   EXPECT_DOUBLE_EQ(evaluate(std::vector{one}, OBJECTS, {}).recall_mspd, 0.5);
   one.estimates[1].score = 0.95;  // now 8 px from truth 0.8, takes it; the other has truth 0 left
   EXPECT_DOUBLE_EQ(evaluate(std::vector{one}, OBJECTS, {}).recall_mspd, 1);
@@ -135,7 +137,8 @@ TEST(Recall, IgnoresHiddenTruths) {
   EXPECT_DOUBLE_EQ(without.ar_mssd, 1);
 }
 
-// BOP's toolkit looks at as many estimates as there are truths that count, and gives none to the others.
+// BOP's toolkit looks at as many estimates as there are truths that count, and gives none to the
+// others.
 TEST(Recall, OfBopGivesNothingToHiddenTruths) {
   EvaluationImage one = image();
   one.truth = {truth(1, 0), truth(1, 300, 0.3)};
@@ -151,7 +154,8 @@ TEST(Recall, OfBopGivesNothingToHiddenTruths) {
 TEST(Recall, CountsFalsePositivesAboveTheScorePerImage) {
   EvaluationImage one = image();
   one.truth = {truth(1, 0)};
-  one.estimates = {estimate(1, 0, 0.9), estimate(1, 100, 0.6), estimate(2, 0, 0.55), estimate(2, 50, 0.2)};
+  one.estimates = {estimate(1, 0, 0.9), estimate(1, 100, 0.6), estimate(2, 0, 0.55),
+                   estimate(2, 50, 0.2)};
   RecallOptions options;
   options.min_score = 0.5;
   const Recalls recalls = evaluate(std::vector{one, image()}, OBJECTS, options);
@@ -205,15 +209,17 @@ TEST(Recall, AgreesWithThePlainDefinition) {
     for (int i = 0; i < 4; ++i) one.truth.push_back(truth(1, draw(4)));
     for (int i = 0; i < 6; ++i) one.estimates.push_back(estimate(1, draw(4), draw(1)));
     std::vector<BopResult> sorted = one.estimates;
-    std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
+    std::sort(sorted.begin(), sorted.end(),
+              [](const auto& a, const auto& b) { return a.score > b.score; });
     std::vector<double> free_mm;
-    for (const BopTruth& t : one.truth) free_mm.push_back(1e3 * t.camera_from_object.translation_m.x());
+    for (const BopTruth& t : one.truth)
+      free_mm.push_back(1e3 * t.camera_from_object.translation_m.x());
     int found = 0;
     for (const BopResult& e : sorted) {
       const double x = 1e3 * e.camera_from_object.translation_m.x();
-      const auto nearest = std::min_element(free_mm.begin(), free_mm.end(), [&](double a, double b) {
-        return std::abs(a - x) < std::abs(b - x);
-      });
+      const auto nearest =
+          std::min_element(free_mm.begin(), free_mm.end(),
+                           [&](double a, double b) { return std::abs(a - x) < std::abs(b - x); });
       if (nearest == free_mm.end() || std::abs(*nearest - x) >= 2) continue;
       free_mm.erase(nearest);
       ++found;

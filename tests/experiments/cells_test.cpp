@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Cells a, b, below/c ..: each a row with its name; counts how often cells ran. A cell named in `fails`
-// throws.
+// Cells a, b, below/c ..: each a row with its name; counts how often cells ran. A cell named in
+// `fails` throws.
 struct Trial {
   TemporaryFolder folder;
   std::atomic<int> ran{0};
@@ -110,7 +110,8 @@ TEST(Cells, OfSeveralCommitsAreToldApart) {
   t.run.commit = "def";
   expect_input_error([&] { t.go(); }, {"a.csv", "commit", "found abc", "--any-commit"});
   t.run.any_commit = true;
-  EXPECT_EQ(joined(t.go()).notes.back(), (std::pair<std::string, std::string>{"commit", "abc def"}));
+  EXPECT_EQ(joined(t.go()).notes.back(),
+            (std::pair<std::string, std::string>{"commit", "abc def"}));
 }
 
 TEST(Cells, OfOtherColumnsEndTheRun) {
@@ -158,8 +159,8 @@ TEST(Cells, OfAFailureAmongManyEndTheRun) {
   EXPECT_LT(t.ran, 40);
 }
 
-// One cell's own file cannot be written while others are at work: the run ends with its name, what is
-// finished stays, nothing half written lies about, and it goes on from there.
+// One cell's own file cannot be written while others are at work: the run ends with its name, what
+// is finished stays, nothing half written lies about, and it goes on from there.
 TEST(Cells, OfWhichOneCannotBeWrittenKeepTheOthers) {
   std::vector<std::string> names;
   for (int i = 0; i < 12; ++i) names.push_back("cell_" + std::to_string(i));

@@ -75,9 +75,11 @@ TEST(DataMark, IsNotedByEveryExperimentThatReadsData) {
   write_data(folder);
   ExperimentSettings settings;
   settings.data = folder.path();
-  for (const Experiment& experiment : experiments_named({"detection", "registration", "multiview", "nbv"})) {
+  for (const Experiment& experiment :
+       experiments_named({"detection", "registration", "multiview", "nbv"})) {
     const Notes notes = experiment.options(settings);
-    EXPECT_NE(std::ranges::find(notes, std::pair<std::string, std::string>("data", data_mark(folder.path()))),
+    EXPECT_NE(std::ranges::find(
+                  notes, std::pair<std::string, std::string>("data", data_mark(folder.path()))),
               notes.end())
         << experiment.name;
   }

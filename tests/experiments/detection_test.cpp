@@ -26,8 +26,8 @@ TEST(DetectionRows, SayHowMuchOfAnInstanceShows) {
   const ExperimentSettings settings = one_small_image();
   const std::unique_ptr<Backend> backend = make_cpu_backend(1);
   const Table table = detection_experiment().cells(settings).at(0).run(*backend);
-  const KnownScene scene =
-      rendered_scene("scene_000", rendered_types(), single_image_options(settings, 0), backend->threads());
+  const KnownScene scene = rendered_scene("scene_000", rendered_types(),
+                                          single_image_options(settings, 0), backend->threads());
   std::map<std::string, std::string> visible{{"", ""}};  // by instance
   for (const KnownInstance& instance : scene.instances)
     visible[instance.name] = number_text(instance.visible);
@@ -38,14 +38,16 @@ TEST(DetectionRows, SayHowMuchOfAnInstanceShows) {
       << "each has candidates, and there are others";
 }
 
-// Each cost is capped by itself: the mean of a candidate that lies in the clutter falls, none rises.
+// Each cost is capped by itself: the mean of a candidate that lies in the clutter falls, none
+// rises.
 TEST(DetectionRows, CostNoMoreUnderTheLowerCap) {
   const std::unique_ptr<Backend> backend = make_cpu_backend(1);
   const Table table = detection_experiment().cells(one_small_image()).at(0).run(*backend);
   ASSERT_FALSE(table.rows.empty());
   int less = 0, between = 0;
   for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const double capped = number_in(table, row, "fdcm_cap_px"), full = number_in(table, row, "fdcm_px");
+    const double capped = number_in(table, row, "fdcm_cap_px"),
+                 full = number_in(table, row, "fdcm_px");
     EXPECT_LE(capped, full + 1e-3) << row;
     EXPECT_LE(capped, 15.01) << row;  // values are rounded
     less += capped < full - 1e-3;
@@ -55,7 +57,8 @@ TEST(DetectionRows, CostNoMoreUnderTheLowerCap) {
   EXPECT_GT(between, 0) << "it is no cap of the mean";
 }
 
-// One candidate of an instance and one of none, with the columns of rows from before there was `visible`.
+// One candidate of an instance and one of none, with the columns of rows from before there was
+// `visible`.
 Table older_rows() {
   return {{},
           {"set", "image", "object", "instances", "candidate", "instance", "fdcm_px", "fdcm_lsd_px",
@@ -71,12 +74,14 @@ TEST(DetectionReport, IsMadeOfOlderRowsToo) {
 
 TEST(DetectionReport, SaysThatPhotographsOfOneSceneCountApart) {
   ExperimentSettings settings;
-  EXPECT_EQ(detection_experiment().report(settings, older_rows()).markdown.find(PHOTOGRAPHS_COUNT_APART),
-            std::string::npos)
+  EXPECT_EQ(
+      detection_experiment().report(settings, older_rows()).markdown.find(PHOTOGRAPHS_COUNT_APART),
+      std::string::npos)
       << "there are none without data";
   settings.data = "data";
-  EXPECT_NE(detection_experiment().report(settings, older_rows()).markdown.find(PHOTOGRAPHS_COUNT_APART),
-            std::string::npos);
+  EXPECT_NE(
+      detection_experiment().report(settings, older_rows()).markdown.find(PHOTOGRAPHS_COUNT_APART),
+      std::string::npos);
 }
 
 }  // namespace

@@ -63,7 +63,8 @@ TEST(DevicesReport, AsJsonHasMediansRatiosAndFloors) {
   EXPECT_EQ(card.at("kernels").at(0).at("floor_ms"), 2);
   EXPECT_DOUBLE_EQ(card.at("kernels").at(0).at("kernel_ms").get<double>(), 4);
   EXPECT_DOUBLE_EQ(card.at("kernels").at(0).at("times_floor").get<double>(), 2);
-  EXPECT_EQ(card.at("kernels").at(1).at("times_floor"), 2.5) << "without a clock of its own the whole call";
+  EXPECT_EQ(card.at("kernels").at(1).at("times_floor"), 2.5)
+      << "without a clock of its own the whole call";
   EXPECT_FALSE(cpu.contains("kernels"));
 }
 
@@ -74,18 +75,21 @@ TEST(DevicesReport, AsMarkdownHasARowAStageADeviceAndAKernel) {
         "| image to poses | 500.0 (400.0 to 800.0) | 1.00 | 50.0 (40.0 to 100.0) | 0.10 |",
         "| cpu |  | 2.00 | 300 | 0 |  |", "| vulkan:0 card | driver 1 | 20.00 | 0 | 64 | 2.0 |",
         "| dcd_tensor | 64x48 | 5.000 | 4.000 | 2.000 | 2.0 |", "**Warning:** something is odd",
-        "Options: aligned 600, lambda 30, on ", "97 % of the processors to be had before, 50 % at the end."})
+        "Options: aligned 600, lambda 30, on ",
+        "97 % of the processors to be had before, 50 % at the end."})
     EXPECT_NE(text.find(row), std::string::npos) << row << " not in\n" << text;
 }
 
 TEST(MachineLoad, IsWarnedOfWhereItSpoilsTimes) {
   EXPECT_TRUE(warnings_of({8, 1.9, 0.95}).empty());
   ASSERT_EQ(warnings_of({8, 2.1, 0.95}).size(), 1u);
-  EXPECT_NE(warnings_of({8, 2.1, 0.95})[0].find("load average 2.10 on 8 threads"), std::string::npos);
+  EXPECT_NE(warnings_of({8, 2.1, 0.95})[0].find("load average 2.10 on 8 threads"),
+            std::string::npos);
   ASSERT_EQ(warnings_of({8, -1, 0.5}).size(), 1u) << "no load average is no warning";
   EXPECT_NE(warnings_of({8, -1, 0.5})[0].find("50 %"), std::string::npos);
   EXPECT_EQ(warnings_of({2, 3, 0.5}).size(), 2u);
-  EXPECT_TRUE(warnings_at_end({8, 7.9, 0.95}).empty()) << "the load average is the measurement's own";
+  EXPECT_TRUE(warnings_at_end({8, 7.9, 0.95}).empty())
+      << "the load average is the measurement's own";
   ASSERT_EQ(warnings_at_end({8, 7.9, 0.5}).size(), 1u);
   EXPECT_NE(warnings_at_end({8, 7.9, 0.5})[0].find("at the end: only 50 %"), std::string::npos);
 }

@@ -14,13 +14,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path examples() { return (fs::path(__FILE__).parent_path() / "../../docs/examples").lexically_normal(); }
+fs::path examples() {
+  return (fs::path(__FILE__).parent_path() / "../../docs/examples").lexically_normal();
+}
 
 TEST(BopSceneOfExperiments, HasItsImagesInOneWorld) {
-  const KnownScene scene = bop_scene("set", examples() / "scenes/000001", examples() / "parts", {0, 1});
+  const KnownScene scene =
+      bop_scene("set", examples() / "scenes/000001", examples() / "parts", {0, 1});
   EXPECT_EQ(scene.name, "000001_000000");
   ASSERT_EQ(scene.images.size(), 2u);
-  EXPECT_GT(distance_between_m(scene.images[0].camera_from_world, scene.images[1].camera_from_world), 0.01);
+  EXPECT_GT(
+      distance_between_m(scene.images[0].camera_from_world, scene.images[1].camera_from_world),
+      0.01);
   ASSERT_FALSE(scene.instances.empty());
 }
 

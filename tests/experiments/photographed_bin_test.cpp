@@ -33,13 +33,15 @@ TEST(PhotographedBin, GivesThePhotographsAndWhatLiesThere) {
     const Shot shot = bin.cell->acquire(view);
     EXPECT_EQ(shot.image.pixels, image.image.pixels);
     EXPECT_EQ(distance_between_m(shot.camera_from_world, image.camera_from_world), 0);
-    EXPECT_EQ(distance_between_m(bin.cell->views()[static_cast<std::size_t>(view)], image.camera_from_world),
+    EXPECT_EQ(distance_between_m(bin.cell->views()[static_cast<std::size_t>(view)],
+                                 image.camera_from_world),
               0);
   }
   ASSERT_EQ(bin.instances.size(), scene.instances.size());
   EXPECT_EQ(static_cast<std::size_t>(bin.parts), scene.instances.size());
   for (std::size_t i = 0; i < bin.instances.size(); ++i) {
-    EXPECT_EQ(distance_between_m(bin.instances[i].world_from_object, scene.instances[i].world_from_object),
+    EXPECT_EQ(distance_between_m(bin.instances[i].world_from_object,
+                                 scene.instances[i].world_from_object),
               0);
     EXPECT_EQ(bin.instances[i].visible, 1);
     EXPECT_EQ(bin.cell->visible(0)[bin.instances[i].placed], 1);
@@ -60,7 +62,8 @@ TEST(PhotographedBin, IsSoughtAtTheDistancesThatThePileHas) {
   EXPECT_NEAR(sets[0].options.distance_max_m / sets[0].options.distance_min_m, 2, 1e-9);
   for (const KnownImage& image : scene.images)
     for (const KnownInstance& instance : scene.instances) {
-      const double distance_m = (image.camera_from_world * instance.world_from_object).translation_m.norm();
+      const double distance_m =
+          (image.camera_from_world * instance.world_from_object).translation_m.norm();
       EXPECT_GT(distance_m, sets[0].options.distance_min_m);
       EXPECT_LT(distance_m, sets[0].options.distance_max_m);
     }

@@ -17,12 +17,14 @@ std::vector<std::string> files_of_all() {
                                  "triangle/models/obj_000001.ply", "triangle/rgb/000200.png",
                                  "triangle/rgb/000201.png"};
   for (const std::string scene : {"brackets/000001", "brackets/000002", "cat", "triangle"})
-    for (const char* index : {"/scene_camera.json", "/scene_gt.json"}) files.push_back(scene + index);
+    for (const char* index : {"/scene_camera.json", "/scene_gt.json"})
+      files.push_back(scene + index);
   for (const char* image :
        {"000001/rgb/000001", "000001/rgb/000002", "000001/rgb/000003", "000002/rgb/000004"})
     files.push_back("brackets/" + std::string(image) + ".png");
   for (int frame = 0; frame <= 30; frame += 2)
-    files.push_back("cat/rgb/0000" + std::string(frame < 10 ? "0" : "") + std::to_string(frame) + ".png");
+    files.push_back("cat/rgb/0000" + std::string(frame < 10 ? "0" : "") + std::to_string(frame) +
+                    ".png");
   return files;
 }
 
@@ -44,8 +46,8 @@ TEST(Photographs, AreAskedForAsFarAsTheyAreUsed) {
   EXPECT_EQ(single_photographs(folder.path(), 4).size(), 10u);
 }
 
-// The prism's models_info.json knows of no symmetry; the photographs do, and each brings its corners onto
-// corners.
+// The prism's models_info.json knows of no symmetry; the photographs do, and each brings its
+// corners onto corners.
 TEST(Photographs, OfThePrismKnowItsSixEqualPoses) {
   const char* data = std::getenv("EDGESCOUT_DATA");
   if (!data || !std::filesystem::exists(std::filesystem::path(data) / "triangle"))
@@ -62,7 +64,8 @@ TEST(Photographs, OfThePrismKnowItsSixEqualPoses) {
         nearest_m = std::min(nearest_m, (symmetry * corner - other).norm());
       EXPECT_LT(nearest_m, 1e-4) << "of 67 mm";
     }
-  EXPECT_EQ(photographed_scene(photographs.front().source).objects.at(0).symmetries.discrete.size(), 2u)
+  EXPECT_EQ(photographed_scene(photographs.front().source).objects.at(0).symmetries.discrete.size(),
+            2u)
       << "a bracket's are those of its models_info.json";
 }
 

@@ -23,7 +23,8 @@ Panel panel() {
 // The points of the curves, in the order they are drawn.
 std::vector<std::vector<std::pair<double, double>>> curves_in(const std::string& svg) {
   std::vector<std::vector<std::pair<double, double>>> curves;
-  const std::regex line("<polyline class=\"curve\" points=\"([^\"]*)\""), point("([-0-9.]+),([-0-9.]+)");
+  const std::regex line("<polyline class=\"curve\" points=\"([^\"]*)\""),
+      point("([-0-9.]+),([-0-9.]+)");
   for (std::sregex_iterator l(svg.begin(), svg.end(), line), end; l != end; ++l) {
     const std::string points = (*l)[1];
     curves.emplace_back();
@@ -60,17 +61,17 @@ TEST(Plot, PutsValuesWhereTheAxesSay) {
   ASSERT_EQ(curves.size(), 2u);
   ASSERT_EQ(curves[0].size(), 3u);
   // Equal steps to the right; y falls on the page as the rate rises, in proportion.
-  EXPECT_NEAR(curves[0][1].first - curves[0][0].first, curves[0][2].first - curves[0][1].first, 0.11);
+  EXPECT_NEAR(curves[0][1].first - curves[0][0].first, curves[0][2].first - curves[0][1].first,
+              0.11);
   const double y_of_0 = curves[0][2].second, y_of_1 = curves[1][0].second;
   EXPECT_GT(y_of_0, y_of_1 + 100);
   EXPECT_NEAR(curves[0][0].second, 0.5 * (y_of_0 + y_of_1), 0.11);
   EXPECT_NEAR(curves[0][1].second, 0.75 * y_of_0 + 0.25 * y_of_1, 0.11);
   // The axes' box spans exactly the ticks: 0 to 2 and 0 to 1.
   std::smatch box;
-  ASSERT_TRUE(std::regex_search(
-      svg, box,
-      std::regex(
-          "<rect class=\"axes\" x=\"([0-9.]+)\" y=\"([0-9.]+)\" width=\"([0-9.]+)\" height=\"([0-9.]+)\"")));
+  ASSERT_TRUE(std::regex_search(svg, box,
+                                std::regex("<rect class=\"axes\" x=\"([0-9.]+)\" y=\"([0-9.]+)\" "
+                                           "width=\"([0-9.]+)\" height=\"([0-9.]+)\"")));
   EXPECT_NEAR(curves[0][0].first, std::stod(box[1]), 0.11);
   EXPECT_NEAR(curves[0][2].first, std::stod(box[1]) + std::stod(box[3]), 0.11);
   EXPECT_NEAR(y_of_1, std::stod(box[2]), 0.11);
@@ -83,12 +84,14 @@ TEST(Plot, SpreadsDecadesEvenly) {
   p.lines = {{"a", {{0, 1, {}, {}}, {0.1, 0, {}, {}}, {1, 0, {}, {}}, {10, 1, {}, {}}}}};
   const auto curves = curves_in(svg_of(std::vector{p}));
   ASSERT_EQ(curves.at(0).size(), 3u) << "what is not above 0 has no place";
-  EXPECT_NEAR(curves[0][1].first - curves[0][0].first, curves[0][2].first - curves[0][1].first, 0.11);
+  EXPECT_NEAR(curves[0][1].first - curves[0][0].first, curves[0][2].first - curves[0][1].first,
+              0.11);
 }
 
 TEST(Plot, LeavesOutWhatIsNoNumber) {
   Panel p = panel();
-  p.lines = {{"a", {{0, 0.5, {}, {}}, {1, INF, {}, {}}, {std::nan(""), 0.1, {}, {}}, {2, 1, {}, {}}}}};
+  p.lines = {
+      {"a", {{0, 0.5, {}, {}}, {1, INF, {}, {}}, {std::nan(""), 0.1, {}, {}}, {2, 1, {}, {}}}}};
   const std::string svg = svg_of(std::vector{p});
   EXPECT_EQ(curves_in(svg).at(0).size(), 2u);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
@@ -101,7 +104,8 @@ TEST(Plot, GivesOneNameOneColourInAllPanels) {
   const std::string svg = svg_of(std::vector{panel(), other});
   std::vector<std::string> colours;
   const std::regex curve("<polyline class=\"curve\" points=\"[^\"]*\" stroke=\"([^\"]*)\"");
-  for (std::sregex_iterator i(svg.begin(), svg.end(), curve), end; i != end; ++i) colours.push_back((*i)[1]);
+  for (std::sregex_iterator i(svg.begin(), svg.end(), curve), end; i != end; ++i)
+    colours.push_back((*i)[1]);
   ASSERT_EQ(colours.size(), 4u);
   EXPECT_EQ(colours[0], colours[3]);
   EXPECT_EQ(colours[1], colours[2]);

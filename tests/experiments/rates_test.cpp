@@ -18,14 +18,15 @@ std::vector<std::string> row(const std::string& image, const std::string& distan
 Table trials() {
   return {{},
           trial_columns(),
-          {row("a", "0.1", "one", "1"), row("a", "0.02", "one", "1"), row("b", "0.07", "one", "0", "50"),
-           row("b", "0.4", "one", "0", "9.9"), row("a", "0.1", "two", "0", "3", ""),
-           row("b", "0.4", "two", "1", "3", "")}};
+          {row("a", "0.1", "one", "1"), row("a", "0.02", "one", "1"),
+           row("b", "0.07", "one", "0", "50"), row("b", "0.4", "one", "0", "9.9"),
+           row("a", "0.1", "two", "0", "3", ""), row("b", "0.4", "two", "1", "3", "")}};
 }
 
 Series series(const std::string& method) {
-  return {method,
-          [method](const Table& table, std::size_t r) { return text_in(table, r, "method") == method; }};
+  return {method, [method](const Table& table, std::size_t r) {
+            return text_in(table, r, "method") == method;
+          }};
 }
 
 TEST(Levels, EndWhereTheRecordedStartsLie) {
@@ -52,8 +53,8 @@ TEST(Rates, CountStartsByLevelAndImage) {
 
 TEST(Rates, AreATableWithARowAMethod) {
   const std::string text = rate_table(trials(), {series("one"), series("two")}, pose_criterion());
-  // Of two images with 2 of 2 and 0 of 1 a bootstrap draws 0 % and 100 %; of one image Wilson's interval
-  // stands, 0 of 1.
+  // Of two images with 2 of 2 and 0 of 1 a bootstrap draws 0 % and 100 %; of one image Wilson's
+  // interval stands, 0 of 1.
   EXPECT_NE(text.find("| one | 66.7 % [0, 100] |  |  | 0 % [0, 79] | 50 % [0, 100] | 4 | 2.0 |\n"),
             std::string::npos)
       << text;
@@ -78,20 +79,24 @@ TEST(Rates, SayHowManyImagesTheIntervalsAreOver) {
   Table table{{}, trial_columns(), {}};
   for (const char* image : {"a", "b", "c", "d", "e", "f", "g", "h", "i", "j"})
     table.rows.push_back(row(image, "0.1", "one", "1"));
-  EXPECT_NE(rate_table(table, {series("one")}, pose_criterion()).find("bootstrap over 10 images.\n"),
-            std::string::npos);
+  EXPECT_NE(
+      rate_table(table, {series("one")}, pose_criterion()).find("bootstrap over 10 images.\n"),
+      std::string::npos);
 }
 
-// Of two images in one of which the first method is right and the other wrong, the draws' differences are 0,
-// a half and 1; where the methods ran from different starts there is nothing to compare.
+// Of two images in one of which the first method is right and the other wrong, the draws'
+// differences are 0, a half and 1; where the methods ran from different starts there is nothing to
+// compare.
 TEST(Rates, AreComparedOverTheSameDraws) {
-  Table table{{},
-              trial_columns(),
-              {row("a", "0.1", "one", "1"), row("b", "0.1", "one", "1"), row("a", "0.1", "two", "0"),
-               row("b", "0.1", "two", "1"), row("a", "0.3", "one", "1")}};
-  const std::string text =
-      rate_table(table, {series("one"), series("two")}, pose_criterion(), {{"one", "two"}, {"one", "three"}});
-  EXPECT_NE(text.find("| one less two | +50.0 [+0.0, +100.0] |  |  |  |  | | |\n"), std::string::npos)
+  Table table{
+      {},
+      trial_columns(),
+      {row("a", "0.1", "one", "1"), row("b", "0.1", "one", "1"), row("a", "0.1", "two", "0"),
+       row("b", "0.1", "two", "1"), row("a", "0.3", "one", "1")}};
+  const std::string text = rate_table(table, {series("one"), series("two")}, pose_criterion(),
+                                      {{"one", "two"}, {"one", "three"}});
+  EXPECT_NE(text.find("| one less two | +50.0 [+0.0, +100.0] |  |  |  |  | | |\n"),
+            std::string::npos)
       << text;
   EXPECT_EQ(text.find("three"), std::string::npos) << "a method that never ran";
 }

@@ -8,8 +8,9 @@
 namespace edgescout::test {
 namespace {
 
-const Table small{
-    {{"seed", "7"}, {"options", "scenes 2; scale: half"}}, {"name", "value"}, {{"a", "1.5"}, {"b", ""}}};
+const Table small{{{"seed", "7"}, {"options", "scenes 2; scale: half"}},
+                  {"name", "value"},
+                  {{"a", "1.5"}, {"b", ""}}};
 
 TEST(Table, IsACsvFileUnderItsNotes) {
   EXPECT_EQ(to_csv(small), "# seed: 7\n# options: scenes 2; scale: half\nname,value\na,1.5\nb,\n");
@@ -32,7 +33,8 @@ TEST(Table, ReadsLinesOfBothKinds) {
 TEST(Table, NamesWhatIsWrongInAFile) {
   expect_input_error([] { table_from_csv("", "file.csv"); }, {"file.csv", "columns"});
   expect_input_error([] { table_from_csv("# seed: 1\n", "file.csv"); }, {"file.csv", "columns"});
-  expect_input_error([] { table_from_csv("#seed 1\na\n", "file.csv"); }, {"file.csv", "note", "#seed 1"});
+  expect_input_error([] { table_from_csv("#seed 1\na\n", "file.csv"); },
+                     {"file.csv", "note", "#seed 1"});
   expect_input_error([] { table_from_csv("# seed: 1\na,b\n1,2\n1\n", "file.csv"); },
                      {"file.csv", "line 4", "found 1 cells", "expected 2"});
   expect_input_error([] { number_in(small, 1, "value"); }, {"value", "a number"});

@@ -28,7 +28,8 @@ KnownScene empty_scene() {
   scene.name = "up";
   const std::vector<Object> types = rendered_types();
   scene.objects = {types[0], types[1]};
-  scene.images = {{{}, {640, 480, 800, 800, 319.5, 239.5, {}}, {so3_exp({0.2, 0, 0}), {0, 0, 0.5}}}};
+  scene.images = {
+      {{}, {640, 480, 800, 800, 319.5, 239.5, {}}, {so3_exp({0.2, 0, 0}), {0, 0, 0.5}}}};
   scene.instances = {{"a", 0, {so3_exp({0, 0.3, 1}), {0.03, 0, 0}}, 1},
                      {"b", 0, {so3_exp({1, 0.3, 0}), {-0.05, 0.02, 0}}, 1},
                      {"c", 1, {Eigen::Quaterniond::Identity(), {0, -0.04, 0.01}}, 1}};
@@ -41,10 +42,11 @@ TEST(Starts, LieAsFarAsTheySay) {
   ASSERT_EQ(starts.size(), 120u);
   std::map<int, int> by_level;
   for (const Start& start : starts) {
-    const Se3 truth = scene.images[0].camera_from_world * scene.instances[start.instance].world_from_object;
+    const Se3 truth =
+        scene.images[0].camera_from_world * scene.instances[start.instance].world_from_object;
     EXPECT_NEAR(angle_between_rad(start.camera_from_object, truth), start.distance_rad, 1e-6);
-    EXPECT_NEAR(distance_between_m(start.camera_from_object, truth), METRES_PER_RADIAN * start.distance_rad,
-                1e-9);
+    EXPECT_NEAR(distance_between_m(start.camera_from_object, truth),
+                METRES_PER_RADIAN * start.distance_rad, 1e-9);
     ++by_level[static_cast<int>(start.distance_rad / 0.1)];
   }
   EXPECT_EQ(by_level, (std::map<int, int>{{0, 30}, {1, 30}, {2, 30}, {3, 30}}))
@@ -57,10 +59,12 @@ TEST(Starts, ByDistanceLieTwoHundredthsOfItAway) {
   ASSERT_EQ(starts.size(), 15u);
   std::set<double> shifts_m;
   for (const Start& start : starts) {
-    const Se3 truth = scene.images[0].camera_from_world * scene.instances[start.instance].world_from_object;
+    const Se3 truth =
+        scene.images[0].camera_from_world * scene.instances[start.instance].world_from_object;
     EXPECT_EQ(start.distance_rad, 0.1);
     EXPECT_NEAR(angle_between_rad(start.camera_from_object, truth), 0.1, 1e-6);
-    EXPECT_NEAR(distance_between_m(start.camera_from_object, truth), 0.02 * truth.translation_m.norm(), 1e-9);
+    EXPECT_NEAR(distance_between_m(start.camera_from_object, truth),
+                0.02 * truth.translation_m.norm(), 1e-9);
     shifts_m.insert(start.camera_from_object.translation_m.x() - truth.translation_m.x());
   }
   EXPECT_EQ(shifts_m.size(), 15u) << "each in a direction of its own";
@@ -79,10 +83,11 @@ TEST(Starts, LieAsFarFromAllPosesThatLookAlike) {
   for (const Start& start : starts_around(scene, 200, 1)) {
     double nearest_rad = INFINITY;
     for (const Se3& symmetry : shaft->symmetries.discrete)
-      nearest_rad = std::min(nearest_rad, angle_between_rad(start.camera_from_object, truth * symmetry));
+      nearest_rad =
+          std::min(nearest_rad, angle_between_rad(start.camera_from_object, truth * symmetry));
     EXPECT_NEAR(nearest_rad, start.distance_rad, 1e-6);
-    EXPECT_NEAR(distance_between_m(start.camera_from_object, truth), METRES_PER_RADIAN * start.distance_rad,
-                1e-9);
+    EXPECT_NEAR(distance_between_m(start.camera_from_object, truth),
+                METRES_PER_RADIAN * start.distance_rad, 1e-9);
   }
 }
 
@@ -104,11 +109,14 @@ TEST(Candidates, HaveAShareAroundEveryInstance) {
     ++of_instance[candidate.instance];
     int expected = -1;
     for (int i : {0, 1})
-      if (const Se3 truth = scene.images[0].camera_from_world * scene.instances[i].world_from_object;
-          pose_error(candidate.camera_from_object, truth, scene.objects[0].symmetries).passes(0.2, 0.01))
+      if (const Se3 truth =
+              scene.images[0].camera_from_world * scene.instances[i].world_from_object;
+          pose_error(candidate.camera_from_object, truth, scene.objects[0].symmetries)
+              .passes(0.2, 0.01))
         expected = i;
     EXPECT_EQ(candidate.instance, expected);
-    const Eigen::Vector2d at = project(scene.images[0].camera, candidate.camera_from_object.translation_m);
+    const Eigen::Vector2d at =
+        project(scene.images[0].camera, candidate.camera_from_object.translation_m);
     EXPECT_TRUE(candidate.camera_from_object.translation_m.z() > 0 && at.x() >= 0 && at.x() < 640 &&
                 at.y() >= 0 && at.y() < 480);
   }
@@ -134,12 +142,13 @@ TEST(Trials, RowsSayWhatThePosesAre) {
   std::vector<Start> starts = starts_around(scene, 8, 3);
   std::erase_if(starts, [](const Start& start) { return start.distance_rad > 0.1; });
   ASSERT_EQ(starts.size(), 4u);
-  const Table table =
-      run_trials(scene, starts,
-                 {{"edgescout", 1}, {"d2co", 1}, {"d2co", 1, 30}, {"d2co", 1, 100, 0.5}, {"edgescout", 3}},
-                 settings, *backend);
-  EXPECT_EQ(values_of(table, "method"),
-            (std::vector<std::string>{"edgescout", "d2co", "d2co (lambda 30)", "d2co (smoothing 0.5)"}));
+  const Table table = run_trials(
+      scene, starts,
+      {{"edgescout", 1}, {"d2co", 1}, {"d2co", 1, 30}, {"d2co", 1, 100, 0.5}, {"edgescout", 3}},
+      settings, *backend);
+  EXPECT_EQ(
+      values_of(table, "method"),
+      (std::vector<std::string>{"edgescout", "d2co", "d2co (lambda 30)", "d2co (smoothing 0.5)"}));
   EXPECT_EQ(table.rows.size(), 16u) << "three views are not there";
   EXPECT_EQ(values_of(table, "mspd_px").size(), 16u) << "each on a tensor of its own";
   int right = 0;
@@ -180,8 +189,10 @@ TEST(Trials, FollowTheSettings) {
   expect_other("d2co", [](ExperimentSettings& s) { s.tensor.cap_px = 5; });
   expect_other("dc-icp", [](ExperimentSettings& s) { s.edges = EdgeMethod::Lsd; });
   expect_other("lm-icp", [](ExperimentSettings& s) { s.methods.loss_scale_px = 10; });
-  const Table one_step = found_by("d2co", [](ExperimentSettings&s) { s.methods.inner_iterations = 1; }),
-              two_rounds = found_by("c-icp", [](ExperimentSettings&s) { s.methods.outer_iterations = 2; });
+  const Table one_step =
+                  found_by("d2co", [](ExperimentSettings&s) { s.methods.inner_iterations = 1; }),
+              two_rounds =
+                  found_by("c-icp", [](ExperimentSettings&s) { s.methods.outer_iterations = 2; });
   EXPECT_EQ(values_of(one_step, "steps"), std::vector<std::string>{"1"});
   EXPECT_EQ(values_of(one_step, "cut_off"), std::vector<std::string>{"1"});
   EXPECT_EQ(values_of(two_rounds, "steps"), std::vector<std::string>{"2"});
@@ -194,7 +205,8 @@ TEST(Trials, LeaveTimesOutWhereNobodyWantsThem) {
   options.objects = 1;
   const std::unique_ptr<Backend> backend = make_cpu_backend(1);
   const KnownScene scene = rendered_scene("one", rendered_types(), options, backend->threads());
-  const Table table = run_trials(scene, starts_around(scene, 1, 1), {{"d2co", 1}}, settings, *backend);
+  const Table table =
+      run_trials(scene, starts_around(scene, 1, 1), {{"d2co", 1}}, settings, *backend);
   ASSERT_FALSE(table.rows.empty());
   EXPECT_EQ(text_in(table, 0, "ms"), "");
 }

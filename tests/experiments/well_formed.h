@@ -1,5 +1,5 @@
-// Whether a text is well-formed XML, as far as the files written here use it: elements, attributes, text, the
-// five entities.
+// Whether a text is well-formed XML, as far as the files written here use it: elements, attributes,
+// text, the five entities.
 #pragma once
 
 #include <cctype>
@@ -38,8 +38,8 @@ class XmlReader {
 
   std::string name() {
     const std::size_t begin = at_;
-    while (at_ < text_.size() &&
-           (std::isalnum(static_cast<unsigned char>(text_[at_])) || text_[at_] == '-' || text_[at_] == ':'))
+    while (at_ < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[at_])) ||
+                                  text_[at_] == '-' || text_[at_] == ':'))
       ++at_;
     return text_.substr(begin, at_ - begin);
   }
@@ -79,7 +79,8 @@ class XmlReader {
     for (const std::string& other : known)
       if (other == attribute_name) return attribute_name + " twice";
     known.push_back(attribute_name);
-    if (attribute_name.empty() || text_.compare(at_, 2, "=\"") != 0) return "an attribute without a value";
+    if (attribute_name.empty() || text_.compare(at_, 2, "=\"") != 0)
+      return "an attribute without a value";
     for (at_ += 2; at_ < text_.size() && text_[at_] != '"';) {
       if (text_[at_] == '<') return "< in an attribute";
       if (text_[at_] != '&')

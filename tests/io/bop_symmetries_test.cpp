@@ -12,9 +12,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-std::vector<Se3> load(const std::string& fields, int steps = 64, const std::string& diameter_mm = "10") {
+std::vector<Se3> load(const std::string& fields, int steps = 64,
+                      const std::string& diameter_mm = "10") {
   const TemporaryFolder folder;
-  const auto file = folder.write("models_info.json", "{\"5\": {\"diameter\": " + diameter_mm + fields + "}}");
+  const auto file =
+      folder.write("models_info.json", "{\"5\": {\"diameter\": " + diameter_mm + fields + "}}");
   return load_symmetries(file, steps).at(5).discrete;
 }
 
@@ -37,9 +39,12 @@ Se3 turn(double angle, const Vector3d& axis, const Vector3d& through_m = Vector3
 
 const std::string half_turn_x = "[1,0,0,0, 0,-1,0,0, 0,0,-1,0, 0,0,0,1]";
 const std::string quarter_turn_z = "[0,-1,0,0, 1,0,0,0, 0,0,1,0, 0,0,0,1]";
-const std::string spin_z = R"(, "symmetries_continuous": [{"axis": [0, 0, 2], "offset": [0, 0, 0]}])";
+const std::string spin_z =
+    R"(, "symmetries_continuous": [{"axis": [0, 0, 2], "offset": [0, 0, 0]}])";
 
-std::string discrete(const std::string& list) { return ", \"symmetries_discrete\": [" + list + "]"; }
+std::string discrete(const std::string& list) {
+  return ", \"symmetries_discrete\": [" + list + "]";
+}
 
 TEST(LoadSymmetries, WithoutAnyHoldsTheIdentityOnly) {
   const std::vector<Se3> group = load("");
@@ -66,10 +71,12 @@ TEST(LoadSymmetries, ClosesTheGroupOfItsGenerators) {
   for (int i = 0; i < 4; ++i) {
     EXPECT_TRUE(contains(plate, turn(i * std::numbers::pi / 2, Vector3d::UnitZ())));
     const double axis = i * std::numbers::pi / 4;
-    EXPECT_TRUE(contains(plate, turn(std::numbers::pi, Vector3d(std::cos(axis), std::sin(axis), 0))));
+    EXPECT_TRUE(
+        contains(plate, turn(std::numbers::pi, Vector3d(std::cos(axis), std::sin(axis), 0))));
   }
   // Quarter turns about two axes generate the 24 rotations of a cube.
-  const std::vector<Se3> cube = load(discrete(quarter_turn_z + ",[1,0,0,0, 0,0,-1,0, 0,1,0,0, 0,0,0,1]"));
+  const std::vector<Se3> cube =
+      load(discrete(quarter_turn_z + ",[1,0,0,0, 0,0,-1,0, 0,1,0,0, 0,0,0,1]"));
   EXPECT_EQ(cube.size(), 24u);
   expect_closed(cube);
 }
@@ -114,7 +121,8 @@ TEST(LoadSymmetries, ClosesTheGroupOfAMeasuredGenerator) {
 TEST(LoadSymmetries, KeepsTurnsOfHighOrderApart) {
   for (const int order : {31, 36, 72, 120}) {
     const Se3 step = turn(2 * std::numbers::pi / order, Vector3d::UnitZ());
-    const Se3 seven_steps = turn(7 * 2 * std::numbers::pi / order, Vector3d::UnitZ());  // prime to all
+    const Se3 seven_steps =
+        turn(7 * 2 * std::numbers::pi / order, Vector3d::UnitZ());  // prime to all
     for (const Se3& generator : {step, seven_steps})
       EXPECT_EQ(load(discrete(matrix_text(generator, 17))).size(), static_cast<std::size_t>(order));
   }
@@ -136,7 +144,8 @@ TEST(LoadSymmetries, SamplesARotationAboutAnAxis) {
   ASSERT_EQ(group.size(), 8u);
   EXPECT_LT(angle_between_rad(group[0], Se3{}), 1e-12);
   for (int i = 0; i < 8; ++i)
-    EXPECT_TRUE(contains(group, turn(i * std::numbers::pi / 4, Vector3d::UnitZ(), Vector3d(0.01, 0.02, 0))));
+    EXPECT_TRUE(contains(
+        group, turn(i * std::numbers::pi / 4, Vector3d::UnitZ(), Vector3d(0.01, 0.02, 0))));
   expect_closed(group);
 }
 
@@ -145,8 +154,8 @@ TEST(LoadSymmetries, CombinesContinuousAndDiscrete) {
   const std::vector<Se3> tin = load(discrete(half_turn_x) + spin_z, 6);
   EXPECT_EQ(tin.size(), 12u);
   expect_closed(tin);
-  EXPECT_TRUE(contains(
-      tin, turn(std::numbers::pi / 3, Vector3d::UnitZ()) * turn(std::numbers::pi, Vector3d::UnitX())));
+  EXPECT_TRUE(contains(tin, turn(std::numbers::pi / 3, Vector3d::UnitZ()) *
+                                turn(std::numbers::pi, Vector3d::UnitX())));
   // A half turn about the axis itself is among its samples already.
   EXPECT_EQ(load(discrete("[-1,0,0,0, 0,-1,0,0, 0,0,1,0, 0,0,0,1]") + spin_z, 6).size(), 6u);
 }
@@ -159,8 +168,9 @@ TEST(LoadSymmetries, NamesFileAndFieldOfWhatIsWrong) {
   // A mirror is no motion of a rigid body.
   expect_input_error([] { load(discrete("[-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]")); },
                      {"/5/symmetries_discrete/0", "no rotation"});
-  expect_input_error([] { load(R"(, "symmetries_continuous": [{"axis": [0, 0, 0], "offset": [0, 0, 0]}])"); },
-                     {"/5/symmetries_continuous/0/axis"});
+  expect_input_error(
+      [] { load(R"(, "symmetries_continuous": [{"axis": [0, 0, 0], "offset": [0, 0, 0]}])"); },
+      {"/5/symmetries_continuous/0/axis"});
   expect_input_error([] { load(R"(, "symmetries_continuous": [{"axis": [0, 0, 1]}])"); },
                      {"/5/symmetries_continuous/0/offset"});
   expect_input_error([] { load_symmetries("no-such-models_info.json"); },

@@ -70,8 +70,9 @@ TEST(BopScene, ReadsMillimetresAndLivesWithoutTruthInfoOrImages) {
   ASSERT_EQ(bare.images.size(), 2u);
   EXPECT_EQ(bare.images[0].image_id, 9);  // by number, not by text
   EXPECT_EQ(bare.images[0].file.filename(), "000009.png");
-  folder.write("s/scene_gt.json",
-               R"({"9": [{"obj_id": 2, "cam_R_m2c": [1,0,0,0,1,0,0,0,1], "cam_t_m2c": [10, -20, 500]}]})");
+  folder.write(
+      "s/scene_gt.json",
+      R"({"9": [{"obj_id": 2, "cam_R_m2c": [1,0,0,0,1,0,0,0,1], "cam_t_m2c": [10, -20, 500]}]})");
   const BopTruth truth = load_bop_scene(folder.path() / "s").truth.at(9).at(0);
   EXPECT_LT((truth.camera_from_object.translation_m - Vector3d(0.01, -0.02, 0.5)).norm(), 1e-15);
   EXPECT_EQ(truth.visible_fraction, 1);
@@ -109,18 +110,22 @@ TEST(BopScene, NamesFileAndFieldOfWhatIsWrong) {
     load_bop_scene(folder.path());
   };
   const std::string good = R"({"1": {"cam_K": [5,0,3,0,6,4,0,0,1]}})";
-  expect_input_error([&] { load_bop_scene(folder.path() / "none"); }, {"scene_camera.json", "No such file"});
+  expect_input_error([&] { load_bop_scene(folder.path() / "none"); },
+                     {"scene_camera.json", "No such file"});
   expect_input_error([&] { load("[1"); }, {"scene_camera.json", "JSON"});
   expect_input_error([&] { load(R"({"x": {"cam_K": [5,0,3,0,6,4,0,0,1]}})"); },
                      {"scene_camera.json", "\"x\""});
-  expect_input_error([&] { load(R"({"1": {"cam_K": [5,0,3,0,6,4,0,0]}})"); }, {"/1/cam_K", "8 numbers"});
-  expect_input_error([&] { load(R"({"1": {"cam_K": [-5,0,3,0,6,4,0,0,1]}})"); }, {"/1", "fx", "positive"});
+  expect_input_error([&] { load(R"({"1": {"cam_K": [5,0,3,0,6,4,0,0]}})"); },
+                     {"/1/cam_K", "8 numbers"});
+  expect_input_error([&] { load(R"({"1": {"cam_K": [-5,0,3,0,6,4,0,0,1]}})"); },
+                     {"/1", "fx", "positive"});
   expect_input_error(
       [&] { load(R"({"1": {"cam_K": [5,0,3,0,6,4,0,0,1], "cam_R_w2c": [1,0,0,0,1,0,0,0,1]}})"); },
       {"/1/cam_t_w2c"});
   expect_input_error(
       [&] {
-        load(good, R"({"1": [{"obj_id": 1, "cam_R_m2c": [2,0,0,0,1,0,0,0,1], "cam_t_m2c": [0,0,1]}]})");
+        load(good,
+             R"({"1": [{"obj_id": 1, "cam_R_m2c": [2,0,0,0,1,0,0,0,1], "cam_t_m2c": [0,0,1]}]})");
       },
       {"scene_gt.json", "/1/0/cam_R_m2c", "no rotation"});
   expect_input_error(
@@ -134,7 +139,8 @@ TEST(BopResults, ReadBackExactly) {
                                        {48, 4, 2, 1, sample_pose(0.2), -1}};
   save_bop_results(results, folder.path() / "r.csv");
   const std::string text = content_of(folder.path() / "r.csv");
-  EXPECT_TRUE(text.starts_with("scene_id,im_id,obj_id,score,R,t,time\n48,3,1,0.12345678901234568,")) << text;
+  EXPECT_TRUE(text.starts_with("scene_id,im_id,obj_id,score,R,t,time\n48,3,1,0.12345678901234568,"))
+      << text;
   const std::vector<BopResult> back = load_bop_results(folder.path() / "r.csv");
   ASSERT_EQ(back.size(), 2u);
   EXPECT_EQ(back[0].scene_id, 48);
@@ -142,16 +148,19 @@ TEST(BopResults, ReadBackExactly) {
   EXPECT_EQ(back[1].object_id, 2);
   EXPECT_EQ(back[0].score, results[0].score);
   EXPECT_EQ(back[0].time_s, 0.25);
-  for (int i = 0; i < 2; ++i) expect_same(back[i].camera_from_object, results[i].camera_from_object);
+  for (int i = 0; i < 2; ++i)
+    expect_same(back[i].camera_from_object, results[i].camera_from_object);
 }
 
 TEST(BopResults, ReadsWhatOtherToolsWrite) {
   const TemporaryFolder folder;
-  const auto file = folder.write(
-      "r.csv", "1,2,3,-0.5,1 0 0 0 1 0 0 0 1, 10.0 20 3e2 ,-1\r\n\r\n1,2,3,5e-1,1 0 0 0 1 0 0 0 1,1 2 3,0.1");
+  const auto file = folder.write("r.csv",
+                                 "1,2,3,-0.5,1 0 0 0 1 0 0 0 1, 10.0 20 3e2 "
+                                 ",-1\r\n\r\n1,2,3,5e-1,1 0 0 0 1 0 0 0 1,1 2 3,0.1");
   const std::vector<BopResult> results = load_bop_results(file);
   ASSERT_EQ(results.size(), 2u);
-  EXPECT_LT((results[0].camera_from_object.translation_m - Vector3d(0.01, 0.02, 0.3)).norm(), 1e-15);
+  EXPECT_LT((results[0].camera_from_object.translation_m - Vector3d(0.01, 0.02, 0.3)).norm(),
+            1e-15);
   EXPECT_EQ(results[1].score, 0.5);
 }
 
@@ -164,9 +173,12 @@ TEST(BopResults, NamesTheLineOfWhatIsWrong) {
   expect_input_error([&] { load("1,2,3,x,1 0 0 0 1 0 0 0 1,1 2 3,0.1"); }, {"line 2", "score"});
   expect_input_error([&] { load("1,2,3,nan,1 0 0 0 1 0 0 0 1,1 2 3,0.1"); },
                      {"line 2", "score", "not finite"});
-  expect_input_error([&] { load("1,2,3,1,1 0 0 0 1 0 0 0,1 2 3,0.1"); }, {"line 2", "R", "8 numbers"});
-  expect_input_error([&] { load("1,2,3,1,1 0 0 0 1 0 0 0 2,1 2 3,0.1"); }, {"line 2", "R", "no rotation"});
-  expect_input_error([&] { load("1,2.5,3,1,1 0 0 0 1 0 0 0 1,1 2 3,0.1"); }, {"line 2", "im_id", "2.5"});
+  expect_input_error([&] { load("1,2,3,1,1 0 0 0 1 0 0 0,1 2 3,0.1"); },
+                     {"line 2", "R", "8 numbers"});
+  expect_input_error([&] { load("1,2,3,1,1 0 0 0 1 0 0 0 2,1 2 3,0.1"); },
+                     {"line 2", "R", "no rotation"});
+  expect_input_error([&] { load("1,2.5,3,1,1 0 0 0 1 0 0 0 1,1 2 3,0.1"); },
+                     {"line 2", "im_id", "2.5"});
 }
 
 }  // namespace

@@ -40,7 +40,8 @@ dist_coeffs: !!opencv-matrix
        3.0e-02 ]
 )";
 
-const std::string bop = R"({"fx": 600.5, "fy": 601.5, "cx": 319.25, "cy": 241, "width": 640, "height": 480,
+const std::string bop =
+    R"({"fx": 600.5, "fy": 601.5, "cx": 319.25, "cy": 241, "width": 640, "height": 480,
  "dist": [0.1, -0.2, 0.001, 0.002, 0.03], "depth_scale": 0.1})";
 
 std::string replaced(std::string text, const std::string& what, const std::string& by) {
@@ -67,7 +68,8 @@ TEST(LoadCamera, ReadsTheSameCameraFromEveryForm) {
 
 TEST(LoadCamera, ReadsPlainMatricesAndTheRationalModel) {
   const Camera c = load(
-      "K: [[5, 0, 3], [0, 6, 4], [0, 0, 1]]\nD: [1, 2, 3, 4, 5, 6, 7, 8]\nimage_width: 8\nimage_height: 9\n");
+      "K: [[5, 0, 3], [0, 6, 4], [0, 0, 1]]\nD: [1, 2, 3, 4, 5, 6, 7, 8]\nimage_width: "
+      "8\nimage_height: 9\n");
   EXPECT_EQ(c.fy, 6);
   EXPECT_EQ(c.distortion, (std::array<double, 8>{1, 2, 3, 4, 5, 6, 7, 8}));
   const std::string rational =
@@ -82,9 +84,12 @@ TEST(LoadCamera, ReadsASceneCameraWhoseImagesAgree) {
   EXPECT_EQ(c.fx, 5);
   EXPECT_EQ(c.width, 0);
   expect_input_error(
-      [&] { load(replaced(same, "\"7\": {\"cam_K\": [5", "\"7\": {\"cam_K\": [9"), "scene_camera.json"); },
+      [&] {
+        load(replaced(same, "\"7\": {\"cam_K\": [5", "\"7\": {\"cam_K\": [9"), "scene_camera.json");
+      },
       {"scene_camera.json", "/7", "one camera"});
-  const Camera alone = load(R"({"cam_K": [5, 0, 3, 0, 6, 4, 0, 0, 1], "depth_scale": 1})", "camera.json");
+  const Camera alone =
+      load(R"({"cam_K": [5, 0, 3, 0, 6, 4, 0, 0, 1], "depth_scale": 1})", "camera.json");
   EXPECT_EQ(alone.fy, 6) << "one entry by itself";
 }
 
@@ -112,13 +117,16 @@ TEST(LoadCamera, NamesFileAndFieldOfWhatIsMissing) {
   expect_input_error([] { load("just text"); }, {"camera.yaml"});
   expect_input_error([] { load("a: [1, 2"); }, {"camera.yaml", "YAML"});
   expect_input_error([] { load("{\"fx\": ", "camera.json"); }, {"camera.json", "JSON"});
-  expect_input_error([] { load_camera("no-such-camera.yaml"); }, {"no-such-camera.yaml", "No such file"});
+  expect_input_error([] { load_camera("no-such-camera.yaml"); },
+                     {"no-such-camera.yaml", "No such file"});
 }
 
 TEST(LoadCamera, RejectsValuesThatAreNotFiniteOrNegative) {
   for (const char* bad : {".nan", ".inf", "-.inf", "nan", "abc"}) {
-    expect_input_error([&] { load(replaced(ros, "600.5", bad)); }, {"camera.yaml", "camera_matrix"});
-    expect_input_error([&] { load(replaced(ros, "-0.2", bad)); }, {"camera.yaml", "distortion_coefficients"});
+    expect_input_error([&] { load(replaced(ros, "600.5", bad)); },
+                       {"camera.yaml", "camera_matrix"});
+    expect_input_error([&] { load(replaced(ros, "-0.2", bad)); },
+                       {"camera.yaml", "distortion_coefficients"});
   }
   expect_input_error([] { load(replaced(ros, "600.5", "-600.5")); },
                      {"camera.yaml", "fx", "-600.5", "positive"});
@@ -145,7 +153,8 @@ TEST(LoadCamera, RejectsAListThatHoldsItself) {
 TEST(LoadCamera, RejectsModelsItCannotUndo) {
   expect_input_error([] { load(replaced(ros, "plumb_bob", "equidistant")); },
                      {"distortion_model", "equidistant", "plumb_bob"});
-  expect_input_error([] { load(replaced(ros, "600.5, 0,", "600.5, 0.5,")); }, {"camera_matrix", "skew"});
+  expect_input_error([] { load(replaced(ros, "600.5, 0,", "600.5, 0.5,")); },
+                     {"camera_matrix", "skew"});
   expect_input_error([] { load(replaced(ros, "0.03]", "0.03, 0, 0, 0, 0.1, 0, 0, 0]")); },
                      {"distortion_coefficients", "thin-prism"});
 }

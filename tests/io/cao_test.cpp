@@ -17,7 +17,8 @@ using Eigen::Vector3d;
 double area(const RawMesh& mesh) {
   double twice = 0;
   for (const auto& [a, b, c] : mesh.triangles)
-    twice += (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).norm();
+    twice +=
+        (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]).norm();
   return twice / 2;
 }
 
@@ -38,8 +39,10 @@ TEST(Cao, ReadsFacesFromSegmentsInAnyDirection) {
   const RawMesh mesh = read(square + "4\n1 0\n1 2\n3 2\n3 0\n1\n4 0 1 2 3\n0\n");
   EXPECT_EQ(mesh.triangles.size(), 2u);
   EXPECT_DOUBLE_EQ(area(mesh), 1);
-  expect_input_error([] { read(square + "4\n0 1\n1 2\n2 3\n3 0\n1\n3 0 1 2\n0\n"); }, {"m.cao", "open"});
-  expect_input_error([] { read(square + "4\n0 1\n1 2\n2 3\n3 0\n1\n4 0 2 1 3\n0\n"); }, {"m.cao", "gap"});
+  expect_input_error([] { read(square + "4\n0 1\n1 2\n2 3\n3 0\n1\n3 0 1 2\n0\n"); },
+                     {"m.cao", "open"});
+  expect_input_error([] { read(square + "4\n0 1\n1 2\n2 3\n3 0\n1\n4 0 2 1 3\n0\n"); },
+                     {"m.cao", "gap"});
 }
 
 TEST(Cao, TurnsCylindersIntoSideWallsSeenFromOutside) {
@@ -53,10 +56,12 @@ TEST(Cao, TurnsCylindersIntoSideWallsSeenFromOutside) {
   }
 }
 
-// A cylinder with a circle on either end, one of them against the axis: the rims weld, so the body is closed.
+// A cylinder with a circle on either end, one of them against the axis: the rims weld, so the body
+// is closed.
 TEST(Cao, WeldsCirclesToTheRimsOfACylinder) {
   const std::string text =
-      "V1\n6\n0 0 0\n0 0 1\n1 0 0\n0 1 0\n1 0 1\n0 1 1\n0\n0\n0\n1\n0 1 0.5\n2\n0.5 0 3 2\n0.5 1 4 5\n";
+      "V1\n6\n0 0 0\n0 0 1\n1 0 0\n0 1 0\n1 0 1\n0 1 1\n0\n0\n0\n1\n0 1 0.5\n2\n0.5 0 3 2\n0.5 1 4 "
+      "5\n";
   RawMesh raw = read(text);
   const Mesh mesh = make_mesh("tin", raw.vertices, raw.triangles);
   double six = 0;
@@ -99,12 +104,17 @@ TEST(Cao, NamesTheLineOfWhatIsWrong) {
   expect_input_error([] { read("V2\n"); }, {"m.cao", "line 1", "V2", "V1"});
   expect_input_error([] { read("V1\n1\n0 x 0\n"); }, {"line 3", "x", "a number"});
   expect_input_error([] { read("V1\n-1\n"); }, {"line 2", "-1"});
-  expect_input_error([] { read(square + "0\n0\n1\n4 0 1 2 4\n"); }, {"line 10", "point index below 4"});
+  expect_input_error([] { read(square + "0\n0\n1\n4 0 1 2 4\n"); },
+                     {"line 10", "point index below 4"});
   expect_input_error([] { read(square + "1\n0 7\n"); }, {"line 8", "point index below 4"});
-  expect_input_error([] { read(square + "0\n0\n1\n4 0 1 2 3\n1\n0 1 -2\n"); }, {"line 12", "radius"});
-  expect_input_error([] { read(square + "0\n0\n1\n4 0 1 2 3\n1\n1 1 2\n"); }, {"line 12", "no length"});
-  expect_input_error([] { read(square + "0\n0\n0\n0\n1\n1 0 1 1\n"); }, {"line 12", "without a plane"});
-  expect_input_error([] { read(square + "0\n0\n1\n4 0 1 2 3\n0\n0\n9\n"); }, {"9", "the end of the file"});
+  expect_input_error([] { read(square + "0\n0\n1\n4 0 1 2 3\n1\n0 1 -2\n"); },
+                     {"line 12", "radius"});
+  expect_input_error([] { read(square + "0\n0\n1\n4 0 1 2 3\n1\n1 1 2\n"); },
+                     {"line 12", "no length"});
+  expect_input_error([] { read(square + "0\n0\n0\n0\n1\n1 0 1 1\n"); },
+                     {"line 12", "without a plane"});
+  expect_input_error([] { read(square + "0\n0\n1\n4 0 1 2 3\n0\n0\n9\n"); },
+                     {"9", "the end of the file"});
   expect_input_error([] { read(square + "0\n0\n2\n4 0 1 2 3\n"); }, {"truncated"});
 }
 
@@ -118,11 +128,14 @@ TEST(Cao, ReadsTheModelsOfVisp) {
   const Vector3d centre = 0.5 * (cube.box_min_m + cube.box_max_m);
   for (std::size_t i = 0; i < cube.triangles.size(); ++i)
     EXPECT_GT(cube.face_normals[i].dot(cube.vertices_m[cube.triangles[i][0]] - centre), 0);
-  EXPECT_EQ(load_mesh(root / "mbt/cube_and_cylinder.cao", LengthUnit::Metre).triangles.size(), 12u + 128);
-  EXPECT_EQ(load_mesh(root / "mbt-depth/castel/chateau.cao", LengthUnit::Metre).triangles.size(), 18u);
-  EXPECT_EQ(load_mesh(root / "mbt-cao/cylinder_cao_model_windows_line_ending.cao", LengthUnit::Metre)
-                .triangles.size(),
-            192u);
+  EXPECT_EQ(load_mesh(root / "mbt/cube_and_cylinder.cao", LengthUnit::Metre).triangles.size(),
+            12u + 128);
+  EXPECT_EQ(load_mesh(root / "mbt-depth/castel/chateau.cao", LengthUnit::Metre).triangles.size(),
+            18u);
+  EXPECT_EQ(
+      load_mesh(root / "mbt-cao/cylinder_cao_model_windows_line_ending.cao", LengthUnit::Metre)
+          .triangles.size(),
+      192u);
 }
 
 }  // namespace

@@ -41,8 +41,9 @@ TEST(WriteFileAtomically, PassesOverWhatAKilledRunLeft) {
   const int left = 1000;  // more than this process has written
   for (int i = 0; i < left; ++i)
     for (const char* name : {"result.json", "probe"})
-      folder.write((std::ostringstream() << "." << name << "." << ::getpid() << "-" << i << ".part").str(),
-                   "left");
+      folder.write(
+          (std::ostringstream() << "." << name << "." << ::getpid() << "-" << i << ".part").str(),
+          "left");
   write_file_atomically(folder.path() / "result.json", "new");
   require_writable_folder(folder.path());
   EXPECT_EQ(content_of(folder.path() / "result.json"), "new");
@@ -61,7 +62,8 @@ TEST(WriteFileAtomically, FailsWhereTheFolderIsMissingOrAFile) {
 TEST(WriteFileAtomically, LeavesNothingWhereTheTargetIsAFolder) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder.path() / "r.json");
-  expect_input_error([&] { write_file_atomically(folder.path() / "r.json", "x"); }, {"r.json", "directory"});
+  expect_input_error([&] { write_file_atomically(folder.path() / "r.json", "x"); },
+                     {"r.json", "directory"});
   EXPECT_EQ(folder.entries(), 1u);
 }
 
@@ -106,12 +108,14 @@ TEST(RequireWritableFolder, CreatesItAndLeavesItEmpty) {
 TEST(RequireWritableFolder, FailsUnderAFileAndWhereNothingMayBeWritten) {
   const TemporaryFolder folder;
   folder.write("plain", "");
-  expect_input_error([&] { require_writable_folder(folder.path() / "plain"); }, {"plain", "output folder"});
+  expect_input_error([&] { require_writable_folder(folder.path() / "plain"); },
+                     {"plain", "output folder"});
   expect_input_error([&] { require_writable_folder(folder.path() / "plain" / "x"); },
                      {"plain/x", "output folder"});
   // Nobody, root included, creates files there.
   expect_input_error([&] { require_writable_folder("/proc"); }, {"/proc", "output folder"});
-  expect_input_error([&] { require_writable_folder("/proc/none"); }, {"/proc/none", "output folder"});
+  expect_input_error([&] { require_writable_folder("/proc/none"); },
+                     {"/proc/none", "output folder"});
 }
 
 TEST(RequireWritableFolder, FailsWithoutPermission) {

@@ -20,7 +20,8 @@ namespace {
 Image gradient_image(int width, int height) {
   Image image{width, height, {}};
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) image.pixels.push_back(static_cast<std::uint8_t>((7 * x + 13 * y) % 256));
+    for (int x = 0; x < width; ++x)
+      image.pixels.push_back(static_cast<std::uint8_t>((7 * x + 13 * y) % 256));
   return image;
 }
 
@@ -44,7 +45,8 @@ TEST(LoadImage, ConvertsColourAndSaysSo) {
   for (int i = 0; i < 400; ++i)
     for (int value : {200, 100, 50}) colour.pixels.push_back(static_cast<std::uint8_t>(value));
   save_png(colour, folder.path() / "c.png");
-  cv::imwrite((folder.path() / "alpha.png").string(), cv::Mat(20, 20, CV_8UC4, cv::Scalar(50, 100, 200, 7)));
+  cv::imwrite((folder.path() / "alpha.png").string(),
+              cv::Mat(20, 20, CV_8UC4, cv::Scalar(50, 100, 200, 7)));
   CollectedLog log;
   for (const char* name : {"c.png", "alpha.png"}) {
     const Image grey = load_image(folder.path() / name);
@@ -60,7 +62,8 @@ TEST(LoadImage, RejectsOtherDepthsThan8Bit) {
   const TemporaryFolder folder;
   for (const char* name : {"deep.png", "deep.tif", "deep.pgm"}) {
     cv::imwrite((folder.path() / name).string(), cv::Mat(20, 20, CV_16U, cv::Scalar(1000)));
-    expect_input_error([&] { load_image(folder.path() / name); }, {name, "bit depth", "16 bit", "8 bit"});
+    expect_input_error([&] { load_image(folder.path() / name); },
+                       {name, "bit depth", "16 bit", "8 bit"});
   }
 }
 
@@ -90,7 +93,8 @@ class MemoryLimit {
     rlim_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     ::getrlimit(RLIMIT_AS, &old_);
-    const rlimit now{pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + more_bytes, old_.rlim_max};
+    const rlimit now{pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + more_bytes,
+                     old_.rlim_max};
     ::setrlimit(RLIMIT_AS, &now);
   }
   MemoryLimit(const MemoryLimit&) = delete;
@@ -106,7 +110,8 @@ TEST(LoadImage, TellsAGoodImageThatFindsNoRoomFromABadOne) {
   GTEST_SKIP() << "sanitizers need memory of their own";
 #endif
   const TemporaryFolder folder;
-  save_png(Image{8000, 8000, std::vector<std::uint8_t>(8000 * 8000, 128)}, folder.path() / "large.png");
+  save_png(Image{8000, 8000, std::vector<std::uint8_t>(8000 * 8000, 128)},
+           folder.path() / "large.png");
   EXPECT_EQ(load_image(folder.path() / "large.png").width, 8000);
   const MemoryLimit limit(32 << 20);  // half of the pixels
   expect_input_error([&] { load_image(folder.path() / "large.png"); }, {"large.png", "memory"});
@@ -121,18 +126,20 @@ TEST(LoadImage, RejectsImagesCutShort) {
     EXPECT_EQ(load_image(folder.path() / name).width, 64);
     const std::string whole = content_of(folder.path() / name);
     for (std::size_t i = 0; i < 20; ++i) {
-      const auto cut =
-          folder.write(std::string("cut-") + name, std::string_view(whole).substr(0, whole.size() * i / 20));
+      const auto cut = folder.write(std::string("cut-") + name,
+                                    std::string_view(whole).substr(0, whole.size() * i / 20));
       expect_input_error([&] { load_image(cut); }, {name});
     }
   }
 }
 
-// A smooth scene seen through the lens: the grey value at a distorted pixel is f(undistorted pixel).
+// A smooth scene seen through the lens: the grey value at a distorted pixel is f(undistorted
+// pixel).
 double scene(double x, double y) { return 128 + 60 * std::sin(0.05 * x) + 60 * std::cos(0.04 * y); }
 
 TEST(Undistort, TakesTheLensOutOfASmoothScene) {
-  Camera camera{200, 160, 220, 210, 98.5, 82, {-0.2, 0.05, 0.002, -0.001, 0.01, 0.01, 0.005, 0.002}};
+  Camera camera{
+      200, 160, 220, 210, 98.5, 82, {-0.2, 0.05, 0.002, -0.001, 0.01, 0.01, 0.005, 0.002}};
   Image seen{camera.width, camera.height, {}};
   for (int y = 0; y < seen.height; ++y)
     for (int x = 0; x < seen.width; ++x) {
@@ -176,8 +183,9 @@ TEST(Undistort, RefusesSizesItCannotWorkOn) {
   for (const auto& [width, height] : {std::pair{32767, 16}, {16, 40000}}) {
     Camera camera{width, height, 5000, 5000, width / 2.0, height / 2.0, {0.01}};
     const Image large = gradient_image(width, height);
-    expect_input_error([&] { undistort(large, camera); },
-                       {"image", "size", std::to_string(width) + "x" + std::to_string(height), "32766"});
+    expect_input_error(
+        [&] { undistort(large, camera); },
+        {"image", "size", std::to_string(width) + "x" + std::to_string(height), "32766"});
     camera.distortion = {};
     EXPECT_EQ(undistort(large, camera).width, width);
   }
@@ -188,9 +196,14 @@ TEST(Undistort, RefusesSizesItCannotWorkOn) {
 TEST(SavePng, WritesRedGreenBlueInThisOrder) {
   const TemporaryFolder folder;
   save_png(RgbImage{1, 1, {200, 100, 50}}, folder.path() / "c.png");
-  EXPECT_EQ(cv::imread((folder.path() / "c.png").string()).at<cv::Vec3b>(0, 0), cv::Vec3b(50, 100, 200));
+  EXPECT_EQ(cv::imread((folder.path() / "c.png").string()).at<cv::Vec3b>(0, 0),
+            cv::Vec3b(50, 100, 200));
   EXPECT_THROW(save_png(RgbImage{2, 1, {1, 2, 3}}, folder.path() / "d.png"), LogicError);
-  expect_input_error([&] { save_png(RgbImage{1, 1, {1, 2, 3}}, folder.path() / "no" / "d.png"); }, {"d.png"});
+  expect_input_error(
+      [&] {
+        save_png(RgbImage{1, 1, {1, 2, 3}}, folder.path() / "no" / "d.png");
+      },
+      {"d.png"});
 }
 
 }  // namespace

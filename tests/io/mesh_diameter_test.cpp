@@ -35,7 +35,8 @@ TEST(LargestDistance, AgreesWithBruteForce) {
       for (const Vector3d& scale : {Vector3d(1, 1, 1), Vector3d(1, 1e-3, 0), Vector3d(0, 0, 1e-6)})
         for (bool on_sphere : {false, true}) {
           const std::vector<Vector3d> points = cloud(count, scale, on_sphere, seed);
-          EXPECT_DOUBLE_EQ(largest_distance(points), by_brute_force(points)) << seed << " " << count;
+          EXPECT_DOUBLE_EQ(largest_distance(points), by_brute_force(points))
+              << seed << " " << count;
         }
 }
 
@@ -47,7 +48,8 @@ TEST(LargestDistance, OfFewOrEqualPointsIsZero) {
 
 TEST(LargestDistance, OfACubeIsItsDiagonal) {
   std::vector<Vector3d> corners;
-  for (int i = 0; i < 8; ++i) corners.push_back({i & 1 ? 1. : 0., i & 2 ? 1. : 0., i & 4 ? 1. : 0.});
+  for (int i = 0; i < 8; ++i)
+    corners.push_back({i & 1 ? 1. : 0., i & 2 ? 1. : 0., i & 4 ? 1. : 0.});
   EXPECT_DOUBLE_EQ(largest_distance(corners), std::sqrt(3.0));
 }
 

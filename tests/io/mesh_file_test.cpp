@@ -47,7 +47,8 @@ TEST(LoadMesh, ReadsTheSameBoxFromEveryFormat) {
     EXPECT_NEAR(mesh.diameter_m, 0.13, 1e-8);
     EXPECT_LT((mesh.box_max_m - Vector3d(0.03, 0.04, 0.12)).norm(), 1e-8);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-      EXPECT_GT(mesh.face_normals[i].dot(mesh.vertices_m[mesh.triangles[i][0]] - Vector3d(0.015, 0.02, 0.06)),
+      EXPECT_GT(mesh.face_normals[i].dot(mesh.vertices_m[mesh.triangles[i][0]] -
+                                         Vector3d(0.015, 0.02, 0.06)),
                 0);
   }
 }
@@ -122,8 +123,9 @@ TEST(LoadMesh, RejectsVerticesThatAreNotFinite) {
         {"binary.stl", binary_stl(b)}, {"ascii.stl", ascii_stl(b)}, {"ascii.ply", ascii_ply(b)}};
     for (const NamedFile& file : files) {
       SCOPED_TRACE(file.name);
-      expect_input_error([&] { load_mesh(folder.write(file.name, file.content), LengthUnit::Metre); },
-                         {file.name, "vertex", "not finite"});
+      expect_input_error(
+          [&] { load_mesh(folder.write(file.name, file.content), LengthUnit::Metre); },
+          {file.name, "vertex", "not finite"});
     }
   }
   std::string cao = cao_box(1, 2, 3);
@@ -141,9 +143,12 @@ TEST(LoadMesh, RejectsAnStlWhoseCountDisagreesWithItsSize) {
   const auto load = [&](const std::string& bytes) {
     load_mesh(folder.write("lie.stl", bytes), LengthUnit::Metre);
   };
-  expect_input_error([&] { load(binary_stl(b, 13)); }, {"lie.stl", "count", "13 triangles", "truncated"});
-  expect_input_error([&] { load(binary_stl(b, 11)); }, {"lie.stl", "count", "11 triangles", "too small"});
-  expect_input_error([&] { load(binary_stl(b, 0xffffffffu)); }, {"lie.stl", "count", "4294967295 triangles"});
+  expect_input_error([&] { load(binary_stl(b, 13)); },
+                     {"lie.stl", "count", "13 triangles", "truncated"});
+  expect_input_error([&] { load(binary_stl(b, 11)); },
+                     {"lie.stl", "count", "11 triangles", "too small"});
+  expect_input_error([&] { load(binary_stl(b, 0xffffffffu)); },
+                     {"lie.stl", "count", "4294967295 triangles"});
   expect_input_error([&] { load(binary_stl(b, 0)); }, {"lie.stl", "count", "0 triangles"});
   expect_input_error([&] { load(binary_stl(b) + "x"); }, {"lie.stl", "count"});
   expect_input_error([&] { load("short"); }, {"lie.stl", "5 bytes"});
@@ -176,15 +181,16 @@ TEST(LoadMesh, RejectsPlyRowsThatHoldNothing) {
   const std::string head =
       "ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
       "property float z\nelement ";
-  expect_input_error([&] { load(head + "face 100000000\nend_header\n"); }, {"rows.ply", "vertex_indices"});
+  expect_input_error([&] { load(head + "face 100000000\nend_header\n"); },
+                     {"rows.ply", "vertex_indices"});
   expect_input_error([&] { load(head + "face 100000000\nproperty uchar red\nend_header\n"); },
                      {"rows.ply", "vertex_indices"});
   expect_input_error([&] { load(head + "edge 100000000\nend_header\n"); },
                      {"rows.ply", "100000000 of edge without a property"});
 }
 
-// Every cut either still holds a whole mesh or is told as an error; a cut before the last triangle is never
-// whole where the format counts.
+// Every cut either still holds a whole mesh or is told as an error; a cut before the last triangle
+// is never whole where the format counts.
 void cut_everywhere(const NamedFile& file, const TemporaryFolder& folder, bool counted) {
   constexpr std::size_t cuts = 100;
   int errors = 0;
@@ -207,7 +213,8 @@ void cut_everywhere(const NamedFile& file, const TemporaryFolder& folder, bool c
 
 TEST(LoadMesh, NeverCrashesOnATruncatedFile) {
   const TemporaryFolder folder;
-  for (const NamedFile& file : boxes(folder)) cut_everywhere(file, folder, file.name != "quads.obj");
+  for (const NamedFile& file : boxes(folder))
+    cut_everywhere(file, folder, file.name != "quads.obj");
 }
 
 // One byte changed: any mesh or an InputError, but nothing else.

@@ -45,7 +45,8 @@ TEST(MakeMesh, WeldsAndCompletesABox) {
   EXPECT_NEAR(volume(mesh), 0.03 * 0.04 * 0.12, 1e-15);
   ASSERT_EQ(mesh.face_normals.size(), 12u);
   for (std::size_t i = 0; i < 12; ++i) {
-    const Vector3d from_centre = mesh.vertices_m[mesh.triangles[i][0]] - Vector3d(0.015, 0.02, 0.06);
+    const Vector3d from_centre =
+        mesh.vertices_m[mesh.triangles[i][0]] - Vector3d(0.015, 0.02, 0.06);
     EXPECT_NEAR(mesh.face_normals[i].norm(), 1, 1e-12);
     EXPECT_NEAR(mesh.face_normals[i].cwiseAbs().maxCoeff(), 1, 1e-12);
     EXPECT_GT(mesh.face_normals[i].dot(from_centre), 0);
@@ -62,8 +63,10 @@ TEST(MakeMesh, IsIdempotent) {
 
 TEST(MakeMesh, WeldsWithinAMillionthOfTheDiameterOnly) {
   const auto vertices_of = [](double gap) {
-    // Two triangles that share the side (1, 0, 0)-(0, 1, 0) but for the gap; the diameter is near sqrt(2).
-    const std::vector<Vector3d> x{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 0, gap}, {1, 1, 0}, {0, 1, gap}};
+    // Two triangles that share the side (1, 0, 0)-(0, 1, 0) but for the gap; the diameter is near
+    // sqrt(2).
+    const std::vector<Vector3d> x{{0, 0, 0},   {1, 0, 0}, {0, 1, 0},
+                                  {1, 0, gap}, {1, 1, 0}, {0, 1, gap}};
     return make_mesh("gap", x, {{0, 1, 2}, {3, 4, 5}}).vertices_m.size();
   };
   EXPECT_EQ(vertices_of(1.0e-6), 4u);
@@ -119,7 +122,8 @@ TEST(MakeMesh, RejectsWhatIsNoSurface) {
 
 TEST(MakeMesh, RejectsVerticesThatAreNotFiniteAndIndicesOutOfRange) {
   const Triangles b = box(1, 1, 1);
-  for (double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     std::vector<Vector3d> x = b.vertices;
     x[5].y() = bad;
     expect_input_error([&] { make_mesh("m", x, b.triangles); }, {"m: vertex 5", "not finite"});

@@ -38,8 +38,10 @@ Colour colour_at(const RgbImage& image, int x, int y) {
 TEST(Overlay, TellsMatchedEdgesFromUnmatched) {
   std::vector<EdgePoint> edges;
   for (int y = 30; y <= 70; ++y)
-    edges.push_back({72, float(y), std::numbers::pi_v<float> / 2, 10});       // 2 px beside the left side
-  for (int y = 30; y <= 70; ++y) edges.push_back({130, float(y), 0.5f, 10});  // on the right side, turned
+    edges.push_back(
+        {72, float(y), std::numbers::pi_v<float> / 2, 10});  // 2 px beside the left side
+  for (int y = 30; y <= 70; ++y)
+    edges.push_back({130, float(y), 0.5f, 10});  // on the right side, turned
   const EdgeIndex index(edges, camera.width, camera.height);
   const RgbImage picture = draw({0, in_front, std::nullopt, ""}, &index);
   for (int y = 35; y <= 45; ++y) {
@@ -85,7 +87,8 @@ TEST(Overlay, LeavesOutWhatIsBehindOrFarOutside) {
   }();
   for (const Eigen::Vector3d& t :
        {Eigen::Vector3d(0, 0, -1), Eigen::Vector3d(50, 0, 1), Eigen::Vector3d(0, -1e6, 1)})
-    EXPECT_EQ(draw({0, {Eigen::Quaterniond::Identity(), t}, 0.5, "x"}, nullptr).pixels, empty.pixels)
+    EXPECT_EQ(draw({0, {Eigen::Quaterniond::Identity(), t}, 0.5, "x"}, nullptr).pixels,
+              empty.pixels)
         << t.transpose();
 }
 

@@ -13,7 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d area_vector(const std::vector<std::array<int, 3>>& triangles, const std::vector<Vector3d>& x) {
+Vector3d area_vector(const std::vector<std::array<int, 3>>& triangles,
+                     const std::vector<Vector3d>& x) {
   Vector3d sum = Vector3d::Zero();
   for (const auto& [a, b, c] : triangles) sum += 0.5 * (x[b] - x[a]).cross(x[c] - x[a]);
   return sum;
@@ -34,14 +35,16 @@ double shoelace(const std::vector<Eigen::Vector2d>& p) {
   return twice / 2;
 }
 
-// Star-shaped and concave, in a random plane: the triangles cover it exactly once and keep its sense.
+// Star-shaped and concave, in a random plane: the triangles cover it exactly once and keep its
+// sense.
 TEST(Triangulate, CoversAConcavePolygonExactlyOnce) {
   for (unsigned seed = 0; seed < 100; ++seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> radius(0.1, 1);
     const int corners = 4 + static_cast<int>(seed % 30);
     const Eigen::Quaterniond turn =
-        Eigen::Quaterniond(radius(random), radius(random), -radius(random), radius(random)).normalized();
+        Eigen::Quaterniond(radius(random), radius(random), -radius(random), radius(random))
+            .normalized();
     std::vector<Eigen::Vector2d> flat;
     std::vector<Vector3d> x;
     std::vector<int> indices;
@@ -55,7 +58,8 @@ TEST(Triangulate, CoversAConcavePolygonExactlyOnce) {
     triangulate(indices, x, triangles);
     EXPECT_EQ(triangles.size(), static_cast<std::size_t>(corners - 2));
     EXPECT_NEAR(area(triangles, x), shoelace(flat), 1e-12) << seed;
-    EXPECT_LT((area_vector(triangles, x) - shoelace(flat) * (turn * Vector3d::UnitZ())).norm(), 1e-12)
+    EXPECT_LT((area_vector(triangles, x) - shoelace(flat) * (turn * Vector3d::UnitZ())).norm(),
+              1e-12)
         << seed;
   }
 }

@@ -18,7 +18,8 @@ Detection sample_detection(int object, double seed) {
   Detection d;
   d.object = object;
   d.world_from_object = {so3_exp(Vector3d(seed, -2 * seed, 0.5)), Vector3d(0.1, seed, 0.7)};
-  for (int i = 0; i < 36; ++i) d.covariance(i / 6, i % 6) = seed + i;  // not symmetric, to see the order
+  for (int i = 0; i < 36; ++i)
+    d.covariance(i / 6, i % 6) = seed + i;  // not symmetric, to see the order
   d.probability = 0.9;
   d.psi = 0.8;
   d.cost_px = 1.25;
@@ -124,7 +125,8 @@ TEST(ImageResult, RejectsOtherVersionsAndFilesCutShort) {
   save_image_result(sample_result(), folder.path() / "r.json");
   const std::string whole = content_of(folder.path() / "r.json");
   for (std::size_t i = 0; i < 50; ++i) {
-    const auto cut = folder.write("cut.json", std::string_view(whole).substr(0, whole.size() * i / 50));
+    const auto cut =
+        folder.write("cut.json", std::string_view(whole).substr(0, whole.size() * i / 50));
     expect_input_error([&] { load_image_result(cut); }, {"cut.json"});
   }
   std::string newer = whole;
@@ -158,7 +160,8 @@ TEST(StartPoses, ComeFromOurOwnResultsInTheCameraFrame) {
 TEST(StartPoses, ComeFromABopResultsFile) {
   const TemporaryFolder folder;
   const auto file = folder.write(
-      "r.csv", "scene_id,im_id,obj_id,score,R,t,time\n48,12,3,0.7,1 0 0 0 1 0 0 0 1,10 20 300,-1\n");
+      "r.csv",
+      "scene_id,im_id,obj_id,score,R,t,time\n48,12,3,0.7,1 0 0 0 1 0 0 0 1,10 20 300,-1\n");
   const std::vector<StartPose> poses = load_start_poses(file);
   ASSERT_EQ(poses.size(), 1u);
   EXPECT_EQ(poses[0].object_id, 3);
@@ -189,11 +192,14 @@ TEST(StartPoses, ComeFromAPlainList) {
   EXPECT_EQ(same_ending(of_latin_1, "/a\xe9/caf\xe9.png"), 2);
   EXPECT_FALSE(belongs_to(poses[1], "b.png", 6, 0));
   EXPECT_LT((poses[1].camera_from_object * Vector3d::UnitX() - Vector3d(0, 1, 1)).norm(), 1e-12);
-  const auto bad = [&](const std::string& text) { load_start_poses(folder.write("bad.json", text)); };
+  const auto bad = [&](const std::string& text) {
+    load_start_poses(folder.write("bad.json", text));
+  };
   expect_input_error([&] { bad(R"([{"object": 3, "R": [1,0,0,0,1,0,0,0,1], "t": [0,0,1]}])"); },
                      {"bad.json", "/0/image"});
-  expect_input_error([&] { bad(R"([{"image": 1, "object": 3, "R": [1,0,0,0,1,0,0,0], "t": [0,0,1]}])"); },
-                     {"/0/R", "8 numbers"});
+  expect_input_error(
+      [&] { bad(R"([{"image": 1, "object": 3, "R": [1,0,0,0,1,0,0,0], "t": [0,0,1]}])"); },
+      {"/0/R", "8 numbers"});
   expect_input_error(
       [&] { bad(R"([{"image": 1, "object": 3, "R": [1,0,0,0,1,0,0,0,1], "t": [0,null,1]}])"); },
       {"/0/t/1", "null"});

@@ -60,7 +60,8 @@ inline std::string ascii_stl(const Triangles& mesh) {
 }
 
 inline std::string ascii_ply(const Triangles& mesh) {
-  std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(mesh.vertices.size()) +
+  std::string text = "ply\nformat ascii 1.0\nelement vertex " +
+                     std::to_string(mesh.vertices.size()) +
                      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
                      std::to_string(mesh.triangles.size()) +
                      "\nproperty list uchar int vertex_indices\nend_header\n";
@@ -80,7 +81,9 @@ inline std::string obj_box(double x, double y, double z) {
 inline std::string cao_box(double x, double y, double z) {
   std::string text = "V1\n8 # points\n";
   for (const auto& v : box(x, y, z).vertices) text += row(v);
-  return text + "0\n0\n6\n4 0 2 3 1\n4 4 5 7 6 name=top\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n0\n0\n";
+  return text +
+         "0\n0\n6\n4 0 2 3 1\n4 4 5 7 6 name=top\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 "
+         "5\n0\n0\n";
 }
 
 }  // namespace edgescout::test

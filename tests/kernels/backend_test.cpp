@@ -26,7 +26,8 @@ bool opens(const DeviceInfo& device) {
 
 TEST(BackendChoice, AutoTakesHardwareElseTheFastCpuPath) {
   bool hardware = false;
-  for (const DeviceInfo& device : vulkan_devices()) hardware = hardware || (device.hardware && opens(device));
+  for (const DeviceInfo& device : vulkan_devices())
+    hardware = hardware || (device.hardware && opens(device));
   EXPECT_EQ(make_backend("auto")->is_gpu(), hardware);
 }
 
@@ -49,8 +50,8 @@ TEST(BackendChoice, VulkanByNameTakesAnyDevice) {
 }
 
 TEST(BackendChoice, OtherWordsAreBadInput) {
-  for (const char* word :
-       {"", "gpu", "CPU", "vulkan:", "vulkan:x", "vulkan:-1", "vulkan:0x", "vulkan:99999999999", "vulkan:77"})
+  for (const char* word : {"", "gpu", "CPU", "vulkan:", "vulkan:x", "vulkan:-1", "vulkan:0x",
+                           "vulkan:99999999999", "vulkan:77"})
     EXPECT_THROW(make_backend(word), InputError) << word;
 }
 

@@ -1,5 +1,5 @@
-// candidate_map: its reference against distances in double between the points as given, every path against
-// the reference.
+// candidate_map: its reference against distances in double between the points as given, every path
+// against the reference.
 #include "kernels/candidate_map.h"
 
 #include "kernels/cases/chamfer_cases.h"
@@ -11,7 +11,8 @@ namespace {
 
 TEST(CandidateMap, StepsAreTheRoundedRootOfEverySquare) {
   for (std::uint32_t d2 = 0; d2 <= CANDIDATE_MAP_REACH2; ++d2)
-    ASSERT_EQ(chamfer_steps(d2 << 16 | 7), static_cast<std::uint32_t>(std::lround(std::sqrt(double(d2)))))
+    ASSERT_EQ(chamfer_steps(d2 << 16 | 7),
+              static_cast<std::uint32_t>(std::lround(std::sqrt(double(d2)))))
         << d2;
   EXPECT_EQ(chamfer_steps(CANDIDATE_MAP_EMPTY), CHAMFER_CAP);
   EXPECT_EQ(std::lround(std::sqrt(double(CANDIDATE_MAP_REACH2 + 1))), long(CHAMFER_CAP));
@@ -43,7 +44,8 @@ TEST(CandidateMap, AWindowTakesInAllThatIsInReach) {
   EXPECT_EQ(map_window(-90, 10, -30, 20, 200, 100).size(), 0u);
 }
 
-// By brute force: the least distance to the points as they were given, those outside of the image left out.
+// By brute force: the least distance to the points as they were given, those outside of the image
+// left out.
 TEST(CandidateMap, HoldsTheDistanceToTheNearestEdgePoint) {
   std::mt19937 rng = test::test_rng();
   constexpr double rounding = 1.0 / 32 * std::numbers::sqrt2;  // of the points to 1/16 px
@@ -55,7 +57,9 @@ TEST(CandidateMap, HoldsTheDistanceToTheNearestEdgePoint) {
         const double x = map.window.x0 + int(i % map.window.width),
                      y = map.window.y0 + int(i / map.window.width);
         double least = 1e9;
-        const auto distance_to = [&](const MapEdge& e) { return std::hypot(e.x_px - x, e.y_px - y); };
+        const auto distance_to = [&](const MapEdge& e) {
+          return std::hypot(e.x_px - x, e.y_px - y);
+        };
         for (std::uint32_t e = 0; e < map.edge_count; ++e) {
           const MapEdge& edge = scene.edges[map.first_edge + e];
           if (edge.x_px >= -0.5 && edge.x_px < 69.5 && edge.y_px >= -0.5 && edge.y_px < 49.5)
@@ -70,7 +74,8 @@ TEST(CandidateMap, HoldsTheDistanceToTheNearestEdgePoint) {
         ++within;
         ASSERT_LT(word & 0xffffu, map.edge_count);
         EXPECT_NEAR(std::sqrt(double(word >> 16)) / 16, least, rounding);
-        EXPECT_NEAR(distance_to(scene.edges[map.first_edge + (word & 0xffffu)]), least, 2 * rounding);
+        EXPECT_NEAR(distance_to(scene.edges[map.first_edge + (word & 0xffffu)]), least,
+                    2 * rounding);
       }
   }
   EXPECT_GT(within, 5000u);
@@ -96,7 +101,8 @@ TEST_P(CandidateMapPaths, EqualsTheReference) {
 
 // More windows than a device takes workgroups along one dimension, and places no integer holds.
 TEST_P(CandidateMapPaths, ManyMapsAndEdgesFarAway) {
-  const std::vector<MapEdge> edges{{3, 3, 1}, {1e30f, 3, 1}, {3, -1e30f, 1}, {NAN, 3, 1}, {5.25f, 2.5f, 1}};
+  const std::vector<MapEdge> edges{
+      {3, 3, 1}, {1e30f, 3, 1}, {3, -1e30f, 1}, {NAN, 3, 1}, {5.25f, 2.5f, 1}};
   std::vector<CandidateMap> maps;
   for (std::uint32_t m = 0; m < 70001; ++m)
     maps.push_back({{int(m % 7), int(m % 5), 3, 2}, 6 * m, m % 2, 3 + m % 3});

@@ -17,7 +17,8 @@ namespace {
 class CombinationChamferPaths : public test::PathTest {
  protected:
   void expect_equal(const test::ChamferScene& scene, const ChamferOptions& options) {
-    const ChamferHandle found = tested->combination_chamfer(scene.view(), scene.combinations(), options);
+    const ChamferHandle found =
+        tested->combination_chamfer(scene.view(), scene.combinations(), options);
     const ChamferHandle expected =
         reference->combination_chamfer(scene.view(), scene.combinations(), options);
     EXPECT_EQ(found->particles, scene.view().particles());
@@ -36,15 +37,16 @@ TEST_P(CombinationChamferPaths, EqualsTheReference) {
                                                                   {30, 30, 0, 0, 3, 10, 5},
                                                                   {30, 30, 5, 10, 0, 0, 5},
                                                                   {30, 30, 5, 10, 3, 10, 0}}) {
-    SCOPED_TRACE(std::to_string(size.candidates) + " candidates, " + std::to_string(size.realizations) +
-                 " realizations");
+    SCOPED_TRACE(std::to_string(size.candidates) + " candidates, " +
+                 std::to_string(size.realizations) + " realizations");
     const test::ChamferScene scene = test::random_scene(rng, size);
     expect_equal(scene, {255.0f / 16});
     expect_equal(scene, {5});
   }
 }
 
-// More points than the sums of bytes hold without being emptied, all of them far off, hidden or not.
+// More points than the sums of bytes hold without being emptied, all of them far off, hidden or
+// not.
 TEST_P(CombinationChamferPaths, ManyPointsInAParticle) {
   std::mt19937 rng = test::test_rng();
   test::ChamferScene scene = test::random_scene(rng, {40, 30, 9, 12, 3, 2000, 70});
@@ -95,7 +97,8 @@ TEST_P(CombinationChamferPaths, BrokenInputIsOurBug) {
   EXPECT_THROW(run([](auto& s) { s.words.pop_back(); }), LogicError);
   EXPECT_THROW(run([](auto& s) { s.surface_m.pop_back(); }), LogicError);
   EXPECT_THROW(run([](auto& s) {
-                 for (std::uint32_t& word : s.nearest) word |= word == CANDIDATE_MAP_EMPTY ? 0 : 0xffffu;
+                 for (std::uint32_t& word : s.nearest)
+                   word |= word == CANDIDATE_MAP_EMPTY ? 0 : 0xffffu;
                }),
                LogicError)
       << "maps of other edge points";

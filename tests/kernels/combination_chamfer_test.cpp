@@ -1,12 +1,12 @@
-// combination_chamfer: its reference against realizations that are really drawn, z-buffer, edge map and
-// distance transform.
+// combination_chamfer: its reference against realizations that are really drawn, z-buffer, edge map
+// and distance transform.
 //
 // They may differ where and because
-//   - the drawn edge map has its edges at pixel centres, at most half a pixel's diagonal from where they are;
-//   the kernel rounds
+//   - the drawn edge map has its edges at pixel centres, at most half a pixel's diagonal from where
+//   they are; the kernel rounds
 //     positions and distances to 1/16 px: both together `resolution_px`;
-//   - a member's nearest edge point may be hidden and a farther one show: the kernel then knows no edge of
-//   that member, the drawn
+//   - a member's nearest edge point may be hidden and a farther one show: the kernel then knows no
+//   edge of that member, the drawn
 //     map does. The kernel's distance is the larger one.
 #include "kernels/combination_chamfer.h"
 
@@ -88,7 +88,8 @@ class Drawn {
       if (const auto z = test::box_depth(member.box, camera, i % width, i / width))
         depth[i] = std::min(depth[i], *z + member.tolerance_m);
   }
-  // Its own faces decide a convex body's edges exactly (box_edges), the z-buffer what the others hide.
+  // Its own faces decide a convex body's edges exactly (box_edges), the z-buffer what the others
+  // hide.
   void draw_edges(std::size_t member) {
     std::vector<double> others(width * height, 1e9);
     for (std::size_t m = 0; m < members_.size(); ++m)
@@ -105,8 +106,8 @@ class Drawn {
   std::vector<bool> edge_;
 };
 
-// Whether a member's nearest edge point at the place is hidden by another: where the kernel may know less
-// than a drawn map.
+// Whether a member's nearest edge point at the place is hidden by another: where the kernel may
+// know less than a drawn map.
 bool nearest_is_hidden(const Boxes& from, std::size_t realization, double u, double v) {
   const test::ChamferScene& scene = from.scene;
   const CombinationBits combinations = scene.combinations();
@@ -119,7 +120,8 @@ bool nearest_is_hidden(const Boxes& from, std::size_t realization, double u, dou
     const MapEdge& edge = scene.edges[map.first_edge + (word & 0xffffu)];
     for (std::size_t o = 0; o < from.boxes.size(); ++o) {
       if (o == c || !combinations.has(realization, o)) continue;
-      const auto z = test::box_depth(from.boxes[o], camera, std::lround(edge.x_px), std::lround(edge.y_px));
+      const auto z =
+          test::box_depth(from.boxes[o], camera, std::lround(edge.x_px), std::lround(edge.y_px));
       if (z && *z + scene.tolerance_m[o] < edge.z_m) return true;
     }
   }
@@ -131,8 +133,8 @@ TEST(CombinationChamfer, EveryPointAgreesWithTheDrawnRealization) {
   int compared = 0, hidden = 0, knows_less = 0, hidden_nearest = 0;
   for (int round = 0; round < 5; ++round) {
     const Boxes made = box_scene(rng, 7, true);
-    const auto cells =
-        combination_chamfer_reference(made.scene.view(), made.scene.combinations(), chamfer_options);
+    const auto cells = combination_chamfer_reference(made.scene.view(), made.scene.combinations(),
+                                                     chamfer_options);
     for (std::uint32_t j = 0; j < made.scene.realizations; ++j) {
       const Drawn drawn(made, j);
       for (std::size_t i = 0; i < made.scene.points.size(); ++i) {
@@ -157,8 +159,8 @@ TEST(CombinationChamfer, EveryPointAgreesWithTheDrawnRealization) {
       }
     }
   }
-  std::printf("%d points compared, %d hidden, %d with a hidden nearest edge, %d of those too far\n", compared,
-              hidden, hidden_nearest, knows_less);
+  std::printf("%d points compared, %d hidden, %d with a hidden nearest edge, %d of those too far\n",
+              compared, hidden, hidden_nearest, knows_less);
   EXPECT_GT(compared, 20000);
   EXPECT_GT(hidden, 1000);
   EXPECT_GT(hidden_nearest, 500);
@@ -172,8 +174,8 @@ TEST(CombinationChamfer, MeansAgreeWithTheDrawnRealization) {
   int count = 0;
   for (int round = 0; round < 4; ++round) {
     const Boxes made = box_scene(rng, 6, false);
-    const auto cells =
-        combination_chamfer_reference(made.scene.view(), made.scene.combinations(), chamfer_options);
+    const auto cells = combination_chamfer_reference(made.scene.view(), made.scene.combinations(),
+                                                     chamfer_options);
     for (std::uint32_t j = 0; j < made.scene.realizations; ++j) {
       const Drawn drawn(made, j);
       for (std::size_t i = 0; i < made.boxes.size(); ++i) {
@@ -189,8 +191,8 @@ TEST(CombinationChamfer, MeansAgreeWithTheDrawnRealization) {
         const ChamferCell& cell = cells[i * made.scene.realizations + j];
         EXPECT_EQ(cell.seen, seen);
         EXPECT_EQ(cell.fresh, fresh);
-        const double error =
-            std::abs(mean_px(cell, chamfer_options.cap_px) - (seen ? sum / seen : chamfer_options.cap_px));
+        const double error = std::abs(mean_px(cell, chamfer_options.cap_px) -
+                                      (seen ? sum / seen : chamfer_options.cap_px));
         worst = std::max(worst, error);
         total += error;
         ++count;
@@ -208,7 +210,8 @@ TEST(CombinationChamfer, NothingSeenOrNoMemberGivesTheCap) {
   made.scene.add_particle({{-50, 10, 0.4f, 1}, {10, 500, 0.4f, 1}, {NAN, 5, 0.4f, 1}});
   made.scene.add_particle({});
   const ChamferOptions short_cap{4};
-  const auto cells = combination_chamfer_reference(made.scene.view(), made.scene.combinations(), short_cap);
+  const auto cells =
+      combination_chamfer_reference(made.scene.view(), made.scene.combinations(), short_cap);
   const std::uint32_t m = made.scene.realizations;
   for (std::uint32_t j = 0; j < m; ++j)
     for (const std::size_t i : {std::size_t{3}, std::size_t{4}}) {

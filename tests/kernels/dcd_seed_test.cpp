@@ -38,14 +38,17 @@ TEST_F(DcdSeedTest, ListsEveryDistinctSeedOnce) {
   std::mt19937 rng = test::test_rng();
   const gpu::DcdSeed kernel(*device);
   gpu::SeedLists lists;
-  for (const TensorShape& shape :
-       std::vector<TensorShape>{{1, 1, 4}, {7, 5, 60}, {33, 17, 60}, {32, 64, 10}, {131, 70, 128}}) {
+  for (const TensorShape& shape : std::vector<TensorShape>{
+           {1, 1, 4}, {7, 5, 60}, {33, 17, 60}, {32, 64, 10}, {131, 70, 128}}) {
     SCOPED_TRACE(std::to_string(shape.width) + "x" + std::to_string(shape.height));
-    std::vector<EdgePoint> edges = test::random_edges(rng, shape.width, shape.height, shape.width * 5);
-    edges.insert(edges.end(), edges.begin(), edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2));
+    std::vector<EdgePoint> edges =
+        test::random_edges(rng, shape.width, shape.height, shape.width * 5);
+    edges.insert(edges.end(), edges.begin(),
+                 edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2));
     SeedSet expected;
     for (const EdgePoint& edge : edges)
-      if (const Seed seed = seed_of(edge, shape); seed.bin >= 0) expected.emplace(seed.bin, seed.y, seed.x);
+      if (const Seed seed = seed_of(edge, shape); seed.bin >= 0)
+        expected.emplace(seed.bin, seed.y, seed.x);
     gpu::Batch batch(*device, "dcd_seed");
     kernel.record(batch, edges, shape, lists);
     batch.run();

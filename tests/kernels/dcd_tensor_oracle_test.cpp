@@ -1,6 +1,6 @@
-// The tensor against brute force written from dcd_tensor.h's prose alone, in integers and long double. Of the
-// kernels' code it takes the storage order (TensorShape) and nothing else: an error that all paths share, in
-// the seeds, the weights or the step between bins, would show here.
+// The tensor against brute force written from dcd_tensor.h's prose alone, in integers and long
+// double. Of the kernels' code it takes the storage order (TensorShape) and nothing else: an error
+// that all paths share, in the seeds, the weights or the step between bins, would show here.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -52,7 +52,9 @@ std::vector<PixelOfBin> seeded(std::span<const EdgePoint> edges, const TensorSha
   return seeds;
 }
 
-std::int64_t cap_units(const TensorOptions& options) { return std::llround(256.0L * options.cap_px); }
+std::int64_t cap_units(const TensorOptions& options) {
+  return std::llround(256.0L * options.cap_px);
+}
 
 std::int64_t step_units(const TensorOptions& options) {
   return std::llround(256 * options.lambda_px_per_rad * pi / options.bins);
@@ -64,11 +66,13 @@ std::int64_t distance_units(std::int64_t squared) {
 }
 
 // D_k at one pixel, for all bins k.
-std::vector<std::int64_t> distances(std::int64_t x, std::int64_t y, std::span<const PixelOfBin> seeds,
+std::vector<std::int64_t> distances(std::int64_t x, std::int64_t y,
+                                    std::span<const PixelOfBin> seeds,
                                     const TensorOptions& options) {
   std::vector<std::int64_t> nearest(options.bins, cap_units(options));
   for (const PixelOfBin& s : seeds)
-    nearest[s.bin] = std::min(nearest[s.bin], distance_units((x - s.x) * (x - s.x) + (y - s.y) * (y - s.y)));
+    nearest[s.bin] =
+        std::min(nearest[s.bin], distance_units((x - s.x) * (x - s.x) + (y - s.y) * (y - s.y)));
   return nearest;
 }
 
@@ -82,8 +86,8 @@ std::vector<std::int64_t> joined(std::span<const std::int64_t> distance, std::in
   return least;
 }
 
-// w_0..w_r: the samples' share of their sum in 1/32768, none a whole step beyond 3 sigma or meeting itself
-// around the circle.
+// w_0..w_r: the samples' share of their sum in 1/32768, none a whole step beyond 3 sigma or meeting
+// itself around the circle.
 std::vector<std::int64_t> gaussian_weights(const TensorOptions& options) {
   const long double variance = options.smoothing_variance;
   std::vector<long double> samples{1};
@@ -124,8 +128,8 @@ std::vector<std::uint16_t> oracle_tensor(std::span<const EdgePoint> edges, const
   return tensor;
 }
 
-// Each setting at four levels; the 16 cases (an orthogonal array over the field of four elements, whose sum
-// is the exclusive or) hold every pair of levels of any two settings once.
+// Each setting at four levels; the 16 cases (an orthogonal array over the field of four elements,
+// whose sum is the exclusive or) hold every pair of levels of any two settings once.
 std::vector<Case> all_pairs_of_settings() {
   constexpr int widths[] = {1, 7, 33, 31}, heights[] = {1, 5, 17, 50};
   constexpr int bins[] = {4, 6, 60, 128};
@@ -135,38 +139,43 @@ std::vector<Case> all_pairs_of_settings() {
   std::vector<Case> cases;
   for (int a = 0; a < 4; ++a)
     for (int b = 0; b < 4; ++b)
-      cases.push_back(
-          {widths[a], heights[a], {bins[b], lambdas[a ^ b], variances[a ^ twice[b]], caps[a ^ thrice[b]]}});
+      cases.push_back({widths[a],
+                       heights[a],
+                       {bins[b], lambdas[a ^ b], variances[a ^ twice[b]], caps[a ^ thrice[b]]}});
   // The outermost weight, 9 of 32768, shows where neighbouring bins differ by much.
   cases.push_back({33, 17, {60, 100, 0.25f, 255}});
   return cases;
 }
 
-// Positions in 1/8 px, so that half-way ones are among them, up to 2 px outside; angles of any turn but those
-// about half-way between two bins.
+// Positions in 1/8 px, so that half-way ones are among them, up to 2 px outside; angles of any turn
+// but those about half-way between two bins.
 std::vector<EdgePoint> scattered_edges(std::mt19937& rng, const Case& c) {
   std::uniform_int_distribution<int> x(-16, 8 * c.width + 16), y(-16, 8 * c.height + 16);
   std::uniform_real_distribution<float> theta(-4, 8);
   const int count = 3 + c.width * c.height / 25;
   std::vector<EdgePoint> edges;
   while (static_cast<int>(edges.size()) < count) {
-    const EdgePoint edge{static_cast<float>(x(rng)) / 8, static_cast<float>(y(rng)) / 8, theta(rng), 10};
+    const EdgePoint edge{static_cast<float>(x(rng)) / 8, static_cast<float>(y(rng)) / 8, theta(rng),
+                         10};
     if (!near_half(bin_position(edge, c.options.bins))) edges.push_back(edge);
   }
   return edges;
 }
 
-std::vector<std::uint16_t> tensor_of(Backend& backend, std::span<const EdgePoint> edges, const Case& c) {
+std::vector<std::uint16_t> tensor_of(Backend& backend, std::span<const EdgePoint> edges,
+                                     const Case& c) {
   return backend.make_view(edges, c.width, c.height, {}, {}, c.options)->tensor();
 }
 
 void expect_equal(Backend& backend, std::span<const EdgePoint> edges, const Case& c) {
   SCOPED_TRACE(case_name(c));
-  const std::vector<std::uint16_t> expected = oracle_tensor(edges, c), found = tensor_of(backend, edges, c);
+  const std::vector<std::uint16_t> expected = oracle_tensor(edges, c),
+                                   found = tensor_of(backend, edges, c);
   ASSERT_EQ(found.size(), expected.size());
   const auto [first, instead] = std::ranges::mismatch(found, expected);
   if (first != found.end())
-    ADD_FAILURE() << "at " << first - found.begin() << ": found " << *first << ", expected " << *instead;
+    ADD_FAILURE() << "at " << first - found.begin() << ": found " << *first << ", expected "
+                  << *instead;
 }
 
 void expect_brute_force(Backend& backend) {
@@ -196,8 +205,8 @@ void expect_seeds_round(Backend& backend) {
                                                  {{4, 5, 178.6f * degree}, 4, 5, 0},
                                                  {{4, 5, 184 * degree}, 4, 5, 1},
                                                  {{4, 5, -4 * degree}, 4, 5, 59}}) {
-    SCOPED_TRACE("edge at " + std::to_string(r.edge.x_px) + ", " + std::to_string(r.edge.y_px) + ", angle " +
-                 std::to_string(r.edge.theta_rad));
+    SCOPED_TRACE("edge at " + std::to_string(r.edge.x_px) + ", " + std::to_string(r.edge.y_px) +
+                 ", angle " + std::to_string(r.edge.theta_rad));
     const std::vector<std::uint16_t> tensor = tensor_of(backend, {&r.edge, 1}, c);
     EXPECT_EQ(std::ranges::count(tensor, 0), r.bin < 0 ? 0 : 1);
     if (r.bin < 0) continue;
@@ -205,8 +214,8 @@ void expect_seeds_round(Backend& backend) {
   }
 }
 
-// Of a single edge point the tensor is its distance plus the turn, up to the cap. A bin is 256 * 30 * pi / 60
-// = 402.1 units.
+// Of a single edge point the tensor is its distance plus the turn, up to the cap. A bin is 256 * 30
+// * pi / 60 = 402.1 units.
 void expect_single_seed(Backend& backend) {
   const Case c{33, 17, {60, 30, 0, 60}};
   const EdgePoint edge{10, 8, std::numbers::pi_v<float> / 60 * 57, 10};
@@ -225,9 +234,10 @@ void expect_single_seed(Backend& backend) {
   EXPECT_EQ(at(32, 8, 27), 60 * 256);  // 69 px: the cap
 }
 
-// Where turning costs the cap, T is 0 in the seed's bin and the cap in all others: what is missing from the
-// cap is the weight. exp(-d^2 / 2) = 1, 0.606531, 0.135335, 0.011109 sums to 2.505950 over both sides, which
-// makes 7930.96, 1769.63 and 145.26 of 32768; the centre takes what remains of it.
+// Where turning costs the cap, T is 0 in the seed's bin and the cap in all others: what is missing
+// from the cap is the weight. exp(-d^2 / 2) = 1, 0.606531, 0.135335, 0.011109 sums to 2.505950 over
+// both sides, which makes 7930.96, 1769.63 and 145.26 of 32768; the centre takes what remains of
+// it.
 void expect_hand_computed_weights(Backend& backend) {
   const Case c{3, 3, {60, 10000, 1, 128}};
   const EdgePoint edge{1, 1, 0, 10};
@@ -251,7 +261,9 @@ TEST_P(DcdTensorOracle, KnownAnswers) { expect_known_answers(*tested); }
 
 INSTANTIATE_TEST_SUITE_P(Paths, DcdTensorOracle, test::all_paths, test::param_name);
 
-TEST(DcdTensorOracleOfReference, EqualsBruteForce) { expect_brute_force(*make_reference_backend()); }
+TEST(DcdTensorOracleOfReference, EqualsBruteForce) {
+  expect_brute_force(*make_reference_backend());
+}
 TEST(DcdTensorOracleOfReference, KnownAnswers) { expect_known_answers(*make_reference_backend()); }
 
 }  // namespace

@@ -54,10 +54,11 @@ TEST_P(DcdTensorPaths, EqualsTheReferenceBitForBit) {
   }
 }
 
-// Half-way positions round away from zero, angles beyond [0, pi) wrap, what is not finite or outside is
-// dropped.
+// Half-way positions round away from zero, angles beyond [0, pi) wrap, what is not finite or
+// outside is dropped.
 TEST_P(DcdTensorPaths, SeedsRoundAsTheReferenceDoes) {
-  const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  const float nan = std::numeric_limits<float>::quiet_NaN(),
+              inf = std::numeric_limits<float>::infinity();
   const float half_bin = 0.5f / (60 / std::numbers::pi_v<float>);
   const std::vector<EdgePoint> edges{{0.49999997f, 0.5f, 0, 1},
                                      {-0.49999997f, 1.5f, 0, 1},
@@ -83,7 +84,8 @@ TEST_P(DcdTensorPaths, SeedsRoundAsTheReferenceDoes) {
 // One backend, images of changing size: nothing of the last one may show through.
 TEST_P(DcdTensorPaths, ScratchIsReused) {
   std::mt19937 rng = test::test_rng();
-  const std::vector<EdgePoint> many = random_edges(rng, 70, 100, 800), few = random_edges(rng, 20, 10, 3);
+  const std::vector<EdgePoint> many = random_edges(rng, 70, 100, 800),
+                               few = random_edges(rng, 20, 10, 3);
   const ViewHandle first = tested->make_view(many, 70, 100, {}, {}, {});
   const ViewHandle second = tested->make_view(few, 20, 10, {}, {}, {});
   EXPECT_EQ(second->tensor(), dcd_tensor_reference(few, 20, 10, {}));

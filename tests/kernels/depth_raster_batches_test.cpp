@@ -1,4 +1,5 @@
-// How many maps a batch draws: a driver may end what takes it too long (kernels/gpu/depth_raster.h).
+// How many maps a batch draws: a driver may end what takes it too long
+// (kernels/gpu/depth_raster.h).
 #ifdef EDGESCOUT_VULKAN
 #include "kernels/gpu/depth_raster.h"
 #include "tests/kernels/gpu_fixture.h"
@@ -12,7 +13,8 @@ TEST_F(DepthRasterBatches, HaveFewerMapsTheMoreTrianglesThereAre) {
   const gpu::DepthRaster raster(*device);
   constexpr std::size_t many = std::size_t{1} << 20;
   EXPECT_EQ(raster.max_jobs(many, 1000, 65), 64u);
-  EXPECT_EQ(raster.max_jobs(many, 1000, 66), 32u) << "every triangle is set up for two bands of rows";
+  EXPECT_EQ(raster.max_jobs(many, 1000, 66), 32u)
+      << "every triangle is set up for two bands of rows";
   EXPECT_EQ(raster.max_jobs(100 * many, 1000, 66), 1u) << "one map is drawn, however long it takes";
 }
 

@@ -50,7 +50,8 @@ Point project(const DepthJob& job, const float* p) {
 
 double segment_distance_px(const Point& a, const Point& b, double x, double y) {
   const double dx = b.u - a.u, dy = b.v - a.v, length2 = dx * dx + dy * dy;
-  const double t = length2 > 0 ? std::clamp(((x - a.u) * dx + (y - a.v) * dy) / length2, 0.0, 1.0) : 0.0;
+  const double t =
+      length2 > 0 ? std::clamp(((x - a.u) * dx + (y - a.v) * dy) / length2, 0.0, 1.0) : 0.0;
   return std::hypot(x - a.u - t * dx, y - a.v - t * dy);
 }
 
@@ -59,7 +60,8 @@ std::vector<bool> near_edges(const Soup& soup, const DepthJob& job, int width, i
   std::vector<bool> near(std::size_t(width) * height, false);
   for (std::size_t i = 0; i < soup.triangles.size(); i += 3) {
     Point p[3];
-    for (int k = 0; k < 3; ++k) p[k] = project(job, soup.vertices.data() + 3 * soup.triangles[i + k]);
+    for (int k = 0; k < 3; ++k)
+      p[k] = project(job, soup.vertices.data() + 3 * soup.triangles[i + k]);
     if (std::min({p[0].z, p[1].z, p[2].z}) < DEPTH_NEAR_M) continue;
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x)
@@ -88,8 +90,8 @@ TEST_P(DepthRasterPaths, AgreesWithTheReference) {
     const Soup soup = random_soup(rng, c.triangles, c.size_m);
     std::vector<DepthJob> jobs;
     for (int j = 0; j < 3; ++j)
-      jobs.push_back(
-          job_at(0.7f * float(j), 0.3f, float(c.width) * 2, float(c.width) * 0.5f, float(c.height) * 0.45f));
+      jobs.push_back(job_at(0.7f * float(j), 0.3f, float(c.width) * 2, float(c.width) * 0.5f,
+                            float(c.height) * 0.45f));
     const std::size_t pixels = std::size_t(c.width) * c.height;
     std::vector<float> found(3 * pixels, -1), expected(3 * pixels, -1);
     tested->depth_raster(soup.mesh(), jobs, c.width, c.height, found);
@@ -144,7 +146,8 @@ TEST_P(DepthRasterPaths, MoreTrianglesThanOneDispatchTakes) {
   EXPECT_EQ(found[12 + 2], 0.5f);
   EXPECT_EQ(found[12 + 9], 0.4f);
   for (std::size_t i = 0; i < found.size(); ++i)
-    EXPECT_TRUE(found[i] == expected[i] || std::abs(found[i] - expected[i]) < 1e-5f) << "pixel " << i;
+    EXPECT_TRUE(found[i] == expected[i] || std::abs(found[i] - expected[i]) < 1e-5f)
+        << "pixel " << i;
 }
 
 // lavapipe ends a shader's loops after 65,535 turns in all: large triangles are filled in bands.
@@ -153,7 +156,8 @@ TEST_P(DepthRasterPaths, LargeTrianglesFillLargeMaps) {
   wall.vertices = {-2, -2, 0.5f, 2, -2, 0.5f, 2, 2, 0.5f, -2, 2, 0.5f};
   wall.triangles = {0, 1, 2, 0, 2, 3};
   constexpr int size = 2048;
-  const DepthJob job{{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}}, {size, size, size / 2 + 0.3f, size / 2 - 0.1f}};
+  const DepthJob job{{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}},
+                     {size, size, size / 2 + 0.3f, size / 2 - 0.1f}};
   std::vector<float> depth(std::size_t(size) * size, -1);
   tested->depth_raster(wall.mesh(), {&job, 1}, size, size, depth);
   std::size_t empty = 0;
@@ -161,17 +165,19 @@ TEST_P(DepthRasterPaths, LargeTrianglesFillLargeMaps) {
   EXPECT_EQ(empty, 0u);
 }
 
-// A hilly square of many triangles under many poses: of the pixels inside its outline none is empty, however
-// close to an edge between two triangles it lies.
+// A hilly square of many triangles under many poses: of the pixels inside its outline none is
+// empty, however close to an edge between two triangles it lies.
 TEST_P(DepthRasterPaths, EdgesBetweenTrianglesLeaveNoHoles) {
   std::mt19937 rng = test::test_rng();
-  std::uniform_real_distribution<float> hill(-0.004f, 0.004f), angle(-0.4f, 0.4f), shift(-0.3f, 0.3f);
+  std::uniform_real_distribution<float> hill(-0.004f, 0.004f), angle(-0.4f, 0.4f),
+      shift(-0.3f, 0.3f);
   constexpr std::uint32_t cells = 24, side = cells + 1;
   Soup hills;
   for (std::uint32_t y = 0; y < side; ++y)
     for (std::uint32_t x = 0; x < side; ++x) {
       const bool inside = x > 0 && y > 0 && x < cells && y < cells;
-      for (float c : {0.01f * float(x) - 0.12f, 0.01f * float(y) - 0.12f, inside ? hill(rng) : 0.0f})
+      for (float c :
+           {0.01f * float(x) - 0.12f, 0.01f * float(y) - 0.12f, inside ? hill(rng) : 0.0f})
         hills.vertices.push_back(c);
     }
   for (std::uint32_t y = 0; y < cells; ++y)
@@ -197,10 +203,12 @@ TEST_P(DepthRasterPaths, EdgesBetweenTrianglesLeaveNoHoles) {
         bool inside = true;
         for (int k = 0; k < 4; ++k) {
           const Point &a = corner[k], &b = corner[(k + 1) % 4];
-          inside &= (b.u - a.u) * (y - a.v) - (b.v - a.v) * (x - a.u) > std::hypot(b.u - a.u, b.v - a.v) / 16;
+          inside &= (b.u - a.u) * (y - a.v) - (b.v - a.v) * (x - a.u) >
+                    std::hypot(b.u - a.u, b.v - a.v) / 16;
         }
         looked_at += inside;
-        empty += inside && depth[(j * size + std::size_t(y)) * size + std::size_t(x)] == DEPTH_EMPTY;
+        empty +=
+            inside && depth[(j * size + std::size_t(y)) * size + std::size_t(x)] == DEPTH_EMPTY;
       }
   }
   EXPECT_GT(looked_at, 100000u);
@@ -209,7 +217,8 @@ TEST_P(DepthRasterPaths, EdgesBetweenTrianglesLeaveNoHoles) {
 
 TEST_P(DepthRasterPaths, PosesThatAreNoneShowNothing) {
   const Soup triangle{{-1, -1, 0, 1, -1, 0, 0, 1, 0}, {0, 1, 2}};
-  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
     for (const int word : {0, 3, 10, 11}) {
       DepthJob job = job_at(0, 0.3f, 8, 2, 2);
       job.camera_from_object.m[word] = bad;

@@ -52,8 +52,8 @@ std::vector<Vec3> corners_in_camera(const Soup& soup, const DepthJob& job, std::
     const float* p = soup.vertices.data() + 3 * soup.triangles[3 * triangle + k];
     Vec3 q{};
     for (int r = 0; r < 3; ++r)
-      q[r] =
-          double(m[4 * r]) * p[0] + double(m[4 * r + 1]) * p[1] + double(m[4 * r + 2]) * p[2] + m[4 * r + 3];
+      q[r] = double(m[4 * r]) * p[0] + double(m[4 * r + 1]) * p[1] + double(m[4 * r + 2]) * p[2] +
+             m[4 * r + 3];
     corners.push_back(q);
   }
   return corners;
@@ -76,7 +76,8 @@ double segment_distance_px(const Vec3& a, const Vec3& b, const Intrinsics& k, in
   return std::hypot(x - ax - t * dx, y - ay - t * dy);
 }
 
-// Compares a map with rays; pixels next to an edge may go either way and are left out, counted by the caller.
+// Compares a map with rays; pixels next to an edge may go either way and are left out, counted by
+// the caller.
 int expect_rays(const Soup& soup, const DepthJob& job, int width, int height, const float* depth) {
   int compared = 0;
   for (int y = 0; y < height; ++y)
@@ -89,7 +90,8 @@ int expect_rays(const Soup& soup, const DepthJob& job, int width, int height, co
         if (t[0][2] < DEPTH_NEAR_M || t[1][2] < DEPTH_NEAR_M || t[2][2] < DEPTH_NEAR_M) continue;
         nearest = std::min(nearest, ray_depth(t, ray));
         for (int k = 0; k < 3; ++k)
-          edge_px = std::min(edge_px, segment_distance_px(t[k], t[(k + 1) % 3], job.intrinsics, x, y));
+          edge_px =
+              std::min(edge_px, segment_distance_px(t[k], t[(k + 1) % 3], job.intrinsics, x, y));
       }
       if (edge_px < 1.0 / 64) continue;
       ++compared;
@@ -136,12 +138,13 @@ TEST_P(DepthRaster, MeetsRaysAtEveryPixel) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, DepthRaster,
-                         testing::Values(Case{1, 1, 5, 0.05f}, Case{7, 5, 20, 0.03f}, Case{33, 17, 40, 0.02f},
-                                         Case{61, 47, 200, 0.01f}, Case{50, 3, 9, 1.5f}));
+                         testing::Values(Case{1, 1, 5, 0.05f}, Case{7, 5, 20, 0.03f},
+                                         Case{33, 17, 40, 0.02f}, Case{61, 47, 200, 0.01f},
+                                         Case{50, 3, 9, 1.5f}));
 
 TEST(DepthRasterRules, BothWindingsAndSharedEdgesAreCovered) {
-  // A square of two triangles with opposite windings whose border runs through pixel centres: no hole on the
-  // diagonal, borders included.
+  // A square of two triangles with opposite windings whose border runs through pixel centres: no
+  // hole on the diagonal, borders included.
   Soup soup{{0, 0, 1, 4, 0, 1, 4, 4, 1, 0, 4, 1}, {0, 1, 2, 0, 3, 2}};
   const DepthJob job{{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}}, {1, 1, 1, 1}};
   std::vector<float> reference(49), fast(49);

@@ -1,6 +1,6 @@
-// How well edges are found: synthetic edges of known place and direction, box-filtered pixels, blur 0.6 px,
-// noise. The bounds are what was measured (docs/edges.md) and a tenth or so more; the measured figures are
-// printed.
+// How well edges are found: synthetic edges of known place and direction, box-filtered pixels, blur
+// 0.6 px, noise. The bounds are what was measured (docs/edges.md) and a tenth or so more; the
+// measured figures are printed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,15 +36,15 @@ double coverage(const SignedDistance& distance, int x, int y) {
 std::vector<double> blur(const std::vector<double>& image, int size, double sigma) {
   const int radius = 3;
   std::vector<double> across(image.size()), out(image.size());
-  const auto pass = [&](const std::vector<double>& from, std::vector<double>& to, int step_x, int step_y) {
+  const auto pass = [&](const std::vector<double>& from, std::vector<double>& to, int step_x,
+                        int step_y) {
     for (int y = 0; y < size; ++y)
       for (int x = 0; x < size; ++x) {
         double sum = 0, weights = 0;
         for (int i = -radius; i <= radius; ++i) {
           const double w = std::exp(-0.5 * i * i / (sigma * sigma));
-          sum +=
-              w *
-              from[std::clamp(y + i * step_y, 0, size - 1) * size + std::clamp(x + i * step_x, 0, size - 1)];
+          sum += w * from[std::clamp(y + i * step_y, 0, size - 1) * size +
+                          std::clamp(x + i * step_x, 0, size - 1)];
           weights += w;
         }
         to[y * size + x] = sum / weights;
@@ -59,12 +59,13 @@ std::vector<std::uint8_t> photograph(const SignedDistance& distance, int size, d
                                      double noise_levels, std::mt19937& rng) {
   std::vector<double> grey;
   for (int y = 0; y < size; ++y)
-    for (int x = 0; x < size; ++x) grey.push_back(128 + contrast * (coverage(distance, x, y) - 0.5));
+    for (int x = 0; x < size; ++x)
+      grey.push_back(128 + contrast * (coverage(distance, x, y) - 0.5));
   std::normal_distribution<double> noise(0, 1);
   std::vector<std::uint8_t> pixels;
   for (double g : blur(grey, size, 0.6))
-    pixels.push_back(
-        static_cast<std::uint8_t>(std::clamp(std::round(g + noise_levels * noise(rng)), 0.0, 255.0)));
+    pixels.push_back(static_cast<std::uint8_t>(
+        std::clamp(std::round(g + noise_levels * noise(rng)), 0.0, 255.0)));
   return pixels;
 }
 
@@ -101,7 +102,8 @@ double length_inside(double x0, double y0, double phi, int size) {
   double length = 0;
   for (double t = -size; t < size; t += 0.05) {
     const double x = x0 - t * std::sin(phi), y = y0 + t * std::cos(phi);
-    length += 0.05 * (x >= margin && y >= margin && x <= size - 1 - margin && y <= size - 1 - margin);
+    length +=
+        0.05 * (x >= margin && y >= margin && x <= size - 1 - margin && y <= size - 1 - margin);
   }
   return length;
 }
@@ -120,7 +122,8 @@ Measured measure(const Bound& bound, int pictures) {
     };
     const auto pixels = photograph(distance, size, bound.contrast, bound.noise, rng);
     for (const EdgePoint& p : detect_edges_fast({size, size, pixels.data()}, {}, pool)) {
-      if (p.x_px < margin || p.y_px < margin || p.x_px > size - 1 - margin || p.y_px > size - 1 - margin)
+      if (p.x_px < margin || p.y_px < margin || p.x_px > size - 1 - margin ||
+          p.y_px > size - 1 - margin)
         continue;
       const double off = distance(p.x_px, p.y_px),
                    normal = bound.radius_px > 0 ? std::atan2(p.y_px - cy, p.x_px - cx) : phi;
@@ -131,7 +134,8 @@ Measured measure(const Bound& bound, int pictures) {
       result.position.add(off);
       result.orientation.add(std::remainder(p.theta_rad - normal - pi / 2, pi));
     }
-    result.length += bound.radius_px > 0 ? 2 * pi * bound.radius_px : length_inside(cx, cy, phi, size);
+    result.length +=
+        bound.radius_px > 0 ? 2 * pi * bound.radius_px : length_inside(cx, cy, phi, size);
   }
   return result;
 }
@@ -141,14 +145,15 @@ class EdgeAccuracy : public testing::TestWithParam<Bound> {};
 TEST_P(EdgeAccuracy, StaysWithinWhatWasMeasured) {
   const Bound bound = GetParam();
   const Measured m = measure(bound, 30);
-  std::printf("| %s | %g | %g | %+.3f | %.3f | %.4f | %.2f |\n", bound.name, bound.contrast, bound.noise,
-              m.position.mean(), m.position.rms(), m.orientation.rms(), m.position.count / m.length);
+  std::printf("| %s | %g | %g | %+.3f | %.3f | %.4f | %.2f |\n", bound.name, bound.contrast,
+              bound.noise, m.position.mean(), m.position.rms(), m.orientation.rms(),
+              m.position.count / m.length);
   EXPECT_LT(std::abs(m.position.mean()), bound.position_bias);
   EXPECT_LT(m.position.rms(), bound.position_rms);
   EXPECT_LT(m.orientation.rms(), bound.orientation_rms);
   EXPECT_EQ(m.stray, 0);
-  // Every pixel the edge passes gives about one point: a line at 45 degrees has 0.7 a px, a staircase up
-  // to 1.4.
+  // Every pixel the edge passes gives about one point: a line at 45 degrees has 0.7 a px, a
+  // staircase up to 1.4.
   EXPECT_GT(m.position.count / m.length, 1.0);
   EXPECT_LT(m.position.count / m.length, 1.3);
 }

@@ -1,4 +1,5 @@
-// The edge detector on every path against the reference: the same pixels in the same order (edge_detect.h).
+// The edge detector on every path against the reference: the same pixels in the same order
+// (edge_detect.h).
 #include "kernels/error.h"
 #include "tests/kernels/paths.h"
 #include "tests/kernels/pictures.h"
@@ -11,7 +12,8 @@ double turn_between(double a, double b) {
   return std::min(d, std::numbers::pi - d);
 }
 
-void expect_same_edges(const std::vector<EdgePoint>& found, const std::vector<EdgePoint>& expected) {
+void expect_same_edges(const std::vector<EdgePoint>& found,
+                       const std::vector<EdgePoint>& expected) {
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     EXPECT_NEAR(found[i].x_px, expected[i].x_px, 1e-3) << i;
@@ -46,7 +48,8 @@ TEST_P(EdgeDetectPaths, FindsUncommonlyManyEdges) {
   constexpr int width = 700, height = 520;
   std::vector<std::uint8_t> pixels(std::size_t(width) * height);
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) pixels[std::size_t(y) * width + x] = (x + y / 7) / 5 % 2 == 0 ? 40 : 200;
+    for (int x = 0; x < width; ++x)
+      pixels[std::size_t(y) * width + x] = (x + y / 7) / 5 % 2 == 0 ? 40 : 200;
   const ImageView stripes{width, height, pixels.data()};
   const std::vector<EdgePoint> expected = reference->detect_edges(stripes, {});
   ASSERT_GT(expected.size(), std::size_t{1} << 16);

@@ -28,7 +28,8 @@ struct Picture {
 Picture noise_picture(int width, int height, unsigned seed) {
   std::mt19937 rng(seed);
   Picture picture{width, height, {}};
-  for (int i = 0; i < width * height; ++i) picture.pixels.push_back(static_cast<std::uint8_t>(rng() & 255));
+  for (int i = 0; i < width * height; ++i)
+    picture.pixels.push_back(static_cast<std::uint8_t>(rng() & 255));
   return picture;
 }
 
@@ -44,7 +45,8 @@ Picture shapes_picture(int width, int height, unsigned seed) {
       for (int x = 0; x < width; ++x) {
         const double u = (x - cx) * std::cos(a) + (y - cy) * std::sin(a),
                      v = -(x - cx) * std::sin(a) + (y - cy) * std::cos(a);
-        const double inside = k % 2 ? r - std::hypot(u, v) : std::min(r - std::abs(u), r / 3 - std::abs(v));
+        const double inside =
+            k % 2 ? r - std::hypot(u, v) : std::min(r - std::abs(u), r / 3 - std::abs(v));
         const double cover = std::clamp(inside + 0.5, 0.0, 1.0);
         grey[y * width + x] += cover * (level - grey[y * width + x]);
       }
@@ -52,7 +54,8 @@ Picture shapes_picture(int width, int height, unsigned seed) {
   std::normal_distribution<double> noise(0, 2);
   Picture picture{width, height, {}};
   for (double g : grey)
-    picture.pixels.push_back(static_cast<std::uint8_t>(std::clamp(std::round(g + noise(rng)), 0.0, 255.0)));
+    picture.pixels.push_back(
+        static_cast<std::uint8_t>(std::clamp(std::round(g + noise(rng)), 0.0, 255.0)));
   return picture;
 }
 
@@ -94,8 +97,10 @@ TEST_P(EdgeStages, GradientIsTheConvolutionWithAGaussianDerivative) {
 }
 
 // The rule of edge_thin in other words: by compass direction, in 64 bits.
-bool ridge_by_compass(const std::vector<std::int16_t>& g, int width, int x, int y, std::int64_t low) {
-  static constexpr int compass[8][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+bool ridge_by_compass(const std::vector<std::int16_t>& g, int width, int x, int y,
+                      std::int64_t low) {
+  static constexpr int compass[8][2] = {{1, 0},  {1, 1},   {0, 1},  {-1, 1},
+                                        {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
   const auto m2 = [&](int qx, int qy) {
     const std::int64_t a = g[2 * (qy * width + qx)], b = g[2 * (qy * width + qx) + 1];
     return a * a + b * b;
@@ -107,8 +112,8 @@ bool ridge_by_compass(const std::vector<std::int16_t>& g, int width, int x, int 
     if (compass[k][0] * gx >= 0 && compass[k][1] * gy >= 0 && (compass[k][0] > 0 || gx < 0) &&
         (compass[k][1] > 0 || gy < 0))
       diagonal = k;
-  const std::int64_t m = std::max(std::abs(gx), std::abs(gy)), n = std::min(std::abs(gx), std::abs(gy)),
-                     f = (256 * n + m / 2) / m;
+  const std::int64_t m = std::max(std::abs(gx), std::abs(gy)),
+                     n = std::min(std::abs(gx), std::abs(gy)), f = (256 * n + m / 2) / m;
   const auto ring = [&](int turn) {
     const auto& a = compass[(axis + turn) % 8];
     const auto& d = compass[(diagonal + turn) % 8];
@@ -123,13 +128,15 @@ TEST_P(EdgeStages, ThinningKeepsTheRidgesOfTheGradient) {
   for (int range : {3, 300, 16320}) {
     std::uniform_int_distribution<int> value(-range, range);
     std::vector<std::int16_t> gradient;
-    for (std::size_t i = 0; i < 2 * size; ++i) gradient.push_back(static_cast<std::int16_t>(value(rng)));
+    for (std::size_t i = 0; i < 2 * size; ++i)
+      gradient.push_back(static_cast<std::int16_t>(value(rng)));
     const int low = std::max(1, range / 3);
     const auto candidates = edge_thin_reference(gradient, width, height, low);
     for (int y = 0; y < height; ++y)
       for (int x = 0; x < width; ++x) {
         const bool inner = x > 0 && y > 0 && x < width - 1 && y < height - 1;
-        EXPECT_EQ(candidates[y * width + x] != 0, inner && ridge_by_compass(gradient, width, x, y, low))
+        EXPECT_EQ(candidates[y * width + x] != 0,
+                  inner && ridge_by_compass(gradient, width, x, y, low))
             << x << " " << y;
       }
   }
@@ -194,7 +201,8 @@ TEST_P(EdgeStages, FastPathEqualsReference) {
       for (std::size_t i = 0; i < size; ++i) {
         ASSERT_EQ(gradient[2 * i], planes.gx[i]) << i << " sigma " << sigma;
         ASSERT_EQ(gradient[2 * i + 1], planes.gy[i]) << i << " sigma " << sigma;
-        ASSERT_EQ(candidates[i], planes.candidates[planes.candidate_index(int(i) % width, int(i) / width)])
+        ASSERT_EQ(candidates[i],
+                  planes.candidates[planes.candidate_index(int(i) % width, int(i) / width)])
             << i;
         total += candidates[i];
       }

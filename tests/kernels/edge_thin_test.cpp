@@ -26,7 +26,8 @@ TEST_F(EdgeThinTest, MarksTheCandidatesOfTheReference) {
       detect.record_pixels(batch, picture.view(), options);
       batch.run();
       const auto gradient = edge_gradient_reference(picture.view(), edge_weights(options.sigma_px));
-      const auto expected = edge_thin_reference(gradient, picture.width, picture.height, edge_threshold(low));
+      const auto expected =
+          edge_thin_reference(gradient, picture.width, picture.height, edge_threshold(low));
       const auto labels = read<std::uint32_t>(detect.labels(), expected.size());
       for (std::size_t i = 0; i < expected.size(); ++i) {
         ASSERT_EQ(labels[i] != EDGE_NO_LABEL, expected[i] != 0) << "pixel " << i;

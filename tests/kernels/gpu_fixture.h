@@ -1,4 +1,5 @@
-// A validated Vulkan device for the tests that look inside kernels/gpu; skipped where there is none.
+// A validated Vulkan device for the tests that look inside kernels/gpu; skipped where there is
+// none.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// mutual_information on every path, on cells that combination_chamfer made there, against the reference
-// (mutual_information.h).
+// mutual_information on every path, on cells that combination_chamfer made there, against the
+// reference (mutual_information.h).
 #include "kernels/cases/chamfer_cases.h"
 #include "kernels/error.h"
 #include "tests/kernels/paths.h"
@@ -11,8 +11,8 @@ std::vector<ParticleBelief> random_beliefs(std::mt19937& rng, std::size_t count)
   std::uniform_real_distribution<double> log_weight(-4, 2), upsilon(0, 200);
   std::vector<ParticleBelief> beliefs;
   for (std::size_t i = 0; i < count; ++i)
-    beliefs.push_back({i % 7 == 6 ? -INFINITY : log_weight(rng), std::uint32_t(i % 4 == 0 ? 0 : rng() % 50),
-                       100, upsilon(rng)});
+    beliefs.push_back({i % 7 == 6 ? -INFINITY : log_weight(rng),
+                       std::uint32_t(i % 4 == 0 ? 0 : rng() % 50), 100, upsilon(rng)});
   return beliefs;
 }
 
@@ -23,7 +23,8 @@ class MutualInformationPaths : public test::PathTest {
   void expect_equal(const test::ChamferScene& scene, const std::vector<ParticleBelief>& beliefs,
                     const std::vector<InformationOptions>& all_options) {
     constexpr ChamferOptions chamfer{test_cap_px};
-    const ChamferHandle own = tested->combination_chamfer(scene.view(), scene.combinations(), chamfer);
+    const ChamferHandle own =
+        tested->combination_chamfer(scene.view(), scene.combinations(), chamfer);
     const auto cells = own->cells();  // those of the reference, says combination_chamfer's own test
     const auto tolerance = [&](double expected, double scale_px2) {
       return tested->is_gpu() ? 1e-4 * (1 + expected) + 1e-6 * test_cap_px * test_cap_px / scale_px2
@@ -45,10 +46,11 @@ class MutualInformationPaths : public test::PathTest {
 
 TEST_P(MutualInformationPaths, AgreesWithTheReference) {
   std::mt19937 rng = test::test_rng();
-  for (const test::SceneSize& size : std::vector<test::SceneSize>{{30, 20, 3, 9, 1, 12, 1},
-                                                                  {40, 30, 9, 30, 6, 20, 5},
-                                                                  {60, 60, 20, 40, 33, 30, 257},
-                                                                  {60, 60, 40, 40, 200, 30, 1000}}) {
+  for (const test::SceneSize& size :
+       std::vector<test::SceneSize>{{30, 20, 3, 9, 1, 12, 1},
+                                    {40, 30, 9, 30, 6, 20, 5},
+                                    {60, 60, 20, 40, 33, 30, 257},
+                                    {60, 60, 40, 40, 200, 30, 1000}}) {
     const test::ChamferScene scene = test::random_scene(rng, size);
     const std::vector<ParticleBelief> beliefs = random_beliefs(rng, scene.view().particles());
     const double least = test_cap_px * test_cap_px / INFORMATION_MAX_SHARPNESS;
@@ -81,7 +83,8 @@ TEST_P(MutualInformationPaths, IsZeroWhereAllParticlesAreTheSame) {
   for (int i = 0; i < 20; ++i) scene.add_particle(points);
   const ChamferHandle chamfer = tested->combination_chamfer(scene.view(), scene.combinations(), {});
   std::vector<ParticleBelief> beliefs(21, {0, 10, 100, 0});
-  EXPECT_NEAR(tested->mutual_information(*chamfer, beliefs, {}), 0, tested->is_gpu() ? 1e-6 : 1e-12);
+  EXPECT_NEAR(tested->mutual_information(*chamfer, beliefs, {}), 0,
+              tested->is_gpu() ? 1e-6 : 1e-12);
 }
 
 TEST_P(MutualInformationPaths, CellsOfAnotherBackendAreOurBug) {
@@ -91,9 +94,10 @@ TEST_P(MutualInformationPaths, CellsOfAnotherBackendAreOurBug) {
   const auto other =
       GetParam() == test::Path::cpu ? test::make_path(test::Path::vulkan) : make_cpu_backend(1);
   if (other) {
-    EXPECT_THROW(tested->mutual_information(
-                     *other->combination_chamfer(scene.view(), scene.combinations(), {}), beliefs, {}),
-                 LogicError);
+    EXPECT_THROW(
+        tested->mutual_information(
+            *other->combination_chamfer(scene.view(), scene.combinations(), {}), beliefs, {}),
+        LogicError);
   }
   const ChamferHandle own = tested->combination_chamfer(scene.view(), scene.combinations(), {});
   EXPECT_NO_THROW(tested->mutual_information(*own, beliefs, {}));

@@ -1,5 +1,5 @@
-// mutual_information: its reference against sums of plain exponentials in long double, which reach down to
-// exp(-11000); and what holds of any mutual information, on both processor paths.
+// mutual_information: its reference against sums of plain exponentials in long double, which reach
+// down to exp(-11000); and what holds of any mutual information, on both processor paths.
 #include "kernels/mutual_information.h"
 
 #include <functional>
@@ -17,7 +17,9 @@ struct Table {
   std::vector<ParticleBelief> beliefs;
   double cap_px = 255.0 / 16;
   ChamferTable view() const { return {particles, realizations, cap_px, cells}; }
-  ChamferCell& at(std::uint32_t i, std::uint32_t j) { return cells[std::size_t(i) * realizations + j]; }
+  ChamferCell& at(std::uint32_t i, std::uint32_t j) {
+    return cells[std::size_t(i) * realizations + j];
+  }
 };
 
 ChamferCell cell_of(double mu_px, int seen, int fresh) {
@@ -25,8 +27,8 @@ ChamferCell cell_of(double mu_px, int seen, int fresh) {
 }
 
 // Means in [low, high] px; now and then nothing is seen.
-Table random_table(std::mt19937& rng, std::uint32_t particles, std::uint32_t realizations, double low_px,
-                   double high_px) {
+Table random_table(std::mt19937& rng, std::uint32_t particles, std::uint32_t realizations,
+                   double low_px, double high_px) {
   std::uniform_real_distribution<double> mu(low_px, high_px), log_weight(-3, 3), upsilon(0, 20);
   std::uniform_int_distribution<int> seen(0, 60);
   Table table{particles, realizations, {}, {}};
@@ -35,7 +37,8 @@ Table random_table(std::mt19937& rng, std::uint32_t particles, std::uint32_t rea
       const int s = seen(rng);
       table.cells.push_back(cell_of(mu(rng), s, s / 2));
     }
-    table.beliefs.push_back({log_weight(rng), std::uint32_t(i % 3 == 0 ? 0 : seen(rng)), 100, upsilon(rng)});
+    table.beliefs.push_back(
+        {log_weight(rng), std::uint32_t(i % 3 == 0 ? 0 : seen(rng)), 100, upsilon(rng)});
   }
   return table;
 }
@@ -44,7 +47,8 @@ double direct(const Table& table, const InformationOptions& options) {
   const std::size_t n = table.particles, m = table.realizations;
   std::vector<long double> w(n), l(n * m), p(m, 0);
   long double weights = 0;
-  for (std::size_t i = 0; i < n; ++i) weights += w[i] = std::exp((long double)(table.beliefs[i].log_weight));
+  for (std::size_t i = 0; i < n; ++i)
+    weights += w[i] = std::exp((long double)(table.beliefs[i].log_weight));
   for (std::size_t i = 0; i < n; ++i) {
     const ParticleBelief& b = table.beliefs[i];
     long double row = 0;
@@ -52,9 +56,11 @@ double direct(const Table& table, const InformationOptions& options) {
       const ChamferCell& cell = table.cells[i * m + j];
       const long double mu =
           cell.seen > 0 ? (long double)(cell.sum) / cell.seen / 16 : (long double)(table.cap_px);
-      const long double points = b.already_seen + cell.fresh > 0 ? b.already_seen + cell.fresh : 0.5L;
+      const long double points =
+          b.already_seen + cell.fresh > 0 ? b.already_seen + cell.fresh : 0.5L;
       l[i * m + j] =
-          points / b.total * std::exp(-(mu * mu + (options.literal ? b.upsilon_px2 : 0)) / options.scale_px2);
+          points / b.total *
+          std::exp(-(mu * mu + (options.literal ? b.upsilon_px2 : 0)) / options.scale_px2);
       row += l[i * m + j];
     }
     for (std::size_t j = 0; j < m; ++j) {
@@ -142,7 +148,8 @@ TEST_P(MutualInformation, ASplitParticleOrDoubledRealizationsTellNoMore) {
   const double information = of(table, {8, false});
   Table particles = table;
   particles.particles = 10;
-  particles.cells.insert(particles.cells.end(), table.cells.begin() + 4 * 11, table.cells.begin() + 5 * 11);
+  particles.cells.insert(particles.cells.end(), table.cells.begin() + 4 * 11,
+                         table.cells.begin() + 5 * 11);
   particles.beliefs.push_back(table.beliefs[4]);
   for (const std::size_t i : {4, 9}) particles.beliefs[i].log_weight -= std::log(2.0);
   EXPECT_NEAR(of(particles, {8, false}), information, 1e-12);
@@ -167,7 +174,8 @@ TEST_P(MutualInformation, AParticleWithoutWeightDoesNotCount) {
 TEST_P(MutualInformation, BrokenInputIsOurBug) {
   std::mt19937 rng = test::test_rng();
   const Table good = random_table(rng, 3, 4, 0, 8);
-  const auto run = [&](const std::function<void(Table&)>& spoil, const InformationOptions& options = {}) {
+  const auto run = [&](const std::function<void(Table&)>& spoil,
+                       const InformationOptions& options = {}) {
     Table table = good;
     spoil(table);
     of(table, options);

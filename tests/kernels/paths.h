@@ -1,7 +1,8 @@
-// The paths a kernel is tested on, each against the reference backend: the fast CPU path, and a Vulkan device
-// as it is, with staged copies, and with tensors cut into bands. Vulkan runs under the validation layer,
-// synchronization validation included; any message of it fails the test. Without a device the Vulkan paths
-// are skipped; with EDGESCOUT_TESTS_UNVALIDATED in the environment they run without the layer.
+// The paths a kernel is tested on, each against the reference backend: the fast CPU path, and a
+// Vulkan device as it is, with staged copies, and with tensors cut into bands. Vulkan runs under
+// the validation layer, synchronization validation included; any message of it fails the test.
+// Without a device the Vulkan paths are skipped; with EDGESCOUT_TESTS_UNVALIDATED in the
+// environment they run without the layer.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -43,7 +44,9 @@ inline void PrintTo(Path path, std::ostream* out) { *out << path_name(path); }
 
 inline const auto all_paths =
     ::testing::Values(Path::cpu, Path::vulkan, Path::vulkan_staging, Path::vulkan_bands);
-inline std::string param_name(const ::testing::TestParamInfo<Path>& info) { return path_name(info.param); }
+inline std::string param_name(const ::testing::TestParamInfo<Path>& info) {
+  return path_name(info.param);
+}
 
 // The largest image of the tests' tensors has 70 x 100 px and 60 bins: four bands of 32 rows.
 inline constexpr std::uint64_t test_band_bytes = 3 * 60 * 64 * 32;
@@ -109,7 +112,8 @@ inline std::vector<EdgePoint> random_edges(std::mt19937& rng, int width, int hei
   std::uniform_real_distribution<float> unit(0, 1);
   std::vector<EdgePoint> edges;
   while (static_cast<int>(edges.size()) < count) {
-    const float x = unit(rng) * float(width), y = unit(rng) * float(height), theta = unit(rng) * 3.1415926f;
+    const float x = unit(rng) * float(width), y = unit(rng) * float(height),
+                theta = unit(rng) * 3.1415926f;
     const int length = 1 + static_cast<int>(unit(rng) * 40);
     for (int s = 0; s < length && static_cast<int>(edges.size()) < count; ++s)
       edges.push_back({x + float(s) * std::cos(theta), y + float(s) * std::sin(theta), theta, 10});

@@ -34,7 +34,8 @@ inline Picture random_picture(std::mt19937& rng, int width, int height, bool onl
   }
   Picture picture{width, height, {}};
   for (const double g : grey)
-    picture.pixels.push_back(static_cast<std::uint8_t>(std::clamp(std::round(g + noise(rng)), 0.0, 255.0)));
+    picture.pixels.push_back(
+        static_cast<std::uint8_t>(std::clamp(std::round(g + noise(rng)), 0.0, 255.0)));
   return picture;
 }
 

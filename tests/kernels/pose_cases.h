@@ -18,7 +18,8 @@ inline Pose random_pose(std::mt19937& rng, float z_m) {
   const auto [w, x, y, z] = std::tie(q[0], q[1], q[2], q[3]);
   return {{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y), 0.02f * unit(rng),
            2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x), 0.02f * unit(rng),
-           2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y), z_m + 0.03f * unit(rng)}};
+           2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y),
+           z_m + 0.03f * unit(rng)}};
 }
 
 inline std::vector<ModelPoint> random_points(std::mt19937& rng, int count) {
@@ -62,15 +63,18 @@ struct TwoViews {
 };
 
 // Views of different size and camera, one of them one pixel wide.
-inline TwoViews make_views(Backend& tested, Backend& reference, std::mt19937& rng, bool with_image) {
+inline TwoViews make_views(Backend& tested, Backend& reference, std::mt19937& rng,
+                           bool with_image) {
   struct Size {
     int width, height;
   };
   TwoViews views;
   for (const Size& s : std::vector<Size>{{70, 100}, {33, 17}, {1, 5}}) {
-    const std::vector<EdgePoint> edges = random_edges(rng, s.width, s.height, s.width * s.height / 20);
+    const std::vector<EdgePoint> edges =
+        random_edges(rng, s.width, s.height, s.width * s.height / 20);
     std::vector<std::uint8_t> pixels;
-    for (int i = 0; i < s.width * s.height; ++i) pixels.push_back(static_cast<std::uint8_t>(rng() & 255));
+    for (int i = 0; i < s.width * s.height; ++i)
+      pixels.push_back(static_cast<std::uint8_t>(rng() & 255));
     const ImageView image = with_image ? ImageView{s.width, s.height, pixels.data()} : ImageView{};
     const Intrinsics camera{260, 250, 0.5f * float(s.width), 0.45f * float(s.height)};
     views.shapes.push_back({s.width, s.height, TensorOptions{}.bins});

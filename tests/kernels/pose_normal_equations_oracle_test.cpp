@@ -1,5 +1,6 @@
-// pose_normal_equations against an oracle written from pose_normal_equations.h's prose alone (pose_oracle.h),
-// whose derivatives are differences of its residuals and costs, and against systems worked out by hand.
+// pose_normal_equations against an oracle written from pose_normal_equations.h's prose alone
+// (pose_oracle.h), whose derivatives are differences of its residuals and costs, and against
+// systems worked out by hand.
 #include "tests/kernels/pose_oracle.h"
 
 namespace edgescout {
@@ -26,8 +27,10 @@ Real weight(const PoseLoss& loss, Real r) {
   return r <= s ? 1 : s / r;
 }
 
-// The residual after a small move. An edge seen end on keeps its orientation: its derivative counts as zero.
-Real moved_residual(const test::OracleView& view, const test::CameraPoint& q, int direction, Real by) {
+// The residual after a small move. An edge seen end on keeps its orientation: its derivative counts
+// as zero.
+Real moved_residual(const test::OracleView& view, const test::CameraPoint& q, int direction,
+                    Real by) {
   const test::ImagePoint before = test::project(view.camera, q);
   test::ImagePoint at = test::project(view.camera, test::moved(q, direction, by));
   if (before.foreshortening < POSE_MIN_FORESHORTENING) at.theta = before.theta;
@@ -52,8 +55,8 @@ void add_point(OracleSystem& system, const test::OracleView& view, const PoseLos
   system.points += 1;
 }
 
-OracleSystem oracle_system(const test::OracleView& view, const Pose& pose, std::span<const ModelPoint> points,
-                           const PoseLoss& loss) {
+OracleSystem oracle_system(const test::OracleView& view, const Pose& pose,
+                           std::span<const ModelPoint> points, const PoseLoss& loss) {
   OracleSystem system;
   for (const ModelPoint& point : points) {
     const test::CameraPoint q = test::in_camera(pose, point);
@@ -83,8 +86,10 @@ void expect_near(const NormalEquations& found, const OracleSystem& expected) {
   EXPECT_EQ(found.behind, expected.behind);
 }
 
-// Clearly seen from the side or clearly end on, though not so much that float loses the orientation.
-bool derivative_is_sure(const TensorShape& shape, const Intrinsics& camera, const test::CameraPoint& q) {
+// Clearly seen from the side or clearly end on, though not so much that float loses the
+// orientation.
+bool derivative_is_sure(const TensorShape& shape, const Intrinsics& camera,
+                        const test::CameraPoint& q) {
   if (!test::clear_of_seams(shape, camera, q)) return false;
   if (!test::in_front(q)) return true;
   const Real seen = test::project(camera, q).foreshortening / POSE_MIN_FORESHORTENING;
@@ -115,26 +120,27 @@ NormalEquations system_of(Backend& backend, const ViewHandle& view, const ModelP
   return system;
 }
 
-// 3.5 px right of the edge and half a bin beyond its orientation. By x the tensor grows by 1 px/px, by
-// orientation by a bin's step in pi / 60. A metre to the right is 10 px, a metre ahead -3.5 px; the
-// rotations turn the tangent's image by 0.35 ty^2, -0.35 tx ty and 1.
+// 3.5 px right of the edge and half a bin beyond its orientation. By x the tensor grows by 1 px/px,
+// by orientation by a bin's step in pi / 60. A metre to the right is 10 px, a metre ahead -3.5 px;
+// the rotations turn the tangent's image by 0.35 ty^2, -0.35 tx ty and 1.
 void expect_system_beside_the_edge(Backend& backend) {
   const Real half_turn = std::numbers::pi_v<Real>, angle = half_turn / 2 + half_turn / 120;
   const Real tx = std::cos(angle), ty = std::sin(angle), turn = test::bin_px * 60 / half_turn;
   const Real r = 3.5L + test::bin_px / 2;
-  const std::array<Real, 6> jacobian{10,  0, -3.5L, turn * 0.35L * ty * ty, 1.225L - turn * 0.35L * tx * ty,
-                                     turn};
+  const std::array<Real, 6> jacobian{
+      10, 0, -3.5L, turn * 0.35L * ty * ty, 1.225L - turn * 0.35L * tx * ty, turn};
   OracleSystem expected{{}, {}, r * r / 2, r, 1, 1, 0};
   for (int i = 0, entry = 0; i < 6; ++i) {
     expected.gradient[i] = r * jacobian[i];
     for (int j = i; j < 6; ++j) expected.hessian[entry++] = jacobian[i] * jacobian[j];
   }
   const ViewHandle view = test::straight_edge(backend, true, {});
-  expect_near(system_of(backend, view, {0.35f, 0, 0, float(tx), float(ty), 0}, {LOSS_HUBER, 10}), expected);
+  expect_near(system_of(backend, view, {0.35f, 0, 0, float(tx), float(ty), 0}, {LOSS_HUBER, 10}),
+              expected);
 }
 
-// 3.5 px left of the image, whose border lies 16 px from the edge: the residual is 19.5 px and grows
-// outwards.
+// 3.5 px left of the image, whose border lies 16 px from the edge: the residual is 19.5 px and
+// grows outwards.
 void expect_system_outside_the_image(Backend& backend) {
   const ViewHandle view = test::straight_edge(backend, true, {});
   const ModelPoint point{-1.95f, 0, 0, 0, 1, 0};
@@ -156,7 +162,9 @@ void expect_behind_counted(Backend& backend) {
     Pose pose;
     bool behind;
   };
-  const auto at = [](float x, float y, float z) { return Pose{{1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z}}; };
+  const auto at = [](float x, float y, float z) {
+    return Pose{{1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z}};
+  };
   const ViewHandle view = test::straight_edge(backend, true, {});
   const ModelPoint point{0, 0, 0, 0, 1, 0};
   for (const Place& place : std::vector<Place>{{at(0, 0, POSE_MIN_DEPTH_M), true},
@@ -168,8 +176,8 @@ void expect_behind_counted(Backend& backend) {
                                                {at(9999, -9999, 1), false},
                                                {at(-10001, 0, 1), true},
                                                {at(0, 10001, 1), true}}) {
-    SCOPED_TRACE("at " + std::to_string(place.pose.m[3]) + ", " + std::to_string(place.pose.m[7]) + ", " +
-                 std::to_string(place.pose.m[11]));
+    SCOPED_TRACE("at " + std::to_string(place.pose.m[3]) + ", " + std::to_string(place.pose.m[7]) +
+                 ", " + std::to_string(place.pose.m[11]));
     const PoseProblem problem{place.pose, 0, 1, 0};
     NormalEquations system{};
     backend.pose_normal_equations({&view, 1}, {&point, 1}, {&problem, 1}, {}, {&system, 1});
@@ -191,8 +199,12 @@ TEST_P(PoseNormalEquationsOracle, KnownAnswers) { expect_known_answers(*tested);
 
 INSTANTIATE_TEST_SUITE_P(Paths, PoseNormalEquationsOracle, test::all_paths, test::param_name);
 
-TEST(PoseNormalEquationsOracleOfReference, AgreesWithTheProse) { expect_oracle(*make_reference_backend()); }
-TEST(PoseNormalEquationsOracleOfReference, KnownAnswers) { expect_known_answers(*make_reference_backend()); }
+TEST(PoseNormalEquationsOracleOfReference, AgreesWithTheProse) {
+  expect_oracle(*make_reference_backend());
+}
+TEST(PoseNormalEquationsOracleOfReference, KnownAnswers) {
+  expect_known_answers(*make_reference_backend());
+}
 
 }  // namespace
 }  // namespace edgescout

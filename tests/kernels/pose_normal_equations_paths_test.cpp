@@ -33,7 +33,8 @@ TEST_P(PoseNormalEquationsPaths, AgreesWithTheReference) {
   const test::TwoViews views = test::make_views(*tested, *reference, rng, false);
   for (const PoseLoss& loss : {PoseLoss{LOSS_HUBER, 4}, PoseLoss{LOSS_GEMAN_MCCLURE, 9}})
     for (const int max_points : {1, 63, 64, 1500}) {
-      SCOPED_TRACE("loss " + std::to_string(loss.kind) + ", up to " + std::to_string(max_points) + " points");
+      SCOPED_TRACE("loss " + std::to_string(loss.kind) + ", up to " + std::to_string(max_points) +
+                   " points");
       const test::PoseCase c = test::pose_case(rng, views, 40, max_points);
       std::vector<NormalEquations> found(c.problems.size()), expected(c.problems.size());
       tested->pose_normal_equations(views.tested, c.points, c.problems, loss, found);
@@ -82,8 +83,10 @@ TEST_P(PoseNormalEquationsPaths, BrokenProblemsAreOurBugs) {
   const auto solve = [&](PoseProblem problem) {
     tested->pose_normal_equations(views.tested, points, {&problem, 1}, {}, {&out, 1});
   };
-  EXPECT_THROW(solve({test::random_pose(rng, 0.3f), 1, 3, 0}), LogicError);  // points beyond the list
-  EXPECT_THROW(solve({test::random_pose(rng, 0.3f), 0, 3, 3}), LogicError);  // a view that is not there
+  EXPECT_THROW(solve({test::random_pose(rng, 0.3f), 1, 3, 0}),
+               LogicError);  // points beyond the list
+  EXPECT_THROW(solve({test::random_pose(rng, 0.3f), 0, 3, 3}),
+               LogicError);  // a view that is not there
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, PoseNormalEquationsPaths, test::all_paths, test::param_name);

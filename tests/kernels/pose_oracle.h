@@ -1,6 +1,6 @@
-// One model point in one view, written from the prose of pose_normal_equations.h and pose_score.h alone, in
-// long double: an error that all paths of the kernels share would show against it. Of the kernels' code it
-// takes the storage order (TensorShape) and the published constants.
+// One model point in one view, written from the prose of pose_normal_equations.h and pose_score.h
+// alone, in long double: an error that all paths of the kernels share would show against it. Of the
+// kernels' code it takes the storage order (TensorShape) and the published constants.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,9 @@ struct ImagePoint {
   Real foreshortening;  // length of the projected tangent over that of one across the line of sight
 };
 
-inline Real3 plus(const Real3& a, const Real3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+inline Real3 plus(const Real3& a, const Real3& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
 inline Real3 times(Real s, const Real3& a) { return {s * a[0], s * a[1], s * a[2]}; }
 inline Real3 cross(const Real3& a, const Real3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -75,10 +77,11 @@ inline bool in_front(const CameraPoint& p) {
 inline ImagePoint project(const Intrinsics& camera, const CameraPoint& p) {
   const auto [x, y, z] = p.position;
   const auto [tx, ty, tz] = p.tangent;
-  const Real dx = camera.fx * (tx * z - x * tz) / (z * z), dy = camera.fy * (ty * z - y * tz) / (z * z);
+  const Real dx = camera.fx * (tx * z - x * tz) / (z * z),
+             dy = camera.fy * (ty * z - y * tz) / (z * z);
   const Real theta = std::atan2(dy, dx), pi = std::numbers::pi_v<Real>;
-  return {camera.fx * x / z + camera.cx, camera.fy * y / z + camera.cy, theta - pi * std::floor(theta / pi),
-          std::hypot(dx, dy) * z / camera.fx};
+  return {camera.fx * x / z + camera.cx, camera.fy * y / z + camera.cy,
+          theta - pi * std::floor(theta / pi), std::hypot(dx, dy) * z / camera.fx};
 }
 
 // Inside is what has its nearest pixel in the image.
@@ -86,16 +89,20 @@ inline bool inside(const TensorShape& shape, const ImagePoint& p) {
   return p.x >= -0.5L && p.y >= -0.5L && p.x < shape.width - 0.5L && p.y < shape.height - 0.5L;
 }
 
-// Trilinear in x, y and, circularly, in orientation; outside the image the border's value and the way to it.
+// Trilinear in x, y and, circularly, in orientation; outside the image the border's value and the
+// way to it.
 inline Real tensor_px(const OracleView& view, const ImagePoint& p) {
   const TensorShape& shape = view.shape;
-  const Real x = std::clamp<Real>(p.x, 0, shape.width - 1), y = std::clamp<Real>(p.y, 0, shape.height - 1);
+  const Real x = std::clamp<Real>(p.x, 0, shape.width - 1),
+             y = std::clamp<Real>(p.y, 0, shape.height - 1);
   const Real bin = p.theta * shape.bins / std::numbers::pi_v<Real>;
   Real value = 0;
   for (int corner = 0; corner < 8; ++corner) {
-    const int at_x = static_cast<int>(x) + (corner & 1), at_y = static_cast<int>(y) + (corner >> 1 & 1),
+    const int at_x = static_cast<int>(x) + (corner & 1),
+              at_y = static_cast<int>(y) + (corner >> 1 & 1),
               at_bin = static_cast<int>(bin) + (corner >> 2);
-    const Real weight = (1 - std::abs(x - at_x)) * (1 - std::abs(y - at_y)) * (1 - std::abs(bin - at_bin));
+    const Real weight =
+        (1 - std::abs(x - at_x)) * (1 - std::abs(y - at_y)) * (1 - std::abs(bin - at_bin));
     if (weight > 0) value += weight * view.tensor[shape.index(at_x, at_y, at_bin % shape.bins)];
   }
   return value / DCD_UNITS_PER_PX + std::hypot(p.x - x, p.y - y);
@@ -103,9 +110,10 @@ inline Real tensor_px(const OracleView& view, const ImagePoint& p) {
 
 inline Real to_integer(Real value) { return std::abs(value - std::round(value)); }
 
-// Float may put a point next to a seam on the seam's other side: the depth where points begin to count,
-// borders, rows and columns, the borders between nearest pixels, and bins.
-inline bool clear_of_seams(const TensorShape& shape, const Intrinsics& camera, const CameraPoint& p) {
+// Float may put a point next to a seam on the seam's other side: the depth where points begin to
+// count, borders, rows and columns, the borders between nearest pixels, and bins.
+inline bool clear_of_seams(const TensorShape& shape, const Intrinsics& camera,
+                           const CameraPoint& p) {
   if (std::abs(p.position[2] - POSE_MIN_DEPTH_M) < 1e-5L) return false;
   if (!in_front(p)) return true;
   const ImagePoint at = project(camera, p);
@@ -114,7 +122,8 @@ inline bool clear_of_seams(const TensorShape& shape, const Intrinsics& camera, c
 }
 
 // Nor is it seen so much end on that its orientation is rounding's.
-inline bool kept_by_float(const TensorShape& shape, const Intrinsics& camera, const CameraPoint& p) {
+inline bool kept_by_float(const TensorShape& shape, const Intrinsics& camera,
+                          const CameraPoint& p) {
   return clear_of_seams(shape, camera, p) &&
          (!in_front(p) || project(camera, p).foreshortening > 1.2 * POSE_MIN_FORESHORTENING);
 }
@@ -127,8 +136,8 @@ void add_problem(PoseCase& c, const PoseProblem& problem, const Keep& keep, cons
   c.problems.push_back(problem);
 }
 
-// Problems of all lengths on all views, some of them behind the camera or out of the image. 40 of up to 1,500
-// points have more than the path in bands binds at once.
+// Problems of all lengths on all views, some of them behind the camera or out of the image. 40 of
+// up to 1,500 points have more than the path in bands binds at once.
 inline PoseCase pose_case(std::mt19937& rng, const TwoViews& views, int problems, int max_points) {
   std::uniform_real_distribution<float> unit(0, 1);
   PoseCase c;
@@ -136,8 +145,8 @@ inline PoseCase pose_case(std::mt19937& rng, const TwoViews& views, int problems
     const int count = i == 0 ? max_points : static_cast<int>(unit(rng) * float(max_points + 1));
     const std::size_t view = static_cast<std::size_t>(i) % views.cameras.size();
     const PoseProblem problem{random_pose(rng, i % 7 == 6 ? 0.02f : 0.3f),
-                              static_cast<std::uint32_t>(c.points.size()), static_cast<std::uint32_t>(count),
-                              static_cast<std::uint32_t>(view)};
+                              static_cast<std::uint32_t>(c.points.size()),
+                              static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(view)};
     add_problem(
         c, problem,
         [&](const ModelPoint& point) {
@@ -170,9 +179,10 @@ inline OracleScene make_scene(Backend& backend, std::mt19937& rng) {
     options.bins = s.bins;
     OracleView view{s, {260, 250, 0.5f * float(s.width), 0.45f * float(s.height)}, {}, {}};
     view.pixels = random_pixels(rng, s.width, s.height);
-    const std::vector<EdgePoint> edges = random_edges(rng, s.width, s.height, 1 + s.width * s.height / 20);
-    scene.handles.push_back(backend.make_view(edges, s.width, s.height,
-                                              {s.width, s.height, view.pixels.data()}, view.camera, options));
+    const std::vector<EdgePoint> edges =
+        random_edges(rng, s.width, s.height, 1 + s.width * s.height / 20);
+    scene.handles.push_back(backend.make_view(
+        edges, s.width, s.height, {s.width, s.height, view.pixels.data()}, view.camera, options));
     view.tensor = scene.handles.back()->tensor();
     scene.views.push_back(std::move(view));
   }
@@ -183,13 +193,16 @@ inline OracleScene make_scene(Backend& backend, std::mt19937& rng) {
 inline ModelPoint seen_end_on(const Pose& pose, const ModelPoint& p) {
   const CameraPoint q = in_camera(pose, p);
   const Real3 sight = unit(q.position);
-  const Real3 tangent = rotated_back(pose, unit(plus(sight, times(0.03L, unit(cross(sight, q.tangent))))));
+  const Real3 tangent =
+      rotated_back(pose, unit(plus(sight, times(0.03L, unit(cross(sight, q.tangent))))));
   return {p.x_m, p.y_m, p.z_m, float(tangent[0]), float(tangent[1]), float(tangent[2])};
 }
 
-// Problems of all lengths on all views, of points that `keep` takes; one in eight points is offered end on.
+// Problems of all lengths on all views, of points that `keep` takes; one in eight points is offered
+// end on.
 inline PoseCase kept_pose_case(std::mt19937& rng, const OracleScene& scene,
-                               bool (*keep)(const TensorShape&, const Intrinsics&, const CameraPoint&)) {
+                               bool (*keep)(const TensorShape&, const Intrinsics&,
+                                            const CameraPoint&)) {
   PoseCase c;
   for (std::uint32_t i = 0; i < 30; ++i) {
     const PoseProblem problem{random_pose(rng, i % 7 == 6 ? 0.02f : 0.3f),
@@ -216,8 +229,9 @@ inline std::span<const ModelPoint> points_of(const PoseCase& c, const PoseProble
 // Camera and object share their axes; the object lies a metre ahead.
 inline constexpr Pose ahead{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1}};
 
-// A straight edge through the middle of a wide-angle view of 33 x 33 px, one point a pixel, and 60 bins
-// without smoothing: a bin is 3 degrees and turns cost round(256 * 30 * pi / 60) = 402 units a bin.
+// A straight edge through the middle of a wide-angle view of 33 x 33 px, one point a pixel, and 60
+// bins without smoothing: a bin is 3 degrees and turns cost round(256 * 30 * pi / 60) = 402 units a
+// bin.
 inline ViewHandle straight_edge(Backend& backend, bool vertical, const ImageView& image) {
   std::vector<EdgePoint> edges;
   for (int i = 0; i < 33; ++i)

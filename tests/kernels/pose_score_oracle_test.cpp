@@ -1,5 +1,5 @@
-// pose_score against an oracle written from pose_score.h's prose alone (pose_oracle.h), and against scores
-// worked out by hand.
+// pose_score against an oracle written from pose_score.h's prose alone (pose_oracle.h), and against
+// scores worked out by hand.
 #include "tests/kernels/pose_oracle.h"
 
 namespace edgescout {
@@ -29,8 +29,8 @@ Real direction_score(const test::OracleView& view, const test::ImagePoint& at, R
   return std::abs(-std::sin(at.theta) * gx + std::cos(at.theta) * gy) / twice;
 }
 
-OracleScore oracle_score(const test::OracleView& view, const Pose& pose, std::span<const ModelPoint> points,
-                         const PoseScoreOptions& options) {
+OracleScore oracle_score(const test::OracleView& view, const Pose& pose,
+                         std::span<const ModelPoint> points, const PoseScoreOptions& options) {
   OracleScore sum{};
   for (const ModelPoint& point : points) {
     const test::CameraPoint q = test::in_camera(pose, point);
@@ -66,19 +66,22 @@ void expect_oracle(Backend& backend) {
     backend.pose_score(scene.handles, c.points, c.problems, options, found);
     for (std::size_t i = 0; i < found.size(); ++i) {
       const PoseProblem& problem = c.problems[i];
-      SCOPED_TRACE("problem " + std::to_string(i) + ", matched below " + std::to_string(options.match_px));
+      SCOPED_TRACE("problem " + std::to_string(i) + ", matched below " +
+                   std::to_string(options.match_px));
       expect_near(found[i], oracle_score(scene.views[problem.view], problem.camera_from_object,
                                          test::points_of(c, problem), options));
     }
   }
 }
 
-// Points that project onto column 16, rows 2 to 30, their tangents at an angle to the image's x axis.
+// Points that project onto column 16, rows 2 to 30, their tangents at an angle to the image's x
+// axis.
 std::vector<ModelPoint> points_on_the_middle(Real degrees) {
   const Real angle = degrees * std::numbers::pi_v<Real> / 180;
   std::vector<ModelPoint> points;
   for (int y = 2; y <= 30; ++y)
-    points.push_back({0, 0.1f * float(y - 16), 0, float(std::cos(angle)), float(std::sin(angle)), 0});
+    points.push_back(
+        {0, 0.1f * float(y - 16), 0, float(std::cos(angle)), float(std::sin(angle)), 0});
   return points;
 }
 
@@ -97,8 +100,8 @@ std::vector<std::uint8_t> step_image(int step) {
   return pixels;
 }
 
-// Along the edge Psi is 1 and the tensor 0; turned, Psi is the cosine and the tensor grows by a bin every
-// three degrees. Matched below 6 px: up to 11 degrees.
+// Along the edge Psi is 1 and the tensor 0; turned, Psi is the cosine and the tensor grows by a bin
+// every three degrees. Matched below 6 px: up to 11 degrees.
 void expect_turned_scores(Backend& backend) {
   const std::vector<std::uint8_t> pixels = step_image(100);
   const ViewHandle view = test::straight_edge(backend, true, {33, 33, pixels.data()});
@@ -122,13 +125,14 @@ void expect_weak_steps_count_zero(Backend& backend) {
   }
 }
 
-// Between the last bin and the first: an edge of angle 0 seen by tangents to either side of it. Row 16 is one
-// of 29, the others lie their distance away.
+// Between the last bin and the first: an edge of angle 0 seen by tangents to either side of it. Row
+// 16 is one of 29, the others lie their distance away.
 void expect_wrap_at_pi(Backend& backend) {
   const std::vector<std::uint8_t> pixels = step_image(0);
   const ViewHandle view = test::straight_edge(backend, false, {33, 33, pixels.data()});
   const Real rows = 14 * 15 / 29.0L;
-  for (const Real degrees : {-4.5L, -3.0L, -1.5L, -0.75L, 0.0L, 0.75L, 1.5L, 4.5L, 178.5L, 181.5L}) {
+  for (const Real degrees :
+       {-4.5L, -3.0L, -1.5L, -0.75L, 0.0L, 0.75L, 1.5L, 4.5L, 178.5L, 181.5L}) {
     SCOPED_TRACE("angle " + std::to_string(degrees));
     const Real turn = std::abs(degrees > 90 ? degrees - 180 : degrees);
     EXPECT_NEAR(score_of(backend, view, points_on_the_middle(degrees)).mean_px,

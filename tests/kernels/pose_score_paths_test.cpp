@@ -17,7 +17,8 @@ TEST_P(PoseScorePaths, AgreesWithTheReference) {
       tested->pose_score(views.tested, c.points, c.problems, {}, found);
       reference->pose_score(views.reference, c.points, c.problems, {}, expected);
       for (std::size_t i = 0; i < found.size(); ++i) {
-        SCOPED_TRACE("problem " + std::to_string(i) + ", up to " + std::to_string(max_points) + " points");
+        SCOPED_TRACE("problem " + std::to_string(i) + ", up to " + std::to_string(max_points) +
+                     " points");
         EXPECT_EQ(found[i].points, expected[i].points);
         EXPECT_NEAR(found[i].mean_px, expected[i].mean_px, 1e-3f);
         EXPECT_NEAR(found[i].psi, expected[i].psi, 1e-3f);
@@ -58,8 +59,10 @@ TEST_P(PoseScorePaths, BrokenProblemsAreOurBugs) {
     reference->pose_score(views.reference, points, {&problem, 1}, {}, {&out, 1});
   };
   EXPECT_NO_THROW(score({test::random_pose(rng, 0.3f), 0, 3, 0}));
-  EXPECT_THROW(score({test::random_pose(rng, 0.3f), 1, 3, 0}), LogicError);  // points beyond the list
-  EXPECT_THROW(score({test::random_pose(rng, 0.3f), 0, 3, 3}), LogicError);  // a view that is not there
+  EXPECT_THROW(score({test::random_pose(rng, 0.3f), 1, 3, 0}),
+               LogicError);  // points beyond the list
+  EXPECT_THROW(score({test::random_pose(rng, 0.3f), 0, 3, 3}),
+               LogicError);  // a view that is not there
 }
 
 TEST_P(PoseScorePaths, AnImageOfAnotherSizeIsOurBug) {

@@ -1,5 +1,5 @@
-// Push-constant structs are written once and read by GLSL and C++: name and offset of every member as the
-// compiled shader has them must be those C++ has.
+// Push-constant structs are written once and read by GLSL and C++: name and offset of every member
+// as the compiled shader has them must be those C++ has.
 #ifdef EDGESCOUT_VULKAN
 #include <gtest/gtest.h>
 
@@ -89,7 +89,8 @@ class Module {
     }
   }
 
-  void collect(std::uint32_t type, const std::string& prefix, std::size_t base, Members& members) const {
+  void collect(std::uint32_t type, const std::string& prefix, std::size_t base,
+               Members& members) const {
     const std::vector<std::uint32_t>& types = struct_members_.at(type);
     for (std::uint32_t m = 0; m < types.size(); ++m) {
       const std::string name = prefix + names_.at({type, m});
@@ -114,9 +115,9 @@ class Module {
 #define GRID_MEMBERS                                                                      \
   MEMBER(grid.width), MEMBER(grid.height), MEMBER(grid.bins), MEMBER(grid.tiles_per_row), \
       MEMBER(grid.band_rows)
-#define CAMERA_MEMBERS                                                                                    \
-  MEMBER(camera.fx), MEMBER(camera.fy), MEMBER(camera.cx), MEMBER(camera.cy), MEMBER(camera.min_depth_m), \
-      MEMBER(camera.min_foreshortening)
+#define CAMERA_MEMBERS                                                        \
+  MEMBER(camera.fx), MEMBER(camera.fy), MEMBER(camera.cx), MEMBER(camera.cy), \
+      MEMBER(camera.min_depth_m), MEMBER(camera.min_foreshortening)
 
 // All members are 32 bits wide, so equal lists of the whole size leave no gap.
 template <class Push>
@@ -127,22 +128,23 @@ void expect_members(std::span<const std::uint32_t> spirv, const Members& expecte
 
 TEST(PushConstants, DcdSeed) {
   using Push = DcdSeedPush;
-  expect_members<Push>(
-      dcd_seed_spv, {MEMBER(point_count), MEMBER(width), MEMBER(height), MEMBER(bins), MEMBER(words_per_row),
-                     MEMBER(cell_columns), MEMBER(cell_rows), MEMBER(bins_per_rad)});
+  expect_members<Push>(dcd_seed_spv, {MEMBER(point_count), MEMBER(width), MEMBER(height),
+                                      MEMBER(bins), MEMBER(words_per_row), MEMBER(cell_columns),
+                                      MEMBER(cell_rows), MEMBER(bins_per_rad)});
 }
 
 TEST(PushConstants, DistancePass) {
   using Push = DistancePassPush;
-  expect_members<Push>(distance_pass_spv, {MEMBER(width), MEMBER(bins), MEMBER(tiles_per_row),
-                                           MEMBER(first_row), MEMBER(row_count), MEMBER(cell_columns),
-                                           MEMBER(cell_rows), MEMBER(reach_cells), MEMBER(cap)});
+  expect_members<Push>(
+      distance_pass_spv,
+      {MEMBER(width), MEMBER(bins), MEMBER(tiles_per_row), MEMBER(first_row), MEMBER(row_count),
+       MEMBER(cell_columns), MEMBER(cell_rows), MEMBER(reach_cells), MEMBER(cap)});
 }
 
 TEST(PushConstants, DcdSweep) {
   using Push = DcdSweepPush;
-  expect_members<Push>(dcd_sweep_spv,
-                       {MEMBER(tile_count), MEMBER(bins), MEMBER(step), MEMBER(cap), MEMBER(reach)});
+  expect_members<Push>(
+      dcd_sweep_spv, {MEMBER(tile_count), MEMBER(bins), MEMBER(step), MEMBER(cap), MEMBER(reach)});
 }
 
 TEST(PushConstants, TemplateScore) {
@@ -152,20 +154,23 @@ TEST(PushConstants, TemplateScore) {
 
 TEST(PushConstants, PoseNormalEquations) {
   using Push = PoseSystemPush;
-  expect_members<Push>(pose_normal_equations_spv, {GRID_MEMBERS, CAMERA_MEMBERS, MEMBER(first_problem),
-                                                   MEMBER(parts), MEMBER(loss), MEMBER(scale_px)});
+  expect_members<Push>(pose_normal_equations_spv,
+                       {GRID_MEMBERS, CAMERA_MEMBERS, MEMBER(first_problem), MEMBER(parts),
+                        MEMBER(loss), MEMBER(scale_px)});
 }
 
 TEST(PushConstants, PoseScore) {
   using Push = PoseScorePush;
-  expect_members<Push>(pose_score_spv, {GRID_MEMBERS, CAMERA_MEMBERS, MEMBER(first_problem), MEMBER(parts),
-                                        MEMBER(has_gradient), MEMBER(min_gradient), MEMBER(match_px)});
+  expect_members<Push>(pose_score_spv,
+                       {GRID_MEMBERS, CAMERA_MEMBERS, MEMBER(first_problem), MEMBER(parts),
+                        MEMBER(has_gradient), MEMBER(min_gradient), MEMBER(match_px)});
 }
 
 TEST(PushConstants, DepthRaster) {
   using Push = DepthRasterPush;
-  expect_members<Push>(depth_raster_spv, {MEMBER(triangle_count), MEMBER(width), MEMBER(height),
-                                          MEMBER(near_m), MEMBER(band_rows), MEMBER(first_triangle)});
+  expect_members<Push>(depth_raster_spv,
+                       {MEMBER(triangle_count), MEMBER(width), MEMBER(height), MEMBER(near_m),
+                        MEMBER(band_rows), MEMBER(first_triangle)});
 }
 
 TEST(PushConstants, CandidateMap) {
@@ -176,18 +181,20 @@ TEST(PushConstants, CandidateMap) {
 TEST(PushConstants, CombinationChamfer) {
   using Push = ChamferPush;
   for (const std::span<const std::uint32_t> spirv :
-       {std::span<const std::uint32_t>(chamfer_masks_spv), std::span<const std::uint32_t>(chamfer_rows_spv),
+       {std::span<const std::uint32_t>(chamfer_masks_spv),
+        std::span<const std::uint32_t>(chamfer_rows_spv),
         std::span<const std::uint32_t>(chamfer_sums_spv)})
-    expect_members<Push>(spirv, {MEMBER(count), MEMBER(words), MEMBER(first_word), MEMBER(column_words),
-                                 MEMBER(realizations), MEMBER(cap)});
+    expect_members<Push>(spirv, {MEMBER(count), MEMBER(words), MEMBER(first_word),
+                                 MEMBER(column_words), MEMBER(realizations), MEMBER(cap)});
 }
 
 TEST(PushConstants, MutualInformation) {
   using Push = InformationPush;
-  for (const std::span<const std::uint32_t> spirv : {std::span<const std::uint32_t>(information_rows_spv),
-                                                     std::span<const std::uint32_t>(information_columns_spv)})
-    expect_members<Push>(spirv,
-                         {MEMBER(particles), MEMBER(realizations), MEMBER(cap_px), MEMBER(inverse_scale)});
+  for (const std::span<const std::uint32_t> spirv :
+       {std::span<const std::uint32_t>(information_rows_spv),
+        std::span<const std::uint32_t>(information_columns_spv)})
+    expect_members<Push>(
+        spirv, {MEMBER(particles), MEMBER(realizations), MEMBER(cap_px), MEMBER(inverse_scale)});
 }
 
 TEST(PushConstants, EdgeGradient) {
@@ -202,8 +209,8 @@ TEST(PushConstants, EdgeThin) {
 
 TEST(PushConstants, EdgeLink) {
   using Push = EdgeLinkPush;
-  expect_members<Push>(edge_link_spv,
-                       {MEMBER(width), MEMBER(height), MEMBER(high2), MEMBER(min_length_px), MEMBER(count)});
+  expect_members<Push>(edge_link_spv, {MEMBER(width), MEMBER(height), MEMBER(high2),
+                                       MEMBER(min_length_px), MEMBER(count)});
 }
 
 }  // namespace

@@ -21,11 +21,15 @@ struct Work {
   std::vector<TemplateJob> jobs;
 };
 
-Work random_work(std::mt19937& rng, const TensorShape& shape, int count, int max_columns, int max_rows) {
-  const auto in = [&](int low, int high) { return std::uniform_int_distribution<int>(low, high)(rng); };
+Work random_work(std::mt19937& rng, const TensorShape& shape, int count, int max_columns,
+                 int max_rows) {
+  const auto in = [&](int low, int high) {
+    return std::uniform_int_distribution<int>(low, high)(rng);
+  };
   Work work;
   for (int t = 0; t < count; ++t) {
-    const auto points = static_cast<std::uint32_t>(t == 0 ? int(TEMPLATE_SCORE_MAX_POINTS) : in(1, 90));
+    const auto points =
+        static_cast<std::uint32_t>(t == 0 ? int(TEMPLATE_SCORE_MAX_POINTS) : in(1, 90));
     // Now and then the same points again, or anchors far outside: ties and nothing but outside.
     const bool again = t > 0 && in(0, 3) == 0;
     const int away = in(0, 9) == 0 ? 1000 : 0;
@@ -37,7 +41,8 @@ Work random_work(std::mt19937& rng, const TensorShape& shape, int count, int max
                          static_cast<std::uint32_t>(in(1, max_rows))});
     if (again) continue;
     for (std::uint32_t p = 0; p < points; ++p)
-      work.points.push_back({static_cast<std::int16_t>(in(-20, 20)), static_cast<std::int16_t>(in(-20, 20)),
+      work.points.push_back({static_cast<std::int16_t>(in(-20, 20)),
+                             static_cast<std::int16_t>(in(-20, 20)),
                              static_cast<std::uint16_t>(in(0, shape.bins - 1))});
   }
   return work;
@@ -60,8 +65,8 @@ TEST_P(TemplateScorePaths, EqualsTheReference) {
                                          {70, 100, 120, 300, 1, 1, 1},  // one anchor each
                                          {7, 5, 3, 300, 1, 1, 2},
                                          {20, 20, 5, 0, 1, 12, 1}}) {
-    SCOPED_TRACE(std::to_string(c.width) + "x" + std::to_string(c.height) + ", " + std::to_string(c.jobs) +
-                 " jobs");
+    SCOPED_TRACE(std::to_string(c.width) + "x" + std::to_string(c.height) + ", " +
+                 std::to_string(c.jobs) + " jobs");
     const std::vector<EdgePoint> edges = test::random_edges(rng, c.width, c.height, c.edges);
     const ViewHandle view = tested->make_view(edges, c.width, c.height, {}, {}, {});
     const ViewHandle truth = reference->make_view(edges, c.width, c.height, {}, {}, {});
@@ -88,7 +93,8 @@ TEST_P(TemplateScorePaths, ManyJobs) {
   EXPECT_EQ(hits, expected);
 }
 
-// More points than the narrow device binds at once: its jobs go in several batches, each with its own points.
+// More points than the narrow device binds at once: its jobs go in several batches, each with its
+// own points.
 TEST_P(TemplateScorePaths, JobsOfManyPoints) {
   std::mt19937 rng = test::test_rng();
   const std::vector<EdgePoint> edges = test::random_edges(rng, 33, 17, 20);
@@ -109,19 +115,22 @@ TEST_P(TemplateScorePaths, JobsOfManyPoints) {
   }
 }
 
-// A point just before the camera lands anywhere: it is outside, and costs no memory for the way there.
+// A point just before the camera lands anywhere: it is outside, and costs no memory for the way
+// there.
 TEST_P(TemplateScorePaths, PointsFarAwayAreOutside) {
   const ViewHandle view = tested->make_view({}, 64, 48, {}, {}, {});
   const std::vector<TemplatePoint> points{
       {-16000, -16000, 3}, {16000, 16000, 5}, {0, 16000, 7}, {-16000, 2, 9}};
   std::vector<TemplateHit> hits(2);
   tested->template_score(*view, points,
-                         std::vector<TemplateJob>{{0, 4, 8, 4, 3, 2}, {2, 1, -20000, 30000, 40, 9}}, 2, hits);
+                         std::vector<TemplateJob>{{0, 4, 8, 4, 3, 2}, {2, 1, -20000, 30000, 40, 9}},
+                         2, hits);
   const std::vector<TemplateHit> expected{{4 * TEMPLATE_SCORE_OUTSIDE, 8, 4},
                                           {TEMPLATE_SCORE_OUTSIDE, -20000, 30000}};
   EXPECT_EQ(hits, expected);
   tested->template_score(*view, points,
-                         std::vector<TemplateJob>{{0, 4, 8, 4, 1, 1}, {2, 1, -20000, 30000, 1, 1}}, 2, hits);
+                         std::vector<TemplateJob>{{0, 4, 8, 4, 1, 1}, {2, 1, -20000, 30000, 1, 1}},
+                         2, hits);
   EXPECT_EQ(hits, expected);
 }
 
@@ -142,7 +151,8 @@ TEST_P(TemplateScorePaths, BrokenJobsAreOurBugs) {
   EXPECT_THROW(score(1, {0, 1, 0, 0, 1u << 16, 1u << 16}), LogicError);  // 2^32 of them
 }
 
-// The best anchor is the last: a shader whose loops end early (lavapipe's, after 65,535 turns) misses it.
+// The best anchor is the last: a shader whose loops end early (lavapipe's, after 65,535 turns)
+// misses it.
 TEST_P(TemplateScorePaths, TheLargestJobIsLookedThroughToItsEnd) {
   const std::vector<EdgePoint> corner{{95, 95, 0, 10}};
   const ViewHandle view = tested->make_view(corner, 96, 96, {}, {}, {});

@@ -10,8 +10,9 @@
 #include "dcd_seed.spv.h"
 #include "kernels/dcd_seed.h"
 
-// What the sanitizers see inside the validation layer and the software driver is none of ours: neither was
-// built for them. What we forget to destroy the layer reports, and that fails the test that did it.
+// What the sanitizers see inside the validation layer and the software driver is none of ours:
+// neither was built for them. What we forget to destroy the layer reports, and that fails the test
+// that did it.
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libVkLayer_khronos_validation.so\nleak:libvulkan_lvp.so\nleak:libLLVM\n";
@@ -19,7 +20,8 @@ extern "C" const char* __lsan_default_suppressions() {
 extern "C" const char* __tsan_default_suppressions();
 extern "C" const char* __tsan_default_suppressions() {
   return "race:libVkLayer_khronos_validation.so\ndeadlock:libVkLayer_khronos_validation.so\n"
-         "mutex:libVkLayer_khronos_validation.so\nrace:libvulkan_lvp.so\ndeadlock:libvulkan_lvp.so\n"
+         "mutex:libVkLayer_khronos_validation.so\nrace:libvulkan_lvp.so\ndeadlock:libvulkan_lvp."
+         "so\n"
          "mutex:libvulkan_lvp.so\nrace:libLLVM\n";
 }
 
@@ -58,7 +60,8 @@ TEST_F(VulkanRuntime, AMissingDeviceIsNamed) {
   EXPECT_TRUE(contains(message, "99")) << message;
   EXPECT_THROW(make_vulkan_backend(-1), GpuError);
   const std::string asked = message_of<InputError>([] { make_backend("vulkan:99"); });
-  EXPECT_TRUE(contains(asked, "device") && contains(asked, "vulkan:99") && contains(asked, "vulkan:0"))
+  EXPECT_TRUE(contains(asked, "device") && contains(asked, "vulkan:99") &&
+              contains(asked, "vulkan:0"))
       << asked;
 }
 
@@ -74,24 +77,28 @@ TEST_F(VulkanRuntime, DescribesItsDevices) {
 // A display's watchdog ends a dispatch that takes seconds, and the device is lost.
 TEST_F(VulkanRuntime, ABatchOfTemplatesIsNoLongWork) {
   const gpu::TemplateScore templates(*device);
-  const TemplateJob largest{0, TEMPLATE_SCORE_MAX_POINTS, 0, 0, 128, TEMPLATE_SCORE_MAX_ANCHORS / 128};
+  const TemplateJob largest{0,   TEMPLATE_SCORE_MAX_POINTS,       0, 0,
+                            128, TEMPLATE_SCORE_MAX_ANCHORS / 128};
   EXPECT_EQ(templates.that_fit(std::vector<TemplateJob>(200, largest)), 128u) << "2^28 lookups";
   EXPECT_EQ(templates.that_fit(std::vector<TemplateJob>(100, largest)), 100u);
   EXPECT_EQ(templates.that_fit({}), 0u);
 }
 
 TEST_F(VulkanRuntime, TooMuchMemoryNamesBufferAndSize) {
-  const std::string message =
-      message_of<GpuError>([&] { gpu::RawBuffer(*device, ~VkDeviceSize{0} / 2, Memory::device, "a whale"); });
-  EXPECT_TRUE(contains(message, "'a whale'") && contains(message, "9223372036854775807")) << message;
+  const std::string message = message_of<GpuError>(
+      [&] { gpu::RawBuffer(*device, ~VkDeviceSize{0} / 2, Memory::device, "a whale"); });
+  EXPECT_TRUE(contains(message, "'a whale'") && contains(message, "9223372036854775807"))
+      << message;
 }
 
 // Or every later use of the buffer would fail: it is bound whole, and never shrinks.
 TEST_F(VulkanRuntime, ABufferDoesNotGrowBeyondWhatIsBound) {
   Buffer<float> buffer(*device, 8, "a pond");
   const std::size_t most = device->limits().maxStorageBufferRange / sizeof(float);
-  const std::string message = message_of<GpuError>([&] { buffer.reserve(*device, most + 1, "a lake"); });
-  EXPECT_TRUE(contains(message, "'a lake'") && contains(message, std::to_string(4 * (most + 1)))) << message;
+  const std::string message =
+      message_of<GpuError>([&] { buffer.reserve(*device, most + 1, "a lake"); });
+  EXPECT_TRUE(contains(message, "'a lake'") && contains(message, std::to_string(4 * (most + 1))))
+      << message;
   EXPECT_EQ(buffer.size(), 8u);
 }
 
@@ -99,7 +106,8 @@ TEST_F(VulkanRuntime, ATensorTooLargeForTheDeviceIsBadInput) {
   const std::string message = message_of<InputError>([&] {
     gpu::DeviceTensor(*device, {30000, 30000, 128});
   });
-  EXPECT_TRUE(contains(message, "30000x30000") && contains(message, device->info().name)) << message;
+  EXPECT_TRUE(contains(message, "30000x30000") && contains(message, device->info().name))
+      << message;
 }
 
 TEST_F(VulkanRuntime, AnImageTooLargeForTheDeviceIsBadInput) {
@@ -113,7 +121,8 @@ TEST_F(VulkanRuntime, AnImageTooLargeForTheDeviceIsBadInput) {
   const std::string message = message_of<InputError>([&] {
     detect.record_pixels(batch, {size, size, pixels.data()}, {});
   });
-  EXPECT_TRUE(contains(message, std::to_string(size)) && contains(message, device->info().name)) << message;
+  EXPECT_TRUE(contains(message, std::to_string(size)) && contains(message, device->info().name))
+      << message;
 }
 
 TEST_F(VulkanRuntime, TooManyWorkgroupsNameTheKernelAndItsSize) {
@@ -214,8 +223,8 @@ TEST_F(VulkanRuntime, CountsTheDevicesMemoryAlone) {
 TEST_F(VulkanRuntime, CopiesWholeBuffers) {
   std::vector<std::uint32_t> values(1000);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::uint32_t>(7 * i);
-  const Buffer<std::uint32_t> from(*device, values.size(), "from"), to(*device, values.size() + 1, "to"),
-      small(*device, 10, "small");
+  const Buffer<std::uint32_t> from(*device, values.size(), "from"),
+      to(*device, values.size() + 1, "to"), small(*device, 10, "small");
   Batch batch(*device, "copy");
   batch.upload<std::uint32_t>(from, values);
   batch.fill(to, 9);
@@ -247,8 +256,9 @@ TEST_F(VulkanRuntime, ValidationSeesAMissingBarrier) {
 TEST(VulkanResult, NamesWhatItKnows) {
   EXPECT_EQ(gpu::result_name(VK_ERROR_DEVICE_LOST), "VK_ERROR_DEVICE_LOST");
   EXPECT_EQ(gpu::result_name(static_cast<VkResult>(-123456)), "VkResult -123456");
-  EXPECT_EQ(message_of<GpuError>(
-                [] { gpu::require(VK_ERROR_DEVICE_LOST, "edges (edge_link 3x1x1): vkWaitForFences"); }),
+  EXPECT_EQ(message_of<GpuError>([] {
+              gpu::require(VK_ERROR_DEVICE_LOST, "edges (edge_link 3x1x1): vkWaitForFences");
+            }),
             "edges (edge_link 3x1x1): vkWaitForFences: VK_ERROR_DEVICE_LOST");
 }
 

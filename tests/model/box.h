@@ -8,7 +8,8 @@ namespace edgescout::test {
 inline Mesh box_mesh(double x_m, double y_m, double z_m) {
   std::vector<Eigen::Vector3d> corners;
   for (int i = 0; i < 8; ++i)
-    corners.emplace_back(i & 1 ? x_m / 2 : -x_m / 2, i & 2 ? y_m / 2 : -y_m / 2, i & 4 ? z_m / 2 : -z_m / 2);
+    corners.emplace_back(i & 1 ? x_m / 2 : -x_m / 2, i & 2 ? y_m / 2 : -y_m / 2,
+                         i & 4 ? z_m / 2 : -z_m / 2);
   return make_mesh("box", corners,
                    {{0, 2, 3},
                     {0, 3, 1},

@@ -55,8 +55,8 @@ TEST(EdgeModel, IsToldFromOthersByItsFingerprint) {
 }
 
 TEST(EdgeModel, OpenBordersShow) {
-  const EdgeModel sheet = make_edge_model(
-      make_mesh("sheet", {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}}, {{0, 1, 2}, {0, 2, 3}}));
+  const EdgeModel sheet = make_edge_model(make_mesh(
+      "sheet", {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}}, {{0, 1, 2}, {0, 2, 3}}));
   EXPECT_EQ(sheet.creases.size(), 4u);
 }
 
@@ -97,9 +97,9 @@ TEST(EdgeModel, CylinderHasRimsAndACurvedSide) {
 TEST(EdgeModel, CreaseAngleDecides) {
   // A roof of 40 degrees between its sides' normals.
   const double h = 0.1 * std::tan(20 * std::numbers::pi / 180);
-  const Mesh roof =
-      make_mesh("roof", {{-0.1, 0, 0}, {0.1, 0, 0}, {0, 0, h}, {-0.1, 0.2, 0}, {0.1, 0.2, 0}, {0, 0.2, h}},
-                {{0, 2, 5}, {0, 5, 3}, {2, 1, 4}, {2, 4, 5}});
+  const Mesh roof = make_mesh(
+      "roof", {{-0.1, 0, 0}, {0.1, 0, 0}, {0, 0, h}, {-0.1, 0.2, 0}, {0.1, 0.2, 0}, {0, 0.2, h}},
+      {{0, 2, 5}, {0, 5, 3}, {2, 1, 4}, {2, 4, 5}});
   const auto creases = [&](double angle_deg) {
     EdgeModelOptions options;
     options.crease_angle_deg = angle_deg;

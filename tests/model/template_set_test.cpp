@@ -29,7 +29,8 @@ TemplateSet small_set() {
 }
 
 bool same_points(const std::vector<ModelPoint>& a, const std::vector<ModelPoint>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(ModelPoint)) == 0;
+  return a.size() == b.size() &&
+         std::memcmp(a.data(), b.data(), a.size() * sizeof(ModelPoint)) == 0;
 }
 
 TEST(TemplateSet, HoldsWhatIsVisibleFromEveryViewpoint) {
@@ -47,9 +48,11 @@ TEST(TemplateSet, HoldsWhatIsVisibleFromEveryViewpoint) {
   EXPECT_EQ(last, 42);
   ASSERT_EQ(set.views.size(), 42u);
   for (const TemplateView& view : set.views) {
-    const Eigen::Vector3d towards_camera = -(view.camera_from_object.conjugate() * Eigen::Vector3d::UnitZ());
+    const Eigen::Vector3d towards_camera =
+        -(view.camera_from_object.conjugate() * Eigen::Vector3d::UnitZ());
     ASSERT_FALSE(view.points.empty());
-    // The corner of the box that is farthest from the camera is hidden, and so are its three edges' ends.
+    // The corner of the box that is farthest from the camera is hidden, and so are its three edges'
+    // ends.
     const Eigen::Vector3d half(0.03, 0.02, 0.01);
     Eigen::Vector3d hidden;
     for (int i = 0; i < 3; ++i) hidden[i] = towards_camera[i] > 0 ? -half[i] : half[i];
@@ -116,7 +119,8 @@ TEST(TemplateFile, ReadsBackWhatWasWritten) {
   EXPECT_EQ(read.symmetries.discrete[1].translation_m.x(), 0.001);
   ASSERT_EQ(read.views.size(), set.views.size());
   for (std::size_t i = 0; i < read.views.size(); ++i) {
-    EXPECT_LT(read.views[i].camera_from_object.angularDistance(set.views[i].camera_from_object), 1e-9);
+    EXPECT_LT(read.views[i].camera_from_object.angularDistance(set.views[i].camera_from_object),
+              1e-9);
     EXPECT_TRUE(same_points(read.views[i].points, set.views[i].points)) << i;
   }
 }
@@ -143,8 +147,9 @@ TEST(TemplateFile, WithAByteFlippedIsRefused) {
   Random random = test_random();
   for (int i = 0; i < 100; ++i) {
     std::string bad = whole;
-    const std::size_t at = i < 28 ? static_cast<std::size_t>(i)
-                                  : static_cast<std::size_t>(random.below(static_cast<int>(whole.size())));
+    const std::size_t at =
+        i < 28 ? static_cast<std::size_t>(i)
+               : static_cast<std::size_t>(random.below(static_cast<int>(whole.size())));
     bad[at] = static_cast<char>(bad[at] ^ (1 << random.below(8)));
     const std::string file = folder.write("bad.est", bad);
     expect_input_error([&] { load_templates(file); }, {"bad.est"});

@@ -41,7 +41,8 @@ TEST(Viewpoints, IcosphereCountsAndSpacing) {
 
 TEST(Viewpoints, RangesOfLatitudeAndLongitude) {
   const auto at = [](double latitude_deg, double longitude_deg) {
-    const double a = latitude_deg * std::numbers::pi / 180, o = longitude_deg * std::numbers::pi / 180;
+    const double a = latitude_deg * std::numbers::pi / 180,
+                 o = longitude_deg * std::numbers::pi / 180;
     return Eigen::Vector3d(std::cos(a) * std::cos(o), std::cos(a) * std::sin(o), std::sin(a));
   };
   const SphereRange wrapped{10, 80, 300, 60};
@@ -65,9 +66,11 @@ TEST(Viewpoints, TheCameraLooksBackAtTheObject) {
   }
 }
 
-void expect_no_gap(const Symmetries& symmetries, int frequency, double least_kept, double most_kept) {
+void expect_no_gap(const Symmetries& symmetries, int frequency, double least_kept,
+                   double most_kept) {
   const std::vector<Eigen::Vector3d> all = icosphere(frequency);
-  const std::vector<Eigen::Vector3d> kept = modulo_symmetry(all, symmetries, ICOSPHERE_GAP_RAD / frequency);
+  const std::vector<Eigen::Vector3d> kept =
+      modulo_symmetry(all, symmetries, ICOSPHERE_GAP_RAD / frequency);
   EXPECT_GE(double(kept.size()), least_kept * double(all.size()));
   EXPECT_LE(double(kept.size()), most_kept * double(all.size()));
   Random random = test_random();
@@ -80,7 +83,8 @@ void expect_no_gap(const Symmetries& symmetries, int frequency, double least_kep
         nearest = std::min(nearest, angle_rad(symmetry.rotation * any, d));
     widest = std::max(widest, nearest);
   }
-  EXPECT_LT(widest, ICOSPHERE_GAP_RAD / frequency) << kept.size() << " of " << all.size() << " kept";
+  EXPECT_LT(widest, ICOSPHERE_GAP_RAD / frequency)
+      << kept.size() << " of " << all.size() << " kept";
 }
 
 Symmetries symmetric(const std::vector<std::string>& words) {
@@ -90,8 +94,12 @@ Symmetries symmetric(const std::vector<std::string>& words) {
 TEST(Viewpoints, WithoutSymmetryAllAreKept) { expect_no_gap({}, 5, 1, 1); }
 TEST(Viewpoints, AHalfTurnKeepsAboutHalf) { expect_no_gap(symmetric({"z2"}), 5, 0.5, 0.65); }
 TEST(Viewpoints, ABoxKeepsAboutAQuarter) { expect_no_gap(symmetric({"x2", "z2"}), 5, 0.25, 0.45); }
-TEST(Viewpoints, AHexagonKeepsAboutATwelfth) { expect_no_gap(symmetric({"x2", "z6"}), 5, 1 / 12.0, 0.25); }
-TEST(Viewpoints, ASolidOfRevolutionKeepsOneMeridian) { expect_no_gap(symmetric({"z"}), 5, 0, 0.15); }
+TEST(Viewpoints, AHexagonKeepsAboutATwelfth) {
+  expect_no_gap(symmetric({"x2", "z6"}), 5, 1 / 12.0, 0.25);
+}
+TEST(Viewpoints, ASolidOfRevolutionKeepsOneMeridian) {
+  expect_no_gap(symmetric({"z"}), 5, 0, 0.15);
+}
 
 // What is asked for is there, also where the fundamental domain lies outside the range.
 TEST(Viewpoints, OfARangeHaveNoGapModuloSymmetry) {
@@ -113,7 +121,8 @@ TEST(Viewpoints, OfARangeHaveNoGapModuloSymmetry) {
         widest = std::max(widest, nearest);
       }
       // at the range's border one of three neighbours may stand alone
-      EXPECT_LT(widest, 2 * ICOSPHERE_GAP_RAD / frequency) << range.latitude_max_deg << " " << kept.size();
+      EXPECT_LT(widest, 2 * ICOSPHERE_GAP_RAD / frequency)
+          << range.latitude_max_deg << " " << kept.size();
     }
 }
 
@@ -127,12 +136,14 @@ TEST(AxisSymmetry, TurnsAboutTheCentroidAndClosesTheGroup) {
   for (const Se3& a : symmetries.discrete) {
     for (const Eigen::Vector3d& v : box.vertices_m) {
       double nearest = 1;
-      for (const Eigen::Vector3d& w : box.vertices_m) nearest = std::min(nearest, (a * v - w).norm());
+      for (const Eigen::Vector3d& w : box.vertices_m)
+        nearest = std::min(nearest, (a * v - w).norm());
       EXPECT_LT(nearest, 1e-12);
     }
     for (const Se3& b : symmetries.discrete) {
       double nearest = 1;
-      for (const Se3& c : symmetries.discrete) nearest = std::min(nearest, angle_between_rad(a * b, c));
+      for (const Se3& c : symmetries.discrete)
+        nearest = std::min(nearest, angle_between_rad(a * b, c));
       EXPECT_LT(nearest, 1e-7);
     }
   }

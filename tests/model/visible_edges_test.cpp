@@ -37,7 +37,8 @@ Se3 looking_from(const Eigen::Vector3d& eye_m) {
   return se3_from_matrix(camera_from_object, -camera_from_object * eye_m);
 }
 
-// Index of the cube's edge a point lies on: for each of the axes, four combinations of the other two signs.
+// Index of the cube's edge a point lies on: for each of the axes, four combinations of the other
+// two signs.
 int cube_edge(const ModelPoint& point, double half_m) {
   int axis;
   tangent(point).cwiseAbs().maxCoeff(&axis);
@@ -49,7 +50,8 @@ int cube_edge(const ModelPoint& point, double half_m) {
 }
 
 // Share of every edge's raster points that are seen.
-std::array<double, 12> seen_share(const std::vector<ModelPoint>& points, double half_m, double step_m) {
+std::array<double, 12> seen_share(const std::vector<ModelPoint>& points, double half_m,
+                                  double step_m) {
   std::array<double, 12> share{};
   for (const ModelPoint& point : points) share[cube_edge(point, half_m)] += step_m / (2 * half_m);
   return share;
@@ -66,8 +68,8 @@ TEST_F(VisibleEdges, CubeFromTheFrontShowsFourEdges) {
     else if (edge < 8)
       EXPECT_EQ(share[edge], 0) << edge;
     else
-      // Running away from the camera, hidden but for what lies within a map pixel or two of the front's
-      // corner.
+      // Running away from the camera, hidden but for what lies within a map pixel or two of the
+      // front's corner.
       EXPECT_LT(share[edge], 0.25) << edge;
   }
 }
@@ -99,7 +101,8 @@ TEST_F(VisibleEdges, CubeFromACornerShowsNineEdges) {
 TEST_F(VisibleEdges, NoPointComesTwice) {
   const double step = 0.001;
   for (const Mesh& mesh : {make_box({0.1, 0.08, 0.06}), make_part("l_bracket").mesh}) {
-    const std::vector<ModelPoint> points = seen(model_of(mesh, step), looking_from({0.2, 0.25, 0.3}));
+    const std::vector<ModelPoint> points =
+        seen(model_of(mesh, step), looking_from({0.2, 0.25, 0.3}));
     ASSERT_GT(points.size(), 100u);
     // A point drawn by two faces would have a twin at its place with the same direction.
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -118,7 +121,8 @@ TEST_F(VisibleEdges, SphereShowsItsCircle) {
   for (int i = 0; i < 10; ++i) {
     const double distance = random.uniform(0.15, 1.0);
     const Eigen::Vector3d to_eye = random.direction();
-    const double height = radius * radius / distance, circle = std::sqrt(radius * radius - height * height);
+    const double height = radius * radius / distance,
+                 circle = std::sqrt(radius * radius - height * height);
     const std::vector<ModelPoint> points = seen(sphere, looking_from(distance * to_eye));
     std::vector<double> angles;
     const Eigen::Vector3d u = to_eye.unitOrthogonal(), v = to_eye.cross(u);
@@ -126,18 +130,21 @@ TEST_F(VisibleEdges, SphereShowsItsCircle) {
       const Eigen::Vector3d x = position(point), across = x - x.dot(to_eye) * to_eye;
       EXPECT_NEAR(across.norm(), circle, 0.01 * radius);
       EXPECT_NEAR(x.dot(to_eye), height, 0.01 * radius);
-      EXPECT_GT(std::abs(tangent(point).dot(to_eye.cross(across).normalized())), std::cos(7 * degree));
+      EXPECT_GT(std::abs(tangent(point).dot(to_eye.cross(across).normalized())),
+                std::cos(7 * degree));
       angles.push_back(std::atan2(across.dot(v), across.dot(u)));
     }
     // All of it, and as densely as asked for.
-    EXPECT_NEAR(double(points.size()), 2 * std::numbers::pi * circle / 0.001, 0.1 * double(points.size()));
+    EXPECT_NEAR(double(points.size()), 2 * std::numbers::pi * circle / 0.001,
+                0.1 * double(points.size()));
     std::ranges::sort(angles);
-    for (std::size_t k = 1; k < angles.size(); ++k) EXPECT_LT(angles[k] - angles[k - 1], 8 * degree);
+    for (std::size_t k = 1; k < angles.size(); ++k)
+      EXPECT_LT(angles[k] - angles[k - 1], 8 * degree);
   }
 }
 
-// From the side a cylinder about z shows two straight lines where cos(phi - phi_eye) = radius / distance from
-// the axis.
+// From the side a cylinder about z shows two straight lines where cos(phi - phi_eye) = radius /
+// distance from the axis.
 TEST_F(VisibleEdges, CylinderShowsLinesThatFollowTheEye) {
   const double radius = 0.02, length = 0.1;
   const EdgeModel bar = model_of(make_bar(radius, length), 0.001);
@@ -161,8 +168,8 @@ TEST_F(VisibleEdges, CylinderShowsLinesThatFollowTheEye) {
   }
 }
 
-// Of the far rim of an upright cylinder only the half facing the camera's side is seen; the near rim is seen
-// all around.
+// Of the far rim of an upright cylinder only the half facing the camera's side is seen; the near
+// rim is seen all around.
 TEST_F(VisibleEdges, CylinderHidesTheBackOfItsFarRim) {
   const double radius = 0.02, length = 0.1;
   const EdgeModel bar = model_of(make_bar(radius, length), 0.0005);
@@ -190,8 +197,9 @@ TEST_F(VisibleEdges, ManyPosesAreSeenAsEachAloneAndByAnyNumberOfThreads) {
   Random random = test_random();
   std::vector<Se3> poses;
   for (int i = 0; i < 150; ++i)  // more than one batch
-    poses.push_back({random.rotation(),
-                     {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(0.2, 0.8)}});
+    poses.push_back(
+        {random.rotation(),
+         {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(0.2, 0.8)}});
   const auto equal = [](const std::vector<ModelPoint>& a, const std::vector<ModelPoint>& b) {
     return std::ranges::equal(a, b, [](const ModelPoint& p, const ModelPoint& q) {
       return position(p) == position(q) && tangent(p) == tangent(q);

@@ -22,7 +22,8 @@ Pair solve_both(const PartScene& scene, Backend& backend, const D2coOptions& opt
           register_poses_ceres(models, starts, scene.views, backend, options)[0]};
 }
 
-// Points of the last round may differ where the rounds before ended a hair apart: cost is compared a point.
+// Points of the last round may differ where the rounds before ended a hair apart: cost is compared
+// a point.
 double cost_ratio(const Pair& pair) {
   return pair.batched.cost_px2 / pair.batched.points * pair.ceres.points / pair.ceres.cost_px2;
 }
@@ -34,16 +35,19 @@ TEST(D2coCeres, ReachesTheBatchedMinimumInThreeViews) {
     const PartScene scene(part, 3, random, *backend);
     const Pair pair = solve_both(scene, *backend, {});
     EXPECT_NEAR(cost_ratio(pair), 1, 0.01) << part;
-    EXPECT_LT(distance_between_m(pair.batched.world_from_object, pair.ceres.world_from_object), 5e-5) << part;
-    EXPECT_LT(angle_between_rad(pair.batched.world_from_object, pair.ceres.world_from_object), 3e-3) << part;
+    EXPECT_LT(distance_between_m(pair.batched.world_from_object, pair.ceres.world_from_object),
+              5e-5)
+        << part;
+    EXPECT_LT(angle_between_rad(pair.batched.world_from_object, pair.ceres.world_from_object), 3e-3)
+        << part;
     const Eigen::ArrayXd ratio =
         pair.batched.covariance.diagonal().array() / pair.ceres.covariance.diagonal().array();
     EXPECT_LT((ratio - 1).abs().maxCoeff(), 0.3) << part << " " << ratio.transpose();
   }
 }
 
-// In one view the kinks of the distance transform hold either solver at slightly different depths; one round
-// with Huber's loss on an unsmoothed tensor has fewer of them.
+// In one view the kinks of the distance transform hold either solver at slightly different depths;
+// one round with Huber's loss on an unsmoothed tensor has fewer of them.
 TEST(D2coCeres, ReachesTheBatchedMinimumInOneView) {
   Random random = test_random();
   const std::unique_ptr<Backend> backend = make_cpu_backend(2);
@@ -58,12 +62,13 @@ TEST(D2coCeres, ReachesTheBatchedMinimumInOneView) {
     EXPECT_NEAR(cost_ratio(pair), 1, 0.01) << part;
     EXPECT_LT(apart.head<2>().norm(), 1e-4) << part;
     EXPECT_LT(std::abs(apart.z()), 1e-3) << part;
-    EXPECT_LT(angle_between_rad(pair.batched.world_from_object, pair.ceres.world_from_object), 3e-3) << part;
+    EXPECT_LT(angle_between_rad(pair.batched.world_from_object, pair.ceres.world_from_object), 3e-3)
+        << part;
   }
 }
 
-// Without a step taken both solvers hold the same system: cost, residuals and covariance agree to the
-// kernel's precision.
+// Without a step taken both solvers hold the same system: cost, residuals and covariance agree to
+// the kernel's precision.
 TEST(D2coCeres, DescribesTheSamePoseAlike) {
   Random random = test_random();
   const std::unique_ptr<Backend> backend = make_cpu_backend(2);
@@ -73,8 +78,8 @@ TEST(D2coCeres, DescribesTheSamePoseAlike) {
       D2coOptions stay = one_round(loss, 8, 1);
       stay.rounds[0].max_points = most;
       stay.min_step_m = stay.min_step_rad = 1e6;  // any step is small
-      const Registration ceres = register_poses_ceres(std::span(&scene.model, 1), std::span(&scene.start, 1),
-                                                      scene.views, *backend, stay)[0];
+      const Registration ceres = register_poses_ceres(
+          std::span(&scene.model, 1), std::span(&scene.start, 1), scene.views, *backend, stay)[0];
       EXPECT_EQ(ceres.reason, Convergence::SmallStep);
       EXPECT_LT(distance_between_m(ceres.world_from_object, scene.start.world_from_object), 1e-12);
       const WorldSystem system =
@@ -82,7 +87,8 @@ TEST(D2coCeres, DescribesTheSamePoseAlike) {
       EXPECT_EQ(ceres.points, system.points);
       EXPECT_NEAR(ceres.cost_px2, system.cost, 1e-3 * system.cost);
       EXPECT_NEAR(ceres.mean_px, system.residual_sum / system.points, 1e-3 * ceres.mean_px);
-      const Matrix6d expected = pose_covariance(system.hessian, 2 * system.cost / (system.weight_sum - 6));
+      const Matrix6d expected =
+          pose_covariance(system.hessian, 2 * system.cost / (system.weight_sum - 6));
       EXPECT_LT((ceres.covariance - expected).norm(), 0.02 * expected.norm());
     }
 }

@@ -1,5 +1,5 @@
-// Both solvers of D2CO: what they recover, what they say about its certainty, and what they do where there is
-// nothing to see.
+// Both solvers of D2CO: what they recover, what they say about its certainty, and what they do
+// where there is nothing to see.
 #include "host/register/d2co.h"
 
 #include <gtest/gtest.h>
@@ -28,8 +28,8 @@ void PrintTo(const NamedSolver& solver, std::ostream* out) { *out << solver.name
 class D2co : public ::testing::TestWithParam<NamedSolver> {
  protected:
   Registration solve(const PartScene& scene, const D2coOptions& options = {}) {
-    return GetParam().solve(std::span(&scene.model, 1), std::span(&scene.start, 1), scene.views, *backend,
-                            options)[0];
+    return GetParam().solve(std::span(&scene.model, 1), std::span(&scene.start, 1), scene.views,
+                            *backend, options)[0];
   }
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
 };
@@ -50,21 +50,23 @@ TEST_P(D2co, RecoversAPartInThreeViews) {
   }
 }
 
-// Across the line of sight one view is enough. Depth and tilt it knows less well: the tensor's cost has
-// minima beside the truth that are as deep as the truth's, and there the solver may rest, but no higher than
-// 2 %.
+// Across the line of sight one view is enough. Depth and tilt it knows less well: the tensor's cost
+// has minima beside the truth that are as deep as the truth's, and there the solver may rest, but
+// no higher than 2 %.
 TEST_P(D2co, RecoversAPartInOneView) {
   Random random = test_random();
   for (const char* part : {"l_bracket", "bearing_block", "u_channel"}) {
     const PartScene scene(part, 1, random, *backend);
     const Registration found = solve(scene);
-    const Eigen::Vector3d error = scene.views[0].camera_from_world.rotation *
-                                  (found.world_from_object.translation_m - scene.truth.translation_m);
+    const Eigen::Vector3d error =
+        scene.views[0].camera_from_world.rotation *
+        (found.world_from_object.translation_m - scene.truth.translation_m);
     EXPECT_LT(error.head<2>().norm(), 6e-4) << part;
     EXPECT_LT(std::abs(error.z()), 1e-2) << part;
     EXPECT_LT(angle_between_rad(found.world_from_object, scene.truth), 0.05) << part;
     const D2coRound last = D2coOptions::default_rounds().back();
-    const WorldSystem true_system = system_at(scene, scene.truth, {last.loss, last.scale_px}, 0, *backend);
+    const WorldSystem true_system =
+        system_at(scene, scene.truth, {last.loss, last.scale_px}, 0, *backend);
     EXPECT_LT(found.cost_px2 / found.points, 1.02 * true_system.cost / true_system.points) << part;
   }
 }
@@ -80,8 +82,10 @@ TEST_P(D2co, CovarianceIsPositiveAndLargestInDepth) {
     const PartScene scene(part, 1, random, *backend);
     const Registration found = solve(scene);
     ASSERT_TRUE(found.covariance.allFinite());
-    EXPECT_LT((found.covariance - found.covariance.transpose()).norm(), 1e-6 * found.covariance.norm());
-    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6d>(found.covariance).eigenvalues().minCoeff(), 0);
+    EXPECT_LT((found.covariance - found.covariance.transpose()).norm(),
+              1e-6 * found.covariance.norm());
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6d>(found.covariance).eigenvalues().minCoeff(),
+              0);
     const Eigen::Vector3d sigma = position_sigmas(found, scene.views[0].camera_from_world);
     EXPECT_GT(sigma.z(), 3 * sigma.x()) << part;
     EXPECT_GT(sigma.z(), 3 * sigma.y()) << part;
@@ -116,15 +120,16 @@ TEST_P(D2co, ReportsNoPointsBehindTheCamera) {
   EXPECT_EQ(found.cost_px2, 0);
   EXPECT_EQ(found.world_from_object.translation_m, scene.start.world_from_object.translation_m);
   EXPECT_FALSE(found.covariance.hasNaN());
-  for (int i = 0; i < 6; ++i) EXPECT_EQ(found.covariance(i, i), std::numeric_limits<double>::infinity());
+  for (int i = 0; i < 6; ++i)
+    EXPECT_EQ(found.covariance(i, i), std::numeric_limits<double>::infinity());
 }
 
 TEST_P(D2co, RegistersEveryHypothesisOnItsOwn) {
   Random random = test_random();
   PartScene scene("bearing_block", 2, random, *backend);
   const std::vector<EdgeModel> models{part_model("hex_nut"), scene.model};
-  Hypothesis behind{
-      1, inverse(scene.views[0].camera_from_world) * Se3{Eigen::Quaterniond::Identity(), {0, 0, -3}}};
+  Hypothesis behind{1, inverse(scene.views[0].camera_from_world) *
+                           Se3{Eigen::Quaterniond::Identity(), {0, 0, -3}}};
   const std::vector<Hypothesis> all{
       {0, scene.start.world_from_object}, {1, scene.start.world_from_object}, behind};
   const std::vector<Registration> found = GetParam().solve(models, all, scene.views, *backend, {});
@@ -140,7 +145,8 @@ TEST_P(D2co, RefusesPosesThatAreNone) {
   Random random = test_random();
   PartScene scene("l_bracket", 1, random, *backend);
   const Hypothesis start = scene.start;
-  scene.start.world_from_object.rotation.coeffs().setConstant(std::numeric_limits<double>::quiet_NaN());
+  scene.start.world_from_object.rotation.coeffs().setConstant(
+      std::numeric_limits<double>::quiet_NaN());
   EXPECT_THROW(solve(scene), LogicError);
   scene.start = start;
   scene.start.world_from_object.translation_m.z() = std::numeric_limits<double>::infinity();

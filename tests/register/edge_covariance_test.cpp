@@ -78,7 +78,8 @@ double squared(const Vector6d& error, const Matrix6d& covariance) {
 }
 
 struct Mean {
-  double clustered = 0, independent = 0;  // of the squared normalised error; 6 where the covariance is right
+  double clustered = 0,
+         independent = 0;  // of the squared normalised error; 6 where the covariance is right
 };
 
 Mean mean_squared(int edges, int points, double edge_px, double point_px) {
@@ -101,7 +102,8 @@ TEST(EdgeCovariance, TellsErrorsThatEdgesShare) {
 }
 
 TEST(EdgeCovariance, OutweighsWhatItExpectedWithManyEdges) {
-  for (const double edge_px : {0.04, 0.6}) EXPECT_NEAR(mean_squared(500, 6, edge_px, 0.1).clustered, 6, 0.9);
+  for (const double edge_px : {0.04, 0.6})
+    EXPECT_NEAR(mean_squared(500, 6, edge_px, 0.1).clustered, 6, 0.9);
 }
 
 // As few edges as one view of a block has: what the pose took out of the distances is given back.

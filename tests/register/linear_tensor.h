@@ -1,5 +1,5 @@
-// A tensor whose interpolant is known in closed form: linear in x, y and orientation, so that costs can be
-// differentiated in double without asking the code under test.
+// A tensor whose interpolant is known in closed form: linear in x, y and orientation, so that costs
+// can be differentiated in double without asking the code under test.
 #pragma once
 
 #include <cmath>
@@ -26,7 +26,8 @@ inline Landing land(const Intrinsics& k, const Se3& camera_from_object, const Mo
     return Eigen::Vector2d(k.fx * p.x() / p.z() + k.cx, k.fy * p.y() / p.z() + k.cy);
   };
   const double z = (camera_from_object * x).z();
-  const Eigen::Vector2d at = pixel(x), d = (pixel(x + apart * t) - pixel(x - apart * t)) / (2 * apart);
+  const Eigen::Vector2d at = pixel(x),
+                        d = (pixel(x + apart * t) - pixel(x - apart * t)) / (2 * apart);
   double theta = std::atan2(d.y(), d.x());
   if (theta < 0) theta += std::numbers::pi;
   return {at.x(), at.y(), theta, d.norm() * z / k.fx, z};
@@ -43,7 +44,8 @@ struct LinearTensor {
     for (int y = 0; y < shape.height; ++y)
       for (int x = 0; x < shape.width; ++x)
         for (int k = 0; k < shape.bins; ++k)
-          values[shape.index(x, y, k)] = static_cast<std::uint16_t>(base + by_x * x + by_y * y + by_bin * k);
+          values[shape.index(x, y, k)] =
+              static_cast<std::uint16_t>(base + by_x * x + by_y * y + by_bin * k);
   }
   TensorView view() const { return {values, shape, intrinsics}; }
   // Residual in px where the point lands inside the image and off the seam of the orientations.
@@ -52,8 +54,8 @@ struct LinearTensor {
            DCD_UNITS_PER_PX;
   }
   bool holds(const Landing& at) const {
-    return at.u > 1 && at.v > 1 && at.u < shape.width - 2 && at.v < shape.height - 2 && at.theta > 0.15 &&
-           at.theta < std::numbers::pi - 0.2 && at.foreshortening > 0.2;
+    return at.u > 1 && at.v > 1 && at.u < shape.width - 2 && at.v < shape.height - 2 &&
+           at.theta > 0.15 && at.theta < std::numbers::pi - 0.2 && at.foreshortening > 0.2;
   }
 };
 

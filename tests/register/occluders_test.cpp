@@ -1,4 +1,5 @@
-// What known objects hide: against rays through every triangle, and what it is worth to a pose they cover.
+// What known objects hide: against rays through every triangle, and what it is worth to a pose they
+// cover.
 #include "host/register/occluders.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,8 @@ double first_hit_m(const Mesh& mesh, const Se3& camera_from_object, const Eigen:
       corners.col(c) = camera_from_object * mesh.vertices_m[std::size_t(corner[std::size_t(c)])];
     // ray * z = corners * barycentric, barycentric summing to one.
     const Eigen::Vector3d weights = corners.inverse() * ray;
-    if (weights.minCoeff() >= 0 && weights.sum() > 0) nearest = std::min(nearest, 1 / weights.sum());
+    if (weights.minCoeff() >= 0 && weights.sum() > 0)
+      nearest = std::min(nearest, 1 / weights.sum());
   }
   return nearest;
 }
@@ -52,7 +54,8 @@ TEST(Occluders, HideWhatRaysMeetLater) {
   const double tolerance_m = 0.004;
   int hidden = 0, shown = 0, may = 0;
   for (int i = 0; i < 4000; ++i) {
-    const Eigen::Vector3d point = known.translation_m + 0.06 * random.uniform(0, 1) * random.direction();
+    const Eigen::Vector3d point =
+        known.translation_m + 0.06 * random.uniform(0, 1) * random.direction();
     const Eigen::Vector2d pixel = project(occluders->camera, point).array().round();
     double farthest = 0;  // around it, of the nearest surfaces
     bool edge_on = false;
@@ -83,7 +86,8 @@ TEST(Occluders, HideNothingOutsideTheImageOrBehindTheCamera) {
   view.camera = scene_camera();
   const Hypothesis near{0, {Eigen::Quaterniond::Identity(), {0, 0, 0.2}}};
   const auto occluders = make_occluders({&model, 1}, {&near, 1}, view, *backend);
-  EXPECT_TRUE(occluders->hide(5 * (near.world_from_object * middle_of_largest_triangle(model.mesh)), 0.001));
+  EXPECT_TRUE(occluders->hide(5 * (near.world_from_object * middle_of_largest_triangle(model.mesh)),
+                              0.001));
   EXPECT_FALSE(occluders->hide({0, 0, -1}, 0.001));
   EXPECT_FALSE(occluders->hide({9, 0, 1}, 0.001));
   const Hypothesis behind{0, {Eigen::Quaterniond::Identity(), {0, 0, -0.5}}};
@@ -91,8 +95,8 @@ TEST(Occluders, HideNothingOutsideTheImageOrBehindTheCamera) {
   EXPECT_EQ(make_occluders({&model, 1}, {}, view, *backend), nullptr);
 }
 
-// A bracket, half of which a block covers that stands before it: the edges an ideal detector would find of
-// both.
+// A bracket, half of which a block covers that stands before it: the edges an ideal detector would
+// find of both.
 struct CoveredPart {
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
   std::vector<EdgeModel> models{part_model("l_bracket"), part_model("bearing_block")};
@@ -104,14 +108,16 @@ struct CoveredPart {
     covered = {0, {random.rotation(), {0, 0, 0.42}}};
     cover = {1, {random.rotation(), {0.03, 0.01, 0.3}}};
     const EdgeModel dense = part_model("l_bracket", 2e-4);
-    std::vector<EdgePoint> edges =
-        ideal_edges(part_model("bearing_block", 2e-4), scene_camera(), cover.world_from_object, *backend);
-    const std::vector<ModelPoint> own = visible_edges(dense, {&covered.world_from_object, 1}, *backend)[0];
+    std::vector<EdgePoint> edges = ideal_edges(part_model("bearing_block", 2e-4), scene_camera(),
+                                               cover.world_from_object, *backend);
+    const std::vector<ModelPoint> own =
+        visible_edges(dense, {&covered.world_from_object, 1}, *backend)[0];
     const Camera camera = scene_camera();
     const Intrinsics k = intrinsics_of(camera);
     std::size_t hidden = 0;
     for (const ModelPoint& point : own) {
-      const Eigen::Vector3d x = covered.world_from_object * Eigen::Vector3d(point.x_m, point.y_m, point.z_m);
+      const Eigen::Vector3d x =
+          covered.world_from_object * Eigen::Vector3d(point.x_m, point.y_m, point.z_m);
       if (first_hit_m(models[1].mesh, cover.world_from_object, x / x.z()) < x.z()) {
         ++hidden;
         continue;
@@ -127,7 +133,9 @@ struct CoveredPart {
   PoseFeatures features_of(const Hypothesis& pose) const {
     return pose_features(models, {&pose, 1}, {&view, 1}, *backend, {})[0];
   }
-  Registration registered() const { return register_poses(models, {&covered, 1}, {&view, 1}, *backend)[0]; }
+  Registration registered() const {
+    return register_poses(models, {&covered, 1}, {&view, 1}, *backend)[0];
+  }
 };
 
 // At least two of which a quarter to seven tenths are hidden.
@@ -173,7 +181,8 @@ TEST(Occluders, CeresLeavesOutTheSame) {
   for (CoveredPart& t : half_covered_parts(random)) {
     t.know_the_cover();
     const Registration batched = t.registered(),
-                       ceres = register_poses_ceres(t.models, {&t.covered, 1}, {&t.view, 1}, *t.backend)[0];
+                       ceres = register_poses_ceres(t.models, {&t.covered, 1}, {&t.view, 1},
+                                                    *t.backend)[0];
     EXPECT_NEAR(ceres.points, batched.points, 0.02 * batched.points);
     EXPECT_NEAR(ceres.mean_px, batched.mean_px, 0.05);
   }
@@ -185,9 +194,9 @@ TEST(Occluders, AKnownObjectDoesNotHideItself) {
   const PoseFeatures alone = t.features_of(t.cover);
   t.know_the_cover();
   const PoseFeatures known = t.features_of(t.cover);
-  EXPECT_GT(
-      known.points,
-      0.99 * alone.points);  // but for a few that it does hide, which visible_edges lets pass near contours
+  EXPECT_GT(known.points,
+            0.99 * alone.points);  // but for a few that it does hide, which visible_edges lets pass
+                                   // near contours
   EXPECT_NEAR(known.mean_px, alone.mean_px, 0.01);
 }
 

@@ -60,9 +60,9 @@ TEST(PointCost, DerivesItsResidual) {
     Vector6d expected;
     constexpr double h = 1e-6;
     for (int k = 0; k < 6; ++k)
-      expected[k] =
-          (residual(retract(pose, h * Vector6d::Unit(k))) - residual(retract(pose, -h * Vector6d::Unit(k)))) /
-          (2 * h);
+      expected[k] = (residual(retract(pose, h * Vector6d::Unit(k))) -
+                     residual(retract(pose, -h * Vector6d::Unit(k)))) /
+                    (2 * h);
     EXPECT_LT((got.by_tangent - expected).norm(), 2e-4 * expected.norm());
     ++checked;
   }
@@ -74,17 +74,19 @@ TEST(PointCost, AgreesWithTheKernel) {
   Random random = test_random();
   std::vector<EdgePoint> edges;
   for (int i = 0; i < 40; ++i)
-    edges.push_back(
-        {float(random.uniform(0, 160)), float(random.uniform(0, 120)), float(random.uniform(0, 3.14)), 1});
+    edges.push_back({float(random.uniform(0, 160)), float(random.uniform(0, 120)),
+                     float(random.uniform(0, 3.14)), 1});
   const TensorOptions options;
   const TensorShape shape{160, 120, options.bins};
-  const std::vector<std::uint16_t> tensor = dcd_tensor_reference(edges, shape.width, shape.height, options);
+  const std::vector<std::uint16_t> tensor =
+      dcd_tensor_reference(edges, shape.width, shape.height, options);
   const TensorView view{tensor, shape, {300, 310, 78, 61}};
   int agreed = 0, end_on = 0;
   constexpr int trials = 3000;
   for (int i = 0; i < trials; ++i) {
-    const Se3 pose{random.rotation(),
-                   {random.uniform(-0.2, 0.2), random.uniform(-0.15, 0.15), random.uniform(0.4, 0.7)}};
+    const Se3 pose{
+        random.rotation(),
+        {random.uniform(-0.2, 0.2), random.uniform(-0.15, 0.15), random.uniform(0.4, 0.7)}};
     ModelPoint point = random_point(random, 0.06);
     if (i % 3 == 0) {  // along the line of sight, more or less
       const Eigen::Vector3d sight =
@@ -94,18 +96,21 @@ TEST(PointCost, AgreesWithTheKernel) {
     }
     const PoseProblem problem{to_pose(pose), 0, 1, 0};
     NormalEquations kernel;
-    pose_normal_equations_reference(std::span(&view, 1), std::span(&point, 1), std::span(&problem, 1),
-                                    {LOSS_HUBER, 1e4f}, std::span(&kernel, 1));
+    pose_normal_equations_reference(std::span(&view, 1), std::span(&point, 1),
+                                    std::span(&problem, 1), {LOSS_HUBER, 1e4f},
+                                    std::span(&kernel, 1));
     const Evaluated got = evaluate(PointCost(view, Se3{}, point), pose);
     ASSERT_TRUE(got.valid);
     if (land(view.intrinsics, pose, point).foreshortening < POSE_MIN_FORESHORTENING) ++end_on;
     const Vector6d gradient = got.residual * got.by_tangent;
     double error = std::abs(got.residual - kernel.residual_sum) / (1e-3 * (1 + got.residual));
     for (int k = 0; k < 6; ++k)
-      error = std::max(error, std::abs(gradient[k] - kernel.gradient[k]) / (1e-3 * gradient.norm() + 1e-3));
+      error = std::max(
+          error, std::abs(gradient[k] - kernel.gradient[k]) / (1e-3 * gradient.norm() + 1e-3));
     agreed += error < 1;
   }
-  // The kernel's pose is in single precision: a point on the border of a cell may fall on either side.
+  // The kernel's pose is in single precision: a point on the border of a cell may fall on either
+  // side.
   EXPECT_GE(agreed, trials * 0.99);
   EXPECT_GT(end_on, 100);
 }
@@ -116,9 +121,9 @@ TEST(PointCost, RefusesAPoseThatPutsThePointInTheCamera) {
   for (const double z : {-0.5, 0.0, 0.0009})
     EXPECT_FALSE(evaluate(cost, {Eigen::Quaterniond::Identity(), {0, 0, z}}).valid) << z;
   EXPECT_TRUE(evaluate(cost, {Eigen::Quaterniond::Identity(), {0, 0, 0.0011}}).valid);
-  EXPECT_FALSE(
-      evaluate(cost, {Eigen::Quaterniond::Identity(), {0, 0, std::numeric_limits<double>::quiet_NaN()}})
-          .valid);
+  EXPECT_FALSE(evaluate(cost, {Eigen::Quaterniond::Identity(),
+                               {0, 0, std::numeric_limits<double>::quiet_NaN()}})
+                   .valid);
 }
 
 TEST(PointCost, LossesAreThoseOfTheKernel) {

@@ -28,7 +28,8 @@ struct Rendered {
   std::vector<RegisterView> views;
 };
 
-// Parts that no turn about an axis maps onto themselves: of others no covariance is finite for a reason.
+// Parts that no turn about an axis maps onto themselves: of others no covariance is finite for a
+// reason.
 std::vector<Object> held_types() {
   std::vector<Object> types = rendered_types();
   std::erase_if(types, [](const Object& type) { return type.symmetries.discrete.size() > 8; });
@@ -45,8 +46,10 @@ Rendered rendered(unsigned seed, Backend& backend) {
   options.pile = 0.2;
   options.views = VIEWS;
   Rendered result{rendered_scene("polish", held_types(), options, backend.threads()), {}, {}};
-  for (const Object& object : result.scene.objects) result.models.push_back(make_edge_model(object.mesh));
-  result.views = register_views(result.scene, edges_of(result.scene, backend), TensorOptions{}, backend);
+  for (const Object& object : result.scene.objects)
+    result.models.push_back(make_edge_model(object.mesh));
+  result.views =
+      register_views(result.scene, edges_of(result.scene, backend), TensorOptions{}, backend);
   return result;
 }
 
@@ -56,8 +59,8 @@ Se3 nearest_twin(const Se3& truth, const Se3& found, const Symmetries& symmetrie
          });
 }
 
-// Of every instance, from a start 2 mm and 0.03 rad off: e' C^-1 e of the error e; a pose that ended
-// elsewhere is left out.
+// Of every instance, from a start 2 mm and 0.03 rad off: e' C^-1 e of the error e; a pose that
+// ended elsewhere is left out.
 std::vector<double> squared_errors(const Rendered& known, std::size_t views, Random& random,
                                    Backend& backend) {
   std::vector<Hypothesis> starts;
@@ -87,8 +90,8 @@ double quantile(std::vector<double> values, double part) {
   return values[std::size_t(part * double(values.size() - 1))];
 }
 
-// Of six unknowns the median is 5.3 and a tenth lies above 10.6. Taken for independent, points would make it
-// some 100.
+// Of six unknowns the median is 5.3 and a tenth lies above 10.6. Taken for independent, points
+// would make it some 100.
 TEST(Polish, CovarianceTellsErrorsOfRenderedParts) {
   const std::unique_ptr<Backend> backend = make_cpu_backend(2);
   Random random = test_random();

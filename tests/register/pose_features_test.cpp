@@ -17,20 +17,21 @@ TEST(PoseFeatures, OfAllViewsAreTheMeansOverTheirPoints) {
       {0, scene.truth}, scene.start, {0, {Eigen::Quaterniond::Identity(), {50, 0, 0}}}};
   const std::vector<EdgeModel> models{scene.model};
   const PoseScoreOptions options;
-  const std::vector<PoseFeatures> all = pose_features(models, poses, scene.views, *backend, options);
+  const std::vector<PoseFeatures> all =
+      pose_features(models, poses, scene.views, *backend, options);
   const std::vector<PoseFeatures> by_view =
       pose_features_by_view(models, poses, scene.views, *backend, options);
   ASSERT_EQ(by_view.size(), 9u);
   for (std::size_t p = 0; p < 2; ++p) {
     double points = 0, mean = 0, matched = 0, visible = 0, length = 0;
     for (std::size_t v = 0; v < 3; ++v) {
-      const PoseFeatures alone = pose_features(models, poses, std::span(scene.views).subspan(v, 1), *backend,
-                                               options)[p],
+      const PoseFeatures alone = pose_features(models, poses, std::span(scene.views).subspan(v, 1),
+                                               *backend, options)[p],
                          &f = by_view[3 * p + v];
       EXPECT_EQ(f.points, alone.points);
       EXPECT_DOUBLE_EQ(f.mean_px, alone.mean_px);
-      points += f.points, mean += f.points * f.mean_px, matched += f.points * f.matched, visible += f.visible,
-          length += f.length_px;
+      points += f.points, mean += f.points * f.mean_px, matched += f.points * f.matched,
+          visible += f.visible, length += f.length_px;
     }
     EXPECT_GT(points, 100);
     EXPECT_DOUBLE_EQ(all[p].points, points);
@@ -70,8 +71,8 @@ TEST(PoseFeatures, CountWhatLiesInTheImage) {
   EXPECT_NEAR(left.in_image + right.in_image, 1, 1e-9);
 }
 
-// An image of stripes that all run one way agrees with a pose as well beside it as at it; one of the part's
-// own edges does not.
+// An image of stripes that all run one way agrees with a pose as well beside it as at it; one of
+// the part's own edges does not.
 TEST(PoseFeatures, TellEvidenceFromSurroundingsThatAgreeAnywhere) {
   const auto backend = make_cpu_backend(2);
   const Camera camera{320, 240, 400, 400, 159.5, 119.5, {}};
@@ -88,9 +89,9 @@ TEST(PoseFeatures, TellEvidenceFromSurroundingsThatAgreeAnywhere) {
   const auto features_on = [&](const Image& image) {
     RegisterView view;
     view.camera = camera;
-    view.view =
-        backend->make_view({}, camera.width, camera.height, {image.width, image.height, image.pixels.data()},
-                           intrinsics_of(camera), {});
+    view.view = backend->make_view({}, camera.width, camera.height,
+                                   {image.width, image.height, image.pixels.data()},
+                                   intrinsics_of(camera), {});
     return pose_features_by_view(models, {&pose, 1}, std::vector{view, view}, *backend, {})[0];
   };
   const PoseFeatures on_stripes = features_on(stripes), on_itself = features_on(filled);

@@ -1,5 +1,5 @@
-// The systems D2CO solves, against differences of the cost they claim to derive: in the camera, and mapped to
-// the world.
+// The systems D2CO solves, against differences of the cost they claim to derive: in the camera, and
+// mapped to the world.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -29,8 +29,8 @@ Vector6d differences(const Function& cost, const Se3& at) {
 
 struct KernelPath {
   std::string name;
-  std::function<void(std::span<const TensorView>, std::span<const ModelPoint>, std::span<const PoseProblem>,
-                     const PoseLoss&, std::span<NormalEquations>)>
+  std::function<void(std::span<const TensorView>, std::span<const ModelPoint>,
+                     std::span<const PoseProblem>, const PoseLoss&, std::span<NormalEquations>)>
       run;
 };
 
@@ -47,8 +47,8 @@ struct AnalyticView {
   Se3 camera_from_world;
   std::vector<ModelPoint> points;
 
-  AnalyticView(const LinearTensor& tensor_, const Se3& camera_from_world_, const Se3& world_from_object,
-               Random& random)
+  AnalyticView(const LinearTensor& tensor_, const Se3& camera_from_world_,
+               const Se3& world_from_object, Random& random)
       : tensor(tensor_), camera_from_world(camera_from_world_) {
     for (int tries = 0; tries < 400; ++tries) {
       const ModelPoint point = random_point(random, 0.06);
@@ -74,10 +74,11 @@ struct AnalyticView {
     }
     return sum;
   }
-  NormalEquations system(const KernelPath& path, const Se3& world_from_object, const PoseLoss& loss) const {
+  NormalEquations system(const KernelPath& path, const Se3& world_from_object,
+                         const PoseLoss& loss) const {
     const TensorView view = tensor.view();
-    const PoseProblem problem{to_pose(camera_from_world * world_from_object), 0, std::uint32_t(points.size()),
-                              0};
+    const PoseProblem problem{to_pose(camera_from_world * world_from_object), 0,
+                              std::uint32_t(points.size()), 0};
     NormalEquations out;
     path.run(std::span(&view, 1), points, std::span(&problem, 1), loss, std::span(&out, 1));
     return out;
@@ -102,7 +103,8 @@ void expect_derives(const std::vector<AnalyticView>& views, const Se3& world_fro
   const Vector6d gradient = differences(cost, world_from_object);
   EXPECT_EQ(system.points, points);
   EXPECT_NEAR(system.cost, cost(world_from_object), 1e-4 * cost(world_from_object));
-  EXPECT_LT((system.gradient - gradient).cwiseAbs().maxCoeff(), 2e-4 * gradient.cwiseAbs().maxCoeff())
+  EXPECT_LT((system.gradient - gradient).cwiseAbs().maxCoeff(),
+            2e-4 * gradient.cwiseAbs().maxCoeff())
       << path.name << " loss " << loss.kind << "\nkernel      " << system.gradient.transpose()
       << "\ndifferences " << gradient.transpose();
   // The header promises 1e-3 of the largest entry.
@@ -141,19 +143,22 @@ TEST(PoseGradient, MapsToTheWorldAndAddsUpOverViews) {
       views.emplace_back(tensor, camera_from_world, world_from_object, random);
     }
     for (const PoseLoss& loss : losses)
-      for (const KernelPath& path : cpu_paths(pool)) expect_derives(views, world_from_object, loss, path);
+      for (const KernelPath& path : cpu_paths(pool))
+        expect_derives(views, world_from_object, loss, path);
   }
 }
 
-// On a real tensor value and slope come from one interpolant, which is smooth inside a cell of it only.
+// On a real tensor value and slope come from one interpolant, which is smooth inside a cell of it
+// only.
 struct Cell {
   int u, v, bin, inside;
   bool operator==(const Cell&) const = default;
 };
 Cell cell_of(const Landing& at, const TensorShape& shape) {
-  return {int(std::floor(at.u)), int(std::floor(at.v)),
-          int(std::floor(at.theta / std::numbers::pi * shape.bins)),
-          (at.u > 0) + 2 * (at.v > 0) + 4 * (at.u < shape.width - 1) + 8 * (at.v < shape.height - 1)};
+  return {
+      int(std::floor(at.u)), int(std::floor(at.v)),
+      int(std::floor(at.theta / std::numbers::pi * shape.bins)),
+      (at.u > 0) + 2 * (at.v > 0) + 4 * (at.u < shape.width - 1) + 8 * (at.v < shape.height - 1)};
 }
 
 // A scaled derivative: what the cost changes by over each step of `steps`.
@@ -170,7 +175,8 @@ struct StepCheck {
     std::vector<PoseProblem> problems{{to_pose(pose), 0, 1, 0}};
     for (int i = 0; i < 12; ++i) {
       const Se3 moved = retract(pose, (i % 2 ? -1 : 1) * steps[i / 2] * Vector6d::Unit(i / 2));
-      if (cell_of(land(view.intrinsics, moved, point), view.shape) != cell_of(landing, view.shape)) return;
+      if (cell_of(land(view.intrinsics, moved, point), view.shape) != cell_of(landing, view.shape))
+        return;
       problems.push_back({to_pose(moved), 0, 1, 0});
     }
     std::vector<NormalEquations> out(problems.size());
@@ -188,7 +194,8 @@ struct StepCheck {
         << by_gradient.transpose() << "\n"
         << by_difference.transpose();
     const Landing& l = landing;
-    ++(l.u > 0 && l.v > 0 && l.u < view.shape.width - 1 && l.v < view.shape.height - 1 ? inside : outside);
+    ++(l.u > 0 && l.v > 0 && l.u < view.shape.width - 1 && l.v < view.shape.height - 1 ? inside
+                                                                                       : outside);
   }
 };
 
@@ -201,7 +208,8 @@ TEST(PoseGradient, IsThatOfTheInterpolantOnARealTensor) {
                      float(random.uniform(0, std::numbers::pi)), 1});
   const TensorOptions options;
   const TensorShape shape{200, 150, options.bins};
-  const std::vector<std::uint16_t> tensor = dcd_tensor_reference(edges, shape.width, shape.height, options);
+  const std::vector<std::uint16_t> tensor =
+      dcd_tensor_reference(edges, shape.width, shape.height, options);
   const TensorView view{tensor, shape, {300, 310, 98, 77}};
   Vector6d steps;
   steps << Eigen::Vector3d::Constant(4e-5), Eigen::Vector3d::Constant(4e-4);  // about 0.03 px
@@ -209,8 +217,9 @@ TEST(PoseGradient, IsThatOfTheInterpolantOnARealTensor) {
     for (const KernelPath& path : cpu_paths(pool)) {
       StepCheck check{view, loss, path, steps};
       for (int i = 0; i < 2000; ++i) {
-        const Se3 pose{random.rotation(),
-                       {random.uniform(-0.2, 0.2), random.uniform(-0.15, 0.15), random.uniform(0.4, 0.7)}};
+        const Se3 pose{
+            random.rotation(),
+            {random.uniform(-0.2, 0.2), random.uniform(-0.15, 0.15), random.uniform(0.4, 0.7)}};
         check.at(pose, random_point(random, 0.06));
       }
       EXPECT_GT(check.inside, 300);

@@ -1,4 +1,5 @@
-// Refinement of many starts: each by itself, whatever the others are, and from as far as the search reaches.
+// Refinement of many starts: each by itself, whatever the others are, and from as far as the search
+// reaches.
 #include "host/register/refine.h"
 
 #include <gtest/gtest.h>
@@ -12,8 +13,8 @@
 namespace edgescout::test {
 namespace {
 
-std::vector<Hypothesis> starts_around(const Se3& truth, int count, double offset_m, double angle_rad,
-                                      Random& random) {
+std::vector<Hypothesis> starts_around(const Se3& truth, int count, double offset_m,
+                                      double angle_rad, Random& random) {
   std::vector<Hypothesis> starts;
   for (int i = 0; i < count; ++i) {
     Vector6d off;
@@ -33,11 +34,13 @@ TEST(Refine, DoesNotDependOnHowManyAreRefinedTogether) {
     RefineOptions options;
     options.polish = false;  // these views have no edge index
     options.search.rotation_rad = search_rad;
-    const std::vector<Refined> together = refine_poses(models, starts, scene.views, *backend, options);
+    const std::vector<Refined> together =
+        refine_poses(models, starts, scene.views, *backend, options);
     ASSERT_EQ(together.size(), starts.size());
     for (const int at_once : {1, 4}) {  // one start of two views a time, two
       options.at_once = at_once;
-      const std::vector<Refined> apart = refine_poses(models, starts, scene.views, *backend, options);
+      const std::vector<Refined> apart =
+          refine_poses(models, starts, scene.views, *backend, options);
       ASSERT_EQ(apart.size(), starts.size());
       for (std::size_t i = 0; i < starts.size(); ++i) {
         const Se3 &a = apart[i].registration.world_from_object,
@@ -52,8 +55,8 @@ TEST(Refine, DoesNotDependOnHowManyAreRefinedTogether) {
   }
 }
 
-// CAD files have their origin anywhere. A part told from an origin some diameters off is found from the same
-// far starts.
+// CAD files have their origin anywhere. A part told from an origin some diameters off is found from
+// the same far starts.
 TEST(Refine, FindsAPartWhereverItsOriginLies) {
   Random random = test_random();
   const auto backend = make_cpu_backend(2);
@@ -61,17 +64,21 @@ TEST(Refine, FindsAPartWhereverItsOriginLies) {
   const Eigen::Vector3d shift_m(0.15, -0.05, 0.1);
   Mesh shifted = scene.model.mesh;
   for (Eigen::Vector3d& vertex_m : shifted.vertices_m) vertex_m += shift_m;
-  const EdgeModel elsewhere = make_edge_model(make_mesh("shifted", shifted.vertices_m, shifted.triangles));
+  const EdgeModel elsewhere =
+      make_edge_model(make_mesh("shifted", shifted.vertices_m, shifted.triangles));
   const Se3 shifted_from_part{Eigen::Quaterniond::Identity(), shift_m};
   RefineOptions options;
   options.polish = false;  // these views have no edge index
-  std::vector<Hypothesis> starts = starts_around(scene.truth, 24, 0.02, 0.9, random), starts_elsewhere;
+  std::vector<Hypothesis> starts = starts_around(scene.truth, 24, 0.02, 0.9, random),
+                          starts_elsewhere;
   for (const Hypothesis& start : starts)
     starts_elsewhere.push_back({0, start.world_from_object * inverse(shifted_from_part)});
-  const auto right = [&](const EdgeModel& model, const std::vector<Hypothesis>& from, const Se3& back) {
+  const auto right = [&](const EdgeModel& model, const std::vector<Hypothesis>& from,
+                         const Se3& back) {
     int count = 0;
     for (const Refined& refined : refine_poses({&model, 1}, from, scene.views, *backend, options))
-      count += pose_error(refined.registration.world_from_object * back, scene.truth, {}).passes(0.02, 0.001);
+      count += pose_error(refined.registration.world_from_object * back, scene.truth, {})
+                   .passes(0.02, 0.001);
     return count;
   };
   const int here = right(scene.model, starts, Se3{});

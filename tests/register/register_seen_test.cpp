@@ -19,18 +19,22 @@ TEST(RegisterSeen, OnDrawnPointsIsRegisterPoses) {
   const auto drawn = [&](std::span<const Hypothesis> poses) {
     ++asked;
     std::vector<std::vector<ModelPoint>> points;
-    for (const VisibleInView& seen : visible_in_views({&scene.model, 1}, poses, scene.views, *backend))
+    for (const VisibleInView& seen :
+         visible_in_views({&scene.model, 1}, poses, scene.views, *backend))
       points.push_back(seen.points);
     return points;
   };
   const std::vector<Hypothesis> starts{scene.start, {0, scene.truth}};
-  const std::vector<Registration> expected = register_poses({&scene.model, 1}, starts, scene.views, *backend);
+  const std::vector<Registration> expected =
+      register_poses({&scene.model, 1}, starts, scene.views, *backend);
   const std::vector<Registration> found = register_seen(starts, scene.views, drawn, *backend);
   EXPECT_EQ(asked, int(D2coOptions{}.rounds.size()));
   ASSERT_EQ(found.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_EQ(found[i].world_from_object.translation_m, expected[i].world_from_object.translation_m);
-    EXPECT_EQ(found[i].world_from_object.rotation.coeffs(), expected[i].world_from_object.rotation.coeffs());
+    EXPECT_EQ(found[i].world_from_object.translation_m,
+              expected[i].world_from_object.translation_m);
+    EXPECT_EQ(found[i].world_from_object.rotation.coeffs(),
+              expected[i].world_from_object.rotation.coeffs());
     EXPECT_EQ(found[i].cost_px2, expected[i].cost_px2);
     EXPECT_EQ(found[i].points, expected[i].points);
   }
@@ -53,7 +57,9 @@ TEST(RegisterSeen, RefusesAnotherNumberOfLists) {
   Random random = test_random();
   const auto backend = make_cpu_backend(1);
   const PartScene scene("l_bracket", 2, random, *backend);
-  const auto one = [](std::span<const Hypothesis>) { return std::vector<std::vector<ModelPoint>>(1); };
+  const auto one = [](std::span<const Hypothesis>) {
+    return std::vector<std::vector<ModelPoint>>(1);
+  };
   EXPECT_THROW(register_seen({&scene.start, 1}, scene.views, one, *backend), LogicError);
 }
 

@@ -1,4 +1,5 @@
-// Parts at known poses in front of known cameras, given as the edge points an ideal detector would find.
+// Parts at known poses in front of known cameras, given as the edge points an ideal detector would
+// find.
 #pragma once
 
 #include <vector>
@@ -25,7 +26,8 @@ inline std::vector<EdgePoint> ideal_edges(const EdgeModel& dense, const Camera& 
                                           const Se3& camera_from_object, Backend& backend) {
   std::vector<EdgePoint> edges;
   const Intrinsics k = intrinsics_of(camera);
-  const std::vector<ModelPoint> visible = visible_edges(dense, std::span(&camera_from_object, 1), backend)[0];
+  const std::vector<ModelPoint> visible =
+      visible_edges(dense, std::span(&camera_from_object, 1), backend)[0];
   for (const ModelPoint& point : visible) {
     const Landing at = land(k, camera_from_object, point);
     edges.push_back({float(at.u), float(at.v), float(at.theta), 1});
@@ -42,7 +44,8 @@ inline RegisterView view_of(const EdgeModel& dense, const Se3& world_from_object
   RegisterView view;
   view.camera = camera;
   view.camera_from_world = camera_from_world;
-  view.view = backend.make_view(edges, camera.width, camera.height, {}, intrinsics_of(camera), options);
+  view.view =
+      backend.make_view(edges, camera.width, camera.height, {}, intrinsics_of(camera), options);
   return view;
 }
 
@@ -60,7 +63,8 @@ inline Se3 camera_looking_at(const Eigen::Vector3d& eye_m, const Eigen::Vector3d
   return se3_from_matrix(camera_from_world, -camera_from_world * eye_m);
 }
 
-// One part, seen from `view_count` random sides 0.35 m away, and a start 4 mm and 0.05 rad off the truth.
+// One part, seen from `view_count` random sides 0.35 m away, and a start 4 mm and 0.05 rad off the
+// truth.
 struct PartScene {
   EdgeModel model;
   Se3 truth;
@@ -73,7 +77,8 @@ struct PartScene {
     const EdgeModel dense = part_model(part, 2e-4);
     for (int v = 0; v < view_count; ++v) {
       const Eigen::Vector3d eye = truth.translation_m + 0.35 * random.direction();
-      views.push_back(view_of(dense, truth, camera_looking_at(eye, truth.translation_m), backend, options));
+      views.push_back(
+          view_of(dense, truth, camera_looking_at(eye, truth.translation_m), backend, options));
     }
     Vector6d off;
     off << 0.004 * random.direction(), 0.05 * random.direction();
@@ -81,10 +86,10 @@ struct PartScene {
   }
 };
 
-// The scene's system at a pose, put together here from visible points (`most` a view, evenly thinned; 0: all)
-// and kernel.
-inline WorldSystem system_at(const PartScene& scene, const Se3& world_from_object, const PoseLoss& loss,
-                             std::size_t most, Backend& backend) {
+// The scene's system at a pose, put together here from visible points (`most` a view, evenly
+// thinned; 0: all) and kernel.
+inline WorldSystem system_at(const PartScene& scene, const Se3& world_from_object,
+                             const PoseLoss& loss, std::size_t most, Backend& backend) {
   WorldSystem system;
   for (const RegisterView& view : scene.views) {
     const Se3 pose = view.camera_from_world * world_from_object;

@@ -1,4 +1,5 @@
-// The invariants Ceres demands of a manifold, by Ceres' own matchers, and that the tangent is the project's.
+// The invariants Ceres demands of a manifold, by Ceres' own matchers, and that the tangent is the
+// project's.
 #include "host/register/se3_manifold.h"
 
 #include <ceres/manifold_test_utils.h>
@@ -23,8 +24,8 @@ Vector random_step(Random& random, double angle_rad) {
   return step;
 }
 
-// The same pose written with the quaternion that is nearer to x: q and -q turn alike, and Plus can return
-// only one of them.
+// The same pose written with the quaternion that is nearer to x: q and -q turn alike, and Plus can
+// return only one of them.
 Vector near(const Vector& x, Vector y) {
   if (x.tail(4).dot(y.tail(4)) < 0) y.tail(4) *= -1;
   return y;

@@ -1,4 +1,5 @@
-// Images whose grey is a known function of the surface: a right pose explains them, a wrong one does not.
+// Images whose grey is a known function of the surface: a right pose explains them, a wrong one
+// does not.
 #include "host/register/shading.h"
 
 #include <gtest/gtest.h>
@@ -16,8 +17,8 @@ namespace {
 constexpr int width = 320, height = 240;
 const Camera camera{width, height, 500, 500, 159.5, 119.5, {}};
 
-// Grey of a matte surface under one light and the sky, from the normal of the triangle each pixel's ray meets
-// first; elsewhere `background`.
+// Grey of a matte surface under one light and the sky, from the normal of the triangle each pixel's
+// ray meets first; elsewhere `background`.
 Image shaded(const Mesh& mesh, const Se3& camera_from_object, const auto& background) {
   Image image{width, height, std::vector<std::uint8_t>(std::size_t(width) * height)};
   const Eigen::Vector3d light = Eigen::Vector3d(0.5, -0.7, -0.6).normalized();
@@ -28,15 +29,18 @@ Image shaded(const Mesh& mesh, const Se3& camera_from_object, const auto& backgr
       for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto& corner = mesh.triangles[t];
         Eigen::Matrix3d corners;
-        for (int c = 0; c < 3; ++c) corners.col(c) = camera_from_object * mesh.vertices_m[corner[c]];
+        for (int c = 0; c < 3; ++c)
+          corners.col(c) = camera_from_object * mesh.vertices_m[corner[c]];
         // ray * z = corners * barycentric, barycentric summing to one.
         const Eigen::Vector3d weights = corners.inverse() * ray;
-        if (!(weights.minCoeff() >= -1e-9) || weights.sum() <= 0 || 1 / weights.sum() >= nearest) continue;
+        if (!(weights.minCoeff() >= -1e-9) || weights.sum() <= 0 || 1 / weights.sum() >= nearest)
+          continue;
         nearest = 1 / weights.sum();
         const Eigen::Vector3d normal = camera_from_object.rotation * mesh.face_normals[t];
         grey = 60 + 30 * (1 - normal.y()) / 2 + 120 * std::max(0.0, normal.dot(light));
       }
-      image.pixels[std::size_t(y) * width + x] = std::uint8_t(std::lround(std::clamp(grey, 0.0, 255.0)));
+      image.pixels[std::size_t(y) * width + x] =
+          std::uint8_t(std::lround(std::clamp(grey, 0.0, 255.0)));
     }
   return image;
 }
@@ -69,7 +73,8 @@ TEST_P(ShadingOfParts, IsExplainedByTheRightPoseOnly) {
   const double right = unexplained_grey(part.at(part.truth));
   Se3 aside = part.truth, turned = part.truth;
   aside.translation_m.x() += 0.4 * part.model.mesh.diameter_m;
-  turned.rotation = Eigen::AngleAxisd(0.7, Eigen::Vector3d(0.3, 1, 0).normalized()) * part.truth.rotation;
+  turned.rotation =
+      Eigen::AngleAxisd(0.7, Eigen::Vector3d(0.3, 1, 0).normalized()) * part.truth.rotation;
   std::printf("right %.3f, aside %.3f, turned %.3f\n", right, unexplained_grey(part.at(aside)),
               unexplained_grey(part.at(turned)));
   EXPECT_LT(right, 0.2);
@@ -77,7 +82,8 @@ TEST_P(ShadingOfParts, IsExplainedByTheRightPoseOnly) {
   EXPECT_GT(unexplained_grey(part.at(turned)), 2 * right);
 }
 
-INSTANTIATE_TEST_SUITE_P(Parts, ShadingOfParts, ::testing::Values("l_bracket", "bearing_block", "hex_nut"),
+INSTANTIATE_TEST_SUITE_P(Parts, ShadingOfParts,
+                         ::testing::Values("l_bracket", "bearing_block", "hex_nut"),
                          [](const auto& parameter) { return parameter.param; });
 
 TEST(Shading, OfNoiseAndOfNothingIsNotExplained) {
@@ -107,7 +113,8 @@ TEST(Shading, AddsUpOverViews) {
   EXPECT_NEAR(unexplained_grey(both), unexplained_grey(one), 1e-12);
 }
 
-// Noise where another, known part stands before it: without knowing of it the surface explains little.
+// Noise where another, known part stands before it: without knowing of it the surface explains
+// little.
 TEST(Shading, LeavesOutWhatKnownPartsHide) {
   ShadedPart part("l_bracket");
   Se3 nearer = part.truth;

@@ -32,7 +32,8 @@ TEST(VisibleInViews, EveryPoseInEveryViewAsAlone) {
     view.camera = scene_camera();
     view.camera_from_world = camera_looking_at(0.4 * random.direction(), Eigen::Vector3d::Zero());
   }
-  const Hypothesis cover{0, inverse(views[1].camera_from_world) * Se3{random.rotation(), {0, 0, 0.2}}};
+  const Hypothesis cover{0,
+                         inverse(views[1].camera_from_world) * Se3{random.rotation(), {0, 0, 0.2}}};
   views[1].occluders = make_occluders(models, {&cover, 1}, views[1], *backend);
 
   const std::vector<VisibleInView> seen = visible_in_views(models, poses, views, *backend);

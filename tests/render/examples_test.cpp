@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 fs::path examples() { return fs::path(__FILE__).parent_path() / "../../docs/examples"; }
 
 TEST(Examples, PartsAreThoseOfTheCode) {
-  const std::map<int, Symmetries> symmetries = load_symmetries(examples() / "parts/models_info.json");
+  const std::map<int, Symmetries> symmetries =
+      load_symmetries(examples() / "parts/models_info.json");
   for (const std::string& name : part_names()) {
     const Object part = make_part(name);
     const fs::path file = examples() / ("parts/obj_00000" + std::to_string(part.id) + ".ply");
@@ -30,8 +31,9 @@ TEST(Examples, PartsAreThoseOfTheCode) {
   }
 }
 
-// Pixels on one side of an outline differ from those on the other where the truth is right: the mean step of
-// grey over the silhouettes of well visible parts is far larger than over the same outlines moved by 6 px.
+// Pixels on one side of an outline differ from those on the other where the truth is right: the
+// mean step of grey over the silhouettes of well visible parts is far larger than over the same
+// outlines moved by 6 px.
 double mean_step(const Image& image, const std::vector<int>& owner, int shift) {
   double sum = 0;
   int count = 0;

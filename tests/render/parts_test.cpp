@@ -47,8 +47,8 @@ TEST_P(Parts, AreSmallAndCentred) {
   EXPECT_LT((part.mesh.box_min_m + part.mesh.box_max_m).norm(), 1e-9);
 }
 
-// Holes are drawn as polygons; those of the shaft's 48 segments against 64 sampled turns miss by a chord's
-// height at most.
+// Holes are drawn as polygons; those of the shaft's 48 segments against 64 sampled turns miss by a
+// chord's height at most.
 TEST_P(Parts, AreMappedOntoThemselvesBySymmetries) {
   const Object part = make_part(GetParam());
   EXPECT_LT(angle_between_rad(part.symmetries.discrete.front(), Se3{}), 1e-12);
@@ -67,7 +67,8 @@ TEST_P(Parts, NameAllTheirSymmetries) {
       double worst = 0, nearest = PI;
       for (const Eigen::Vector3d& v : part.mesh.vertices_m)
         worst = std::max(worst, nearest_vertex_m(part.mesh, turn * v));
-      for (const Se3& s : part.symmetries.discrete) nearest = std::min(nearest, angle_between_rad(turn, s));
+      for (const Se3& s : part.symmetries.discrete)
+        nearest = std::min(nearest, angle_between_rad(turn, s));
       if (worst < 1e-9) {
         EXPECT_LT(nearest, 2 * PI / 64) << "axis " << axis << ", a turn by 1/" << steps;
       }

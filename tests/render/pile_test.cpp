@@ -25,7 +25,8 @@ std::vector<double> crossings_m(const Mesh& mesh, const Eigen::Vector3d& from,
     const Eigen::Vector3d p = direction.cross(e2), s = from - a, q = s.cross(e1);
     const double determinant = e1.dot(p);
     if (std::abs(determinant) < 1e-18) continue;
-    const double u = s.dot(p) / determinant, v = direction.dot(q) / determinant, t = e2.dot(q) / determinant;
+    const double u = s.dot(p) / determinant, v = direction.dot(q) / determinant,
+                 t = e2.dot(q) / determinant;
     if (u >= 0 && v >= 0 && u + v <= 1 && t > 0) distances.push_back(t);
   }
   return distances;
@@ -37,8 +38,9 @@ double depth_inside_m(const Mesh& mesh, const Eigen::Vector3d& x) {
   int inside = 0;
   // Askew, so that no ray runs along a face.
   for (const Eigen::Vector3d& d :
-       {Eigen::Vector3d(1, 0.01, 0.02), Eigen::Vector3d(-0.02, 1, 0.01), Eigen::Vector3d(0.01, 0.02, 1),
-        Eigen::Vector3d(-1, 0.02, 0.01), Eigen::Vector3d(0.01, -1, 0.02), Eigen::Vector3d(0.02, 0.01, -1)}) {
+       {Eigen::Vector3d(1, 0.01, 0.02), Eigen::Vector3d(-0.02, 1, 0.01),
+        Eigen::Vector3d(0.01, 0.02, 1), Eigen::Vector3d(-1, 0.02, 0.01),
+        Eigen::Vector3d(0.01, -1, 0.02), Eigen::Vector3d(0.02, 0.01, -1)}) {
     const std::vector<double> distances = crossings_m(mesh, x, d.normalized());
     inside += distances.size() % 2;
     for (const double distance : distances) depth = std::min(depth, distance);
@@ -92,7 +94,8 @@ TEST(PileTable, LaysPartsApartOnTheBareTable) {
       const Se3 b_from_a = inverse(b_pose) * a_pose;
       for (const Eigen::Vector3d& v : a.vertices_m)
         EXPECT_TRUE(
-            crossings_m(b, b_from_a * v, inverse(b_pose).rotation * -Eigen::Vector3d::UnitZ()).empty());
+            crossings_m(b, b_from_a * v, inverse(b_pose).rotation * -Eigen::Vector3d::UnitZ())
+                .empty());
     }
 }
 

@@ -55,7 +55,8 @@ Scene plain_scene(const Mesh& mesh, const Se3& world_from_object, double camera_
   return scene;
 }
 
-// Nearest triangle along a ray by brute force (Moeller and Trumbore): depth (the ray's z is 1) and owner.
+// Nearest triangle along a ray by brute force (Moeller and Trumbore): depth (the ray's z is 1) and
+// owner.
 std::pair<double, int> cast(const Scene& scene, const SceneView& view, const Eigen::Vector3d& ray) {
   double nearest = std::numeric_limits<double>::infinity();
   int owner = -1;
@@ -68,7 +69,8 @@ std::pair<double, int> cast(const Scene& scene, const SceneView& view, const Eig
       const Eigen::Vector3d n = ray.cross(e2), q = (-a).cross(e1);
       const double determinant = e1.dot(n);
       if (determinant == 0) continue;
-      const double u = -a.dot(n) / determinant, v = ray.dot(q) / determinant, t = e2.dot(q) / determinant;
+      const double u = -a.dot(n) / determinant, v = ray.dot(q) / determinant,
+                   t = e2.dot(q) / determinant;
       if (u < 0 || v < 0 || u + v > 1 || t <= 0 || t >= nearest) continue;
       nearest = t;
       owner = static_cast<int>(p);
@@ -90,7 +92,8 @@ TEST(Render, DepthAndOwnersAreThoseOfRays) {
       for (int x = 0; x < view.camera.width; x += 3) {
         const Eigen::Vector3d ray = ray_through(view.camera, Eigen::Vector2d(x, y));
         auto [depth, owner] = cast(scene, view, ray);
-        if (owner < 0) depth = -world_from_camera.translation_m.z() / (world_from_camera.rotation * ray).z();
+        if (owner < 0)
+          depth = -world_from_camera.translation_m.z() / (world_from_camera.rotation * ray).z();
         const std::size_t i = static_cast<std::size_t>(y) * view.camera.width + x;
         owned += owner >= 0;
         // A ray through a shared edge may slip to either side of it.
@@ -116,14 +119,15 @@ TEST(Render, VerticesOfTheTruthFallOnTheirMask) {
   };
   Eigen::Vector2d low(1e9, 1e9), high(-1e9, -1e9);
   for (const Eigen::Vector3d& v : part.mesh.vertices_m) {
-    const Eigen::Vector2d p = project(scene.views[0].camera, scene.views[0].camera_from_world * (pose * v));
+    const Eigen::Vector2d p =
+        project(scene.views[0].camera, scene.views[0].camera_from_world * (pose * v));
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
     bool touched = false;
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx)
-        touched |=
-            covered(static_cast<int>(std::lround(p.x())) + dx, static_cast<int>(std::lround(p.y())) + dy);
+        touched |= covered(static_cast<int>(std::lround(p.x())) + dx,
+                           static_cast<int>(std::lround(p.y())) + dy);
     EXPECT_TRUE(touched) << p.transpose();
   }
   for (int y = 0; y < 120; ++y)
@@ -135,8 +139,8 @@ TEST(Render, VerticesOfTheTruthFallOnTheirMask) {
 
 TEST(Render, VisibleFractionIsThatOfAKnownOverlap) {
   // A square of 40 mm, half covered by another at 0.1 m above it that seems just as large.
-  Scene scene =
-      plain_scene(make_box({0.04, 0.04, 0.002}), {Eigen::Quaterniond::Identity(), {0, 0, 0.001}}, 0.4);
+  Scene scene = plain_scene(make_box({0.04, 0.04, 0.002}),
+                            {Eigen::Quaterniond::Identity(), {0, 0, 0.001}}, 0.4);
   const double scale = (0.4 - 0.101) / (0.4 - 0.002);
   Object cover;
   cover.mesh = make_box({0.04 * scale, 0.04 * scale, 0.002});
@@ -150,8 +154,9 @@ TEST(Render, VisibleFractionIsThatOfAKnownOverlap) {
 
 // Its silhouette is 170,000 px wide: no memory holds it.
 TEST(Render, APartThatTouchesTheCameraIsHardlyVisible) {
-  const Scene scene = plain_scene(make_box({1, 1, 0.002}),
-                                  {Eigen::Quaterniond::Identity(), {0, 0, 0.4 - 0.00105 - 0.001}}, 0.4);
+  const Scene scene =
+      plain_scene(make_box({1, 1, 0.002}),
+                  {Eigen::Quaterniond::Identity(), {0, 0, 0.4 - 0.00105 - 0.001}}, 0.4);
   ThreadPool pool(1);
   const Camera& camera = scene.views[0].camera;
   const double side_px = camera.fx / 0.00105;
@@ -160,26 +165,28 @@ TEST(Render, APartThatTouchesTheCameraIsHardlyVisible) {
 }
 
 TEST(Render, WhatLeavesTheImageIsNotVisible) {
-  const Scene half = plain_scene(make_box({0.04, 0.04, 0.002}),
-                                 {Eigen::Quaterniond::Identity(), {80.5 / 180 * 0.398, 0, 0.001}}, 0.4);
+  const Scene half =
+      plain_scene(make_box({0.04, 0.04, 0.002}),
+                  {Eigen::Quaterniond::Identity(), {80.5 / 180 * 0.398, 0, 0.001}}, 0.4);
   ThreadPool pool(1);
   EXPECT_NEAR(render(half, pool).front().visible_fraction[0], 0.5, 0.06);
-  const Scene outside =
-      plain_scene(make_box({0.04, 0.04, 0.002}), {Eigen::Quaterniond::Identity(), {1, 0, 0.001}}, 0.4);
+  const Scene outside = plain_scene(make_box({0.04, 0.04, 0.002}),
+                                    {Eigen::Quaterniond::Identity(), {1, 0, 0.001}}, 0.4);
   EXPECT_DOUBLE_EQ(render(outside, pool).front().visible_fraction[0], 0);
 }
 
 TEST(Render, CastsShadowsOnlyWhereAsked) {
-  Scene scene =
-      plain_scene(make_box({0.02, 0.02, 0.02}), {Eigen::Quaterniond::Identity(), {0, 0, 0.05}}, 0.4);
+  Scene scene = plain_scene(make_box({0.02, 0.02, 0.02}),
+                            {Eigen::Quaterniond::Identity(), {0, 0, 0.05}}, 0.4);
   scene.lights = {{{1, 0, 1}, 0.8}};
   scene.desk_albedo = 100 / 255.0;
   ThreadPool pool(1);
   // The middle of the shadow, 50 mm to the left of the box.
-  const Eigen::Vector2d p =
-      project(scene.views[0].camera, scene.views[0].camera_from_world * Eigen::Vector3d(-0.05, 0, 0));
+  const Eigen::Vector2d p = project(
+      scene.views[0].camera, scene.views[0].camera_from_world * Eigen::Vector3d(-0.05, 0, 0));
   const auto grey = [&] {
-    return int(render(scene, pool).front().image.at(static_cast<int>(p.x()), static_cast<int>(p.y())));
+    return int(
+        render(scene, pool).front().image.at(static_cast<int>(p.x()), static_cast<int>(p.y())));
   };
   const int shaded = grey();
   scene.options.shadows = false;
@@ -203,8 +210,8 @@ TEST(Render, IsTheSameForTheSameSeedOnAnyNumberOfThreads) {
 }
 
 TEST(Render, NoiseAndBlurDoWhatTheySay) {
-  Scene scene =
-      plain_scene(make_box({0.001, 0.001, 0.001}), {Eigen::Quaterniond::Identity(), {0.5, 0.5, 0}}, 0.4);
+  Scene scene = plain_scene(make_box({0.001, 0.001, 0.001}),
+                            {Eigen::Quaterniond::Identity(), {0.5, 0.5, 0}}, 0.4);
   scene.board_side_m = 5;
   scene.options.shadows = false;
   ThreadPool pool(1);
@@ -212,7 +219,8 @@ TEST(Render, NoiseAndBlurDoWhatTheySay) {
   scene.options.noise_grey = 5;
   const std::vector<std::uint8_t> noisy = render(scene, pool).front().image.pixels;
   double squares = 0;
-  for (std::size_t i = 0; i < clean.size(); ++i) squares += std::pow(double(noisy[i]) - clean[i], 2);
+  for (std::size_t i = 0; i < clean.size(); ++i)
+    squares += std::pow(double(noisy[i]) - clean[i], 2);
   EXPECT_NEAR(std::sqrt(squares / static_cast<double>(clean.size())), 5, 0.2);
 }
 
@@ -254,10 +262,10 @@ TEST(Scene, LaysPartsTheSameWhereverTheirOriginLies) {
   for (std::size_t i = 0; i < a.placed.size(); ++i) {
     if (!a.placed[i].target) continue;
     // rounding moves contact by a cell at most
-    EXPECT_LT(
-        (a.placed[i].world_from_object * Eigen::Vector3d::Zero() - b.placed[i].world_from_object * shift_m)
-            .norm(),
-        0.25 * here[static_cast<std::size_t>(a.placed[i].object)].mesh.diameter_m)
+    EXPECT_LT((a.placed[i].world_from_object * Eigen::Vector3d::Zero() -
+               b.placed[i].world_from_object * shift_m)
+                  .norm(),
+              0.25 * here[static_cast<std::size_t>(a.placed[i].object)].mesh.diameter_m)
         << i;
   }
   EXPECT_NEAR(a.views[0].camera_from_world.translation_m.norm(),
@@ -298,8 +306,10 @@ TEST(RenderOptions, OutOfRangeIsRefusedByName) {
   };
   EXPECT_NE(refused([](RenderOptions& o) { o.objects = 21; }).find("objects"), std::string::npos);
   EXPECT_NE(refused([](RenderOptions& o) { o.clutter = -1; }).find("clutter"), std::string::npos);
-  EXPECT_NE(refused([](RenderOptions& o) { o.blur_px = std::nan(""); }).find("blur_px"), std::string::npos);
-  EXPECT_NE(refused([](RenderOptions& o) { o.supersampling = 2; }).find("supersampling"), std::string::npos);
+  EXPECT_NE(refused([](RenderOptions& o) { o.blur_px = std::nan(""); }).find("blur_px"),
+            std::string::npos);
+  EXPECT_NE(refused([](RenderOptions& o) { o.supersampling = 2; }).find("supersampling"),
+            std::string::npos);
   EXPECT_NE(refused([](RenderOptions& o) { o.max_elevation_deg = 20; }).find("max_elevation_deg"),
             std::string::npos);
   EXPECT_NE(refused([](RenderOptions& o) { o.max_distance_m = 1; }).find("min_distance_m"),

@@ -72,8 +72,8 @@ TEST_F(WriteBop, ModelsReadBack) {
   const std::map<int, Symmetries> symmetries = load_symmetries(folder_ / "models_info.json");
   ASSERT_EQ(symmetries.size(), objects.size());
   for (const Object& object : objects) {
-    const Mesh mesh =
-        load_mesh(folder_ / ("obj_00000" + std::to_string(object.id) + ".ply"), LengthUnit::Millimetre);
+    const Mesh mesh = load_mesh(folder_ / ("obj_00000" + std::to_string(object.id) + ".ply"),
+                                LengthUnit::Millimetre);
     EXPECT_EQ(mesh.triangles.size(), object.mesh.triangles.size());
     EXPECT_NEAR(mesh.diameter_m, object.mesh.diameter_m, 1e-7);
     // The same group, in whatever order.
@@ -81,7 +81,8 @@ TEST_F(WriteBop, ModelsReadBack) {
     ASSERT_EQ(group.size(), object.symmetries.discrete.size()) << object.mesh.name;
     for (const Se3& member : object.symmetries.discrete) {
       double nearest = 10;
-      for (const Se3& back : group) nearest = std::min(nearest, local_coordinates(back, member).norm());
+      for (const Se3& back : group)
+        nearest = std::min(nearest, local_coordinates(back, member).norm());
       EXPECT_LT(nearest, 1e-9) << object.mesh.name;
     }
   }

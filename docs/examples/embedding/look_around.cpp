@@ -1,7 +1,7 @@
-// A robot's control thread looks for a part until it is sure: look_around BOP_SCENE MESH_MM. The recorded
-// scene stands for the robot: moving to a view and taking an image is reading a file here. The scout starts
-// no thread of its own (the backend has its workers) and keeps nothing global, and any call may be left by an
-// exception without harm.
+// A robot's control thread looks for a part until it is sure: look_around BOP_SCENE MESH_MM. The
+// recorded scene stands for the robot: moving to a view and taking an image is reading a file here.
+// The scout starts no thread of its own (the backend has its workers) and keeps nothing global, and
+// any call may be left by an exception without harm.
 #include <iostream>
 
 #include "host/active/scout.h"

@@ -1,5 +1,5 @@
-// Finds a part in a picture, as a robot's program would: consumer BOP_SCENE MESH_MM OBJECT_ID. Succeeds where
-// the best detection lies within 5 mm of the scene's truth.
+// Finds a part in a picture, as a robot's program would: consumer BOP_SCENE MESH_MM OBJECT_ID.
+// Succeeds where the best detection lies within 5 mm of the scene's truth.
 #include <iostream>
 
 #include "host/io/bop.h"
