@@ -10,7 +10,7 @@
 
 #include "bench/arguments.h"
 #include "kernels/backend.h"
-#include "kernels/cases/hypotheses.h"
+#include "kernels/cases/combination_cases.h"
 #include "kernels/thread_pool.h"
 
 namespace edgescout::bench {
@@ -53,7 +53,7 @@ void report(Backend& backend, const HypothesesSize& size, int repetitions) {
   std::ranges::sort(runs, {}, &Times::total);
   const Times& median = runs[runs.size() / 2];
   std::printf("%5d %10d %9d %12u %9.1f %9.1f %11.1f %9.1f %9.1f\n", size.views, size.candidates,
-              size.particles, size.realizations, 1e3 * median.maps_s, 1e3 * median.chamfer_s,
+              size.particles, size.combinations, 1e3 * median.maps_s, 1e3 * median.chamfer_s,
               1e3 * median.information_s, 1e3 * median.total(), 1e3 * median.processor_s);
   std::fflush(stdout);
 }
@@ -63,17 +63,17 @@ void run(const std::string& device, int repetitions) {
   std::printf("%s, %d threads, median of %d, ms\n", backend->name().c_str(),
               backend->threads().threads(), repetitions);
   std::printf("%5s %10s %9s %12s %9s %9s %11s %9s %9s\n", "views", "candidates", "particles",
-              "realizations", "maps", "chamfer", "information", "all", "processor");
+              "combinations", "maps", "chamfer", "information", "all", "processor");
   choose(*backend, {2, 4, 4, 50, 64, 48, 64});  // the driver's compiler, the first pages
   report(*backend, paper_hypotheses, repetitions);
   for (const int by : {3, 10}) {
     HypothesesSize candidates = paper_hypotheses, particles = paper_hypotheses,
-                   realizations = paper_hypotheses, views = paper_hypotheses;
+                   combinations = paper_hypotheses, views = paper_hypotheses;
     candidates.candidates *= by;
     particles.particles *= by;
-    realizations.realizations *= std::uint32_t(by);
+    combinations.combinations *= std::uint32_t(by);
     views.views *= by;
-    for (const HypothesesSize& size : {candidates, particles, realizations, views})
+    for (const HypothesesSize& size : {candidates, particles, combinations, views})
       report(*backend, size, repetitions);
   }
 }

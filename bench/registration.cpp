@@ -101,7 +101,7 @@ void register_in(const std::string& image, const Arguments& a, Backend& backend,
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
   const std::vector<RecordedStart> starts = starts_of(a, scene);
   const Se3& camera_from_world = scene.images[0].camera_from_world;
-  std::vector<Hypothesis> hypotheses;
+  std::vector<ObjectPose> hypotheses;
   for (const RecordedStart& start : starts)
     hypotheses.push_back({scene.instances[static_cast<std::size_t>(start.instance)].object,
                           inverse(camera_from_world) * start.camera_from_object});

@@ -31,13 +31,13 @@ namespace {
 using namespace edgescout;
 
 struct Candidates {
-  std::vector<Hypothesis> poses;
+  std::vector<ObjectPose> poses;
   std::vector<std::vector<PoseFeatures>> by_view;
 };
 
 double total_evidence(std::span<const PoseFeatures> by_view) {
   return std::accumulate(by_view.begin(), by_view.end(), 0.0,
-                         [](double sum, const PoseFeatures& f) { return sum + evidence(f); });
+                         [](double sum, const PoseFeatures& f) { return sum + psi_z_score(f); });
 }
 
 // Best first, none inside or at the place of a better one.
@@ -63,7 +63,7 @@ std::vector<std::size_t> left_apart(const Candidates& all, std::span<const Templ
   return chosen;
 }
 
-bool is_right(const Hypothesis& pose, const Bin& bin) {
+bool is_right(const ObjectPose& pose, const Bin& bin) {
   return std::ranges::any_of(bin.instances, [&](const BinInstance& instance) {
     return instance.object == pose.object &&
            pose_error(pose.world_from_object, instance.world_from_object,
@@ -75,7 +75,7 @@ bool is_right(const Hypothesis& pose, const Bin& bin) {
 void print_row(const Bin& bin, bool right, std::span<const PoseFeatures> by_view) {
   const SeveralViews sums = sum_of_speaking(by_view);
   std::printf("%d,%zu,%d,%d,%.5f,%.5f,%.5f\n", bin.number, by_view.size(), int(right), sums.views,
-              sums.log_evidence, sums.log_over_beside, sums.unexplained_grey);
+              sums.log_psi_z_score, sums.log_background_psi_z_score, sums.unexplained_grey);
 }
 
 void print_bin(int number, std::span<const TemplateSet> sets, Backend& backend) {
@@ -87,7 +87,7 @@ void print_bin(int number, std::span<const TemplateSet> sets, Backend& backend) 
   std::vector<RegisterView> views;
   std::vector<std::vector<ScanHits>> hits;
   options.detect = [&](std::span<const int>, std::span<const Observation> images,
-                       std::span<const Hypothesis>) {
+                       std::span<const ObjectPose>) {
     std::vector<Observation> scanned(images.begin(), images.end());
     for (std::size_t i = 0; i < hits.size(); ++i) scanned[i].hits = hits[i];
     scan_for(sets, scanned.back(), backend, pipeline.detect.scan);
@@ -106,7 +106,7 @@ void print_bin(int number, std::span<const TemplateSet> sets, Backend& backend) 
   Scout scout(sets, bin.cell->camera(), bin.cell->views(), options, backend);
   run_scout(scout, *bin.cell, [&](const ScoutState& state) {
     if (views.size() < 2 || views.size() == 4) return;
-    const std::vector<Hypothesis> known =
+    const std::vector<ObjectPose> known =
         known_objects(state.detections, options.known_probability);
     std::vector<RegisterView> seen = views;
     for (RegisterView& view : seen) view.occluders = make_occluders(models, known, view, backend);
@@ -135,7 +135,8 @@ int main(int argc, char** argv) {
     const int first = std::stoi(argv[1]), last = std::stoi(argv[2]);
     const auto backend = make_cpu_backend(0);
     const std::vector<TemplateSet> sets = bin_templates(bin_types(), *backend);
-    std::puts("bin,views,right,speaking,log_evidence,log_over_beside,unexplained_grey");
+    std::puts(
+        "bin,views,right,speaking,log_psi_z_score,log_background_psi_z_score,unexplained_grey");
     for (int number = first; number <= last; ++number) print_bin(number, sets, *backend);
     return 0;
   } catch (const std::exception& error) {

@@ -47,7 +47,7 @@ std::vector<EdgePoint> random_edges() {
 
 struct RegistrationCase {
   std::vector<EdgeModel> models;
-  std::vector<Hypothesis> starts;
+  std::vector<ObjectPose> starts;
   std::vector<RegisterView> views;
 };
 

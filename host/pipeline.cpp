@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "host/core/stopwatch.h"
-#include "host/detect/helping_views.h"
 #include "host/detect/joint.h"
+#include "host/detect/support_views.h"
 #include "host/io/image.h"
 #include "kernels/error.h"
 
@@ -67,7 +67,7 @@ Detections detect_objects(const PreparedImage& prepared, std::span<const Templat
   Stopwatch watch(result.stages);
   const Observation observation = observe_prepared(prepared, sets, backend, options);
   watch.lap("tensors");
-  std::vector<Hypothesis> poses;
+  std::vector<ObjectPose> poses;
   std::vector<Refined> candidates;
   for (std::size_t object = 0; object < sets.size(); ++object)
     for (const Refined& candidate :
@@ -78,8 +78,8 @@ Detections detect_objects(const PreparedImage& prepared, std::span<const Templat
   watch.lap("candidates");
   RegisterView view = observation.view;
   view.camera_from_world = Se3{};  // one view: its camera frame is the world
-  result.detections = settle(models_of(sets), poses, candidates, std::vector<RegisterView>{view},
-                             backend, options.detect);
+  result.detections = select_detections(models_of(sets), poses, candidates,
+                                        std::vector<RegisterView>{view}, backend, options.detect);
   watch.lap("settle");
   return result;
 }

@@ -37,13 +37,13 @@ class BackendView {
 using ViewHandle = std::shared_ptr<const BackendView>;
 
 // The cells of one view's combination_chamfer, in the backend's own memory: particles *
-// realizations of them, too many to keep those of all views.
+// combinations of them, too many to keep those of all views.
 class BackendChamfer {
  public:
   virtual ~BackendChamfer() = default;
-  std::uint32_t particles = 0, realizations = 0;
+  std::uint32_t particles = 0, combinations = 0;
   ChamferOptions options;
-  // Copies them to the host, [particle][realization].
+  // Copies them to the host, [particle][combination].
   virtual std::vector<ChamferCell> cells() const = 0;
 };
 using ChamferHandle = std::shared_ptr<const BackendChamfer>;

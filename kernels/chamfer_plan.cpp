@@ -224,7 +224,7 @@ class Planner {
         visit = {row, 0, 0};
       }
       ++visit.count;
-      visit.fresh = static_cast<std::uint16_t>(visit.fresh + view_.points[p].fresh);
+      visit.unseen = static_cast<std::uint16_t>(visit.unseen + view_.points[p].unseen);
     }
     leave();
   }
@@ -251,7 +251,7 @@ class Planner {
       for_visits(i, [&](const ChamferVisit& visit, bool may_hide) {
         plan_.visits[may_hide ? hideable++ : open++] = visit;
         run.points += visit.count;
-        run.fresh += visit.fresh;
+        run.unseen += visit.unseen;
       });
     });
   }

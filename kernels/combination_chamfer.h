@@ -1,8 +1,8 @@
-// Mean chamfer distance of every particle to every scene realization, seen from one view, without
-// drawing one of them (paper, Sec. 5.2 and Eq. 16): the realization's distance at a pixel is the
+// Mean chamfer distance of every particle to every scene combination, seen from one view, without
+// drawing one of them (paper, Sec. 5.2 and Eq. 16): the combination's distance at a pixel is the
 // least of its members'.
 //
-// A *realization* is a combination of candidates, a *particle* a hypothetical pose with the edge
+// A *combination* is a combination of candidates, a *particle* a hypothetical pose with the edge
 // points that show from the view. For particle i and combination C, over the particle's points
 // whose nearest pixel p lies in the image:
 //   hidden point:   a member's surface depth at p plus its tolerance is less than z. It leaves the
@@ -12,7 +12,7 @@
 //                   distance at p, although a farther edge point of c might show: the mean is never
 //                   too small for that, and rarely too large.
 //   distance at p = min(cap, least chamfer_steps of the members' maps at p whose edge is not
-//   hidden); seen = points not hidden, fresh = those of them flagged so, sum = sum of their
+//   hidden); seen = points not hidden, unseen = those of them flagged so, sum = sum of their
 //   distances in 1/16 px of the map.
 // mean_px = sum / (16 seen); the cap where nothing is seen.
 //
@@ -35,9 +35,9 @@ namespace edgescout {
 inline constexpr std::uint32_t CHAMFER_MAX_POINTS = 16384;
 
 struct ParticlePoint {
-  float x_px, y_px;     // on the map
-  float z_m;            // depth in the camera's frame
-  std::uint32_t fresh;  // 1: not yet seen in a real view, else 0
+  float x_px, y_px;      // on the map
+  float z_m;             // depth in the camera's frame
+  std::uint32_t unseen;  // 1: not yet seen in a real view, else 0
 };
 
 // Everything seen from one view.
@@ -77,7 +77,7 @@ struct ChamferOptions {
 
 struct ChamferCell {
   std::uint32_t sum = 0;  // 1/16 px of the map
-  std::uint16_t seen = 0, fresh = 0;
+  std::uint16_t seen = 0, unseen = 0;
 };
 inline double mean_px(const ChamferCell& cell, double cap_px) {
   return cell.seen == 0 ? cap_px : double(cell.sum) / (double(CHAMFER_STEPS_PER_PX) * cell.seen);

@@ -1,4 +1,4 @@
-// Realizations in blocks of 64, one byte each: a block's masks and rows stay in the second-level
+// Combinations in blocks of 64, one byte each: a block's masks and rows stay in the second-level
 // cache, its sums in registers.
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ struct alignas(block) Lanes {
   Bytes bytes;
 };
 
-// 0xff where the candidate is no member, [candidate][realization of the block].
+// 0xff where the candidate is no member, [candidate][combination of the block].
 std::vector<Lanes> absent_members(const CombinationBits& combinations, std::size_t first) {
   std::vector<Lanes> absent(combinations.candidates);
   for (std::size_t lane = 0; lane < block; ++lane)
@@ -31,7 +31,7 @@ std::vector<Lanes> absent_members(const CombinationBits& combinations, std::size
   return absent;
 }
 
-// 0xff where the mask does not have the realization.
+// 0xff where the mask does not have the combination.
 EDGESCOUT_SIMD_CLONES
 void fill_masks(const ChamferPlan& plan, const Lanes* absent, Lanes* masks) {
   for (std::size_t m = 0; m < plan.masks.size(); ++m) {
@@ -45,7 +45,7 @@ void fill_masks(const ChamferPlan& plan, const Lanes* absent, Lanes* masks) {
 
 EDGESCOUT_SIMD_CLONES
 void fill_rows(const ChamferPlan& plan, const Lanes* masks, Lanes* rows) {
-  constexpr std::uint32_t stride = 8;  // between looks whether every realization has its distance
+  constexpr std::uint32_t stride = 8;  // between looks whether every combination has its distance
   const Bytes cap = Bytes{} + static_cast<std::uint8_t>(plan.cap);
   for (std::size_t r = 0; r < plan.rows.size(); ++r) {
     const ChamferRow& row = plan.rows[r];
@@ -72,7 +72,7 @@ void fill_rows(const ChamferPlan& plan, const Lanes* masks, Lanes* rows) {
 }
 
 struct Sums {
-  std::array<std::uint32_t, block> distance{}, hidden{}, hidden_fresh{};
+  std::array<std::uint32_t, block> distance{}, hidden{}, hidden_unseen{};
 };
 
 void flush(const Bytes& bytes, std::array<std::uint32_t, block>& sums) {
@@ -108,14 +108,14 @@ void add_distances(Visits visits, const Lanes* rows, Sums& sums) {
 
 EDGESCOUT_SIMD_CLONES
 void count_hidden(Visits visits, const ChamferPlan& plan, const Lanes* masks, Sums& sums) {
-  Bytes hidden{}, fresh{};
+  Bytes hidden{}, unseen{};
   for (const ChamferVisit& visit : visits) {
     const Bytes gone = masks[plan.rows[visit.row].visible].bytes;
     hidden += gone & static_cast<std::uint8_t>(visit.count);
-    fresh += gone & static_cast<std::uint8_t>(visit.fresh);
+    unseen += gone & static_cast<std::uint8_t>(visit.unseen);
   }
   flush(hidden, sums.hidden);
-  flush(fresh, sums.hidden_fresh);
+  flush(unseen, sums.hidden_unseen);
 }
 
 Sums sums_of(const ChamferPlan& plan, const ChamferRun& run, const Lanes* masks,
@@ -154,7 +154,7 @@ std::vector<ChamferCell> combination_chamfer_fast(const ChamferView& view,
       for (std::size_t lane = 0; lane < lanes; ++lane)
         cells[i * combinations.count + first + lane] = {
             sums.distance[lane], std::uint16_t(run.points - sums.hidden[lane]),
-            std::uint16_t(run.fresh - sums.hidden_fresh[lane])};
+            std::uint16_t(run.unseen - sums.hidden_unseen[lane])};
     }
   });
   return cells;

@@ -11,9 +11,9 @@ namespace edgescout {
 
 namespace {
 
-class Realization {
+class Combination {
  public:
-  Realization(const ChamferView& view, const CombinationBits& combinations, std::size_t j,
+  Combination(const ChamferView& view, const CombinationBits& combinations, std::size_t j,
               const ChamferOptions& options)
       : view_(view), cap_(options.cap_steps()) {
     for (std::uint32_t c = 0; c < combinations.candidates; ++c)
@@ -59,16 +59,16 @@ class Realization {
 
 constexpr std::uint32_t nobody = ~0u;
 
-ChamferCell cell_of(const ChamferView& view, const Realization& realization, std::size_t particle) {
+ChamferCell cell_of(const ChamferView& view, const Combination& combination, std::size_t particle) {
   ChamferCell cell;
   for (std::uint32_t p = view.first_point[particle]; p < view.first_point[particle + 1]; ++p) {
     const ParticlePoint& point = view.points[p];
     int x = 0, y = 0;
     if (!nearest_pixel(point.x_px, point.y_px, view.width, view.height, x, y)) continue;
-    if (realization.hides(x, y, point.z_m, nobody)) continue;
-    cell.sum += realization.distance(x, y);
+    if (combination.hides(x, y, point.z_m, nobody)) continue;
+    cell.sum += combination.distance(x, y);
     ++cell.seen;
-    cell.fresh += static_cast<std::uint16_t>(point.fresh);
+    cell.unseen += static_cast<std::uint16_t>(point.unseen);
   }
   return cell;
 }
@@ -105,7 +105,7 @@ void check_chamfer(const ChamferView& view, const CombinationBits& combinations,
           "combination_chamfer: points of a particle");
   }
   for (std::uint32_t p = view.first_point.front(); p < view.first_point.back(); ++p)
-    check(view.points[p].fresh <= 1, "combination_chamfer: fresh is 0 or 1");
+    check(view.points[p].unseen <= 1, "combination_chamfer: unseen is 0 or 1");
 }
 
 std::vector<ChamferCell> combination_chamfer_reference(const ChamferView& view,
@@ -114,9 +114,9 @@ std::vector<ChamferCell> combination_chamfer_reference(const ChamferView& view,
   check_chamfer(view, combinations, options);
   std::vector<ChamferCell> cells(view.particles() * combinations.count);
   for (std::size_t j = 0; j < combinations.count; ++j) {
-    const Realization realization(view, combinations, j, options);
+    const Combination combination(view, combinations, j, options);
     for (std::size_t i = 0; i < view.particles(); ++i)
-      cells[i * combinations.count + j] = cell_of(view, realization, i);
+      cells[i * combinations.count + j] = cell_of(view, combination, i);
   }
   return cells;
 }

@@ -191,7 +191,7 @@ class CpuBackend : public Backend {
     chamfer->values = fast_ ? combination_chamfer_fast(view, combinations, options, pool_)
                             : combination_chamfer_reference(view, combinations, options);
     chamfer->particles = static_cast<std::uint32_t>(view.particles());
-    chamfer->realizations = combinations.count;
+    chamfer->combinations = combinations.count;
     chamfer->options = options;
     return chamfer;
   }
@@ -201,7 +201,7 @@ class CpuBackend : public Backend {
     const Timer timer(*this, "mutual_information");
     const auto* mine = dynamic_cast<const CpuChamfer*>(&chamfer);
     check(mine != nullptr, "cells made by another backend");
-    const ChamferTable table{chamfer.particles, chamfer.realizations, chamfer.options.cap_px,
+    const ChamferTable table{chamfer.particles, chamfer.combinations, chamfer.options.cap_px,
                              mine->values};
     return fast_ ? mutual_information_fast(table, beliefs, options, pool_)
                  : mutual_information_reference(table, beliefs, options);

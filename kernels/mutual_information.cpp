@@ -25,9 +25,9 @@ double log_sum_exp(std::span<const double> logs) {
 // log l_ij, with Upsilon where the paper's own form is asked for.
 double log_likelihood(const ChamferCell& cell, double cap_px, const ParticleBelief& belief,
                       const InformationOptions& options) {
-  const double seen = std::max(0.5, double(belief.already_seen) + cell.fresh),
+  const double seen = std::max(0.5, double(belief.already_seen) + cell.unseen),
                mu = mean_px(cell, cap_px);
-  const double upsilon = options.literal ? belief.upsilon_px2 : 0;
+  const double upsilon = options.use_paper_formula ? belief.upsilon_px2 : 0;
   return std::log(seen / belief.total) - (mu * mu + upsilon) / options.scale_px2;
 }
 
@@ -35,10 +35,10 @@ std::vector<double> log_likelihoods(const ChamferTable& table, std::uint32_t i,
                                     const ParticleBelief& belief,
                                     const InformationOptions& options) {
   std::vector<double> logs;
-  for (std::uint32_t j = 0; j < table.realizations; ++j)
-    logs.push_back(log_likelihood(table.cells[std::size_t(i) * table.realizations + j],
+  for (std::uint32_t j = 0; j < table.combinations; ++j)
+    logs.push_back(log_likelihood(table.cells[std::size_t(i) * table.combinations + j],
                                   table.cap_px, belief, options));
-  if (options.literal) return logs;
+  if (options.use_paper_formula) return logs;
   const double total = log_sum_exp(logs);
   for (double& v : logs) v -= total;
   return logs;
@@ -46,8 +46,8 @@ std::vector<double> log_likelihoods(const ChamferTable& table, std::uint32_t i,
 
 void check_table(const ChamferTable& table, std::span<const ParticleBelief> beliefs,
                  const InformationOptions& options) {
-  check_information(table.particles, table.realizations, beliefs, options);
-  check(table.cells.size() == std::size_t(table.particles) * table.realizations,
+  check_information(table.particles, table.combinations, beliefs, options);
+  check(table.cells.size() == std::size_t(table.particles) * table.combinations,
         "mutual_information: cells of the table");
 }
 
@@ -67,10 +67,10 @@ void InformationOptions::validate() const {
                      "a number above 0");
 }
 
-void check_information(std::uint32_t particles, std::uint32_t realizations,
+void check_information(std::uint32_t particles, std::uint32_t combinations,
                        std::span<const ParticleBelief> beliefs, const InformationOptions& options) {
   options.validate();
-  check(particles > 0 && realizations > 0, "mutual_information: no particles or no realizations");
+  check(particles > 0 && combinations > 0, "mutual_information: no particles or no combinations");
   check(particles <= INFORMATION_MAX_PARTICLES, "mutual_information: too many particles");
   check(beliefs.size() == particles, "mutual_information: as many beliefs as particles");
   bool any = false;
@@ -92,7 +92,7 @@ double mutual_information_reference(const ChamferTable& table,
   for (std::uint32_t i = 0; i < table.particles; ++i)
     log_rows.push_back(log_likelihoods(table, i, beliefs[i], options));
   double information = 0;
-  for (std::uint32_t j = 0; j < table.realizations; ++j) {
+  for (std::uint32_t j = 0; j < table.combinations; ++j) {
     std::vector<double> joint;
     for (std::uint32_t i = 0; i < table.particles; ++i)
       joint.push_back(log_weight[i] + log_rows[i][j]);
@@ -107,7 +107,7 @@ double mutual_information_reference(const ChamferTable& table,
 
 namespace {
 
-// What a run of particles adds: to the evidence of every realization, and to the mean of sum_j L
+// What a run of particles adds: to the evidence of every combination, and to the mean of sum_j L
 // log L.
 struct Share {
   std::vector<double> evidence;
@@ -122,23 +122,23 @@ class FastInformation {
         beliefs_(beliefs),
         options_(options),
         log_weight_(normalised_log_weights(beliefs)) {
-    std::size_t fresh = 0, seen = 0;
-    for (const ChamferCell& cell : table.cells) fresh = std::max<std::size_t>(fresh, cell.fresh);
+    std::size_t unseen = 0, seen = 0;
+    for (const ChamferCell& cell : table.cells) unseen = std::max<std::size_t>(unseen, cell.unseen);
     for (const ParticleBelief& belief : beliefs)
       seen = std::max<std::size_t>(seen, belief.already_seen);
     log_count_.push_back(std::log(0.5));
-    for (std::size_t k = 1; k <= std::min(fresh + seen, most_tabled); ++k)
+    for (std::size_t k = 1; k <= std::min(unseen + seen, most_tabled); ++k)
       log_count_.push_back(std::log(double(k)));
   }
 
   Share share(std::size_t begin, std::size_t end) const {
-    Share sum{std::vector<double>(table_.realizations, 0.0)};
-    std::vector<double> logs(table_.realizations);
+    Share sum{std::vector<double>(table_.combinations, 0.0)};
+    std::vector<double> logs(table_.combinations);
     for (std::size_t i = begin; i < end; ++i) {
       const double weight = std::exp(log_weight_[i]);
       if (weight == 0) continue;
       fill_logs(i, logs);
-      const double shift = options_.literal ? 0 : log_sum_exp(logs);
+      const double shift = options_.use_paper_formula ? 0 : log_sum_exp(logs);
       double l_log_l = 0;
       for (std::size_t j = 0; j < logs.size(); ++j) {
         const double log_l = logs[j] - shift, l = std::exp(log_l);
@@ -155,12 +155,13 @@ class FastInformation {
 
   void fill_logs(std::size_t i, std::span<double> logs) const {
     const ParticleBelief& belief = beliefs_[i];
-    const double offset = std::log(double(belief.total)) +
-                          (options_.literal ? belief.upsilon_px2 / options_.scale_px2 : 0);
-    const std::span cells = table_.cells.subspan(i * table_.realizations, table_.realizations);
+    const double offset =
+        std::log(double(belief.total)) +
+        (options_.use_paper_formula ? belief.upsilon_px2 / options_.scale_px2 : 0);
+    const std::span cells = table_.cells.subspan(i * table_.combinations, table_.combinations);
     for (std::size_t j = 0; j < logs.size(); ++j) {
       const double mu = mean_px(cells[j], table_.cap_px);
-      logs[j] = log_count(std::size_t(belief.already_seen) + cells[j].fresh) -
+      logs[j] = log_count(std::size_t(belief.already_seen) + cells[j].unseen) -
                 mu * mu / options_.scale_px2 - offset;
     }
   }
@@ -191,7 +192,7 @@ double mutual_information_fast(const ChamferTable& table, std::span<const Partic
   });
   double sum = 0;
   for (const Share& share : shares) sum += share.mean_l_log_l;
-  for (std::uint32_t j = 0; j < table.realizations; ++j) {
+  for (std::uint32_t j = 0; j < table.combinations; ++j) {
     double evidence = 0;
     for (const Share& share : shares) evidence += share.evidence[j];
     if (evidence > 0) sum -= evidence * std::log(evidence);

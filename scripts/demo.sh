@@ -36,7 +36,7 @@ say "parts on a printed board: rendered"
 say "looking again from the best place: a rendered cell"
 "$edgescout" scout cell --model "$examples"/parts/obj_00000{1,5}.ply --unit mm --models-info "$examples/parts/models_info.json" \
   --objects 5 --seed 3 --pile 0.7 --width 640 --height 480 --focal 700 --view-count 24 --max-views 5 \
-  --viewpoints 4 --aligned 300 --candidates 20 --out "$out/scout"
+  --viewpoints 4 --coarse-poses 300 --candidates 20 --out "$out/scout"
 
 say "pictures to look at: what was found, drawn over the images, and how the views were chosen"
 find "$out" -name '*.png' -o -name '*.html' | sort

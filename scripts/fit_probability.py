@@ -8,7 +8,7 @@ ranked, on these and all registered candidates.
         --min-distance 0.35 --max-distance 0.6 --seed 500 --out A
     edgescout render --part $PARTS --scenes 8 --objects 5 --clutter 1 --pile 0.4 --width 640 --height 480 --focal 800 \\
         --min-distance 0.4 --max-distance 0.7 --seed 900 --blur 1.4 --noise 3 --out B
-    ALL="--min-probability 0 --no-overlays"   # for log_odds, besides: --max-spent 1 --second-look 0
+    ALL="--min-probability 0 --no-overlays"   # for log_odds, besides: --max-claimed 1 --restart-rotation 0
     edgescout detect A --model A/models/*.ply --unit mm --models-info A/models/models_info.json \\
         --distance-min 0.33 --distance-max 0.66 $ALL --out A_RESULTS
     edgescout detect B --model B/models/*.ply --unit mm --models-info B/models/models_info.json \\
@@ -25,7 +25,7 @@ from pathlib import Path
 import numpy as np
 
 RIGHT_PX = 10
-LEAST_EVIDENCE = 0.5
+MIN_PSI_Z_SCORE = 0.5
 
 
 def rotation_about(axis, angle):
@@ -88,7 +88,7 @@ def load_candidates(scenes, results):
                 for s in symmetries(info):
                     there = project(camera, rotation, translation, corners @ s[:3, :3].T + s[:3, 3])
                     error = min(error, np.abs(np.linalg.norm(there - seen, axis=1)).max())
-            features.append([1, np.log(max(d["evidence"], LEAST_EVIDENCE)), d["cost_px"], d["unexplained_grey"]])
+            features.append([1, np.log(max(d["evidence"], MIN_PSI_Z_SCORE)), d["cost_px"], d["unexplained_grey"]])
             labels.append(error < RIGHT_PX)
     return np.array(features), np.array(labels, float)
 

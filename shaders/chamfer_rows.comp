@@ -16,7 +16,7 @@ void main() {
   const uint r = i / push.words, word = i % push.words;
   if (r >= push.count) return;
   const uint at = r * CHAMFER_ROW_WORDS, first = rows[at], end = first + rows[at + 1u];
-  // Hidden realizations are never taken and keep 0.
+  // Hidden combinations are never taken and keep 0.
   uint remaining = bits[rows[at + 2u] * push.words + word];
   uint quads[CHAMFER_QUADS];
   for (uint q = 0u; q < CHAMFER_QUADS; ++q) quads[q] = 0u;

@@ -14,10 +14,10 @@ layout(binding = 4) readonly buffer Bytes { uvec4 bytes[]; };
 layout(binding = 5) writeonly buffer Sums { uint sums[]; };
 layout(binding = 6) writeonly buffer Counts { uint counts[]; };
 
-// Of 16 realizations; those of one component of `even` and `odd` are 4k, 4k + 2 and 4k + 1, 4k + 3.
+// Of 16 combinations; those of one component of `even` and `odd` are 4k, 4k + 2 and 4k + 1, 4k + 3.
 uint distance_sum[16];
 uint hidden_sum[16];
-uint hidden_fresh_sum[16];
+uint hidden_unseen_sum[16];
 
 void flush_pairs(uvec4 even, uvec4 odd) {
   for (uint k = 0u; k < 4u; ++k) {
@@ -28,10 +28,10 @@ void flush_pairs(uvec4 even, uvec4 odd) {
   }
 }
 
-void flush_bytes(uvec4 all, uvec4 fresh) {
+void flush_bytes(uvec4 all, uvec4 unseen) {
   for (uint k = 0u; k < 16u; ++k) {
     hidden_sum[k] += all[k / 4u] >> (8u * (k % 4u)) & 0xffu;
-    hidden_fresh_sum[k] += fresh[k / 4u] >> (8u * (k % 4u)) & 0xffu;
+    hidden_unseen_sum[k] += unseen[k / 4u] >> (8u * (k % 4u)) & 0xffu;
   }
 }
 
@@ -57,15 +57,15 @@ void sum_distances(uint first, uint end, uint half_word) {
 }
 
 void count_hidden(uint first, uint end, uint half_word) {
-  uvec4 all = uvec4(0u), fresh = uvec4(0u);
+  uvec4 all = uvec4(0u), unseen = uvec4(0u);
   uint points = 0u;
   [[dont_unroll]] for (uint v = first; v < end; ++v) {
     const uvec2 visit = visits[v];
     const uint count = visit.y & 0xffffu;
     if (points + count > CHAMFER_POINTS_AT_ONCE) {
-      flush_bytes(all, fresh);
+      flush_bytes(all, unseen);
       all = uvec4(0u);
-      fresh = uvec4(0u);
+      unseen = uvec4(0u);
       points = 0u;
     }
     points += count;
@@ -73,9 +73,9 @@ void count_hidden(uint first, uint end, uint half_word) {
     const uint gone = word >> (16u * (half_word % CHAMFER_HALVES));
     const uvec4 four = uvec4(bytes_of(gone & 0xfu), bytes_of(gone >> 4 & 0xfu), bytes_of(gone >> 8 & 0xfu), bytes_of(gone >> 12 & 0xfu));
     all += four * count;
-    fresh += four * (visit.y >> 16);
+    unseen += four * (visit.y >> 16);
   }
-  flush_bytes(all, fresh);
+  flush_bytes(all, unseen);
 }
 
 void main() {
@@ -86,16 +86,16 @@ void main() {
   for (uint k = 0u; k < 16u; ++k) {
     distance_sum[k] = 0u;
     hidden_sum[k] = 0u;
-    hidden_fresh_sum[k] = 0u;
+    hidden_unseen_sum[k] = 0u;
   }
   const uint at = i * CHAMFER_RUN_WORDS, end = particles[at + 2u];
   sum_distances(particles[at], end, half_word);
   count_hidden(particles[at + 1u], end, half_word);
-  const uint points = particles[at + 3u], fresh = particles[at + 4u];
+  const uint points = particles[at + 3u], unseen = particles[at + 4u];
   for (uint k = 0u; k < 16u; ++k) {
     const uint j = push.first_word * 32u + half_word * 16u + k;
-    if (j >= push.realizations) return;
-    sums[i * push.realizations + j] = distance_sum[k];
-    counts[i * push.realizations + j] = (fresh - hidden_fresh_sum[k]) << 16 | (points - hidden_sum[k]);
+    if (j >= push.combinations) return;
+    sums[i * push.combinations + j] = distance_sum[k];
+    counts[i * push.combinations + j] = (unseen - hidden_unseen_sum[k]) << 16 | (points - hidden_sum[k]);
   }
 }

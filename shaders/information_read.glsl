@@ -7,8 +7,8 @@ layout(binding = 2) readonly buffer Beliefs { float beliefs[]; };
 float weight_of(uint i) { return beliefs[i * INFORMATION_BELIEF_WORDS]; }
 
 float log_likelihood(uint i, uint j) {
-  const uint at = i * INFORMATION_BELIEF_WORDS, cell = i * push.realizations + j;
-  const uint seen = counts[cell] & 0xffffu, fresh = counts[cell] >> 16;
+  const uint at = i * INFORMATION_BELIEF_WORDS, cell = i * push.combinations + j;
+  const uint seen = counts[cell] & 0xffffu, unseen = counts[cell] >> 16;
   const float mu = seen == 0u ? push.cap_px : float(sums[cell]) / float(CHAMFER_STEPS_PER_PX * seen);
-  return log(max(0.5, beliefs[at + 1u] + float(fresh))) - mu * mu * push.inverse_scale - beliefs[at + 2u];
+  return log(max(0.5, beliefs[at + 1u] + float(unseen))) - mu * mu * push.inverse_scale - beliefs[at + 2u];
 }

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "host/core/order.h"
-#include "host/detect/joint_scan.h"
 #include "host/detect/probability_over_views.h"
+#include "host/detect/rescore_in_views.h"
 #include "host/detect/suppression.h"
 #include "kernels/error.h"
 
@@ -33,8 +33,8 @@ std::vector<Detection> different_ones(const std::vector<Detection>& detections,
         keys.push_back(-d.probability);
       }
     const Mesh& mesh = sets[object].model.mesh;
-    for (std::size_t i : best_different(poses, keys, mesh, sets[object].symmetries,
-                                        0.1 * mesh.diameter_m, poses.size()))
+    for (std::size_t i : best_distinct(poses, keys, mesh, sets[object].symmetries,
+                                       0.1 * mesh.diameter_m, poses.size()))
       kept.push_back(same[i]);
   }
   sort_by_probability(kept);
@@ -60,8 +60,8 @@ std::vector<ScanHit> hits_of(const TemplateSet& set, std::size_t object,
     check(object < image.hits.size(), "candidates_in_images: an image that was not scanned");
     hits.push_back(*image.hits[object]);
   }
-  return pooled_hits(set, images, hits, options.helping_views,
-                     drawn_to(known, set, images.back().view.camera_from_world), HITS_JUDGED,
+  return pooled_hits(set, images, hits, options.support_views,
+                     near_known(known, set, images.back().view.camera_from_world), HITS_JUDGED,
                      backend, options.scan);
 }
 
@@ -69,13 +69,13 @@ std::vector<ScanHit> hits_of(const TemplateSet& set, std::size_t object,
 
 std::vector<Detection> candidates_in_images(std::span<const TemplateSet> sets,
                                             std::span<const Observation> images,
-                                            std::span<const Hypothesis> known, Backend& backend,
+                                            std::span<const ObjectPose> known, Backend& backend,
                                             const DetectOptions& options) {
   const Observation& newest = images.back();
   std::vector<Detection> found;
   for (std::size_t object = 0; object < sets.size(); ++object) {
     std::vector<Se3> same;
-    for (const Hypothesis& instance : known)
+    for (const ObjectPose& instance : known)
       if (instance.object == static_cast<int>(object)) same.push_back(instance.world_from_object);
     for (const Refined& candidate : find_candidates(
              sets[object], hits_of(sets[object], object, images, same, backend, options), newest,
@@ -95,7 +95,7 @@ std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets,
                                           std::span<const Detection> candidates,
                                           std::span<const RegisterView> views, std::size_t most,
                                           Backend& backend, const DetectOptions& options) {
-  const std::vector<Hypothesis> starts = poses_of(candidates);
+  const std::vector<ObjectPose> starts = poses_of(candidates);
   RefineOptions refine = options.refine;
   refine.search.rotation_rad = 0;  // the search around them was made in their own images
   const std::vector<Refined> refined = refine_poses(models, starts, views, backend, refine);
@@ -106,11 +106,11 @@ std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets,
         to_detection(starts[i].object, refined[i].registration, refined[i].features));
     detections.back().probability = probability_over_views(refined[i].by_view);
   }
-  return best_beside_others(different_ones(detections, sets), most, models, options.penetration_m,
+  return best_non_colliding(different_ones(detections, sets), most, models, options.penetration_m,
                             backend.threads());
 }
 
-std::vector<Detection> best_beside_others(const std::vector<Detection>& candidates,
+std::vector<Detection> best_non_colliding(const std::vector<Detection>& candidates,
                                           std::size_t most, std::span<const EdgeModel> models,
                                           double penetration_m, ThreadPool& pool) {
   if (candidates.size() <= most) return candidates;

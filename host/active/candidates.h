@@ -12,15 +12,15 @@ namespace edgescout {
 
 // Of all objects, in the world; the most probable first. Without the instances that are known. The
 // images have been scanned for the objects (Observation::hits); the last one is new: what several
-// of them say is registered in it and in those that help it (detect/helping_views.h).
+// of them say is registered in it and in those that help it (detect/support_views.h).
 std::vector<Detection> candidates_in_images(std::span<const TemplateSet> sets,
                                             std::span<const Observation> images,
-                                            std::span<const Hypothesis> known, Backend& backend,
+                                            std::span<const ObjectPose> known, Backend& backend,
                                             const DetectOptions& options);
 
 // Registers candidates over all views (Eq. 11), gives them the probability that the views' features
 // together amount to (detect/probability_over_views.h), drops those that lie on no edge at all and
-// duplicates; of the rest best_beside_others, most probable first.
+// duplicates; of the rest best_non_colliding, most probable first.
 std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets,
                                           std::span<const EdgeModel> models,
                                           std::span<const Detection> candidates,
@@ -32,7 +32,7 @@ std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets,
 // in and across an instance that is there, on its edges and its neighbours', and their views make
 // each as good as certain: by probability alone they leave no place for another instance, which has
 // nobody in its way.
-std::vector<Detection> best_beside_others(const std::vector<Detection>& candidates,
+std::vector<Detection> best_non_colliding(const std::vector<Detection>& candidates,
                                           std::size_t most, std::span<const EdgeModel> models,
                                           double penetration_m, ThreadPool& pool);
 

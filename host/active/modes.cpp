@@ -25,7 +25,7 @@ std::vector<std::size_t> best_first(std::span<const Particle> particles) {
   std::vector<double> merit;
   for (const Particle& particle : particles)
     merit.push_back(particle.by_view.empty() ? particle.log_weight
-                                             : evidence(together(particle.by_view)));
+                                             : psi_z_score(pool_over_views(particle.by_view)));
   return largest_first(merit);
 }
 
@@ -67,14 +67,15 @@ Detection to_detection(const Particle& particle, const PoseFeatures& features, d
 
 void exclude_each_other(std::span<Mode> modes, std::span<const Particle> particles,
                         std::span<const EdgeModel> models, double penetration_m, ThreadPool& pool) {
-  std::vector<Hypothesis> poses;
+  std::vector<ObjectPose> poses;
   std::vector<std::vector<PoseFeatures>> by_view;
   for (const Mode& mode : modes) {
     const Particle& best = particles[mode.particles[0]];
     poses.push_back({mode.object, best.world_from_object});
     by_view.push_back(best.by_view);
   }
-  const std::vector<double> left = probabilities_apart(models, poses, by_view, penetration_m, pool);
+  const std::vector<double> left =
+      probabilities_without_collisions(models, poses, by_view, penetration_m, pool);
   for (std::size_t i = 0; i < modes.size(); ++i) modes[i].probability = left[i];
 }
 
@@ -115,7 +116,7 @@ std::vector<ModeDetection> mode_detections(std::span<const Particle> particles,
                                            std::span<const RegisterView> views, Backend& backend,
                                            const ModeDetectionOptions& options) {
   std::vector<const Mode*> probable;
-  std::vector<Hypothesis> poses;
+  std::vector<ObjectPose> poses;
   std::vector<std::vector<PoseFeatures>> features;
   for (const Mode& mode : modes) {
     if (mode.probability < options.min_probability) continue;
@@ -127,12 +128,12 @@ std::vector<ModeDetection> mode_detections(std::span<const Particle> particles,
     features.push_back(best.by_view);
   }
   std::vector<ModeDetection> found;
-  for (const ChosenPose& chosen :
-       explain_image(models, poses, features, views, backend, options.evidence)) {
+  for (const EdgeClaim& chosen :
+       claim_edges(models, poses, features, views, backend, options.edge_claims)) {
     const Mode& mode = *probable[chosen.index];
     const Particle& best = particles[mode.particles[0]];
     ModeDetection detection{
-        to_detection(best, together(best.by_view), mode.probability), mode.weight, {}};
+        to_detection(best, pool_over_views(best.by_view), mode.probability), mode.weight, {}};
     detection.detection.covariance += scatter(particles, mode, sets[mode.object]);
     for (std::size_t v = 0; v < views.size(); ++v)
       if (pose_probability(best.by_view[v]) >= options.support_probability)
@@ -145,9 +146,9 @@ std::vector<ModeDetection> mode_detections(std::span<const Particle> particles,
   return found;
 }
 
-std::vector<Hypothesis> known_objects(std::span<const ModeDetection> detections,
+std::vector<ObjectPose> known_objects(std::span<const ModeDetection> detections,
                                       double least_probability) {
-  std::vector<Hypothesis> known;
+  std::vector<ObjectPose> known;
   for (const ModeDetection& mode : detections)
     if (mode.detection.probability >= least_probability)
       known.push_back({mode.detection.object, mode.detection.world_from_object});

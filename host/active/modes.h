@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/active/particles.h"
-#include "host/detect/evidence.h"
+#include "host/detect/edge_claims.h"
 
 namespace edgescout {
 
@@ -45,7 +45,7 @@ bool resample_where_poor(std::vector<Particle>& particles, std::span<const Mode>
 struct ModeDetection {
   Detection detection;  // of the mode's best particle; covariance: of its refinement plus the
                         // scatter of the mode's particles
-  double weight = 0;  // of the mode
+  double weight = 0;    // of the mode
   // images so far, counted from 0, whose features alone make the pose probable
   std::vector<int> supporting_images;
 };
@@ -54,7 +54,7 @@ struct ModeDetectionOptions {
   double min_probability = 0.25;      // of what is reported
   double support_probability = 0.03;  // three times the base rate: of the pose by one view's
                                       // features alone, for the view to support it
-  EvidenceOptions evidence;  // modes that compete for the same edges: the likeliest stays
+  EdgeClaimOptions edge_claims;       // modes that compete for the same edges: the likeliest stays
 };
 
 // Best probability first. `particles` must have been weighed with these views, and not been
@@ -68,7 +68,7 @@ std::vector<ModeDetection> mode_detections(std::span<const Particle> particles,
 
 // Those at least so probable: known well enough to hide others (register/occluders.h) and not to be
 // sought again.
-std::vector<Hypothesis> known_objects(std::span<const ModeDetection> detections,
+std::vector<ObjectPose> known_objects(std::span<const ModeDetection> detections,
                                       double least_probability);
 
 // How undecided the belief is, nats: sum over modes of the entropy of "is an instance or not". Zero

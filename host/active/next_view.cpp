@@ -39,7 +39,7 @@ Watched watch(const Planning& planning, ThreadPool& pool, const NextViewOptions&
       watched.particles.push_back(&particle);
   // The paper's own formula: seen is what projects into an image, and the real views stand in
   // Upsilon alone.
-  const double seen_px = options.literal ? 0 : options.seen_px;
+  const double seen_px = options.use_paper_formula ? 0 : options.seen_px;
   watched.seen.resize(watched.particles.size());
   pool.for_each(watched.particles.size(), [&](std::size_t i) {
     const Particle& particle = *watched.particles[i];
@@ -48,8 +48,8 @@ Watched watch(const Planning& planning, ThreadPool& pool, const NextViewOptions&
   });
   for (std::size_t i = 0; i < watched.particles.size(); ++i) {
     const Particle& particle = *watched.particles[i];
-    watched.beliefs.push_back({options.literal ? 0 : particle.log_weight, watched.seen[i].count,
-                               planning.tables[particle.object].total,
+    watched.beliefs.push_back({options.use_paper_formula ? 0 : particle.log_weight,
+                               watched.seen[i].count, planning.tables[particle.object].total,
                                particle.upsilon_px2 / (options.reduction * options.reduction)});
   }
   return watched;
@@ -93,7 +93,7 @@ std::vector<double> mutual_information(const Planning& planning, std::span<const
   const Camera map_camera = scaled(planning.camera, 1 / options.reduction);
   const ChamferOptions chamfer{float(options.cap_px / options.reduction)};
   const double sigma_px = options.sigma_px / options.reduction;
-  const InformationOptions likelihood{2 * sigma_px * sigma_px, options.literal};
+  const InformationOptions likelihood{2 * sigma_px * sigma_px, options.use_paper_formula};
   const std::size_t block = views_at_once(planning.candidates.size(), map_camera);
   for (std::size_t first = 0; first < open.size(); first += block) {
     std::vector<Se3> cameras;
@@ -127,7 +127,7 @@ std::vector<double> disocclusion(const Planning& planning, std::span<const std::
     pool.for_each(open.size(), [&](std::size_t i) {
       for (const ParticlePoint& point : showing_points(
                table, planning.views[open[i]] * candidate.world_from_object, planning.camera, seen))
-        gain[i] += candidate.psi * point.fresh;
+        gain[i] += candidate.psi * point.unseen;
     });
   }
   return gain;
@@ -167,10 +167,11 @@ std::vector<double> free_sights(std::span<const Eigen::Vector3d> directions,
 
 // What of a view no real one has told already.
 double unrepeated(const Eigen::Vector3d& direction, std::span<const Eigen::Vector3d> real,
-                  double repeat_rad) {
+                  double view_correlation_angle_rad) {
   double left = 1;
   for (const Eigen::Vector3d& other : real) {
-    const double angle = std::acos(std::clamp(direction.dot(other), -1.0, 1.0)) / repeat_rad;
+    const double angle =
+        std::acos(std::clamp(direction.dot(other), -1.0, 1.0)) / view_correlation_angle_rad;
     left = std::min(left, 1 - std::exp(-angle * angle));
   }
   return left;
@@ -193,13 +194,16 @@ std::vector<Shares> shares_left(std::span<const std::size_t> open, const Plannin
   const std::vector<Eigen::Vector3d> directions = directions_to(planning.views, *center_m),
                                      real = directions_to(taken, *center_m);
   const std::vector<double> free =
-      free_sights(directions, direction_above(directions), options.free_sight);
+      free_sights(directions, direction_above(directions), options.visibility_exponent);
   for (std::size_t i = 0; i < open.size(); ++i) {
-    const auto left = [&](double repeat_rad) {
+    const auto left = [&](double view_correlation_angle_rad) {
       return free[open[i]] *
-             (repeat_rad > 0 ? unrepeated(directions[open[i]], real, repeat_rad) : 1);
+             (view_correlation_angle_rad > 0
+                  ? unrepeated(directions[open[i]], real, view_correlation_angle_rad)
+                  : 1);
     };
-    shares[i] = {left(options.repeat_rad), left(options.unknown_repeat_rad)};
+    shares[i] = {left(options.view_correlation_angle_rad),
+                 left(options.exploration_correlation_angle_rad)};
   }
   return shares;
 }
@@ -258,12 +262,12 @@ void NextViewOptions::validate() const {
   in("sigma", sigma_px, cap_px / std::sqrt(2 * INFORMATION_MAX_SHARPNESS), 1e3);
   in("tolerance", tolerance, 0, 10);
   in("seen", seen_px, 0, EdgeIndex::CELL_PX);
-  in("free_sight", free_sight, 0, 100);
-  in("repeat_rad", repeat_rad, 0, 100);
-  in("unknown_nats", unknown_nats, 0, 1e3);
-  in("unknown_repeat_rad", unknown_repeat_rad, 0, 100);
+  in("visibility_exponent", visibility_exponent, 0, 100);
+  in("view_correlation_angle_rad", view_correlation_angle_rad, 0, 100);
+  in("exploration_bonus_nats", exploration_bonus_nats, 0, 1e3);
+  in("exploration_correlation_angle_rad", exploration_correlation_angle_rad, 0, 100);
   // The others, and the paper's own formula, do not count in nats.
-  const double dearest = strategy == Strategy::Information && !literal ? 1e9 : 0;
+  const double dearest = strategy == Strategy::Information && !use_paper_formula ? 1e9 : 0;
   in("motion_cost_per_m", motion_cost_per_m, 0, dearest);
   in("motion_cost_per_rad", motion_cost_per_rad, 0, dearest);
   visibility.validate();
@@ -284,13 +288,13 @@ std::vector<ViewInformation> view_information(const Planning& planning, Backend&
   }
   if (open.empty()) return views;
   const std::vector<double> information = information_of(planning, open, backend, options);
-  const bool in_nats = options.strategy == Strategy::Information && !options.literal;
+  const bool in_nats = options.strategy == Strategy::Information && !options.use_paper_formula;
   const std::vector<Shares> shares =
       in_nats ? shares_left(open, planning, options) : std::vector<Shares>(open.size());
-  const double unknown_nats = in_nats ? options.unknown_nats : 0;
+  const double exploration_bonus_nats = in_nats ? options.exploration_bonus_nats : 0;
   for (std::size_t i = 0; i < open.size(); ++i)
     views[open[i]] = {true, shares[i].known * information[i], shares[i].known,
-                      unknown_nats * shares[i].unknown,
+                      exploration_bonus_nats * shares[i].unknown,
                       motion_cost(planning, planning.views[open[i]], options)};
   if (std::ranges::none_of(information, [](double x) { return x > 0; }))
     log(LogLevel::Warning,

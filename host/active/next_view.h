@@ -25,7 +25,7 @@ struct NextViewOptions {
   double cap_px = 40;      // of distances, image px; at most 15.9 map px
   double sigma_px = 4;     // of the mean distance, image px; at least cap_px / 141
   double tolerance = 0.1;  // of a candidate's diameter: nearer behind its surface it hides nothing
-  bool literal =
+  bool use_paper_formula =
       false;  // the paper's own formula (kernels/mutual_information.h), all weights equal
   // A template point was seen in a real view if an edge of its image lies so near, along it; 0: if
   // it lies inside the image, as in the paper's own formula and in Strategy::Disocclusion always.
@@ -33,24 +33,26 @@ struct NextViewOptions {
   double seen_px = 4;
   VisibilityOptions visibility{96, 0.01};
   // What nobody knows of (undetected parts, clutter, the heap itself) hides more the lower a camera
-  // stands. A line of sight is free of it with probability cos^free_sight of its angle to straight
-  // above, and a view that is not tells nothing: an erasure, which leaves that share of the
-  // information. Straight above is the mean direction from what the views look at to their cameras;
-  // where they stand all around there is none, and all are free. 0: all are free, as in the paper's
-  // own formula always. Views that look at no point in common (looked_at_m) are neither hidden nor
-  // repeated.
-  double free_sight = 0.5;
+  // stands. A line of sight is free of it with probability cos^visibility_exponent of its angle to
+  // straight above, and a view that is not tells nothing: an erasure, which leaves that share of
+  // the information. Straight above is the mean direction from what the views look at to their
+  // cameras; where they stand all around there is none, and all are free. 0: all are free, as in
+  // the paper's own formula always. Views that look at no point in common (looked_at_m) are neither
+  // hidden nor repeated.
+  double visibility_exponent = 0.5;
   // Views near each other err alike: what misleads one (neighbours, shadows, a wrong pose's chance
   // agreement, what hides a part) misleads the other. Of what a view would tell, a real view at an
-  // angle theta from it, as seen from what the views look at, has told exp(-(theta / repeat_rad)^2)
-  // already; the nearest one counts. 0: every view is new, as in the paper's own formula always.
-  double repeat_rad = 0.45;
+  // angle theta from it, as seen from what the views look at, has told exp(-(theta /
+  // view_correlation_angle_rad)^2) already; the nearest one counts. 0: every view is new, as in the
+  // paper's own formula always.
+  double view_correlation_angle_rad = 0.45;
   // What no candidate is for may lie wherever no view has looked yet: a view that is new and open
   // is expected to tell so many nats of it (ViewInformation::discovery). Little beside what a
-  // second view promises about the candidates; what is left to gain once they are settled. 0: no
+  // second view promises about the candidates; what is left to gain once they are decided. 0: no
   // information but about candidates, as in the paper, and in its own formula always.
-  double unknown_nats = 0.5;
-  double unknown_repeat_rad = 1;  // as repeat_rad, of what is unknown
+  double exploration_bonus_nats = 0.5;
+  double exploration_correlation_angle_rad =
+      1;  // as view_correlation_angle_rad, of what is unknown
   // nats, taken off the information (Strategy::Information alone, and not the paper's own formula):
   // for the way from the last view's camera
   double motion_cost_per_m = 0;
@@ -80,8 +82,8 @@ struct ViewInformation {
   bool open = false;       // may be chosen; else the rest is 0
   double information = 0;  // Information: nats; Disocclusion: sum of psi times new visible points;
                            // Random: a draw from [0, 1); Fixed: falls along the sequence
-  double share =
-      0;  // that free_sight and repeat_rad leave: information is so much of the mutual one
+  double share = 0;  // that visibility_exponent and view_correlation_angle_rad leave: information
+                     // is so much of the mutual one
   double discovery = 0;    // nats expected of what is unknown; Strategy::Information alone
   double motion_cost = 0;  // from the last real view
   double expected() const { return information + discovery; }

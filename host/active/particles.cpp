@@ -36,8 +36,8 @@ D2coOptions ParticleOptions::refine_defaults() {
 }
 
 // Several views see every particle: some of their points place it well enough.
-PolishOptions ParticleOptions::polish_defaults() {
-  PolishOptions options;
+EdgeIcpOptions ParticleOptions::edge_icp_defaults() {
+  EdgeIcpOptions options;
   options.max_points = 200;
   options.visibility.depth_map_size_px = 96;
   return options;
@@ -59,7 +59,7 @@ void ParticleOptions::validate() const {
   in("dead", dead_px, 1e-3, 1e3);
   in("min_points", min_points, 1, 1e5);
   d2co.validate();
-  polish_options.validate();
+  edge_icp_options.validate();
   visibility.validate();
 }
 
@@ -120,15 +120,15 @@ std::vector<Particle> draw_particles(std::span<const EdgeModel> models,
   return particles;
 }
 
-std::vector<Hypothesis> poses_of(std::span<const Particle> particles) {
-  std::vector<Hypothesis> poses;
+std::vector<ObjectPose> poses_of(std::span<const Particle> particles) {
+  std::vector<ObjectPose> poses;
   for (const Particle& particle : particles)
     poses.push_back({particle.object, particle.world_from_object});
   return poses;
 }
 
-std::vector<Hypothesis> poses_of(std::span<const Detection> candidates) {
-  std::vector<Hypothesis> poses;
+std::vector<ObjectPose> poses_of(std::span<const Detection> candidates) {
+  std::vector<ObjectPose> poses;
   for (const Detection& candidate : candidates)
     poses.push_back({candidate.object, candidate.world_from_object});
   return poses;
@@ -137,11 +137,11 @@ std::vector<Hypothesis> poses_of(std::span<const Detection> candidates) {
 void refine_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
                       std::span<const RegisterView> views, Backend& backend,
                       const ParticleOptions& options) {
-  const std::vector<Hypothesis> starts = poses_of(particles);
+  const std::vector<ObjectPose> starts = poses_of(particles);
   std::vector<Registration> registrations =
       register_poses(models, starts, views, backend, options.d2co);
-  if (options.polish)
-    polish_poses(models, starts, views, backend, options.polish_options, registrations);
+  if (options.use_edge_icp)
+    edge_icp(models, starts, views, backend, options.edge_icp_options, registrations);
   for (std::size_t i = 0; i < particles.size(); ++i) {
     particles[i].world_from_object = registrations[i].world_from_object;
     particles[i].covariance = registrations[i].covariance;

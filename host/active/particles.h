@@ -12,7 +12,7 @@
 #include "host/detect/plausible_pairs.h"
 #include "host/model/template_set.h"
 #include "host/register/d2co.h"
-#include "host/register/polish.h"
+#include "host/register/edge_icp.h"
 #include "host/register/pose_features.h"
 
 namespace edgescout {
@@ -22,10 +22,10 @@ struct Particle {
   Se3 world_from_object;
   Matrix6d covariance = Matrix6d::Zero();  // of the last refinement, or of the candidate it was
                                            // drawn around; tangent of core/se3.h
-  double log_weight = 0;  // natural; weigh_particles makes the weights sum to 1
+  double log_weight = 0;                   // natural; weigh_particles makes the weights sum to 1
   double upsilon_px2 =
-      0;  // log_weight is spent_px2 - upsilon_px2, over s, up to a constant common to all
-  double spent_px2 = 0;
+      0;  // log_weight is resampled_px2 - upsilon_px2, over s, up to a constant common to all
+  double resampled_px2 = 0;
   // Where it was weighed, one a real view, and so is upsilon_px2: what resampling has moved since
   // keeps them. Empty until weighed.
   std::vector<PoseFeatures> by_view;
@@ -60,13 +60,13 @@ struct ParticleOptions {
   double dead_px = 20;        // mean DCD above which a particle is no hypothesis any more
   double min_points = 12;     // in an image, for it to say something about a particle
   D2coOptions d2co = refine_defaults();
-  bool polish = true;
-  PolishOptions polish_options = polish_defaults();
+  bool use_edge_icp = true;
+  EdgeIcpOptions edge_icp_options = edge_icp_defaults();
   PoseScoreOptions score{1.0f, 4.0f, 60.0f};
   VisibilityOptions
       visibility;  // of the points that are scored; probabilities are fitted with the finest
   static D2coOptions refine_defaults();
-  static PolishOptions polish_defaults();
+  static EdgeIcpOptions edge_icp_defaults();
   double scale_px2() const { return 2 * sigma_px * sigma_px; }
   void validate() const;  // throws InputError naming the field and the violated bound
 };
@@ -86,8 +86,8 @@ std::vector<Particle> draw_particles(std::span<const EdgeModel> models,
 Se3 perturbed(const Se3& pose, const Matrix6d& covariance, const EdgeModel& model,
               const Spread& spread, Random& random);
 
-std::vector<Hypothesis> poses_of(std::span<const Particle> particles);
-std::vector<Hypothesis> poses_of(std::span<const Detection> candidates);
+std::vector<ObjectPose> poses_of(std::span<const Particle> particles);
+std::vector<ObjectPose> poses_of(std::span<const Detection> candidates);
 
 // Multi-view D2CO (Eq. 11) of all particles over all real views side by side: poses and
 // covariances.

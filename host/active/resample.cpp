@@ -73,10 +73,11 @@ std::vector<Particle> resample(std::span<const Particle> particles, std::span<co
   if (modes.empty()) return next;
   const std::vector<const Mode*> kept = kept_modes(modes, count, options);
   const std::vector<int> quota = quotas(kept, count, options, random);
-  // Weights have been normalised; spent_px2 keeps what they were, so that particles drawn later,
-  // which have spent nothing, find their share among these.
+  // Weights have been normalised; resampled_px2 keeps what they were, so that particles drawn
+  // later, which have spent nothing, find their share among these.
   const Particle& any = particles[modes[0].particles[0]];
-  const double log_norm = (any.spent_px2 - any.upsilon_px2) / options.scale_px2() - any.log_weight;
+  const double log_norm =
+      (any.resampled_px2 - any.upsilon_px2) / options.scale_px2() - any.log_weight;
   double total = 0;  // of the weights that go on
   for (std::size_t m = 0; m < kept.size(); ++m)
     if (quota[m] > 0) total += kept[m]->weight;
@@ -91,8 +92,9 @@ std::vector<Particle> resample(std::span<const Particle> particles, std::span<co
               perturbed(particle.world_from_object, particle.covariance, models[particle.object],
                         options.roughened, random);
         particle.log_weight = std::log(mode.weight / total / quota[m]);
-        particle.spent_px2 = particle.upsilon_px2 +
-                             options.scale_px2() * (std::log(mode.weight / quota[m]) + log_norm);
+        particle.resampled_px2 =
+            particle.upsilon_px2 +
+            options.scale_px2() * (std::log(mode.weight / quota[m]) + log_norm);
         next.push_back(std::move(particle));
       }
   }

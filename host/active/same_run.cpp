@@ -26,7 +26,7 @@ struct Mentioned {
       objects_in(step.detections);
       note(view, step.decision.view);
     }
-    fits = fits && is_one_of(state.end, ScoutEnd::TimeSpent);
+    fits = fits && is_one_of(state.end, ScoutEnd::TimeLimit);
     for (const FailedView& failed : state.failed) note(view, failed.view);
   }
 

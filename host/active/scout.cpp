@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "host/active/candidates.h"
+#include "host/active/reference_objects.h"
 #include "host/active/views.h"
-#include "host/active/witnesses.h"
 #include "host/core/log.h"
 #include "host/io/binary_file.h"
 #include "host/register/occluders.h"
@@ -119,7 +119,7 @@ void Scout::look(const Image& image, ScoutStep& step,
 }
 
 // Lines 2 and 3: what may be in the image beside and behind the known, refined over all images.
-void Scout::search(std::span<const Hypothesis> known, ScoutStep& step, ScoutState& next,
+void Scout::search(std::span<const ObjectPose> known, ScoutStep& step, ScoutState& next,
                    std::span<Observation> observations) const {
   Stopwatch watch(step.stages);
   hide_behind(known, observations);
@@ -136,7 +136,7 @@ void Scout::search(std::span<const Hypothesis> known, ScoutStep& step, ScoutStat
 }
 
 // In all images or, each alone, in the newest.
-std::vector<Detection> Scout::detect(const ScoutStep& step, std::span<const Hypothesis> known,
+std::vector<Detection> Scout::detect(const ScoutStep& step, std::span<const ObjectPose> known,
                                      std::span<Observation> observations) const {
   const std::span<Observation> images =
       options_.detect_jointly ? observations : observations.last(1);
@@ -159,7 +159,7 @@ std::vector<Detection> Scout::detect(const ScoutStep& step, std::span<const Hypo
   return found;
 }
 
-void Scout::hide_behind(std::span<const Hypothesis> known,
+void Scout::hide_behind(std::span<const ObjectPose> known,
                         std::span<Observation> observations) const {
   for (Observation& observation : observations)
     observation.view.occluders = make_occluders(models_, known, observation.view, backend_);
@@ -194,13 +194,14 @@ void Scout::conclude(ScoutStep& step, ScoutState& next, std::span<const Mode> mo
       resample_where_poor(next.particles, modes, models_, views.size(), options_.particles);
   step.after = next.particles;
   done(watch, "modes");
-  const std::vector<ViewAgreement> before =
-      next.steps.empty() ? std::vector<ViewAgreement>{} : next.steps.back().agreement;
-  step.agreement = view_agreement(models_, witnesses(models_, next.steps, next.detections), views,
-                                  backend_, options_.agreement);
-  keep_flags(before, step.agreement);
-  warn_of(step.agreement, before);
-  done(watch, "agreement");
+  const std::vector<ExtrinsicsCheck> before =
+      next.steps.empty() ? std::vector<ExtrinsicsCheck>{} : next.steps.back().extrinsics_checks;
+  step.extrinsics_checks =
+      extrinsics_check(models_, reference_objects(models_, next.steps, next.detections), views,
+                       backend_, options_.extrinsics_checks);
+  keep_flags(before, step.extrinsics_checks);
+  warn_of(step.extrinsics_checks, before);
+  done(watch, "extrinsics_checks");
 }
 
 // Around the first image's candidates all of them; later a share around each candidate that no

@@ -30,7 +30,7 @@ class Cancelled : public std::runtime_error {
 };
 
 struct ScoutOptions {
-  PipelineOptions pipeline = quick_looks();
+  PipelineOptions pipeline = scout_defaults();
   int max_candidates = 40;  // kept of all objects together (the paper's N_obj)
   bool detect_in_every_image =
       true;  // else until there are candidates: in the first alone, as in the paper
@@ -40,9 +40,10 @@ struct ScoutOptions {
   // InputError from give(): an object that is none, a pose that is not rigid.
   std::function<std::vector<Detection>(std::span<const int> views,
                                        std::span<const Observation> images,
-                                       std::span<const Hypothesis> known)>
+                                       std::span<const ObjectPose> known)>
       detect;
-  // later images are searched together with those before (detect/joint_scan.h); else each alone
+  // later images are searched together with those before (detect/rescore_in_views.h); else each
+  // alone
   bool detect_jointly = true;
   // Reported instances (detections.min_probability) as probable as this are known: they are not
   // sought in later images, and hide what is behind them (register/occluders.h): what they cover
@@ -62,7 +63,7 @@ struct ScoutOptions {
   NextViewOptions
       next_view;  // its sigma_px is the particles' too: one model of how far right poses lie
   ModeDetectionOptions detections;
-  AgreementOptions agreement;
+  ExtrinsicsCheckOptions extrinsics_checks;
   int first_view = 0;  // whatever the strategy: of a fixed sequence give its first
   // The end, whichever comes first. Of all but the images a limit of 0 is none.
   int max_views = 5;  // images
@@ -79,7 +80,7 @@ struct ScoutOptions {
   // More hits an image than a detection that has but one, since later images judge them again;
   // fewer of them aligned and registered: what an image misses, the next one shows, in half the
   // time (docs/next_view.md).
-  static PipelineOptions quick_looks();
+  static PipelineOptions scout_defaults();
   void validate() const;  // InputError naming the field and the violated bound
 };
 
@@ -123,16 +124,16 @@ class Scout {
   ScoutDecision without_expectations(int view) const;
   ScoutDecision decide() const;
   void look(const Image& image, ScoutStep& step, std::vector<Observation>& observations) const;
-  void search(std::span<const Hypothesis> known, ScoutStep& step, ScoutState& next,
+  void search(std::span<const ObjectPose> known, ScoutStep& step, ScoutState& next,
               std::span<Observation> observations) const;
   std::vector<Mode> believe(ScoutStep& step, ScoutState& next,
                             std::span<const RegisterView> views) const;
   void conclude(ScoutStep& step, ScoutState& next, std::span<const Mode> modes,
                 std::span<const RegisterView> views) const;
   void add_particles(ScoutStep& step, ScoutState& next) const;
-  std::vector<Detection> detect(const ScoutStep& step, std::span<const Hypothesis> known,
+  std::vector<Detection> detect(const ScoutStep& step, std::span<const ObjectPose> known,
                                 std::span<Observation> observations) const;
-  void hide_behind(std::span<const Hypothesis> known, std::span<Observation> observations) const;
+  void hide_behind(std::span<const ObjectPose> known, std::span<Observation> observations) const;
   void done(Stopwatch& watch, const char* stage) const;
   void stop_where_cancelled() const;
 

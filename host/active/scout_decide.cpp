@@ -27,7 +27,8 @@ ScoutDecision Scout::without_expectations(int view) const {
   ScoutDecision decision;
   decision.view = view;
   decision.strategy = options_.next_view.strategy;
-  decision.literal = decision.strategy == Strategy::Information && options_.next_view.literal;
+  decision.use_paper_formula =
+      decision.strategy == Strategy::Information && options_.next_view.use_paper_formula;
   return decision;
 }
 

@@ -12,7 +12,7 @@ ScoutEnd Scout::end_before_planning() const {
   if (certain()) return ScoutEnd::Certain;
   if (little_learned()) return ScoutEnd::LittleLearned;
   if (options_.max_seconds > 0 && state_.seconds() >= options_.max_seconds)
-    return ScoutEnd::TimeSpent;
+    return ScoutEnd::TimeLimit;
   return ScoutEnd::No;
 }
 

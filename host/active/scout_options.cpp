@@ -3,10 +3,10 @@
 
 namespace edgescout {
 
-PipelineOptions ScoutOptions::quick_looks() {
+PipelineOptions ScoutOptions::scout_defaults() {
   PipelineOptions options;
-  options.detect.scan.kept = 40000;
-  options.detect.aligned = 600;
+  options.detect.scan.num_kept = 40000;
+  options.detect.coarse_poses = 600;
   options.detect.candidates = 25;
   return options;
 }
@@ -20,19 +20,20 @@ void ScoutOptions::validate() const {
   in("max_views", max_views, 1, 1e6);
   in("min_entropy_nats", min_entropy_nats, 0, 1e6);
   // The paper's own formula does not count in nats.
-  in("min_information_nats", min_information_nats, 0, next_view.literal ? 0 : 1e6);
+  in("min_information_nats", min_information_nats, 0, next_view.use_paper_formula ? 0 : 1e6);
   in("min_gained_nats", min_gained_nats, 0, 1e6);
   in("max_seconds", max_seconds, 0, 1e9);
   in("detections.min_probability", detections.min_probability, 0, 1);
   in("detections.support_probability", detections.support_probability, 0, 1);
-  in("agreement.max_residual_px", agreement.max_residual_px, 0, 1e9);
-  in("agreement.min_probability", agreement.min_probability, 0, 1);
-  in("agreement.absent_probability", agreement.absent_probability, 0, agreement.min_probability);
-  in("agreement.held_probability", agreement.held_probability, 0, 1);
-  in("agreement.max_missing", agreement.max_missing, 0, 1e9);
-  detections.evidence.validate();
-  agreement.joint.validate();
-  agreement.single.validate();
+  in("extrinsics_checks.max_residual_px", extrinsics_checks.max_residual_px, 0, 1e9);
+  in("extrinsics_checks.min_probability", extrinsics_checks.min_probability, 0, 1);
+  in("extrinsics_checks.absent_probability", extrinsics_checks.absent_probability, 0,
+     extrinsics_checks.min_probability);
+  in("extrinsics_checks.held_probability", extrinsics_checks.held_probability, 0, 1);
+  in("extrinsics_checks.max_missing", extrinsics_checks.max_missing, 0, 1e9);
+  detections.edge_claims.validate();
+  extrinsics_checks.joint.validate();
+  extrinsics_checks.single.validate();
   pipeline.validate();
   combinations.validate();
   particles.validate();

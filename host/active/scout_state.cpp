@@ -76,11 +76,11 @@ void fields(auto& io, A<StageSeconds> auto& x) { io(x.name, x.seconds); }
 void fields(auto& io, A<ViewInformation> auto& x) {
   io(x.open, x.information, x.share, x.discovery, x.motion_cost);
 }
-void fields(auto& io, A<ViewAgreement> auto& x) {
+void fields(auto& io, A<ExtrinsicsCheck> auto& x) {
   io(x.residual_px, x.objects, x.missing, x.disagrees);
 }
 void fields(auto& io, A<PoseFeatures> auto& x) {
-  io(x.psi, x.beside_psi, x.mean_px, x.matched, x.points, x.length_px, x.in_image, x.visible,
+  io(x.psi, x.background_psi, x.mean_px, x.matched, x.points, x.length_px, x.in_image, x.visible,
      x.shading.pixels, x.shading.squares, x.shading.unexplained);
 }
 void fields(auto& io, A<ParticleUpdate> auto& x) { io(x.effective, x.reseeded, x.gained_nats); }
@@ -93,18 +93,19 @@ void fields(auto& io, A<Image> auto& x) { io(x.width, x.height, x.pixels); }
 void fields(auto& io, A<ModeDetection> auto& x) { io(x.detection, x.weight, x.supporting_images); }
 void fields(auto& io, A<Detection> auto& x) {
   io(x.object, x.world_from_object, x.covariance, x.probability, x.psi, x.cost_px,
-     x.matched_fraction, x.evidence, x.unexplained_grey, x.convergence);
+     x.matched_fraction, x.psi_z_score, x.unexplained_grey, x.convergence);
 }
 void fields(auto& io, A<Particle> auto& x) {
-  io(x.object, x.world_from_object, x.covariance, x.log_weight, x.upsilon_px2, x.spent_px2,
+  io(x.object, x.world_from_object, x.covariance, x.log_weight, x.upsilon_px2, x.resampled_px2,
      x.by_view);
 }
 void fields(auto& io, A<ScoutDecision> auto& x) {
-  io(x.view, x.strategy, x.literal, x.views, x.candidates, x.likeliest, x.unlikeliest, x.stages);
+  io(x.view, x.strategy, x.use_paper_formula, x.views, x.candidates, x.likeliest, x.unlikeliest,
+     x.stages);
 }
 void fields(auto& io, A<ScoutStep> auto& x) {
   io(x.decision, x.camera_from_world, x.image, x.searches, x.new_candidates, x.before, x.after,
-     x.update, x.resampled, x.detections, x.agreement, x.mode_probabilities, x.entropy_nats,
+     x.update, x.resampled, x.detections, x.extrinsics_checks, x.mode_probabilities, x.entropy_nats,
      x.stages);
 }
 void fields(auto& io, A<ScoutState> auto& x) {
@@ -134,7 +135,7 @@ std::string to_string(ScoutEnd end) {
       return "little to learn";
     case ScoutEnd::LittleLearned:
       return "little learned";
-    case ScoutEnd::TimeSpent:
+    case ScoutEnd::TimeLimit:
       return "time spent";
   }
   throw LogicError("to_string: no such ScoutEnd");

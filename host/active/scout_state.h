@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "host/active/extrinsics_check.h"
 #include "host/active/modes.h"
 #include "host/active/next_view.h"
 #include "host/active/particles.h"
-#include "host/active/view_agreement.h"
 #include "host/core/camera.h"
 #include "host/core/stopwatch.h"
 
@@ -21,7 +21,7 @@ namespace edgescout {
 struct ScoutDecision {
   int view = 0;
   Strategy strategy = Strategy::Information;  // by which `views` was judged
-  bool literal = false;  // by the paper's own formula, which does not count in nats
+  bool use_paper_formula = false;  // by the paper's own formula, which does not count in nats
   // one a view; empty for the first image, of which nothing can be expected
   std::vector<ViewInformation> views;
   std::vector<Detection> candidates;  // world, at that time
@@ -45,7 +45,7 @@ struct ScoutStep {
   bool resampled = false;  // after `detections` were reported (resample_where_poor)
   std::vector<ModeDetection> detections;
   // one a step so far: the later images' say on this and the earlier ones
-  std::vector<ViewAgreement> agreement;
+  std::vector<ExtrinsicsCheck> extrinsics_checks;
   std::vector<double> mode_probabilities;  // of all modes, before resampling; heaviest mode first
   double entropy_nats = 0;                 // belief_entropy of these
   std::vector<StageSeconds> stages;  // in the order they ran first, those of all searches together
@@ -65,7 +65,7 @@ enum class ScoutEnd {
   Certain,
   LittleToLearn,
   LittleLearned,
-  TimeSpent
+  TimeLimit
 };
 std::string to_string(ScoutEnd end);  // "", "view budget", ..
 

@@ -22,7 +22,7 @@ SeenPoints seen_in(const TemplateTable& table, const Se3& world_from_object,
                    std::span<const RegisterView> real_views, double edge_px);
 
 // Points that would show inside the image of `camera` from a view, those not in `seen` flagged
-// fresh; at most CHAMFER_MAX_POINTS.
+// unseen; at most CHAMFER_MAX_POINTS.
 std::vector<ParticlePoint> showing_points(const TemplateTable& table, const Se3& camera_from_object,
                                           const Camera& camera, const SeenPoints& seen);
 

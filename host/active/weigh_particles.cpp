@@ -39,7 +39,8 @@ bool seen_at_all(const Particle& particle, const ParticleOptions& options) {
 }
 
 bool lives(const Particle& particle, const ParticleOptions& options) {
-  return seen_at_all(particle, options) && together(particle.by_view).mean_px <= options.dead_px;
+  return seen_at_all(particle, options) &&
+         pool_over_views(particle.by_view).mean_px <= options.dead_px;
 }
 
 // At the poses of today.
@@ -100,7 +101,7 @@ Weighing weigh_particles(std::span<const EdgeModel> models, std::span<Particle> 
   std::vector<double> logs, before_last;
   for (Particle& particle : particles) {
     particle.upsilon_px2 = 0;
-    logs.push_back(seen_at_all(particle, options) ? particle.spent_px2 / options.scale_px2()
+    logs.push_back(seen_at_all(particle, options) ? particle.resampled_px2 / options.scale_px2()
                                                   : NOTHING);
   }
   unseen_px2.resize(views.size(), std::nan(""));

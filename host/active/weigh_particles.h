@@ -4,12 +4,12 @@
 // sum over the real views of the squared mean DCD at the particle's pose (Eq. 18), s = 2
 // sigma_px^2. Poses move when they are refined on a new image, so Upsilon is always that of all
 // real views at the pose of today; what resampling has turned from weight into number of particles
-// is remembered in `spent_px2` and leaves the weight: no view counts twice. A particle drawn later
-// starts with nothing spent and is weighed by all views like the others.
+// is remembered in `resampled_px2` and leaves the weight: no view counts twice. A particle drawn
+// later starts with nothing spent and is weighed by all views like the others.
 //
 // A view that does not see a particle tells nothing about it. It counts for it like the view's mean
 // likelihood over the particles it does see, as far as they were believed in before it: then the
-// particle's share is after the view what it was before. That mean is settled when a view sees the
+// particle's share is after the view what it was before. That mean is decided when a view sees the
 // first particles
 // (`unseen_px2`), and the same for those that are drawn later.
 #pragma once

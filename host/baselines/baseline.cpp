@@ -90,11 +90,11 @@ Registrar prepare_method(Method method, std::span<const EdgeModel> models,
   options.validate();
   check(!views.empty(), "prepare_method: at least one view");
   if (method == Method::D2co)
-    return [models, views, &backend, options](std::span<const Hypothesis> hypotheses) {
+    return [models, views, &backend, options](std::span<const ObjectPose> hypotheses) {
       return register_poses(models, hypotheses, views, backend, as_published(options));
     };
   return [models, views, &backend, options,
-          solve = prepare_solver(method, views, options)](std::span<const Hypothesis> hypotheses) {
+          solve = prepare_solver(method, views, options)](std::span<const ObjectPose> hypotheses) {
     const std::vector<std::vector<ModelPoint>> points =
         visible_points(models, hypotheses, views, backend, options.visibility);
     std::vector<Registration> results;
@@ -107,7 +107,7 @@ Registrar prepare_method(Method method, std::span<const EdgeModel> models,
 }
 
 std::vector<Registration> register_with(Method method, std::span<const EdgeModel> models,
-                                        std::span<const Hypothesis> hypotheses,
+                                        std::span<const ObjectPose> hypotheses,
                                         std::span<const RegisterView> views, Backend& backend,
                                         const BaselineOptions& options) {
   return prepare_method(method, models, views, backend, options)(hypotheses);

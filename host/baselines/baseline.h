@@ -50,7 +50,7 @@ struct BaselineOptions {
 
 // Results in the order of the hypotheses. In a result `cost_px2` and `mean_px` are the method's
 // own: Direct's have no unit.
-using Registrar = std::function<std::vector<Registration>(std::span<const Hypothesis>)>;
+using Registrar = std::function<std::vector<Registration>(std::span<const ObjectPose>)>;
 
 // What a method makes of the images alone (distance transforms, pyramids; D2CO's are the tensors of
 // the views), once for all hypotheses: the time of the registrations themselves is that of the
@@ -63,7 +63,7 @@ Registrar prepare_method(Method method, std::span<const EdgeModel> models,
 
 // Both in one.
 std::vector<Registration> register_with(Method method, std::span<const EdgeModel> models,
-                                        std::span<const Hypothesis> hypotheses,
+                                        std::span<const ObjectPose> hypotheses,
                                         std::span<const RegisterView> views, Backend& backend,
                                         const BaselineOptions& options = {});
 

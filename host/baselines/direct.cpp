@@ -81,14 +81,14 @@ PoseSolver prepare_direct(std::span<const RegisterView> views, const BaselineOpt
   }
   return [views, options, pyramids, levels](const Se3& start,
                                             std::span<const std::vector<ModelPoint>> points) {
-    PoseTrack track;
-    track.pose = start;
+    LmState state;
+    state.pose = start;
     for (int level = levels - 1; level >= 0; --level)
       levenberg_marquardt(
-          track,
+          state,
           [&](const Se3& pose) { return magnitude_system(views, points, *pyramids, level, pose); },
           options.inner_iterations, options.min_step_m, options.min_step_rad);
-    return track;
+    return state;
   };
 }
 

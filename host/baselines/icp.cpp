@@ -39,29 +39,29 @@ WorldSystem pair_system(std::span<const RegisterView> views,
       });
 }
 
-PoseTrack iterate_closest_points(const Se3& start, std::span<const RegisterView> views,
-                                 std::span<const std::vector<ModelPoint>> points,
-                                 const Associate& associate, const BaselineOptions& options) {
-  PoseTrack track;
-  track.pose = start;
-  for (int outer = 0; outer < options.outer_iterations && track.active; ++outer) {
-    const Se3 before = track.pose;
+LmState iterate_closest_points(const Se3& start, std::span<const RegisterView> views,
+                               std::span<const std::vector<ModelPoint>> points,
+                               const Associate& associate, const BaselineOptions& options) {
+  LmState state;
+  state.pose = start;
+  for (int outer = 0; outer < options.outer_iterations && state.active; ++outer) {
+    const Se3 before = state.pose;
     const Pairs pairs = associate_all(views, points, before, associate);
-    begin_at(track, pair_system(views, points, pairs, track.pose, options.loss_scale_px));
+    initialize(state, pair_system(views, points, pairs, state.pose, options.loss_scale_px));
     // Gauss-Newton: every step is taken. The damping only keeps directions still that no pair sees.
-    track.damping = 1e-6;
-    for (int inner = 0; inner < options.inner_iterations && track.active; ++inner) {
-      propose(track);
-      track.pose = track.trial;
-      begin_at(track, pair_system(views, points, pairs, track.pose, options.loss_scale_px));
-      if (is_small(track.step, options.min_step_m, options.min_step_rad)) break;
+    state.damping = 1e-6;
+    for (int inner = 0; inner < options.inner_iterations && state.active; ++inner) {
+      compute_step(state);
+      state.pose = state.trial;
+      initialize(state, pair_system(views, points, pairs, state.pose, options.loss_scale_px));
+      if (is_small(state.step, options.min_step_m, options.min_step_rad)) break;
     }
-    ++track.iterations;
-    if (track.active &&
-        is_small(local_coordinates(before, track.pose), options.min_step_m, options.min_step_rad))
-      track.active = false, track.reason = Convergence::SmallStep;
+    ++state.iterations;
+    if (state.active &&
+        is_small(local_coordinates(before, state.pose), options.min_step_m, options.min_step_rad))
+      state.active = false, state.reason = Convergence::SmallStep;
   }
-  return track;
+  return state;
 }
 
 }  // namespace edgescout

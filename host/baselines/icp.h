@@ -23,8 +23,8 @@ WorldSystem pair_system(std::span<const RegisterView> views,
                         std::span<const std::vector<ModelPoint>> points, const Pairs& pairs,
                         const Se3& world_from_object, double loss_scale_px);
 
-PoseTrack iterate_closest_points(const Se3& start, std::span<const RegisterView> views,
-                                 std::span<const std::vector<ModelPoint>> points,
-                                 const Associate& associate, const BaselineOptions& options);
+LmState iterate_closest_points(const Se3& start, std::span<const RegisterView> views,
+                               std::span<const std::vector<ModelPoint>> points,
+                               const Associate& associate, const BaselineOptions& options);
 
 }  // namespace edgescout

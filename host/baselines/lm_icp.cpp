@@ -56,15 +56,15 @@ PoseSolver prepare_lm_icp(std::span<const RegisterView> views, const BaselineOpt
   }
   return [views, options, distances](const Se3& start,
                                      std::span<const std::vector<ModelPoint>> points) {
-    PoseTrack track;
-    track.pose = start;
+    LmState state;
+    state.pose = start;
     levenberg_marquardt(
-        track,
+        state,
         [&](const Se3& pose) {
           return distance_system(views, points, *distances, pose, options.loss_scale_px);
         },
         options.inner_iterations, options.min_step_m, options.min_step_rad);
-    return track;
+    return state;
   };
 }
 

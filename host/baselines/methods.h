@@ -4,13 +4,13 @@
 
 #include "host/baselines/baseline.h"
 #include "host/baselines/scalar_image.h"
-#include "host/register/pose_track.h"
+#include "host/register/lm_state.h"
 
 namespace edgescout {
 
 // From a start (world_from_object) and its visible points, a list a view.
 using PoseSolver =
-    std::function<PoseTrack(const Se3& start, std::span<const std::vector<ModelPoint>> points)>;
+    std::function<LmState(const Se3& start, std::span<const std::vector<ModelPoint>> points)>;
 
 PoseSolver prepare_dc_icp(std::span<const RegisterView> views, const BaselineOptions& options);
 PoseSolver prepare_lm_icp(std::span<const RegisterView> views, const BaselineOptions& options);

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "host/register/image_motion.h"
-#include "host/register/pose_track.h"
+#include "host/register/lm_state.h"
 
 namespace edgescout {
 
@@ -44,9 +44,9 @@ WorldSystem sum_over_points(std::span<const RegisterView> views,
   return sum;
 }
 
-// Levenberg-Marquardt from the track's pose on, at most `iterations` steps.
+// Levenberg-Marquardt from the state's pose on, at most `iterations` steps.
 using SystemAt = std::function<WorldSystem(const Se3& world_from_object)>;
-void levenberg_marquardt(PoseTrack& track, const SystemAt& system_at, int iterations,
+void levenberg_marquardt(LmState& state, const SystemAt& system_at, int iterations,
                          double min_step_m, double min_step_rad);
 
 }  // namespace edgescout

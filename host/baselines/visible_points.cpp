@@ -7,7 +7,7 @@
 namespace edgescout {
 
 std::vector<std::vector<ModelPoint>> visible_points(std::span<const EdgeModel> models,
-                                                    std::span<const Hypothesis> hypotheses,
+                                                    std::span<const ObjectPose> hypotheses,
                                                     std::span<const RegisterView> views,
                                                     Backend& backend,
                                                     const VisibilityOptions& visibility) {
@@ -23,7 +23,7 @@ std::vector<std::vector<ModelPoint>> visible_points(std::span<const EdgeModel> m
                                                     const VisibilityOptions& visibility) {
   RegisterView in_its_frame = view;
   in_its_frame.camera_from_world = {};
-  std::vector<Hypothesis> poses;
+  std::vector<ObjectPose> poses;
   for (const Candidate& candidate : candidates)
     poses.push_back({candidate.object, candidate.camera_from_object});
   return visible_points(models, poses, {&in_its_frame, 1}, backend, visibility);

@@ -10,7 +10,7 @@ namespace edgescout {
 
 // One list a hypothesis and view: [hypothesis * views + view].
 std::vector<std::vector<ModelPoint>> visible_points(std::span<const EdgeModel> models,
-                                                    std::span<const Hypothesis> hypotheses,
+                                                    std::span<const ObjectPose> hypotheses,
                                                     std::span<const RegisterView> views,
                                                     Backend& backend,
                                                     const VisibilityOptions& visibility);

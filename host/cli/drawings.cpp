@@ -99,10 +99,10 @@ std::string colour_bar_svg(double low, double high, const std::string& unit) {
 
 // Depth of the nearest surface of all members at every pixel.
 std::vector<float> surface_of(std::span<const EdgeModel> models,
-                              std::span<const Hypothesis> members, const Camera& camera,
+                              std::span<const ObjectPose> members, const Camera& camera,
                               const Se3& camera_from_world, ThreadPool& pool) {
   std::vector<TriangleCorners> triangles;
-  for (const Hypothesis& member : members) {
+  for (const ObjectPose& member : members) {
     const Mesh& mesh = models[static_cast<std::size_t>(member.object)].mesh;
     for (const auto& corners : mesh.triangles) {
       TriangleCorners t;
@@ -221,7 +221,7 @@ std::string particles_svg(const std::string& image_id, const Camera& camera,
   return svg + "</svg>";
 }
 
-RgbImage edge_map(std::span<const EdgeModel> models, std::span<const Hypothesis> members,
+RgbImage edge_map(std::span<const EdgeModel> models, std::span<const ObjectPose> members,
                   std::span<const int> colours, const Camera& camera, const Se3& camera_from_world,
                   int width_px, Backend& backend) {
   const Camera small = scaled(camera, std::min(1.0, static_cast<double>(width_px) / camera.width));

@@ -50,7 +50,7 @@ std::string particles_svg(const std::string& image_id, const Camera& camera,
 
 // The edges a scene made of these objects would show, hidden ones removed, each object in its
 // colour; at most `width_px` wide.
-RgbImage edge_map(std::span<const EdgeModel> models, std::span<const Hypothesis> members,
+RgbImage edge_map(std::span<const EdgeModel> models, std::span<const ObjectPose> members,
                   std::span<const int> colours, const Camera& camera, const Se3& camera_from_world,
                   int width_px, Backend& backend);
 

@@ -32,18 +32,18 @@ void add_tensor_value_options(CLI::App& verb, const std::string& group, TensorOp
 
 void add_hit_options(CLI::App& verb, const std::string& group, DetectOptions& d) {
   OptionTable(verb, group)
-      .bounded("scan-hits", d.scan.kept, 1, 10000000,
+      .bounded("scan-hits", d.scan.num_kept, 1, 10000000,
                "Best hits of the scan that are kept, an image and object; other images of the "
                "scene judge "
                "all of them")
-      .bounded("aligned", d.aligned, 1, 1000000,
+      .bounded("coarse-poses", d.coarse_poses, 1, 1000000,
                "Best hits of the scan that are aligned, on the coarse tensor")
-      .bounded("aligned-jointly", d.aligned_jointly, 1, 1000000,
+      .bounded("coarse-poses-joint", d.coarse_poses_joint, 1, 1000000,
                "Best hits of the scan that are aligned where other images of the scene help, in "
                "place of "
-               "--aligned")
-      .bounded("promising", d.promising, 1, 1000000,
-               "Best of the hits of --aligned-jointly, which are aligned in full resolution");
+               "--coarse-poses")
+      .bounded("medium_poses_joint", d.medium_poses_joint, 1, 1000000,
+               "Best of the hits of --coarse-poses-joint, which are aligned in full resolution");
 }
 
 void add_search_options(CLI::App& verb, DetectOptions& d) {
@@ -54,15 +54,15 @@ void add_search_options(CLI::App& verb, DetectOptions& d) {
                "Distance between the places where the scan looks, px of the coarse tensor");
   add_hit_options(verb, "Detection", d);
   OptionTable(verb, "Detection")
-      .bounded("helping-views", d.helping_views, 1, 10000,
+      .bounded("support-views", d.support_views, 1, 10000,
                "Other images of the scene that help to search one")
       .bounded("candidates", d.candidates, 1, 100000,
                "Poses of each object that are registered in full, an image");
 }
 
-void add_choice_options(CLI::App& verb, double& min_probability, EvidenceOptions& evidence) {
+void add_choice_options(CLI::App& verb, double& min_probability, EdgeClaimOptions& edge_claims) {
   OptionTable(verb, "Detection")
-      .bounded("max-spent", evidence.max_spent, 0.0, 1.0,
+      .bounded("max-claimed", edge_claims.max_claimed, 0.0, 1.0,
                "A pose goes where better poses explain more than this fraction of its edges")
       .bounded("min-probability", min_probability, 0.0, 1.0,
                "Less probable poses are not reported");
@@ -71,7 +71,7 @@ void add_choice_options(CLI::App& verb, double& min_probability, EvidenceOptions
 void add_detection_options(CLI::App& verb, PipelineOptions& o) {
   DetectOptions& d = o.detect;
   add_search_options(verb, d);
-  add_choice_options(verb, d.min_probability, d.evidence);
+  add_choice_options(verb, d.min_probability, d.edge_claims);
   OptionTable(verb, "Detection")
       .bounded("region-x", d.scan.within.x, 0.0, 1e6,
                "Left border of the part of every undistorted image where objects' centres are "
@@ -87,7 +87,7 @@ void add_detection_options(CLI::App& verb, PipelineOptions& o) {
                "Height of the part of every undistorted image where objects' centres are looked "
                "for, px; 0: "
                "to the image's border")
-      .bounded("second-look", d.second_look_rad, 0.0, 1.0,
+      .bounded("restart-rotation", d.restart_rotation_rad, 0.0, 1.0,
                "Angle by which starts around the chosen poses are turned, rad; 0: no second look")
       .bounded("max-detections", d.max_detections, 1, 100000,
                "Largest number of poses reported for an image")
@@ -103,14 +103,14 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
                "Image px that one px of the distance maps covers, along each axis")
       .bounded("chamfer-cap", o.next_view.cap_px, 0.1, 255.0,
                "Largest distance in the distance maps, image px")
-      .bounded("free-sight", o.next_view.free_sight, 0.0, 100.0,
+      .bounded("free-sight", o.next_view.visibility_exponent, 0.0, 100.0,
                "How much lower cameras are hidden by what is unknown; 0: not at all")
-      .bounded("repeat-angle", o.next_view.repeat_rad, 0.0, 100.0,
+      .bounded("repeat-angle", o.next_view.view_correlation_angle_rad, 0.0, 100.0,
                "Angle within which two views tell much the same of a candidate, rad; 0: every view "
                "is new")
-      .bounded("unknown", o.next_view.unknown_nats, 0.0, 1000.0,
+      .bounded("unknown", o.next_view.exploration_bonus_nats, 0.0, 1000.0,
                "Information expected of a view about what is no candidate yet, nats")
-      .bounded("unknown-angle", o.next_view.unknown_repeat_rad, 0.0, 100.0,
+      .bounded("unknown-angle", o.next_view.exploration_correlation_angle_rad, 0.0, 100.0,
                "Angle within which two views tell much the same of what is no candidate yet, rad; "
                "0: every "
                "view is new")
@@ -118,7 +118,8 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
                "A part's point counts as seen in an image with an edge this near, px; 0: wherever "
                "it lies in "
                "an image, as in the paper")
-      .flag("literal", o.next_view.literal, "Expect the information by the paper's own formula")
+      .flag("use_paper_formula", o.next_view.use_paper_formula,
+            "Expect the information by the paper's own formula")
       .bounded("combinations", o.combinations.count, 1, 1000000,
                "Scenes imagined for a decision on the next view")
       .bounded("sharpness", o.combinations.sharpness, 0.0, 500.0,

@@ -18,7 +18,7 @@ void add_detection_options(CLI::App& verb, PipelineOptions& options);
 // Its parts that others have too.
 void add_search_options(CLI::App& verb, DetectOptions& options);
 void add_hit_options(CLI::App& verb, const std::string& group, DetectOptions& options);
-void add_choice_options(CLI::App& verb, double& min_probability, EvidenceOptions& evidence);
+void add_choice_options(CLI::App& verb, double& min_probability, EdgeClaimOptions& edge_claims);
 void add_template_options(CLI::App& verb, TemplateOptions& options);
 // What is imagined of a next view, and what is followed from image to image.
 void add_belief_options(CLI::App& verb, ScoutOptions& options);

@@ -20,7 +20,7 @@ struct RegisterRequest {
   std::vector<std::string> inputs, template_files;
   std::string poses, out, device = "auto", edge_method = "gradient";
   ModelArguments models;
-  bool multi_view = false, no_overlays = false, no_polish = false;
+  bool multi_view = false, no_overlays = false, no_edge_icp = false;
   RegisterOptions options;
 };
 
@@ -57,7 +57,7 @@ int register_all(RegisterRequest& request) {
   RegisterOptions& options = request.options;
   options.out = request.out;
   options.overlays = !request.no_overlays;
-  options.refine.polish = !request.no_polish;
+  options.refine.use_edge_icp = !request.no_edge_icp;
   options.pipeline.edges.method = edge_method_from_name(request.edge_method);
   options.pipeline.validate();
   options.refine.validate();
@@ -124,10 +124,10 @@ void add_register(CLI::App& app, int& exit_code) {
       .bounded(
           "search-rotation", refine.search.rotation_rad, 0.0, 1.0,
           "Angle by which starts are also turned, about 14 axes, rad; 0: from the given pose alone")
-      .bounded("survivors", refine.search.survivors, 1, 15,
+      .bounded("num_kept", refine.search.num_kept, 1, 15,
                "Starts of each pose that are registered in full: the best, of the given one and "
                "those turned")
-      .flag("no-polish", request->no_polish,
+      .flag("no-edge-icp", request->no_edge_icp,
             "Leave out the last step of the refinement, on sub-pixel edge points");
   OptionTable(*verb, "Batch")
       .flag("scale-camera", request->options.scale_camera,

@@ -30,7 +30,7 @@ PreparedImage prepare_view(const InputImage& input, bool is_alone, Backend& back
 double smallest_size_px(const ReadyJob& ready, const PreparedImage& view,
                         std::span<const RegisterModel> models) {
   double smallest = std::max(view.camera.width, view.camera.height);
-  for (const Hypothesis& start : ready.starts) {
+  for (const ObjectPose& start : ready.starts) {
     const EdgeModel& model = models[static_cast<std::size_t>(start.object)].edges;
     const double depth_m =
         (view.camera_from_world * (start.world_from_object * model.center_m)).z();
@@ -54,7 +54,7 @@ bool reaches_into(const PreparedImage& view, const EdgeModel& model, const Se3& 
 
 // What starts outside of every image is drawn to anything inside, however far away; what is a speck
 // fits everywhere.
-bool is_out_of_sight(const ReadyJob& ready, const Hypothesis& start, const EdgeModel& model,
+bool is_out_of_sight(const ReadyJob& ready, const ObjectPose& start, const EdgeModel& model,
                      const PoseFeatures& refined) {
   constexpr double least_px = 20;  // of visible edges, in all images together
   return refined.length_px < least_px ||
@@ -104,7 +104,7 @@ Detections refine_job(const ReadyJob& ready, std::span<const RegisterModel> mode
       refine_poses(edge_models, ready.starts, views, backend, options.refine);
   watch.lap("registration");
   for (std::size_t i = 0; i < refined.size(); ++i) {
-    const Hypothesis& given = ready.starts[i];
+    const ObjectPose& given = ready.starts[i];
     const RegisterModel& model = models[static_cast<std::size_t>(given.object)];
     Detection& found = result.detections.emplace_back(
         to_detection(given.object, refined[i].registration, refined[i].features));

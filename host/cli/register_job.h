@@ -13,7 +13,7 @@ namespace edgescout {
 struct ReadyJob {
   const RegisterJob* job;
   std::vector<PreparedImage> views;
-  std::vector<Hypothesis> starts;  // world from object, in the job's order
+  std::vector<ObjectPose> starts;  // world from object, in the job's order
 };
 
 // InputError: an image or a camera that cannot be used.

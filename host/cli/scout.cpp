@@ -79,16 +79,17 @@ void refuse_idle_options(const ScoutRequest& request, const CLI::App& verb) {
   if (o.next_view.strategy != Strategy::Information)
     for (const char* option : in_nats) refuse(option, "--strategy " + request.strategy, "mi-max");
   if (o.probable_combinations) refuse("--sharpness", "--scenes-by-probability", "--scenes-by-psi");
-  if (o.next_view.literal) {
-    for (const char* option : in_nats) refuse(option, "--literal", "the information by default");
+  if (o.next_view.use_paper_formula) {
+    for (const char* option : in_nats)
+      refuse(option, "--use_paper_formula", "the information by default");
     for (const char* option :
          {"--free-sight", "--repeat-angle", "--seen", "--unknown", "--unknown-angle"})
-      refuse(option, "--literal", "the information by default");
+      refuse(option, "--use_paper_formula", "the information by default");
   }
 }
 
 // Also a YAML file's options count as given.
-void settle_options(ScoutRequest& request, const CLI::App& verb) {
+void resolve_options(ScoutRequest& request, const CLI::App& verb) {
   ScoutOptions& o = request.options;
   o.pipeline.edges.method = edge_method_from_name(request.edge_method);
   o.next_view.strategy = strategy_from(request.strategy);
@@ -152,7 +153,7 @@ ScoutReport report_of(const ScoutRequest& request, const ScoutSource& source,
 }
 
 int scout(ScoutRequest& request, const CLI::App& verb) {
-  settle_options(request, verb);
+  resolve_options(request, verb);
   for (auto& [name, value] : request.planning)
     if (name == "first-view")
       value = std::to_string(request.options.first_view);  // may be the sequence's
@@ -255,7 +256,7 @@ void add_scout(CLI::App& app, int& exit_code) {
   add_search_options(*verb, request->options.pipeline.detect);
   // The choice is among what the belief over all views holds.
   add_choice_options(*verb, request->options.detections.min_probability,
-                     request->options.detections.evidence);
+                     request->options.detections.edge_claims);
   verb->callback([request, verb, &exit_code] {
     // A run may go on with another budget, strategy and way to expect information: these change
     // nothing of what was seen and believed.

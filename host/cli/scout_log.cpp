@@ -63,12 +63,12 @@ json of_open_views(const std::vector<ViewInformation>& views, double ViewInforma
 }
 
 json step_json(const ScoutStep& step, const ScoutReport& report) {
-  json agreement = json::array();
-  for (const ViewAgreement& view : step.agreement)
-    agreement.push_back({{"residual_px", view.residual_px},
-                         {"objects", view.objects},
-                         {"missing", view.missing},
-                         {"disagrees", view.disagrees}});
+  json extrinsics_checks = json::array();
+  for (const ExtrinsicsCheck& view : step.extrinsics_checks)
+    extrinsics_checks.push_back({{"residual_px", view.residual_px},
+                                 {"objects", view.objects},
+                                 {"missing", view.missing},
+                                 {"disagrees", view.disagrees}});
   return {{"view", step.decision.view},
           {"strategy", to_string(step.decision.strategy)},
           {"information", of_open_views(step.decision.views, &ViewInformation::information)},
@@ -91,7 +91,7 @@ json step_json(const ScoutStep& step, const ScoutReport& report) {
           {"gained_nats", step.update.gained_nats},
           {"mode_probabilities", step.mode_probabilities},
           {"entropy_nats", step.entropy_nats},
-          {"agreement", agreement},
+          {"extrinsics_checks", extrinsics_checks},
           {"modes", modes_json(step.detections, report)}};
 }
 
@@ -120,14 +120,15 @@ std::filesystem::path view_file(const std::filesystem::path& folder, int view) {
 std::string disagreeing_images(const ScoutState& state) {
   std::string images;
   if (state.steps.empty()) return images;
-  const std::vector<ViewAgreement>& agreement = state.steps.back().agreement;
-  for (std::size_t i = 0; i < agreement.size(); ++i)
-    if (agreement[i].disagrees) images += fmt::format("{}{}", images.empty() ? "" : ", ", i + 1);
+  const std::vector<ExtrinsicsCheck>& extrinsics_checks = state.steps.back().extrinsics_checks;
+  for (std::size_t i = 0; i < extrinsics_checks.size(); ++i)
+    if (extrinsics_checks[i].disagrees)
+      images += fmt::format("{}{}", images.empty() ? "" : ", ", i + 1);
   return images;
 }
 
 const char* unit_of(const ScoutDecision& decision) {
-  if (decision.strategy == Strategy::Information) return decision.literal ? "" : "nats";
+  if (decision.strategy == Strategy::Information) return decision.use_paper_formula ? "" : "nats";
   return decision.strategy == Strategy::Disocclusion ? "points" : "";
 }
 

@@ -169,7 +169,7 @@ class Page {
   static std::string promise(const ScoutDecision& why) {
     if (why.views.empty()) return "";
     const ViewInformation& chosen = why.views[static_cast<std::size_t>(why.view)];
-    if (why.strategy == Strategy::Information && why.literal)
+    if (why.strategy == Strategy::Information && why.use_paper_formula)
       return fmt::format(", {:.3g} by the paper's own formula", chosen.expected());
     if (why.strategy == Strategy::Information)
       return fmt::format(", {:.3f} nats expected{}", chosen.expected(), of_the_unknown(chosen));
@@ -196,8 +196,8 @@ class Page {
   // Of this image and of earlier ones, on which this one has had its say.
   static std::string warnings(const ScoutStep& s) {
     std::string html;
-    for (std::size_t i = 0; i < s.agreement.size(); ++i)
-      if (const ViewAgreement& view = s.agreement[i]; view.disagrees)
+    for (std::size_t i = 0; i < s.extrinsics_checks.size(); ++i)
+      if (const ExtrinsicsCheck& view = s.extrinsics_checks[i]; view.disagrees)
         html += fmt::format(
             "<p class=warning>The camera pose of image {} disagrees with the others: {}.</p>",
             i + 1,
@@ -234,7 +234,7 @@ class Page {
 
   std::string scenes(const ScoutDecision& why) const {
     const auto drawn = [&](const std::vector<int>& members, const char* caption) {
-      std::vector<Hypothesis> poses;
+      std::vector<ObjectPose> poses;
       for (const int c : members)
         poses.push_back({why.candidates[c].object, why.candidates[c].world_from_object});
       const RgbImage map =

@@ -9,7 +9,7 @@ namespace edgescout {
 
 // Of one group of options:
 //   const OptionBounds in("detect");
-//   in("aligned", aligned, 1, 1e6);
+//   in("coarse-poses", aligned, 1, 1e6);
 class OptionBounds {
  public:
   explicit OptionBounds(const char* group) : group_(group) {}

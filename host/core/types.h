@@ -58,11 +58,11 @@ struct Detection {
   double cost_px = 0;                      // mean tensor value over visible points
   double matched_fraction =
       0;  // of the predicted edge points, those with an edge of the image near
-  double evidence =
+  double psi_z_score =
       0;  // of gradient directions, in standard errors above chance (register/pose_features.h)
   double unexplained_grey = 1;  // of the contrast inside the silhouette, what the surface does not
                                 // explain (register/shading.h), [0, 1]
-  std::string convergence;  // why the refinement stopped
+  std::string convergence;      // why the refinement stopped
 };
 
 }  // namespace edgescout

@@ -22,7 +22,7 @@ struct ScanOptions {
   int region_columns = 32;  // anchors for which one projection of a template holds
   int region_rows = 16;
   // hits, shared evenly among the regions: texture must not crowd out the rest of the image
-  int kept = 10000;
+  int num_kept = 10000;
   ImageRegion within;  // of the undistorted image: where objects' centres are looked for; from
                        // there registration may lead a pixel or two out of it
 };

@@ -1,8 +1,8 @@
 #include "host/detect/detect.h"
 
 #include "host/core/option_bounds.h"
-#include "host/detect/helping_views.h"
 #include "host/detect/probability_over_views.h"
+#include "host/detect/support_views.h"
 #include "host/detect/suppression.h"
 #include "host/detect/template_points.h"
 
@@ -12,30 +12,30 @@ namespace {
 
 // Of the object's diameter: poses closer than that are the same, and a hit so near to a known
 // instance is drawn to it by the alignment.
-constexpr double SAME_POSE = 0.1, DRAWN_TO = 0.2;
+constexpr double SAME_POSE = 0.1, NEAR_KNOWN = 0.2;
 
 // Of a template, before known objects hide some of them.
-constexpr int GLANCE_POINTS = 120;
+constexpr int COARSE_JOINT_POINTS = 120;
 
 // Of one object, in metres and modulo its symmetry; `key` of an index is lower for better ones.
 std::vector<std::size_t> best_of(std::span<const Se3> poses, const TemplateSet& set,
                                  std::size_t most, const auto& key) {
   std::vector<double> keys;
   for (std::size_t i = 0; i < poses.size(); ++i) keys.push_back(key(i));
-  return best_different(poses, keys, set.model.mesh, set.symmetries,
-                        SAME_POSE * set.model.mesh.diameter_m, most);
+  return best_distinct(poses, keys, set.model.mesh, set.symmetries,
+                       SAME_POSE * set.model.mesh.diameter_m, most);
 }
 
-std::vector<Hypothesis> hypotheses_at(std::span<const Se3> poses,
+std::vector<ObjectPose> hypotheses_at(std::span<const Se3> poses,
                                       std::span<const std::size_t> chosen) {
-  std::vector<Hypothesis> out;
+  std::vector<ObjectPose> out;
   for (std::size_t i : chosen) out.push_back({0, poses[i]});
   return out;
 }
 
-std::vector<Se3> poses_of(std::span<const Hypothesis> hypotheses) {
+std::vector<Se3> poses_of(std::span<const ObjectPose> hypotheses) {
   std::vector<Se3> poses;
-  for (const Hypothesis& h : hypotheses) poses.push_back(h.world_from_object);
+  for (const ObjectPose& h : hypotheses) poses.push_back(h.world_from_object);
   return poses;
 }
 
@@ -72,29 +72,30 @@ std::vector<RegisterView> coarse_of(std::vector<RegisterView> views) {
 }
 
 // Those of the hits that are worth a look in full resolution, aligned on the coarse tensors.
-std::vector<Hypothesis> aligned_hits(const TemplateSet& set, std::span<const ScanHit> hits,
-                                     std::span<const RegisterView> coarse, Backend& backend,
-                                     const DetectOptions& options) {
+std::vector<ObjectPose> coarse_aligned(const TemplateSet& set, std::span<const ScanHit> hits,
+                                       std::span<const RegisterView> coarse, Backend& backend,
+                                       const DetectOptions& options) {
   const bool jointly = coarse.size() > 1;
   std::vector<Se3> poses;
   for (const ScanHit& hit : hits) poses.push_back(hit.camera_from_object);
-  const std::vector<Hypothesis> starts = hypotheses_at(
-      poses, best_of(poses, set, std::size_t(jointly ? options.aligned_jointly : options.aligned),
-                     [&](std::size_t i) { return hits[i].rank; }));
+  const std::vector<ObjectPose> starts = hypotheses_at(
+      poses,
+      best_of(poses, set, std::size_t(jointly ? options.coarse_poses_joint : options.coarse_poses),
+              [&](std::size_t i) { return hits[i].rank; }));
   if (!jointly)
-    return as_hypotheses(starts, register_poses({&set.model, 1}, starts, coarse, backend,
-                                                options.refine.search.coarse));
+    return object_poses_of(starts, register_poses({&set.model, 1}, starts, coarse, backend,
+                                                  options.refine.search.coarse));
   const std::vector<Registration> registrations =
-      register_seen(starts, coarse, template_points(set, coarse, GLANCE_POINTS, backend), backend,
-                    options.glance);
-  poses = poses_of(as_hypotheses(starts, registrations));
-  return hypotheses_at(poses, best_of(poses, set, std::size_t(options.promising),
+      register_points(starts, coarse, template_points(set, coarse, COARSE_JOINT_POINTS, backend),
+                      backend, options.coarse_joint);
+  poses = poses_of(object_poses_of(starts, registrations));
+  return hypotheses_at(poses, best_of(poses, set, std::size_t(options.medium_poses_joint),
                                       [&](std::size_t i) { return cost_of(registrations[i]); }));
 }
 
 }  // namespace
 
-D2coOptions DetectOptions::glance_defaults() {
+D2coOptions DetectOptions::coarse_joint_defaults() {
   D2coOptions options;
   // By a cost this sharp they are told apart: what is hidden costs no more than what is a little
   // off.
@@ -102,7 +103,7 @@ D2coOptions DetectOptions::glance_defaults() {
   return options;
 }
 
-D2coOptions DetectOptions::touch_up_defaults() {
+D2coOptions DetectOptions::medium_defaults() {
   D2coOptions options;
   options.rounds = {{LOSS_GEMAN_MCCLURE, 12, 6, 150}, {LOSS_GEMAN_MCCLURE, 5, 6, 200}};
   options.visibility.depth_map_size_px = 96;
@@ -127,20 +128,20 @@ void DetectOptions::validate() const {
   in("region_y", scan.within.y, 0, 1e6);
   in("region_width", scan.within.width, 0, 1e6);
   in("region_height", scan.within.height, 0, 1e6);
-  in("scan_hits", scan.kept, 1, 1e7);
-  in("aligned", aligned, 1, 1e6);
-  in("aligned_jointly", aligned_jointly, 1, 1e6);
-  in("promising", promising, 1, 1e6);
-  in("helping_views", helping_views, 1, 1e4);
+  in("scan_hits", scan.num_kept, 1, 1e7);
+  in("coarse_poses", coarse_poses, 1, 1e6);
+  in("coarse_poses_joint", coarse_poses_joint, 1, 1e6);
+  in("medium_poses_joint", medium_poses_joint, 1, 1e6);
+  in("support_views", support_views, 1, 1e4);
   in("candidates", candidates, 1, 1e5);
   in("min_probability", min_probability, 0, 1);
-  in("second_look", second_look_rad, 0, 1);
+  in("restart_rotation", restart_rotation_rad, 0, 1);
   in("max_detections", max_detections, 1, 1e5);
   in("penetration", penetration_m, 0, 1);
-  glance.validate();
-  touch_up.validate();
+  coarse_joint.validate();
+  medium.validate();
   refine.validate();
-  evidence.validate();
+  edge_claims.validate();
 }
 
 Detection to_detection(int object, const Registration& registration, const PoseFeatures& features) {
@@ -152,16 +153,16 @@ Detection to_detection(int object, const Registration& registration, const PoseF
   d.psi = features.psi;
   d.cost_px = features.mean_px;
   d.matched_fraction = features.matched;
-  d.evidence = evidence(features);
+  d.psi_z_score = psi_z_score(features);
   d.unexplained_grey = unexplained_grey(features.shading);
   d.convergence = to_string(registration.reason);
   return d;
 }
 
-UnwantedPose drawn_to(std::span<const Se3> known_in_world, const TemplateSet& set,
+PoseFilter near_known(std::span<const Se3> known_in_world, const TemplateSet& set,
                       const Se3& camera_from_world) {
   return [known = in_camera(known_in_world, set, camera_from_world),
-          radius_m = DRAWN_TO * set.model.mesh.diameter_m](const Se3& camera_from_object) {
+          radius_m = NEAR_KNOWN * set.model.mesh.diameter_m](const Se3& camera_from_object) {
     return known.any_within(radius_m, camera_from_object);
   };
 }
@@ -176,12 +177,12 @@ std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& 
                                      std::span<const Se3> known, Backend& backend,
                                      const DetectOptions& options) {
   const std::vector<Observation> helping =
-      helping_views(observation, others, std::size_t(options.helping_views));
+      support_views(observation, others, std::size_t(options.support_views));
   std::vector<ScanHit> hits =
-      judged_by_all(set, coarse_scan(set, observation, backend, options.scan), observation, helping,
-                    backend, options.scan);
-  std::erase_if(hits, [unwanted = drawn_to(known, set, observation.view.camera_from_world)](
-                          const ScanHit& hit) { return unwanted(hit.camera_from_object); });
+      rescore_in_views(set, coarse_scan(set, observation, backend, options.scan), observation,
+                       helping, backend, options.scan);
+  std::erase_if(hits, [excluded = near_known(known, set, observation.view.camera_from_world)](
+                          const ScanHit& hit) { return excluded(hit.camera_from_object); });
   return find_candidates(set, hits, observation, others, known, backend, options);
 }
 
@@ -191,20 +192,20 @@ std::vector<Refined> find_candidates(const TemplateSet& set, std::span<const Sca
                                      std::span<const Se3> known, Backend& backend,
                                      const DetectOptions& options) {
   const std::vector<Observation> others =
-      helping_views(observation, all_others, std::size_t(options.helping_views));
+      support_views(observation, all_others, std::size_t(options.support_views));
   const std::span<const EdgeModel> models(&set.model, 1);
   const std::vector<RegisterView> full = views_around(observation, others);
   const KnownPoses known_here = in_camera(known, set, observation.view.camera_from_world);
   const auto is_known = [&](const Se3& pose) {
     return known_here.any_within(SAME_POSE * set.model.mesh.diameter_m, pose);
   };
-  std::vector<Hypothesis> hypotheses = aligned_hits(set, hits, coarse_of(full), backend, options);
-  hypotheses = as_hypotheses(hypotheses,
-                             register_poses(models, hypotheses, full, backend, options.touch_up));
-  std::erase_if(hypotheses, [&](const Hypothesis& h) { return is_known(h.world_from_object); });
+  std::vector<ObjectPose> hypotheses = coarse_aligned(set, hits, coarse_of(full), backend, options);
+  hypotheses = object_poses_of(hypotheses,
+                               register_poses(models, hypotheses, full, backend, options.medium));
+  std::erase_if(hypotheses, [&](const ObjectPose& h) { return is_known(h.world_from_object); });
   const std::vector<Se3> poses = poses_of(hypotheses);
   const std::vector<PoseFeatures> features = pose_features_by_view(
-      models, hypotheses, full, backend, options.refine.score, options.touch_up.visibility);
+      models, hypotheses, full, backend, options.refine.score, options.medium.visibility);
   const auto of_pose = [&](std::size_t i) {
     return std::span(features).subspan(i * full.size(), full.size());
   };

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t VIEWS_WORTH = 4;
 
 // All views' candidates of one object in the world, best probability first, without duplicates.
-std::vector<Hypothesis> gather(int object, const TemplateSet& set,
+std::vector<ObjectPose> gather(int object, const TemplateSet& set,
                                std::span<const std::vector<std::vector<Refined>>> candidates,
                                std::span<const Observation> observations, std::size_t most) {
   std::vector<Se3> poses;
@@ -22,9 +22,9 @@ std::vector<Hypothesis> gather(int object, const TemplateSet& set,
                       refined.registration.world_from_object);
       keys.push_back(-probability_over_views(refined.by_view));
     }
-  std::vector<Hypothesis> gathered;
-  for (std::size_t i : best_different(poses, keys, set.model.mesh, set.symmetries,
-                                      0.05 * set.model.mesh.diameter_m, most))
+  std::vector<ObjectPose> gathered;
+  for (std::size_t i : best_distinct(poses, keys, set.model.mesh, set.symmetries,
+                                     0.05 * set.model.mesh.diameter_m, most))
     gathered.push_back({object, poses[i]});
   return gathered;
 }
@@ -37,15 +37,15 @@ std::vector<Detection> join_views(std::span<const TemplateSet> sets,
                                   std::span<const Observation> observations, Backend& backend,
                                   const DetectOptions& options) {
   const std::vector<RegisterView> views = views_of(observations);
-  std::vector<Hypothesis> poses;
+  std::vector<ObjectPose> poses;
   for (std::size_t object = 0; object < sets.size(); ++object) {
-    const std::vector<Hypothesis> gathered =
+    const std::vector<ObjectPose> gathered =
         gather(int(object), sets[object], candidates, observations,
                VIEWS_WORTH * std::size_t(options.candidates));
     poses.insert(poses.end(), gathered.begin(), gathered.end());
   }
   const std::vector<Refined> refined = refine_poses(models, poses, views, backend, options.refine);
-  return settle(models, poses, refined, views, backend, options);
+  return select_detections(models, poses, refined, views, backend, options);
 }
 
 }  // namespace edgescout

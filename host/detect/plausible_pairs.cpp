@@ -144,7 +144,7 @@ bool can_exist_together(const Pair& pair, double penetration_m) {
 
 }  // namespace
 
-BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Hypothesis> candidates,
+BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const ObjectPose> candidates,
                           double penetration_m, ThreadPool& pool) {
   if (!(penetration_m >= 0 && penetration_m <= 1))
     throw InputError("options", "penetration", std::to_string(penetration_m),
@@ -153,11 +153,11 @@ BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Hyp
   std::vector<Solid> solids;
   if (count > 1)
     for (const EdgeModel& model : models) solids.push_back(make_solid(model));
-  std::vector<char> together(count * count, 1);
+  std::vector<char> pool_over_views(count * count, 1);
   pool.for_each(count * count, [&](std::size_t cell) {
     const std::size_t i = cell / count, j = cell % count;
     if (j >= i) return;
-    const Hypothesis &a = candidates[i], &b = candidates[j];
+    const ObjectPose &a = candidates[i], &b = candidates[j];
     const Solid &solid_a = solids[a.object], &solid_b = solids[b.object];
     const double reach_m = solid_a.model->radius_m + solid_b.model->radius_m;
     if (((a.world_from_object * solid_a.model->center_m) -

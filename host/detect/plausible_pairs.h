@@ -22,7 +22,7 @@ inline constexpr double DEFAULT_PENETRATION_M = 0.002;
 
 // Symmetric: candidate i with candidate j, true where they can exist together (true on the
 // diagonal). Poses in any one frame. InputError: a penetration outside [0, 1] m.
-BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Hypothesis> candidates,
+BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const ObjectPose> candidates,
                           double penetration_m, ThreadPool& pool);
 
 // What remains of the candidates' probabilities where no two of a pair that is not plausible can

@@ -25,12 +25,12 @@ const PoseFeatures& the_one_that_speaks(std::span<const PoseFeatures> by_view) {
 }
 
 double log_odds_of(const SeveralViews& sums) {
-  constexpr double bias = -9.184, of_a_view = 0.198, by_log_evidence = 2.463,
-                   by_log_over_beside = 2.745, by_unexplained_grey = -3.324;
+  constexpr double bias = -9.184, of_a_view = 0.198, by_log_psi_z_score = 2.463,
+                   by_log_background_psi_z_score = 2.745, by_unexplained_grey = -3.324;
   constexpr int most =
       5;  // views that it is fitted to: more are not more than these, each says less
-  const double sum = of_a_view * sums.views + by_log_evidence * sums.log_evidence +
-                     by_log_over_beside * sums.log_over_beside +
+  const double sum = of_a_view * sums.views + by_log_psi_z_score * sums.log_psi_z_score +
+                     by_log_background_psi_z_score * sums.log_background_psi_z_score +
                      by_unexplained_grey * sums.unexplained_grey;
   return bias + sum / sums.views * std::sqrt(double(std::min(sums.views, most)));
 }
@@ -44,8 +44,8 @@ SeveralViews sum_of_speaking(std::span<const PoseFeatures> by_view) {
   for (const PoseFeatures& f : by_view) {
     if (!speaks(f)) continue;
     ++sums.views;
-    sums.log_evidence += std::log(std::max(evidence(f), least));
-    sums.log_over_beside += std::log(std::max(evidence_over_beside(f), least));
+    sums.log_psi_z_score += std::log(std::max(psi_z_score(f), least));
+    sums.log_background_psi_z_score += std::log(std::max(background_psi_z_score(f), least));
     sums.unexplained_grey += unexplained_grey(f.shading);
   }
   return sums;
@@ -66,13 +66,13 @@ double merit(std::span<const PoseFeatures> by_view) {
   return std::log(p / (1 - p));
 }
 
-std::vector<double> probabilities_apart(std::span<const EdgeModel> models,
-                                        std::span<const Hypothesis> poses,
-                                        std::span<const std::vector<PoseFeatures>> by_view,
-                                        double penetration_m, ThreadPool& pool) {
-  check(by_view.size() == poses.size(), "probabilities_apart: as many features as poses");
+std::vector<double> probabilities_without_collisions(
+    std::span<const EdgeModel> models, std::span<const ObjectPose> poses,
+    std::span<const std::vector<PoseFeatures>> by_view, double penetration_m, ThreadPool& pool) {
+  check(by_view.size() == poses.size(),
+        "probabilities_without_collisions: as many features as poses");
   std::vector<double> all, placed;
-  std::vector<Hypothesis> placed_poses;
+  std::vector<ObjectPose> placed_poses;
   std::vector<std::size_t> owner;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     all.push_back(probability_over_views(by_view[i]));

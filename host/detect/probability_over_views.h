@@ -24,8 +24,8 @@ double probability_over_views(std::span<const PoseFeatures> by_view);
 // What it is a function of: sums over the views that speak.
 struct SeveralViews {
   int views = 0;
-  double log_evidence = 0;  // logarithms, of two standard errors at least
-  double log_over_beside = 0;
+  double log_psi_z_score = 0;  // logarithms, of two standard errors at least
+  double log_background_psi_z_score = 0;
   double unexplained_grey = 0;
 };
 SeveralViews sum_of_speaking(std::span<const PoseFeatures> by_view);
@@ -37,9 +37,8 @@ double merit(std::span<const PoseFeatures> by_view);
 // probability_over_views of every pose; of those that several views speak of, what is left where
 // they reach further than `penetration_m` into more probable ones (exclusive_probabilities,
 // plausible_pairs.h). One view says too little of how far away a pose is.
-std::vector<double> probabilities_apart(std::span<const EdgeModel> models,
-                                        std::span<const Hypothesis> poses,
-                                        std::span<const std::vector<PoseFeatures>> by_view,
-                                        double penetration_m, ThreadPool& pool);
+std::vector<double> probabilities_without_collisions(
+    std::span<const EdgeModel> models, std::span<const ObjectPose> poses,
+    std::span<const std::vector<PoseFeatures>> by_view, double penetration_m, ThreadPool& pool);
 
 }  // namespace edgescout

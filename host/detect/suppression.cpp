@@ -68,10 +68,10 @@ std::vector<std::size_t> suppress_duplicates(std::span<const Se3> poses_best_fir
   return kept;
 }
 
-std::vector<std::size_t> best_different(std::span<const Se3> poses, std::span<const double> keys,
-                                        const Mesh& mesh, const Symmetries& symmetries,
-                                        double radius_m, std::size_t most) {
-  check(poses.size() == keys.size(), "best_different: one key a pose");
+std::vector<std::size_t> best_distinct(std::span<const Se3> poses, std::span<const double> keys,
+                                       const Mesh& mesh, const Symmetries& symmetries,
+                                       double radius_m, std::size_t most) {
+  check(poses.size() == keys.size(), "best_distinct: one key a pose");
   std::vector<std::size_t> order(poses.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return keys[i]; });

@@ -22,9 +22,9 @@ std::vector<std::size_t> suppress_duplicates(std::span<const Se3> poses_best_fir
 
 // The same of poses in any order: the lower its key, the better a pose; ties in the order given.
 // Indices best first.
-std::vector<std::size_t> best_different(std::span<const Se3> poses, std::span<const double> keys,
-                                        const Mesh& mesh, const Symmetries& symmetries,
-                                        double radius_m, std::size_t most);
+std::vector<std::size_t> best_distinct(std::span<const Se3> poses, std::span<const double> keys,
+                                       const Mesh& mesh, const Symmetries& symmetries,
+                                       double radius_m, std::size_t most);
 
 // Poses of one object where something is known to be.
 class KnownPoses {

@@ -23,7 +23,7 @@ class Lookup {
         threads_(threads) {
     for (const TemplateView& view : set.views) points_.push_back(thinned(view.points, most));
   }
-  std::vector<std::vector<ModelPoint>> operator()(std::span<const Hypothesis> poses) const {
+  std::vector<std::vector<ModelPoint>> operator()(std::span<const ObjectPose> poses) const {
     std::vector<std::vector<ModelPoint>> seen(poses.size() * views_.size());
     threads_.for_each(poses.size(), [&](std::size_t p) {
       for (std::size_t v = 0; v < views_.size(); ++v)

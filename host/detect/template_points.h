@@ -3,7 +3,7 @@
 #pragma once
 
 #include "host/detect/nearest_viewpoint.h"
-#include "host/register/register_seen.h"
+#include "host/register/register_points.h"
 
 namespace edgescout {
 

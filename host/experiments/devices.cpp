@@ -37,7 +37,7 @@ struct Work {
   KnownScene scene;
   std::vector<TemplateSet> sets;
   std::vector<EdgeModel> models;
-  std::vector<Hypothesis> starts, truths;  // of registration and of scoring, camera frame
+  std::vector<ObjectPose> starts, truths;  // of registration and of scoring, camera frame
   DecisionWork decision;                   // of the next view
   PipelineOptions options;                 // of the whole pipeline
 };

@@ -26,7 +26,7 @@ class Detector {
       : sets_(sets), options_(options), backend_(backend) {}
   // Of `count` types from `first_type` on, from which objects are counted.
   std::vector<Detection> find(std::span<const int> views, std::span<const Observation> images,
-                              std::span<const Hypothesis> known, int first_type, int count) {
+                              std::span<const ObjectPose> known, int first_type, int count) {
     std::vector<Observation> scanned(images.begin(), images.end());
     for (std::size_t i = 0; i < scanned.size(); ++i)
       for (int type = first_type; type < first_type + count; ++type)
@@ -116,7 +116,7 @@ ScoutOptions options_for(const ExperimentSettings& s, const Bin& bin, const Sear
                          Detector& detector, const std::string& strategy, int draw) {
   ScoutOptions options = s.scout;
   options.detect = [&](std::span<const int> views, std::span<const Observation> images,
-                       std::span<const Hypothesis> known) {
+                       std::span<const ObjectPose> known) {
     return detector.find(views, images, known, search.first_type, search.count);
   };
   options.first_view = bin.first_view;
@@ -228,37 +228,39 @@ Table run_pile(ExperimentSettings s, const Photographs& pile, int first_view, Ba
 Notes options(const ExperimentSettings& s) {
   const ScoutOptions& o = s.scout;
   // Not the number of bins: more of them may be added to a finished run.
-  Notes notes{{"image_scale", number_text(s.image_scale)},
-              {"supersampling", std::to_string(s.supersampling)},
-              {"searches", fmt::format("{}", fmt::join(s.searches, " "))},
-              {"strategies", fmt::format("{}", fmt::join(s.strategies, " "))},
-              {"random_draws", std::to_string(s.random_draws)},
-              {"images", std::to_string(o.max_views)},
-              {"detection", o.detect_in_every_image ? "every image" : "first image"},
-              {"jointly", o.detect_jointly ? "yes" : "no"},
-              {"scan_hits", std::to_string(o.pipeline.detect.scan.kept)},
-              {"aligned", std::to_string(o.pipeline.detect.aligned)},
-              {"aligned_jointly", std::to_string(o.pipeline.detect.aligned_jointly)},
-              {"promising", std::to_string(o.pipeline.detect.promising)},
-              {"registered", std::to_string(o.pipeline.detect.candidates)},
-              {"max_candidates", std::to_string(o.max_candidates)},
-              {"particles", std::to_string(o.particles.count)},
-              {"combinations", std::to_string(o.combinations.count)},
-              {"scenes_by", o.probable_combinations ? "probability" : "psi"},
-              {"sharpness", number_text(o.combinations.sharpness)},
-              {"penetration_m", number_text(o.particles.penetration_m)},
-              {"known_probability", number_text(o.known_probability)},
-              {"max_searches", std::to_string(o.max_searches)},
-              {"map_reduction", number_text(o.next_view.reduction)},
-              {"chamfer_cap_px", number_text(o.next_view.cap_px)},
-              {"sigma_px", number_text(o.next_view.sigma_px)},
-              {"free_sight", number_text(o.next_view.free_sight)},
-              {"repeat_rad", number_text(o.next_view.repeat_rad)},
-              {"unknown_nats", number_text(o.next_view.unknown_nats)},
-              {"unknown_repeat_rad", number_text(o.next_view.unknown_repeat_rad)},
-              {"seen_px", number_text(o.next_view.seen_px)},
-              {"formula", o.next_view.literal ? "literal" : "mutual information"},
-              {"min_probability", number_text(o.detections.min_probability)}};
+  Notes notes{
+      {"image_scale", number_text(s.image_scale)},
+      {"supersampling", std::to_string(s.supersampling)},
+      {"searches", fmt::format("{}", fmt::join(s.searches, " "))},
+      {"strategies", fmt::format("{}", fmt::join(s.strategies, " "))},
+      {"random_draws", std::to_string(s.random_draws)},
+      {"images", std::to_string(o.max_views)},
+      {"detection", o.detect_in_every_image ? "every image" : "first image"},
+      {"jointly", o.detect_jointly ? "yes" : "no"},
+      {"scan_hits", std::to_string(o.pipeline.detect.scan.num_kept)},
+      {"coarse-poses", std::to_string(o.pipeline.detect.coarse_poses)},
+      {"coarse_poses_joint", std::to_string(o.pipeline.detect.coarse_poses_joint)},
+      {"medium_poses_joint", std::to_string(o.pipeline.detect.medium_poses_joint)},
+      {"registered", std::to_string(o.pipeline.detect.candidates)},
+      {"max_candidates", std::to_string(o.max_candidates)},
+      {"particles", std::to_string(o.particles.count)},
+      {"combinations", std::to_string(o.combinations.count)},
+      {"scenes_by", o.probable_combinations ? "probability" : "psi"},
+      {"sharpness", number_text(o.combinations.sharpness)},
+      {"penetration_m", number_text(o.particles.penetration_m)},
+      {"known_probability", number_text(o.known_probability)},
+      {"max_searches", std::to_string(o.max_searches)},
+      {"map_reduction", number_text(o.next_view.reduction)},
+      {"chamfer_cap_px", number_text(o.next_view.cap_px)},
+      {"sigma_px", number_text(o.next_view.sigma_px)},
+      {"visibility_exponent", number_text(o.next_view.visibility_exponent)},
+      {"view_correlation_angle_rad", number_text(o.next_view.view_correlation_angle_rad)},
+      {"exploration_bonus_nats", number_text(o.next_view.exploration_bonus_nats)},
+      {"exploration_correlation_angle_rad",
+       number_text(o.next_view.exploration_correlation_angle_rad)},
+      {"seen_px", number_text(o.next_view.seen_px)},
+      {"formula", o.next_view.use_paper_formula ? "use_paper_formula" : "mutual information"},
+      {"min_probability", number_text(o.detections.min_probability)}};
   if (!s.data.empty()) notes.emplace_back("data", data_mark(s.data));
   return notes;
 }

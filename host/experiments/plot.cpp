@@ -171,10 +171,10 @@ std::string curve(const PlotLine& line, const Panel& panel, const Axes& axes, co
 
 // Room for the longest name at 12 px and the line before it.
 double legend_column(const std::vector<std::string>& names) {
-  constexpr double LETTER = 7, LEAST = 190, BESIDE = 50;
+  constexpr double LETTER = 7, LEAST = 190, BACKGROUND_COPIES = 50;
   std::size_t longest = 0;
   for (const std::string& name : names) longest = std::max(longest, name.size());
-  return std::max(LEAST, LETTER * static_cast<double>(longest) + BESIDE);
+  return std::max(LEAST, LETTER * static_cast<double>(longest) + BACKGROUND_COPIES);
 }
 
 std::string legend(const std::vector<std::string>& names, double top, int a_row) {

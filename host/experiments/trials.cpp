@@ -34,7 +34,7 @@ double seconds_now(const Backend& backend) {
 
 Registrar edgescout_itself(std::span<const EdgeModel> models, std::span<const RegisterView> views,
                            Backend& backend) {
-  return [models, views, &backend](std::span<const Hypothesis> starts) {
+  return [models, views, &backend](std::span<const ObjectPose> starts) {
     const RefineOptions defaults;
     std::vector<Registration> registrations;
     for (const Refined& refined : refine_poses(models, starts, views, backend, defaults))
@@ -88,7 +88,7 @@ TimedRegistrations run_trial(const Trial& trial, const KnownScene& scene,
           ? edgescout_itself(models, views, backend)
           : prepare_method(method_from(trial.method), models, views, backend, options);
   const Se3& camera_from_world = scene.images[0].camera_from_world;
-  std::vector<Hypothesis> hypotheses;
+  std::vector<ObjectPose> hypotheses;
   for (const Start& start : starts)
     hypotheses.push_back({scene.instances[start.instance].object,
                           inverse(camera_from_world) * start.camera_from_object});

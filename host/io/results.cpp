@@ -38,7 +38,7 @@ json detection_json(const Detection& detection, const ImageResult& result) {
           {"psi", detection.psi},
           {"cost_px", detection.cost_px},
           {"matched_fraction", detection.matched_fraction},
-          {"evidence", detection.evidence},
+          {"evidence", detection.psi_z_score},
           {"unexplained_grey", detection.unexplained_grey},
           {"convergence", detection.convergence},
           {"world_from_object", pose_json(detection.world_from_object)},
@@ -93,7 +93,7 @@ Detection read_detection(const JsonField& field, const std::vector<ObjectName>& 
   detection.psi = number_or_nan(field.at("psi"));
   detection.cost_px = number_or_nan(field.at("cost_px"));
   detection.matched_fraction = number_or_nan(field.at("matched_fraction"));
-  detection.evidence = number_or_nan(field.at("evidence"));
+  detection.psi_z_score = number_or_nan(field.at("evidence"));
   detection.unexplained_grey = number_or_nan(field.at("unexplained_grey"));
   detection.convergence = field.at("convergence").text();
   return detection;

@@ -7,8 +7,8 @@
 #include <Eigen/Cholesky>
 
 #include "host/core/option_bounds.h"
-#include "host/register/pose_track.h"
-#include "host/register/register_seen.h"
+#include "host/register/lm_state.h"
+#include "host/register/register_points.h"
 #include "host/register/visible_in_views.h"
 #include "kernels/error.h"
 
@@ -22,14 +22,14 @@ struct PointSets {
   std::vector<std::uint32_t> first, count;  // [hypothesis * views + view]
 };
 
-PointSets collect_points(std::span<const Hypothesis> hypotheses, std::span<const PoseTrack> tracks,
+PointSets collect_points(std::span<const ObjectPose> hypotheses, std::span<const LmState> states,
                          const PointsInViews& points, std::size_t views, int most) {
-  std::vector<Hypothesis> poses;
+  std::vector<ObjectPose> poses;
   for (std::size_t h = 0; h < hypotheses.size(); ++h)
-    poses.push_back({hypotheses[h].object, tracks[h].pose});
+    poses.push_back({hypotheses[h].object, states[h].pose});
   const std::vector<std::vector<ModelPoint>> in_views = points(poses);
   check(in_views.size() == poses.size() * views,
-        "register_seen: one list of points a pose and view");
+        "register_points: one list of points a pose and view");
   PointSets sets;
   for (const std::vector<ModelPoint>& seen : in_views) {
     const std::vector<ModelPoint> kept = thinned(seen, most);
@@ -48,22 +48,22 @@ class Evaluator {
     for (const RegisterView& view : views) handles_.push_back(view.view);
   }
 
-  // Systems at the trial poses of the active tracks, in the tracks' order; inactive ones stay
+  // Systems at the trial poses of the active states, in the states' order; inactive ones stay
   // empty.
-  std::vector<WorldSystem> at_trials(std::span<const PoseTrack> tracks) {
+  std::vector<WorldSystem> at_trials(std::span<const LmState> states) {
     problems_.clear();
-    for (std::size_t h = 0; h < tracks.size(); ++h)
-      for (std::size_t v = 0; tracks[h].active && v < views_.size(); ++v) {
+    for (std::size_t h = 0; h < states.size(); ++h)
+      for (std::size_t v = 0; states[h].active && v < views_.size(); ++v) {
         const std::size_t slot = h * views_.size() + v;
-        problems_.push_back({to_pose(views_[v].camera_from_world * tracks[h].trial),
+        problems_.push_back({to_pose(views_[v].camera_from_world * states[h].trial),
                              sets_.first[slot], sets_.count[slot], static_cast<std::uint32_t>(v)});
       }
     results_.resize(problems_.size());
     backend_.pose_normal_equations(handles_, sets_.points, problems_, loss_, results_);
-    std::vector<WorldSystem> systems(tracks.size());
+    std::vector<WorldSystem> systems(states.size());
     std::size_t next = 0;
-    for (std::size_t h = 0; h < tracks.size(); ++h)
-      for (std::size_t v = 0; tracks[h].active && v < views_.size(); ++v)
+    for (std::size_t h = 0; h < states.size(); ++h)
+      for (std::size_t v = 0; states[h].active && v < views_.size(); ++v)
         add_view(systems[h], results_[next++], views_[v].camera_from_world);
     return systems;
   }
@@ -78,18 +78,19 @@ class Evaluator {
   std::vector<NormalEquations> results_;
 };
 
-void run_round(std::span<PoseTrack> tracks, Evaluator& evaluator, const D2coRound& round,
+void run_round(std::span<LmState> states, Evaluator& evaluator, const D2coRound& round,
                const D2coOptions& options) {
-  for (PoseTrack& track : tracks) restart(track);
-  std::vector<WorldSystem> systems = evaluator.at_trials(tracks);
-  for (std::size_t h = 0; h < tracks.size(); ++h) begin_at(tracks[h], systems[h]);
+  for (LmState& state : states) restart(state);
+  std::vector<WorldSystem> systems = evaluator.at_trials(states);
+  for (std::size_t h = 0; h < states.size(); ++h) initialize(states[h], systems[h]);
   for (int i = 0; i < round.iterations; ++i) {
-    if (std::ranges::none_of(tracks, [](const PoseTrack& t) { return t.active; })) return;
-    for (PoseTrack& track : tracks)
-      if (track.active) propose(track);
-    systems = evaluator.at_trials(tracks);
-    for (std::size_t h = 0; h < tracks.size(); ++h)
-      if (tracks[h].active) judge(tracks[h], systems[h], options.min_step_m, options.min_step_rad);
+    if (std::ranges::none_of(states, [](const LmState& t) { return t.active; })) return;
+    for (LmState& state : states)
+      if (state.active) compute_step(state);
+    systems = evaluator.at_trials(states);
+    for (std::size_t h = 0; h < states.size(); ++h)
+      if (states[h].active)
+        accept_step(states[h], systems[h], options.min_step_m, options.min_step_rad);
   }
 }
 
@@ -150,45 +151,45 @@ std::string to_string(Convergence reason) {
   throw LogicError("unknown convergence reason");
 }
 
-std::vector<Hypothesis> as_hypotheses(std::span<const Hypothesis> starts,
-                                      std::span<const Registration> registrations) {
-  std::vector<Hypothesis> poses;
+std::vector<ObjectPose> object_poses_of(std::span<const ObjectPose> starts,
+                                        std::span<const Registration> registrations) {
+  std::vector<ObjectPose> poses;
   for (std::size_t i = 0; i < starts.size(); ++i)
     poses.push_back({starts[i].object, registrations[i].world_from_object});
   return poses;
 }
 
 std::vector<Registration> register_poses(std::span<const EdgeModel> models,
-                                         std::span<const Hypothesis> hypotheses,
+                                         std::span<const ObjectPose> hypotheses,
                                          std::span<const RegisterView> views, Backend& backend,
                                          const D2coOptions& options) {
   check_problem(hypotheses, models.size(), views);
-  const auto drawn = [&](std::span<const Hypothesis> poses) {
+  const auto drawn = [&](std::span<const ObjectPose> poses) {
     std::vector<std::vector<ModelPoint>> points;
     for (VisibleInView& seen : visible_in_views(models, poses, views, backend, options.visibility))
       points.push_back(std::move(seen.points));
     return points;
   };
-  return register_seen(hypotheses, views, drawn, backend, options);
+  return register_points(hypotheses, views, drawn, backend, options);
 }
 
-std::vector<Registration> register_seen(std::span<const Hypothesis> hypotheses,
-                                        std::span<const RegisterView> views,
-                                        const PointsInViews& points, Backend& backend,
-                                        const D2coOptions& options) {
+std::vector<Registration> register_points(std::span<const ObjectPose> hypotheses,
+                                          std::span<const RegisterView> views,
+                                          const PointsInViews& points, Backend& backend,
+                                          const D2coOptions& options) {
   options.validate();
   check_problem(hypotheses, std::numeric_limits<std::size_t>::max(), views);
-  std::vector<PoseTrack> tracks(hypotheses.size());
+  std::vector<LmState> states(hypotheses.size());
   for (std::size_t h = 0; h < hypotheses.size(); ++h)
-    tracks[h].pose = hypotheses[h].world_from_object;
+    states[h].pose = hypotheses[h].world_from_object;
   for (const D2coRound& round : options.rounds) {
     const PointSets sets =
-        collect_points(hypotheses, tracks, points, views.size(), round.max_points);
+        collect_points(hypotheses, states, points, views.size(), round.max_points);
     Evaluator evaluator(sets, views, backend, {round.loss, round.scale_px});
-    run_round(tracks, evaluator, round, options);
+    run_round(states, evaluator, round, options);
   }
   std::vector<Registration> results;
-  for (const PoseTrack& track : tracks) results.push_back(registration_of(track));
+  for (const LmState& state : states) results.push_back(registration_of(state));
   return results;
 }
 

@@ -50,7 +50,7 @@ struct RegisterView {
   std::shared_ptr<const Occluders> occluders;  // what known objects hide here; none: nothing
 };
 
-struct Hypothesis {
+struct ObjectPose {
   int object = 0;  // index into the models
   Se3 world_from_object;
 };
@@ -75,8 +75,8 @@ struct Registration {
 Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance);
 
 // The same objects at their registered poses: starts for what comes next.
-std::vector<Hypothesis> as_hypotheses(std::span<const Hypothesis> starts,
-                                      std::span<const Registration> registrations);
+std::vector<ObjectPose> object_poses_of(std::span<const ObjectPose> starts,
+                                        std::span<const Registration> registrations);
 
 // Evenly; all of them where `most` is 0 or enough.
 std::vector<ModelPoint> thinned(const std::vector<ModelPoint>& points, int most);
@@ -84,7 +84,7 @@ std::vector<ModelPoint> thinned(const std::vector<ModelPoint>& points, int most)
 // Results in the order of the hypotheses. InputError: options out of bounds; LogicError: no view, a
 // view or a start that stands nowhere, an object that no model is of.
 std::vector<Registration> register_poses(std::span<const EdgeModel> models,
-                                         std::span<const Hypothesis> hypotheses,
+                                         std::span<const ObjectPose> hypotheses,
                                          std::span<const RegisterView> views, Backend& backend,
                                          const D2coOptions& options = {});
 

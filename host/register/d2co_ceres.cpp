@@ -5,8 +5,8 @@
 
 #include <ceres/ceres.h>
 
+#include "host/register/lm_state.h"
 #include "host/register/point_cost.h"
-#include "host/register/pose_track.h"
 #include "host/register/se3_manifold.h"
 #include "host/register/visible_in_views.h"
 #include "host/register/world_system.h"
@@ -49,7 +49,7 @@ struct RoundProblem {
 void add_visible_points(RoundProblem& round, const EdgeModel& model, const HostView& view,
                         Backend& backend, const VisibilityOptions& visibility, int most) {
   const Se3& camera_from_world = view.view.camera_from_world;
-  const Hypothesis pose{0, from_parameters(round.pose.data())};
+  const ObjectPose pose{0, from_parameters(round.pose.data())};
   const std::vector<ModelPoint> visible =
       visible_in_views({&model, 1}, {&pose, 1}, {&view.view, 1}, backend, visibility)[0].points;
   const std::size_t kept = most > 0 ? std::min(visible.size(), std::size_t(most)) : visible.size();
@@ -136,7 +136,7 @@ void solve_round(Registration& result, const EdgeModel& model, std::span<const H
 }  // namespace
 
 std::vector<Registration> register_poses_ceres(std::span<const EdgeModel> models,
-                                               std::span<const Hypothesis> hypotheses,
+                                               std::span<const ObjectPose> hypotheses,
                                                std::span<const RegisterView> views,
                                                Backend& backend, const D2coOptions& options) {
   options.validate();

@@ -12,7 +12,7 @@
 namespace edgescout {
 
 std::vector<Registration> register_poses_ceres(std::span<const EdgeModel> models,
-                                               std::span<const Hypothesis> hypotheses,
+                                               std::span<const ObjectPose> hypotheses,
                                                std::span<const RegisterView> views,
                                                Backend& backend, const D2coOptions& options = {});
 

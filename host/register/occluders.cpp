@@ -62,7 +62,7 @@ void remove_hidden(std::vector<ModelPoint>& points, const Occluders& occluders,
 }
 
 std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> models,
-                                                std::span<const Hypothesis> known,
+                                                std::span<const ObjectPose> known,
                                                 const RegisterView& view, Backend& backend) {
   if (known.empty()) return nullptr;
   auto occluders = std::make_shared<Occluders>();
@@ -71,7 +71,7 @@ std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> model
       std::size_t(occluders->camera.width) * std::size_t(occluders->camera.height), DEPTH_EMPTY);
   for (std::size_t object = 0; object < models.size(); ++object) {
     std::vector<Se3> poses;
-    for (const Hypothesis& h : known)
+    for (const ObjectPose& h : known)
       if (h.object == int(object)) poses.push_back(view.camera_from_world * h.world_from_object);
     draw(models[object], poses, *occluders, backend);
   }

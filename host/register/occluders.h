@@ -30,7 +30,7 @@ void remove_hidden(std::vector<ModelPoint>& points, const Occluders& occluders,
 
 // Nothing where `known` is empty. The view's own occluders play no part.
 std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> models,
-                                                std::span<const Hypothesis> known,
+                                                std::span<const ObjectPose> known,
                                                 const RegisterView& view, Backend& backend);
 
 // Known objects would hide themselves where a pose is a little off: what lies less than this behind

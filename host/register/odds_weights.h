@@ -7,7 +7,7 @@
 namespace edgescout {
 
 struct OddsWeights {
-  double bias, by_log_evidence, by_mean_px, by_unexplained_grey;
+  double bias, by_log_psi_z_score, by_mean_px, by_unexplained_grey;
 };
 
 double weighted_odds(const PoseFeatures& features, const OddsWeights& weights);

@@ -29,10 +29,10 @@ double length_in_image_px(const EdgeModel& model, const Se3& camera_from_object,
   return length * model.raster_step_m;
 }
 
-constexpr int BESIDE = 8;  // directions in which a pose is moved aside
-constexpr double ASIDE =
+constexpr int BACKGROUND_COPIES = 8;  // directions in which a pose is moved aside
+constexpr double BACKGROUND_SHIFT =
     0.05;  // of the diameter: further than edges are wide, in the same surroundings
-constexpr int BESIDE_POINTS = 150;  // enough for a mean
+constexpr int BACKGROUND_POINTS = 150;  // enough for a mean
 
 // Poses with their points, as the kernel takes them.
 struct Problems {
@@ -45,14 +45,14 @@ struct Problems {
   }
 
   // Those beside it, moved along the image plane.
-  void add_beside(const Se3& camera_from_object, double diameter_m, std::size_t view,
-                  const std::vector<ModelPoint>& seen) {
-    const std::vector<ModelPoint> some = thinned(seen, BESIDE_POINTS);
-    for (int i = 0; i < BESIDE; ++i) {
-      const double angle = 2 * std::numbers::pi * i / BESIDE;
+  void add_background(const Se3& camera_from_object, double diameter_m, std::size_t view,
+                      const std::vector<ModelPoint>& seen) {
+    const std::vector<ModelPoint> some = thinned(seen, BACKGROUND_POINTS);
+    for (int i = 0; i < BACKGROUND_COPIES; ++i) {
+      const double angle = 2 * std::numbers::pi * i / BACKGROUND_COPIES;
       Se3 beside = camera_from_object;
       beside.translation_m +=
-          ASIDE * diameter_m * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+          BACKGROUND_SHIFT * diameter_m * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
       add_one(beside, view, some.size());
     }
     points.insert(points.end(), some.begin(), some.end());
@@ -78,23 +78,25 @@ double mean_psi(std::span<const PoseScore> scores) {
 }
 
 std::vector<PoseFeatures> features_by_view(std::span<const EdgeModel> models,
-                                           std::span<const Hypothesis> poses,
+                                           std::span<const ObjectPose> poses,
                                            std::span<const RegisterView> views, Backend& backend,
                                            const PoseScoreOptions& options,
-                                           const VisibilityOptions& visibility, bool look_beside) {
+                                           const VisibilityOptions& visibility,
+                                           bool with_background) {
   std::vector<PoseFeatures> features(poses.size() * views.size());
   Problems problems;
-  const std::size_t of_one = look_beside ? 1 + BESIDE : 1;
+  const std::size_t of_one = with_background ? 1 + BACKGROUND_COPIES : 1;
   for (const VisibleInView& seen : visible_in_views(models, poses, views, backend, visibility)) {
     const std::size_t slot = problems.list.size() / of_one, v = slot % views.size();
-    const Hypothesis& pose = poses[slot / views.size()];
+    const ObjectPose& pose = poses[slot / views.size()];
     const Se3 camera_from_object = views[v].camera_from_world * pose.world_from_object;
     features[slot].visible = double(seen.unoccluded);
     const EdgeModel& model = models[std::size_t(pose.object)];
     features[slot].length_px =
         length_in_image_px(model, camera_from_object, *views[v].view, seen.points);
     problems.add(camera_from_object, v, seen.points);
-    if (look_beside) problems.add_beside(camera_from_object, model.mesh.diameter_m, v, seen.points);
+    if (with_background)
+      problems.add_background(camera_from_object, model.mesh.diameter_m, v, seen.points);
   }
   std::vector<ViewHandle> handles;
   for (const RegisterView& view : views) handles.push_back(view.view);
@@ -104,7 +106,7 @@ std::vector<PoseFeatures> features_by_view(std::span<const EdgeModel> models,
     PoseFeatures& f = features[i];
     const PoseScore* of_pose = &scores[i * of_one];
     f.psi = of_pose->psi;
-    f.beside_psi = mean_psi({of_pose + 1, of_one - 1});
+    f.background_psi = mean_psi({of_pose + 1, of_one - 1});
     f.mean_px = of_pose->points > 0 ? of_pose->mean_px : options.cap_px;
     f.matched = of_pose->matched;
     f.points = of_pose->points;
@@ -117,17 +119,18 @@ std::vector<PoseFeatures> features_by_view(std::span<const EdgeModel> models,
 
 }  // namespace
 
-double evidence(const PoseFeatures& features) {
+double psi_z_score(const PoseFeatures& features) {
   return standard_errors(features, features.psi - CHANCE_PSI);
 }
 
-double evidence_over_beside(const PoseFeatures& features) {
-  return standard_errors(features, features.psi - features.beside_psi);
+double background_psi_z_score(const PoseFeatures& features) {
+  return standard_errors(features, features.psi - features.background_psi);
 }
 
 double weighted_odds(const PoseFeatures& features, const OddsWeights& w) {
-  constexpr double least_evidence = 0.5;  // below that all poses are as bad
-  return w.bias + w.by_log_evidence * std::log(std::max(evidence(features), least_evidence)) +
+  constexpr double min_psi_z_score = 0.5;  // below that all poses are as bad
+  return w.bias +
+         w.by_log_psi_z_score * std::log(std::max(psi_z_score(features), min_psi_z_score)) +
          w.by_mean_px * features.mean_px +
          w.by_unexplained_grey * unexplained_grey(features.shading);
 }
@@ -137,19 +140,19 @@ double log_odds(const PoseFeatures& features) {
 }
 
 std::vector<PoseFeatures> pose_features_by_view(std::span<const EdgeModel> models,
-                                                std::span<const Hypothesis> poses,
+                                                std::span<const ObjectPose> poses,
                                                 std::span<const RegisterView> views,
                                                 Backend& backend, const PoseScoreOptions& options,
                                                 const VisibilityOptions& visibility) {
   return features_by_view(models, poses, views, backend, options, visibility, views.size() > 1);
 }
 
-PoseFeatures together(std::span<const PoseFeatures> by_view) {
+PoseFeatures pool_over_views(std::span<const PoseFeatures> by_view) {
   check(!by_view.empty(), "together: features of at least one view");
   PoseFeatures sum;
   for (const PoseFeatures& f : by_view) {
     sum.psi += f.psi * f.points;
-    sum.beside_psi += f.beside_psi * f.points;
+    sum.background_psi += f.background_psi * f.points;
     sum.mean_px += f.mean_px * f.points;
     sum.matched += f.matched * f.points;
     sum.points += f.points;
@@ -158,7 +161,7 @@ PoseFeatures together(std::span<const PoseFeatures> by_view) {
     add(sum.shading, f.shading);
   }
   if (sum.points > 0) {
-    sum.psi /= sum.points, sum.beside_psi /= sum.points, sum.mean_px /= sum.points,
+    sum.psi /= sum.points, sum.background_psi /= sum.points, sum.mean_px /= sum.points,
         sum.matched /= sum.points;
   } else {
     sum.mean_px = by_view[0].mean_px;
@@ -168,7 +171,7 @@ PoseFeatures together(std::span<const PoseFeatures> by_view) {
 }
 
 std::vector<PoseFeatures> pose_features(std::span<const EdgeModel> models,
-                                        std::span<const Hypothesis> poses,
+                                        std::span<const ObjectPose> poses,
                                         std::span<const RegisterView> views, Backend& backend,
                                         const PoseScoreOptions& options,
                                         const VisibilityOptions& visibility) {
@@ -176,7 +179,7 @@ std::vector<PoseFeatures> pose_features(std::span<const EdgeModel> models,
       features_by_view(models, poses, views, backend, options, visibility, false);
   std::vector<PoseFeatures> features;
   for (std::size_t p = 0; p < poses.size(); ++p)
-    features.push_back(together(std::span(by_view).subspan(p * views.size(), views.size())));
+    features.push_back(pool_over_views(std::span(by_view).subspan(p * views.size(), views.size())));
   return features;
 }
 

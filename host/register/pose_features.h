@@ -15,7 +15,7 @@ struct PoseFeatures {
   double psi = 0;  // means over the visible points of all views, weighted by their number
   // psi where the object is not: of the same points, the pose moved a little aside. Only of several
   // views, by view (pose_features_by_view).
-  double beside_psi = 0;
+  double background_psi = 0;
   double mean_px = 0;
   double matched = 0;    // fraction of points with a tensor value below the match limit
   double points = 0;     // inside the images
@@ -31,11 +31,11 @@ struct PoseFeatures {
 // match anywhere); the excess times the length prefers, of two poses of one object, the one that
 // shows more edges.
 inline constexpr double CHANCE_PSI = 0.65;
-double evidence(const PoseFeatures& features);
+double psi_z_score(const PoseFeatures& features);
 
 // The same over what agrees beside the pose: a barcode, whose lines all run one way, agrees with an
 // object wherever it stands, blank surroundings with none.
-double evidence_over_beside(const PoseFeatures& features);
+double background_psi_z_score(const PoseFeatures& features);
 
 // Log-odds that the pose is right: a linear function of the logarithm of the evidence, the mean
 // distance and the unexplained grey, fitted on rendered scenes (docs/evaluation.md says how). What
@@ -44,16 +44,16 @@ double log_odds(const PoseFeatures& features);
 
 // One entry a pose and view, views of one pose side by side.
 std::vector<PoseFeatures> pose_features_by_view(std::span<const EdgeModel> models,
-                                                std::span<const Hypothesis> poses,
+                                                std::span<const ObjectPose> poses,
                                                 std::span<const RegisterView> views,
                                                 Backend& backend, const PoseScoreOptions& options,
                                                 const VisibilityOptions& visibility = {});
 
 // Those of several views (at least one) of a pose together.
-PoseFeatures together(std::span<const PoseFeatures> by_view);
+PoseFeatures pool_over_views(std::span<const PoseFeatures> by_view);
 
 std::vector<PoseFeatures> pose_features(std::span<const EdgeModel> models,
-                                        std::span<const Hypothesis> poses,
+                                        std::span<const ObjectPose> poses,
                                         std::span<const RegisterView> views, Backend& backend,
                                         const PoseScoreOptions& options,
                                         const VisibilityOptions& visibility = {});

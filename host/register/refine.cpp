@@ -12,9 +12,9 @@ namespace {
 
 // The start itself first, then turned in its place about the axes and the diagonals of the first
 // view's camera frame.
-std::vector<Hypothesis> spread(const Hypothesis& start, const EdgeModel& model,
+std::vector<ObjectPose> spread(const ObjectPose& start, const EdgeModel& model,
                                const Se3& camera_from_world, double rotation_rad) {
-  std::vector<Hypothesis> starts{start};
+  std::vector<ObjectPose> starts{start};
   for (int x = -1; x <= 1; ++x)
     for (int y = -1; y <= 1; ++y)
       for (int z = -1; z <= 1; ++z) {
@@ -44,20 +44,20 @@ std::vector<RegisterView> coarse_views(std::span<const RegisterView> views) {
 // For each hypothesis the different poses its search ended in, highest log-odds first; `owner` says
 // whose they are.
 struct Searched {
-  std::vector<Hypothesis> poses;
+  std::vector<ObjectPose> poses;
   std::vector<std::size_t> owner;
 };
 
-Searched search(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
+Searched search(std::span<const EdgeModel> models, std::span<const ObjectPose> hypotheses,
                 std::span<const RegisterView> views, Backend& backend,
                 const RefineOptions& options) {
-  std::vector<Hypothesis> starts;
-  for (const Hypothesis& hypothesis : hypotheses)
-    for (const Hypothesis& start : spread(hypothesis, models[hypothesis.object],
+  std::vector<ObjectPose> starts;
+  for (const ObjectPose& hypothesis : hypotheses)
+    for (const ObjectPose& start : spread(hypothesis, models[hypothesis.object],
                                           views[0].camera_from_world, options.search.rotation_rad))
       starts.push_back(start);
   const std::size_t turned = starts.size();
-  std::vector<Hypothesis> poses = as_hypotheses(
+  std::vector<ObjectPose> poses = object_poses_of(
       starts, register_poses(models, starts, coarse_views(views), backend, options.search.coarse));
   // Each start as it was, too: what fits already may be led away by the coarse look.
   poses.insert(poses.end(), hypotheses.begin(), hypotheses.end());
@@ -74,9 +74,9 @@ Searched search(std::span<const EdgeModel> models, std::span<const Hypothesis> h
     });
     const std::size_t first = found.poses.size();
     for (std::size_t i : order) {
-      if (int(found.poses.size() - first) >= options.search.survivors) break;
+      if (int(found.poses.size() - first) >= options.search.num_kept) break;
       const bool known =
-          std::any_of(found.poses.begin() + first, found.poses.end(), [&](const Hypothesis& other) {
+          std::any_of(found.poses.begin() + first, found.poses.end(), [&](const ObjectPose& other) {
             return same_pose(other.world_from_object, poses[i].world_from_object,
                              models[poses[i].object]);
           });
@@ -89,7 +89,7 @@ Searched search(std::span<const EdgeModel> models, std::span<const Hypothesis> h
 }
 
 std::vector<Refined> refine_together(std::span<const EdgeModel> models,
-                                     std::span<const Hypothesis> hypotheses,
+                                     std::span<const ObjectPose> hypotheses,
                                      std::span<const RegisterView> views, Backend& backend,
                                      const RefineOptions& options) {
   Searched found;
@@ -103,17 +103,17 @@ std::vector<Refined> refine_together(std::span<const EdgeModel> models,
   if (options.search.rotation_rad == 0) d2co.rounds.insert(d2co.rounds.begin(), options.unsearched);
   std::vector<Registration> registrations =
       register_poses(models, found.poses, views, backend, d2co);
-  if (options.polish)
-    polish_poses(models, found.poses, views, backend, options.polish_options, registrations);
+  if (options.use_edge_icp)
+    edge_icp(models, found.poses, views, backend, options.edge_icp_options, registrations);
   const std::vector<PoseFeatures> by_view =
-      pose_features_by_view(models, as_hypotheses(found.poses, registrations), views, backend,
+      pose_features_by_view(models, object_poses_of(found.poses, registrations), views, backend,
                             options.score, options.d2co.visibility);
   std::vector<Refined> results(hypotheses.size());
   std::vector<bool> filled(hypotheses.size(), false);
   for (std::size_t i = 0; i < found.poses.size(); ++i) {
     const std::size_t h = found.owner[i];
     const std::span<const PoseFeatures> of_pose(by_view.data() + i * views.size(), views.size());
-    const PoseFeatures features = together(of_pose);
+    const PoseFeatures features = pool_over_views(of_pose);
     if (filled[h] && log_odds(results[h].features) >= log_odds(features)) continue;
     results[h] = {registrations[i], features, {of_pose.begin(), of_pose.end()}};
     filled[h] = true;
@@ -141,19 +141,19 @@ D2coOptions RefineOptions::full_defaults() {
 void RefineOptions::validate() const {
   search.coarse.validate();
   d2co.validate();
-  polish_options.validate();
+  edge_icp_options.validate();
   if (!(search.rotation_rad >= 0 && search.rotation_rad <= 1))
     throw InputError("options", "register.search_rotation", std::to_string(search.rotation_rad),
                      "an angle in [0, 1] rad");
   if (at_once < 1)
     throw InputError("options", "register.at_once", std::to_string(at_once), "at least 1");
-  if (search.survivors < 1 || search.survivors > 15)
-    throw InputError("options", "register.survivors", std::to_string(search.survivors),
+  if (search.num_kept < 1 || search.num_kept > 15)
+    throw InputError("options", "register.num_kept", std::to_string(search.num_kept),
                      "a number in [1, 15]");
 }
 
 std::vector<Refined> refine_poses(std::span<const EdgeModel> models,
-                                  std::span<const Hypothesis> hypotheses,
+                                  std::span<const ObjectPose> hypotheses,
                                   std::span<const RegisterView> views, Backend& backend,
                                   const RefineOptions& options) {
   options.validate();

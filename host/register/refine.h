@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/register/d2co.h"
-#include "host/register/polish.h"
+#include "host/register/edge_icp.h"
 #include "host/register/pose_features.h"
 
 namespace edgescout {
@@ -16,7 +16,7 @@ namespace edgescout {
 // and the start as it was given the ones with the highest log-odds (pose_features.h) go on.
 struct SearchOptions {
   double rotation_rad = 0.3;  // 0: no search, the start alone; in [0, 1]
-  int survivors = 4;          // different poses that go on to the full registration
+  int num_kept = 4;           // different poses that go on to the full registration
   D2coOptions coarse = coarse_defaults();
   static D2coOptions coarse_defaults();
 };
@@ -26,8 +26,8 @@ struct RefineOptions {
   D2coOptions d2co = full_defaults();
   D2coRound unsearched{LOSS_GEMAN_MCCLURE, 30, 10,
                        300};  // goes before d2co's rounds where no search brought the start near
-  bool polish = true;
-  PolishOptions polish_options;
+  bool use_edge_icp = true;
+  EdgeIcpOptions edge_icp_options;
   PoseScoreOptions score{1.0f, 4.0f, 60.0f};
   int at_once = 256;  // pairs of a hypothesis and a view, with a search up to 2 MB of points each;
                       // results do not depend on it
@@ -43,7 +43,7 @@ struct Refined {
 
 // Results in the order of the hypotheses.
 std::vector<Refined> refine_poses(std::span<const EdgeModel> models,
-                                  std::span<const Hypothesis> hypotheses,
+                                  std::span<const ObjectPose> hypotheses,
                                   std::span<const RegisterView> views, Backend& backend,
                                   const RefineOptions& options);
 

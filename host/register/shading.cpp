@@ -129,7 +129,7 @@ double unexplained_grey(const Shading& shading) {
                             : 1;
 }
 
-std::vector<Shading> shading(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
+std::vector<Shading> shading(std::span<const EdgeModel> models, std::span<const ObjectPose> poses,
                              std::span<const RegisterView> views, Backend& backend) {
   std::vector<Shading> result(poses.size() * views.size());
   constexpr std::size_t chunk = 256,

@@ -28,7 +28,7 @@ double unexplained_grey(const Shading& shading);
 
 // One a pose and view, poses outermost (poses.size() * views.size()). Views without an image:
 // nothing compared.
-std::vector<Shading> shading(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
+std::vector<Shading> shading(std::span<const EdgeModel> models, std::span<const ObjectPose> poses,
                              std::span<const RegisterView> views, Backend& backend);
 
 }  // namespace edgescout

@@ -6,10 +6,10 @@
 namespace edgescout {
 
 std::vector<VisibleInView> visible_in_views(std::span<const EdgeModel> models,
-                                            std::span<const Hypothesis> poses,
+                                            std::span<const ObjectPose> poses,
                                             std::span<const RegisterView> views, Backend& backend,
                                             const VisibilityOptions& visibility) {
-  for (const Hypothesis& pose : poses)
+  for (const ObjectPose& pose : poses)
     check(pose.object >= 0 && std::size_t(pose.object) < models.size(),
           "visible_in_views: no such model");
   std::vector<VisibleInView> seen(poses.size() * views.size());

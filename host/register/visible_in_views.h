@@ -16,7 +16,7 @@ struct VisibleInView {
 // One entry a pose and view, views of one pose side by side. Points project inside the image or
 // not.
 std::vector<VisibleInView> visible_in_views(std::span<const EdgeModel> models,
-                                            std::span<const Hypothesis> poses,
+                                            std::span<const ObjectPose> poses,
                                             std::span<const RegisterView> views, Backend& backend,
                                             const VisibilityOptions& visibility = {});
 

@@ -172,7 +172,8 @@ void PileTable::occupy(const Footprint& f, double height_m) {
     }
 }
 
-Se3 PileTable::settle(const Mesh& mesh, Se3 pose, double radius_m, Random& random) const {
+Se3 PileTable::select_detections(const Mesh& mesh, Se3 pose, double radius_m,
+                                 Random& random) const {
   constexpr int TRIALS = 150;
   const Eigen::Vector3d centre = surface_centre(mesh);
   const auto energy = [&](const Se3& at) { return (at * centre).z(); };
@@ -209,7 +210,8 @@ Se3 PileTable::place(const Mesh& mesh, double radius_m, bool alone, Random& rand
     if (bare || !alone) break;
     reach *= 1.01;
   }
-  if (pose.translation_m.z() > bare_height + 1e-6) pose = settle(mesh, pose, reach, random);
+  if (pose.translation_m.z() > bare_height + 1e-6)
+    pose = select_detections(mesh, pose, reach, random);
   occupy(footprint(mesh, pose.rotation, pose.translation_m.head<2>()), pose.translation_m.z());
   return pose;
 }

@@ -35,7 +35,7 @@ class PileTable {
                       const Eigen::Vector2d& at) const;
   double rest_height(const Footprint& footprint) const;
   void occupy(const Footprint& footprint, double height_m);
-  Se3 settle(const Mesh& mesh, Se3 pose, double radius_m, Random& random) const;
+  Se3 select_detections(const Mesh& mesh, Se3 pose, double radius_m, Random& random) const;
 
   int cells_ = 0;
   double cell_m_ = 0;

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "kernels/cases/hypotheses.h"
+#include "kernels/cases/combination_cases.h"
 #include "kernels/cases/synthetic.h"
 
 namespace edgescout::bench {
@@ -144,17 +144,17 @@ std::shared_ptr<NextView> next_view(Backend& backend, const HypothesesSize& size
     made->edges += scene.edges.size();
     made->points += scene.points.size();
     made->cell_count +=
-        std::size_t(made->cells.back()->particles) * made->cells.back()->realizations;
+        std::size_t(made->cells.back()->particles) * made->cells.back()->combinations;
   }
   return made;
 }
 
 // Operations: of the maps, an edge point tried on the pixels in its reach; of the chamfer
-// distances, a point's lookup for one realization; of the information, a likelihood.
+// distances, a point's lookup for one combination; of the information, a likelihood.
 std::string counted(const HypothesesSize& size, double operations) {
   char text[96];
   std::snprintf(text, sizeof text, "%d views, %d, %d, %u: %.2g operations", size.views,
-                size.candidates, size.particles, size.realizations, operations);
+                size.candidates, size.particles, size.combinations, operations);
   return text;
 }
 
@@ -170,7 +170,7 @@ std::vector<Case> next_view_cases(Backend& backend, const HypothesesSize& size) 
          for (test::ChamferScene& s : work->scenes)
            backend.candidate_map(s.edges, s.maps, s.width, s.height, s.nearest);
        }},
-      {"combination_chamfer", counted(size, double(work->points) * size.realizations),
+      {"combination_chamfer", counted(size, double(work->points) * size.combinations),
        map_bytes + work->pixels * sizeof(float) + work->points * sizeof(ParticlePoint) + cell_bytes,
        [&backend, work] {
          for (const test::ChamferScene& s : work->scenes)

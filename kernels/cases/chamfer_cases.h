@@ -22,14 +22,14 @@ struct ChamferScene {
   std::vector<float> surface_m, tolerance_m;
   std::vector<ParticlePoint> points;
   std::vector<std::uint32_t> first_point{0};
-  std::uint32_t realizations = 0;
+  std::uint32_t combination_count = 0;
   std::vector<std::uint32_t> words;
 
   ChamferView view() const {
     return {width, height, maps, edges, nearest, surface_m, tolerance_m, points, first_point};
   }
   CombinationBits combinations() const {
-    return {realizations, static_cast<std::uint32_t>(maps.size()), words};
+    return {combination_count, static_cast<std::uint32_t>(maps.size()), words};
   }
 
   // One candidate, its surface depths still empty.
@@ -51,7 +51,7 @@ struct ChamferScene {
   }
   // Every candidate with a chance of `density`; the first combination is empty.
   void draw_combinations(std::mt19937& rng, std::uint32_t count, double density) {
-    realizations = count;
+    combination_count = count;
     const std::size_t row = combinations().row_words();
     words.assign(count * row, 0);
     std::bernoulli_distribution member(density);
@@ -63,7 +63,7 @@ struct ChamferScene {
 
 struct SceneSize {
   int width, height, candidates, edges, particles, points;
-  std::uint32_t realizations;
+  std::uint32_t combinations;
 };
 
 // Windows, edges and points in and out of the image and of each other, surfaces full of holes,
@@ -99,7 +99,7 @@ inline ChamferScene random_scene(std::mt19937& rng, const SceneSize& size) {
     scene.add_particle(own);
   }
   scene.draw_maps();
-  scene.draw_combinations(rng, size.realizations, 0.5);
+  scene.draw_combinations(rng, size.combinations, 0.5);
   return scene;
 }
 

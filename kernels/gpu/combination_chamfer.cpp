@@ -19,7 +19,7 @@ static_assert(sizeof(ChamferVisit) == 4 * CHAMFER_VISIT_WORDS);
 
 constexpr std::size_t max_row_bytes = std::size_t{64} << 20;
 
-// [candidate][word of 32 realizations]
+// [candidate][word of 32 combinations]
 std::vector<std::uint32_t> columns_of(const CombinationBits& combinations) {
   const std::size_t words = groups_for(combinations.count, 32),
                     row_words = combinations.row_words();
@@ -39,13 +39,13 @@ std::vector<std::uint32_t> columns_of(const CombinationBits& combinations) {
 DeviceCells::DeviceCells(const Device& device, std::size_t particle_count,
                          std::uint32_t realization_count)
     : particles(static_cast<std::uint32_t>(particle_count)),
-      realizations(realization_count),
+      combinations(realization_count),
       sums(device, particle_count * realization_count, "chamfer sums"),
       counts(device, particle_count * realization_count, "chamfer counts") {
   const std::size_t most = device.limits().maxStorageBufferRange;
   if (sums.bytes() > most)
     throw GpuError("combination_chamfer: " + std::to_string(particles) + " particles times " +
-                   std::to_string(realizations) + " realizations, " + device.info().name +
+                   std::to_string(combinations) + " combinations, " + device.info().name +
                    " binds at most " + std::to_string(most / sizeof(std::uint32_t)) + " cells");
 }
 
@@ -106,7 +106,7 @@ void CombinationChamfer::record(Batch& batch, const ChamferPlan& plan,
                                 const CombinationBits& combinations, const DeviceCells& cells) {
   upload(batch, plan, combinations);
   const std::uint32_t words = groups_for(combinations.count, 32), tile = tile_words(plan, words);
-  bits_.reserve(device_, plan.masks.size() * tile, "masks of realizations");
+  bits_.reserve(device_, plan.masks.size() * tile, "masks of combinations");
   bytes_.reserve(device_, plan.rows.size() * tile * CHAMFER_QUADS, "rows of distances");
   for (std::uint32_t first = 0; first < words; first += tile)
     record_tile(batch, plan,

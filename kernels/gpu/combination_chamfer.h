@@ -1,5 +1,5 @@
 // Records combination_chamfer (kernels/combination_chamfer.h, chamfer_plan.h, chamfer_push.h): the
-// plan is made on the processor, the realizations are the device's.
+// plan is made on the processor, the combinations are the device's.
 #pragma once
 
 #include "kernels/chamfer_plan.h"
@@ -7,12 +7,12 @@
 
 namespace edgescout::gpu {
 
-// The cells of one view, [particle][realization].
+// The cells of one view, [particle][combination].
 struct DeviceCells {
-  std::uint32_t particles = 0, realizations = 0;
-  Buffer<std::uint32_t> sums, counts;  // counts: fresh << 16 | seen
+  std::uint32_t particles = 0, combinations = 0;
+  Buffer<std::uint32_t> sums, counts;  // counts: unseen << 16 | seen
   // Throws GpuError where the device does not bind as much.
-  DeviceCells(const Device& device, std::size_t particles, std::uint32_t realizations);
+  DeviceCells(const Device& device, std::size_t particles, std::uint32_t combinations);
 };
 
 class CombinationChamfer {
@@ -24,7 +24,7 @@ class CombinationChamfer {
 
  private:
   void upload(Batch& batch, const ChamferPlan& plan, const CombinationBits& combinations);
-  // Words of 32 realizations whose rows fit the device together.
+  // Words of 32 combinations whose rows fit the device together.
   std::uint32_t tile_words(const ChamferPlan& plan, std::uint32_t words) const;
   void record_tile(Batch& batch, const ChamferPlan& plan, const ChamferPush& tile,
                    const DeviceCells& cells);

@@ -18,7 +18,8 @@ std::vector<InformationBelief> beliefs_for_device(std::span<const ParticleBelief
   std::vector<InformationBelief> out;
   const std::vector<double> log_weight = normalised_log_weights(beliefs);
   for (std::size_t i = 0; i < beliefs.size(); ++i) {
-    const double upsilon = options.literal ? beliefs[i].upsilon_px2 / options.scale_px2 : 0;
+    const double upsilon =
+        options.use_paper_formula ? beliefs[i].upsilon_px2 / options.scale_px2 : 0;
     out.push_back({float(std::exp(log_weight[i])), float(beliefs[i].already_seen),
                    float(std::log(double(beliefs[i].total)) + upsilon)});
   }
@@ -38,29 +39,29 @@ MutualInformation::MutualInformation(const Device& device)
 void MutualInformation::record(Batch& batch, const DeviceCells& cells, double cap_px,
                                std::span<const ParticleBelief> beliefs,
                                const InformationOptions& options) {
-  check_information(cells.particles, cells.realizations, beliefs, options);
+  check_information(cells.particles, cells.combinations, beliefs, options);
   const std::vector<InformationBelief> own = beliefs_for_device(beliefs, options);
   beliefs_.reserve(device_, own.size(), "beliefs");
   shifts_.reserve(device_, own.size(), "log likelihoods");
-  shares_.reserve(device_, cells.realizations, "information");
+  shares_.reserve(device_, cells.combinations, "information");
   batch.upload<InformationBelief>(beliefs_, own);
   log_scale_ = 0;
-  if (options.literal) {
+  if (options.use_paper_formula) {
     const float least = std::ranges::min(own, {}, &InformationBelief::log_offset).log_offset;
     log_scale_ = -double(least);
     batch.upload<float>(shifts_, std::vector<float>(own.size(), -least));
   }
   batch.barrier();
-  const InformationPush push{cells.particles, cells.realizations, float(cap_px),
+  const InformationPush push{cells.particles, cells.combinations, float(cap_px),
                              float(1 / options.scale_px2)};
-  if (!options.literal) {
+  if (!options.use_paper_formula) {
     batch.dispatch(rows_kernel_, spread(cells.particles),
                    {cells.sums, cells.counts, beliefs_, shifts_}, push);
     batch.barrier();
   }
-  batch.dispatch(columns_kernel_, spread(groups_for(cells.realizations, INFORMATION_GROUP)),
+  batch.dispatch(columns_kernel_, spread(groups_for(cells.combinations, INFORMATION_GROUP)),
                  {cells.sums, cells.counts, beliefs_, shifts_, shares_}, push);
-  host_shares_.resize(cells.realizations);
+  host_shares_.resize(cells.combinations);
   batch.download<float>(shares_, host_shares_);
 }
 

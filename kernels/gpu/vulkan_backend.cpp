@@ -55,11 +55,11 @@ class VulkanChamfer : public BackendChamfer {
                 std::uint32_t realization_count)
       : device_(std::move(device)), values(*device_, particle_count, realization_count) {
     particles = values.particles;
-    realizations = values.realizations;
+    combinations = values.combinations;
   }
   const Device& device() const { return *device_; }
   std::vector<ChamferCell> cells() const override {
-    std::vector<std::uint32_t> sums(std::size_t(particles) * realizations), counts(sums.size());
+    std::vector<std::uint32_t> sums(std::size_t(particles) * combinations), counts(sums.size());
     Batch batch(*device_, "cells download");
     batch.download<std::uint32_t>(values.sums, sums);
     batch.download<std::uint32_t>(values.counts, counts);

@@ -45,7 +45,7 @@ TEST(Candidates, AreFoundWhereTheNewestImageShowsNothing) {
       candidates_in_images(t.sets, t.images, {}, *t.backend, t.options);
   ASSERT_FALSE(found.empty());
   EXPECT_TRUE(t.is_right(found[0].world_from_object));
-  const std::vector<Hypothesis> known{{0, t.scene.placed[0].world_from_object}};
+  const std::vector<ObjectPose> known{{0, t.scene.placed[0].world_from_object}};
   for (const Detection& d : candidates_in_images(t.sets, t.images, known, *t.backend, t.options))
     EXPECT_FALSE(t.is_right(d.world_from_object)) << "known";
 }
@@ -75,7 +75,7 @@ TEST(Candidates, KeepAPlaceForWhatHasNobodyInItsWay) {
   const auto kept = [&](std::size_t most) {
     std::vector<double> places;
     for (const Detection& c :
-         best_beside_others(candidates, most, models, t.options().pipeline.detect.penetration_m,
+         best_non_colliding(candidates, most, models, t.options().pipeline.detect.penetration_m,
                             t.backend->threads()))
       places.push_back(
           std::round(c.world_from_object.translation_m.x() / models[0].mesh.diameter_m * 100) /

@@ -58,7 +58,7 @@ TEST(FindModes, ForgetsNoneForBeingLight) {
   const std::vector<Particle> next = resample(particles, modes, t.models, 40, t.options, Random(1));
   std::size_t light = 0;
   for (const Particle& p : next) {
-    EXPECT_TRUE(std::isfinite(p.log_weight) && std::isfinite(p.spent_px2));
+    EXPECT_TRUE(std::isfinite(p.log_weight) && std::isfinite(p.resampled_px2));
     light += p.world_from_object.translation_m.x() > 0.15;
   }
   EXPECT_EQ(next.size(), 40u);
@@ -135,8 +135,8 @@ TEST(Resample, KeepsProbableModesAndLetsOthersDie) {
     weight[mode] += std::exp(p.log_weight);
     // What weighing the same images again would make of it, up to a constant common to all.
     EXPECT_NEAR(
-        (p.spent_px2 - p.upsilon_px2) / t.options.scale_px2() - p.log_weight,
-        (next[0].spent_px2 - next[0].upsilon_px2) / t.options.scale_px2() - next[0].log_weight,
+        (p.resampled_px2 - p.upsilon_px2) / t.options.scale_px2() - p.log_weight,
+        (next[0].resampled_px2 - next[0].upsilon_px2) / t.options.scale_px2() - next[0].log_weight,
         1e-9);
   }
   EXPECT_GE(count[1], t.options.min_per_mode);
@@ -153,7 +153,7 @@ TEST(Resample, DrawsSystematicallyByWeight) {
   for (int i = 0; i < 5; ++i) {
     particles.push_back(particle(1, {{1, 0, 0, 0}, {0.001 * i, 0, 0}}, weights[i], true));
     particles.back().covariance.setZero();
-    particles.back().spent_px2 = i;
+    particles.back().resampled_px2 = i;
   }
   ParticleOptions options;
   options.roughened = {0, 0};

@@ -188,7 +188,7 @@ TEST(ViewInformation, PrefersTheViewThatTellsHypothesesApart) {
 TEST(ViewInformation, IsWorthLessWhereTheUnknownMayHideMore) {
   Plan t;
   const std::vector<ViewInformation> free = t.information();
-  t.options.free_sight = 2;
+  t.options.visibility_exponent = 2;
   const std::vector<ViewInformation> views = t.information();
   std::set<double> shares;
   for (std::size_t v = 1; v < views.size(); ++v) {
@@ -212,14 +212,14 @@ TEST(ViewInformation, IsWorthLessWhereTheUnknownMayHideMore) {
   // The paper's own formula stays what it is, and other strategies do not imagine what they would
   // see.
   const auto does_not_matter = [&] {
-    t.options.free_sight = 2;
+    t.options.visibility_exponent = 2;
     const std::vector<ViewInformation> some = t.information();
-    t.options.free_sight = 0;
+    t.options.visibility_exponent = 0;
     const std::vector<ViewInformation> all = t.information();
     for (std::size_t v = 1; v < views.size(); ++v)
       EXPECT_EQ(some[v].information, all[v].information);
   };
-  t.options.literal = true;
+  t.options.use_paper_formula = true;
   does_not_matter();
   t.options.strategy = Strategy::Disocclusion;
   does_not_matter();
@@ -228,7 +228,7 @@ TEST(ViewInformation, IsWorthLessWhereTheUnknownMayHideMore) {
 // Real views stand in Upsilon alone there: weights that follow from them would count them twice.
 TEST(ViewInformation, OfThePapersFormulaWeighsAllParticlesAlike) {
   Plan t;
-  t.options.literal = true;
+  t.options.use_paper_formula = true;
   for (std::size_t i = 0; i < t.particles.size(); ++i) t.particles[i].upsilon_px2 = 0.5 * double(i);
   const std::vector<ViewInformation> alike = t.information();
   for (std::size_t i = 0; i < t.particles.size(); ++i) t.particles[i].log_weight = -0.1 * double(i);
@@ -251,10 +251,10 @@ TEST(ViewInformation, AsksTheImagesEdgesUnlessThePaperDoesNot) {
     return information;
   };
   const auto by_default = [](NextViewOptions&) {};
-  const auto literal = [](NextViewOptions& o) { o.literal = true; };
+  const auto use_paper_formula = [](NextViewOptions& o) { o.use_paper_formula = true; };
   const auto dis = [](NextViewOptions& o) { o.strategy = Strategy::Disocclusion; };
   EXPECT_NE(views_with(by_default, false), views_with(by_default, true));
-  EXPECT_EQ(views_with(literal, false), views_with(literal, true));
+  EXPECT_EQ(views_with(use_paper_formula, false), views_with(use_paper_formula, true));
   EXPECT_EQ(views_with(dis, false), views_with(dis, true));
 }
 
@@ -268,7 +268,7 @@ TEST(ViewInformation, IsWorthLessNearARealView) {
         (inverse(t.views[v]).translation_m - Eigen::Vector3d(0, 0, 0.02)).normalized());
   };
   const std::vector<ViewInformation> all_new = t.information();
-  t.options.repeat_rad = 0.8;
+  t.options.view_correlation_angle_rad = 0.8;
   const std::vector<ViewInformation> views = t.information();
   double least = 1, most = 0;
   for (std::size_t v = 1; v < views.size(); ++v) {
@@ -284,7 +284,7 @@ TEST(ViewInformation, IsWorthLessNearARealView) {
   EXPECT_GT(most, 0.9);
   t.options.strategy = Strategy::Disocclusion;
   const std::vector<ViewInformation> some = t.information();
-  t.options.repeat_rad = 0;
+  t.options.view_correlation_angle_rad = 0;
   const std::vector<ViewInformation> all = t.information();
   for (std::size_t v = 1; v < views.size(); ++v) EXPECT_EQ(some[v].information, all[v].information);
 }
@@ -293,10 +293,10 @@ TEST(ViewInformation, IsWorthLessNearARealView) {
 // candidates.
 TEST(ViewInformation, ExpectsSomethingOfTheUnknownFarFromRealViews) {
   Plan t;
-  t.options.free_sight = 0.5;
+  t.options.visibility_exponent = 0.5;
   const std::vector<ViewInformation> known = t.information();
-  t.options.unknown_nats = 0.7;
-  t.options.unknown_repeat_rad = 1.2;
+  t.options.exploration_bonus_nats = 0.7;
+  t.options.exploration_correlation_angle_rad = 1.2;
   const std::vector<ViewInformation> views = t.information();
   const auto direction = [&](const Se3& view) {
     return Eigen::Vector3d(
@@ -318,13 +318,13 @@ TEST(ViewInformation, ExpectsSomethingOfTheUnknownFarFromRealViews) {
     for (const ViewInformation& view : t.information()) EXPECT_EQ(view.discovery, 0);
   }
   t.options.strategy = Strategy::Information;
-  t.options.literal = true;
+  t.options.use_paper_formula = true;
   for (const ViewInformation& view : t.information()) EXPECT_EQ(view.discovery, 0);
 }
 
 TEST(ViewInformation, OfNoViewsIsNone) {
   Plan t(2);
-  t.options.free_sight = 1;
+  t.options.visibility_exponent = 1;
   t.views.clear();
   t.closed.clear();
   EXPECT_TRUE(t.information().empty());
@@ -339,7 +339,7 @@ TEST(ViewInformation, KnowsNoAboveWhereCamerasStandAllAround) {
     t.views.push_back(t.views[v] * upside_down);
   t.closed.resize(t.views.size(), 0);
   const std::vector<ViewInformation> free = t.information();
-  t.options.free_sight = 1;
+  t.options.visibility_exponent = 1;
   const std::vector<ViewInformation> views = t.information();
   for (std::size_t v = 1; v < views.size(); ++v)
     EXPECT_EQ(views[v].information, free[v].information) << v;

@@ -31,7 +31,8 @@ struct Plan {
   NextViewOptions options;
 
   explicit Plan(int count = 6) {
-    options.free_sight = options.repeat_rad = options.unknown_nats = 0;
+    options.visibility_exponent = options.view_correlation_angle_rad =
+        options.exploration_bonus_nats = 0;
     for (const char* part : {"l_bracket", "bearing_block"})
       models.push_back(make_edge_model(make_part(part).mesh));
     for (const EdgeModel& model : models)

@@ -24,11 +24,13 @@ inline void expect_same(const ScoutState& a, const ScoutState& b) {
     EXPECT_EQ(a.steps[i].image.pixels, b.steps[i].image.pixels);
     EXPECT_EQ(a.steps[i].entropy_nats, b.steps[i].entropy_nats);
     EXPECT_EQ(a.steps[i].update.gained_nats, b.steps[i].update.gained_nats);
-    ASSERT_EQ(a.steps[i].agreement.size(), b.steps[i].agreement.size());
-    for (std::size_t v = 0; v < a.steps[i].agreement.size(); ++v) {
-      EXPECT_EQ(a.steps[i].agreement[v].residual_px, b.steps[i].agreement[v].residual_px);
-      EXPECT_EQ(a.steps[i].agreement[v].missing, b.steps[i].agreement[v].missing);
-      EXPECT_EQ(a.steps[i].agreement[v].disagrees, b.steps[i].agreement[v].disagrees);
+    ASSERT_EQ(a.steps[i].extrinsics_checks.size(), b.steps[i].extrinsics_checks.size());
+    for (std::size_t v = 0; v < a.steps[i].extrinsics_checks.size(); ++v) {
+      EXPECT_EQ(a.steps[i].extrinsics_checks[v].residual_px,
+                b.steps[i].extrinsics_checks[v].residual_px);
+      EXPECT_EQ(a.steps[i].extrinsics_checks[v].missing, b.steps[i].extrinsics_checks[v].missing);
+      EXPECT_EQ(a.steps[i].extrinsics_checks[v].disagrees,
+                b.steps[i].extrinsics_checks[v].disagrees);
     }
   }
   ASSERT_EQ(a.particles.size(), b.particles.size());
@@ -36,7 +38,7 @@ inline void expect_same(const ScoutState& a, const ScoutState& b) {
     EXPECT_TRUE(same(a.particles[i].world_from_object, b.particles[i].world_from_object)) << i;
     EXPECT_EQ(a.particles[i].log_weight, b.particles[i].log_weight);
     EXPECT_EQ(a.particles[i].upsilon_px2, b.particles[i].upsilon_px2);
-    EXPECT_EQ(a.particles[i].spent_px2, b.particles[i].spent_px2);
+    EXPECT_EQ(a.particles[i].resampled_px2, b.particles[i].resampled_px2);
   }
   ASSERT_EQ(a.unseen_px2.size(), b.unseen_px2.size());
   for (std::size_t v = 0; v < a.unseen_px2.size(); ++v)  // not a number in both is the same

@@ -44,7 +44,7 @@ TEST(Scout, RefusesWhatADetectorCannotHaveFound) {
   found.world_from_object = t.scene.placed[0].world_from_object;
   ScoutOptions options = t.options();
   options.detect = [&](std::span<const int>, std::span<const Observation>,
-                       std::span<const Hypothesis>) { return std::vector{found}; };
+                       std::span<const ObjectPose>) { return std::vector{found}; };
   Scout scout = t.scout(options);
   const auto refuses = [&](const char* word) {
     expect_input_error([&] { scout.give(0, cell.acquire(0).image); }, {"detected", word});
@@ -147,13 +147,14 @@ TEST(Scout, FlagsACameraPoseThatDisagrees) {
   SimulatedCell cell = t.source();
   Scout scout = t.scout();
   for (const int view : {0, 2}) scout.give(view, cell.acquire(view).image);
-  for (const ViewAgreement& agreement : scout.state().steps.back().agreement)
-    EXPECT_FALSE(agreement.disagrees) << agreement.residual_px;
+  for (const ExtrinsicsCheck& extrinsics_checks : scout.state().steps.back().extrinsics_checks)
+    EXPECT_FALSE(extrinsics_checks.disagrees) << extrinsics_checks.residual_px;
   scout.give(5, cell.acquire(5).image, Se3{so3_exp({0, 0.02, 0}), {0.004, 0, 0}} * t.views[5]);
-  const std::vector<ViewAgreement>& agreement = scout.state().steps.back().agreement;
-  ASSERT_EQ(agreement.size(), 3u);
-  EXPECT_TRUE(agreement[2].disagrees) << agreement[2].residual_px;
-  EXPECT_FALSE(agreement[0].disagrees || agreement[1].disagrees);
+  const std::vector<ExtrinsicsCheck>& extrinsics_checks =
+      scout.state().steps.back().extrinsics_checks;
+  ASSERT_EQ(extrinsics_checks.size(), 3u);
+  EXPECT_TRUE(extrinsics_checks[2].disagrees) << extrinsics_checks[2].residual_px;
+  EXPECT_FALSE(extrinsics_checks[0].disagrees || extrinsics_checks[1].disagrees);
 }
 
 // An image from a place quite other than said takes the belief in all that the others show. Be it
@@ -173,13 +174,13 @@ TEST(Scout, FlagsAGrosslyWrongCameraPoseThatEndsAllBelief) {
       const ScoutStep& step = scout.state().steps.back();
       std::printf("image %zu%s: %zu objects;", i + 1, i == odd ? " (wrong)" : "",
                   step.detections.size());
-      for (const ViewAgreement& v : step.agreement)
+      for (const ExtrinsicsCheck& v : step.extrinsics_checks)
         std::printf(" %.2f px by %d, %d missing%s;", v.residual_px, v.objects, v.missing,
                     v.disagrees ? ", disagrees" : "");
       std::printf("\n");
       // Two images alone do not tell a wrong pose from objects that are hidden.
       for (std::size_t v = 0; i >= 2 && v <= i; ++v)
-        EXPECT_EQ(step.agreement[v].disagrees, v == odd) << v;
+        EXPECT_EQ(step.extrinsics_checks[v].disagrees, v == odd) << v;
     }
     EXPECT_EQ(std::ranges::count_if(log.messages,
                                     [&](const auto& message) {
@@ -235,24 +236,26 @@ TEST(Scout, RefusesWhatItCannotUse) {
   expect_refused("visibility.tolerance",
                  [](ScoutOptions& o) { o.particles.d2co.visibility.tolerance = -1; });
   expect_refused("polish.rounds",
-                 [](ScoutOptions& o) { o.particles.polish_options.rounds.clear(); });
+                 [](ScoutOptions& o) { o.particles.edge_icp_options.rounds.clear(); });
   expect_refused("polish.radius", [](ScoutOptions& o) {
-    o.pipeline.detect.refine.polish_options.rounds[0].radius_px = 8.5f;
+    o.pipeline.detect.refine.edge_icp_options.rounds[0].radius_px = 8.5f;
   });
-  expect_refused("evidence.match", [](ScoutOptions& o) { o.detections.evidence.match_px = 9; });
-  expect_refused("evidence.match",
-                 [](ScoutOptions& o) { o.pipeline.detect.evidence.match_px = NAN; });
+  expect_refused("edge_claims.match",
+                 [](ScoutOptions& o) { o.detections.edge_claims.match_px = 9; });
+  expect_refused("edge_claims.match",
+                 [](ScoutOptions& o) { o.pipeline.detect.edge_claims.match_px = NAN; });
   expect_refused("absent_probability",
-                 [](ScoutOptions& o) { o.agreement.absent_probability = 0.5; });
-  expect_refused("max_residual_px", [](ScoutOptions& o) { o.agreement.max_residual_px = NAN; });
+                 [](ScoutOptions& o) { o.extrinsics_checks.absent_probability = 0.5; });
+  expect_refused("max_residual_px",
+                 [](ScoutOptions& o) { o.extrinsics_checks.max_residual_px = NAN; });
   expect_refused("detections.min_probability",
                  [](ScoutOptions& o) { o.detections.min_probability = -1; });
   expect_refused("min_information_nats", [](ScoutOptions& o) {
-    o.next_view.literal = true;
+    o.next_view.use_paper_formula = true;
     o.min_information_nats = 0.1;
   });
   expect_refused("motion_cost_per_m", [](ScoutOptions& o) {
-    o.next_view.literal = true;
+    o.next_view.use_paper_formula = true;
     o.next_view.motion_cost_per_m = 0.1;
   });
   options = t.options();

@@ -30,17 +30,17 @@ TEST(Scout, EndsByEachOfItsLimits) {
   const auto always_there = [&](ScoutOptions& o) {
     o.min_entropy_nats = 1000;
     o.detect = [&](std::span<const int>, std::span<const Observation>,
-                   std::span<const Hypothesis>) { return std::vector{there}; };
+                   std::span<const ObjectPose>) { return std::vector{there}; };
   };
   EXPECT_EQ(ended(always_there), End(ScoutEnd::Certain, 2));
   EXPECT_EQ(ended([&](ScoutOptions& o) { always_there(o), o.detect_in_every_image = false; }),
             End(ScoutEnd::Certain, 1))
       << "no other image can show more";
-  EXPECT_EQ(ended([](ScoutOptions& o) { o.max_seconds = 1e-6; }), End(ScoutEnd::TimeSpent, 1));
+  EXPECT_EQ(ended([](ScoutOptions& o) { o.max_seconds = 1e-6; }), End(ScoutEnd::TimeLimit, 1));
   EXPECT_EQ(ended([](ScoutOptions& o) { o.min_information_nats = 1000; }),
             End(ScoutEnd::LittleToLearn, 1));
   const auto hopeful = [](ScoutOptions& o) {
-    o.next_view.unknown_nats = 1000;
+    o.next_view.exploration_bonus_nats = 1000;
     o.min_information_nats = 100;
   };
   EXPECT_EQ(ended(hopeful), End(ScoutEnd::LittleToLearn, 1))
@@ -70,7 +70,7 @@ TEST(Scout, GoesOnWhileAnyViewTellsEnough) {
   SmallCell t;
   SimulatedCell cell = t.source();
   ScoutOptions options = t.options();
-  options.next_view.unknown_nats = 100;
+  options.next_view.exploration_bonus_nats = 100;
   const auto proposed = [&] {
     Scout scout = t.scout(options);
     scout.give(0, cell.acquire(0).image);
@@ -115,7 +115,7 @@ TEST(Scout, KeepsTheDecisionThatEndsIt) {
 }
 
 // All particles are dead at once and again when drawn anew: nothing was gained, and nothing is
-// settled.
+// decided.
 TEST(Scout, DoesNotTakeACollapseForTheEnd) {
   SmallCell t;
   SimulatedCell cell = t.source();
@@ -136,7 +136,7 @@ TEST(Scout, GoesOnWhereTheFirstImageShowsNothing) {
   ScoutOptions options = t.options();
   options.min_information_nats = 0.05;
   options.detect = [](std::span<const int>, std::span<const Observation>,
-                      std::span<const Hypothesis>) { return std::vector<Detection>{}; };
+                      std::span<const ObjectPose>) { return std::vector<Detection>{}; };
   Scout scout = t.scout(options);
   SimulatedCell cell = t.source();
   run_scout(scout, cell);

@@ -137,7 +137,7 @@ TEST(ScoutState, IsWrittenTheSameAfterItWasRead) {
   run_scout(scout, cell);
   const ScoutStep& last = scout.state().steps.back();
   EXPECT_FALSE(last.before.empty() || last.after.empty() || last.mode_probabilities.empty() ||
-               last.decision.likeliest.empty() || last.agreement.empty());
+               last.decision.likeliest.empty() || last.extrinsics_checks.empty());
   const auto first = folder.path() / "first", second = folder.path() / "second";
   save_scout_state(scout.state(), first);
   const ScoutState loaded = load_scout_state(first);
@@ -149,7 +149,7 @@ TEST(ScoutState, IsWrittenTheSameAfterItWasRead) {
   EXPECT_EQ(read.mode_probabilities, last.mode_probabilities);
   EXPECT_EQ(read.decision.likeliest, last.decision.likeliest);
   EXPECT_EQ(read.decision.unlikeliest, last.decision.unlikeliest);
-  EXPECT_EQ(read.agreement.size(), last.agreement.size());
+  EXPECT_EQ(read.extrinsics_checks.size(), last.extrinsics_checks.size());
   EXPECT_EQ(read.searches, last.searches);
   EXPECT_EQ(read.new_candidates, last.new_candidates);
   EXPECT_EQ(read.resampled, last.resampled);
@@ -160,12 +160,12 @@ TEST(ScoutState, KeepsWhatWasOverruledAndHowAViewWasJudged) {
   const TemporaryFolder folder;
   ScoutState state;
   state.views = {Se3{}};
-  state.last_decision.literal = true;
+  state.last_decision.use_paper_formula = true;
   state.last_decision.stages = {{"information", 2.5}};
   state.overruled_seconds = 1.25;
   save_scout_state(state, folder.path() / "state");
   ScoutState read = load_scout_state(folder.path() / "state");
-  EXPECT_TRUE(read.last_decision.literal);
+  EXPECT_TRUE(read.last_decision.use_paper_formula);
   EXPECT_EQ(read.seconds(), 3.75);
   read.overrule();
   EXPECT_TRUE(read.last_decision.stages.empty());

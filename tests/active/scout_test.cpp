@@ -54,12 +54,12 @@ TEST(Scout, TakesCandidatesFromADetectorOfOnesOwn) {
   options.known_probability = 0.2;
   options.max_searches = 1;
   options.detect = [&](std::span<const int> views, std::span<const Observation> images,
-                       std::span<const Hypothesis> known) {
+                       std::span<const ObjectPose> known) {
     EXPECT_EQ(images.back().view.camera.width, t.camera().width);
     EXPECT_EQ(images.size(), asked.size() + 1);
     EXPECT_EQ(std::vector(views.begin(), views.end() - 1), asked);
     EXPECT_EQ(known.size(), asked.empty() ? 0u : 1u);
-    for (const Hypothesis& instance : known)
+    for (const ObjectPose& instance : known)
       EXPECT_LT(distance_between_m(instance.world_from_object, t.scene.placed[0].world_from_object),
                 0.002);
     asked.push_back(views.back());
@@ -83,7 +83,7 @@ struct RoomForOne {
     options.max_views = images;
     options.known_probability = 0.2;
     options.detect = [&](std::span<const int>, std::span<const Observation>,
-                         std::span<const Hypothesis> now) {
+                         std::span<const ObjectPose> now) {
       known.push_back(now.size());
       std::vector<Detection> found;
       if (now.size() < t.scene.placed.size()) {
@@ -219,7 +219,7 @@ TEST(Scout, CountsACandidateAsNewOnce) {
   options.particles.count = 1;
   options.max_views = 2;
   options.detect = [&](std::span<const int>, std::span<const Observation>,
-                       std::span<const Hypothesis>) {
+                       std::span<const ObjectPose>) {
     std::vector<Detection> found(2);
     for (std::size_t i = 0; i < 2; ++i) {
       found[i].psi = 0.9;
@@ -267,7 +267,7 @@ TEST(Scout, SearchesUntilThereAreCandidates) {
   there.psi = 0.9;
   int asked = 0;
   options.detect = [&](std::span<const int>, std::span<const Observation>,
-                       std::span<const Hypothesis>) {
+                       std::span<const ObjectPose>) {
     return ++asked == 1 ? std::vector<Detection>{} : std::vector{there};
   };
   Scout scout = t.scout(options);

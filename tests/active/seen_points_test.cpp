@@ -32,16 +32,16 @@ TEST(SeenPoints, CountsWhatProjectsIntoTheImages) {
   EXPECT_EQ(seen.by_id, expected);
   EXPECT_EQ(seen.count, std::uint32_t(std::ranges::count(expected, char(1))));
   EXPECT_GT(seen.count, 50u);
-  // In a third view those are not fresh, the others are.
+  // In a third view those are not unseen, the others are.
   const Se3 third = t.views[7] * world_from_object;
   for (const ParticlePoint& point : showing_points(table, third, test_camera(), none))
-    EXPECT_EQ(point.fresh, 1u);
-  std::size_t fresh = 0, new_ids = 0;
+    EXPECT_EQ(point.unseen, 1u);
+  std::size_t unseen = 0, new_ids = 0;
   for (const ParticlePoint& point : showing_points(table, third, test_camera(), seen))
-    fresh += point.fresh;
+    unseen += point.unseen;
   for (const TemplateTablePoint& p : table.seen_from(third)) new_ids += !expected[p.id];
-  EXPECT_EQ(fresh, new_ids);
-  EXPECT_GT(fresh, 0u);
+  EXPECT_EQ(unseen, new_ids);
+  EXPECT_GT(unseen, 0u);
 }
 
 // An image without edges has shown nothing; one with edges everywhere along the template has.

@@ -33,7 +33,7 @@ struct SmallCell {
   // Few of everything, three images; where the line of what is reported lies is fitted elsewhere.
   static ScoutOptions options() {
     ScoutOptions o;
-    o.pipeline.detect.aligned = 200;
+    o.pipeline.detect.coarse_poses = 200;
     o.pipeline.detect.candidates = 8;
     o.max_candidates = 12;
     o.particles.count = 60;

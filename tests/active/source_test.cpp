@@ -194,7 +194,7 @@ TEST(RecordedViews, AreThoseOfTheCastle) {
   const auto backend = make_cpu_backend(2);
   const std::vector<EdgeModel> models{
       make_edge_model(load_mesh(folder / "Models" / "chateau.cao", LengthUnit::Metre))};
-  const std::vector<Hypothesis> poses{{0, Se3{}},
+  const std::vector<ObjectPose> poses{{0, Se3{}},
                                       {0, {Eigen::Quaterniond::Identity(), {0.01, 0.01, 0}}}};
   double worst_px = 0;
   for (int v = 0; v < 40; v += 3) {

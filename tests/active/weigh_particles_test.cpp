@@ -167,7 +167,7 @@ TEST(WeighParticles, AViewThatSeesOthersLeavesAParticleItsShare) {
   EXPECT_GT(t.particles[1].log_weight, before[1].log_weight + 0.2);
   EXPECT_LT(t.particles[4].log_weight, before[4].log_weight - 0.2);
   // Those that do not fit die, and a new one is drawn beside the image: what the view counts for a
-  // particle it does not see has been settled before.
+  // particle it does not see has been decided before.
   const double ratio = t.particles[0].log_weight - t.particles[1].log_weight;
   t.particles.resize(4);
   t.particles.push_back(before[0]);
@@ -228,7 +228,7 @@ TEST(WeighParticles, LearnsFromWhatDies) {
   const double deathless_nats = t.weigh(2).gained_nats;
   const std::vector<Particle> deathless = t.particles;
   std::vector<double> means;
-  for (const Particle& p : deathless) means.push_back(together(p.by_view).mean_px);
+  for (const Particle& p : deathless) means.push_back(pool_over_views(p.by_view).mean_px);
   std::ranges::nth_element(means, means.begin() + 12);
   t.options.dead_px = means[12];  // half of them die
   t.unseen_px2.clear();

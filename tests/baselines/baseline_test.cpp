@@ -25,9 +25,9 @@ struct Rendered {
   std::vector<RegisterView> views = scene.views(*backend);
   Se3 truth = scene.scene.placed[0].world_from_object;
 
-  std::vector<Hypothesis> starts(int count, double distance_m, double angle_rad,
+  std::vector<ObjectPose> starts(int count, double distance_m, double angle_rad,
                                  Random random) const {
-    std::vector<Hypothesis> list;
+    std::vector<ObjectPose> list;
     for (int i = 0; i < count; ++i)
       list.push_back({0, scene.candidate(0, distance_m, angle_rad, random).world_from_object});
     return list;
@@ -50,7 +50,7 @@ class Baseline : public ::testing::TestWithParam<Accuracy> {
   // The first views, from ten starts.
   std::vector<Registration> results(std::size_t views, double distance_m, double angle_rad) const {
     const Rendered& r = rendered();
-    const std::vector<Hypothesis> starts = r.starts(10, distance_m, angle_rad, test_random());
+    const std::vector<ObjectPose> starts = r.starts(10, distance_m, angle_rad, test_random());
     return register_with(GetParam().method, r.scene.models, starts, std::span(r.views).first(views),
                          *r.backend);
   }
@@ -99,7 +99,7 @@ TEST_P(Baseline, TakesNoMoreIterationsThanAllowed) {
   BaselineOptions options;
   options.outer_iterations = options.inner_iterations = 3;
   options.pyramid_levels = 1;
-  const std::vector<Hypothesis> starts = r.starts(1, 0.005, 0.1, test_random());
+  const std::vector<ObjectPose> starts = r.starts(1, 0.005, 0.1, test_random());
   const Registration found =
       register_with(GetParam().method, r.scene.models, starts, r.views, *r.backend, options)[0];
   EXPECT_EQ(found.iterations, 3);
@@ -109,7 +109,7 @@ TEST_P(Baseline, TakesNoMoreIterationsThanAllowed) {
 // Near its end a method stops by itself, and not sooner than its smallest step says.
 TEST_P(Baseline, EndsByASmallStep) {
   const Rendered& r = rendered();
-  const std::vector<Hypothesis> starts = r.starts(5, 0.0005, 0.01, test_random());
+  const std::vector<ObjectPose> starts = r.starts(5, 0.0005, 0.01, test_random());
   const auto results_with = [&](double coarser) {
     BaselineOptions options;
     options.inner_iterations = options.outer_iterations = 1000;
@@ -129,7 +129,7 @@ TEST_P(Baseline, EndsByASmallStep) {
 // `inner_iterations` is what ends the solve of every method, be it an association's or the whole.
 TEST_P(Baseline, SolvesWithTheLimitThatAllShare) {
   const Rendered& r = rendered();
-  const std::vector<Hypothesis> start = r.starts(1, 0.003, 0.05, test_random());
+  const std::vector<ObjectPose> start = r.starts(1, 0.003, 0.05, test_random());
   const auto moved_m = [&](int inner) {
     BaselineOptions options;
     options.outer_iterations = 1;
@@ -146,7 +146,7 @@ TEST_P(Baseline, SolvesWithTheLimitThatAllShare) {
 TEST_P(Baseline, LeavesWhatLiesBehindTheCameraWhereItIs) {
   const Rendered& r = rendered();
   const std::span<const RegisterView> view = std::span(r.views).first(1);
-  const Hypothesis behind{
+  const ObjectPose behind{
       0, inverse(view[0].camera_from_world) * Se3{Eigen::Quaterniond::Identity(), {0, 0, -0.5}}};
   const Registration found =
       register_with(GetParam().method, r.scene.models, std::span(&behind, 1), view, *r.backend)[0];
@@ -179,7 +179,7 @@ TEST_P(Baseline, RefusesOptionsOutOfRange) {
 
 TEST(BaselineMethods, WantAViewAndTheModel) {
   const Rendered& r = rendered();
-  const Hypothesis unknown{1, r.truth};
+  const ObjectPose unknown{1, r.truth};
   EXPECT_THROW(register_with(Method::CIcp, r.scene.models, {}, {}, *r.backend), LogicError);
   EXPECT_THROW(
       register_with(Method::CIcp, r.scene.models, std::span(&unknown, 1), r.views, *r.backend),
@@ -190,7 +190,7 @@ TEST(BaselineMethods, WantAViewAndTheModel) {
 TEST(BaselineMethods, LeaveOutWhatOccludersHide) {
   const Rendered& r = rendered();
   RegisterView view = r.views[0];
-  const Hypothesis truth{0, r.truth};
+  const ObjectPose truth{0, r.truth};
   Occluders wall{view.camera, {}};
   wall.depth_m.assign(std::size_t(view.camera.width) * std::size_t(view.camera.height), 0.05f);
   view.occluders = std::make_shared<const Occluders>(wall);

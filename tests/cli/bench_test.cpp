@@ -32,7 +32,7 @@ std::vector<std::string> experiments(const fs::path& out, const std::vector<std:
                                      "--candidates",    "60",
                                      "--bins",          "1",
                                      "--max-views",     "2",
-                                     "--aligned",       "20",
+                                     "--coarse-poses",  "20",
                                      "--registered",    "3",
                                      "--particles",     "20",
                                      "--combinations",  "50"};
@@ -310,9 +310,9 @@ std::vector<std::string> devices_in_short(const fs::path& out) {
                                       {"--in-plane-steps", "6"},
                                       {"--distance-ratio", "2"},
                                       {"--scan-hits", "100"},
-                                      {"--aligned", "20"},
+                                      {"--coarse-poses", "20"},
                                       {"--candidates", "2"},
-                                      {"--second-look", "0"}})
+                                      {"--restart-rotation", "0"}})
     arguments.insert(arguments.end(), {option, value});
   return arguments;
 }

@@ -27,7 +27,7 @@ struct LostDevice : ::testing::Test {
         {{"detect", images, "--out", scene.out, "--device", "vulkan", "--no-overlays", "--camera",
           scene.camera(), "--candidates", "4"},
          {"--model", part_file(1), "--unit", "mm", "--viewpoints", "1", "--in-plane-steps", "12",
-          "--distance-min", "0.27", "--distance-max", "0.33", "--aligned", "50"},
+          "--distance-min", "0.27", "--distance-max", "0.33", "--coarse-poses", "50"},
          more});
   }
   // ASan insists on being first; the shim replaces two functions of the loader, none of the C

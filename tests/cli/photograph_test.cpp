@@ -33,7 +33,8 @@ TEST_P(Photograph, ShowsACubeThatIsFound) {
        {"--model", folder / "cube.cao", "--unit", "m", "--models-info",
         visp / "cube_models_info.json"},
        {"--camera", visp / "cube_camera.yaml", "--distance-min", "0.4", "--distance-max", "0.8"},
-       {"--viewpoints", "3", "--aligned", "300", "--candidates", "10", "--max-detections", "1"},
+       {"--viewpoints", "3", "--coarse-poses", "300", "--candidates", "10", "--max-detections",
+        "1"},
        {"--region-x", "250", "--region-y", "150", "--region-width", "250", "--region-height",
         "250"}}));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

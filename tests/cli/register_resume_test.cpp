@@ -113,8 +113,8 @@ TEST(Register, RefusesResultsMadeWithOtherSettingsWhenResumed) {
   ASSERT_EQ(run_program(t.call("a", start)).exit_code, 0);
   expect_refused(t.call("a", start, {"--resume", "--lambda", "50"}),
                  {"000000.json: lambda: found 30, expected 50"});
-  expect_refused(t.call("a", start, {"--resume", "--no-polish"}),
-                 {"no-polish: found false, expected true"});
+  expect_refused(t.call("a", start, {"--resume", "--no-edge-icp"}),
+                 {"no-edge-icp: found false, expected true"});
   expect_refused(t.call("a", other, {"--resume"}), {"starts: found 1, checksum"});
   std::vector<std::string> fewer_models = t.call("a", start, {"--resume"});
   fewer_models.erase(std::ranges::find(fewer_models, part_file(start.object_id == 6 ? 5 : 6)));

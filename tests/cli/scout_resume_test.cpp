@@ -61,14 +61,14 @@ TEST(Scout, DoesNotGoOnWithOtherTemplates) {
     return file;
   };
   const auto arguments = [&](const std::string& templates, const std::vector<std::string>& more) {
-    return joined({{"scout",        "cell", "--out",        folder.path() / "out",
-                    "--device",     "cpu",  "--templates",  templates,
-                    "--width",      "320",  "--height",     "240",
-                    "--focal",      "400",  "--objects",    "1",
-                    "--clutter",    "0",    "--radius",     "0.3",
-                    "--view-count", "4",    "--max-views",  "1",
-                    "--aligned",    "100",  "--candidates", "4",
-                    "--particles",  "20"},
+    return joined({{"scout",          "cell", "--out",        folder.path() / "out",
+                    "--device",       "cpu",  "--templates",  templates,
+                    "--width",        "320",  "--height",     "240",
+                    "--focal",        "400",  "--objects",    "1",
+                    "--clutter",      "0",    "--radius",     "0.3",
+                    "--view-count",   "4",    "--max-views",  "1",
+                    "--coarse-poses", "100",  "--candidates", "4",
+                    "--particles",    "20"},
                    more});
   };
   const std::string coarse = build("coarse.est", "1"), fine = build("fine.est", "2");
@@ -100,7 +100,7 @@ TEST(Scout, DoesNotGoOnInAnotherFolder) {
   fs::create_directories(other.parent_path());
   fs::copy(scene.scene, other, fs::copy_options::recursive);
   const auto arguments = [&](const fs::path& folder, const std::vector<std::string>& more) {
-    return joined({{"scout", folder, "--out", scene.out, "--device", "cpu", "--aligned", "200",
+    return joined({{"scout", folder, "--out", scene.out, "--device", "cpu", "--coarse-poses", "200",
                     "--max-views", "1", "--min-probability", "0.1"},
                    bracket(),
                    more});

@@ -175,9 +175,9 @@ TEST(Scout, TakesRecordedViewsAndGoesOnPastAMissingImage) {
   const SmallScene scene(4);
   fs::remove(scene.image(0));
   const Outcome outcome =
-      run_program(joined({{"scout", scene.scene, "--out", scene.out, "--device", "cpu", "--aligned",
-                           "200", "--candidates", "8", "--max-views", "2", "--min-probability",
-                           "0.1", "--strategy", "dis", "--min-entropy", "0"},
+      run_program(joined({{"scout", scene.scene, "--out", scene.out, "--device", "cpu",
+                           "--coarse-poses", "200", "--candidates", "8", "--max-views", "2",
+                           "--min-probability", "0.1", "--strategy", "dis", "--min-entropy", "0"},
                           bracket()}));
   EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
   const auto log = nlohmann::json::parse(content_of(scene.out / "scout.json"));
@@ -202,8 +202,8 @@ TEST(Scout, TakesRecordedViewsAndGoesOnPastAMissingImage) {
 TEST(Scout, LeavesResultsThatRegistrationGoesOnFrom) {
   const SmallScene scene(3);
   ASSERT_EQ(
-      run_program(joined({{"scout", scene.scene, "--out", scene.out, "--device", "cpu", "--aligned",
-                           "200", "--max-views", "1", "--min-probability", "0.1"},
+      run_program(joined({{"scout", scene.scene, "--out", scene.out, "--device", "cpu",
+                           "--coarse-poses", "200", "--max-views", "1", "--min-probability", "0.1"},
                           bracket()}))
           .exit_code,
       0);
@@ -218,12 +218,12 @@ TEST(Scout, LeavesResultsThatRegistrationGoesOnFrom) {
 }
 
 // All edges may be explained again, or none; of what may stand in one place.
-TEST(Scout, LetsModesCompeteAsMaxSpentSays) {
-  const auto found = [](const char* max_spent) {
+TEST(Scout, LetsModesCompeteAsMaxClaimedAllows) {
+  const auto found = [](const char* max_claimed) {
     SmallScout t;
     t.min_probability = "0.001";
     const Outcome outcome =
-        run_program(t.arguments({"--max-spent", max_spent, "--penetration", "1"}));
+        run_program(t.arguments({"--max-claimed", max_claimed, "--penetration", "1"}));
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return t.log().at("detections").size();
   };
@@ -280,7 +280,7 @@ TEST(Scout, RefusesWhatItCannotUse) {
   refused({"scout", "cell", "--out", t.out, "--view-count", "10001"},
           {"--view-count", "10001", "1 to 10000"});
   refused(t.arguments({"--max-detections", "1"}), {"--max-detections"});
-  refused(t.arguments({"--second-look", "0"}), {"--second-look"});
+  refused(t.arguments({"--restart-rotation", "0"}), {"--restart-rotation"});
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ struct SmallScene {
   // elsewhere.
   std::vector<std::string> detect(const fs::path& input,
                                   const std::vector<std::string>& more = {}) const {
-    return joined({{"detect", input, "--out", out, "--device", "cpu", "--aligned", "600",
+    return joined({{"detect", input, "--out", out, "--device", "cpu", "--coarse-poses", "600",
                     "--min-probability", "0.1"},
                    more});
   }

@@ -23,7 +23,7 @@ struct SmallScout {
                     "--clutter", "0"},
                    {"--radius", "0.3", "--view-count", "8", "--elevations", "40", "70",
                     "--max-views", "3", "--min-entropy", "0"},
-                   {"--viewpoints", "3", "--in-plane-steps", "12", "--aligned", "200",
+                   {"--viewpoints", "3", "--in-plane-steps", "12", "--coarse-poses", "200",
                     "--candidates", "8", "--particles", "60"},
                    {"--combinations", "200", "--min-probability", min_probability},
                    more});

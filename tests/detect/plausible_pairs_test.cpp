@@ -18,17 +18,17 @@
 namespace edgescout::test {
 namespace {
 
-bool together(const std::vector<EdgeModel>& models, const Hypothesis& a, const Hypothesis& b,
-              double penetration_m) {
+bool pool_over_views(const std::vector<EdgeModel>& models, const ObjectPose& a, const ObjectPose& b,
+                     double penetration_m) {
   ThreadPool pool(1);
   const BitMatrix pairs =
-      plausible_pairs(models, std::vector<Hypothesis>{a, b}, penetration_m, pool);
+      plausible_pairs(models, std::vector<ObjectPose>{a, b}, penetration_m, pool);
   EXPECT_TRUE(pairs.has(0, 0) && pairs.has(1, 1));
   EXPECT_EQ(pairs.has(0, 1), pairs.has(1, 0));
   return pairs.has(0, 1);
 }
 
-Hypothesis at(int object, double x_m, double y_m, double z_m) {
+ObjectPose at(int object, double x_m, double y_m, double z_m) {
   return {object, {Eigen::Quaterniond::Identity(), {x_m, y_m, z_m}}};
 }
 
@@ -45,8 +45,8 @@ TEST(PlausiblePairs, BoxesMayOverlapByTheTolerance) {
                           0.01 * random.uniform());
     shift[axis] = sides[axis] - overlap;
     const Se3 world{random.rotation(), random.direction()};
-    const Hypothesis a{0, world}, b{0, world * Se3{Eigen::Quaterniond::Identity(), shift}};
-    EXPECT_EQ(together(models, a, b, tolerance), i % 2 == 1)
+    const ObjectPose a{0, world}, b{0, world * Se3{Eigen::Quaterniond::Identity(), shift}};
+    EXPECT_EQ(pool_over_views(models, a, b, tolerance), i % 2 == 1)
         << "overlap " << overlap << " along axis " << axis;
   }
 }
@@ -56,43 +56,44 @@ TEST(PlausiblePairs, AnEdgeReachesAsDeepAsItsTip) {
   const std::vector<EdgeModel> models{make_edge_model(box_mesh(0.05, 0.05, 0.05))};
   const double half_diagonal = 0.025 * std::sqrt(2.0);
   for (double d : {0.001, 0.003, 0.006}) {
-    Hypothesis tip = at(0, 0.001, 0.002, 0.025 + half_diagonal - d);
+    ObjectPose tip = at(0, 0.001, 0.002, 0.025 + half_diagonal - d);
     tip.world_from_object.rotation = so3_exp({0, std::numbers::pi / 4, 0});
-    EXPECT_TRUE(together(models, at(0, 0, 0, 0), tip, 1.03 * d));
-    EXPECT_FALSE(together(models, at(0, 0, 0, 0), tip, 0.97 * d));
+    EXPECT_TRUE(pool_over_views(models, at(0, 0, 0, 0), tip, 1.03 * d));
+    EXPECT_FALSE(pool_over_views(models, at(0, 0, 0, 0), tip, 0.97 * d));
   }
 }
 
 TEST(PlausiblePairs, TouchingAndApartAreFine) {
   const std::vector<EdgeModel> models{make_edge_model(box_mesh(0.05, 0.05, 0.05))};
-  EXPECT_TRUE(together(models, at(0, 0, 0, 0), at(0, 0.05, 0.01, 0), 0.0005));
-  EXPECT_TRUE(together(models, at(0, 0, 0, 0), at(0, 0.0501, 0.01, 0), 0));
-  EXPECT_FALSE(together(models, at(0, 0, 0, 0), at(0, 0.0499, 0.01, 0), 0));
+  EXPECT_TRUE(pool_over_views(models, at(0, 0, 0, 0), at(0, 0.05, 0.01, 0), 0.0005));
+  EXPECT_TRUE(pool_over_views(models, at(0, 0, 0, 0), at(0, 0.0501, 0.01, 0), 0));
+  EXPECT_FALSE(pool_over_views(models, at(0, 0, 0, 0), at(0, 0.0499, 0.01, 0), 0));
 }
 
 TEST(PlausiblePairs, OneInsideTheOtherClashes) {
   const std::vector<EdgeModel> models{make_edge_model(box_mesh(0.1, 0.1, 0.1)),
                                       make_edge_model(box_mesh(0.02, 0.02, 0.02))};
   for (const bool swapped : {false, true}) {
-    const Hypothesis outer = at(0, 0, 0, 0), inner = at(1, 0.01, -0.02, 0.005);
-    EXPECT_FALSE(together(models, swapped ? inner : outer, swapped ? outer : inner, 0.002));
-    EXPECT_FALSE(together(models, swapped ? inner : outer, swapped ? outer : inner, 0));
+    const ObjectPose outer = at(0, 0, 0, 0), inner = at(1, 0.01, -0.02, 0.005);
+    EXPECT_FALSE(pool_over_views(models, swapped ? inner : outer, swapped ? outer : inner, 0.002));
+    EXPECT_FALSE(pool_over_views(models, swapped ? inner : outer, swapped ? outer : inner, 0));
   }
   // 20 mm deep below the nearest face, its far side 31 mm: out it comes when pushed by that.
-  const Hypothesis inner = at(1, 0, 0, 0.05 - 0.021);
-  EXPECT_FALSE(together(models, at(0, 0, 0, 0), inner, 0.030));
-  EXPECT_TRUE(together(models, at(0, 0, 0, 0), inner, 0.034));
+  const ObjectPose inner = at(1, 0, 0, 0.05 - 0.021);
+  EXPECT_FALSE(pool_over_views(models, at(0, 0, 0, 0), inner, 0.030));
+  EXPECT_TRUE(pool_over_views(models, at(0, 0, 0, 0), inner, 0.034));
 }
 
 // A nut around a shaft: in each other's bounding boxes and yet apart.
 TEST(PlausiblePairs, HolesAreEmpty) {
   const std::vector<EdgeModel> models{make_edge_model(make_ring(0.03, 0.02, 0.01)),
                                       make_edge_model(make_bar(0.019, 0.1))};
-  EXPECT_TRUE(together(models, at(0, 0, 0, 0), at(1, 0, 0, 0), 0));
-  EXPECT_FALSE(together(models, at(0, 0, 0, 0), at(1, 0.005, 0, 0), 0));
-  EXPECT_FALSE(together(models, at(0, 0, 0, 0), at(1, 0.008, 0, 0), 0.002));  // 7 mm into the wall
-  EXPECT_TRUE(together(models, at(0, 0, 0, 0), at(1, 0.0025, 0, 0),
-                       0.002));  // 1.5 mm; the other side is only 2.5 mm away
+  EXPECT_TRUE(pool_over_views(models, at(0, 0, 0, 0), at(1, 0, 0, 0), 0));
+  EXPECT_FALSE(pool_over_views(models, at(0, 0, 0, 0), at(1, 0.005, 0, 0), 0));
+  EXPECT_FALSE(
+      pool_over_views(models, at(0, 0, 0, 0), at(1, 0.008, 0, 0), 0.002));  // 7 mm into the wall
+  EXPECT_TRUE(pool_over_views(models, at(0, 0, 0, 0), at(1, 0.0025, 0, 0),
+                              0.002));  // 1.5 mm; the other side is only 2.5 mm away
 }
 
 // What is said to clash does so wherever it is pushed; what is said to be apart is, by the verdict
@@ -104,18 +105,19 @@ TEST(PlausiblePairs, PartsAgreeWithPushingThemEverywhere) {
   const double tolerance = 0.002;
   int clashing = 0, pushed_apart = 0;
   for (int i = 0; i < 25; ++i) {
-    const Hypothesis a{i % 2, {random.rotation(), Eigen::Vector3d::Zero()}};
-    Hypothesis b{1 - i % 2, {random.rotation(), random.uniform(0.02, 0.05) * random.direction()}};
-    const bool free = together(models, a, b, 0), tolerated = together(models, a, b, tolerance);
+    const ObjectPose a{i % 2, {random.rotation(), Eigen::Vector3d::Zero()}};
+    ObjectPose b{1 - i % 2, {random.rotation(), random.uniform(0.02, 0.05) * random.direction()}};
+    const bool free = pool_over_views(models, a, b, 0),
+               tolerated = pool_over_views(models, a, b, tolerance);
     EXPECT_TRUE(!free || tolerated);
     // A tenth less than the tolerance, in 92 directions.
     bool comes_apart = free;
     for (const Eigen::Vector3d& d : icosphere(3)) {
       if (comes_apart) break;
-      const Hypothesis moved{
+      const ObjectPose moved{
           b.object,
           {b.world_from_object.rotation, b.world_from_object.translation_m + 0.9 * tolerance * d}};
-      comes_apart = together(models, a, moved, 0);
+      comes_apart = pool_over_views(models, a, moved, 0);
     }
     EXPECT_TRUE(tolerated || !comes_apart);
     clashing += !tolerated;
@@ -131,7 +133,7 @@ TEST(PlausiblePairs, ManyCandidatesOnSeveralThreads) {
   const std::vector<EdgeModel> models{make_edge_model(make_part("l_bracket").mesh),
                                       make_edge_model(make_part("hex_nut").mesh),
                                       make_edge_model(make_part("bearing_block").mesh)};
-  std::vector<Hypothesis> candidates;
+  std::vector<ObjectPose> candidates;
   for (int i = 0; i < 40; ++i)
     candidates.push_back(
         {i % 3,
@@ -148,7 +150,7 @@ TEST(PlausiblePairs, ManyCandidatesOnSeveralThreads) {
     for (std::size_t j = 0; j < i; ++j) {
       clashes += !pairs.has(i, j);
       if ((i * 40 + j) % 7 == 0) {
-        EXPECT_EQ(pairs.has(i, j), together(models, candidates[i], candidates[j], 0.002))
+        EXPECT_EQ(pairs.has(i, j), pool_over_views(models, candidates[i], candidates[j], 0.002))
             << i << " " << j;
       }
     }

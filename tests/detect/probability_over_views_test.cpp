@@ -12,7 +12,7 @@ namespace {
 PoseFeatures with_psi(double psi) {
   PoseFeatures f;
   f.psi = psi;
-  f.beside_psi = 0.5;
+  f.background_psi = 0.5;
   f.mean_px = 3;
   f.matched = 0.8;
   f.points = f.visible = 200;
@@ -64,7 +64,7 @@ TEST(ProbabilityOverViews, GrowsWithWhatAgreesHereAndNotBeside) {
   const PoseFeatures fair = with_psi(0.8);
   PoseFeatures more = fair, striped = fair, darker = fair;
   more.psi = 0.85;
-  striped.beside_psi = 0.7;
+  striped.background_psi = 0.7;
   darker.shading = {1000, 1e6, 5e5};
   const double p = probability_over_views(std::vector{fair, fair});
   EXPECT_GT(probability_over_views(std::vector{fair, more}), p);
@@ -78,7 +78,7 @@ TEST(ProbabilityOverViews, AHiddenViewCostsSoMuchAndNoMore) {
   const PoseFeatures good = with_psi(0.95);
   PoseFeatures hidden = with_psi(0), worse = hidden;
   hidden.psi = 0.55;
-  worse.beside_psi = 1;
+  worse.background_psi = 1;
   const double without = log_odds_of({good, good, good}),
                with = log_odds_of({good, good, good, hidden});
   EXPECT_LT(with, without);

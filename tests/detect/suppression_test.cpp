@@ -82,12 +82,12 @@ TEST(BestDifferent, PrefersTheLowerKeyOfTwoThatAreOne) {
   const std::vector<Se3> poses{moved(b, 0.0005, 0, random), a, b, moved(a, 0.0005, 0, random)};
   const std::vector<double> keys{3, 2, 1, 2};
   const auto best = [&](std::size_t most) {
-    return best_different(poses, keys, bracket.mesh, bracket.symmetries, 0.002, most);
+    return best_distinct(poses, keys, bracket.mesh, bracket.symmetries, 0.002, most);
   };
   EXPECT_EQ(best(100), (std::vector<std::size_t>{2, 1}));
   EXPECT_EQ(best(1), std::vector<std::size_t>{2});
   EXPECT_THROW(
-      best_different(poses, std::vector<double>{1, 2}, bracket.mesh, bracket.symmetries, 0.002, 2),
+      best_distinct(poses, std::vector<double>{1, 2}, bracket.mesh, bracket.symmetries, 0.002, 2),
       LogicError);
 }
 

@@ -29,7 +29,7 @@ struct LookedAt {
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
   TemplateSet set;
   std::vector<RegisterView> views{2};
-  std::vector<Hypothesis> poses;
+  std::vector<ObjectPose> poses;
 
   LookedAt(const char* part, Random& random) : set(part_templates(part, 5, 0.28, 0.34, *backend)) {
     for (RegisterView& view : views) {
@@ -72,7 +72,7 @@ TEST(TemplatePoints, AreThinnedEvenlyAndLackWhatIsHidden) {
   Random random = test_random();
   LookedAt t("l_bracket", random);
   const std::vector<std::vector<ModelPoint>> all = t.points(0), some = t.points(50);
-  const Hypothesis cover{
+  const ObjectPose cover{
       0, inverse(t.views[1].camera_from_world) * Se3{random.rotation(), {0, 0, 0.2}}};
   t.views[1].occluders = make_occluders({&t.set.model, 1}, {&cover, 1}, t.views[1], *t.backend);
   const std::vector<std::vector<ModelPoint>> left = t.points(50);

@@ -134,7 +134,7 @@ TEST(Cells, KeepWhatIsFinishedWhereOneFails) {
 TEST(Cells, GiveTheSameSideBySide) {
   std::vector<std::string> names;
   for (int i = 0; i < 40; ++i) names.push_back("cell_" + std::to_string(i));
-  Trial alone(names), together(names);
+  Trial alone(names), pool_over_views(names);
   together.run.workers = 4;
   std::size_t last = 0, calls = 0;
   together.run.progress = [&](std::size_t done, std::size_t all) {

@@ -21,7 +21,7 @@ DevicesReport report() {
   report.instances = 5;
   report.poses = 40;
   report.commit = "abc";
-  report.settings = {{"aligned", "600"}, {"lambda", "30"}};
+  report.settings = {{"coarse-poses", "600"}, {"lambda", "30"}};
   DeviceTimes cpu, card;
   cpu.name = "cpu";
   cpu.stages = {{"edges", {4, 2, 3}}, {"image to poses", {400, 500, 800}}};

@@ -24,7 +24,7 @@ Detection sample_detection(int object, double seed) {
   d.psi = 0.8;
   d.cost_px = 1.25;
   d.matched_fraction = 0.6;
-  d.evidence = 7.5;
+  d.psi_z_score = 7.5;
   d.unexplained_grey = 0.25;
   d.convergence = "small step";
   return d;
@@ -77,7 +77,7 @@ TEST(ImageResult, ReadsBackWhatWasWritten) {
     EXPECT_EQ(b.psi, a.psi);
     EXPECT_EQ(b.cost_px, a.cost_px);
     EXPECT_EQ(b.matched_fraction, a.matched_fraction);
-    EXPECT_EQ(b.evidence, a.evidence);
+    EXPECT_EQ(b.psi_z_score, a.psi_z_score);
     EXPECT_EQ(b.unexplained_grey, a.unexplained_grey);
     EXPECT_EQ(b.convergence, a.convergence);
   }

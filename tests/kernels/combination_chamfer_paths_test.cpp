@@ -6,10 +6,10 @@
 namespace edgescout {
 
 static bool operator==(const ChamferCell& a, const ChamferCell& b) {
-  return a.sum == b.sum && a.seen == b.seen && a.fresh == b.fresh;
+  return a.sum == b.sum && a.seen == b.seen && a.unseen == b.unseen;
 }
 static std::ostream& operator<<(std::ostream& out, const ChamferCell& cell) {
-  return out << "sum " << cell.sum << " seen " << cell.seen << " fresh " << cell.fresh;
+  return out << "sum " << cell.sum << " seen " << cell.seen << " unseen " << cell.unseen;
 }
 
 namespace {
@@ -18,11 +18,11 @@ class CombinationChamferPaths : public test::PathTest {
  protected:
   void expect_equal(const test::ChamferScene& scene, const ChamferOptions& options) {
     const ChamferHandle found =
-        tested->combination_chamfer(scene.view(), scene.combinations(), options);
+        tested->combination_chamfer(scene.view(), scene.combination_count(), options);
     const ChamferHandle expected =
-        reference->combination_chamfer(scene.view(), scene.combinations(), options);
+        reference->combination_chamfer(scene.view(), scene.combination_count(), options);
     EXPECT_EQ(found->particles, scene.view().particles());
-    EXPECT_EQ(found->realizations, scene.realizations);
+    EXPECT_EQ(found->combinations, scene.combination_count);
     EXPECT_EQ(found->cells(), expected->cells());
   }
 };
@@ -38,7 +38,7 @@ TEST_P(CombinationChamferPaths, EqualsTheReference) {
                                                                   {30, 30, 5, 10, 0, 0, 5},
                                                                   {30, 30, 5, 10, 3, 10, 0}}) {
     SCOPED_TRACE(std::to_string(size.candidates) + " candidates, " +
-                 std::to_string(size.realizations) + " realizations");
+                 std::to_string(size.combinations) + " combinations");
     const test::ChamferScene scene = test::random_scene(rng, size);
     expect_equal(scene, {255.0f / 16});
     expect_equal(scene, {5});
@@ -55,7 +55,7 @@ TEST_P(CombinationChamferPaths, ManyPointsInAParticle) {
   expect_equal(scene, {255.0f / 16});
 }
 
-// More rows than the smallest device binds at once for all realizations.
+// More rows than the smallest device binds at once for all combinations.
 TEST_P(CombinationChamferPaths, RealizationsInTiles) {
   std::mt19937 rng = test::test_rng();
   const test::ChamferScene scene = test::random_scene(rng, {60, 40, 12, 60, 30, 60, 1500});
@@ -76,7 +76,7 @@ TEST_P(CombinationChamferPaths, PartsOfLongerLists) {
             reference->combination_chamfer(part, combinations, {})->cells());
 }
 
-// More particles and realizations than a device takes workgroups along one dimension.
+// More particles and combinations than a device takes workgroups along one dimension.
 TEST_P(CombinationChamferPaths, ManyParticlesAndManyRealizations) {
   std::mt19937 rng = test::test_rng();
   test::ChamferScene scene = test::random_scene(rng, {20, 20, 3, 9, 66000, 1, 2});
@@ -91,7 +91,7 @@ TEST_P(CombinationChamferPaths, BrokenInputIsOurBug) {
   const auto run = [&](const auto& spoil, const ChamferOptions& options = {}) {
     test::ChamferScene scene = good;
     spoil(scene);
-    tested->combination_chamfer(scene.view(), scene.combinations(), options);
+    tested->combination_chamfer(scene.view(), scene.combination_count(), options);
   };
   EXPECT_NO_THROW(run([](auto&) {}));
   EXPECT_THROW(run([](auto& s) { s.words.pop_back(); }), LogicError);
@@ -103,7 +103,7 @@ TEST_P(CombinationChamferPaths, BrokenInputIsOurBug) {
                LogicError)
       << "maps of other edge points";
   EXPECT_THROW(run([](auto& s) { s.points.pop_back(); }), LogicError);
-  EXPECT_THROW(run([](auto& s) { s.points.back().fresh = 2; }), LogicError);
+  EXPECT_THROW(run([](auto& s) { s.points.back().unseen = 2; }), LogicError);
   EXPECT_THROW(run([](auto& s) { s.first_point = {5, 3}; }), LogicError);
   EXPECT_THROW(run([](auto& s) { s.first_point.clear(); }), LogicError);
   EXPECT_THROW(run([](auto& s) { s.tolerance_m.pop_back(); }), LogicError);

@@ -1,4 +1,4 @@
-// combination_chamfer: its reference against realizations that are really drawn, z-buffer, edge map
+// combination_chamfer: its reference against combinations that are really drawn, z-buffer, edge map
 // and distance transform.
 //
 // They may differ where and because
@@ -51,14 +51,14 @@ Boxes box_scene(std::mt19937& rng, int count, bool single_points) {
   return made;
 }
 
-// A realization as a renderer would show it.
+// A combination as a renderer would show it.
 class Drawn {
  public:
-  Drawn(const Boxes& from, std::size_t realization)
+  Drawn(const Boxes& from, std::size_t combination)
       : depth_(width * height, 1e9), edge_(width * height, false) {
-    const CombinationBits combinations = from.scene.combinations();
+    const CombinationBits combinations = from.scene.combination_count();
     for (std::size_t c = 0; c < from.boxes.size(); ++c)
-      if (combinations.has(realization, c))
+      if (combinations.has(combination, c))
         members_.push_back({from.boxes[c], double(from.scene.tolerance_m[c])});
     for (const Member& member : members_) draw_surface(depth_, member);
     for (std::size_t m = 0; m < members_.size(); ++m) draw_edges(m);
@@ -108,18 +108,18 @@ class Drawn {
 
 // Whether a member's nearest edge point at the place is hidden by another: where the kernel may
 // know less than a drawn map.
-bool nearest_is_hidden(const Boxes& from, std::size_t realization, double u, double v) {
+bool nearest_is_hidden(const Boxes& from, std::size_t combination, double u, double v) {
   const test::ChamferScene& scene = from.scene;
-  const CombinationBits combinations = scene.combinations();
+  const CombinationBits combinations = scene.combination_count();
   const int x = int(std::lround(u)), y = int(std::lround(v));
   for (std::size_t c = 0; c < from.boxes.size(); ++c) {
     const CandidateMap& map = scene.maps[c];
-    if (!combinations.has(realization, c) || !map.window.contains(x, y)) continue;
+    if (!combinations.has(combination, c) || !map.window.contains(x, y)) continue;
     const std::uint32_t word = scene.nearest[map.first_pixel + map.window.index(x, y)];
     if (word == CANDIDATE_MAP_EMPTY) continue;
     const MapEdge& edge = scene.edges[map.first_edge + (word & 0xffffu)];
     for (std::size_t o = 0; o < from.boxes.size(); ++o) {
-      if (o == c || !combinations.has(realization, o)) continue;
+      if (o == c || !combinations.has(combination, o)) continue;
       const auto z =
           test::box_depth(from.boxes[o], camera, std::lround(edge.x_px), std::lround(edge.y_px));
       if (z && *z + scene.tolerance_m[o] < edge.z_m) return true;
@@ -133,15 +133,15 @@ TEST(CombinationChamfer, EveryPointAgreesWithTheDrawnRealization) {
   int compared = 0, hidden = 0, knows_less = 0, hidden_nearest = 0;
   for (int round = 0; round < 5; ++round) {
     const Boxes made = box_scene(rng, 7, true);
-    const auto cells = combination_chamfer_reference(made.scene.view(), made.scene.combinations(),
-                                                     chamfer_options);
-    for (std::uint32_t j = 0; j < made.scene.realizations; ++j) {
+    const auto cells = combination_chamfer_reference(
+        made.scene.view(), made.scene.combination_count(), chamfer_options);
+    for (std::uint32_t j = 0; j < made.scene.combination_count; ++j) {
       const Drawn drawn(made, j);
       for (std::size_t i = 0; i < made.scene.points.size(); ++i) {
         const ParticlePoint& point = made.scene.points[i];
-        const ChamferCell& cell = cells[i * made.scene.realizations + j];
+        const ChamferCell& cell = cells[i * made.scene.combination_count + j];
         ASSERT_EQ(cell.seen, drawn.shows(point.x_px, point.y_px, point.z_m));
-        EXPECT_EQ(cell.fresh, cell.seen * point.fresh);
+        EXPECT_EQ(cell.unseen, cell.seen * point.unseen);
         if (cell.seen == 0) {
           ++hidden;
           continue;
@@ -174,23 +174,23 @@ TEST(CombinationChamfer, MeansAgreeWithTheDrawnRealization) {
   int count = 0;
   for (int round = 0; round < 4; ++round) {
     const Boxes made = box_scene(rng, 6, false);
-    const auto cells = combination_chamfer_reference(made.scene.view(), made.scene.combinations(),
-                                                     chamfer_options);
-    for (std::uint32_t j = 0; j < made.scene.realizations; ++j) {
+    const auto cells = combination_chamfer_reference(
+        made.scene.view(), made.scene.combination_count(), chamfer_options);
+    for (std::uint32_t j = 0; j < made.scene.combination_count; ++j) {
       const Drawn drawn(made, j);
       for (std::size_t i = 0; i < made.boxes.size(); ++i) {
         double sum = 0;
-        std::uint32_t seen = 0, fresh = 0;
+        std::uint32_t seen = 0, unseen = 0;
         for (std::uint32_t p = made.scene.first_point[i]; p < made.scene.first_point[i + 1]; ++p) {
           const ParticlePoint& point = made.scene.points[p];
           if (!drawn.shows(point.x_px, point.y_px, point.z_m)) continue;
           sum += drawn.distance_px(point.x_px, point.y_px);
           ++seen;
-          fresh += point.fresh;
+          unseen += point.unseen;
         }
-        const ChamferCell& cell = cells[i * made.scene.realizations + j];
+        const ChamferCell& cell = cells[i * made.scene.combination_count + j];
         EXPECT_EQ(cell.seen, seen);
-        EXPECT_EQ(cell.fresh, fresh);
+        EXPECT_EQ(cell.unseen, unseen);
         const double error = std::abs(mean_px(cell, chamfer_options.cap_px) -
                                       (seen ? sum / seen : chamfer_options.cap_px));
         worst = std::max(worst, error);
@@ -211,16 +211,16 @@ TEST(CombinationChamfer, NothingSeenOrNoMemberGivesTheCap) {
   made.scene.add_particle({});
   const ChamferOptions short_cap{4};
   const auto cells =
-      combination_chamfer_reference(made.scene.view(), made.scene.combinations(), short_cap);
-  const std::uint32_t m = made.scene.realizations;
+      combination_chamfer_reference(made.scene.view(), made.scene.combination_count(), short_cap);
+  const std::uint32_t m = made.scene.combination_count;
   for (std::uint32_t j = 0; j < m; ++j)
     for (const std::size_t i : {std::size_t{3}, std::size_t{4}}) {
       EXPECT_EQ(cells[i * m + j].seen, 0);
-      EXPECT_EQ(cells[i * m + j].fresh, 0);
+      EXPECT_EQ(cells[i * m + j].unseen, 0);
       EXPECT_EQ(mean_px(cells[i * m + j], short_cap.cap_px), 4);
     }
   for (std::size_t i = 0; i < 3; ++i)
-    EXPECT_EQ(mean_px(cells[i * m], short_cap.cap_px), 4);  // the empty realization
+    EXPECT_EQ(mean_px(cells[i * m], short_cap.cap_px), 4);  // the empty combination
   for (const ChamferCell& cell : cells) EXPECT_LE(mean_px(cell, short_cap.cap_px), 4);
 }
 

@@ -32,10 +32,11 @@ class MutualInformationPaths : public test::PathTest {
     };
     for (const InformationOptions& options : all_options) {
       const double expected = mutual_information_reference(
-          {own->particles, own->realizations, chamfer.cap_px, cells}, beliefs, options);
+          {own->particles, own->combinations, chamfer.cap_px, cells}, beliefs, options);
       const double found = tested->mutual_information(*own, beliefs, options);
       EXPECT_NEAR(found, expected, tolerance(expected, options.scale_px2))
-          << "scale " << options.scale_px2 << (options.literal ? ", literal" : "");
+          << "scale " << options.scale_px2
+          << (options.use_paper_formula ? ", use_paper_formula" : "");
       EXPECT_GE(found, 0);
       worst = std::max(worst, std::abs(found - expected) / (1 + expected));
       largest = std::max(largest, expected);

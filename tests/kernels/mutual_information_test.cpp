@@ -12,28 +12,29 @@ namespace edgescout {
 namespace {
 
 struct Table {
-  std::uint32_t particles, realizations;
+  std::uint32_t particles, combinations;
   std::vector<ChamferCell> cells;
   std::vector<ParticleBelief> beliefs;
   double cap_px = 255.0 / 16;
-  ChamferTable view() const { return {particles, realizations, cap_px, cells}; }
+  ChamferTable view() const { return {particles, combinations, cap_px, cells}; }
   ChamferCell& at(std::uint32_t i, std::uint32_t j) {
-    return cells[std::size_t(i) * realizations + j];
+    return cells[std::size_t(i) * combinations + j];
   }
 };
 
-ChamferCell cell_of(double mu_px, int seen, int fresh) {
-  return {std::uint32_t(std::lround(16 * mu_px * seen)), std::uint16_t(seen), std::uint16_t(fresh)};
+ChamferCell cell_of(double mu_px, int seen, int unseen) {
+  return {std::uint32_t(std::lround(16 * mu_px * seen)), std::uint16_t(seen),
+          std::uint16_t(unseen)};
 }
 
 // Means in [low, high] px; now and then nothing is seen.
-Table random_table(std::mt19937& rng, std::uint32_t particles, std::uint32_t realizations,
+Table random_table(std::mt19937& rng, std::uint32_t particles, std::uint32_t combinations,
                    double low_px, double high_px) {
   std::uniform_real_distribution<double> mu(low_px, high_px), log_weight(-3, 3), upsilon(0, 20);
   std::uniform_int_distribution<int> seen(0, 60);
-  Table table{particles, realizations, {}, {}};
+  Table table{particles, combinations, {}, {}};
   for (std::uint32_t i = 0; i < particles; ++i) {
-    for (std::uint32_t j = 0; j < realizations; ++j) {
+    for (std::uint32_t j = 0; j < combinations; ++j) {
       const int s = seen(rng);
       table.cells.push_back(cell_of(mu(rng), s, s / 2));
     }
@@ -44,7 +45,7 @@ Table random_table(std::mt19937& rng, std::uint32_t particles, std::uint32_t rea
 }
 
 double direct(const Table& table, const InformationOptions& options) {
-  const std::size_t n = table.particles, m = table.realizations;
+  const std::size_t n = table.particles, m = table.combinations;
   std::vector<long double> w(n), l(n * m), p(m, 0);
   long double weights = 0;
   for (std::size_t i = 0; i < n; ++i)
@@ -57,14 +58,14 @@ double direct(const Table& table, const InformationOptions& options) {
       const long double mu =
           cell.seen > 0 ? (long double)(cell.sum) / cell.seen / 16 : (long double)(table.cap_px);
       const long double points =
-          b.already_seen + cell.fresh > 0 ? b.already_seen + cell.fresh : 0.5L;
-      l[i * m + j] =
-          points / b.total *
-          std::exp(-(mu * mu + (options.literal ? b.upsilon_px2 : 0)) / options.scale_px2);
+          b.already_seen + cell.unseen > 0 ? b.already_seen + cell.unseen : 0.5L;
+      l[i * m + j] = points / b.total *
+                     std::exp(-(mu * mu + (options.use_paper_formula ? b.upsilon_px2 : 0)) /
+                              options.scale_px2);
       row += l[i * m + j];
     }
     for (std::size_t j = 0; j < m; ++j) {
-      if (!options.literal) l[i * m + j] /= row;
+      if (!options.use_paper_formula) l[i * m + j] /= row;
       p[j] += w[i] / weights * l[i * m + j];
     }
   }
@@ -88,13 +89,13 @@ class MutualInformation : public ::testing::TestWithParam<bool> {
 TEST_P(MutualInformation, IsTheSumOfTheEquation) {
   std::mt19937 rng = test::test_rng();
   for (const double scale : {0.5, 8.0, 200.0})
-    for (const bool literal : {false, true})
-      for (const auto& [particles, realizations] :
+    for (const bool use_paper_formula : {false, true})
+      for (const auto& [particles, combinations] :
            std::vector<std::pair<int, int>>{{1, 1}, {1, 9}, {7, 1}, {5, 3}, {40, 70}}) {
-        const Table table = random_table(rng, particles, realizations, 0, 12);
-        const double expected = direct(table, {scale, literal});
-        EXPECT_NEAR(of(table, {scale, literal}), expected, 1e-9 * (1 + expected))
-            << particles << " x " << realizations;
+        const Table table = random_table(rng, particles, combinations, 0, 12);
+        const double expected = direct(table, {scale, use_paper_formula});
+        EXPECT_NEAR(of(table, {scale, use_paper_formula}), expected, 1e-9 * (1 + expected))
+            << particles << " x " << combinations;
       }
 }
 
@@ -102,11 +103,11 @@ TEST_P(MutualInformation, StaysBetweenZeroAndBothEntropies) {
   std::mt19937 rng = test::test_rng();
   double largest = 0;
   for (int round = 0; round < 60; ++round) {
-    const std::uint32_t particles = 1 + rng() % 12, realizations = 1 + rng() % 12;
-    const Table table = random_table(rng, particles, realizations, 0, round % 2 == 0 ? 3 : 60);
+    const std::uint32_t particles = 1 + rng() % 12, combinations = 1 + rng() % 12;
+    const Table table = random_table(rng, particles, combinations, 0, round % 2 == 0 ? 3 : 60);
     const double information = of(table, {round % 3 == 0 ? 0.01 : 20.0, false});
     EXPECT_GE(information, 0);
-    EXPECT_LE(information, std::log(std::min(particles, realizations)) + 1e-12);
+    EXPECT_LE(information, std::log(std::min(particles, combinations)) + 1e-12);
     EXPECT_GE(of(table, {20, true}), 0);
     largest = std::max(largest, information);
   }
@@ -120,7 +121,7 @@ TEST_P(MutualInformation, ReachesTheBoundWhenEveryParticleHasItsOwnRealization) 
   EXPECT_NEAR(of(table, {2, false}), std::log(8.0), 1e-9);
 }
 
-// Totals, weights and points seen before differ, but not how a particle's own realizations compare.
+// Totals, weights and points seen before differ, but not how a particle's own combinations compare.
 TEST_P(MutualInformation, IsZeroWhereTheLikelihoodDoesNotDependOnTheParticle) {
   std::mt19937 rng = test::test_rng();
   Table table = random_table(rng, 30, 50, 0, 15);

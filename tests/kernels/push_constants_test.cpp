@@ -185,7 +185,7 @@ TEST(PushConstants, CombinationChamfer) {
         std::span<const std::uint32_t>(chamfer_rows_spv),
         std::span<const std::uint32_t>(chamfer_sums_spv)})
     expect_members<Push>(spirv, {MEMBER(count), MEMBER(words), MEMBER(first_word),
-                                 MEMBER(column_words), MEMBER(realizations), MEMBER(cap)});
+                                 MEMBER(column_words), MEMBER(combinations), MEMBER(cap)});
 }
 
 TEST(PushConstants, MutualInformation) {
@@ -194,7 +194,7 @@ TEST(PushConstants, MutualInformation) {
        {std::span<const std::uint32_t>(information_rows_spv),
         std::span<const std::uint32_t>(information_columns_spv)})
     expect_members<Push>(
-        spirv, {MEMBER(particles), MEMBER(realizations), MEMBER(cap_px), MEMBER(inverse_scale)});
+        spirv, {MEMBER(particles), MEMBER(combinations), MEMBER(cap_px), MEMBER(inverse_scale)});
 }
 
 TEST(PushConstants, EdgeGradient) {

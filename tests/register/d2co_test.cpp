@@ -128,9 +128,9 @@ TEST_P(D2co, RegistersEveryHypothesisOnItsOwn) {
   Random random = test_random();
   PartScene scene("bearing_block", 2, random, *backend);
   const std::vector<EdgeModel> models{part_model("hex_nut"), scene.model};
-  Hypothesis behind{1, inverse(scene.views[0].camera_from_world) *
+  ObjectPose behind{1, inverse(scene.views[0].camera_from_world) *
                            Se3{Eigen::Quaterniond::Identity(), {0, 0, -3}}};
-  const std::vector<Hypothesis> all{
+  const std::vector<ObjectPose> all{
       {0, scene.start.world_from_object}, {1, scene.start.world_from_object}, behind};
   const std::vector<Registration> found = GetParam().solve(models, all, scene.views, *backend, {});
   ASSERT_EQ(found.size(), 3u);
@@ -144,7 +144,7 @@ TEST_P(D2co, RegistersEveryHypothesisOnItsOwn) {
 TEST_P(D2co, RefusesPosesThatAreNone) {
   Random random = test_random();
   PartScene scene("l_bracket", 1, random, *backend);
-  const Hypothesis start = scene.start;
+  const ObjectPose start = scene.start;
   scene.start.world_from_object.rotation.coeffs().setConstant(
       std::numeric_limits<double>::quiet_NaN());
   EXPECT_THROW(solve(scene), LogicError);

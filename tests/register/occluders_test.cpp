@@ -48,7 +48,7 @@ TEST(Occluders, HideWhatRaysMeetLater) {
   const Se3 known{random.rotation(), {0.01, -0.01, 0.4}};
   RegisterView view;
   view.camera = scene_camera();
-  const Hypothesis hypothesis{0, known};
+  const ObjectPose hypothesis{0, known};
   const auto occluders = make_occluders({&model, 1}, {&hypothesis, 1}, view, *backend);
   ASSERT_NE(occluders, nullptr);
   const double tolerance_m = 0.004;
@@ -84,13 +84,13 @@ TEST(Occluders, HideNothingOutsideTheImageOrBehindTheCamera) {
   const EdgeModel model = part_model("l_bracket");
   RegisterView view;
   view.camera = scene_camera();
-  const Hypothesis near{0, {Eigen::Quaterniond::Identity(), {0, 0, 0.2}}};
+  const ObjectPose near{0, {Eigen::Quaterniond::Identity(), {0, 0, 0.2}}};
   const auto occluders = make_occluders({&model, 1}, {&near, 1}, view, *backend);
   EXPECT_TRUE(occluders->hide(5 * (near.world_from_object * middle_of_largest_triangle(model.mesh)),
                               0.001));
   EXPECT_FALSE(occluders->hide({0, 0, -1}, 0.001));
   EXPECT_FALSE(occluders->hide({9, 0, 1}, 0.001));
-  const Hypothesis behind{0, {Eigen::Quaterniond::Identity(), {0, 0, -0.5}}};
+  const ObjectPose behind{0, {Eigen::Quaterniond::Identity(), {0, 0, -0.5}}};
   EXPECT_FALSE(make_occluders({&model, 1}, {&behind, 1}, view, *backend)->hide({0, 0, 1}, 0.001));
   EXPECT_EQ(make_occluders({&model, 1}, {}, view, *backend), nullptr);
 }
@@ -100,7 +100,7 @@ TEST(Occluders, HideNothingOutsideTheImageOrBehindTheCamera) {
 struct CoveredPart {
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
   std::vector<EdgeModel> models{part_model("l_bracket"), part_model("bearing_block")};
-  Hypothesis covered, cover;
+  ObjectPose covered, cover;
   RegisterView view;
   double share = 0;  // of the bracket's edge that is hidden
 
@@ -130,7 +130,7 @@ struct CoveredPart {
     view.view = backend->make_view(edges, camera.width, camera.height, {}, k, {});
   }
   void know_the_cover() { view.occluders = make_occluders(models, {&cover, 1}, view, *backend); }
-  PoseFeatures features_of(const Hypothesis& pose) const {
+  PoseFeatures features_of(const ObjectPose& pose) const {
     return pose_features(models, {&pose, 1}, {&view, 1}, *backend, {})[0];
   }
   Registration registered() const {

@@ -13,7 +13,7 @@ TEST(PoseFeatures, OfAllViewsAreTheMeansOverTheirPoints) {
   Random random = test_random();
   const auto backend = make_reference_backend();
   const PartScene scene("l_bracket", 3, random, *backend);
-  const std::vector<Hypothesis> poses{
+  const std::vector<ObjectPose> poses{
       {0, scene.truth}, scene.start, {0, {Eigen::Quaterniond::Identity(), {50, 0, 0}}}};
   const std::vector<EdgeModel> models{scene.model};
   const PoseScoreOptions options;
@@ -50,7 +50,7 @@ TEST(PoseFeatures, CountWhatLiesInTheImage) {
   const auto backend = make_cpu_backend(2);
   const PartScene scene("bearing_block", 1, random, *backend);
   const std::vector<EdgeModel> models{scene.model};
-  const Hypothesis truth{0, scene.truth};
+  const ObjectPose truth{0, scene.truth};
   const Camera camera = scene.views[0].camera;
   const auto features_in = [&](int x0, int width) {
     Camera cut = camera;
@@ -77,7 +77,7 @@ TEST(PoseFeatures, TellEvidenceFromSurroundingsThatAgreeAnywhere) {
   const auto backend = make_cpu_backend(2);
   const Camera camera{320, 240, 400, 400, 159.5, 119.5, {}};
   const std::vector<EdgeModel> models{make_edge_model(make_part("u_channel").mesh)};
-  const Hypothesis pose{0, {so3_exp({0.05, -0.04, 0.03}), {0, 0, 0.3}}};
+  const ObjectPose pose{0, {so3_exp({0.05, -0.04, 0.03}), {0, 0, 0.3}}};
   Image stripes{camera.width, camera.height, std::vector<std::uint8_t>(320 * 240)};
   for (int i = 0; i < 320 * 240; ++i) stripes.pixels[std::size_t(i)] = (i / 320) % 6 < 3 ? 40 : 200;
   Image filled{camera.width, camera.height, std::vector<std::uint8_t>(320 * 240, 60)};
@@ -96,10 +96,10 @@ TEST(PoseFeatures, TellEvidenceFromSurroundingsThatAgreeAnywhere) {
   };
   const PoseFeatures on_stripes = features_on(stripes), on_itself = features_on(filled);
   EXPECT_GT(on_stripes.psi, 0.3);
-  EXPECT_NEAR(on_stripes.beside_psi, on_stripes.psi, 0.1);
+  EXPECT_NEAR(on_stripes.background_psi, on_stripes.psi, 0.1);
   EXPECT_GT(on_itself.psi, 0.3);
-  EXPECT_LT(on_itself.beside_psi, 0.5 * on_itself.psi);
-  EXPECT_GT(evidence_over_beside(on_itself), 3 * std::abs(evidence_over_beside(on_stripes)));
+  EXPECT_LT(on_itself.background_psi, 0.5 * on_itself.psi);
+  EXPECT_GT(background_psi_z_score(on_itself), 3 * std::abs(background_psi_z_score(on_stripes)));
 }
 
 }  // namespace

@@ -13,9 +13,9 @@
 namespace edgescout::test {
 namespace {
 
-std::vector<Hypothesis> starts_around(const Se3& truth, int count, double offset_m,
+std::vector<ObjectPose> starts_around(const Se3& truth, int count, double offset_m,
                                       double angle_rad, Random& random) {
-  std::vector<Hypothesis> starts;
+  std::vector<ObjectPose> starts;
   for (int i = 0; i < count; ++i) {
     Vector6d off;
     off << offset_m * random.direction(), angle_rad * random.direction();
@@ -29,10 +29,10 @@ TEST(Refine, DoesNotDependOnHowManyAreRefinedTogether) {
   const auto backend = make_cpu_backend(2);
   const PartScene scene("l_bracket", 2, random, *backend);
   const std::vector<EdgeModel> models{scene.model};
-  const std::vector<Hypothesis> starts = starts_around(scene.truth, 5, 0.01, 0.2, random);
+  const std::vector<ObjectPose> starts = starts_around(scene.truth, 5, 0.01, 0.2, random);
   for (const double search_rad : {0.0, 0.25}) {
     RefineOptions options;
-    options.polish = false;  // these views have no edge index
+    options.use_edge_icp = false;  // these views have no edge index
     options.search.rotation_rad = search_rad;
     const std::vector<Refined> together =
         refine_poses(models, starts, scene.views, *backend, options);
@@ -68,12 +68,12 @@ TEST(Refine, FindsAPartWhereverItsOriginLies) {
       make_edge_model(make_mesh("shifted", shifted.vertices_m, shifted.triangles));
   const Se3 shifted_from_part{Eigen::Quaterniond::Identity(), shift_m};
   RefineOptions options;
-  options.polish = false;  // these views have no edge index
-  std::vector<Hypothesis> starts = starts_around(scene.truth, 24, 0.02, 0.9, random),
+  options.use_edge_icp = false;  // these views have no edge index
+  std::vector<ObjectPose> starts = starts_around(scene.truth, 24, 0.02, 0.9, random),
                           starts_elsewhere;
-  for (const Hypothesis& start : starts)
+  for (const ObjectPose& start : starts)
     starts_elsewhere.push_back({0, start.world_from_object * inverse(shifted_from_part)});
-  const auto right = [&](const EdgeModel& model, const std::vector<Hypothesis>& from,
+  const auto right = [&](const EdgeModel& model, const std::vector<ObjectPose>& from,
                          const Se3& back) {
     int count = 0;
     for (const Refined& refined : refine_poses({&model, 1}, from, scene.views, *backend, options))

@@ -69,7 +69,7 @@ struct PartScene {
   EdgeModel model;
   Se3 truth;
   std::vector<RegisterView> views;
-  Hypothesis start;
+  ObjectPose start;
 
   PartScene(const std::string& part, int view_count, Random& random, Backend& backend,
             const TensorOptions& options = {})

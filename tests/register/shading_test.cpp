@@ -59,7 +59,7 @@ struct ShadedPart {
   }
   void show(const Image& image) { view.image = std::make_shared<Image>(image); }
   Shading at(const Se3& pose) const {
-    const Hypothesis hypothesis{0, pose};
+    const ObjectPose hypothesis{0, pose};
     return shading({&model, 1}, {&hypothesis, 1}, {&view, 1}, *backend)[0];
   }
 };
@@ -127,7 +127,7 @@ TEST(Shading, LeavesOutWhatKnownPartsHide) {
     if (before.pixels[i] > 0) image.pixels[i] = std::uint8_t(random.below(256));
   part.show(image);
   const Shading blind = part.at(part.truth);
-  const Hypothesis known{0, nearer};
+  const ObjectPose known{0, nearer};
   part.view.occluders = make_occluders({&cover, 1}, {&known, 1}, part.view, *part.backend);
   const Shading knowing = part.at(part.truth);
   EXPECT_GT(unexplained_grey(blind), 0.5);
@@ -144,7 +144,7 @@ TEST(Shading, IsAnsweredInTheOrderOfPosesAndViews) {
   RegisterView blind = part.view;
   blind.image = nullptr;
   const std::vector<RegisterView> views{blind, part.view};
-  const std::vector<Hypothesis> poses{{1, part.truth}, {0, part.truth}, {1, part.truth}};
+  const std::vector<ObjectPose> poses{{1, part.truth}, {0, part.truth}, {1, part.truth}};
   const std::vector<Shading> all = shading(models, poses, views, *part.backend);
   ASSERT_EQ(all.size(), 6u);
   for (int i : {0, 2, 4}) EXPECT_EQ(all[i].pixels, 0);

@@ -24,7 +24,7 @@ TEST(VisibleInViews, EveryPoseInEveryViewAsAlone) {
   Random random = test_random();
   const auto backend = make_cpu_backend(2);
   const std::vector<EdgeModel> models{part_model("l_bracket"), part_model("bearing_block")};
-  std::vector<Hypothesis> poses;
+  std::vector<ObjectPose> poses;
   for (const int object : {1, 0, 1})
     poses.push_back({object, {random.rotation(), 0.02 * random.direction()}});
   std::vector<RegisterView> views(2);
@@ -32,7 +32,7 @@ TEST(VisibleInViews, EveryPoseInEveryViewAsAlone) {
     view.camera = scene_camera();
     view.camera_from_world = camera_looking_at(0.4 * random.direction(), Eigen::Vector3d::Zero());
   }
-  const Hypothesis cover{0,
+  const ObjectPose cover{0,
                          inverse(views[1].camera_from_world) * Se3{random.rotation(), {0, 0, 0.2}}};
   views[1].occluders = make_occluders(models, {&cover, 1}, views[1], *backend);
 
@@ -40,7 +40,7 @@ TEST(VisibleInViews, EveryPoseInEveryViewAsAlone) {
   ASSERT_EQ(seen.size(), 6u);
   std::size_t hidden = 0;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    const Hypothesis& pose = poses[i / 2];
+    const ObjectPose& pose = poses[i / 2];
     const EdgeModel& model = models[std::size_t(pose.object)];
     const Se3 camera_from_object = views[i % 2].camera_from_world * pose.world_from_object;
     std::vector<ModelPoint> expected = visible_edges(model, {&camera_from_object, 1}, *backend)[0];
@@ -62,7 +62,7 @@ TEST(VisibleInViews, RefusesAnObjectThatIsNone) {
   RegisterView view;
   view.camera = scene_camera();
   for (const int object : {-1, 1}) {
-    const Hypothesis pose{object, {Eigen::Quaterniond::Identity(), {0, 0, 0.4}}};
+    const ObjectPose pose{object, {Eigen::Quaterniond::Identity(), {0, 0, 0.4}}};
     EXPECT_THROW(visible_in_views({&model, 1}, {&pose, 1}, {&view, 1}, *backend), LogicError);
   }
   EXPECT_TRUE(visible_in_views({&model, 1}, {}, {&view, 1}, *backend).empty());

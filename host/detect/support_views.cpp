@@ -1,4 +1,4 @@
-#include "host/detect/helping_views.h"
+#include "host/detect/support_views.h"
 
 #include <algorithm>
 #include <numeric>
@@ -15,7 +15,7 @@ double between_cameras_m(const Observation& a, const Observation& b) {
 
 }  // namespace
 
-std::vector<Observation> helping_views(const Observation& own, std::span<const Observation> others,
+std::vector<Observation> support_views(const Observation& own, std::span<const Observation> others,
                                        std::size_t most) {
   if (others.size() <= most) return {others.begin(), others.end()};
   std::vector<std::size_t> nearest_first(others.size());

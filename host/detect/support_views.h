@@ -12,7 +12,7 @@ namespace edgescout {
 // registered in all of them, which would grow with the square of a scene's views. They are spread
 // evenly from the camera that stands nearest to the farthest: near ones see the same sides of a
 // part, far ones what hides it here.
-std::vector<Observation> helping_views(const Observation& own, std::span<const Observation> others,
+std::vector<Observation> support_views(const Observation& own, std::span<const Observation> others,
                                        std::size_t most);
 
 // All images but this one, in the order given.

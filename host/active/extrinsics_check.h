@@ -9,7 +9,7 @@
 
 namespace edgescout {
 
-struct ViewAgreement {
+struct ExtrinsicsCheck {
   double residual_px =
       0;  // median over the objects of how far their points move in this image when only it
           // has a say; 0 where `objects` is 0. Of two that disagree both have the larger
@@ -19,7 +19,7 @@ struct ViewAgreement {
   bool disagrees = false;
 };
 
-struct AgreementOptions {
+struct ExtrinsicsCheckOptions {
   double max_residual_px = 2;
   double min_probability =
       0.3;  // of an object's pose registered on the one image alone, for it to judge
@@ -41,16 +41,17 @@ struct AgreementOptions {
 // objects that it should: its pose is so wrong that registration does not find them. Fewer than two
 // views or no objects: nothing can disagree; a scene of one object, or of two views, does not tell
 // a grossly wrong pose from an object that is hidden.
-std::vector<ViewAgreement> view_agreement(std::span<const EdgeModel> models,
-                                          std::span<const Hypothesis> objects,
-                                          std::span<const RegisterView> views, Backend& backend,
-                                          const AgreementOptions& options = {});
+std::vector<ExtrinsicsCheck> extrinsics_check(std::span<const EdgeModel> models,
+                                              std::span<const ObjectPose> objects,
+                                              std::span<const RegisterView> views, Backend& backend,
+                                              const ExtrinsicsCheckOptions& options = {});
 
 // What `before`, the same of fewer images, said of an image that nothing could judge this time
 // stands: that the objects are gone is no word for its pose.
-void keep_flags(std::span<const ViewAgreement> before, std::span<ViewAgreement> now);
+void keep_flags(std::span<const ExtrinsicsCheck> before, std::span<ExtrinsicsCheck> now);
 
 // A warning in the log for each flag that `before`, the same of the images so far, did not have.
-void warn_of(std::span<const ViewAgreement> agreement, std::span<const ViewAgreement> before = {});
+void warn_of(std::span<const ExtrinsicsCheck> extrinsics_checks,
+             std::span<const ExtrinsicsCheck> before = {});
 
 }  // namespace edgescout

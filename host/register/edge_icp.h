@@ -13,14 +13,14 @@
 
 namespace edgescout {
 
-struct PolishRound {
+struct EdgeIcpRound {
   float radius_px = 3;  // of association
   float scale_px = 1;   // of the loss
   int iterations = 4;
 };
 
-struct PolishOptions {
-  std::vector<PolishRound> rounds{{5, 2.5f, 4}, {3, 1.2f, 5}, {2, 0.8f, 5}};
+struct EdgeIcpOptions {
+  std::vector<EdgeIcpRound> rounds{{5, 2.5f, 4}, {3, 1.2f, 5}, {2, 0.8f, 5}};
   float max_turn_rad = 0.3f;
   double min_matched =
       0.1;             // of the visible points in all views: with fewer the pose is left alone
@@ -34,8 +34,8 @@ struct PolishOptions {
 // Improves the pose of every registration in place and gives it the covariance of
 // edge_covariance.h. Views without an edge index do not take part. Where there are too few edges
 // all stays as it is.
-void polish_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
-                  std::span<const RegisterView> views, Backend& backend,
-                  const PolishOptions& options, std::span<Registration> registrations);
+void edge_icp(std::span<const EdgeModel> models, std::span<const ObjectPose> hypotheses,
+              std::span<const RegisterView> views, Backend& backend, const EdgeIcpOptions& options,
+              std::span<Registration> registrations);
 
 }  // namespace edgescout

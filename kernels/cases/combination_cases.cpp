@@ -1,4 +1,4 @@
-#include "kernels/cases/hypotheses.h"
+#include "kernels/cases/combination_cases.h"
 
 #include <numbers>
 
@@ -81,7 +81,7 @@ Hypotheses::Hypotheses(const HypothesesSize& size) : size_(size) {
   }
   test::ChamferScene bits;
   bits.maps.resize(std::size_t(size.candidates));
-  bits.draw_combinations(rng, size.realizations, 0.5);
+  bits.draw_combinations(rng, size.combinations, 0.5);
   combinations_ = bits.words;
 }
 
@@ -102,7 +102,7 @@ test::ChamferScene Hypotheses::view(int index) const {
     scene.add_particle(points);
   }
   scene.nearest.resize(scene.surface_m.size());
-  scene.realizations = size_.realizations;
+  scene.combination_count = size_.combinations;
   scene.words = combinations_;
   return scene;
 }

@@ -1,4 +1,4 @@
-#include "host/register/polish.h"
+#include "host/register/edge_icp.h"
 
 #include <numbers>
 
@@ -39,7 +39,7 @@ struct Counts {
 // are by the camera's tangent.
 template <typename Visit>
 Counts match_points(const RegisterView& view, const Se3& world_from_object,
-                    std::span<const ModelPoint> points, const PolishRound& round,
+                    std::span<const ModelPoint> points, const EdgeIcpRound& round,
                     float max_turn_rad, const Visit& visit) {
   const Pose pose = to_pose(view.camera_from_world * world_from_object);
   const Intrinsics& k = view.view->intrinsics;
@@ -76,7 +76,7 @@ struct LineSystem {
 };
 
 void add_points(LineSystem& sum, const RegisterView& view, const Se3& world_from_object,
-                std::span<const ModelPoint> points, const PolishRound& round, float max_turn_rad) {
+                std::span<const ModelPoint> points, const EdgeIcpRound& round, float max_turn_rad) {
   Matrix6d hessian = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   const Counts counts = match_points(view, world_from_object, points, round, max_turn_rad,
@@ -102,7 +102,7 @@ std::uint64_t line_number(std::size_t view, double theta_rad, double offset_px) 
 }
 
 Matrix6d covariance_at(const Se3& pose, std::span<const RegisterView> views,
-                       std::span<const VisibleInView> seen, const PolishRound& round,
+                       std::span<const VisibleInView> seen, const EdgeIcpRound& round,
                        float max_turn_rad) {
   EdgeCovariance sum;
   for (std::size_t v = 0; v < views.size(); ++v) {
@@ -122,7 +122,7 @@ Matrix6d covariance_at(const Se3& pose, std::span<const RegisterView> views,
 }
 
 LineSystem system_at(const Se3& pose, std::span<const RegisterView> views,
-                     std::span<const VisibleInView> seen, const PolishRound& round,
+                     std::span<const VisibleInView> seen, const EdgeIcpRound& round,
                      float max_turn_rad) {
   LineSystem sum;
   for (std::size_t v = 0; v < views.size(); ++v)
@@ -130,16 +130,16 @@ LineSystem system_at(const Se3& pose, std::span<const RegisterView> views,
   return sum;
 }
 
-bool enough(const LineSystem& system, const PolishOptions& options) {
+bool enough(const LineSystem& system, const EdgeIcpOptions& options) {
   constexpr int least_matched = 12;  // twice the unknowns
   return system.counts.matched >= least_matched &&
          system.counts.matched >= options.min_matched * system.counts.points;
 }
 
-void polish_one(Registration& registration, std::span<const RegisterView> views,
-                std::span<const VisibleInView> seen, const PolishOptions& options) {
+void edge_icp_of_one(Registration& registration, std::span<const RegisterView> views,
+                     std::span<const VisibleInView> seen, const EdgeIcpOptions& options) {
   Se3 pose = registration.world_from_object;
-  for (const PolishRound& round : options.rounds)
+  for (const EdgeIcpRound& round : options.rounds)
     for (int i = 0; i < round.iterations; ++i) {
       LineSystem system = system_at(pose, views, seen, round, options.max_turn_rad);
       if (!enough(system, options)) return;
@@ -161,10 +161,10 @@ void polish_one(Registration& registration, std::span<const RegisterView> views,
 
 }  // namespace
 
-void PolishOptions::validate() const {
+void EdgeIcpOptions::validate() const {
   const OptionBounds in("polish");
   if (rounds.empty()) throw InputError("options", "polish.rounds", "none", "at least one");
-  for (const PolishRound& round : rounds) {
+  for (const EdgeIcpRound& round : rounds) {
     in("radius", round.radius_px, 0.01, EdgeIndex::CELL_PX);
     in("scale", round.scale_px, 1e-3, 1000);
     in("iterations", round.iterations, 1, 1000);
@@ -177,15 +177,15 @@ void PolishOptions::validate() const {
   in("min_step_rad", min_step_rad, 0, 1e9);
 }
 
-void polish_poses(std::span<const EdgeModel> models, std::span<const Hypothesis> hypotheses,
-                  std::span<const RegisterView> views, Backend& backend,
-                  const PolishOptions& options, std::span<Registration> registrations) {
+void edge_icp(std::span<const EdgeModel> models, std::span<const ObjectPose> hypotheses,
+              std::span<const RegisterView> views, Backend& backend, const EdgeIcpOptions& options,
+              std::span<Registration> registrations) {
   std::vector<VisibleInView> seen = visible_in_views(
-      models, as_hypotheses(hypotheses, registrations), views, backend, options.visibility);
+      models, object_poses_of(hypotheses, registrations), views, backend, options.visibility);
   for (VisibleInView& view : seen) view.points = thinned(view.points, options.max_points);
   backend.threads().for_each(hypotheses.size(), [&](std::size_t h) {
-    polish_one(registrations[h], views, std::span(seen).subspan(h * views.size(), views.size()),
-               options);
+    edge_icp_of_one(registrations[h], views,
+                    std::span(seen).subspan(h * views.size(), views.size()), options);
   });
 }
 

@@ -7,7 +7,7 @@
 
 namespace edgescout {
 
-struct PoseTrack {
+struct LmState {
   Se3 pose, trial;
   WorldSystem system;  // at `pose`
   Vector6d step = Vector6d::Zero();
@@ -18,20 +18,21 @@ struct PoseTrack {
 };
 
 // LogicError for a start that is no pose or of no model, for no view or one that stands nowhere.
-void check_problem(std::span<const Hypothesis> starts, std::size_t models,
+void check_problem(std::span<const ObjectPose> starts, std::size_t models,
                    std::span<const RegisterView> views);
 // Before a round: the first trial is the pose itself.
-void restart(PoseTrack& track);
+void restart(LmState& state);
 // With the system at the first trial: a pose without points in front of the camera goes no further.
-void begin_at(PoseTrack& track, const WorldSystem& system);
+void initialize(LmState& state, const WorldSystem& system);
 // The next trial from the system at the pose. Marquardt's damping scales with the diagonal, so
 // metres and radians are damped alike: by the image motion they cause.
-void propose(PoseTrack& track);
-// Takes the trial where it lowered the mean cost; ends the track at a small step or where no step
+void compute_step(LmState& state);
+// Takes the trial where it lowered the mean cost; ends the state at a small step or where no step
 // helps.
-void judge(PoseTrack& track, const WorldSystem& at_trial, double min_step_m, double min_step_rad);
+void accept_step(LmState& state, const WorldSystem& at_trial, double min_step_m,
+                 double min_step_rad);
 bool is_small(const Vector6d& step, double min_step_m, double min_step_rad);
 
-Registration registration_of(const PoseTrack& track);
+Registration registration_of(const LmState& state);
 
 }  // namespace edgescout

@@ -1,13 +1,13 @@
 // Hits judged by several views: against sums over projected points, and what it is worth to a hit
 // that is right.
-#include "host/detect/joint_scan.h"
+#include "host/detect/rescore_in_views.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numbers>
 
-#include "host/detect/helping_views.h"
+#include "host/detect/support_views.h"
 #include "host/register/occluders.h"
 #include "tests/detect/part_image.h"
 #include "tests/test_random.h"
@@ -58,7 +58,7 @@ struct SeenPart {
   }
   std::span<const Observation> others() const { return std::span(views).subspan(1); }
   std::vector<ScanHit> judged(std::span<const ScanHit> hits) const {
-    return judged_by_all(set, hits, views[0], others(), *backend, ScanOptions{});
+    return rescore_in_views(set, hits, views[0], others(), *backend, ScanOptions{});
   }
 
   // Mean of a pose's points, as seen from the viewpoint nearest to where the camera sees `hit` from
@@ -105,7 +105,7 @@ struct SeenPart {
   }
 };
 
-const UnwantedPose nothing_unwanted = [](const Se3&) { return false; };
+const PoseFilter nothing_excluded = [](const Se3&) { return false; };
 
 ScanHit hit_at(const Se3& pose, double rank) {
   ScanHit hit;
@@ -161,7 +161,7 @@ TEST(JointScan, JudgesSymmetricPartsFromAllSides) {
     for (const Observation& other : t.others())
       mean_px +=
           2 *
-          judged_by_all(t.set, {&hit, 1}, t.views[0], {&other, 1}, *t.backend, ScanOptions{})[0]
+          rescore_in_views(t.set, {&hit, 1}, t.views[0], {&other, 1}, *t.backend, ScanOptions{})[0]
               .rank /
           std::pow(0.31, 0.25) / double(t.others().size());
     EXPECT_LT(mean_px, 1.5) << part;
@@ -271,14 +271,14 @@ TEST(JointScan, PoolsWhatEveryImageHas) {
   const std::vector<std::span<const ScanHit>> spans(hits.begin(), hits.end());
   for (const int helping : {3, 1}) {
     const std::vector<ScanHit> pooled = pooled_hits(
-        t.set, t.views, spans, helping, nothing_unwanted, 30, *t.backend, ScanOptions{});
+        t.set, t.views, spans, helping, nothing_excluded, 30, *t.backend, ScanOptions{});
     ASSERT_EQ(pooled.size(), 30u);
     std::size_t next = 0;
     for (std::size_t v = 0; v < 4; ++v) {
       std::vector<Observation> others = t.views;
       others.erase(others.begin() + int(v));
-      const std::vector<ScanHit> judged = judged_by_all(
-          t.set, hits[v], t.views[v], helping_views(t.views[v], others, std::size_t(helping)),
+      const std::vector<ScanHit> judged = rescore_in_views(
+          t.set, hits[v], t.views[v], support_views(t.views[v], others, std::size_t(helping)),
           *t.backend, ScanOptions{});
       for (const ScanHit& own : judged) {
         const ScanHit& hit = pooled[next++];
@@ -309,7 +309,7 @@ TEST(JointScan, AnEarlierHitComesFirstOnceOtherImagesShowIt) {
     hits[0].push_back(hit_at(t.views[0].view.camera_from_world * t.truth, 1.5));
     const std::vector<ScanHit> pooled =
         pooled_hits(t.set, t.views, std::vector<std::span<const ScanHit>>(hits.begin(), hits.end()),
-                    4, nothing_unwanted, 60, *t.backend, ScanOptions{});
+                    4, nothing_excluded, 60, *t.backend, ScanOptions{});
     const ScanHit& best = *std::ranges::min_element(pooled, {}, &ScanHit::rank);
     const Se3 truth = t.views[2].view.camera_from_world * t.truth;
     EXPECT_LT((best.camera_from_object.translation_m - truth.translation_m).norm(), 0.02);
@@ -317,7 +317,7 @@ TEST(JointScan, AnEarlierHitComesFirstOnceOtherImagesShowIt) {
   }
 }
 
-// What a quick look leaves is the best of what all would be, and nothing unwanted takes a place
+// What a quick look leaves is the best of what all would be, and nothing excluded takes a place
 // among it.
 TEST(JointScan, AQuickLookKeepsTheBestThatAreWanted) {
   Random random = test_random();
@@ -332,14 +332,14 @@ TEST(JointScan, AQuickLookKeepsTheBestThatAreWanted) {
           hit_at(retract(t.views[v].view.camera_from_world * t.truth, off), random.uniform(1, 2)));
     }
   const std::vector<std::span<const ScanHit>> spans(hits.begin(), hits.end());
-  const auto pooled = [&](const UnwantedPose& unwanted, std::size_t most) {
+  const auto pooled = [&](const PoseFilter& excluded, std::size_t most) {
     std::vector<ScanHit> found =
-        pooled_hits(t.set, t.views, spans, 4, unwanted, most, *t.backend, ScanOptions{});
+        pooled_hits(t.set, t.views, spans, 4, excluded, most, *t.backend, ScanOptions{});
     std::ranges::sort(found, {}, &ScanHit::rank);
     return found;
   };
-  const std::vector<ScanHit> all = pooled(nothing_unwanted, 1200),
-                             some = pooled(nothing_unwanted, 300);
+  const std::vector<ScanHit> all = pooled(nothing_excluded, 1200),
+                             some = pooled(nothing_excluded, 300);
   ASSERT_EQ(all.size(), 1200u);
   EXPECT_GE(some.size(), 300u);
   EXPECT_LT(some.size(), 330u) << "of ties all";
@@ -358,7 +358,7 @@ TEST(JointScan, AQuickLookKeepsTheBestThatAreWanted) {
   };
   const std::vector<ScanHit> low = pooled(is_high, 300);
   EXPECT_GE(low.size(), 250u)
-      << "what the unwanted leave free is taken; a closer look moves some among them";
+      << "what the excluded leave free is taken; a closer look moves some among them";
   for (const ScanHit& hit : low) EXPECT_FALSE(is_high(hit.camera_from_object));
   EXPECT_TRUE(pooled([](const Se3&) { return true; }, 300).empty());
 }

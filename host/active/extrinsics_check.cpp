@@ -1,4 +1,4 @@
-#include "host/active/view_agreement.h"
+#include "host/active/extrinsics_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,11 +41,11 @@ struct Judged {
   bool bare = false;             // shows not a trace of any
 };
 
-Judged judge(std::span<const EdgeModel> models, std::span<const Hypothesis> joint,
-             const RegisterView& view, Backend& backend, const AgreementOptions& options) {
+Judged judge(std::span<const EdgeModel> models, std::span<const ObjectPose> joint,
+             const RegisterView& view, Backend& backend, const ExtrinsicsCheckOptions& options) {
   const std::span<const RegisterView> alone(&view, 1);
-  const std::vector<Hypothesis> poses =
-      as_hypotheses(joint, register_poses(models, joint, alone, backend, options.single));
+  const std::vector<ObjectPose> poses =
+      object_poses_of(joint, register_poses(models, joint, alone, backend, options.single));
   const std::vector<PoseFeatures> features =
       pose_features(models, poses, alone, backend, options.score, options.single.visibility);
   Judged judged{{}, std::vector<double>(poses.size(), 0), true};
@@ -65,27 +65,27 @@ Judged judge(std::span<const EdgeModel> models, std::span<const Hypothesis> join
 }
 
 // What one of the views says beside the others. An object that no other view shows is no witness:
-// it may be none at all, and this view's chance agreement.
-ViewAgreement beside(const Judged& view, std::span<const Judged> all) {
-  ViewAgreement agreement;
+// it may be none at all, and this view's chance extrinsics_checks.
+ExtrinsicsCheck beside(const Judged& view, std::span<const Judged> all) {
+  ExtrinsicsCheck extrinsics_checks;
   std::vector<double> moved;
   for (std::size_t i = 0; i < view.shown.size(); ++i)
     if (view.shown[i] &&
         std::ranges::count_if(all, [i](const Judged& one) { return one.shown[i]; }) >= 2)
       moved.push_back(view.moved_px[i]);
-  agreement.objects = int(moved.size());
-  if (!moved.empty()) agreement.residual_px = median(moved);
-  return agreement;
+  extrinsics_checks.objects = int(moved.size());
+  if (!moved.empty()) extrinsics_checks.residual_px = median(moved);
+  return extrinsics_checks;
 }
 
 // Objects that `others` together hold, at least two of them with a trace of their own, and that
 // `view` should show, before what is known: a wrong pose of its camera must have no say in where
 // they are.
-int expected_in(std::span<const EdgeModel> models, std::span<const Hypothesis> objects,
+int expected_in(std::span<const EdgeModel> models, std::span<const ObjectPose> objects,
                 const RegisterView& view, std::span<const RegisterView> others, Backend& backend,
-                const AgreementOptions& options) {
-  const std::vector<Hypothesis> poses =
-      as_hypotheses(objects, register_poses(models, objects, others, backend, options.joint));
+                const ExtrinsicsCheckOptions& options) {
+  const std::vector<ObjectPose> poses =
+      object_poses_of(objects, register_poses(models, objects, others, backend, options.joint));
   const std::vector<PoseFeatures> by_other = pose_features_by_view(
       models, poses, others, backend, options.score, options.joint.visibility);
   const std::vector<PoseFeatures> here = pose_features(models, poses, std::span(&view, 1), backend,
@@ -104,29 +104,30 @@ int expected_in(std::span<const EdgeModel> models, std::span<const Hypothesis> o
 }
 
 // One a view of `trusted`.
-std::vector<ViewAgreement> judge_all(std::span<const EdgeModel> models,
-                                     std::span<const Hypothesis> objects,
-                                     std::span<const RegisterView> trusted, Backend& backend,
-                                     const AgreementOptions& options) {
-  const std::vector<Hypothesis> joint =
-      as_hypotheses(objects, register_poses(models, objects, trusted, backend, options.joint));
+std::vector<ExtrinsicsCheck> judge_all(std::span<const EdgeModel> models,
+                                       std::span<const ObjectPose> objects,
+                                       std::span<const RegisterView> trusted, Backend& backend,
+                                       const ExtrinsicsCheckOptions& options) {
+  const std::vector<ObjectPose> joint =
+      object_poses_of(objects, register_poses(models, objects, trusted, backend, options.joint));
   std::vector<Judged> judged;
   for (const RegisterView& view : trusted)
     judged.push_back(judge(models, joint, view, backend, options));
-  std::vector<ViewAgreement> agreement;
+  std::vector<ExtrinsicsCheck> extrinsics_checks;
   for (std::size_t v = 0; v < trusted.size(); ++v) {
-    agreement.push_back(beside(judged[v], judged));
+    extrinsics_checks.push_back(beside(judged[v], judged));
     if (!judged[v].bare || trusted.size() < 3) continue;
     std::vector<RegisterView> others(trusted.begin(), trusted.end());
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(v));
-    agreement[v].missing = expected_in(models, objects, trusted[v], others, backend, options);
+    extrinsics_checks[v].missing =
+        expected_in(models, objects, trusted[v], others, backend, options);
   }
-  return agreement;
+  return extrinsics_checks;
 }
 
 // The view to distrust among `open`; views.size() where there is none.
-std::size_t worst_of(std::span<const std::size_t> open, std::span<ViewAgreement> views,
-                     const AgreementOptions& options) {
+std::size_t worst_of(std::span<const std::size_t> open, std::span<ExtrinsicsCheck> views,
+                     const ExtrinsicsCheckOptions& options) {
   std::size_t worst = open[0], barest = open[0];
   for (const std::size_t v : open) {
     if (views[v].residual_px > views[worst].residual_px) worst = v;
@@ -143,7 +144,7 @@ std::size_t worst_of(std::span<const std::size_t> open, std::span<ViewAgreement>
   return views.size();
 }
 
-void warn(std::size_t view, const ViewAgreement& found) {
+void warn(std::size_t view, const ExtrinsicsCheck& found) {
   log(LogLevel::Warning,
       found.missing == 0
           ? fmt::format(
@@ -158,7 +159,7 @@ void warn(std::size_t view, const ViewAgreement& found) {
 
 }  // namespace
 
-D2coOptions AgreementOptions::joint_defaults() {
+D2coOptions ExtrinsicsCheckOptions::joint_defaults() {
   D2coOptions options;
   options.rounds = {{LOSS_GEMAN_MCCLURE, 30, 10, 300},
                     {LOSS_GEMAN_MCCLURE, 12, 8, 300},
@@ -166,37 +167,39 @@ D2coOptions AgreementOptions::joint_defaults() {
   return options;
 }
 
-D2coOptions AgreementOptions::single_defaults() { return joint_defaults(); }
+D2coOptions ExtrinsicsCheckOptions::single_defaults() { return joint_defaults(); }
 
-std::vector<ViewAgreement> view_agreement(std::span<const EdgeModel> models,
-                                          std::span<const Hypothesis> objects,
-                                          std::span<const RegisterView> views, Backend& backend,
-                                          const AgreementOptions& options) {
-  std::vector<ViewAgreement> agreement(views.size());
+std::vector<ExtrinsicsCheck> extrinsics_check(std::span<const EdgeModel> models,
+                                              std::span<const ObjectPose> objects,
+                                              std::span<const RegisterView> views, Backend& backend,
+                                              const ExtrinsicsCheckOptions& options) {
+  std::vector<ExtrinsicsCheck> extrinsics_checks(views.size());
   std::vector<std::size_t> open;
   for (std::size_t v = 0; v < views.size(); ++v) open.push_back(v);
   while (open.size() >= 2 && !objects.empty()) {
     std::vector<RegisterView> trusted;
     for (const std::size_t v : open) trusted.push_back(views[v]);
-    const std::vector<ViewAgreement> judged = judge_all(models, objects, trusted, backend, options);
-    for (std::size_t i = 0; i < open.size(); ++i) agreement[open[i]] = judged[i];
-    const std::size_t worst = worst_of(open, agreement, options);
+    const std::vector<ExtrinsicsCheck> judged =
+        judge_all(models, objects, trusted, backend, options);
+    for (std::size_t i = 0; i < open.size(); ++i) extrinsics_checks[open[i]] = judged[i];
+    const std::size_t worst = worst_of(open, extrinsics_checks, options);
     if (worst == views.size()) break;
-    agreement[worst].disagrees = true;
+    extrinsics_checks[worst].disagrees = true;
     std::erase(open, worst);
   }
-  return agreement;
+  return extrinsics_checks;
 }
 
-void keep_flags(std::span<const ViewAgreement> before, std::span<ViewAgreement> now) {
+void keep_flags(std::span<const ExtrinsicsCheck> before, std::span<ExtrinsicsCheck> now) {
   for (std::size_t v = 0; v < before.size(); ++v)
     if (before[v].disagrees && !now[v].disagrees && now[v].objects == 0) now[v] = before[v];
 }
 
-void warn_of(std::span<const ViewAgreement> agreement, std::span<const ViewAgreement> before) {
-  for (std::size_t v = 0; v < agreement.size(); ++v)
-    if (agreement[v].disagrees && !(v < before.size() && before[v].disagrees))
-      warn(v, agreement[v]);
+void warn_of(std::span<const ExtrinsicsCheck> extrinsics_checks,
+             std::span<const ExtrinsicsCheck> before) {
+  for (std::size_t v = 0; v < extrinsics_checks.size(); ++v)
+    if (extrinsics_checks[v].disagrees && !(v < before.size() && before[v].disagrees))
+      warn(v, extrinsics_checks[v]);
 }
 
 }  // namespace edgescout

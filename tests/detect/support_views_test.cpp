@@ -1,4 +1,4 @@
-#include "host/detect/helping_views.h"
+#include "host/detect/support_views.h"
 
 #include <gtest/gtest.h>
 
@@ -22,22 +22,22 @@ std::vector<double> places(std::span<const Observation> views) {
   return x_m;
 }
 
-TEST(HelpingViews, AreAllOfFew) {
+TEST(SupportViews, AreAllOfFew) {
   const std::vector<Observation> others{standing_at(3), standing_at(1), standing_at(2)};
   for (const std::size_t most : {3, 4, 100})
-    EXPECT_EQ(places(helping_views(standing_at(0), others, most)), (std::vector<double>{3, 1, 2}))
+    EXPECT_EQ(places(support_views(standing_at(0), others, most)), (std::vector<double>{3, 1, 2}))
         << most;
-  EXPECT_TRUE(helping_views(standing_at(0), {}, 4).empty());
+  EXPECT_TRUE(support_views(standing_at(0), {}, 4).empty());
 }
 
-TEST(HelpingViews, AreSpreadFromNearToFarInTheOrderGiven) {
+TEST(SupportViews, AreSpreadFromNearToFarInTheOrderGiven) {
   std::vector<Observation> others;
   for (const double x_m : {9, -1, 5, 3, -8, 2, 6, 7, 4}) others.push_back(standing_at(x_m));
   // Distances 1 to 9: of three thirds the middle ones.
-  EXPECT_EQ(places(helping_views(standing_at(0), others, 3)), (std::vector<double>{5, -8, 2}));
-  EXPECT_EQ(places(helping_views(standing_at(0), others, 1)), (std::vector<double>{5}));
+  EXPECT_EQ(places(support_views(standing_at(0), others, 3)), (std::vector<double>{5, -8, 2}));
+  EXPECT_EQ(places(support_views(standing_at(0), others, 1)), (std::vector<double>{5}));
   // From the other end 9, 7, 6, 5, 4, 3, 2, -1, -8.
-  EXPECT_EQ(places(helping_views(standing_at(10), others, 3)), (std::vector<double>{-1, 7, 4}));
+  EXPECT_EQ(places(support_views(standing_at(10), others, 3)), (std::vector<double>{-1, 7, 4}));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "host/active/witnesses.h"
+#include "host/active/reference_objects.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ ModeDetection at(int object, double x_m) {
 }
 
 // What an image took away still speaks, where nothing else is reported, in its latest pose.
-TEST(Witnesses, AreWhatIsReportedAndWhatWas) {
+TEST(ReferenceObjects, AreWhatIsReportedAndWhatWas) {
   const std::vector<EdgeModel> models{make_edge_model(make_part("l_bracket").mesh),
                                       make_edge_model(make_part("bearing_block").mesh)};
   const double size_m = std::min(models[0].mesh.diameter_m, models[1].mesh.diameter_m);
@@ -25,11 +25,11 @@ TEST(Witnesses, AreWhatIsReportedAndWhatWas) {
   steps[1].detections = {at(0, 2 + 0.2 * size_m), at(0, 6)};
   const std::vector<ModeDetection> now{at(1, 0.1 * size_m)};
   std::vector<std::pair<int, double>> found;
-  for (const Hypothesis& h : witnesses(models, steps, now))
+  for (const ObjectPose& h : reference_objects(models, steps, now))
     found.emplace_back(h.object, h.world_from_object.translation_m.x());
   EXPECT_EQ(found, (std::vector<std::pair<int, double>>{
                        {1, 0.1 * size_m}, {0, 2 + 0.2 * size_m}, {0, 6}, {1, 4}}));
-  EXPECT_TRUE(witnesses(models, {}, {}).empty());
+  EXPECT_TRUE(reference_objects(models, {}, {}).empty());
 }
 
 }  // namespace

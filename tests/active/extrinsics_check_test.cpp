@@ -1,4 +1,4 @@
-#include "host/active/view_agreement.h"
+#include "host/active/extrinsics_check.h"
 
 #include <gtest/gtest.h>
 
@@ -19,28 +19,28 @@ Se3 wrong(const Se3& camera_from_world, double angle_rad) {
 struct Objects {
   RenderedScene scene;
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
-  std::vector<Hypothesis> poses;
+  std::vector<ObjectPose> poses;
   explicit Objects(int views) : scene({"l_bracket", "bearing_block"}, 4, views) {
     for (const PlacedObject& part : scene.scene.placed)
       poses.push_back({part.object, part.world_from_object});
   }
-  std::vector<ViewAgreement> judge(const std::vector<RegisterView>& views) {
-    const std::vector<ViewAgreement> agreement =
-        view_agreement(scene.models, poses, views, *backend);
-    warn_of(agreement);
-    return agreement;
+  std::vector<ExtrinsicsCheck> judge(const std::vector<RegisterView>& views) {
+    const std::vector<ExtrinsicsCheck> extrinsics_checks =
+        extrinsics_check(scene.models, poses, views, *backend);
+    warn_of(extrinsics_checks);
+    return extrinsics_checks;
   }
 };
 
-void print(const std::vector<ViewAgreement>& views) {
-  for (const ViewAgreement& v : views)
+void print(const std::vector<ExtrinsicsCheck>& views) {
+  for (const ExtrinsicsCheck& v : views)
     std::printf("%.2f px by %d objects, %d missing%s\n", v.residual_px, v.objects, v.missing,
                 v.disagrees ? ", disagrees" : "");
 }
 
-TEST(ViewAgreement, IsWarnedOfOnce) {
+TEST(ExtrinsicsCheck, IsWarnedOfOnce) {
   const CollectedLog log;
-  std::vector<ViewAgreement> before(2), now(3);
+  std::vector<ExtrinsicsCheck> before(2), now(3);
   now[1] = {7.5, 2, 0, true};
   warn_of(now, before);
   ASSERT_EQ(log.messages.size(), 1u);
@@ -53,9 +53,9 @@ TEST(ViewAgreement, IsWarnedOfOnce) {
   EXPECT_NE(log.messages[1].second.find("image 3"), std::string::npos) << log.messages[1].second;
 }
 
-TEST(ViewAgreement, AFlagStandsUntilTheImageIsJudgedAgain) {
-  const std::vector<ViewAgreement> before{{0.4, 2, 0, false}, {7.5, 2, 0, true}, {0, 0, 3, true}};
-  std::vector<ViewAgreement> now(4);
+TEST(ExtrinsicsCheck, AFlagStandsUntilTheImageIsJudgedAgain) {
+  const std::vector<ExtrinsicsCheck> before{{0.4, 2, 0, false}, {7.5, 2, 0, true}, {0, 0, 3, true}};
+  std::vector<ExtrinsicsCheck> now(4);
   keep_flags(before, now);
   EXPECT_FALSE(now[0].disagrees || now[3].disagrees);
   EXPECT_TRUE(now[1].disagrees && now[2].disagrees);
@@ -68,7 +68,7 @@ TEST(ViewAgreement, AFlagStandsUntilTheImageIsJudgedAgain) {
 
 // A pose that one image alone shows, by chance, moves as it likes and says nothing about the
 // others.
-TEST(ViewAgreement, AnObjectOfOneImageIsNoWitness) {
+TEST(ExtrinsicsCheck, AnObjectOfOneImageIsNoReference) {
   Objects t(3);
   std::vector<RegisterView> views = t.scene.views(*t.backend);
   views[0].camera_from_world = wrong(views[0].camera_from_world, 0.06);
@@ -81,17 +81,17 @@ TEST(ViewAgreement, AnObjectOfOneImageIsNoWitness) {
     wall->depth_m.assign(std::size_t(wall->camera.width) * std::size_t(wall->camera.height), 0.05f);
     views[blind].occluders = wall;
   }
-  const ViewAgreement alone = t.judge(views)[0];
+  const ExtrinsicsCheck alone = t.judge(views)[0];
   EXPECT_EQ(alone.objects, 0);
   EXPECT_FALSE(alone.disagrees);
 }
 
-TEST(ViewAgreement, RightPosesAgree) {
+TEST(ExtrinsicsCheck, RightPosesAgree) {
   Objects t(3);
   const CollectedLog log;
-  const std::vector<ViewAgreement> agreement = t.judge(t.scene.views(*t.backend));
-  print(agreement);
-  for (const ViewAgreement& v : agreement) {
+  const std::vector<ExtrinsicsCheck> extrinsics_checks = t.judge(t.scene.views(*t.backend));
+  print(extrinsics_checks);
+  for (const ExtrinsicsCheck& v : extrinsics_checks) {
     EXPECT_GE(v.objects, 2);
     EXPECT_LT(v.residual_px, 1.5);
     EXPECT_FALSE(v.disagrees);
@@ -99,15 +99,15 @@ TEST(ViewAgreement, RightPosesAgree) {
   EXPECT_TRUE(log.messages.empty());
 }
 
-TEST(ViewAgreement, FlagsTheOneThatIsWrong) {
+TEST(ExtrinsicsCheck, FlagsTheOneThatIsWrong) {
   Objects t(3);
   for (const std::size_t odd : {0u, 2u}) {
     std::vector<RegisterView> views = t.scene.views(*t.backend);
     views[odd].camera_from_world = wrong(views[odd].camera_from_world, 0.06);
     const CollectedLog log;
-    const std::vector<ViewAgreement> agreement = t.judge(views);
-    print(agreement);
-    for (std::size_t v = 0; v < 3; ++v) EXPECT_EQ(agreement[v].disagrees, v == odd) << v;
+    const std::vector<ExtrinsicsCheck> extrinsics_checks = t.judge(views);
+    print(extrinsics_checks);
+    for (std::size_t v = 0; v < 3; ++v) EXPECT_EQ(extrinsics_checks[v].disagrees, v == odd) << v;
     ASSERT_EQ(log.messages.size(), 1u);
     EXPECT_NE(log.messages[0].second.find("image " + std::to_string(odd + 1)), std::string::npos)
         << log.messages[0].second;
@@ -115,7 +115,7 @@ TEST(ViewAgreement, FlagsTheOneThatIsWrong) {
 }
 
 // So wrong that no registration finds the parts from there, but for one by chance.
-TEST(ViewAgreement, FlagsTheOneThatShowsNothingWhereItShould) {
+TEST(ExtrinsicsCheck, FlagsTheOneThatShowsNothingWhereItShould) {
   Objects t(3);
   int bare = 0;
   for (const double angle_rad : {0.3, 0.5})
@@ -123,33 +123,33 @@ TEST(ViewAgreement, FlagsTheOneThatShowsNothingWhereItShould) {
       std::vector<RegisterView> views = t.scene.views(*t.backend);
       views[odd].camera_from_world = wrong(views[odd].camera_from_world, angle_rad);
       const CollectedLog log;
-      const std::vector<ViewAgreement> agreement = t.judge(views);
-      print(agreement);
-      for (std::size_t v = 0; v < 3; ++v) EXPECT_EQ(agreement[v].disagrees, v == odd) << v;
+      const std::vector<ExtrinsicsCheck> extrinsics_checks = t.judge(views);
+      print(extrinsics_checks);
+      for (std::size_t v = 0; v < 3; ++v) EXPECT_EQ(extrinsics_checks[v].disagrees, v == odd) << v;
       ASSERT_EQ(log.messages.size(), 1u);
       const std::string& text = log.messages[0].second;
       EXPECT_NE(text.find("image " + std::to_string(odd + 1)), std::string::npos) << text;
-      const bool none = agreement[odd].objects == 0;
+      const bool none = extrinsics_checks[odd].objects == 0;
       EXPECT_EQ(text.find("none of") != std::string::npos, none) << text;
-      EXPECT_EQ(agreement[odd].missing >= 2, none);
+      EXPECT_EQ(extrinsics_checks[odd].missing >= 2, none);
       bare += none;
     }
   EXPECT_GE(bare, 3);
 }
 
 // A view that has its objects worse than the others have them, but has them, is no wrong one.
-TEST(ViewAgreement, DoesNotDoubtAViewThatShowsTraces) {
+TEST(ExtrinsicsCheck, DoesNotDoubtAViewThatShowsTraces) {
   Objects t(3);
   const std::vector<RegisterView> views = t.scene.views(*t.backend);
   int doubted = 0;
-  AgreementOptions options;
+  ExtrinsicsCheckOptions options;
   for (options.min_probability = 0.5; options.min_probability < 1;
        options.min_probability += 0.05) {
     const auto missing = [&](double absent_probability) {
       options.absent_probability = absent_probability;
       int most = 0;
-      for (const ViewAgreement& v :
-           view_agreement(t.scene.models, t.poses, views, *t.backend, options))
+      for (const ExtrinsicsCheck& v :
+           extrinsics_check(t.scene.models, t.poses, views, *t.backend, options))
         most = std::max(most, v.missing);
       return most;
     };
@@ -160,7 +160,7 @@ TEST(ViewAgreement, DoesNotDoubtAViewThatShowsTraces) {
 }
 
 // Where everything is hidden, or outside the image, nothing is missing.
-TEST(ViewAgreement, ExpectsOnlyWhatTheViewCanShow) {
+TEST(ExtrinsicsCheck, ExpectsOnlyWhatTheViewCanShow) {
   Objects t(3);
   std::vector<RegisterView> views = t.scene.views(*t.backend);
   views[2].camera_from_world = wrong(views[2].camera_from_world, 0.35);
@@ -174,23 +174,23 @@ TEST(ViewAgreement, ExpectsOnlyWhatTheViewCanShow) {
   EXPECT_EQ(t.judge(views)[2].missing, 0);
 }
 
-TEST(ViewAgreement, OfTwoTheLaterIsDoubted) {
+TEST(ExtrinsicsCheck, OfTwoTheLaterIsDoubted) {
   Objects t(2);
   std::vector<RegisterView> views = t.scene.views(*t.backend);
   views[0].camera_from_world = wrong(views[0].camera_from_world, 0.08);
-  const std::vector<ViewAgreement> agreement = t.judge(views);
-  print(agreement);
-  EXPECT_FALSE(agreement[0].disagrees);
-  EXPECT_TRUE(agreement[1].disagrees);
+  const std::vector<ExtrinsicsCheck> extrinsics_checks = t.judge(views);
+  print(extrinsics_checks);
+  EXPECT_FALSE(extrinsics_checks[0].disagrees);
+  EXPECT_TRUE(extrinsics_checks[1].disagrees);
 }
 
-TEST(ViewAgreement, OneViewOrNoObjectCannotDisagree) {
+TEST(ExtrinsicsCheck, OneViewOrNoObjectCannotDisagree) {
   Objects t(2);
   std::vector<RegisterView> views = t.scene.views(*t.backend);
   views[1].camera_from_world = wrong(views[1].camera_from_world, 0.08);
   EXPECT_FALSE(t.judge({views[1]})[0].disagrees);
   t.poses.clear();
-  for (const ViewAgreement& v : t.judge(views)) {
+  for (const ExtrinsicsCheck& v : t.judge(views)) {
     EXPECT_FALSE(v.disagrees);
     EXPECT_EQ(v.objects, 0);
   }

@@ -1,12 +1,12 @@
-#include "host/detect/joint_scan.h"
+#include "host/detect/rescore_in_views.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "host/detect/helping_views.h"
 #include "host/detect/nearest_viewpoint.h"
+#include "host/detect/support_views.h"
 #include "host/detect/template_projection.h"
 #include "host/register/occluders.h"
 #include "kernels/error.h"
@@ -107,9 +107,9 @@ Pose moved_to(Pose pose, const Eigen::Vector3d& translation_m) {
 
 // What this view says of the hits, in the frame of its camera: all steps of every one, side by
 // side.
-std::vector<Say> says_of(const Observation& view, const TemplateSet& set,
-                         const NearestViews& templates, std::span<const MovedHit> moved,
-                         Backend& backend, const Care& care) {
+std::vector<Say> votes_of(const Observation& view, const TemplateSet& set,
+                          const NearestViews& templates, std::span<const MovedHit> moved,
+                          Backend& backend, const Care& care) {
   const auto& salient = *view.salient;
   const std::size_t width = std::size_t(care.points), steps = std::size_t(care.steps),
                     count = moved.size() * steps;
@@ -178,7 +178,7 @@ void judge(const TemplateSet& set, const NearestViews& templates, std::span<Scan
       return MovedHit{other_from_own * hit.camera_from_object,
                       other_from_own.rotation * hit.towards_m};
     });
-    const std::vector<Say> says = says_of(other, set, templates, there, backend, care);
+    const std::vector<Say> says = votes_of(other, set, templates, there, backend, care);
     for (std::size_t i = 0; i < sums.size(); ++i)
       sums[i] += says[i].weight * says[i].rank, weights[i] += says[i].weight;
   }
@@ -212,7 +212,7 @@ struct Judges {
   std::vector<Se3> last_from_own;
   Judges(std::span<const Observation> images, int helping) {
     for (std::size_t i = 0; i < images.size(); ++i) {
-      others.push_back(helping_views(images[i], all_but(images, i), std::size_t(helping)));
+      others.push_back(support_views(images[i], all_but(images, i), std::size_t(helping)));
       last_from_own.push_back(images.back().view.camera_from_world *
                               inverse(images[i].view.camera_from_world));
     }
@@ -223,7 +223,7 @@ struct Judges {
 std::vector<std::vector<ScanHit>> worth_judging(const TemplateSet& set,
                                                 std::span<const Observation> images,
                                                 std::span<const std::span<const ScanHit>> hits,
-                                                const Judges& judges, const UnwantedPose& unwanted,
+                                                const Judges& judges, const PoseFilter& excluded,
                                                 std::size_t most, Backend& backend,
                                                 const ScanOptions& options) {
   std::vector<std::vector<double>> ranks(images.size());
@@ -231,7 +231,7 @@ std::vector<std::vector<ScanHit>> worth_judging(const TemplateSet& set,
   for (std::size_t i = 0; i < images.size(); ++i)
     for (const ScanHit& hit :
          judged(set, hits[i], images[i], judges.others[i], backend, quick(options))) {
-      const bool left_out = unwanted(judges.last_from_own[i] * hit.camera_from_object);
+      const bool left_out = excluded(judges.last_from_own[i] * hit.camera_from_object);
       ranks[i].push_back(left_out ? INFINITY : hit.rank);
       if (!left_out) all.push_back(hit.rank);
     }
@@ -249,26 +249,26 @@ std::vector<std::vector<ScanHit>> worth_judging(const TemplateSet& set,
 
 }  // namespace
 
-std::vector<ScanHit> judged_by_all(const TemplateSet& set, std::span<const ScanHit> hits,
-                                   const Observation& own, std::span<const Observation> others,
-                                   Backend& backend, const ScanOptions& options) {
+std::vector<ScanHit> rescore_in_views(const TemplateSet& set, std::span<const ScanHit> hits,
+                                      const Observation& own, std::span<const Observation> others,
+                                      Backend& backend, const ScanOptions& options) {
   return judged(set, hits, own, others, backend, careful(options));
 }
 
 std::vector<ScanHit> pooled_hits(const TemplateSet& set, std::span<const Observation> images,
                                  std::span<const std::span<const ScanHit>> hits, int helping,
-                                 const UnwantedPose& unwanted, std::size_t most, Backend& backend,
+                                 const PoseFilter& excluded, std::size_t most, Backend& backend,
                                  const ScanOptions& options) {
   check(most >= 1, "pooled_hits: at least one hit");
   const Judges judges(images, helping);
   const std::vector<std::vector<ScanHit>> worth =
-      worth_judging(set, images, hits, judges, unwanted, most, backend, options);
+      worth_judging(set, images, hits, judges, excluded, most, backend, options);
   std::vector<ScanHit> pooled;
   for (std::size_t i = 0; i < images.size(); ++i)
     for (ScanHit hit :
-         judged_by_all(set, worth[i], images[i], judges.others[i], backend, options)) {
+         rescore_in_views(set, worth[i], images[i], judges.others[i], backend, options)) {
       hit.camera_from_object = judges.last_from_own[i] * hit.camera_from_object;
-      if (!unwanted(hit.camera_from_object)) pooled.push_back(hit);
+      if (!excluded(hit.camera_from_object)) pooled.push_back(hit);
     }
   return pooled;
 }

@@ -1,4 +1,4 @@
-#include "host/active/witnesses.h"
+#include "host/active/reference_objects.h"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@ namespace edgescout {
 namespace {
 
 // Whether they cannot both be there, whatever they are: one's middle lies well within the other.
-bool share_a_place(std::span<const EdgeModel> models, const Hypothesis& a, const Hypothesis& b) {
+bool share_a_place(std::span<const EdgeModel> models, const ObjectPose& a, const ObjectPose& b) {
   const EdgeModel &of_a = models[a.object], &of_b = models[b.object];
   const double apart_m =
       (a.world_from_object * of_a.center_m - b.world_from_object * of_b.center_m).norm();
@@ -16,16 +16,16 @@ bool share_a_place(std::span<const EdgeModel> models, const Hypothesis& a, const
 
 }  // namespace
 
-std::vector<Hypothesis> witnesses(std::span<const EdgeModel> models,
-                                  std::span<const ScoutStep> earlier,
-                                  std::span<const ModeDetection> now) {
-  std::vector<Hypothesis> all = known_objects(now, 0);
+std::vector<ObjectPose> reference_objects(std::span<const EdgeModel> models,
+                                          std::span<const ScoutStep> earlier,
+                                          std::span<const ModeDetection> now) {
+  std::vector<ObjectPose> all = known_objects(now, 0);
   for (std::size_t i = earlier.size(); i-- > 0;) {
     const std::size_t later = all.size();
-    for (const Hypothesis& before : known_objects(earlier[i].detections, 0))
+    for (const ObjectPose& before : known_objects(earlier[i].detections, 0))
       if (std::none_of(
               all.begin(), all.begin() + static_cast<std::ptrdiff_t>(later),
-              [&](const Hypothesis& other) { return share_a_place(models, before, other); }))
+              [&](const ObjectPose& other) { return share_a_place(models, before, other); }))
         all.push_back(before);
   }
   return all;

@@ -12,8 +12,10 @@ namespace edgescout {
 // refined. Keeps the probable ones, lets them compete for the image's edges (evidence.h), searches
 // once more around the winners (a wrong local optimum loses to the right one near it), and lets all
 // compete again. Best probability first.
-std::vector<Detection> settle(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
-                              std::span<const Refined> refined, std::span<const RegisterView> views,
-                              Backend& backend, const DetectOptions& options);
+std::vector<Detection> select_detections(std::span<const EdgeModel> models,
+                                         std::span<const ObjectPose> poses,
+                                         std::span<const Refined> refined,
+                                         std::span<const RegisterView> views, Backend& backend,
+                                         const DetectOptions& options);
 
 }  // namespace edgescout

@@ -1,5 +1,5 @@
 // Registration on given points: on those that register_poses draws it is register_poses.
-#include "host/register/register_seen.h"
+#include "host/register/register_points.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ TEST(RegisterSeen, OnDrawnPointsIsRegisterPoses) {
   const auto backend = make_cpu_backend(2);
   const PartScene scene("bearing_block", 2, random, *backend);
   int asked = 0;
-  const auto drawn = [&](std::span<const Hypothesis> poses) {
+  const auto drawn = [&](std::span<const ObjectPose> poses) {
     ++asked;
     std::vector<std::vector<ModelPoint>> points;
     for (const VisibleInView& seen :
@@ -24,10 +24,10 @@ TEST(RegisterSeen, OnDrawnPointsIsRegisterPoses) {
       points.push_back(seen.points);
     return points;
   };
-  const std::vector<Hypothesis> starts{scene.start, {0, scene.truth}};
+  const std::vector<ObjectPose> starts{scene.start, {0, scene.truth}};
   const std::vector<Registration> expected =
       register_poses({&scene.model, 1}, starts, scene.views, *backend);
-  const std::vector<Registration> found = register_seen(starts, scene.views, drawn, *backend);
+  const std::vector<Registration> found = register_points(starts, scene.views, drawn, *backend);
   EXPECT_EQ(asked, int(D2coOptions{}.rounds.size()));
   ASSERT_EQ(found.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -44,10 +44,10 @@ TEST(RegisterSeen, PosesWithoutPointsStay) {
   Random random = test_random();
   const auto backend = make_cpu_backend(1);
   const PartScene scene("l_bracket", 2, random, *backend);
-  const auto none = [&](std::span<const Hypothesis> poses) {
+  const auto none = [&](std::span<const ObjectPose> poses) {
     return std::vector<std::vector<ModelPoint>>(poses.size() * 2);
   };
-  const Registration found = register_seen({&scene.start, 1}, scene.views, none, *backend)[0];
+  const Registration found = register_points({&scene.start, 1}, scene.views, none, *backend)[0];
   EXPECT_EQ(found.reason, Convergence::NoPoints);
   EXPECT_EQ(found.points, 0);
   EXPECT_EQ(found.world_from_object.translation_m, scene.start.world_from_object.translation_m);
@@ -57,10 +57,10 @@ TEST(RegisterSeen, RefusesAnotherNumberOfLists) {
   Random random = test_random();
   const auto backend = make_cpu_backend(1);
   const PartScene scene("l_bracket", 2, random, *backend);
-  const auto one = [](std::span<const Hypothesis>) {
+  const auto one = [](std::span<const ObjectPose>) {
     return std::vector<std::vector<ModelPoint>>(1);
   };
-  EXPECT_THROW(register_seen({&scene.start, 1}, scene.views, one, *backend), LogicError);
+  EXPECT_THROW(register_points({&scene.start, 1}, scene.views, one, *backend), LogicError);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace edgescout::bench {
 
 struct HypothesesSize {
   int views, candidates, particles, points, width, height;
-  std::uint32_t realizations;
+  std::uint32_t combinations;
 };
 inline constexpr HypothesesSize paper_hypotheses{32, 40, 200, 500, 256, 192, 1000};
 

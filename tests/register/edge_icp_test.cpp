@@ -1,5 +1,5 @@
 // Polished poses in rendered images: how far from the truth, and does the covariance say so?
-#include "host/register/polish.h"
+#include "host/register/edge_icp.h"
 
 #include <gtest/gtest.h>
 
@@ -63,7 +63,7 @@ Se3 nearest_twin(const Se3& truth, const Se3& found, const Symmetries& symmetrie
 // ended elsewhere is left out.
 std::vector<double> squared_errors(const Rendered& known, std::size_t views, Random& random,
                                    Backend& backend) {
-  std::vector<Hypothesis> starts;
+  std::vector<ObjectPose> starts;
   for (const KnownInstance& instance : known.scene.instances) {
     Vector6d off;
     off << 0.002 * random.direction(), 0.03 * random.direction();

@@ -1,4 +1,4 @@
-#include "host/detect/evidence.h"
+#include "host/detect/edge_claims.h"
 
 #include <gtest/gtest.h>
 
@@ -26,10 +26,10 @@ struct TwoParts {
     return {pose.rotation, pose.translation_m + Eigen::Vector3d(x_m, 0, 0)};
   }
   // Poses whose edges agree fully and are so long, px; not at all where that is negative.
-  std::vector<ChosenPose> choose(const std::vector<Se3>& poses,
-                                 const std::vector<double>& lengths_px,
-                                 const EvidenceOptions& options = {}) const {
-    std::vector<Hypothesis> hypotheses;
+  std::vector<EdgeClaim> choose(const std::vector<Se3>& poses,
+                                const std::vector<double>& lengths_px,
+                                const EdgeClaimOptions& options = {}) const {
+    std::vector<ObjectPose> hypotheses;
     for (const Se3& pose : poses) hypotheses.push_back({0, pose});
     std::vector<std::vector<PoseFeatures>> features;
     for (double length_px : lengths_px) {
@@ -39,34 +39,34 @@ struct TwoParts {
       f.length_px = std::abs(length_px);
       features.push_back({f});
     }
-    return explain_image(models, hypotheses, features, views, *backend, options);
+    return claim_edges(models, hypotheses, features, views, *backend, options);
   }
 };
 
-std::vector<std::size_t> indices(const std::vector<ChosenPose>& chosen) {
+std::vector<std::size_t> indices(const std::vector<EdgeClaim>& chosen) {
   std::vector<std::size_t> out;
-  for (const ChosenPose& c : chosen) out.push_back(c.index);
+  for (const EdgeClaim& c : chosen) out.push_back(c.index);
   return out;
 }
 using Indices = std::vector<std::size_t>;
 
-TEST(ExplainImage, OfTwoPosesOnTheSameEdgesTheBetterWins) {
+TEST(ClaimEdges, OfTwoPosesOnTheSameEdgesTheBetterWins) {
   const TwoParts t;
   const std::vector<Se3> poses{t.left, t.shifted(t.left, 0.0005)};
   EXPECT_EQ(indices(t.choose(poses, {100, 90})), Indices{0});
   EXPECT_EQ(indices(t.choose(poses, {90, 100})), Indices{1});
 }
 
-TEST(ExplainImage, PosesOnDifferentEdgesBothStay) {
+TEST(ClaimEdges, PosesOnDifferentEdgesBothStay) {
   const TwoParts t;
-  const std::vector<ChosenPose> chosen = t.choose({t.left, t.right}, {90, 100});
+  const std::vector<EdgeClaim> chosen = t.choose({t.left, t.right}, {90, 100});
   EXPECT_EQ(indices(chosen), (Indices{1, 0}));
-  for (const ChosenPose& c : chosen) EXPECT_EQ(c.fresh, 1);
+  for (const EdgeClaim& c : chosen) EXPECT_EQ(c.unclaimed, 1);
   EXPECT_EQ(indices(t.choose({t.left, t.right, t.shifted(t.right, 0.0005)}, {90, 100, 110})),
             (Indices{2, 0}));
 }
 
-TEST(ExplainImage, WhatExplainsNothingGoes) {
+TEST(ClaimEdges, WhatExplainsNothingGoes) {
   const TwoParts t;
   const Se3 nowhere{t.left.rotation, {0, 0.07, 0.35}};
   EXPECT_EQ(indices(t.choose({nowhere, t.left}, {1000, 10})), Indices{1});
@@ -74,26 +74,27 @@ TEST(ExplainImage, WhatExplainsNothingGoes) {
   EXPECT_TRUE(t.choose({}, {}).empty());
 }
 
-TEST(ExplainImage, ToleratesAsMuchSpentAsItIsTold) {
+TEST(ClaimEdges, ToleratesAsMuchClaimedAsTheOptionAllows) {
   const TwoParts t;
   const std::vector<Se3> poses{t.left, t.shifted(t.left, 0.0005)};
-  EvidenceOptions all;
-  all.max_spent = 1;
-  const std::vector<ChosenPose> chosen = t.choose(poses, {100, 90}, all);
-  for (const ChosenPose& c : chosen) EXPECT_TRUE(c.fresh >= 0 && c.fresh <= 1) << c.fresh;
+  EdgeClaimOptions all;
+  all.max_claimed = 1;
+  const std::vector<EdgeClaim> chosen = t.choose(poses, {100, 90}, all);
+  for (const EdgeClaim& c : chosen)
+    EXPECT_TRUE(c.unclaimed >= 0 && c.unclaimed <= 1) << c.unclaimed;
   ASSERT_FALSE(chosen.empty());
   EXPECT_EQ(chosen[0].index, 0u);
-  EXPECT_EQ(chosen[0].fresh, 1);
-  for (std::size_t i = 1; i < chosen.size(); ++i) EXPECT_LT(chosen[i].fresh, 0.1);
+  EXPECT_EQ(chosen[0].unclaimed, 1);
+  for (std::size_t i = 1; i < chosen.size(); ++i) EXPECT_LT(chosen[i].unclaimed, 0.1);
 }
 
-TEST(ExplainImage, CountsOnlyViewsWithEdges) {
+TEST(ClaimEdges, CountsOnlyViewsWithEdges) {
   TwoParts t;
   t.views[0].edges = nullptr;
   EXPECT_TRUE(t.choose({t.left}, {100}).empty());
 }
 
-TEST(ExplainImage, CountsAllViewsTogether) {
+TEST(ClaimEdges, CountsAllViewsTogether) {
   TwoParts t;
   const EdgeModel dense = part_model("l_bracket", 2e-4);
   const auto view_of_one = [&](const Se3& pose) {
@@ -108,7 +109,7 @@ TEST(ExplainImage, CountsAllViewsTogether) {
 }
 
 // Views that do not show a pose, because others hide it, take nothing from those that do.
-TEST(ExplainImage, KeepsWhatSomeViewsShow) {
+TEST(ClaimEdges, KeepsWhatSomeViewsShow) {
   const TwoParts t;
   PoseFeatures good, hidden;
   good.points = good.visible = hidden.points = hidden.visible = 200;
@@ -119,15 +120,15 @@ TEST(ExplainImage, KeepsWhatSomeViewsShow) {
   good.shading = {1000, 1e6, 1e4};
   const std::vector<PoseFeatures> shown{good, good, good, hidden, hidden, hidden}, never(6, hidden),
       once{good, hidden, hidden, hidden};
-  ASSERT_LT(evidence(together(shown)), 0);
-  const std::vector<Hypothesis> pose{{0, t.left}};
-  EXPECT_EQ(explain_image(t.models, pose, std::vector<std::vector<PoseFeatures>>{shown}, t.views,
-                          *t.backend)
+  ASSERT_LT(psi_z_score(pool_over_views(shown)), 0);
+  const std::vector<ObjectPose> pose{{0, t.left}};
+  EXPECT_EQ(claim_edges(t.models, pose, std::vector<std::vector<PoseFeatures>>{shown}, t.views,
+                        *t.backend)
                 .size(),
             1u);
   for (const std::vector<PoseFeatures>& features : {never, once})
-    EXPECT_TRUE(explain_image(t.models, pose, std::vector<std::vector<PoseFeatures>>{features},
-                              t.views, *t.backend)
+    EXPECT_TRUE(claim_edges(t.models, pose, std::vector<std::vector<PoseFeatures>>{features},
+                            t.views, *t.backend)
                     .empty());
 }
 

@@ -1,4 +1,4 @@
-#include "host/detect/settle.h"
+#include "host/detect/select_detections.h"
 
 #include <algorithm>
 
@@ -9,12 +9,12 @@ namespace edgescout {
 namespace {
 
 struct Pool {
-  std::vector<Hypothesis> poses;
+  std::vector<ObjectPose> poses;
   std::vector<Registration> registrations;
   std::vector<std::vector<PoseFeatures>> by_view;
   std::vector<double> probabilities;
 
-  void add(const Hypothesis& pose, const Registration& registration,
+  void add(const ObjectPose& pose, const Registration& registration,
            const std::vector<PoseFeatures>& features, double probability) {
     poses.push_back(pose);
     registrations.push_back(registration);
@@ -23,7 +23,7 @@ struct Pool {
   }
 };
 
-void add_probable(Pool& pool, std::span<const Hypothesis> starts, std::span<const Refined> refined,
+void add_probable(Pool& pool, std::span<const ObjectPose> starts, std::span<const Refined> refined,
                   double min_probability) {
   for (std::size_t i = 0; i < refined.size(); ++i)
     if (const double p = probability_over_views(refined[i].by_view); p >= min_probability)
@@ -32,10 +32,10 @@ void add_probable(Pool& pool, std::span<const Hypothesis> starts, std::span<cons
 }
 
 // Without those that would stand inside a more probable one.
-Pool standing_apart(const Pool& pool, std::span<const EdgeModel> models, Backend& backend,
-                    const DetectOptions& options) {
-  const std::vector<double> left = probabilities_apart(models, pool.poses, pool.by_view,
-                                                       options.penetration_m, backend.threads());
+Pool suppress_colliding(const Pool& pool, std::span<const EdgeModel> models, Backend& backend,
+                        const DetectOptions& options) {
+  const std::vector<double> left = probabilities_without_collisions(
+      models, pool.poses, pool.by_view, options.penetration_m, backend.threads());
   Pool apart;
   for (std::size_t i = 0; i < left.size(); ++i)
     if (left[i] >= options.min_probability)
@@ -43,35 +43,37 @@ Pool standing_apart(const Pool& pool, std::span<const EdgeModel> models, Backend
   return apart;
 }
 
-std::vector<ChosenPose> compete(const Pool& pool, std::span<const EdgeModel> models,
-                                std::span<const RegisterView> views, Backend& backend,
-                                const DetectOptions& options) {
-  return explain_image(models, pool.poses, pool.by_view, views, backend, options.evidence);
+std::vector<EdgeClaim> compete(const Pool& pool, std::span<const EdgeModel> models,
+                               std::span<const RegisterView> views, Backend& backend,
+                               const DetectOptions& options) {
+  return claim_edges(models, pool.poses, pool.by_view, views, backend, options.edge_claims);
 }
 
 }  // namespace
 
-std::vector<Detection> settle(std::span<const EdgeModel> models, std::span<const Hypothesis> poses,
-                              std::span<const Refined> refined, std::span<const RegisterView> views,
-                              Backend& backend, const DetectOptions& options) {
+std::vector<Detection> select_detections(std::span<const EdgeModel> models,
+                                         std::span<const ObjectPose> poses,
+                                         std::span<const Refined> refined,
+                                         std::span<const RegisterView> views, Backend& backend,
+                                         const DetectOptions& options) {
   Pool pool;
   add_probable(pool, poses, refined, options.min_probability);
-  Pool apart = standing_apart(pool, models, backend, options);
-  std::vector<ChosenPose> chosen = compete(apart, models, views, backend, options);
-  if (options.second_look_rad > 0 && !chosen.empty()) {
+  Pool apart = suppress_colliding(pool, models, backend, options);
+  std::vector<EdgeClaim> chosen = compete(apart, models, views, backend, options);
+  if (options.restart_rotation_rad > 0 && !chosen.empty()) {
     RefineOptions refine = options.refine;
-    refine.search.rotation_rad = options.second_look_rad;
-    std::vector<Hypothesis> winners;
-    for (const ChosenPose& winner : chosen) winners.push_back(apart.poses[winner.index]);
+    refine.search.rotation_rad = options.restart_rotation_rad;
+    std::vector<ObjectPose> winners;
+    for (const EdgeClaim& winner : chosen) winners.push_back(apart.poses[winner.index]);
     add_probable(pool, winners, refine_poses(models, winners, views, backend, refine),
                  options.min_probability);
-    apart = standing_apart(pool, models, backend, options);
+    apart = suppress_colliding(pool, models, backend, options);
     chosen = compete(apart, models, views, backend, options);
   }
   std::vector<Detection> detections;
-  for (const ChosenPose& c : chosen) {
+  for (const EdgeClaim& c : chosen) {
     detections.push_back(to_detection(apart.poses[c.index].object, apart.registrations[c.index],
-                                      together(apart.by_view[c.index])));
+                                      pool_over_views(apart.by_view[c.index])));
     detections.back().probability = apart.probabilities[c.index];
   }
   std::ranges::stable_sort(detections, [](const Detection& a, const Detection& b) {

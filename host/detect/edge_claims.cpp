@@ -1,4 +1,4 @@
-#include "host/detect/evidence.h"
+#include "host/detect/edge_claims.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,10 +32,10 @@ struct Explained {
 };
 
 // The image edges a pose explains, one entry a visible model point.
-std::vector<Explained> explained_edges(const EdgeModel& model, const Hypothesis& pose,
+std::vector<Explained> explained_edges(const EdgeModel& model, const ObjectPose& pose,
                                        std::span<const RegisterView> views,
                                        std::span<const VisibleInView> seen,
-                                       const EvidenceOptions& options) {
+                                       const EdgeClaimOptions& options) {
   std::vector<Explained> explained;
   for (std::size_t v = 0; v < views.size(); ++v) {
     if (!views[v].edges) continue;
@@ -53,81 +53,81 @@ std::vector<Explained> explained_edges(const EdgeModel& model, const Hypothesis&
   return explained;
 }
 
-class SpentEdges {
+class ClaimedEdges {
  public:
-  explicit SpentEdges(std::span<const RegisterView> views) : views_(views) {}
-  bool contains(const EdgeKey& key) const { return spent_.contains(key); }
-  void spend(const std::vector<Explained>& explained, const EvidenceOptions& options) {
+  explicit ClaimedEdges(std::span<const RegisterView> views) : views_(views) {}
+  bool contains(const EdgeKey& key) const { return claimed_.contains(key); }
+  void claim(const std::vector<Explained>& explained, const EdgeClaimOptions& options) {
     for (const Explained& e : explained)
       views_[e.key.view].edges->for_each_near(e.key.edge->x_px, e.key.edge->y_px, options.match_px,
                                               [&](const EdgePoint& edge) {
-                                                spent_.insert({e.key.view, &edge});
+                                                claimed_.insert({e.key.view, &edge});
                                               });
   }
 
  private:
   std::span<const RegisterView> views_;
-  std::unordered_set<EdgeKey, EdgeKeyHash> spent_;
+  std::unordered_set<EdgeKey, EdgeKeyHash> claimed_;
 };
 
-double fresh_fraction(const std::vector<Explained>& explained, const SpentEdges& spent) {
-  double total = 0, fresh = 0;
+double unclaimed_fraction(const std::vector<Explained>& explained, const ClaimedEdges& claimed) {
+  double total = 0, unclaimed = 0;
   for (const Explained& e : explained) {
     total += e.length_px;
-    if (!spent.contains(e.key)) fresh += e.length_px;
+    if (!claimed.contains(e.key)) unclaimed += e.length_px;
   }
-  return total > 0 ? fresh / total : 0;
+  return total > 0 ? unclaimed / total : 0;
 }
 
 // More than chance in all views together, or clearly so in two of them: others may hide it from the
 // rest.
-bool has_evidence(std::span<const PoseFeatures> by_view) {
+bool exceeds_chance(std::span<const PoseFeatures> by_view) {
   constexpr double clearly = 2;  // standard errors
-  return evidence(together(by_view)) > 0 ||
+  return psi_z_score(pool_over_views(by_view)) > 0 ||
          std::ranges::count_if(by_view,
-                               [](const PoseFeatures& f) { return evidence(f) > clearly; }) > 1;
+                               [](const PoseFeatures& f) { return psi_z_score(f) > clearly; }) > 1;
 }
 
 }  // namespace
 
-void EvidenceOptions::validate() const {
-  const OptionBounds in("evidence");
+void EdgeClaimOptions::validate() const {
+  const OptionBounds in("edge_claims");
   in("match", match_px, 0.01, EdgeIndex::CELL_PX);
   in("max_turn", max_turn_rad, 0, 3.15);
-  in("max_spent", max_spent, 0, 1);
+  in("max_claimed", max_claimed, 0, 1);
 }
 
-std::vector<ChosenPose> explain_image(std::span<const EdgeModel> models,
-                                      std::span<const Hypothesis> poses,
-                                      std::span<const std::vector<PoseFeatures>> features,
-                                      std::span<const RegisterView> views, Backend& backend,
-                                      const EvidenceOptions& options) {
-  check(features.size() == poses.size(), "explain_image: as many features as poses");
+std::vector<EdgeClaim> claim_edges(std::span<const EdgeModel> models,
+                                   std::span<const ObjectPose> poses,
+                                   std::span<const std::vector<PoseFeatures>> features,
+                                   std::span<const RegisterView> views, Backend& backend,
+                                   const EdgeClaimOptions& options) {
+  check(features.size() == poses.size(), "claim_edges: as many features as poses");
   std::vector<std::vector<Explained>> explained(poses.size());
   for (std::size_t p = 0; p < poses.size(); ++p) {
     const std::vector<VisibleInView> seen =
         visible_in_views(models, poses.subspan(p, 1), views, backend);
     explained[p] = explained_edges(models[poses[p].object], poses[p], views, seen, options);
   }
-  SpentEdges spent(views);
-  std::vector<ChosenPose> chosen;
+  ClaimedEdges claimed(views);
+  std::vector<EdgeClaim> chosen;
   std::vector<bool> open(poses.size(), true);
   for (;;) {
     std::size_t best = poses.size();
     double most_worth = 0;
     for (std::size_t p = 0; p < poses.size(); ++p) {
       if (!open[p]) continue;
-      const double fresh = fresh_fraction(explained[p], spent);
-      if (fresh < 1 - options.max_spent || !has_evidence(features[p])) {
+      const double unclaimed = unclaimed_fraction(explained[p], claimed);
+      if (unclaimed < 1 - options.max_claimed || !exceeds_chance(features[p])) {
         open[p] = false;
         continue;
       }
-      const double worth = fresh / (1 + std::exp(-merit(features[p])));
+      const double worth = unclaimed / (1 + std::exp(-merit(features[p])));
       if (worth > most_worth) most_worth = worth, best = p;
     }
     if (best == poses.size()) return chosen;
-    chosen.push_back({best, fresh_fraction(explained[best], spent)});
-    spent.spend(explained[best], options);
+    chosen.push_back({best, unclaimed_fraction(explained[best], claimed)});
+    claimed.claim(explained[best], options);
     open[best] = false;
   }
 }
