@@ -1,5 +1,5 @@
 // How well edges are found: synthetic edges of known place and direction, box-filtered pixels, blur
-// 0.6 px, noise. The bounds are what was measured (docs/edges.md) and a tenth or so more; the
+// 0.6 px, noise. The bounds are what was measured (docs/research/edges.md) and a tenth or so more; the
 // measured figures are printed.
 #include <gtest/gtest.h>
 
