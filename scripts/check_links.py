@@ -17,12 +17,13 @@ INLINE = re.compile(r"\[(?:[^\[\]]|\[[^\]]*\])*\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"
 REFERENCE = re.compile(r"^ {0,3}\[[^\]]+\]:\s+<?(\S+?)>?(?:\s|$)")
 HEADING = re.compile(r"^ {0,3}#{1,6}\s+(.*?)\s*#*$")
 FENCE = re.compile(r"^ {0,3}(```|~~~)")
+LIST = re.compile(r"([-*+]|\d+[.)]) ")
 SCHEME = re.compile(r"^[a-z][a-z0-9+.-]*:", re.IGNORECASE)
 
 
 def without_code(text):
     """The same lines, with blank ones in place of code blocks and inline code emptied."""
-    lines, fence, after_blank, indented = [], None, True, False
+    lines, fence, after_blank, indented, in_list = [], None, True, False, False
     for line in text.split("\n"):
         mark = FENCE.match(line)
         if fence or mark:
@@ -30,7 +31,9 @@ def without_code(text):
             lines.append("")
             continue
         # An indented block begins after a blank line; inside lists such lines are text.
-        indented = line.startswith("    ") and (indented or after_blank) and "](" not in line
+        if line.strip() and not line.startswith(" "):
+            in_list = bool(LIST.match(line))
+        indented = line.startswith("    ") and (indented or after_blank) and not in_list
         after_blank = not line.strip()
         lines.append("" if indented else line)
     return re.sub(r"(`+)(?:.|\n)*?\1", lambda code: "\n" * code.group(0).count("\n"), "\n".join(lines))

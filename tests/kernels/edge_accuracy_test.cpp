@@ -1,6 +1,6 @@
 // How well edges are found: synthetic edges of known place and direction, box-filtered pixels, blur
-// 0.6 px, noise. The bounds are what was measured (docs/research/edges.md) and a tenth or so more; the
-// measured figures are printed.
+// 0.6 px, noise. The bounds are what was measured (docs/research/edges.md) and a tenth or so more;
+// the measured figures are printed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
