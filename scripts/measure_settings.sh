@@ -1,5 +1,5 @@
 #!/bin/bash
-# Measures accuracy, false poses and seconds an image: the tables of README.md and docs/tuning.md.
+# Measures accuracy, false poses and seconds per image: the tables of README.md and docs/tuning.md.
 #   scripts/measure_settings.sh [--part NAME]... [DATA [PROGRAM [OUT]]]
 #     --part    views: one, three and five views; photographs: DATA/brackets;
 #               settings: one view with other settings. Default: all three.
@@ -171,11 +171,15 @@ render() {
 }
 
 heap=$out/heap
+apart=$out/apart
 min_visible=0.1
 range=(--distance-min 0.3 --distance-max 0.6)
+
+# heading TITLE FIRST_COLUMN: begins a table.
 heading() {
   say "$1"
-  echo "| $2 | instances | 0.1 rad, 5 mm | MSPD < 10 px | false an image | mm | rad | s an image |"
+  echo "| $2 | instances | 0.1 rad, 5 mm | MSPD < 10 px | false per image" \
+    "| mm | rad | s per image |"
   echo "|---|---|---|---|---|---|---|---|"
 }
 
@@ -188,31 +192,36 @@ if [[ " ${parts[*]} " =~ ( views | settings ) ]]; then
   render "$heap" --part l_bracket --scenes 2 --objects 6 --clutter 1 --pile 0.9 --seed 400
   first_views "$heap" 3
 fi
+if [[ " ${parts[*]} " == *" views "* ]]; then
+  render "$apart" --part l_bracket bearing_block --scenes 2 --objects 6 --clutter 1 --pile 0.3 \
+    --seed 300
+fi
 
 if [[ " ${parts[*]} " == *" views "* ]]; then
-  heading "rendered heaps of six parts" "views"
-  measure one heap_1 "$heap" "$heap/models" 0.05 "${range[@]}"
-  measure three heap_joint_3 "${heap}_3" "$heap/models" 0.05 "${range[@]}" --joint
-  measure five heap_joint_5 "$heap" "$heap/models" 0.05 "${range[@]}" --joint
-  heading "the same, probability from 0.5" "views"
-  measure one heap_1 "$heap" "$heap/models" 0.5 "${range[@]}"
-  measure three heap_joint_3 "${heap}_3" "$heap/models" 0.5 "${range[@]}" --joint
-  measure five heap_joint_5 "$heap" "$heap/models" 0.5 "${range[@]}" --joint
+  for probability in 0.05 0.1 0.25 0.5 0.75 0.9; do
+    heading "rendered heaps of six parts, probability from $probability" "views"
+    measure one heap_1 "$heap" "$heap/models" "$probability" "${range[@]}"
+    measure three heap_joint_3 "${heap}_3" "$heap/models" "$probability" "${range[@]}" --joint
+    measure five heap_joint_5 "$heap" "$heap/models" "$probability" "${range[@]}" --joint
+  done
+  heading "two types of parts that lie apart, one view" "probability from"
+  for probability in 0.05 0.1 0.25 0.5 0.75; do
+    measure "$probability" apart_1 "$apart" "$apart/models" "$probability" "${range[@]}"
+  done
 fi
 
 if [[ " ${parts[*]} " == *" photographs "* && "$data" != - ]]; then
   photographs=$data/brackets
   photographs_range=(--distance-min 0.4 --distance-max 0.8)
-  heading "photographs of brackets" "views"
-  measure one brackets_1 "$photographs" "$photographs/models" 0.05 "${photographs_range[@]}"
   mkdir -p "$out/pile"
   [ -e "$out/pile/000001" ] || ln -s "$photographs/000001" "$out/pile/000001"
-  measure three brackets_joint_3 "$out/pile" "$photographs/models" 0.05 \
-    "${photographs_range[@]}" --joint
-  heading "the same, probability from 0.5" "views"
-  measure one brackets_1 "$photographs" "$photographs/models" 0.5 "${photographs_range[@]}"
-  measure three brackets_joint_3 "$out/pile" "$photographs/models" 0.5 \
-    "${photographs_range[@]}" --joint
+  for probability in 0.05 0.25 0.5 0.9; do
+    heading "photographs of brackets, probability from $probability" "views"
+    measure one brackets_1 "$photographs" "$photographs/models" "$probability" \
+      "${photographs_range[@]}"
+    measure three brackets_joint_3 "$out/pile" "$photographs/models" "$probability" \
+      "${photographs_range[@]}" --joint
+  done
 fi
 
 if [[ " ${parts[*]} " == *" settings "* ]]; then
