@@ -24,7 +24,9 @@ configure_package_config_file(cmake/edgescout-config.cmake.in ${PROJECT_BINARY_D
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/edgescout-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/edgescout-config.cmake ${PROJECT_BINARY_DIR}/edgescout-config-version.cmake
         DESTINATION ${package_dir})
-install(FILES LICENSE README.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# The documents keep their places to each other, so that their links work.
+install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # `cpack` in the build folder makes a Debian package.
 set(CPACK_GENERATOR DEB)

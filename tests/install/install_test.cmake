@@ -12,5 +12,30 @@ run(${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -G Ninja -DCMAKE_BU
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 set(examples ${CONSUMER_DIR}/../../../docs/examples)
 run(${WORK_DIR}/build/consumer ${examples}/scenes/000000 ${examples}/parts/obj_000001.ply 1)
+run(${WORK_DIR}/build/find_part ${examples}/scenes/000000/gray/000000.png
+    ${examples}/scenes/000000/scene_camera.json ${examples}/parts/obj_000001.ply 0.32 0.36)
 run(${WORK_DIR}/build/look_around ${examples}/scenes/000001 ${examples}/parts/obj_000001.ply)
 run(${WORK_DIR}/prefix/bin/edgescout --version)
+
+# The page on the API shows the program as it is.
+file(READ ${examples}/embedding/find_part.cpp program)
+file(READ ${examples}/../cpp_api.md page)
+string(FIND "${page}" "${program}" place)
+if(place EQUAL -1)
+  message(FATAL_ERROR "docs/cpp_api.md does not show docs/examples/embedding/find_part.cpp as it is")
+endif()
+
+# The links of the installed README.
+file(GLOB readme ${WORK_DIR}/prefix/share/doc/*/README.md)
+get_filename_component(folder ${readme} DIRECTORY)
+file(READ ${readme} text)
+string(REGEX MATCHALL "[(](docs/[^)#]*|[A-Z]+[.]md|LICENSE)[)#]" links "${text}")
+if(NOT links)
+  message(FATAL_ERROR "${readme}: no link to another document")
+endif()
+foreach(link IN LISTS links)
+  string(REGEX REPLACE "[()#]" "" link "${link}")
+  if(NOT EXISTS ${folder}/${link})
+    message(FATAL_ERROR "${readme}: link to ${link}, which is not installed")
+  endif()
+endforeach()
