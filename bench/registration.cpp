@@ -1,4 +1,4 @@
-// Registration from given starts, against the original D2CO implementation's results on the same
+// PoseEstimate from given starts, against the original D2CO implementation's results on the same
 // ones.
 //
 //   edgescout_bench_registration FOLDER [--device D] [--every N] [--search RAD] [--views 1|3]
@@ -95,7 +95,7 @@ void register_in(const std::string& image, const Arguments& a, Backend& backend,
   const KnownScene scene = recorded_scene(a.folder, image, a.views - 1);
   TensorOptions tensor;
   tensor.lambda_px_per_rad = static_cast<float>(a.lambda);
-  const std::vector<RegisterView> views =
+  const std::vector<ObjectView> views =
       register_views(scene, edges_of(scene, backend), tensor, backend);
   std::vector<EdgeModel> models;
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
@@ -108,12 +108,12 @@ void register_in(const std::string& image, const Arguments& a, Backend& backend,
   RefineOptions options;
   options.search.rotation_rad = a.search_rad;
   const auto begin = Clock::now();
-  const std::vector<Refined> refined = refine_poses(models, hypotheses, views, backend, options);
+  const std::vector<PoseEstimate> refined = refine_poses(models, hypotheses, views, backend, options);
   tally.seconds += seconds_since(begin);
   for (std::size_t i = 0; i < starts.size(); ++i, ++tally.count) {
     const KnownInstance& instance = scene.instances[static_cast<std::size_t>(starts[i].instance)];
     const PoseError error =
-        pose_error(refined[i].registration.world_from_object, instance.world_from_object,
+        pose_error(refined[i].world_from_object, instance.world_from_object,
                    scene.objects[static_cast<std::size_t>(instance.object)].symmetries);
     auto& [right, all] = tally.levels[starts[i].level];
     right += error.passes();

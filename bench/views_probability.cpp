@@ -1,4 +1,4 @@
-// What the probability of a pose over several views (host/detect/probability_over_views.h) is
+// What the probability of a pose over several views (host/register/pose_classifier.h) is
 // fitted on.
 //
 //   edgescout_bench_views_probability FIRST_BIN LAST_BIN > candidates.csv
@@ -19,7 +19,7 @@
 #include "host/active/particles.h"
 #include "host/active/scout.h"
 #include "host/detect/plausible_pairs.h"
-#include "host/detect/probability_over_views.h"
+#include "host/register/pose_classifier.h"
 #include "host/detect/suppression.h"
 #include "host/eval/metrics.h"
 #include "host/experiments/bin.h"
@@ -73,7 +73,7 @@ bool is_right(const ObjectPose& pose, const Bin& bin) {
 }
 
 void print_row(const Bin& bin, bool right, std::span<const PoseFeatures> by_view) {
-  const SeveralViews sums = sum_of_speaking(by_view);
+  const ViewSums sums = sum_informative_views(by_view);
   std::printf("%d,%zu,%d,%d,%.5f,%.5f,%.5f\n", bin.number, by_view.size(), int(right), sums.views,
               sums.log_psi_z_score, sums.log_background_psi_z_score, sums.unexplained_grey);
 }
@@ -84,11 +84,11 @@ void print_bin(int number, std::span<const TemplateSet> sets, Backend& backend) 
   ScoutOptions options = settings.scout;
   const PipelineOptions pipeline = options.pipeline;
   std::vector<Detection> found;
-  std::vector<RegisterView> views;
+  std::vector<ObjectView> views;
   std::vector<std::vector<ScanHits>> hits;
-  options.detect = [&](std::span<const int>, std::span<const Observation> images,
+  options.detect = [&](std::span<const int>, std::span<const ObjectView> images,
                        std::span<const ObjectPose>) {
-    std::vector<Observation> scanned(images.begin(), images.end());
+    std::vector<ObjectView> scanned(images.begin(), images.end());
     for (std::size_t i = 0; i < hits.size(); ++i) scanned[i].hits = hits[i];
     scan_for(sets, scanned.back(), backend, pipeline.detect.scan);
     hits.push_back(scanned.back().hits);
@@ -108,14 +108,14 @@ void print_bin(int number, std::span<const TemplateSet> sets, Backend& backend) 
     if (views.size() < 2 || views.size() == 4) return;
     const std::vector<ObjectPose> known =
         known_objects(state.detections, options.known_probability);
-    std::vector<RegisterView> seen = views;
-    for (RegisterView& view : seen) view.occluders = make_occluders(models, known, view, backend);
+    std::vector<ObjectView> seen = views;
+    for (ObjectView& view : seen) view.occluders = make_occluders(models, known, view, backend);
     Candidates all{poses_of(found), {}};
     RefineOptions refine = pipeline.detect.refine;
     refine.search.rotation_rad = 0;
-    const std::vector<Refined> refined = refine_poses(models, all.poses, seen, backend, refine);
+    const std::vector<PoseEstimate> refined = refine_poses(models, all.poses, seen, backend, refine);
     for (std::size_t i = 0; i < refined.size(); ++i) {
-      all.poses[i].world_from_object = refined[i].registration.world_from_object;
+      all.poses[i].world_from_object = refined[i].world_from_object;
       all.by_view.push_back(refined[i].by_view);
     }
     for (const std::size_t i : left_apart(all, sets, models, backend))

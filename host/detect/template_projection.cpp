@@ -12,14 +12,15 @@ namespace {
 
 constexpr int MOST = TEMPLATE_SCORE_MAX_POINTS;
 
-// Half away from zero. Far outside is as good as outside; the job's place must still be addable.
+// Rounds half away from zero. Clamps places far outside: they stay outside, and adding the place of
+// a job does not overflow.
 inline int rounded(float pixel) {
   const float near = std::min(std::max(pixel, -16000.0f), 16000.0f);
   return static_cast<int>(near + (near < 0 ? -0.5f : 0.5f));
 }
 
-// Returns how many points are nearer than `nearest_m`. Eq. 1's projection with d = z^2 *
-// d(projection)(tangent), as kernels/pose_geometry.h.
+// Returns the number of points nearer than `nearest_m`. Eq. 1's projection with d = z^2 *
+// d(projection)(tangent), as in kernels/pose_geometry.h.
 EDGESCOUT_SIMD_CLONES
 int project_points(const Pose& pose, const Intrinsics& k, const float* const* coordinates,
                    int count, float x_px, float y_px, int bins, float nearest_m,

@@ -23,8 +23,8 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// Decoders fill the missing rest of a cut image with grey and only warn; the end marks of the two
-// common formats tell.
+// Decoders fill the missing rest of a truncated image with grey and only warn. So the end marks of the
+// two common formats are checked here.
 bool is_cut_short(const std::string& bytes) {
   if (bytes.starts_with("\x89PNG")) return bytes.find("IEND") == std::string::npos;
   if (!bytes.starts_with("\xff\xd8")) return false;
@@ -34,7 +34,7 @@ bool is_cut_short(const std::string& bytes) {
   return end == std::string::npos || (scan != std::string::npos && end < scan);
 }
 
-// OpenCV says it in its own way.
+// OpenCV has its own error for it.
 bool is_out_of_memory(const std::exception& error) {
   const auto* of_opencv = dynamic_cast<const cv::Exception*>(&error);
   return (of_opencv && of_opencv->code == cv::Error::StsNoMem) ||

@@ -1,8 +1,11 @@
-// One pose on its way through Levenberg-Marquardt, a step at a time, so that whoever sums the
-// systems may do so for many poses at once.
+// The state of Levenberg-Marquardt for one pose, advanced step by step.
+//
+// The caller sums the systems and may do so for many poses at once.
 #pragma once
 
-#include "host/register/d2co.h"
+#include "host/register/d2co_options.h"
+#include "host/register/pose_estimate.h"
+#include "host/register/scene.h"
 #include "host/register/world_system.h"
 
 namespace edgescout {
@@ -14,25 +17,25 @@ struct LmState {
   double damping = 1e-3;
   bool active = true;
   int iterations = 0;
-  Convergence reason = Convergence::IterationLimit;
+  Convergence convergence = Convergence::IterationLimit;
 };
 
-// LogicError for a start that is no pose or of no model, for no view or one that stands nowhere.
+// LogicError: no view, a view or a start whose pose is not finite, an object without a model.
 void check_problem(std::span<const ObjectPose> starts, std::size_t models,
-                   std::span<const RegisterView> views);
-// Before a round: the first trial is the pose itself.
+                   std::span<const ObjectView> views);
+// Begins a round: the first trial is the pose itself.
 void restart(LmState& state);
-// With the system at the first trial: a pose without points in front of the camera goes no further.
+// Takes the system at the first trial. Ends the state where no point lies in front of the camera.
 void initialize(LmState& state, const WorldSystem& system);
-// The next trial from the system at the pose. Marquardt's damping scales with the diagonal, so
-// metres and radians are damped alike: by the image motion they cause.
+// Computes the next trial from the system at the pose. Marquardt's damping scales with the
+// diagonal: metres and radians are damped equally, by the image motion that they cause.
 void compute_step(LmState& state);
-// Takes the trial where it lowered the mean cost; ends the state at a small step or where no step
-// helps.
+// Takes the trial if it lowers the mean cost. Ends the state at a small step, or where no step
+// lowers the cost.
 void accept_step(LmState& state, const WorldSystem& at_trial, double min_step_m,
                  double min_step_rad);
 bool is_small(const Vector6d& step, double min_step_m, double min_step_rad);
 
-Registration registration_of(const LmState& state);
+PoseEstimate estimate_of(const LmState& state, int object);
 
 }  // namespace edgescout

@@ -1,4 +1,4 @@
-// Sums one pose's per-view systems (camera frames) into one 6x6 system in the world's tangent.
+// Sums the systems of one pose in several camera frames into one 6x6 system in the world's tangent.
 #pragma once
 
 #include "host/core/se3.h"
@@ -15,10 +15,10 @@ struct WorldSystem {
   double points = 0;
 };
 
-// A world perturbation [dt, dw] moves the camera's tangent to [R dt, R dw] with R the rotation of
+// A step [dt, dw] in the world's tangent is [R dt, R dw] in the camera's, R being the rotation of
 // camera_from_world: both parts of the tangent act on the left and about the object's origin.
 void add_view(WorldSystem& sum, const NormalEquations& view, const Se3& camera_from_world);
-// The same for a system summed in double, its hessian full.
+// The same for a system in double with both triangles of the Hessian filled.
 void add_view(WorldSystem& sum, const WorldSystem& in_camera, const Se3& camera_from_world);
 
 }  // namespace edgescout

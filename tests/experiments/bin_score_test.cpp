@@ -1,4 +1,4 @@
-#include "host/experiments/bin_judge.h"
+#include "host/experiments/bin_score.h"
 
 #include <gtest/gtest.h>
 
@@ -28,48 +28,48 @@ const std::vector<Object>& objects() {
   return parts;
 }
 
-Judgement judged(const std::vector<BinInstance>& instances, const ScoutStep& step) {
-  return judge(instances, step, objects(), camera, camera_from_world());
+BinScore score_of(const std::vector<BinInstance>& instances, const ScoutStep& step) {
+  return score_bin(instances, step, objects(), camera, camera_from_world());
 }
 
 TEST(BinJudge, SplitsByWhatShows) {
   const std::vector<BinInstance> instances{
       {0, at(0, 0), 0.9}, {0, at(0.1, 0), 0.3}, {1, at(0, 0.1), 0.71}, {1, at(0.1, 0.1), 0.05}};
-  const Judgement judgement =
-      judged(instances, reporting({{0, at(0, 0)}, {0, at(0.1, 0)}, {1, at(0.1, 0.1)}}));
-  EXPECT_EQ(judgement.light.instances, 2);
-  EXPECT_EQ(judgement.heavy.instances, 1) << "what hardly shows does not count";
-  EXPECT_EQ(judgement.light.correct, 1);
-  EXPECT_EQ(judgement.heavy.correct, 1);
-  EXPECT_EQ(judgement.light.wrong + judgement.heavy.wrong, 0) << "and finding it is not wrong";
+  const BinScore score =
+      score_of(instances, reporting({{0, at(0, 0)}, {0, at(0.1, 0)}, {1, at(0.1, 0.1)}}));
+  EXPECT_EQ(score.light.instances, 2);
+  EXPECT_EQ(score.heavy.instances, 1) << "what hardly shows does not count";
+  EXPECT_EQ(score.light.correct, 1);
+  EXPECT_EQ(score.heavy.correct, 1);
+  EXPECT_EQ(score.light.wrong + score.heavy.wrong, 0) << "and finding it is not wrong";
 }
 
 TEST(BinJudge, RightIsBelowFiveMillimetresAndATenthOfARadian) {
   const std::vector<BinInstance> instances{{0, at(0, 0), 1}};
-  EXPECT_EQ(judged(instances, reporting({{0, at(0.0049, 0)}})).light.correct, 1);
-  EXPECT_EQ(judged(instances, reporting({{0, at(0.0051, 0)}})).light.correct, 0);
-  EXPECT_EQ(judged(instances, reporting({{0, at(0.0051, 0)}})).light.wrong, 1);
+  EXPECT_EQ(score_of(instances, reporting({{0, at(0.0049, 0)}})).light.correct, 1);
+  EXPECT_EQ(score_of(instances, reporting({{0, at(0.0051, 0)}})).light.correct, 0);
+  EXPECT_EQ(score_of(instances, reporting({{0, at(0.0051, 0)}})).light.wrong, 1);
   // 5.1 mm at 0.5 m are 7.8 px: right in the image.
-  EXPECT_EQ(judged(instances, reporting({{0, at(0.0051, 0)}})).light.correct_px, 1);
+  EXPECT_EQ(score_of(instances, reporting({{0, at(0.0051, 0)}})).light.correct_px, 1);
   const auto turned = [](double rad) {
     return Se3{Eigen::Quaterniond(Eigen::AngleAxisd(rad, Eigen::Vector3d::UnitZ())), {0, 0, 0}};
   };
-  EXPECT_EQ(judged(instances, reporting({{0, turned(0.099)}})).light.correct, 1);
-  EXPECT_EQ(judged(instances, reporting({{0, turned(0.101)}})).light.correct, 0);
+  EXPECT_EQ(score_of(instances, reporting({{0, turned(0.099)}})).light.correct, 1);
+  EXPECT_EQ(score_of(instances, reporting({{0, turned(0.101)}})).light.correct, 0);
 }
 
 TEST(BinJudge, AnInstanceIsFoundOnceAndByItsOwnType) {
   const std::vector<BinInstance> instances{{0, at(0, 0), 1}};
-  const Judgement twice = judged(instances, reporting({{0, at(0, 0)}, {0, at(0.001, 0)}}));
+  const BinScore twice = score_of(instances, reporting({{0, at(0, 0)}, {0, at(0.001, 0)}}));
   EXPECT_EQ(twice.light.correct, 1);
   EXPECT_EQ(twice.light.wrong, 1);
-  const Judgement other = judged(instances, reporting({{1, at(0, 0)}}));
+  const BinScore other = score_of(instances, reporting({{1, at(0, 0)}}));
   EXPECT_EQ(other.light.correct, 0);
   EXPECT_EQ(other.light.wrong, 1);
 }
 
 TEST(BinJudge, AllAreWrongWhereThereIsNoInstance) {
-  const Judgement none = judged({}, reporting({{0, at(0, 0)}, {1, at(0.1, 0)}}));
+  const BinScore none = score_of({}, reporting({{0, at(0, 0)}, {1, at(0.1, 0)}}));
   EXPECT_EQ(none.heavy.wrong, 2);
   EXPECT_EQ(none.heavy.wrong_px, 2);
   EXPECT_EQ(none.light.wrong + none.light.instances + none.heavy.instances, 0);
@@ -77,9 +77,9 @@ TEST(BinJudge, AllAreWrongWhereThereIsNoInstance) {
 
 TEST(BinJudge, AFalseOneBelongsToItsNearestInstance) {
   const std::vector<BinInstance> instances{{0, at(0, 0), 1}, {0, at(0.2, 0), 0.4}};
-  const Judgement judgement = judged(instances, reporting({{0, at(0.15, 0)}}));
-  EXPECT_EQ(judgement.light.wrong, 0);
-  EXPECT_EQ(judgement.heavy.wrong, 1);
+  const BinScore score = score_of(instances, reporting({{0, at(0.15, 0)}}));
+  EXPECT_EQ(score.light.wrong, 0);
+  EXPECT_EQ(score.heavy.wrong, 1);
 }
 
 TEST(BinJudge, FollowedIsWhatAParticleHasRight) {
@@ -89,9 +89,9 @@ TEST(BinJudge, FollowedIsWhatAParticleHasRight) {
   particle.object = 0;
   particle.world_from_object = at(0.203, 0);
   step.after = {particle};
-  EXPECT_EQ(judged(instances, step).light.followed, 0);
-  EXPECT_EQ(judged(instances, step).heavy.followed, 1);
-  EXPECT_EQ(judged(instances, step).heavy.correct, 0) << "followed, not reported";
+  EXPECT_EQ(score_of(instances, step).light.followed, 0);
+  EXPECT_EQ(score_of(instances, step).heavy.followed, 1);
+  EXPECT_EQ(score_of(instances, step).heavy.correct, 0) << "followed, not reported";
 }
 
 TEST(BinJudge, ShownIsWhatAnImageSoFarShowsLightlyOccluded) {
@@ -99,9 +99,9 @@ TEST(BinJudge, ShownIsWhatAnImageSoFarShowsLightlyOccluded) {
                                            {0, at(0.2, 0), 0.4, 0.71},
                                            {0, at(0, 0.2), 0.4, 0.69},
                                            {0, at(0.2, 0.2), 0.05, 1}};
-  const Judgement judgement = judged(instances, {});
-  EXPECT_EQ(judgement.light.shown, 1);
-  EXPECT_EQ(judgement.heavy.shown, 1) << "what does not count is not counted here either";
+  const BinScore score = score_of(instances, {});
+  EXPECT_EQ(score.light.shown, 1);
+  EXPECT_EQ(score.heavy.shown, 1) << "what does not count is not counted here either";
 }
 
 }  // namespace

@@ -1,17 +1,13 @@
-#include "host/active/source.h"
+#include "host/active/recorded_views.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <map>
 
-#include "host/core/option_bounds.h"
-#include "host/core/random.h"
 #include "host/io/bop.h"
 #include "host/io/files.h"
 #include "host/io/image.h"
 #include "host/io/text_tokens.h"
-#include "host/render/renderer.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -19,21 +15,6 @@ namespace edgescout {
 namespace fs = std::filesystem;
 
 namespace {
-
-const Se3& pose_of(const std::vector<Se3>& poses, int view) {
-  check(view >= 0 && view < static_cast<int>(poses.size()), "ViewSource::acquire: no such view");
-  return poses[static_cast<std::size_t>(view)];
-}
-
-// The camera moved about itself: what an arm does not do exactly.
-Se3 missed(const Se3& camera_from_world, const ArmNoise& noise, Random random) {
-  const auto error = [&](double sigma) {
-    return Eigen::Vector3d{sigma * random.normal(), sigma * random.normal(),
-                           sigma * random.normal()};
-  };
-  const Eigen::Vector3d shift_m = error(noise.translation_m), turn_rad = error(noise.rotation_rad);
-  return Se3{so3_exp(turn_rad), shift_m} * camera_from_world;
-}
 
 std::vector<RecordedViews::Recording> bop_recordings(const BopScene& scene, Camera& camera) {
   std::vector<RecordedViews::Recording> recordings;
@@ -74,8 +55,8 @@ std::string digits(int number, std::size_t width) {
   return std::string(width - std::min(width, text.size()), '0') + text;
 }
 
-// Every image that has a pose, by rising number, whatever numbers are left out; an image that is
-// not there is found missing when the camera is sent to it.
+// Every image that has a pose, in the order of their numbers, which may have gaps. Whether the
+// image itself exists shows when its view is acquired.
 std::vector<RecordedViews::Recording> visp_recordings(const fs::path& folder) {
   std::map<int, fs::path> poses;
   for (const auto& entry : fs::directory_iterator(folder / "CameraPose")) {
@@ -93,33 +74,6 @@ std::vector<RecordedViews::Recording> visp_recordings(const fs::path& folder) {
 }
 
 }  // namespace
-
-void ArmNoise::validate() const {
-  const OptionBounds in("arm_noise");
-  in("translation_m", translation_m, 0, 1);
-  in("rotation_rad", rotation_rad, 0, 1);
-}
-
-SimulatedCell::SimulatedCell(Scene scene, const Camera& camera, std::vector<Se3> camera_from_world,
-                             const ArmNoise& noise, ThreadPool& pool)
-    : scene_(std::move(scene)),
-      camera_(camera),
-      camera_from_world_(std::move(camera_from_world)),
-      noise_(noise),
-      pool_(pool) {
-  noise_.validate();
-  check(!camera_.has_distortion(), "SimulatedCell: rendered images have no distortion");
-}
-
-Shot SimulatedCell::acquire(int view) {
-  const Se3& planned = pose_of(camera_from_world_, view);
-  const Se3 reached =
-      missed(planned, noise_, Random(noise_.seed).split(static_cast<std::uint64_t>(view)));
-  Scene seen = scene_;
-  seen.views = {{camera_, reached}};
-  seen.options.seed += static_cast<unsigned>(view);  // the sensor's noise is another in every image
-  return {render(seen, pool_)[0].image, noise_.known ? reached : planned};
-}
 
 RecordedViews::RecordedViews(const Camera& camera, std::vector<Recording> recordings)
     : camera_(camera), recordings_(std::move(recordings)) {

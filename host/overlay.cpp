@@ -1,4 +1,4 @@
-#include "host/io/overlay.h"
+#include "host/overlay.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +28,7 @@ class Canvas {
       }
   }
 
-  // Nothing where an end is behind the camera.
+  // Draws nothing if an end is behind the camera.
   void line(const Eigen::Vector3d& from_in_camera, const Eigen::Vector3d& to_in_camera,
             const cv::Scalar& colour, int thickness) {
     if (from_in_camera.z() <= 0 || to_in_camera.z() <= 0) return;
@@ -56,7 +56,7 @@ class Canvas {
 
  private:
   static constexpr int fraction_bits = 4;
-  // Far outside the image coordinates would overflow OpenCV's fixed point.
+  // Coordinates far outside the image would overflow OpenCV's fixed point.
   bool is_near(const Eigen::Vector2d& p) const {
     return p.cwiseAbs().maxCoeff() < 4.0 * std::max(canvas_.cols, canvas_.rows);
   }
@@ -82,7 +82,7 @@ bool explains_edge(const EdgeIndex& edges, const Camera& camera,
                        max_turn_rad) != nullptr;
 }
 
-// Each raster point stands for a piece of edge one raster step long.
+// Each raster point represents a piece of edge that is one raster step long.
 void draw_edges(Canvas& canvas, const Camera& camera, const OverlayPose& pose,
                 const EdgeModel& model, std::span<const ModelPoint> points,
                 const EdgeIndex* edges) {

@@ -1,5 +1,5 @@
 // Colours where they must be: a box seen from the front, with edges of the image on one side only.
-#include "host/io/overlay.h"
+#include "host/overlay.h"
 
 #include <gtest/gtest.h>
 
