@@ -55,7 +55,7 @@ LD_LIBRARY_PATH=$tree/lib:$tree/spare libraries_of "$tree"/bin/* | sort -u |
     [[ $path == "$tree"/* || $name =~ $c_library ]] || echo "taken from the system: $name $path"
   done >&2
 
-# A filter for machine code and a dictionary as large as the archive: a fifth smaller than -6.
+# A filter for machine code, and a dictionary about as large as the tree.
 mkdir -p "$(dirname "$out")"
 tar -C "$tree" --sort=name --owner=0 --group=0 --mtime=@0 -cf - bin lib spare |
   xz --x86 --lzma2=preset=9e,dict=192MiB >"$out.part"
