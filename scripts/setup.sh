@@ -1,6 +1,7 @@
 #!/bin/bash
-# Installs what the project needs and the machine lacks, from Debian's own packages (scripts/packages.txt).
-# Does nothing, and needs neither root nor network, where everything is there.
+# Installs the Debian packages that are missing. Needs neither root nor network where all are there.
+#   scripts/setup.sh         what the program needs (scripts/packages.txt)
+#   scripts/setup.sh --dev   also what tests and checks need (scripts/packages_dev.txt)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -10,8 +11,18 @@ as_root() {
   if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
 }
 
+lists=(scripts/packages.txt)
+case "${1:-}" in
+  '') ;;
+  --dev) lists+=(scripts/packages_dev.txt) ;;
+  *)
+    echo "setup: found $1, expected --dev or nothing" >&2
+    exit 2
+    ;;
+esac
+
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
-  echo "setup: this script knows Debian's packages only; install the likes of scripts/packages.txt yourself" >&2
+  echo "setup: only Debian's packages are known here; install the like of ${lists[*]} yourself" >&2
   exit 1
 fi
 
@@ -19,7 +30,7 @@ missing=()
 while read -r package _; do
   case "$package" in '' | '#'*) continue ;; esac
   installed "$package" || missing+=("$package")
-done < scripts/packages.txt
+done < <(cat "${lists[@]}")
 
 if [ "${#missing[@]}" = 0 ]; then
   echo "setup: every package is there"
@@ -27,4 +38,5 @@ if [ "${#missing[@]}" = 0 ]; then
 fi
 echo "setup: installing ${missing[*]}"
 as_root apt-get update -qq
-as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
+as_root env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -y -qq --no-install-recommends "${missing[@]}"

@@ -1,22 +1,74 @@
 #!/bin/bash
-# Installs what is missing, builds, and runs the whole test suite in the release preset; then the tests of kernels, core
-# and files once more under the address and undefined-behaviour sanitizers, and a build of the kernels alone without Vulkan.
-#   scripts/test.sh             all of that
+# Installs what is missing, builds, and runs what every change must pass.
+#   scripts/test.sh             formatting; the whole suite in the release preset; the guard on
+#                               recall and false poses; pages of the C++ API; clang-tidy on
+#                               recently changed files; the tests of kernels, core and io under the
+#                               address and undefined-behaviour sanitizers; the kernels alone
+#                               without Vulkan
+#   scripts/test.sh --long      clang-tidy on all files; the whole suite built by clang 16, under
+#                               the address and undefined-behaviour sanitizers, and under the thread
+#                               sanitizer. Prints a line for docs/reliability.md
 #   scripts/test.sh PRESET...   the whole suite in each of these presets, nothing else
+# A step that fails does not keep the others from running.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 summary=()
 failed=0
+cells=()  # of the line for docs/reliability.md
 
-# test_preset PRESET [CTEST OPTION...]: runs the tests; a failure is kept for the end.
-test_preset() {
-  local preset=$1 log=build/$1/ctest.log
+# step NAME COMMAND...: runs it; a failure is kept for the end.
+step() {
+  local name=$1 start=$SECONDS verdict=passed
   shift
-  say "testing preset $preset"
-  ctest --preset "$preset" -j "$jobs" "$@" | tee "$log" || failed=1
-  summary+=("$preset: $(grep -E 'tests passed, .* failed out of|No tests were found' "$log" || echo 'ctest did not finish')")
-  # Programs that are one test each say it in their own output.
-  summary+=("$(sed -nE 's/^\[  SKIPPED \] (.*) \([0-9]+ ms\)$/  skipped: \1/p' "build/$preset/Testing/Temporary/LastTest.log")")
+  say "$name"
+  "$@" || verdict=FAILED
+  if [ "$verdict" = FAILED ]; then failed=1; fi
+  summary+=("$name: $verdict, $((SECONDS - start)) s")
+  cells+=("$verdict, $(((SECONDS - start + 59) / 60)) min")
+}
+
+# test_preset PRESET [CTEST OPTION...]: runs the tests.
+test_preset() {
+  local preset=$1 log=build/$1/ctest.log result=0
+  shift
+  ctest --preset "$preset" -j "$jobs" "$@" | tee "$log" || result=1
+  summary+=("$preset: $(grep -E 'tests passed, .* failed out of|No tests were found' "$log" ||
+    echo 'ctest did not finish')")
+  # Programs that are one test each name what they skip in their own output.
+  summary+=("$(sed -nE 's/^\[  SKIPPED \] (.*) \([0-9]+ ms\)$/  skipped: \1/p' \
+    "build/$preset/Testing/Temporary/LastTest.log")")
+  return "$result"
+}
+
+build_and_test() { build_preset "$1" && test_preset "$1"; }
+
+kernels_alone() {
+  cmake --preset cpu-only -B build/kernels-only -DEDGESCOUT_HOST=OFF &&
+    cmake --build build/kernels-only -j "$jobs"
+}
+
+checked_parts() {
+  build_preset asan kernels_test core_test io_test &&
+    test_preset asan -R '^(kernels|core|io)\.'
+}
+
+api_pages() { cmake --build --preset release --target docs; }
+
+every_change() {
+  step "formatting" scripts/format.sh --check
+  step "release: build and tests" build_and_test release
+  step "recall and false poses" scripts/guard.sh
+  step "pages of the C++ API" api_pages
+  step "clang-tidy, changed files" env TIDY_SECONDS="${TIDY_SECONDS:-240}" scripts/tidy.sh
+  step "address sanitizer: kernels, core, io" checked_parts
+  step "kernels alone, without Vulkan" kernels_alone
+}
+
+long_run() {
+  step "clang-tidy, all files" scripts/tidy.sh --all
+  step "clang 16: build and tests" build_and_test clang
+  step "address sanitizer: build and tests" build_and_test asan
+  step "thread sanitizer: build and tests" build_and_test tsan
 }
 
 # Recorded data that lies beside the checkout; tests that need it are skipped elsewhere.
@@ -25,22 +77,28 @@ if [ -z "${EDGESCOUT_DATA:-}" ] && [ -d ../shared/data ]; then
   export EDGESCOUT_DATA
 fi
 
-scripts/setup.sh
-if [ "$#" -gt 0 ]; then
-  for preset in "$@"; do
-    build_preset "$preset"
-    test_preset "$preset"
-  done
-else
-  build_preset release
-  test_preset release
-  build_preset asan kernels_test core_test io_test
-  test_preset asan -R '^(kernels|core|io)\.'
-  say "building the kernels alone, without Vulkan"
-  cmake --preset cpu-only -B build/kernels-only -DEDGESCOUT_HOST=OFF
-  cmake --build build/kernels-only -j "$jobs"
-fi
+scripts/setup.sh --dev
+case "${1:-}" in
+  '') every_change ;;
+  --long) long_run ;;
+  -*)
+    echo "test: found $1, expected --long, names of presets or nothing" >&2
+    exit 2
+    ;;
+  *)
+    for preset in "$@"; do
+      step "$preset: build and tests" build_and_test "$preset"
+    done
+    ;;
+esac
 
 say "summary"
-printf '%s\n' "${summary[@]}"
+printf '%s\n' "${summary[@]}" | sed '/^$/d'
+echo "all: $(((SECONDS + 59) / 60)) min"
+if [ "${1:-}" = --long ]; then
+  say "line for docs/reliability.md"
+  printf '| %s | %s |' "$(date -u +%F)" "$(git rev-parse --short=12 HEAD)"
+  printf ' %s |' "${cells[@]}"
+  printf '\n'
+fi
 exit "$failed"
