@@ -1,4 +1,4 @@
-// PoseEstimate from given starts, against the original D2CO implementation's results on the same
+// Registration from given starts, against the original D2CO implementation's results on the same
 // ones.
 //
 //   edgescout_bench_registration FOLDER [--device D] [--every N] [--search RAD] [--views 1|3]
@@ -101,14 +101,14 @@ void register_in(const std::string& image, const Arguments& a, Backend& backend,
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
   const std::vector<RecordedStart> starts = starts_of(a, scene);
   const Se3& camera_from_world = scene.images[0].camera_from_world;
-  std::vector<ObjectPose> hypotheses;
+  std::vector<ObjectPose> poses;
   for (const RecordedStart& start : starts)
-    hypotheses.push_back({scene.instances[static_cast<std::size_t>(start.instance)].object,
-                          inverse(camera_from_world) * start.camera_from_object});
+    poses.push_back({scene.instances[static_cast<std::size_t>(start.instance)].object,
+                     inverse(camera_from_world) * start.camera_from_object});
   RefineOptions options;
   options.search.rotation_rad = a.search_rad;
   const auto begin = Clock::now();
-  const std::vector<PoseEstimate> refined = refine_poses(models, hypotheses, views, backend, options);
+  const std::vector<PoseEstimate> refined = refine_poses({models, views, backend}, poses, options);
   tally.seconds += seconds_since(begin);
   for (std::size_t i = 0; i < starts.size(); ++i, ++tally.count) {
     const KnownInstance& instance = scene.instances[static_cast<std::size_t>(starts[i].instance)];

@@ -1,4 +1,6 @@
 // Draws the edges and axes of models in given poses over an image.
+//
+// Public header.
 #pragma once
 
 #include <optional>
@@ -27,8 +29,8 @@ struct OverlayPose {
 //   - the object's axes from the centre of its box, a quarter of the diameter long: x red, y green,
 //     z blue;
 //   - label and score.
-// `camera` must be ideal and of the image's size (LogicError). A pose with the object's centre behind
-// the camera is left out.
+// `camera` must be ideal and of the image's size (LogicError). A pose with the object's centre
+// behind the camera is left out.
 RgbImage draw_overlay(const Image& image, const Camera& camera, std::span<const OverlayPose> poses,
                       std::span<const EdgeModel> models, const EdgeIndex* edges, Backend& backend);
 

@@ -5,6 +5,8 @@
 // path (SIMD and threads) and a Vulkan device. All answer alike, within the agreement each kernel's
 // header promises. A backend may be used by one thread at a time. Tensors, views and cells outlive
 // the call that made them and must be handed back to the same backend.
+//
+// Public header.
 #pragma once
 
 #include <chrono>

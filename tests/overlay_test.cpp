@@ -35,7 +35,7 @@ Colour colour_at(const RgbImage& image, int x, int y) {
   return Colour::Other;
 }
 
-TEST(Overlay, TellsMatchedEdgesFromUnmatched) {
+TEST(Overlay, DistinguishesMatchedEdgesFromUnmatched) {
   std::vector<EdgePoint> edges;
   for (int y = 30; y <= 70; ++y)
     edges.push_back(

@@ -5,6 +5,7 @@
 #include "host/register/d2co.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
+#include "host/core/thinned.h"
 
 namespace edgescout {
 

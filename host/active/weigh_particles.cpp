@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "kernels/error.h"
+#include "host/register/pose_classifier.h"
 
 namespace edgescout {
 

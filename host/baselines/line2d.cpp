@@ -11,6 +11,7 @@
 #include "host/register/visible_in_views.h"
 #include "kernels/error.h"
 #include "kernels/pose_geometry.h"
+#include "host/core/thinned.h"
 
 namespace edgescout {
 

@@ -51,8 +51,8 @@ struct PreparedGroup {
   std::vector<std::string> failures;  // one per image; empty if the image is good
 };
 
-// Decodes images and finds their edges, on its own CPU backend. It may run on another thread while the
-// device works on the group before.
+// Decodes images and finds their edges, on its own CPU backend. It may run on another thread while
+// the device works on the group before.
 class Preparer {
  public:
   Preparer(const BatchOptions& options, const std::optional<Camera>& camera)

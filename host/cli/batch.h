@@ -1,5 +1,5 @@
-// Runs the detector on a batch of images. Writes each result as soon as it exists, lists failures and
-// can resume.
+// Runs the detector on a batch of images. Writes each result as soon as it exists, lists failures
+// and can resume.
 #pragma once
 
 #include <filesystem>
@@ -22,21 +22,21 @@ struct BatchOptions {
   Settings settings;  // of the verb; a resumed batch compares them. Models and cameras are added
 };
 
-// Checks the requirements of `joint`. InputError naming the first image that has no world pose or is
-// given twice: a repeated view gives no new information.
+// Checks the requirements of `joint`. InputError naming the first image that has no world pose or
+// is given twice: a repeated view gives no new information.
 void require_joinable(std::span<const InputImage> images);
 
 // Writes into `out`: NAME.json and NAME_overlay.png for every image, results.csv (BOP) and
 // summary.json. They replace those of an earlier run on these images; call require_no_other_results
 // before.
 //
-// A bad image is listed and the batch continues. If all images are bad, the error of the last one is
-// thrown and nothing is written. Any other error ends the batch: results.csv then holds the finished
-// images, and summary.json also the error.
+// A bad image is listed and the batch continues. If all images are bad, the error of the last one
+// is thrown and nothing is written. Any other error ends the batch: results.csv then holds the
+// finished images, and summary.json also the error.
 //
 // With `resume`, images that have a result are skipped. InputError, and nothing is written: such a
-// result was made with other models, cameras, views or settings. A result of another image under the
-// same name is not skipped but replaced.
+// result was made with other models, cameras, views or settings. A result of another image under
+// the same name is not skipped but replaced.
 BatchSummary run_batch(std::span<const InputImage> images, std::span<const TemplateSet> sets,
                        Backend& backend, const BatchOptions& options);
 

@@ -1,7 +1,7 @@
 // Describes what the result of an image depends on apart from the image: models, options, cameras.
 //
-// These settings are written with every result. A resumed batch compares them, to recognise results of
-// another run.
+// These settings are written with every result. A resumed batch compares them, to recognise results
+// of another run.
 #pragma once
 
 #include <optional>

@@ -56,8 +56,8 @@ ExperimentSettings settings_of(const ExperimentsRequest& request, const CLI::App
   return settings;
 }
 
-// One progress bar per experiment. The first call for an experiment gives the cells that an earlier run
-// finished.
+// One progress bar per experiment. The first call for an experiment gives the cells that an earlier
+// run finished.
 class Bars {
  public:
   void move_to(const std::string& experiment, std::size_t done, std::size_t all) {

@@ -79,8 +79,8 @@ class YamlReader {
     if (depth < running_.names.size() && running_.names[depth] == verb) read(section, depth + 1);
   }
 
-  // Keys above the verb's own section also apply to the verb: the nearest app that has the option takes
-  // it.
+  // Keys above the verb's own section also apply to the verb: the nearest app that has the option
+  // takes it.
   void add_item(const std::string& key, const YAML::Node& value, std::size_t depth) {
     std::size_t level = running_.apps.size();
     while (level > 0 && !has_option(*running_.apps[level - 1], key)) --level;

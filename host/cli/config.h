@@ -1,7 +1,7 @@
 // Binds options to fields, for the command line and the configuration file alike.
 //
-// A verb lists each field of its options structs once, with name, bounds and help. The same names are
-// read from the command line (`--lambda 100`) and from a YAML file given with `--config`
+// A verb lists each field of its options structs once, with name, bounds and help. The same names
+// are read from the command line (`--lambda 100`) and from a YAML file given with `--config`
 // (`lambda: 100`). The command line has priority.
 #pragma once
 
@@ -37,9 +37,9 @@ class OptionTable {
 std::vector<std::pair<std::string, std::string>> settings_of(CLI::App& verb,
                                                              const std::set<std::string>& groups);
 
-// Reads YAML for CLI11. Keys are names of options of the running verb or of the program. A map under the
-// name of a verb has the options of that verb and is ignored when another verb runs. A sequence gives
-// an option several values.
+// Reads YAML for CLI11. Keys are names of options of the running verb or of the program. A map
+// under the name of a verb has the options of that verb and is ignored when another verb runs. A
+// sequence gives an option several values.
 //   device: vulkan
 //   detect: {lambda: 100, min-probability: 0.1}
 // InputError naming file and key: the file is no YAML, an option does not exist.
@@ -47,8 +47,8 @@ class YamlConfig : public CLI::Config {
  public:
   explicit YamlConfig(const CLI::App& program) : program_(program) {}
   std::vector<CLI::ConfigItem> from_config(std::istream& input) const override;
-  // Returns the options of `app` and of the verb that ran as YAML; with `default_also` also those that
-  // were not given.
+  // Returns the options of `app` and of the verb that ran as YAML; with `default_also` also those
+  // that were not given.
   std::string to_config(const CLI::App* app, bool default_also, bool write_description,
                         std::string prefix) const override;
 

@@ -28,8 +28,8 @@ struct DetectRequest {
   BatchOptions batch;
 };
 
-// Returns the camera from which default distances are computed: that of the first usable image. If no
-// image is usable, throws the error of the last one.
+// Returns the camera from which default distances are computed: that of the first usable image. If
+// no image is usable, throws the error of the last one.
 Camera first_camera(const DetectRequest& request, std::span<const InputImage> images) {
   GivenCamera given{{}, request.batch.camera_file, request.batch.scale_camera};
   if (!given.file.empty()) given.camera = load_camera(given.file);
@@ -44,7 +44,8 @@ Camera first_camera(const DetectRequest& request, std::span<const InputImage> im
   throw InputError("command line", "inputs", "no image", "at least one");
 }
 
-// Makes all cheap checks before it builds templates, so that nothing is written for an invalid request.
+// Makes all cheap checks before it builds templates, so that nothing is written for an invalid
+// request.
 std::vector<TemplateSet> template_sets(const DetectRequest& request,
                                        std::span<const InputImage> images, Backend& backend) {
   const KnownModels known = load_models(request.models);

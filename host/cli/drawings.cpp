@@ -113,8 +113,8 @@ std::vector<float> surface_of(std::span<const EdgeModel> models,
   return rasterize(triangles, camera, camera_from_world, pool).depth_m;
 }
 
-// Returns whether a point lies in the image and is visible in at least one of the 3 x 3 pixels around
-// it: no surface is clearly in front of it there. On a contour one of these pixels shows the
+// Returns whether a point lies in the image and is visible in at least one of the 3 x 3 pixels
+// around it: no surface is clearly in front of it there. On a contour one of these pixels shows the
 // background.
 bool shows(const Eigen::Vector2d& pixel, double z_m, double tolerance_m, const Camera& camera,
            const std::vector<float>& depth_m) {

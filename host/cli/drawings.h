@@ -29,9 +29,9 @@ struct DrawnView {
   bool unreachable = false;
   bool chosen = false;  // in this step
 };
-// Draws the directions of the views from the point that they look at, seen from above (direction_above
-// of active/views.h, else +z): the middle is straight up, each ring 30 degrees lower. The colour is the
-// information, in `unit`.
+// Draws the directions of the views from the point that they look at, seen from above
+// (direction_above of active/views.h, else +z): the middle is straight up, each ring 30 degrees
+// lower. The colour is the information, in `unit`.
 std::string hemisphere_svg(std::span<const DrawnView> views, const std::string& unit);
 
 struct DrawnParticle {
@@ -39,8 +39,8 @@ struct DrawnParticle {
   Se3 camera_from_object;
   double weight = 0;  // the weights of all particles sum to 1
 };
-// Draws particles over the image with this id in the page: each as a point with the object's x and y
-// axes; heavier particles are more opaque.
+// Draws particles over the image with this id in the page: each as a point with the object's x and
+// y axes; heavier particles are more opaque.
 std::string particles_svg(const std::string& image_id, const Camera& camera,
                           std::span<const DrawnParticle> particles,
                           std::span<const EdgeModel> models);
@@ -50,8 +50,8 @@ struct DrawnObject : ObjectPose {
   int colour = 0;
 };
 // Draws the edges of all objects as the camera of `view` would see them, each object in its colour.
-// Edges that one of the objects hides are left out. At most `width_px` wide. Of `view` only the camera
-// and its pose are used.
+// Edges that one of the objects hides are left out. At most `width_px` wide. Of `view` only the
+// camera and its pose are used.
 RgbImage edge_map(std::span<const EdgeModel> models, std::span<const DrawnObject> objects,
                   const ObjectView& view, int width_px, Backend& backend);
 

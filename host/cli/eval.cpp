@@ -104,19 +104,20 @@ struct Evaluation {
   std::set<int> left_out;  // objects of the scenes without a model here
 };
 
-// Removes the truths and estimates of objects without a model. Returns their ids. InputError: no object
-// of the scenes has a model; an estimate of an object that has no model and is not in the scenes.
+// Removes the truths and estimates of objects without a model. Returns their ids. InputError: no
+// object of the scenes has a model; an estimate of an object that has no model and is not in the
+// scenes.
 std::set<int> leave_out_others(std::vector<EvaluationImage>& images,
                                const std::map<int, Object>& objects, const EvalRequest& request) {
   std::set<int> left_out;
-  std::size_t judged = 0;
+  std::size_t evaluated = 0;
   for (const EvaluationImage& image : images)
     for (const BopTruth& truth : image.truth)
       if (objects.contains(truth.object_id))
-        ++judged;
+        ++evaluated;
       else
         left_out.insert(truth.object_id);
-  if (judged == 0 && !left_out.empty())
+  if (evaluated == 0 && !left_out.empty())
     throw InputError("command line", "--model", "none of the scenes' objects",
                      fmt::format("one of obj_id {} (--object-id says which a file is)",
                                  fmt::join(left_out, ", ")));

@@ -20,8 +20,8 @@ struct InputImage {
   int image_id = 0;
   std::optional<Camera> camera;  // of a BOP scene; size 0 x 0 until the image is read
   std::optional<Se3> camera_from_world;
-  // The name of its result files, unique in the batch: "000001_000012" in a BOP scene, else the file's
-  // stem (with a number if needed).
+  // The name of its result files, unique in the batch: "000001_000012" in a BOP scene, else the
+  // file's stem (with a number if needed).
   std::string name;
 };
 
@@ -30,12 +30,13 @@ struct InputImage {
 // argument is none of these or has no image.
 std::vector<InputImage> list_images(const std::vector<std::string>& arguments);
 
-// Divides the images into groups of one, or with `by_scene` into the consecutive images of each scene.
+// Divides the images into groups of one, or with `by_scene` into the consecutive images of each
+// scene.
 std::vector<std::span<const InputImage>> groups_of(std::span<const InputImage> images,
                                                    bool by_scene);
 
-// InputError: `out` is the folder of an image that belongs to no scene. The next run would read result
-// pictures as images.
+// InputError: `out` is the folder of an image that belongs to no scene. The next run would read
+// result pictures as images.
 void require_other_folder(std::span<const InputImage> images, const std::filesystem::path& out);
 
 // Returns the result of `work`. Adds the image's file name to its InputErrors.
@@ -54,12 +55,12 @@ struct GivenCamera {
   std::string file;
   bool may_scale = false;  // to images of another size
 };
-// Warns of a calibration without image size: it is accepted for images of every size, but may be wrong
-// for most.
+// Warns of a calibration without image size: it is accepted for images of every size, but may be
+// wrong for most.
 void warn_of_unknown_size(const GivenCamera& given);
 
-// Returns the camera of an image of this size. InputError naming the image and its calibration: there
-// is none, or it does not fit.
+// Returns the camera of an image of this size. InputError naming the image and its calibration:
+// there is none, or it does not fit.
 Camera camera_of(const InputImage& image, int width, int height, const GivenCamera& given);
 
 struct ModelArguments {

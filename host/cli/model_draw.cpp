@@ -10,8 +10,8 @@
 #include "host/cli/exit_codes.h"
 #include "host/cli/model_verbs.h"
 #include "host/io/mesh.h"
-#include "host/overlay.h"
 #include "host/model/template_set.h"
+#include "host/overlay.h"
 #include "kernels/backend.h"
 #include "kernels/error.h"
 
@@ -63,8 +63,8 @@ RgbImage draw_tile(const EdgeModel& model, const Eigen::Quaterniond& camera_from
                     std::vector<std::uint8_t>(static_cast<std::size_t>(size) * size, 0)};
   Camera camera;
   camera.width = camera.height = size;
-  // The outline of the bounding sphere fills 94 % of the tile. Perspective makes it a little wider than
-  // the sphere's radius.
+  // The outline of the bounding sphere fills 94 % of the tile. Perspective makes it a little wider
+  // than the sphere's radius.
   const double outline =
       model.radius_m / std::sqrt(distance_m * distance_m - model.radius_m * model.radius_m);
   camera.fx = camera.fy = 0.47 * size / outline;

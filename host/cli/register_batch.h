@@ -1,5 +1,5 @@
-// Runs the registration of start poses, one image or one scene of views at a time. Writes each result
-// as soon as it exists.
+// Runs the registration of start poses, one image or one scene of views at a time. Writes each
+// result as soon as it exists.
 #pragma once
 
 #include <filesystem>
@@ -31,8 +31,8 @@ struct RegisterModel {
   EdgeModel edges;
 };
 
-// One registration: the views, and the starts with the view in which each was given. With one view its
-// camera frame is the world. With several views all must have a world pose.
+// One registration: the views, and the starts with the view in which each was given. With one view
+// its camera frame is the world. With several views all must have a world pose.
 struct RegisterJob {
   std::vector<InputImage> views;
   struct Start {
@@ -45,9 +45,9 @@ struct RegisterJob {
 
 // Makes one job per image, or with `multi_view` one per BOP scene, in the order of the images. Jobs
 // without starts are left out. Starts of other scenes are ignored. `poses_file` appears in errors.
-// InputError: a start for an image or an object that is not given, for more than one image, or with its
-// object behind the camera; no start for the scenes of the images; a view without world pose in a job
-// of several views.
+// InputError: a start for an image or an object that is not given, for more than one image, or with
+// its object behind the camera; no start for the scenes of the images; a view without world pose in
+// a job of several views.
 std::vector<RegisterJob> make_jobs(std::span<const InputImage> images,
                                    std::span<const RegisterModel> models,
                                    std::span<const StartPose> poses, bool multi_view,
@@ -62,13 +62,13 @@ struct RegisterSummary : BatchSummary {  // images: those with starts
 // summary.json. Earlier results are handled as in run_batch. A pose that no image shows gets
 // probability 0 and OUT_OF_SIGHT, and a warning is logged.
 //
-// A job with a bad image is listed and the batch continues. If all jobs fail, the error of the last one
-// is thrown and nothing is written. Any other error ends the batch; results.csv and summary.json are
-// written all the same.
+// A job with a bad image is listed and the batch continues. If all jobs fail, the error of the last
+// one is thrown and nothing is written. Any other error ends the batch; results.csv and
+// summary.json are written all the same.
 //
-// With `resume`, jobs that have results are skipped. InputError, and nothing is written: such a result
-// was made with other models, cameras, views, starts or settings. A result of another image under the
-// same name is not skipped but replaced.
+// With `resume`, jobs that have results are skipped. InputError, and nothing is written: such a
+// result was made with other models, cameras, views, starts or settings. A result of another image
+// under the same name is not skipped but replaced.
 RegisterSummary run_register(std::span<const RegisterJob> jobs,
                              std::span<const RegisterModel> models, Backend& backend,
                              const RegisterOptions& options);

@@ -7,6 +7,7 @@
 #include "host/core/log.h"
 #include "host/core/stopwatch.h"
 #include "host/io/image.h"
+#include "host/register/pose_classifier.h"
 
 namespace edgescout {
 
@@ -26,8 +27,8 @@ PreparedView prepare(const InputImage& input, bool is_single, Backend& backend,
   return prepared;
 }
 
-// Returns the size in this view of the smallest object at its start; the image's size if all objects
-// are behind the camera.
+// Returns the size in this view of the smallest object at its start; the image's size if all
+// objects are behind the camera.
 double smallest_size_px(std::span<const ObjectPose> starts, const ObjectView& view,
                         std::span<const RegisterModel> models) {
   double smallest = std::max(view.camera.width, view.camera.height);
@@ -54,13 +55,12 @@ bool reaches_into(const ObjectView& view, const EdgeModel& model, const Se3& wor
          center_px.y() > -radius_px && center_px.y() < camera.height + radius_px;
 }
 
-// A start outside of every image could be registered to any edge, however far away. An object of a few
-// pixels fits everywhere.
+// A start outside of every image could be registered to any edge, however far away. An object of a
+// few pixels fits everywhere.
 bool is_out_of_sight(std::span<const ObjectView> views, const ObjectPose& start,
                      const EdgeModel& model, const PoseFeatures& refined) {
   constexpr double least_px = 20;  // of visible edges, summed over all images
-  return refined.length_px < least_px ||
-         std::ranges::none_of(views, [&](const ObjectView& view) {
+  return refined.length_px < least_px || std::ranges::none_of(views, [&](const ObjectView& view) {
            return reaches_into(view, model, start.world_from_object);
          });
 }
@@ -113,8 +113,7 @@ Detections refine_job(const ReadyJob& ready, std::span<const RegisterModel> mode
     const ObjectPose& start = ready.starts[i];
     const RegisterModel& model = models[static_cast<std::size_t>(start.object)];
     Detection& found = result.detections.emplace_back(to_detection(refined[i]));
-    if (!is_out_of_sight(views, start, model.edges, pool_over_views(refined[i].features)))
-      continue;
+    if (!is_out_of_sight(views, start, model.edges, pool_over_views(refined[i].features))) continue;
     found.probability = 0;
     found.convergence = OUT_OF_SIGHT;
     warn_of_out_of_sight(ready, i, model);
@@ -124,8 +123,7 @@ Detections refine_job(const ReadyJob& ready, std::span<const RegisterModel> mode
 
 ImageResult result_of(const ReadyJob& ready, std::size_t view, const Detections& found,
                       std::span<const RegisterModel> models, const Backend& backend) {
-  ImageResult result =
-      begin_result(ready.job->views[view], ready.views[view].view, found, backend);
+  ImageResult result = begin_result(ready.job->views[view], ready.views[view].view, found, backend);
   for (const RegisterModel& model : models)
     result.objects.push_back({model.object_id, model.edges.mesh.name});
   for (std::size_t i = 0; i < found.detections.size(); ++i)

@@ -1,4 +1,5 @@
-// Runs one registration job: reads its images, refines its starts and makes the result of each view.
+// Runs one registration job: reads its images, refines its starts and makes the result of each
+// view.
 #pragma once
 
 #include <span>
@@ -19,8 +20,8 @@ struct ReadyJob {
 // InputError: an image or a camera that cannot be used.
 ReadyJob prepare_job(const RegisterJob& job, Backend& backend, const RegisterOptions& options);
 
-// Refines the starts in all views, in their order. A pose that no image shows gets OUT_OF_SIGHT and a
-// warning. `edge_models` are those of `models`. InputError: an image too large for the device.
+// Refines the starts in all views, in their order. A pose that no image shows gets OUT_OF_SIGHT and
+// a warning. `edge_models` are those of `models`. InputError: an image too large for the device.
 Detections refine_job(const ReadyJob& ready, std::span<const RegisterModel> models,
                       std::span<const EdgeModel> edge_models, Backend& backend,
                       const RegisterOptions& options);

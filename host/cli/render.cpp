@@ -27,7 +27,8 @@ struct RenderRequest {
   RenderOptions options;
 };
 
-// Models from files get the ids 1, 2 .. in the order given. The project's own parts have their own ids.
+// Models from files get the ids 1, 2 .. in the order given. The project's own parts have their own
+// ids.
 std::vector<Object> load_objects(const RenderRequest& request) {
   std::vector<Object> objects;
   if (request.models.empty() == request.parts.empty())
@@ -55,8 +56,8 @@ std::string scene_folder(int scene) {
   return std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits;
 }
 
-// InputError: an earlier run left scenes or images that the new run does not replace. They would look
-// like results of the new run.
+// InputError: an earlier run left scenes or images that the new run does not replace. They would
+// look like results of the new run.
 void require_no_other_scenes(const RenderRequest& request) {
   std::error_code not_there;
   for (const std::filesystem::directory_entry& entry :

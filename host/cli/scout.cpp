@@ -41,9 +41,9 @@ std::vector<Object> objects_of(const KnownModels& known) {
   return objects;
 }
 
-// Distances that the user does not give: those of the views from the point that they look at, and 15 %
-// more at both ends. If there is no such point, the distances stay at 0 and come from the objects'
-// sizes.
+// Distances that the user does not give: those of the views from the point that they look at, and
+// 15 % more at both ends. If there is no such point, the distances stay at 0 and come from the
+// objects' sizes.
 TemplateOptions with_distances_of(TemplateOptions options, const std::vector<Se3>& views) {
   if (options.distance_min_m > 0 || options.distance_max_m > 0) return options;
   const std::optional<Eigen::Vector3d> center_m = looked_at_m(views);
@@ -130,7 +130,8 @@ void log_step(const ScoutState& state) {
 void write_all(const ScoutState& state, const ScoutReport& report, const ScoutRequest& request,
                bool last, Backend& backend) {
   const fs::path out = request.out;
-  // The state is written after the log: a run that finds a state needs the log to check its settings.
+  // The state is written after the log: a run that finds a state needs the log to check its
+  // settings.
   save_scout_log(state, report, out);
   save_scout_state(state, out / "scout.state");
   if (last) save_scout_results(state, report, out);

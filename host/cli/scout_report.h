@@ -27,8 +27,8 @@ struct ScoutReport {
   int scene_id = 0;
 };
 
-// Returns the numbers of the images whose camera pose disagrees with the others after the last image:
-// "2, 5"; empty: none.
+// Returns the numbers of the images whose camera pose disagrees with the others after the last
+// image: "2, 5"; empty: none.
 std::string disagreeing_images(const ScoutState& state);
 
 // Returns the unit of ViewInformation::information; empty: it has no unit.
@@ -66,8 +66,8 @@ void require_same_source(const Settings& settings, const std::filesystem::path& 
 void save_scout_results(const ScoutState& state, const ScoutReport& report,
                         const std::filesystem::path& folder);
 
-// Returns an HTML page that needs no network, no script and no other file. `refreshing`: the browser
-// reloads it every two seconds.
+// Returns an HTML page that needs no network, no script and no other file. `refreshing`: the
+// browser reloads it every two seconds.
 std::string scout_page(const ScoutState& state, const ScoutReport& report, bool refreshing,
                        Backend& backend);
 

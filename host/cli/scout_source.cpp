@@ -51,8 +51,8 @@ ScoutSource make_cell(const SourceRequest& request, std::span<const Object> obje
   return made;
 }
 
-// Returns a BOP scene in the folders of a dataset, or in the folders of its splits; empty if there is
-// none.
+// Returns a BOP scene in the folders of a dataset, or in the folders of its splits; empty if there
+// is none.
 std::filesystem::path scene_below(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   std::error_code unreadable;

@@ -22,8 +22,8 @@ struct SourceRequest {
 
 void add_source_options(CLI::App& verb, SourceRequest& request);
 
-// Checks the options that were given. InputError: options of a cell with recorded views, options of the
-// hemisphere with a list of views.
+// Checks the options that were given. InputError: options of a cell with recorded views, options of
+// the hemisphere with a list of views.
 void refuse_unused(const CLI::App& verb);
 
 struct ScoutSource {

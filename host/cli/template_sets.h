@@ -13,8 +13,8 @@ class Backend;
 // --model, --unit, --models-info, --object-id and --templates.
 void add_model_arguments(CLI::App& verb, ModelArguments& arguments);
 
-// InputError: --templates was given with an option for reading models or building templates. A template
-// file already has these properties.
+// InputError: --templates was given with an option for reading models or building templates. A
+// template file already has these properties.
 void refuse_beside_templates(const CLI::App& verb);
 
 struct KnownModels {
@@ -25,8 +25,8 @@ struct KnownModels {
 // InputError: neither meshes nor templates, or both; a file that cannot be read; an id given twice.
 KnownModels load_models(const ModelArguments& arguments);
 
-// Builds the missing templates and shows the progress on standard error. Logs the size of every object
-// and the range of its distances. Distances left at 0: with_default_distances for `camera`.
+// Builds the missing templates and shows the progress on standard error. Logs the size of every
+// object and the range of its distances. Distances left at 0: with_default_distances for `camera`.
 std::vector<TemplateSet> template_sets_of(const KnownModels& known, const TemplateOptions& options,
                                           const Camera& camera, Backend& backend);
 

@@ -32,9 +32,9 @@ void save_overlay(const InputImage& input, const Scene& scene,
   for (const Detection& d : detections)
     poses.push_back({d.object, view.camera_from_world * d.world_from_object, d.probability,
                      scene.models[static_cast<std::size_t>(d.object)].mesh.name});
-  save_png(draw_overlay(*view.image, view.camera, poses, scene.models, view.edges.get(),
-                        scene.backend),
-           overlay_of(out, input));
+  save_png(
+      draw_overlay(*view.image, view.camera, poses, scene.models, view.edges.get(), scene.backend),
+      overlay_of(out, input));
 }
 
 }  // namespace edgescout

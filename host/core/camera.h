@@ -3,6 +3,8 @@
 // Camera frame: +z forward, +x right, +y down. Pixel centres are at integers: the image covers
 // [-0.5, width - 0.5) x [-0.5, height - 0.5). The library undistorts every image once, on entry
 // (io/image.h). All later code may assume that `distortion` is zero.
+//
+// Public header.
 #pragma once
 
 #include <array>

@@ -1,4 +1,6 @@
 // Values in rows and columns, in most uses one per pose and view.
+//
+// Public header.
 #pragma once
 
 #include <cstddef>

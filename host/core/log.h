@@ -1,4 +1,6 @@
 // Messages of the library, which go to one installed sink. The library prints nothing itself.
+//
+// Public header.
 #pragma once
 
 #include <functional>

@@ -3,6 +3,8 @@
 // Every options struct has a function `describe(Options&, OptionVisitor&)` that names its fields in
 // order. validate() checks the bounds with it, and the command line, the YAML file and the help are
 // made from it.
+//
+// Public header.
 #pragma once
 
 #include <span>

@@ -8,6 +8,8 @@
 //
 // So the rotation turns the object about its own origin, along axes of the destination frame. The
 // project uses this convention everywhere, also for covariances.
+//
+// Public header.
 #pragma once
 
 #include <Eigen/Core>

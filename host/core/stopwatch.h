@@ -1,4 +1,6 @@
 // Measures the seconds of named stages.
+//
+// Public header.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,6 @@
 // Basic types as plain structs: images, meshes, objects, poses, detections. Units: m, rad, px.
+//
+// Public header.
 #pragma once
 
 #include <array>

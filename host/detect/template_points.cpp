@@ -2,6 +2,7 @@
 
 #include "host/register/occluders.h"
 #include "kernels/thread_pool.h"
+#include "host/core/thinned.h"
 
 namespace edgescout {
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "host/model/viewpoint_index.h"
-#include "host/register/register_points.h"
+#include "host/register/d2co.h"
 
 namespace edgescout {
 

@@ -1,4 +1,6 @@
 // Finds the edge points of an image by one of two methods.
+//
+// Public header.
 #pragma once
 
 #include <string>

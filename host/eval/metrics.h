@@ -9,8 +9,8 @@
 
 namespace edgescout {
 
-// The criteria of a correct pose: angle and distance are below the paper's bounds; or, if the true pose
-// is only known in the image, all vertices are less than this from their places.
+// The criteria of a correct pose: angle and distance are below the paper's bounds; or, if the true
+// pose is only known in the image, all vertices are less than this from their places.
 inline constexpr double CORRECT_ANGLE_RAD = 0.1;
 inline constexpr double CORRECT_DISTANCE_M = 0.005;
 inline constexpr double CORRECT_MSPD_PX = 10;
@@ -20,9 +20,9 @@ inline constexpr double CORRECT_MSPD_PX = 10;
 double mssd_m(const Se3& estimate, const Se3& truth, const Object& object);
 // The same in the image, px (both poses camera_from_object).
 double mspd_px(const Se3& estimate, const Se3& truth, const Object& object, const Camera& camera);
-// Rotation and translation error at the symmetry for which the pair passes the bounds most easily: with
-// the smallest max of angle and distance, each divided by its bound. Of equal ones, the symmetry with
-// the smallest angle.
+// Rotation and translation error at the symmetry for which the pair passes the bounds most easily:
+// with the smallest max of angle and distance, each divided by its bound. Of equal ones, the
+// symmetry with the smallest angle.
 struct PoseError {
   double angle_rad = 0;
   double distance_m = 0;

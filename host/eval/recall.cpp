@@ -11,8 +11,8 @@
 namespace edgescout {
 namespace {
 
-// The instances of one object in one image, with the error of every estimate (row, best score first)
-// against every truth (column).
+// The instances of one object in one image, with the error of every estimate (row, best score
+// first) against every truth (column).
 struct Instances {
   int truths = 0;
   std::vector<char> counts;            // per truth: not ignored
@@ -38,8 +38,8 @@ Matches match(const Instances& pair, std::span<const double> errors, double thre
   return matches;
 }
 
-// The number of truths that BOP finds. Ignored truths take no estimate. Only the n best estimates are
-// used, where n is the number of truths that are not ignored.
+// The number of truths that BOP finds. Ignored truths take no estimate. Only the n best estimates
+// are used, where n is the number of truths that are not ignored.
 int found_by_bop(const Instances& pair, std::span<const double> errors, double threshold) {
   std::vector<double> counting;
   for (std::size_t i = 0; i < errors.size(); ++i)

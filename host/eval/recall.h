@@ -1,10 +1,10 @@
-// Computes how many of the true instances were found and how many estimates are false: BOP's recalls
-// and the paper's.
+// Computes how many of the true instances were found and how many estimates are false: BOP's
+// recalls and the paper's.
 //
 // Estimates are matched per image, object and threshold: each estimate, best score first, takes the
-// free truth with the smallest error below the threshold. Recall is matched truths / truths. A truth
-// with a visible fraction below `min_visible_fraction` is ignored: it is neither a miss nor, if found,
-// a false positive. It can take an estimate, except in BOP's recalls.
+// free truth with the smallest error below the threshold. Recall is matched truths / truths. A
+// truth with a visible fraction below `min_visible_fraction` is ignored: it is neither a miss nor,
+// if found, a false positive. It can take an estimate, except in BOP's recalls.
 #pragma once
 
 #include <array>
@@ -25,9 +25,9 @@ struct EvaluationImage {
   std::vector<BopResult> estimates;  // of this image
 };
 
-// Returns the images of a scene with their results, by image_id. Results of other scenes are ignored.
-// InputError: a result for an image that the scene does not have; an image without truth or with a
-// camera without size.
+// Returns the images of a scene with their results, by image_id. Results of other scenes are
+// ignored. InputError: a result for an image that the scene does not have; an image without truth
+// or with a camera without size.
 std::vector<EvaluationImage> evaluation_images(const BopScene& scene,
                                                std::span<const BopResult> results);
 
@@ -49,9 +49,9 @@ struct Recalls {
   int images = 0;
   int truths = 0;     // without ignored ones
   int estimates = 0;  // not below min_score
-  // BOP's thresholds: 5, 10 .. 50 % of the diameter (MSSD), 5, 10 .. 50 px times width / 640 (MSPD).
-  // As in BOP, only the n best estimates of an object are used, where n is the number of its truths in
-  // the image that are not ignored. Ignored truths take no estimate.
+  // BOP's thresholds: 5, 10 .. 50 % of the diameter (MSSD), 5, 10 .. 50 px times width / 640
+  // (MSPD). As in BOP, only the n best estimates of an object are used, where n is the number of
+  // its truths in the image that are not ignored. Ignored truths take no estimate.
   std::array<double, RECALL_STEPS> mssd{};
   std::array<double, RECALL_STEPS> mspd{};
   double ar_mssd = 0;  // mean over the thresholds

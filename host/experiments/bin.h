@@ -1,5 +1,5 @@
-// A bin of piled parts and the views around it, on which the strategies of the next view are compared
-// (paper, Sec. 6.4).
+// A bin of piled parts and the views around it, on which the strategies of the next view are
+// compared (paper, Sec. 6.4).
 //
 // A bin is rendered, with views on a hemisphere, or photographed (photographed_bin.h).
 #pragma once

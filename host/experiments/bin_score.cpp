@@ -18,8 +18,7 @@ Tally& group_of(BinScore& score, const BinInstance& instance) {
 // The group of the instance nearest to a wrong pose. Without any instance: highly occluded.
 Tally& group_near(BinScore& score, std::span<const BinInstance> instances, const Se3& pose) {
   if (instances.empty()) return score.heavy;
-  return group_of(score,
-                  *std::ranges::min_element(instances, {}, [&](const BinInstance& instance) {
+  return group_of(score, *std::ranges::min_element(instances, {}, [&](const BinInstance& instance) {
                     return distance_between_m(instance.world_from_object, pose);
                   }));
 }
@@ -62,8 +61,8 @@ bool is_followed(const BinInstance& instance, std::span<const Particle> particle
 }  // namespace
 
 BinScore score_bin(std::span<const BinInstance> instances, const ScoutStep& step,
-                std::span<const Object> objects, const Camera& camera,
-                const Se3& camera_from_world) {
+                   std::span<const Object> objects, const Camera& camera,
+                   const Se3& camera_from_world) {
   const auto object_of = [&](int index) -> const Object& {
     return objects[static_cast<std::size_t>(index)];
   };

@@ -45,8 +45,8 @@ void require_same_settings(const Table& finished, const CellRun& run, const std:
                      run.commit + " as in this run, --any-commit, or another output folder");
 }
 
-// Returns the table that an earlier run left of a cell. A damaged file is made again; with `warn` that
-// is logged.
+// Returns the table that an earlier run left of a cell. A damaged file is made again; with `warn`
+// that is logged.
 std::optional<Table> finished_cell(const Cell& cell, const CellRun& run, bool warn) {
   const fs::path file = file_of(cell, run);
   if (!fs::exists(file)) return std::nullopt;

@@ -1,7 +1,7 @@
 // Runs an experiment as cells: small units of work with a stable name.
 //
-// The result of a cell is a file as soon as the cell is finished. So a stopped run loses nothing, and
-// a resumed run repeats nothing.
+// The result of a cell is a file as soon as the cell is finished. So a stopped run loses nothing,
+// and a resumed run repeats nothing.
 #pragma once
 
 #include <filesystem>
@@ -35,11 +35,11 @@ struct CellRun {
   std::function<void(std::size_t done, std::size_t all)> progress;
 };
 
-// Returns the tables of the cells, in their order. With `resume` the file of a finished cell is used
-// as it is; a file that cannot be read is made again. Finished cells stay, whatever ends the run.
-// InputError: a finished cell without `resume`; a finished cell with other settings (names the first
-// that differs), with other columns, or of another commit without `any_commit`; a file that cannot be
-// written.
+// Returns the tables of the cells, in their order. With `resume` the file of a finished cell is
+// used as it is; a file that cannot be read is made again. Finished cells stay, whatever ends the
+// run. InputError: a finished cell without `resume`; a finished cell with other settings (names the
+// first that differs), with other columns, or of another commit without `any_commit`; a file that
+// cannot be written.
 std::vector<Table> run_cells(std::span<const Cell> cells, const CellRun& run);
 
 // Throws the InputError that run_cells would throw for finished cells, without running a cell.

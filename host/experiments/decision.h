@@ -1,4 +1,5 @@
-// Makes one whole decision on the next view, as a scout does, on a rendered bin. Benchmarks time it.
+// Makes one whole decision on the next view, as a scout does, on a rendered bin. Benchmarks time
+// it.
 #pragma once
 
 #include "host/active/next_view.h"
@@ -10,9 +11,9 @@ struct DecisionSize {
   int views = 32, candidates = 40, particles = 200, combinations = 1000;  // the paper's
 };
 
-// The input of a decision: several candidates of each of a bin's parts, some millimetres off, as after
-// a first image, and particles around them. The image of 1024x768 was taken from one more view, the
-// first. It has no edges: points of particles count as seen if they project into it.
+// The input of a decision: several candidates of each of a bin's parts, some millimetres off, as
+// after a first image, and particles around them. The image of 1024x768 was taken from one more
+// view, the first. It has no edges: points of particles count as seen if they project into it.
 struct DecisionWork {
   std::vector<EdgeModel> models;
   std::vector<TemplateTable> tables;

@@ -71,8 +71,7 @@ std::vector<ObjectView> fdcm_views(const KnownScene& scene, const SceneEdges& ed
 // The scores of all detectors, in the order of DETECTORS.
 std::vector<std::vector<double>> scores_of(std::span<const EdgeModel> models,
                                            std::span<const ObjectPose> poses,
-                                           const std::vector<ObjectView>& views,
-                                           Backend& backend) {
+                                           const std::vector<ObjectView>& views, Backend& backend) {
   std::vector<std::vector<double>> scores;
   for (const ObjectView& view : views)
     scores.push_back(fdcm_scores({models, {&view, 1}, backend}, poses));
@@ -167,8 +166,8 @@ Scored scored_by(const Detector& detector, const Table& table) {
   return scored;
 }
 
-// Keeps the corners of the staircase: its ends and the points where the rate rises. On a logarithmic
-// axis no false positive at all is drawn as half of one.
+// Keeps the corners of the staircase: its ends and the points where the rate rises. On a
+// logarithmic axis no false positive at all is drawn as half of one.
 PlotLine line_of(const char* name, const std::vector<CurvePoint>& points, std::size_t images) {
   PlotLine line{name, {}};
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -259,13 +258,9 @@ std::string introduction(const ExperimentSettings& settings) {
 }
 
 void add_part(Report& report, const Part& part) {
-  Panel panel{part.name,
-              "false positives an image (none: as half of one)",
-              "true positive rate",
-              {},
-              0,
-              1,
-              true};
+  Panel panel{
+      part.name, "false positives an image (none: as half of one)", "true positive rate", {}, 0, 1,
+      true};
   std::vector<std::vector<Rates>> of_detector;
   const Draws draws = draw_images(values_of(part.rows, "image").size());
   for (const Detector& detector : DETECTORS) {

@@ -162,8 +162,8 @@ std::vector<Runner> make_runners(const DevicesOptions& options) {
   return runners;
 }
 
-// The first image on a device is not timed (memory pages, the driver's compiler). Its peak memory is
-// reported.
+// The first image on a device is not timed (memory pages, the driver's compiler). Its peak memory
+// is reported.
 void warm_up(Runner& runner, const Work& work) {
   forget_peak_memory();
   forget_peak_device_memory();

@@ -1,5 +1,5 @@
-// Times every stage from an image to poses, and the decision on the next view, on the CPU and on every
-// other device in one run.
+// Times every stage from an image to poses, and the decision on the next view, on the CPU and on
+// every other device in one run.
 #pragma once
 
 #include <functional>
@@ -45,8 +45,8 @@ struct DeviceTimes {
 };
 
 struct DevicesReport {
-  MachineLoad load, load_at_end;      // before and after all measurements
-  std::vector<std::string> warnings;  // a busy machine, software devices
+  MachineLoad load, load_at_end;             // before and after all measurements
+  std::vector<std::string> warnings;         // a busy machine, software devices
   int width = 0, height = 0, instances = 0;  // of the image
   int poses = 0;                             // that are registered and scored
   std::size_t templates = 0;                 // in the scan

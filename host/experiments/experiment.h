@@ -42,9 +42,9 @@ struct ExperimentRun {
 };
 
 // Writes into `out`: cells/NAME/.. and, when all cells of an experiment are finished, NAME.csv (all
-// rows), NAME.md, NAME.svg and index.md. On a CPU `jobs` cells run in parallel, each on one thread. On
-// a device the cells run one after the other. InputError as run_cells. Settings out of bounds and
-// missing data are reported before anything is written.
+// rows), NAME.md, NAME.svg and index.md. On a CPU `jobs` cells run in parallel, each on one thread.
+// On a device the cells run one after the other. InputError as run_cells. Settings out of bounds
+// and missing data are reported before anything is written.
 void run_experiments(const std::vector<Experiment>& chosen, const ExperimentSettings& settings,
                      const ExperimentRun& run);
 

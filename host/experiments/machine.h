@@ -14,14 +14,14 @@ struct MachineLoad {
   double share = 1;
 };
 
-// Returns the system's name of the processor and its number of threads: "AMD EPYC 7B13 x 2". Contains
-// no comma.
+// Returns the system's name of the processor and its number of threads: "AMD EPYC 7B13 x 2".
+// Contains no comma.
 std::string machine_name();
 
 // Uses all processors for a fifth of a second.
 MachineLoad machine_load();
-// Returns what may make times wrong: a load average above a quarter of the threads, a share below 0.9.
-// Empty if there is nothing.
+// Returns what may make times wrong: a load average above a quarter of the threads, a share below
+// 0.9. Empty if there is nothing.
 std::vector<std::string> warnings_of(const MachineLoad& load);
 // The same at the end of a measurement, by the share alone: the load average then contains the
 // measurement itself.

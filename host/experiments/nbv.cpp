@@ -18,8 +18,8 @@ namespace edgescout {
 
 namespace {
 
-// Detects objects in the images of a bin. Each image is scanned for each type once; the hits serve all
-// searches and strategies.
+// Detects objects in the images of a bin. Each image is scanned for each type once; the hits serve
+// all searches and strategies.
 class Detector {
  public:
   Detector(const std::vector<TemplateSet>& sets, const DetectOptions& options, Backend& backend)
@@ -136,9 +136,9 @@ ScoutOptions options_for(const ExperimentSettings& s, const Bin& bin, const Sear
         Random(options.next_view.seed).split(static_cast<std::uint64_t>(run.draw)).bits();
     options.max_views = std::min(options.max_views, 2);
   }
-  options.next_view.sequence =
-      is_clairvoyant ? clairvoyant_sequence(bin, search.instances, s.scout.max_views)
-                     : fixed_sequence(bin);
+  options.next_view.sequence = is_clairvoyant
+                                   ? clairvoyant_sequence(bin, search.instances, s.scout.max_views)
+                                   : fixed_sequence(bin);
   return options;
 }
 
@@ -155,8 +155,8 @@ void add_visibility(int view, const Bin& bin, std::vector<BinInstance>& instance
     instance.most_visible = std::max(instance.most_visible, visible[instance.placed]);
 }
 
-// Adds two rows per step, for lightly and highly occluded instances. The first image is the same for
-// all draws; only the first draw has its rows.
+// Adds two rows per step, for lightly and highly occluded instances. The first image is the same
+// for all draws; only the first draw has its rows.
 void add_rows(Table& table, const ExperimentSettings& s, const Bin& bin, const Search& search,
               const Run& run, const ScoutState& state) {
   std::vector<BinInstance> instances = search.instances;
@@ -165,9 +165,8 @@ void add_rows(Table& table, const ExperimentSettings& s, const Bin& bin, const S
     add_visibility(step.decision.view, bin, instances);
     if (run.draw > 0 && i == 0) continue;
     const BinScore score = score_bin(instances, step, search.objects, bin.cell->camera(),
-                                      state.steps[0].camera_from_world);
-    for (const auto& [group, tally] :
-         {std::pair{"light", score.light}, {"heavy", score.heavy}})
+                                     state.steps[0].camera_from_world);
+    for (const auto& [group, tally] : {std::pair{"light", score.light}, {"heavy", score.heavy}})
       table.rows.push_back({std::to_string(bin.number), search.parts, std::to_string(bin.parts),
                             search.name, ids_text(search), run.strategy, std::to_string(run.draw),
                             std::to_string(i + 1), std::to_string(step.decision.view), group,

@@ -1,7 +1,7 @@
 // Experiment 4: the next best view in bins of piled parts (paper, Sec. 6.4, figure 15).
 //
-// Compares MI-MAX with Random, DIS and a fixed sequence: how many instances are localised and how many
-// false ones are reported after every view.
+// Compares MI-MAX with Random, DIS and a fixed sequence: how many instances are localised and how
+// many false ones are reported after every view.
 #pragma once
 
 #include "host/experiments/experiment.h"

@@ -23,8 +23,8 @@ struct BinOutcome {
 
 struct Outcome {
   std::vector<std::string> bins;  // number and types of each
-  // One per bin number: bins of one number have the same random layout, whatever their parts, so they
-  // are not independent samples.
+  // One per bin number: bins of one number have the same random layout, whatever their parts, so
+  // they are not independent samples.
   std::vector<Cluster> correct, wrong, shown;
 };
 

@@ -24,8 +24,8 @@ inline constexpr const char* PHOTOGRAPHS_COUNT_APART =
     "the same "
     "parts: the intervals say less than they seem to.";
 
-// Returns the photographs in `data`; none if `data` is empty. Uses every `every`-th frame of the cat.
-// InputError naming the first missing file.
+// Returns the photographs in `data`; none if `data` is empty. Uses every `every`-th frame of the
+// cat. InputError naming the first missing file.
 std::vector<Photographs> photographs_in(const std::filesystem::path& data, int every);
 
 // Its images as one scene.

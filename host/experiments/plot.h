@@ -26,13 +26,13 @@ struct Panel {
   bool logarithmic_x = false;   // then all x must be above 0; otherwise the axis includes 0
 };
 
-// Returns ticks at steps of 1, 2 or 5 times a power of ten that cover [low, high] with at most `most`
-// steps. The first is at or below low, the last at or above high.
+// Returns ticks at steps of 1, 2 or 5 times a power of ten that cover [low, high] with at most
+// `most` steps. The first is at or below low, the last at or above high.
 std::vector<double> tick_values(double low, double high, int most = 6);
 
 // Returns a whole SVG file with at most `columns` panels per row. A panel without title and lines
-// leaves its place empty. `description` is for readers of the file's text. Numbers that are not finite
-// are left out.
+// leaves its place empty. `description` is for readers of the file's text. Numbers that are not
+// finite are left out.
 std::string svg_of(std::span<const Panel> panels, int columns = 3,
                    const std::string& description = "");
 

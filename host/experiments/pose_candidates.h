@@ -11,7 +11,7 @@ namespace edgescout {
 
 struct PoseCandidate {
   Se3 camera_from_object;  // in the first image
-  int instance = -1;  // index of the scene's instance that it is a pose of; -1: none
+  int instance = -1;       // index of the scene's instance that it is a pose of; -1: none
 };
 
 // A candidate is a pose of an instance if it lies within twice the criterion of a correct
@@ -20,10 +20,10 @@ inline constexpr double CANDIDATE_ANGLE_RAD = 2 * CORRECT_ANGLE_RAD;
 inline constexpr double CANDIDATE_DISTANCE_M = 2 * CORRECT_DISTANCE_M;
 inline constexpr int CANDIDATES_AN_INSTANCE = 20;
 
-// Returns `count` candidates of one type of the scene. CANDIDATES_AN_INSTANCE lie around each of its
-// instances within these bounds, if `count` leaves room for them. All others lie anywhere in a cube that
-// contains all instances, with random rotations and their centres in the image. The first kind is
-// needed since random samples of a large region would never be near six given parameters.
+// Returns `count` candidates of one type of the scene. CANDIDATES_AN_INSTANCE lie around each of
+// its instances within these bounds, if `count` leaves room for them. All others lie anywhere in a
+// cube that contains all instances, with random rotations and their centres in the image. The first
+// kind is needed since random samples of a large region would never be near six given parameters.
 std::vector<PoseCandidate> pose_candidates(const KnownScene& scene, int object, int count,
                                            unsigned seed);
 

@@ -14,7 +14,8 @@ namespace edgescout {
 
 namespace {
 
-using Clusters = std::map<std::string, Cluster>;  // by image: registrations that are not independent
+using Clusters =
+    std::map<std::string, Cluster>;  // by image: registrations that are not independent
 
 std::vector<Cluster> as_list(const Clusters& clusters) {
   std::vector<Cluster> list;
@@ -101,8 +102,8 @@ PlotLine line_of(const Series& series, const Table& table, const Criterion& crit
       count(bins[static_cast<int>(std::ceil(number_in(table, row, "distance_rad") / step - SLACK))],
             keys, table, row, criterion);
   PlotLine line{series.name, {}};
-  const bool at_the_end =
-      step == 0.1;  // every start lies at the end of its bin; otherwise the middle of the bin represents them
+  const bool at_the_end = step == 0.1;  // every start lies at the end of its bin; otherwise the
+                                        // middle of the bin represents them
   for (const auto& [bin, clusters] : bins) {
     const std::vector<Cluster> list = as_list(clusters);
     const Interval interval = bootstrap_interval(list);

@@ -1,4 +1,5 @@
-// Computes rates of correct registrations by method and by the start's distance, as tables and plots.
+// Computes rates of correct registrations by method and by the start's distance, as tables and
+// plots.
 #pragma once
 
 #include <functional>
@@ -44,14 +45,14 @@ LevelRates rates_of(const Table& table, const Series& series, const Criterion& c
 // The names of two series. Their difference is the first less the second.
 using Comparison = std::pair<std::string, std::string>;
 
-// Returns Markdown with one row per series: for every level the rate and its 95 % interval (bootstrap
-// over images; with a single image over its instances), the number of starts and the mean
-// milliseconds. Then follows one row per comparison of two series that ran from the same starts, over
-// the same draws. The last line says how many clusters the intervals have.
+// Returns Markdown with one row per series: for every level the rate and its 95 % interval
+// (bootstrap over images; with a single image over its instances), the number of starts and the
+// mean milliseconds. Then follows one row per comparison of two series that ran from the same
+// starts, over the same draws. The last line says how many clusters the intervals have.
 std::string rate_table(const Table& table, const std::vector<Series>& series,
                        const Criterion& criterion, const std::vector<Comparison>& compared = {});
-// Plots the rate over the start's distance, in steps of 0.05 rad, or of 0.1 if all starts lie at the
-// bounds of the levels.
+// Plots the rate over the start's distance, in steps of 0.05 rad, or of 0.1 if all starts lie at
+// the bounds of the levels.
 Panel rate_panel(const std::string& title, const Table& table, const std::vector<Series>& series,
                  const Criterion& criterion);
 

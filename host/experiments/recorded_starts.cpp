@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Rotations in the files may have only six digits, so the nearest rotation is used. Millimetres become
-// metres.
+// Rotations in the files may have only six digits, so the nearest rotation is used. Millimetres
+// become metres.
 Se3 pose_of(const std::vector<double>& rotation, const std::vector<double>& translation_mm) {
   const Eigen::Matrix3d given =
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation.data());

@@ -1,5 +1,5 @@
-// Reads the set d2co-starts: rendered images, starts at four distances from the truth, and the results
-// of the original implementation's methods from these starts.
+// Reads the set d2co-starts: rendered images, starts at four distances from the truth, and the
+// results of the original implementation's methods from these starts.
 //
 // Layout: ground_truth.json, starts.csv, cad/, images/, original_results/ (docs/evaluation.md).
 #pragma once
@@ -28,8 +28,8 @@ KnownScene recorded_scene(const std::filesystem::path& folder, const std::string
                           int others);
 // Returns how many more images of the same scene there are.
 int other_views(const std::filesystem::path& folder, const std::string& image);
-// Returns the starts of this image whose number is a multiple of `every`. The original methods ran on
-// the multiples of 9 and 27.
+// Returns the starts of this image whose number is a multiple of `every`. The original methods ran
+// on the multiples of 9 and 27.
 std::vector<RecordedStart> recorded_starts(const std::filesystem::path& folder,
                                            const KnownScene& scene, int every);
 

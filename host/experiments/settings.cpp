@@ -35,8 +35,8 @@ void require_words(const std::vector<std::string>& words, std::span<const std::s
   }
 }
 
-// Every second image has a cluttered board, as "many images" of the paper. The number of parts and how
-// much they hide each other change from scene to scene.
+// Every second image has a cluttered board, as "many images" of the paper. The number of parts and
+// how much they hide each other change from scene to scene.
 RenderOptions options_of(const ExperimentSettings& settings, const char* dataset, int number,
                          int most_parts) {
   Random random = Random(settings.seed).split(dataset).split(static_cast<std::uint64_t>(number));

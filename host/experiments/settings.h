@@ -28,23 +28,23 @@ struct ExperimentSettings {
   // Folder with d2co-starts, brackets, cat, triangle and cad. Empty: only rendered scenes are used.
   std::filesystem::path data;
   unsigned seed = 1;
-  int scenes = 4;        // images with up to five parts, for detection and registration
-  int groups = 1;        // groups of three images with up to twenty parts, for several views
-  int starts = 8;        // registrations around every instance of the images
-  int group_starts = 2;  // registrations around every instance of the groups
-  int every = 54;        // uses the recorded starts (d2co-starts) with a multiple of this number
-  int frames_every = 4;  // uses every n-th photograph of the cat, and of a pile as the first view
+  int scenes = 4;         // images with up to five parts, for detection and registration
+  int groups = 1;         // groups of three images with up to twenty parts, for several views
+  int starts = 8;         // registrations around every instance of the images
+  int group_starts = 2;   // registrations around every instance of the groups
+  int every = 54;         // uses the recorded starts (d2co-starts) with a multiple of this number
+  int frames_every = 4;   // uses every n-th photograph of the cat, and of a pile as the first view
   int candidates = 1260;  // of the detection, in every image and for every type
   int bins = 1;           // of the next best view: piled parts, with views on a hemisphere
   int cad_bins = 1;       // the same with parts of data/cad, if there is data
-  // Numbers of the bins to run, in place of the first ones. A kind of bins whose number above is 0 is
-  // not run.
+  // Numbers of the bins to run, in place of the first ones. A kind of bins whose number above is 0
+  // is not run.
   std::vector<int> only_bins;
   // What is detected in a bin: "one" type (it changes from bin to bin), "each" type by itself, or
   // "all" types in one search.
   std::vector<std::string> searches{"one", "all"};
-  // Names of the strategies in the bins. All continue from the same first image, so none changes the
-  // result of another. CLAIRVOYANT is also known.
+  // Names of the strategies in the bins. All continue from the same first image, so none changes
+  // the result of another. CLAIRVOYANT is also known.
   std::vector<std::string> strategies{"mi-max", "random", "dis", "fixed"};
   // Draws of the strategy Random per bin, since a single draw says little of its mean. Every draw
   // after the first takes one more view and ends.
@@ -59,8 +59,8 @@ struct ExperimentSettings {
   bool times = true;       // off: columns of times are empty, so that two runs give the same bytes
   ExperimentSettings();
   static ExperimentSettings short_form();  // takes minutes on two cores
-  // The paper's numbers of images and a few bins. Takes an hour on two cores; thirty bins take three
-  // hours more.
+  // The paper's numbers of images and a few bins. Takes an hour on two cores; thirty bins take
+  // three hours more.
   static ExperimentSettings full_form();
   // The numbers of the bins to run: the first `count`, or only_bins.
   std::vector<int> bin_numbers(int count) const;

@@ -23,12 +23,13 @@ struct Table {
 // LogicError: a column or cell with a comma or line break, a note with a line break, the name of a
 // note with a colon.
 std::string to_csv(const Table& table);
-// InputError naming `source` and the line: there is no line of columns, or a row has another length.
+// InputError naming `source` and the line: there is no line of columns, or a row has another
+// length.
 Table table_from_csv(std::string_view text, const std::string& source);
 Table load_table(const std::filesystem::path& file);
 
-// Returns the rows of all tables, which must have the same columns and notes. If a note differs, all
-// its values are joined by a blank.
+// Returns the rows of all tables, which must have the same columns and notes. If a note differs,
+// all its values are joined by a blank.
 Table joined(const std::vector<Table>& tables);
 
 // Six significant digits, as in all results.

@@ -21,8 +21,8 @@ namespace {
 
 constexpr const char* EDGESCOUT = "edgescout";
 
-// On a CPU the CPU time of this thread, so that other work on the machine does not count. On a device
-// the wall-clock time.
+// On a CPU the CPU time of this thread, so that other work on the machine does not count. On a
+// device the wall-clock time.
 double seconds_now(const Backend& backend) {
   if (backend.is_gpu())
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
@@ -136,9 +136,9 @@ Se3 nearest_equal(const Se3& truth, const Symmetries& symmetries, const Se3& pos
          });
 }
 
-// Moves the truth by `step`. The angle of the step is kept between the result and the nearest pose that
-// looks like the truth: a turn about the axis of a shaft changes nothing, so the direction comes from
-// the remaining part of the turn.
+// Moves the truth by `step`. The angle of the step is kept between the result and the nearest pose
+// that looks like the truth: a turn about the axis of a shaft changes nothing, so the direction
+// comes from the remaining part of the turn.
 Se3 moved_off(Se3 truth, const Symmetries& symmetries, Vector6d step) {
   constexpr int corrections = 10;
   const double turn_rad = step.tail<3>().norm();
@@ -232,8 +232,8 @@ Table run_trials(const KnownScene& scene, const std::vector<Start>& starts,
     for (const Trial& trial : trials) {
       const std::span<const ObjectView> views = trial_views.of(trial);
       if (trial.views > static_cast<int>(views.size())) continue;
-      const TimedRegistrations found = run_trial(
-          trial, {models, views.first(trial.views), backend}, poses, settings.methods);
+      const TimedRegistrations found =
+          run_trial(trial, {models, views.first(trial.views), backend}, poses, settings.methods);
       for (std::size_t i = 0; i < group.size(); ++i)
         table.rows.push_back(row_of(scene, group[i], trial, found.estimates[i],
                                     settings.times ? number_text(found.ms) : ""));

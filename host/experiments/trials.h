@@ -28,20 +28,20 @@ inline constexpr double FARTHEST_START_RAD = 0.4;
 // directions. Their distances are spread evenly over (0, FARTHEST_START_RAD].
 std::vector<Start> starts_around(const KnownScene& scene, int count, unsigned seed);
 
-// The same at a distance that suits the accuracy of the true poses of photographs: 0.1 rad, and 2 % of
-// the distance from the camera.
+// The same at a distance that suits the accuracy of the true poses of photographs: 0.1 rad, and 2 %
+// of the distance from the camera.
 std::vector<Start> starts_by_distance(const KnownScene& scene, int count, unsigned seed);
 
 // Each start gets the distance of its level.
 std::vector<Start> as_starts(const std::vector<RecordedStart>& recorded);
 
-// Variance of the tensor's Gaussian over orientation, bins^2, in the library that the paper's authors
-// published. It has three taps, 1/4, 1/2 and 1/4. The paper has 1.
+// Variance of the tensor's Gaussian over orientation, bins^2, in the library that the paper's
+// authors published. It has three taps, 1/4, 1/2 and 1/4. The paper has 1.
 inline constexpr float ORIGINAL_SMOOTHING = 0.5;
 
-// A method and the number of views that it uses. "edgescout" is refine_poses with default options. The
-// others are those of host/baselines, on tensors of this lambda (D2CO, DC-ICP) and smoothing (D2CO;
-// absent: that of the settings).
+// A method and the number of views that it uses. "edgescout" is refine_poses with default options.
+// The others are those of host/baselines, on tensors of this lambda (D2CO, DC-ICP) and smoothing
+// (D2CO; absent: that of the settings).
 struct Trial {
   std::string method;
   int views = 1;

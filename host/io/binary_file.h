@@ -1,7 +1,7 @@
 // Internal to host: reads and writes the project's own binary files.
 //
-// A file has a header (magic, version, length, checksum) that is checked before the payload is read.
-// The payload is plain little-endian numbers.
+// A file has a header (magic, version, length, checksum) that is checked before the payload is
+// read. The payload is plain little-endian numbers.
 #pragma once
 
 #include <array>

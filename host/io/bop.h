@@ -1,5 +1,7 @@
-// Reads and writes BOP datasets and result files. BOP has millimetres; these functions convert to and
-// from metres.
+// Reads and writes BOP datasets and result files. BOP has millimetres; these functions convert to
+// and from metres.
+//
+// Public header.
 #pragma once
 
 #include <filesystem>

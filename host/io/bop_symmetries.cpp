@@ -19,10 +19,10 @@ constexpr std::size_t max_discrete =
 constexpr double measured_angle_rad = 0.1;
 constexpr double measured_share_of_diameter = 0.01;
 
-// BOP lists every symmetry; other files may list generators. If the list generates no exact group, its
-// members are treated as measured values. The resulting group is accepted if its members are clearly
-// farther from each other than the measurement error (orders up to 31). Otherwise the list is taken
-// as it is.
+// BOP lists every symmetry; other files may list generators. If the list generates no exact group,
+// its members are treated as measured values. The resulting group is accepted if its members are
+// clearly farther from each other than the measurement error (orders up to 31). Otherwise the list
+// is taken as it is.
 std::vector<Se3> group_of(std::span<const Se3> given, double diameter_m) {
   std::vector<Se3> group = generated_group(given, max_discrete);
   if (!group.empty()) return group;

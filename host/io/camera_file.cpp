@@ -13,16 +13,16 @@ namespace edgescout {
 
 namespace {
 
-// Returns the field under the first of several names that exists: programs that write OpenCV YAML use
-// different names.
+// Returns the field under the first of several names that exists: programs that write OpenCV YAML
+// use different names.
 YAML::Node any_of(const YAML::Node& root, std::initializer_list<const char*> names) {
   for (const char* name : names)
     if (const YAML::Node node = root[name]) return node;
   return YAML::Node(YAML::NodeType::Undefined);
 }
 
-// Reads a number, or lists of numbers with at most `depth` levels. The limit is needed since an alias
-// can make a list an element of itself.
+// Reads a number, or lists of numbers with at most `depth` levels. The limit is needed since an
+// alias can make a list an element of itself.
 void flatten(const YAML::Node& node, int depth, std::vector<double>& numbers) {
   if (node.IsSequence() && depth > 0)
     for (const YAML::Node& element : node) flatten(element, depth - 1, numbers);

@@ -1,5 +1,7 @@
 // Reads camera calibrations: ROS camera_info YAML, OpenCV YAML, BOP camera.json and
 // scene_camera.json.
+//
+// Public header.
 #pragma once
 
 #include <filesystem>

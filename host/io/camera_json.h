@@ -6,8 +6,8 @@
 
 namespace edgescout {
 
-// `k` is a 3x3 matrix by row. InputError: another count, a skew above 1e-3 px, a last row other than
-// 0 0 1.
+// `k` is a 3x3 matrix by row. InputError: another count, a skew above 1e-3 px, a last row other
+// than 0 0 1.
 void set_intrinsics(Camera& camera, const std::vector<double>& k, const std::string& source,
                     const std::string& field);
 // 0, 4, 5 or 8 coefficients in OpenCV's order. More are accepted if they are zero.

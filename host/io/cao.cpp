@@ -1,8 +1,8 @@
 // Reads ViSP's text CAD format.
 //
 // The file has V1, then counted sections: points, segments, faces by segments, faces by points and
-// (optional) cylinders and circles. `#` starts a comment. `load("file")` includes another file. A line
-// may end in name=... and other settings of the tracker, which are ignored.
+// (optional) cylinders and circles. `#` starts a comment. `load("file")` includes another file. A
+// line may end in name=... and other settings of the tracker, which are ignored.
 #include <Eigen/Geometry>
 #include <numbers>
 
@@ -109,7 +109,8 @@ class CaoReader {
     triangulate(corners, mesh_.vertices, mesh_.triangles);
   }
 
-  // Both directions of the axis give the same corners, so that the rims of cylinders and circles weld.
+  // Both directions of the axis give the same corners, so that the rims of cylinders and circles
+  // weld.
   std::vector<int> add_ring(const Vector3d& centre, const Vector3d& axis, double radius) {
     int least = 0;
     axis.cwiseAbs().minCoeff(&least);

@@ -20,8 +20,8 @@ namespace {
 
 std::string reason(int error) { return std::strerror(error); }
 
-// Returns a name in the folder of `file` that no other writer uses now. It may exist already, left by
-// a killed run: in a container every run has the same process id.
+// Returns a name in the folder of `file` that no other writer uses now. It may exist already, left
+// by a killed run: in a container every run has the same process id.
 fs::path temporary_beside(const fs::path& file) {
   static std::atomic<unsigned> counter{0};
   std::ostringstream name;

@@ -1,4 +1,6 @@
 // Reads and writes images, and removes lens distortion. No other code handles distorted images.
+//
+// Public header.
 #pragma once
 
 #include <filesystem>

@@ -14,8 +14,8 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Fraction of the diameter. Two vertices closer than this are one; a triangle thinner than this has no
-// usable normal.
+// Fraction of the diameter. Two vertices closer than this are one; a triangle thinner than this has
+// no usable normal.
 constexpr double weld_share = 1e-6;
 // Larger than any mesh with a wrong unit. Keeps squares and grid indices far from overflow.
 constexpr double max_coordinate_m = 1e9;
@@ -37,7 +37,8 @@ void require_usable(const std::string& name, const std::vector<Vector3d>& vertic
                          "0 to " + std::to_string(count - 1));
 }
 
-// Keeps only vertices that a triangle uses: a stray point would make the box and the diameter wrong.
+// Keeps only vertices that a triangle uses: a stray point would make the box and the diameter
+// wrong.
 void drop_unused_vertices(std::vector<Vector3d>& vertices,
                           std::vector<std::array<int, 3>>& triangles) {
   std::vector<int> new_index(vertices.size(), -1);
@@ -53,7 +54,8 @@ void drop_unused_vertices(std::vector<Vector3d>& vertices,
   vertices = std::move(used);
 }
 
-// Stores vertices in a hash of cubes. A query examines only the cubes that its tolerance ball touches.
+// Stores vertices in a hash of cubes. A query examines only the cubes that its tolerance ball
+// touches.
 class WeldGrid {
  public:
   WeldGrid(const Vector3d& origin, double tolerance)
@@ -78,8 +80,8 @@ class WeldGrid {
   std::vector<Vector3d> take() { return std::move(vertices_); }
 
  private:
-  // There are at most 1e6 * sqrt(3) / 16 cells per axis, so 21 bits hold each index (offset by one for
-  // the border).
+  // There are at most 1e6 * sqrt(3) / 16 cells per axis, so 21 bits hold each index (offset by one
+  // for the border).
   static std::uint64_t key(int i, int j, int k) {
     const auto part = [](int n) { return static_cast<std::uint64_t>(n + 1) & 0x1fffff; };
     return part(i) | part(j) << 21 | part(k) << 42;

@@ -1,4 +1,6 @@
 // Reads triangle meshes: STL and PLY (binary, ASCII), OBJ (by assimp) and ViSP's `.cao`.
+//
+// Public header.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +20,8 @@ double metres_per(LengthUnit unit);
 // Reads a mesh and converts it to metres. Welds vertices closer than 1e-6 of the diameter, drops
 // degenerate and duplicate triangles, and computes normals, box and diameter. A diameter outside
 // 5 mm..5 m is logged as a warning. InputError: the file is missing, unreadable, truncated or of
-// unknown type; the count in an STL's header disagrees with the file's size; there is no triangle; a
-// vertex is not finite or beyond 1e9 m; an index is out of range.
+// unknown type; the count in an STL's header disagrees with the file's size; there is no triangle;
+// a vertex is not finite or beyond 1e9 m; an index is out of range.
 Mesh load_mesh(const std::filesystem::path& file, LengthUnit unit);
 
 // Welds, cleans and completes a mesh of raw triangles, as load_mesh does after reading. `name`

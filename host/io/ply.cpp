@@ -1,5 +1,5 @@
-// Reads PLY, text and binary of either byte order. Assimp is not used: it invents the missing data of
-// a truncated file.
+// Reads PLY, text and binary of either byte order. Assimp is not used: it invents the missing data
+// of a truncated file.
 #include <algorithm>
 #include <bit>
 #include <cmath>

@@ -1,4 +1,5 @@
-// Internal to host/io: triangles as they stand in a file, in the file's unit. make_mesh cleans them.
+// Internal to host/io: triangles as they stand in a file, in the file's unit. make_mesh cleans
+// them.
 #pragma once
 
 #include <array>

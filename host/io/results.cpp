@@ -86,9 +86,8 @@ int index_of(const JsonField& object_id, const std::vector<ObjectName>& objects)
 int read_version(const JsonField& root) {
   const JsonField version = root.at(version_field);
   if (version.integer() < oldest_version || version.integer() > format_version)
-    version.fail(version.value.dump(),
-                 "version " + std::to_string(oldest_version) + " or " +
-                     std::to_string(format_version));
+    version.fail(version.value.dump(), "version " + std::to_string(oldest_version) + " or " +
+                                           std::to_string(format_version));
   return version.integer();
 }
 
@@ -106,8 +105,8 @@ Detection read_detection(const JsonField& field, const std::vector<ObjectName>& 
   detection.psi = number_or_nan(field.at("psi"));
   detection.cost_px = number_or_nan(field.at("cost_px"));
   detection.matched_fraction = number_or_nan(field.at("matched_fraction"));
-  detection.psi_z_score = number_or_nan(
-      field.at(version == 2 ? psi_z_score_field_of_version_2 : psi_z_score_field));
+  detection.psi_z_score =
+      number_or_nan(field.at(version == 2 ? psi_z_score_field_of_version_2 : psi_z_score_field));
   detection.unexplained_grey = number_or_nan(field.at("unexplained_grey"));
   detection.convergence = field.at("convergence").text();
   return detection;

@@ -2,6 +2,8 @@
 //
 // A pose is `{"R": 9 numbers by row, "t": 3 in metres, "quaternion_wxyz": 4}`. A covariance is 36
 // numbers by row, in the tangent of core/se3.h.
+//
+// Public header.
 #pragma once
 
 #include <filesystem>
@@ -20,8 +22,8 @@ struct ObjectName {
   std::string name;
 };
 
-// What a result depends on apart from its image, by name: checksums of models, numbers of the camera,
-// options.
+// What a result depends on apart from its image, by name: checksums of models, numbers of the
+// camera, options.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 struct ImageResult {

@@ -1,5 +1,5 @@
-// Reads STL, binary and ASCII. Assimp is not used: a truncated file or a wrong count must be an error,
-// but assimp loads as much as it can.
+// Reads STL, binary and ASCII. Assimp is not used: a truncated file or a wrong count must be an
+// error, but assimp loads as much as it can.
 #include <cstdint>
 #include <cstring>
 

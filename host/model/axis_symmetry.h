@@ -1,4 +1,6 @@
 // Symmetries from short words, for models without BOP's models_info.json.
+//
+// Public header.
 #pragma once
 
 #include <span>

@@ -2,6 +2,8 @@
 //
 // They are sharp creases, open borders and the normals from which the contours of curved surfaces
 // are computed for each viewpoint.
+//
+// Public header.
 #pragma once
 
 #include <vector>

@@ -3,6 +3,8 @@
 // In-plane rotation and image position need no templates of their own: they turn the camera, which
 // does not change the visible points. Detection applies them relative to the viewing ray, not to
 // the image plane, so the perspective at the image's border is right.
+//
+// Public header.
 #pragma once
 
 #include <filesystem>

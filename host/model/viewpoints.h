@@ -1,4 +1,6 @@
 // Viewing directions around an object, with and without those that symmetry makes redundant.
+//
+// Public header.
 #pragma once
 
 #include <vector>

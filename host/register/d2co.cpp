@@ -1,31 +1,108 @@
 #include "host/register/d2co.h"
 
+#include <algorithm>
 #include <limits>
 
-#include <Eigen/Cholesky>
-
+#include "host/core/thinned.h"
 #include "host/register/d2co_ceres.h"
 #include "host/register/lm_state.h"
-#include "host/register/register_points.h"
 #include "host/register/visible_in_views.h"
+#include "kernels/error.h"
 
 namespace edgescout {
 
-std::vector<ModelPoint> thinned(const std::vector<ModelPoint>& points, int most) {
-  if (most <= 0 || int(points.size()) <= most) return points;
-  std::vector<ModelPoint> kept(most);
-  for (int i = 0; i < most; ++i) kept[i] = points[std::size_t(i) * points.size() / most];
-  return kept;
+namespace {
+
+struct PointRange {
+  std::uint32_t first = 0, count = 0;
+};
+
+// The points of every pose and view in one list, as the kernel takes them.
+struct PointSets {
+  std::vector<ModelPoint> points;
+  Grid<PointRange> ranges;  // rows are poses, columns views
+};
+
+PointSets collect_points(std::span<const ObjectPose> poses, std::size_t views,
+                         const PointsInViews& points, int most) {
+  const Grid<std::vector<ModelPoint>> in_views = points(poses);
+  check(in_views.rows() == poses.size() && in_views.columns() == views,
+        "register_points: one list of points a pose and view");
+  PointSets sets{{}, Grid<PointRange>(poses.size(), views)};
+  for (std::size_t i = 0; i < in_views.values().size(); ++i) {
+    const std::vector<ModelPoint> kept = thinned(in_views.values()[i], most);
+    sets.ranges.values()[i] = {static_cast<std::uint32_t>(sets.points.size()),
+                               static_cast<std::uint32_t>(kept.size())};
+    sets.points.insert(sets.points.end(), kept.begin(), kept.end());
+  }
+  return sets;
 }
 
-Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance) {
-  const Eigen::LDLT<Matrix6d> factor(hessian);
-  if (factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0)
-    return residual_variance * factor.solve(Matrix6d::Identity());
-  // Not infinity times the identity: zero times infinity is NaN.
-  Matrix6d unknown = Matrix6d::Zero();
-  unknown.diagonal().setConstant(std::numeric_limits<double>::infinity());
-  return unknown;
+class Evaluator {
+ public:
+  Evaluator(const PointSets& sets, const Scene& scene, const PoseLoss& loss)
+      : sets_(sets), scene_(scene), loss_(loss) {
+    for (const ObjectView& view : scene.views) tensors_.push_back(view.tensor);
+  }
+
+  // Systems at the trial poses of the active states, in the states' order. Those of inactive
+  // states stay empty.
+  std::vector<WorldSystem> at_trials(std::span<const LmState> states) {
+    const std::span<const ObjectView> views = scene_.views;
+    problems_.clear();
+    for (std::size_t p = 0; p < states.size(); ++p)
+      for (std::size_t v = 0; states[p].active && v < views.size(); ++v) {
+        const PointRange range = sets_.ranges(p, v);
+        problems_.push_back({to_pose(views[v].camera_from_world * states[p].trial), range.first,
+                             range.count, static_cast<std::uint32_t>(v)});
+      }
+    results_.resize(problems_.size());
+    scene_.backend.pose_normal_equations(tensors_, sets_.points, problems_, loss_, results_);
+    std::vector<WorldSystem> systems(states.size());
+    std::size_t next = 0;
+    for (std::size_t p = 0; p < states.size(); ++p)
+      for (std::size_t v = 0; states[p].active && v < views.size(); ++v)
+        add_view(systems[p], results_[next++], views[v].camera_from_world);
+    return systems;
+  }
+
+ private:
+  const PointSets& sets_;
+  const Scene& scene_;
+  PoseLoss loss_;
+  std::vector<ViewHandle> tensors_;
+  std::vector<PoseProblem> problems_;
+  std::vector<NormalEquations> results_;
+};
+
+void run_round(std::span<LmState> states, Evaluator& evaluator, const D2coRound& round,
+               const D2coOptions& options) {
+  for (LmState& state : states) restart(state);
+  std::vector<WorldSystem> systems = evaluator.at_trials(states);
+  for (std::size_t p = 0; p < states.size(); ++p) initialize(states[p], systems[p]);
+  for (int i = 0; i < round.iterations; ++i) {
+    if (std::ranges::none_of(states, [](const LmState& state) { return state.active; })) return;
+    for (LmState& state : states)
+      if (state.active) compute_step(state);
+    systems = evaluator.at_trials(states);
+    for (std::size_t p = 0; p < states.size(); ++p)
+      if (states[p].active)
+        accept_step(states[p], systems[p], options.min_step_m, options.min_step_rad);
+  }
+}
+
+}  // namespace
+
+void check_problem(std::span<const ObjectPose> starts, std::size_t models,
+                   std::span<const ObjectView> views) {
+  check(!views.empty(), "register_poses: at least one view");
+  for (const ObjectView& view : views)
+    check(is_finite(view.camera_from_world), "register_poses: a view whose pose is not finite");
+  for (const ObjectPose& start : starts) {
+    check(start.object >= 0 && static_cast<std::size_t>(start.object) < models,
+          "register_poses: no such model");
+    check(is_finite(start.world_from_object), "register_poses: a start that is not finite");
+  }
 }
 
 std::vector<PoseEstimate> register_poses(const Scene& scene, std::span<const ObjectPose> starts,
@@ -36,6 +113,25 @@ std::vector<PoseEstimate> register_poses(const Scene& scene, std::span<const Obj
     return visible_points(scene, poses, options.visibility);
   };
   return register_points(scene, starts, points, options);
+}
+
+std::vector<PoseEstimate> register_points(const Scene& scene, std::span<const ObjectPose> starts,
+                                          const PointsInViews& points, const D2coOptions& options) {
+  options.validate();
+  check_problem(starts, std::numeric_limits<std::size_t>::max(), scene.views);
+  std::vector<ObjectPose> poses(starts.begin(), starts.end());
+  std::vector<LmState> states(starts.size());
+  for (std::size_t p = 0; p < starts.size(); ++p) states[p].pose = starts[p].world_from_object;
+  for (const D2coRound& round : options.rounds) {
+    for (std::size_t p = 0; p < poses.size(); ++p) poses[p].world_from_object = states[p].pose;
+    const PointSets sets = collect_points(poses, scene.views.size(), points, round.max_points);
+    Evaluator evaluator(sets, scene, {round.loss, round.scale_px});
+    run_round(states, evaluator, round, options);
+  }
+  std::vector<PoseEstimate> estimates;
+  for (std::size_t p = 0; p < starts.size(); ++p)
+    estimates.push_back(estimate_of(states[p], starts[p].object));
+  return estimates;
 }
 
 }  // namespace edgescout

@@ -7,25 +7,35 @@
 // a call are refined side by side: one kernel call gives the systems of all of them in all views.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
+#include "host/core/grid.h"
 #include "host/register/d2co_options.h"
 #include "host/register/pose_estimate.h"
 #include "host/register/scene.h"
 
 namespace edgescout {
 
-// Covariance of a pose from its final system: variance * hessian^-1 in the tangent of core/se3.h,
-// infinite where singular.
-Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance);
-
-// Evenly; all of them where `most` is 0 or enough.
-std::vector<ModelPoint> thinned(const std::vector<ModelPoint>& points, int most);
-
 // Estimates in the order of the starts, without features. InputError: options out of bounds;
 // LogicError: no view, a view or a start whose pose is not finite, an object without a model.
 std::vector<PoseEstimate> register_poses(const Scene& scene, std::span<const ObjectPose> starts,
                                          const D2coOptions& options = {});
+
+// The points of each pose that are visible in each view, object frame. Rows are poses, columns
+// views.
+using PointsInViews = std::function<Grid<std::vector<ModelPoint>>(std::span<const ObjectPose>)>;
+
+// As register_poses, with points that the caller looks up before every round. register_poses draws
+// depth maps to find them, which costs more than a short registration itself. Ignores scene.models,
+// D2coOptions::visibility and D2coOptions::solver. LogicError besides: a grid of another size.
+std::vector<PoseEstimate> register_points(const Scene& scene, std::span<const ObjectPose> starts,
+                                          const PointsInViews& points,
+                                          const D2coOptions& options = {});
+
+// LogicError: no view, a view or a start whose pose is not finite, an object without a model.
+void check_problem(std::span<const ObjectPose> starts, std::size_t models,
+                   std::span<const ObjectView> views);
 
 }  // namespace edgescout

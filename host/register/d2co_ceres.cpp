@@ -9,7 +9,6 @@
 #include "host/register/point_cost.h"
 #include "host/register/se3_manifold.h"
 #include "host/register/visible_in_views.h"
-#include "host/register/world_system.h"
 #include "kernels/error.h"
 
 namespace edgescout {

@@ -1,4 +1,6 @@
 // How D2CO goes from a rough pose to a registered one (d2co.h).
+//
+// Public header.
 #pragma once
 
 #include <cstdint>

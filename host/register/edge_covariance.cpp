@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/register/d2co.h"
+#include "host/register/lm_state.h"
 
 namespace edgescout {
 

@@ -5,12 +5,13 @@
 #include <Eigen/Cholesky>
 
 #include "host/core/option_bounds.h"
+#include "host/core/thinned.h"
 #include "host/register/d2co.h"
 #include "host/register/edge_covariance.h"
 #include "host/register/image_motion.h"
+#include "host/register/lm_state.h"
 #include "host/register/thresholds.h"
 #include "host/register/visible_in_views.h"
-#include "host/register/world_system.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
 

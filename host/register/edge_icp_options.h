@@ -1,4 +1,6 @@
 // Options of edge_icp (edge_icp.h).
+//
+// Public header.
 #pragma once
 
 #include <vector>

@@ -6,9 +6,24 @@
 #include "host/register/d2co_options.h"
 #include "host/register/pose_estimate.h"
 #include "host/register/scene.h"
-#include "host/register/world_system.h"
+#include "kernels/pose_normal_equations.h"
 
 namespace edgescout {
+
+struct WorldSystem {
+  Matrix6d hessian = Matrix6d::Zero();
+  Vector6d gradient = Vector6d::Zero();
+  double cost = 0;
+  double residual_sum = 0;
+  double weight_sum = 0;
+  double points = 0;
+};
+
+// A step [dt, dw] in the world's tangent is [R dt, R dw] in the camera's, R being the rotation of
+// camera_from_world: both parts of the tangent act on the left and about the object's origin.
+void add_view(WorldSystem& sum, const NormalEquations& view, const Se3& camera_from_world);
+// The same for a system in double with both triangles of the Hessian filled.
+void add_view(WorldSystem& sum, const WorldSystem& in_camera, const Se3& camera_from_world);
 
 struct LmState {
   Se3 pose, trial;
@@ -20,9 +35,6 @@ struct LmState {
   Convergence convergence = Convergence::IterationLimit;
 };
 
-// LogicError: no view, a view or a start whose pose is not finite, an object without a model.
-void check_problem(std::span<const ObjectPose> starts, std::size_t models,
-                   std::span<const ObjectView> views);
 // Begins a round: the first trial is the pose itself.
 void restart(LmState& state);
 // Takes the system at the first trial. Ends the state where no point lies in front of the camera.
@@ -37,5 +49,9 @@ void accept_step(LmState& state, const WorldSystem& at_trial, double min_step_m,
 bool is_small(const Vector6d& step, double min_step_m, double min_step_rad);
 
 PoseEstimate estimate_of(const LmState& state, int object);
+
+// Covariance of a pose from its final system: variance * hessian^-1 in the tangent of core/se3.h,
+// infinite where singular.
+Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance);
 
 }  // namespace edgescout

@@ -2,6 +2,8 @@
 //
 // pipeline.h makes it in two steps: prepare_view undistorts the image and finds the edges,
 // add_tensors builds the tensors (paper, Sec. 3.3). Copies share all data.
+//
+// Public header.
 #pragma once
 
 #include <memory>

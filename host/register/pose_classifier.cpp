@@ -7,12 +7,27 @@
 #include "host/register/pose_features.h"
 #include "host/register/shading.h"
 #include "host/register/thresholds.h"
+#include "kernels/error.h"
 
 namespace edgescout {
 
 namespace {
 
 namespace weights = pose_classifier_weights;
+
+constexpr double NOISE_GREY = 2;  // of an image, standard deviation
+
+double in_standard_errors(double psi_excess, const PoseFeatures& features) {
+  constexpr double spread = 0.308;      // standard deviation of |cos| of unrelated directions
+  constexpr double independent_px = 5;  // neighbouring edge points agree or disagree together
+  return psi_excess / spread * std::sqrt(features.length_px / independent_px);
+}
+
+void add(Shading& sum, const Shading& other) {
+  sum.pixels += other.pixels;
+  sum.squares += other.squares;
+  sum.unexplained += other.unexplained;
+}
 
 double logistic(double log_odds) { return 1 / (1 + std::exp(-log_odds)); }
 
@@ -37,6 +52,43 @@ double log_odds(const ViewSums& sums) {
 }
 
 }  // namespace
+
+double psi_z_score(const PoseFeatures& features) {
+  return in_standard_errors(features.psi - CHANCE_PSI, features);
+}
+
+double background_psi_z_score(const PoseFeatures& features) {
+  return in_standard_errors(features.psi - features.background_psi, features);
+}
+
+double unexplained_grey(const Shading& shading) {
+  const double noise = shading.pixels * NOISE_GREY * NOISE_GREY;
+  return shading.pixels > 0 ? std::sqrt((shading.unexplained + noise) / (shading.squares + noise))
+                            : 1;
+}
+
+PoseFeatures pool_over_views(std::span<const PoseFeatures> by_view) {
+  check(!by_view.empty(), "pool_over_views: features of at least one view");
+  PoseFeatures sum;
+  for (const PoseFeatures& f : by_view) {
+    sum.psi += f.psi * f.points;
+    sum.background_psi += f.background_psi * f.points;
+    sum.mean_px += f.mean_px * f.points;
+    sum.matched += f.matched * f.points;
+    sum.points += f.points;
+    sum.length_px += f.length_px;
+    sum.visible += f.visible;
+    add(sum.shading, f.shading);
+  }
+  if (sum.points > 0) {
+    sum.psi /= sum.points, sum.background_psi /= sum.points, sum.mean_px /= sum.points,
+        sum.matched /= sum.points;
+  } else {
+    sum.mean_px = by_view[0].mean_px;
+  }
+  if (sum.visible > 0) sum.in_image = sum.points / sum.visible;
+  return sum;
+}
 
 double PoseClassifier::rank(const PoseFeatures& features) {
   return log_odds(features, weights::RANK_ONE_VIEW);

@@ -4,6 +4,8 @@
 // scenes. pose_classifier_weights.h holds them and names data and commit. There are two fits for
 // one view: `rank` on all registered candidates, `probability` on reported ones, among which
 // unexplained grey matters less.
+//
+// Public header.
 #pragma once
 
 #include <span>
@@ -11,6 +13,26 @@
 #include "host/register/pose_estimate.h"
 
 namespace edgescout {
+
+// How far psi lies above chance: its excess over CHANCE_PSI in units of its standard error. The
+// error falls with the square root of the visible edge length. Psi alone prefers small, simple
+// views: two parallel lines match anywhere. Of two poses of one object the z-score prefers the one
+// that shows more edges. CHANCE_PSI lies a little above the psi of unrelated directions, a mean
+// |cos| of 2 / pi.
+inline constexpr double CHANCE_PSI = 0.65;
+double psi_z_score(const PoseFeatures& features);
+
+// The same with background_psi in place of chance. The parallel lines of a barcode agree with an
+// object at any place; blank surroundings agree with none.
+double background_psi_z_score(const PoseFeatures& features);
+
+// Root mean square of the unexplained deviations divided by that of all deviations, in [0, 1]. 1
+// where too few pixels were compared. Near 1 where the contrast is as weak as the image's noise.
+double unexplained_grey(const Shading& shading);
+
+// Pools the features of one pose over its views (at least one): means weighted by the views'
+// numbers of points, sums of counts.
+PoseFeatures pool_over_views(std::span<const PoseFeatures> by_view);
 
 struct PoseClassifier {
   // Log-odds that a pose is right, from features of one view or pooled ones. Poses are ordered by

@@ -1,4 +1,6 @@
 // A registered pose with its covariance, cost and features.
+//
+// Public header.
 #pragma once
 
 #include <string>

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "host/core/thinned.h"
 #include "host/register/d2co.h"
+#include "host/register/pose_classifier.h"
 #include "host/register/shading.h"
 #include "host/register/visible_in_views.h"
 #include "kernels/error.h"
@@ -67,12 +69,6 @@ struct Problems {
   }
 };
 
-double in_standard_errors(double psi_excess, const PoseFeatures& features) {
-  constexpr double spread = 0.308;      // standard deviation of |cos| of unrelated directions
-  constexpr double independent_px = 5;  // neighbouring edge points agree or disagree together
-  return psi_excess / spread * std::sqrt(features.length_px / independent_px);
-}
-
 double mean_psi(std::span<const PoseScore> scores) {
   double sum = 0, points = 0;
   for (const PoseScore& score : scores) sum += score.psi * score.points, points += score.points;
@@ -131,14 +127,6 @@ Grid<PoseFeatures> measure(const Scene& scene, std::span<const ObjectPose> poses
 
 }  // namespace
 
-double psi_z_score(const PoseFeatures& features) {
-  return in_standard_errors(features.psi - CHANCE_PSI, features);
-}
-
-double background_psi_z_score(const PoseFeatures& features) {
-  return in_standard_errors(features.psi - features.background_psi, features);
-}
-
 Grid<PoseFeatures> features_by_view(const Scene& scene, std::span<const ObjectPose> poses,
                                     const FeatureOptions& options) {
   return measure(scene, poses, options, scene.views.size() > 1);
@@ -149,29 +137,6 @@ void measure_features(const Scene& scene, std::span<PoseEstimate> poses,
   const Grid<PoseFeatures> features = features_by_view(scene, object_poses(poses), options);
   for (std::size_t p = 0; p < poses.size(); ++p)
     poses[p].features.assign(features.row(p).begin(), features.row(p).end());
-}
-
-PoseFeatures pool_over_views(std::span<const PoseFeatures> by_view) {
-  check(!by_view.empty(), "pool_over_views: features of at least one view");
-  PoseFeatures sum;
-  for (const PoseFeatures& f : by_view) {
-    sum.psi += f.psi * f.points;
-    sum.background_psi += f.background_psi * f.points;
-    sum.mean_px += f.mean_px * f.points;
-    sum.matched += f.matched * f.points;
-    sum.points += f.points;
-    sum.length_px += f.length_px;
-    sum.visible += f.visible;
-    add(sum.shading, f.shading);
-  }
-  if (sum.points > 0) {
-    sum.psi /= sum.points, sum.background_psi /= sum.points, sum.mean_px /= sum.points,
-        sum.matched /= sum.points;
-  } else {
-    sum.mean_px = by_view[0].mean_px;
-  }
-  if (sum.visible > 0) sum.in_image = sum.points / sum.visible;
-  return sum;
 }
 
 std::vector<PoseFeatures> pooled_features(const Scene& scene, std::span<const ObjectPose> poses,

@@ -1,6 +1,8 @@
 // From a rough start to a pose: search around it, D2CO, edge ICP, features.
 //
 // Detection does this with its candidates, `edgescout register` with given starts.
+//
+// Public header.
 #pragma once
 
 #include <span>

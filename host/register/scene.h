@@ -1,4 +1,6 @@
 // The models, views and backend that every step of registration and detection works on.
+//
+// Public header.
 #pragma once
 
 #include <span>

@@ -20,8 +20,6 @@ constexpr int FEWEST_STRIDE = 2;
 constexpr double LARGEST_BEND = 4e-3;
 constexpr int HARMONICS = 9;
 constexpr double FEWEST_PIXELS = 60;  // nine harmonics explain any grey of fewer pixels
-constexpr double NOISE_GREY = 2;
-
 using Harmonics = Eigen::Matrix<double, HARMONICS, 1>;
 
 // Part of the image: window pixel (i, j) is image pixel (x + stride i, y + stride j). Samples need
@@ -171,18 +169,6 @@ void explain_all(Grid<Shading>& result, const Scene& scene, const Tasks& tasks,
 }
 
 }  // namespace
-
-void add(Shading& sum, const Shading& other) {
-  sum.pixels += other.pixels;
-  sum.squares += other.squares;
-  sum.unexplained += other.unexplained;
-}
-
-double unexplained_grey(const Shading& shading) {
-  const double noise = shading.pixels * NOISE_GREY * NOISE_GREY;
-  return shading.pixels > 0 ? std::sqrt((shading.unexplained + noise) / (shading.squares + noise))
-                            : 1;
-}
 
 Grid<Shading> shading(const Scene& scene, std::span<const ObjectPose> poses) {
   Grid<Shading> result(poses.size(), scene.views.size());

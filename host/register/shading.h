@@ -14,13 +14,6 @@
 
 namespace edgescout {
 
-// Adds another view of the same pose.
-void add(Shading& sum, const Shading& other);
-
-// Root mean square of the unexplained deviations divided by that of all deviations, in [0, 1]. 1
-// where too few pixels were compared. Near 1 where the contrast is as weak as the image's noise.
-double unexplained_grey(const Shading& shading);
-
 // Rows are poses, columns views. All zero where the view has no image.
 Grid<Shading> shading(const Scene& scene, std::span<const ObjectPose> poses);
 

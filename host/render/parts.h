@@ -10,13 +10,13 @@
 
 namespace edgescout {
 
-// "l_bracket", "bearing_block", "stepped_shaft", "hex_nut", "u_channel", "gear_plate". Their BOP ids
-// are 1, 2 .. in this order.
+// "l_bracket", "bearing_block", "stepped_shaft", "hex_nut", "u_channel", "gear_plate". Their BOP
+// ids are 1, 2 .. in this order.
 std::vector<std::string> part_names();
 
 // Makes a closed part of 30 to 80 mm with outward triangles and its origin in the middle of its
-// bounding box. Symmetries are filled in (64 steps for the turned part). InputError naming the known
-// parts: another name.
+// bounding box. Symmetries are filled in (64 steps for the turned part). InputError naming the
+// known parts: another name.
 Object make_part(const std::string& name);
 // Returns the surfaces of revolution among the given parts: BOP id and axis, through the origin.
 std::map<int, Eigen::Vector3d> turning_axes(std::span<const Object> parts);

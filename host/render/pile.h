@@ -1,8 +1,8 @@
 // Puts parts on a table, one after the other, so that they do not overlap.
 //
-// There is no physics. A part rests on one of the faces of its convex hull. It is lowered vertically
-// onto a height map of the parts on the table. If it lands on other parts, it slides and tilts by
-// random trials towards lower potential energy.
+// There is no physics. A part rests on one of the faces of its convex hull. It is lowered
+// vertically onto a height map of the parts on the table. If it lands on other parts, it slides and
+// tilts by random trials towards lower potential energy.
 #pragma once
 
 #include <vector>
@@ -21,12 +21,12 @@ Eigen::Vector3d surface_centre(const Mesh& mesh);
 
 class PileTable {
  public:
-  // A square of side `side_m` about the origin. Its heights are sampled every `cell_m`, which is the
-  // accuracy of contact.
+  // A square of side `side_m` about the origin. Its heights are sampled every `cell_m`, which is
+  // the accuracy of contact.
   PileTable(double side_m, double cell_m);
 
-  // Drops the mesh somewhere within `radius_m` of the origin. `alone`: it lies on the bare table and
-  // touches nothing; if there is no room left, it lies outside the radius.
+  // Drops the mesh somewhere within `radius_m` of the origin. `alone`: it lies on the bare table
+  // and touches nothing; if there is no room left, it lies outside the radius.
   Se3 place(const Mesh& mesh, double radius_m, bool alone, Random& random);
 
  private:

@@ -20,8 +20,8 @@ struct Raster {
   std::vector<int> triangle;   // -1 without a surface
 };
 
-// Draws triangles of both orientations. A triangle with a corner nearer than 1 mm is dropped. Samples
-// are at integer pixels.
+// Draws triangles of both orientations. A triangle with a corner nearer than 1 mm is dropped.
+// Samples are at integer pixels.
 Raster rasterize(std::span<const TriangleCorners> x_in_world, const Camera& camera,
                  const Se3& camera_from_world, ThreadPool& pool);
 

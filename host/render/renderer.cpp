@@ -83,8 +83,8 @@ double board_albedo(const SimulatedScene& scene, const Se3& board_from_world,
   return ((1 - fv) * top + fv * bottom) / 255;
 }
 
-// Computes the mean light of one pixel's samples; 1 is white. The light is computed once per surface
-// and pixel. The print, which is finer, is read once per sample.
+// Computes the mean light of one pixel's samples; 1 is white. The light is computed once per
+// surface and pixel. The print, which is finer, is read once per sample.
 class PixelShader {
  public:
   explicit PixelShader(const ViewContext& view)
@@ -146,9 +146,9 @@ Image develop(cv::Mat light, const RenderOptions& options, const Random& random)
   return image;
 }
 
-// Counts the pixels of one object's silhouette, as if nothing hid it and the image had no border. An
-// object close to the camera may be thousands of images wide; then only a fraction of the pixels is
-// sampled.
+// Counts the pixels of one object's silhouette, as if nothing hid it and the image had no border.
+// An object close to the camera may be thousands of images wide; then only a fraction of the pixels
+// is sampled.
 double silhouette_px(const SimulatedScene& scene, const PlacedObject& part, const SceneView& view,
                      ThreadPool& pool) {
   const Mesh& mesh = scene.objects[part.object].mesh;

@@ -66,8 +66,8 @@ class EarClipper {
     return {ring_[(i + n - 1) % n], ring_[i], ring_[(i + 1) % n]};
   }
 
-  // Joins a hole to the ring by the shortest segment that crosses nothing. The ring then goes to the
-  // hole, around it, and back.
+  // Joins a hole to the ring by the shortest segment that crosses nothing. The ring then goes to
+  // the hole, around it, and back.
   void bridge(const std::vector<std::vector<int>>& holes, std::size_t which) {
     const std::vector<int>& hole = holes[which];
     double shortest = std::numeric_limits<double>::infinity();
@@ -111,8 +111,8 @@ class EarClipper {
                                          holes.end(), crosses);
   }
 
-  // Measures how far the corner's triangle is from a sliver: 2 * area over the squared longest side. Not
-  // positive if the corner is no ear.
+  // Measures how far the corner's triangle is from a sliver: 2 * area over the squared longest
+  // side. Not positive if the corner is no ear.
   double quality(std::size_t i) const {
     const auto [ia, ib, ic] = corner(i);
     const Eigen::Vector2d &a = points_[ia], &b = points_[ib], &c = points_[ic];

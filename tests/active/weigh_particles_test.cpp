@@ -10,6 +10,7 @@
 #include "tests/active/rendered_scene.h"
 #include "tests/register/scene.h"
 #include "tests/test_random.h"
+#include "host/register/pose_classifier.h"
 
 namespace edgescout::test {
 namespace {

@@ -12,6 +12,7 @@
 #include "tests/active/rendered_scene.h"
 #include "tests/register/scene.h"
 #include "tests/test_random.h"
+#include "host/core/thinned.h"
 
 namespace edgescout {
 namespace {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/detect/part_image.h"
+#include "host/register/pose_classifier.h"
 
 namespace edgescout::test {
 namespace {

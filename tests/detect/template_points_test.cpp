@@ -7,6 +7,7 @@
 #include "host/register/visible_in_views.h"
 #include "tests/detect/part_image.h"
 #include "tests/test_random.h"
+#include "host/core/thinned.h"
 
 namespace edgescout::test {
 namespace {

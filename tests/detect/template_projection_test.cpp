@@ -8,6 +8,7 @@
 #include "kernels/pose_geometry.h"
 #include "tests/detect/part_image.h"
 #include "tests/test_random.h"
+#include "host/core/thinned.h"
 
 namespace edgescout::test {
 namespace {

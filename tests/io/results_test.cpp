@@ -152,7 +152,7 @@ std::string replaced(std::string text, std::string_view from, std::string_view t
   return text;
 }
 
-TEST(ImageResult, NamesThePsiZScoreAndReadsVersion2WhichCallsItEvidence) {
+TEST(ImageResult, ReadsThePsiZScoreOfVersions2And3) {
   const TemporaryFolder folder;
   save_image_result(sample_result(), folder.path() / "r.json");
   const std::string version_3 = content_of(folder.path() / "r.json");
@@ -174,8 +174,8 @@ TEST(ImageResult, RefusesAFieldOfTheOtherVersion) {
   save_image_result(sample_result(), folder.path() / "r.json");
   const std::string version_3 = content_of(folder.path() / "r.json");
   const std::string named_as_in_2 = replaced(version_3, "psi_z_score", "evidence"),
-                    numbered_as_2 = replaced(version_3, "\"edgescout_result\": 3",
-                                             "\"edgescout_result\": 2");
+                    numbered_as_2 =
+                        replaced(version_3, "\"edgescout_result\": 3", "\"edgescout_result\": 2");
   expect_input_error([&] { load_image_result(folder.write("a.json", named_as_in_2)); },
                      {"a.json", "/detections/0/psi_z_score"});
   expect_input_error([&] { load_image_result(folder.write("b.json", numbered_as_2)); },
@@ -227,7 +227,7 @@ TEST(StartPoses, ComeFromAPlainList) {
   EXPECT_EQ(same_ending(poses[1], "/images/x/b.png"), 1);
   EXPECT_EQ(same_ending(poses[1], "/b.png"), 1);
   EXPECT_EQ(same_ending(poses[1], "/a/x.png"), 0);
-  StartPose of_latin_1;  // as a result of the image tells it
+  StartPose of_latin_1;  // as in a result of the image
   of_latin_1.image = "a\xef\xbf\xbd/caf\xef\xbf\xbd.png";
   EXPECT_TRUE(belongs_to(of_latin_1, "caf\xe9.png", std::nullopt, 0));
   EXPECT_EQ(same_ending(of_latin_1, "/a\xe9/caf\xe9.png"), 2);

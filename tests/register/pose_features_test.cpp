@@ -5,6 +5,7 @@
 
 #include "tests/register/scene.h"
 #include "tests/test_random.h"
+#include "host/register/pose_classifier.h"
 
 namespace edgescout::test {
 namespace {

@@ -1,5 +1,5 @@
 // Registration on given points: on the points of register_poses it equals register_poses.
-#include "host/register/register_points.h"
+#include "host/register/d2co.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include "host/core/random.h"
 #include "host/edge/edge_index.h"
 #include "host/register/d2co.h"
-#include "host/register/world_system.h"
+#include "host/register/lm_state.h"
 #include "host/render/parts.h"
 #include "tests/register/linear_tensor.h"
 

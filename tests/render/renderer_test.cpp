@@ -57,7 +57,8 @@ SimulatedScene plain_scene(const Mesh& mesh, const Se3& world_from_object, doubl
 
 // Nearest triangle along a ray by brute force (Moeller and Trumbore): depth (the ray's z is 1) and
 // owner.
-std::pair<double, int> cast(const SimulatedScene& scene, const SceneView& view, const Eigen::Vector3d& ray) {
+std::pair<double, int> cast(const SimulatedScene& scene, const SceneView& view,
+                            const Eigen::Vector3d& ray) {
   double nearest = std::numeric_limits<double>::infinity();
   int owner = -1;
   for (std::size_t p = 0; p < scene.placed.size(); ++p) {
@@ -140,7 +141,7 @@ TEST(Render, VerticesOfTheTruthFallOnTheirMask) {
 TEST(Render, VisibleFractionIsThatOfAKnownOverlap) {
   // A square of 40 mm, half covered by another at 0.1 m above it that seems just as large.
   SimulatedScene scene = plain_scene(make_box({0.04, 0.04, 0.002}),
-                            {Eigen::Quaterniond::Identity(), {0, 0, 0.001}}, 0.4);
+                                     {Eigen::Quaterniond::Identity(), {0, 0, 0.001}}, 0.4);
   const double scale = (0.4 - 0.101) / (0.4 - 0.002);
   Object cover;
   cover.mesh = make_box({0.04 * scale, 0.04 * scale, 0.002});
@@ -171,13 +172,13 @@ TEST(Render, WhatLeavesTheImageIsNotVisible) {
   ThreadPool pool(1);
   EXPECT_NEAR(render(half, pool).front().visible_fraction[0], 0.5, 0.06);
   const SimulatedScene outside = plain_scene(make_box({0.04, 0.04, 0.002}),
-                                    {Eigen::Quaterniond::Identity(), {1, 0, 0.001}}, 0.4);
+                                             {Eigen::Quaterniond::Identity(), {1, 0, 0.001}}, 0.4);
   EXPECT_DOUBLE_EQ(render(outside, pool).front().visible_fraction[0], 0);
 }
 
 TEST(Render, CastsShadowsOnlyWhereAsked) {
   SimulatedScene scene = plain_scene(make_box({0.02, 0.02, 0.02}),
-                            {Eigen::Quaterniond::Identity(), {0, 0, 0.05}}, 0.4);
+                                     {Eigen::Quaterniond::Identity(), {0, 0, 0.05}}, 0.4);
   scene.lights = {{{1, 0, 1}, 0.8}};
   scene.desk_albedo = 100 / 255.0;
   ThreadPool pool(1);
@@ -211,7 +212,7 @@ TEST(Render, IsTheSameForTheSameSeedOnAnyNumberOfThreads) {
 
 TEST(Render, NoiseAndBlurDoWhatTheySay) {
   SimulatedScene scene = plain_scene(make_box({0.001, 0.001, 0.001}),
-                            {Eigen::Quaterniond::Identity(), {0.5, 0.5, 0}}, 0.4);
+                                     {Eigen::Quaterniond::Identity(), {0.5, 0.5, 0}}, 0.4);
   scene.board_side_m = 5;
   scene.options.shadows = false;
   ThreadPool pool(1);
