@@ -35,6 +35,14 @@ class FailingBackend : public Backend {
                       std::span<TemplateHit> hits) override {
     cpu_->template_score(view, points, jobs, anchor_step, hits);
   }
+  ModelPointsHandle make_model_points(std::span<const ModelPoint> points) override {
+    return cpu_->make_model_points(points);
+  }
+  void template_project(const BackendModelPoints& points, std::span<const TemplateProjectJob> jobs,
+                        const TemplateProjectOptions& options, std::span<TemplatePoint> projected,
+                        std::span<std::uint32_t> too_near) override {
+    cpu_->template_project(points, jobs, options, projected, too_near);
+  }
   void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
                              std::span<const PoseProblem> problems, const PoseLoss& loss,
                              std::span<NormalEquations> out) override {
