@@ -14,8 +14,9 @@ void PipelineOptions::validate() const {
 
 ObjectView prepare_view(const Image& image, const Camera& camera, const Se3& camera_from_world,
                         Backend& backend, const PipelineOptions& options,
-                        std::vector<StageSeconds>& stages) {
-  Stopwatch watch(stages);
+                        std::vector<StageSeconds>* stages) {
+  std::vector<StageSeconds> unread;
+  Stopwatch watch(stages ? *stages : unread);
   ObjectView view;
   view.camera = undistorted(camera);
   view.camera_from_world = camera_from_world;

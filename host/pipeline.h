@@ -28,10 +28,10 @@ struct PipelineOptions {
 
 // Undistorts an image and finds its edges: all work that does not depend on the models. The view
 // has no tensors yet. One thread may prepare the next image while another thread detects in this
-// one, if each has its own backend. `stages` gains the time of each stage.
+// one, if each has its own backend. `stages`, where given, gains the time of each stage.
 ObjectView prepare_view(const Image& image, const Camera& camera, const Se3& camera_from_world,
                         Backend& backend, const PipelineOptions& options,
-                        std::vector<StageSeconds>& stages);
+                        std::vector<StageSeconds>* stages = nullptr);
 
 std::vector<EdgeModel> models_of(std::span<const TemplateSet> sets);
 

@@ -103,7 +103,7 @@ void Scout::resume(ScoutState state, const std::string& source) {
       throw InputError(source + ": " + error.what());
     }
     ObjectView view = prepare_view(step.image, undistorted(camera_), step.camera_from_world,
-                                   backend_, options_.pipeline, not_counted);
+                                   backend_, options_.pipeline, &not_counted);
     add_tensors(view, sets_, backend_, options_.pipeline.tensor);
     views.push_back({std::move(view), {}});
     throw_if_cancelled();

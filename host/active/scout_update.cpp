@@ -20,7 +20,7 @@ Scout::Update Scout::begin_update(int view, const Se3& camera_from_world) const 
 void Scout::add_image(Update& next, const Image& image) const {
   ScoutStep& step = next.step;
   ObjectView view = prepare_view(image, camera_, step.camera_from_world, backend_,
-                                 options_.pipeline, step.stages);
+                                 options_.pipeline, &step.stages);
   step.image = *view.image;
   Stopwatch watch(step.stages);
   add_tensors(view, sets_, backend_, options_.pipeline.tensor);

@@ -81,7 +81,7 @@ class Preparer {
     const Se3 camera_from_world = options_.joint ? *input.camera_from_world : Se3{};
     prepared.view = naming(input, [&] {
       return prepare_view(image, camera, camera_from_world, *backend_, options_.pipeline,
-                          prepared.stages);
+                          &prepared.stages);
     });
     return prepared;
   }

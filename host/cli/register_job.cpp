@@ -22,7 +22,7 @@ PreparedView prepare(const InputImage& input, bool is_single, Backend& backend,
   PreparedView prepared;
   prepared.view = naming(input, [&] {
     return prepare_view(image, camera, camera_from_world, backend, options.pipeline,
-                        prepared.stages);
+                        &prepared.stages);
   });
   return prepared;
 }

@@ -113,7 +113,7 @@ void run_stages(const Work& work, Backend& backend, std::vector<StageSamples>& s
   const auto prepare = [&] {
     const KnownImage& image = work.scene.images[0];
     std::vector<StageSeconds> ignored;
-    return prepare_view(image.image, image.camera, Se3{}, backend, work.options, ignored);
+    return prepare_view(image.image, image.camera, Se3{}, backend, work.options, &ignored);
   };
   const ObjectView prepared = stages.time("edges", prepare);
   const ObjectView view = stages.time("tensors", [&] {
@@ -125,8 +125,9 @@ void run_stages(const Work& work, Backend& backend, std::vector<StageSamples>& s
   const DetectOptions& detect = work.options.detect;
   stages.time("scan", [&] { return coarse_scan(work.sets[0], view, backend, detect.scan); });
   stages.time("registration", [&] { return refine_poses(scene, work.starts, detect.refine); });
-  stages.time("scoring",
-              [&] { return pooled_features(scene, work.truths, {.score = detect.refine.score}); });
+  FeatureOptions features;
+  features.score = detect.refine.score;
+  stages.time("scoring", [&] { return pooled_features(scene, work.truths, features); });
   stages.time("next view", [&] { return decide(work.decision, backend); });
   stages.time("image to poses",
               [&] { return detect_objects(prepare(), work.sets, backend, work.options); });

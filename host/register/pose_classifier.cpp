@@ -23,12 +23,6 @@ double in_standard_errors(double psi_excess, const PoseFeatures& features) {
   return psi_excess / spread * std::sqrt(features.length_px / independent_px);
 }
 
-void add(Shading& sum, const Shading& other) {
-  sum.pixels += other.pixels;
-  sum.squares += other.squares;
-  sum.unexplained += other.unexplained;
-}
-
 double logistic(double log_odds) { return 1 / (1 + std::exp(-log_odds)); }
 
 bool is_informative(const PoseFeatures& f) {
@@ -59,6 +53,12 @@ double psi_z_score(const PoseFeatures& features) {
 
 double background_psi_z_score(const PoseFeatures& features) {
   return in_standard_errors(features.psi - features.background_psi, features);
+}
+
+void add(Shading& sum, const Shading& other) {
+  sum.pixels += other.pixels;
+  sum.squares += other.squares;
+  sum.unexplained += other.unexplained;
 }
 
 double unexplained_grey(const Shading& shading) {

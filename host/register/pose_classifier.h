@@ -26,6 +26,9 @@ double psi_z_score(const PoseFeatures& features);
 // object at any place; blank surroundings agree with none.
 double background_psi_z_score(const PoseFeatures& features);
 
+// Adds another view of the same pose.
+void add(Shading& sum, const Shading& other);
+
 // Root mean square of the unexplained deviations divided by that of all deviations, in [0, 1]. 1
 // where too few pixels were compared. Near 1 where the contrast is as weak as the image's noise.
 double unexplained_grey(const Shading& shading);

@@ -23,7 +23,7 @@ struct BlankLast : SmallCell {
       if (view == 4) std::ranges::fill(shot.image.pixels, 128);
       std::vector<StageSeconds> stages;
       ObjectView image =
-          prepare_view(shot.image, camera(), shot.camera_from_world, *backend, {}, stages);
+          prepare_view(shot.image, camera(), shot.camera_from_world, *backend, {}, &stages);
       add_tensors(image, sets, *backend, {});
       images.push_back({image, {}});
     }

@@ -117,7 +117,7 @@ TEST(RecordedViews, AreThoseOfTheCastle) {
   for (int v = 0; v < 40; v += 3) {
     const Shot shot = source.acquire(v);
     ObjectView view =
-        prepare_view(shot.image, camera, shot.camera_from_world, *backend, {}, stages);
+        prepare_view(shot.image, camera, shot.camera_from_world, *backend, {}, &stages);
     add_tensors(view, 1.0, *backend, {});
     const std::vector<PoseFeatures> features =
         pooled_features({models, {&view, 1}, *backend}, poses);

@@ -50,7 +50,7 @@ struct RenderedScene {
     std::vector<StageSeconds> stages;
     ObjectView prepared = prepare_view(
         renderings[index].image, scene.views[index].camera,
-        camera_from_world.value_or(scene.views[index].camera_from_world), backend, {}, stages);
+        camera_from_world.value_or(scene.views[index].camera_from_world), backend, {}, &stages);
     add_tensors(prepared, 1.0, backend, {});
     return prepared;
   }

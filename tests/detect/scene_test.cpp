@@ -41,7 +41,7 @@ struct RenderedPart {
   ObjectView prepared(std::size_t view, const Se3& camera_from_world, Backend& backend) const {
     std::vector<StageSeconds> stages;
     return prepare_view(renderings[view].image, scene.views[view].camera, camera_from_world,
-                        backend, options(), stages);
+                        backend, options(), &stages);
   }
   ObjectView with_tensors(std::size_t view, Backend& backend) const {
     ObjectView built = prepared(view, scene.views[view].camera_from_world, backend);

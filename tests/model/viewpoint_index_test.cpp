@@ -50,7 +50,7 @@ TEST(ViewpointIndex, FindsTheNearestViewpoint) {
 TEST(ViewpointIndex, FindsEachViewpointOfASet) {
   TemplateSet set;
   set.model.center_m = CENTER_M;
-  for (const Eigen::Vector3d& direction : icosphere(3))
+  for (const Eigen::Vector3d& direction : edgescout::icosphere(3))
     set.views.push_back({looking_from(direction), {}});
   const ViewpointIndex index(set);
   for (std::size_t v = 0; v < set.views.size(); ++v) {

@@ -28,7 +28,7 @@ int main(int, char** argv) {
   camera.width = image.width;
   camera.height = image.height;
   std::vector<StageSeconds> stages;
-  const ObjectView view = prepare_view(image, camera, Se3{}, *backend, options, stages);
+  const ObjectView view = prepare_view(image, camera, Se3{}, *backend, options, &stages);
   const Detections found = detect_objects(view, sets, *backend, options);
   if (found.detections.empty()) return 1;
   const Detection& best = found.detections[0];
