@@ -95,25 +95,25 @@ void register_in(const std::string& image, const Arguments& a, Backend& backend,
   const KnownScene scene = recorded_scene(a.folder, image, a.views - 1);
   TensorOptions tensor;
   tensor.lambda_px_per_rad = static_cast<float>(a.lambda);
-  const std::vector<RegisterView> views =
+  const std::vector<ObjectView> views =
       register_views(scene, edges_of(scene, backend), tensor, backend);
   std::vector<EdgeModel> models;
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
   const std::vector<RecordedStart> starts = starts_of(a, scene);
   const Se3& camera_from_world = scene.images[0].camera_from_world;
-  std::vector<ObjectPose> hypotheses;
+  std::vector<ObjectPose> poses;
   for (const RecordedStart& start : starts)
-    hypotheses.push_back({scene.instances[static_cast<std::size_t>(start.instance)].object,
-                          inverse(camera_from_world) * start.camera_from_object});
+    poses.push_back({scene.instances[static_cast<std::size_t>(start.instance)].object,
+                     inverse(camera_from_world) * start.camera_from_object});
   RefineOptions options;
   options.search.rotation_rad = a.search_rad;
   const auto begin = Clock::now();
-  const std::vector<Refined> refined = refine_poses(models, hypotheses, views, backend, options);
+  const std::vector<PoseEstimate> refined = refine_poses({models, views, backend}, poses, options);
   tally.seconds += seconds_since(begin);
   for (std::size_t i = 0; i < starts.size(); ++i, ++tally.count) {
     const KnownInstance& instance = scene.instances[static_cast<std::size_t>(starts[i].instance)];
     const PoseError error =
-        pose_error(refined[i].registration.world_from_object, instance.world_from_object,
+        pose_error(refined[i].world_from_object, instance.world_from_object,
                    scene.objects[static_cast<std::size_t>(instance.object)].symmetries);
     auto& [right, all] = tally.levels[starts[i].level];
     right += error.passes();

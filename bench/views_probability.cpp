@@ -1,61 +1,57 @@
-// What the probability of a pose over several views (host/detect/probability_over_views.h) is
-// fitted on.
+// Prints the training data of the probability of a pose over several views
+// (host/register/pose_classifier.h).
 //
 //   edgescout_bench_views_probability FIRST_BIN LAST_BIN > candidates.csv
 //   scripts/fit_probability_over_views.py candidates.csv...
 //
-// The bins are those of `bench experiments nbv`, looked at along the fixed sequence. After two,
-// three and five views everything that any image so far gave as a candidate is refined over all of
-// them. Of candidates that reach into each other, or lie at one place, the one with the most
-// evidence stays. A row each: is it right (0.1 rad and 5 mm, modulo symmetry), and sums over the
-// views that speak. What is known and hides others is known by today's probability: another fit
-// gives slightly other rows.
+// The bins are those of `bench experiments nbv`, with images along the fixed sequence. After two,
+// three and five views all candidates of the images so far are refined over all views. Of
+// candidates that collide or are at one place, the one with the largest sum of psi z-scores stays.
+//
+// One row per candidate: whether it is right (0.1 rad and 5 mm, modulo symmetry), and sums over the
+// informative views. Which objects are known and hide others is decided by the present fit of the
+// probability, so another fit gives slightly different rows.
 #include <algorithm>
 #include <cstdio>
 #include <numeric>
 #include <string>
 
 #include "host/active/candidates.h"
-#include "host/active/particles.h"
 #include "host/active/scout.h"
 #include "host/detect/plausible_pairs.h"
-#include "host/detect/probability_over_views.h"
 #include "host/detect/suppression.h"
 #include "host/eval/metrics.h"
 #include "host/experiments/bin.h"
 #include "host/experiments/bin_types.h"
 #include "host/register/occluders.h"
+#include "host/register/pose_classifier.h"
 
 namespace {
 
 using namespace edgescout;
 
-struct Candidates {
-  std::vector<ObjectPose> poses;
-  std::vector<std::vector<PoseFeatures>> by_view;
-};
-
-double total_evidence(std::span<const PoseFeatures> by_view) {
-  return std::accumulate(by_view.begin(), by_view.end(), 0.0,
+double total_psi_z_score(const PoseEstimate& estimate) {
+  return std::accumulate(estimate.features.begin(), estimate.features.end(), 0.0,
                          [](double sum, const PoseFeatures& f) { return sum + psi_z_score(f); });
 }
 
-// Best first, none inside or at the place of a better one.
-std::vector<std::size_t> left_apart(const Candidates& all, std::span<const TemplateSet> sets,
-                                    std::span<const EdgeModel> models, Backend& backend) {
+// Indices, best first, without poses that collide with a better one or are at its place.
+std::vector<std::size_t> without_collisions(std::span<const PoseEstimate> poses,
+                                            std::span<const TemplateSet> sets,
+                                            std::span<const EdgeModel> models, Backend& backend) {
   const BitMatrix plausible =
-      plausible_pairs(models, all.poses, DEFAULT_PENETRATION_M, backend.threads());
-  std::vector<std::size_t> order(all.poses.size()), chosen;
+      plausible_pairs(models, object_poses(poses), DEFAULT_PENETRATION_M, backend.threads());
+  std::vector<std::size_t> order(poses.size()), chosen;
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
-    return total_evidence(all.by_view[a]) > total_evidence(all.by_view[b]);
+    return total_psi_z_score(poses[a]) > total_psi_z_score(poses[b]);
   });
   for (const std::size_t i : order) {
-    const TemplateSet& set = sets[std::size_t(all.poses[i].object)];
+    const TemplateSet& set = sets[std::size_t(poses[i].object)];
     const bool apart = std::ranges::all_of(chosen, [&](std::size_t j) {
       return plausible.has(i, j) &&
-             (all.poses[i].object != all.poses[j].object ||
-              pose_distance_m(all.poses[i].world_from_object, all.poses[j].world_from_object,
+             (poses[i].object != poses[j].object ||
+              pose_distance_m(poses[i].world_from_object, poses[j].world_from_object,
                               set.model.mesh, set.symmetries) >= 0.1 * set.model.mesh.diameter_m);
     });
     if (apart) chosen.push_back(i);
@@ -73,31 +69,57 @@ bool is_right(const ObjectPose& pose, const Bin& bin) {
 }
 
 void print_row(const Bin& bin, bool right, std::span<const PoseFeatures> by_view) {
-  const SeveralViews sums = sum_of_speaking(by_view);
+  const ViewSums sums = sum_informative_views(by_view);
   std::printf("%d,%zu,%d,%d,%.5f,%.5f,%.5f\n", bin.number, by_view.size(), int(right), sums.views,
               sums.log_psi_z_score, sums.log_background_psi_z_score, sums.unexplained_grey);
+}
+
+// Detects in each new image, with all images so far as support, and keeps everything that it finds.
+class Collector {
+ public:
+  Collector(std::span<const TemplateSet> sets, const DetectOptions& options, Backend& backend)
+      : sets_(sets), options_(options), backend_(backend) {}
+
+  std::vector<Detection> detect(std::span<const ObjectView> images) {
+    std::vector<ScannedView> scanned;
+    for (std::size_t i = 0; i < images.size(); ++i)
+      scanned.push_back({images[i], i < hits_.size() ? hits_[i] : std::vector<ScanHits>{}});
+    scan_once(sets_, scanned.back(), backend_, options_.scan);
+    hits_.push_back(scanned.back().hits);
+    const std::vector<Detection> in_image =
+        candidates_in_images(sets_, scanned, {}, backend_, options_);
+    found_.insert(found_.end(), in_image.begin(), in_image.end());
+    views_.push_back(images.back());
+    return in_image;
+  }
+  const std::vector<Detection>& found() const { return found_; }
+  const std::vector<ObjectView>& views() const { return views_; }
+
+ private:
+  std::span<const TemplateSet> sets_;
+  DetectOptions options_;
+  Backend& backend_;
+  std::vector<std::vector<ScanHits>> hits_;  // [image][object]
+  std::vector<Detection> found_;
+  std::vector<ObjectView> views_;
+};
+
+std::vector<PoseEstimate> refine_all(const Collector& collector, std::span<const EdgeModel> models,
+                                     std::span<const ObjectPose> known, Backend& backend,
+                                     RefineOptions options) {
+  std::vector<ObjectView> views = collector.views();
+  for (ObjectView& view : views) view.occluders = make_occluders(models, known, view, backend);
+  options.search.rotation_rad = 0;
+  return refine_poses({models, views, backend}, object_poses(collector.found()), options);
 }
 
 void print_bin(int number, std::span<const TemplateSet> sets, Backend& backend) {
   const ExperimentSettings settings = ExperimentSettings::full_form();
   const Bin bin = make_bin(bin_types(), settings, number, backend.threads());
   ScoutOptions options = settings.scout;
-  const PipelineOptions pipeline = options.pipeline;
-  std::vector<Detection> found;
-  std::vector<RegisterView> views;
-  std::vector<std::vector<ScanHits>> hits;
-  options.detect = [&](std::span<const int>, std::span<const Observation> images,
-                       std::span<const ObjectPose>) {
-    std::vector<Observation> scanned(images.begin(), images.end());
-    for (std::size_t i = 0; i < hits.size(); ++i) scanned[i].hits = hits[i];
-    scan_for(sets, scanned.back(), backend, pipeline.detect.scan);
-    hits.push_back(scanned.back().hits);
-    const std::vector<Detection> here =
-        candidates_in_images(sets, scanned, {}, backend, pipeline.detect);
-    found.insert(found.end(), here.begin(), here.end());
-    views.push_back(scanned.back().view);
-    return here;
-  };
+  Collector collector(sets, options.pipeline.detect, backend);
+  options.detect = [&](std::span<const int>, std::span<const ObjectView> images,
+                       std::span<const ObjectPose>) { return collector.detect(images); };
   options.first_view = bin.first_view;
   options.next_view.strategy = Strategy::Fixed;
   options.particles.seed = std::uint64_t(bin.number) + 1;
@@ -105,21 +127,14 @@ void print_bin(int number, std::span<const TemplateSet> sets, Backend& backend) 
   const std::vector<EdgeModel> models = models_of(sets);
   Scout scout(sets, bin.cell->camera(), bin.cell->views(), options, backend);
   run_scout(scout, *bin.cell, [&](const ScoutState& state) {
-    if (views.size() < 2 || views.size() == 4) return;
+    const std::size_t images = collector.views().size();
+    if (images < 2 || images == 4) return;
     const std::vector<ObjectPose> known =
         known_objects(state.detections, options.known_probability);
-    std::vector<RegisterView> seen = views;
-    for (RegisterView& view : seen) view.occluders = make_occluders(models, known, view, backend);
-    Candidates all{poses_of(found), {}};
-    RefineOptions refine = pipeline.detect.refine;
-    refine.search.rotation_rad = 0;
-    const std::vector<Refined> refined = refine_poses(models, all.poses, seen, backend, refine);
-    for (std::size_t i = 0; i < refined.size(); ++i) {
-      all.poses[i].world_from_object = refined[i].registration.world_from_object;
-      all.by_view.push_back(refined[i].by_view);
-    }
-    for (const std::size_t i : left_apart(all, sets, models, backend))
-      print_row(bin, is_right(all.poses[i], bin), all.by_view[i]);
+    const std::vector<PoseEstimate> refined =
+        refine_all(collector, models, known, backend, options.pipeline.detect.refine);
+    for (const std::size_t i : without_collisions(refined, sets, models, backend))
+      print_row(bin, is_right(refined[i], bin), refined[i].features);
   });
   std::fflush(stdout);
 }

@@ -48,7 +48,7 @@ std::vector<EdgePoint> random_edges() {
 struct RegistrationCase {
   std::vector<EdgeModel> models;
   std::vector<ObjectPose> starts;
-  std::vector<RegisterView> views;
+  std::vector<ObjectView> views;
 };
 
 // 40 starts 0.1 rad and 5 mm about a part seen with some 1,500 edge points.
@@ -70,9 +70,9 @@ RegistrationCase registration_case(Backend& backend) {
         {float(at.x()), float(at.y()), float(theta < 0 ? theta + 3.14159265 : theta), 50});
   }
   const Intrinsics k{1200, 1200, 511.5f, 383.5f};
-  RegisterView view;
+  ObjectView view;
   view.camera = camera;
-  view.view = backend.make_view(edges, width, height, {}, k, {});
+  view.tensor = backend.make_view(edges, width, height, {}, k, {});
   view.edges = std::make_shared<EdgeIndex>(edges, width, height);
   c.views = {view};
   Random random(2);
@@ -102,9 +102,10 @@ void measure(const std::string& device) {
     const double t = milliseconds([&] {
       backend->make_view(edges, width, height, {}, {1200, 1200, 511.5f, 383.5f}, {});
     });
-    const double r =
-        milliseconds([&] { refine_poses(c.models, c.starts, c.views, *backend, options); }) /
-        double(c.starts.size());
+    const double r = milliseconds([&] {
+                       refine_poses({c.models, c.views, *backend}, c.starts, options);
+                     }) /
+                     double(c.starts.size());
     if (i < 2) continue;  // warm-up: page faults, shader compilation
     yardstick.push_back(y), tensor.push_back(t), registration.push_back(r);
   }

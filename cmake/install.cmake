@@ -6,18 +6,12 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/edgescout)
 install(TARGETS edgescout EXPORT edgescout-targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT edgescout-targets NAMESPACE edgescout:: DESTINATION ${package_dir})
 
-# Headers keep their paths, so that `#include "host/core/types.h"` reads the same inside and outside. Those of the
-# command line, of Vulkan, of Ceres and of the JSON reader need packages that users of the library do not.
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/host ${PROJECT_SOURCE_DIR}/kernels
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/edgescout
-        FILES_MATCHING PATTERN "*.h"
-        PATTERN cli EXCLUDE
-        PATTERN gpu EXCLUDE
-        PATTERN point_cost.h EXCLUDE
-        PATTERN se3_manifold.h EXCLUDE
-        PATTERN json_fields.h EXCLUDE
-        PATTERN json_text.h EXCLUDE
-        PATTERN camera_json.h EXCLUDE)
+# Headers keep their paths, so that `#include "host/core/types.h"` reads the same inside and outside.
+include(cmake/public_headers.cmake)
+foreach(header IN LISTS EDGESCOUT_INSTALLED_HEADERS)
+  get_filename_component(folder ${header} DIRECTORY)
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/edgescout/${folder})
+endforeach()
 
 configure_package_config_file(cmake/edgescout-config.cmake.in ${PROJECT_BINARY_DIR}/edgescout-config.cmake
                               INSTALL_DESTINATION ${package_dir})

@@ -3,8 +3,10 @@
 //
 // Three kinds: the plain CPU reference (single-threaded, the judge of the others), the fast CPU
 // path (SIMD and threads) and a Vulkan device. All answer alike, within the agreement each kernel's
-// header promises. A backend may be used by one thread at a time. Tensors, views and cells outlive
-// the call that made them and must be handed back to the same backend.
+// header promises. A backend may be used by one thread at a time. Tensors, views, model points
+// and cells outlive the call that made them and must be handed back to the same backend.
+//
+// Public header.
 #pragma once
 
 #include <chrono>
@@ -20,6 +22,7 @@
 #include "kernels/mutual_information.h"
 #include "kernels/pose_normal_equations.h"
 #include "kernels/pose_score.h"
+#include "kernels/template_project.h"
 #include "kernels/template_score.h"
 
 namespace edgescout {
@@ -35,6 +38,14 @@ class BackendView {
   virtual std::vector<std::uint16_t> tensor() const = 0;
 };
 using ViewHandle = std::shared_ptr<const BackendView>;
+
+// Model points in the backend's own memory, so that those of a template set go there once.
+class BackendModelPoints {
+ public:
+  virtual ~BackendModelPoints() = default;
+  std::uint32_t count = 0;
+};
+using ModelPointsHandle = std::shared_ptr<const BackendModelPoints>;
 
 // The cells of one view's combination_chamfer, in the backend's own memory: particles *
 // combinations of them, too many to keep those of all views.
@@ -75,6 +86,13 @@ class Backend {
   virtual void template_score(const BackendView& view, std::span<const TemplatePoint> points,
                               std::span<const TemplateJob> jobs, int anchor_step,
                               std::span<TemplateHit> hits) = 0;
+  // LogicError where check_template_points() throws. GpuError where one binding does not take them.
+  virtual ModelPointsHandle make_model_points(std::span<const ModelPoint> points) = 0;
+  virtual void template_project(const BackendModelPoints& points,
+                                std::span<const TemplateProjectJob> jobs,
+                                const TemplateProjectOptions& options,
+                                std::span<TemplatePoint> projected,
+                                std::span<std::uint32_t> too_near) = 0;
   virtual void pose_normal_equations(std::span<const ViewHandle> views,
                                      std::span<const ModelPoint> points,
                                      std::span<const PoseProblem> problems, const PoseLoss& loss,

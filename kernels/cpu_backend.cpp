@@ -83,6 +83,14 @@ class CpuView : public BackendView {
   std::vector<std::int16_t> gradient_x2;
 };
 
+class CpuModelPoints : public BackendModelPoints {
+ public:
+  explicit CpuModelPoints(std::span<const ModelPoint> points) : planes(points) {
+    count = planes.count();
+  }
+  ModelPointPlanes planes;
+};
+
 class CpuChamfer : public BackendChamfer {
  public:
   std::vector<ChamferCell> cells() const override { return values; }
@@ -137,6 +145,23 @@ class CpuBackend : public Backend {
       template_score_fast(mine.values, mine.shape, points, jobs, anchor_step, hits, pool_);
     else
       template_score_reference(mine.values, mine.shape, points, jobs, anchor_step, hits);
+  }
+
+  ModelPointsHandle make_model_points(std::span<const ModelPoint> points) override {
+    check_template_points(points);
+    return std::make_shared<CpuModelPoints>(points);
+  }
+
+  void template_project(const BackendModelPoints& points, std::span<const TemplateProjectJob> jobs,
+                        const TemplateProjectOptions& options, std::span<TemplatePoint> projected,
+                        std::span<std::uint32_t> too_near) override {
+    const auto* mine = dynamic_cast<const CpuModelPoints*>(&points);
+    check(mine != nullptr, "model points of another backend");
+    const Timer timer(*this, "template_project");
+    if (fast_)
+      template_project_fast(mine->planes, jobs, options, projected, too_near, pool_);
+    else
+      template_project_reference(mine->planes, jobs, options, projected, too_near);
   }
 
   void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,

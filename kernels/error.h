@@ -4,6 +4,8 @@
 // InputError: what the user gave cannot be used; the message names file, field, found and expected.
 // GpuError:   a Vulkan call failed; the message names the call or kernel and the VkResult.
 // An expected absence (nothing found, not converged) is a value, never an exception.
+//
+// Public header.
 #pragma once
 
 #include <stdexcept>

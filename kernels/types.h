@@ -1,4 +1,6 @@
 // What kernels exchange: plain 32-bit structs, the same bytes on the CPU and on the device.
+//
+// Public header.
 #pragma once
 
 #include <cstdint>

@@ -1,28 +1,33 @@
 #!/usr/bin/python3
-"""Fits a logistic function of a pose's features, and prints its reliability: Detection::probability
-(host/detect/probability.cpp) on what is reported, and log_odds (host/register/pose_features.cpp), by which poses are
-ranked, on these and all registered candidates.
+"""Fits a logistic function of a pose's features in one view and prints its reliability.
+
+PoseClassifier (host/register/pose_classifier.h) has two such functions. `probability` is fitted on reported poses,
+`rank` on these and all registered candidates.
 
     PARTS="l_bracket bearing_block u_channel"
     edgescout render --part $PARTS --scenes 8 --objects 6 --clutter 1 --pile 0.4 --width 800 --height 600 --focal 950 \\
         --min-distance 0.35 --max-distance 0.6 --seed 500 --out A
     edgescout render --part $PARTS --scenes 8 --objects 5 --clutter 1 --pile 0.4 --width 640 --height 480 --focal 800 \\
         --min-distance 0.4 --max-distance 0.7 --seed 900 --blur 1.4 --noise 3 --out B
-    ALL="--min-probability 0 --no-overlays"   # for log_odds, besides: --max-claimed 1 --restart-rotation 0
+    ALL="--min-probability 0 --no-overlays"   # for rank, besides: --max-claimed 1 --restart-rotation 0
     edgescout detect A --model A/models/*.ply --unit mm --models-info A/models/models_info.json \\
         --distance-min 0.33 --distance-max 0.66 $ALL --out A_RESULTS
     edgescout detect B --model B/models/*.ply --unit mm --models-info B/models/models_info.json \\
         --distance-min 0.36 --distance-max 0.72 $ALL --out B_RESULTS
     scripts/fit_probability.py A A_RESULTS B B_RESULTS
+    scripts/fit_probability.py --write host/register/pose_classifier_weights.h --as probability A A_RESULTS B B_RESULTS
 
-A candidate is right when the corners of its bounding box project within 10 px of those of a true instance, modulo
-symmetry. Features: the logarithm of the evidence, mean DCD (px) and unexplained grey, from the result files.
+A candidate is right if the corners of its bounding box project within 10 px of those of a true instance, modulo
+symmetry. Features: the logarithm of psi_z_score, mean DCD (px) and unexplained grey, from the result files. Older
+result files call psi_z_score `evidence`.
 """
+import argparse
 import json
-import sys
 from pathlib import Path
 
 import numpy as np
+
+from pose_classifier_weights import write_weights
 
 RIGHT_PX = 10
 MIN_PSI_Z_SCORE = 0.5
@@ -88,7 +93,8 @@ def load_candidates(scenes, results):
                 for s in symmetries(info):
                     there = project(camera, rotation, translation, corners @ s[:3, :3].T + s[:3, 3])
                     error = min(error, np.abs(np.linalg.norm(there - seen, axis=1)).max())
-            features.append([1, np.log(max(d["evidence"], MIN_PSI_Z_SCORE)), d["cost_px"], d["unexplained_grey"]])
+            psi_z_score = d["psi_z_score"] if "psi_z_score" in d else d["evidence"]
+            features.append([1, np.log(max(psi_z_score, MIN_PSI_Z_SCORE)), d["cost_px"], d["unexplained_grey"]])
             labels.append(error < RIGHT_PX)
     return np.array(features), np.array(labels, float)
 
@@ -113,8 +119,8 @@ def fit_logistic(x, y, ridge=5):
 
 
 def fit_monotone(x, y):
-    """More evidence, closer edges and less unexplained grey must never lower the probability: a weight of the wrong
-    sign (the features go together) is fixed at zero and the others are fitted anew."""
+    """A larger psi_z_score, closer edges and less unexplained grey must never lower the probability. The features are
+    correlated, so a weight may get the wrong sign: it is set to zero, and the others are fitted again."""
     signs = np.array([0, 1, -1, -1])
     used = np.ones(4, bool)
     while True:
@@ -126,20 +132,36 @@ def fit_monotone(x, y):
         used &= ~wrong
 
 
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--write", metavar="FILE", help="header whose section gets the weights")
+    parser.add_argument("--as", dest="function", choices=["rank", "probability"], default="probability")
+    parser.add_argument("folders", nargs="+", type=Path, metavar="SCENES RESULTS")
+    arguments = parser.parse_args()
+    if len(arguments.folders) % 2:
+        parser.error("pairs of a folder of scenes and a folder of results")
+    return arguments
+
+
 def main():
-    folders = [Path(argument) for argument in sys.argv[1:]]
+    arguments = parse_arguments()
+    folders = arguments.folders
     sets = [load_candidates(scenes, results) for scenes, results in zip(folders[::2], folders[1::2])]
     x, y = (np.concatenate(part) for part in zip(*sets))
     w = fit_monotone(x, y)
     p = 1 / (1 + np.exp(-x @ w))
     print(f"{len(y)} candidates, {int(y.sum())} right")
     print(f"log loss {-np.mean(np.where(y > 0, np.log(p), np.log(1 - p))):.3f}")
-    print("bias %.3f  log evidence %.3f  mean_px %.4f  unexplained grey %.3f" % tuple(w))
+    print("bias %.3f  log psi_z_score %.3f  mean_px %.4f  unexplained grey %.3f" % tuple(w))
     print("predicted    candidates  right")
     for low in np.arange(0, 1, 0.1):
         inside = (p >= low) & (p < low + 0.1 + 1e-9)
         if inside.any():
             print(f"{low:.1f} .. {low + 0.1:.1f}   {inside.sum():10d}  {y[inside].mean():.2f}")
+    if arguments.write:
+        weights = dict(zip(["bias", "log_psi_z_score", "mean_px", "unexplained_grey"], w))
+        data = f"{len(y)} candidates, {int(y.sum())} right, in " + ", ".join(f.name for f in folders[::2]) + "."
+        write_weights(arguments.write, f"{arguments.function.upper()}_ONE_VIEW", "OneView", weights, data)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
-// Internal to host/active: every candidate as several possible views would see it: visible edges,
-// surface, distance map, by the kernels depth_raster and candidate_map.
+// Internal to host/active: all candidates as several possible views would see them: visible edges,
+// surface and distance map. Made by the kernels depth_raster and candidate_map.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -10,26 +11,33 @@
 
 namespace edgescout {
 
-// Maps by view, then candidate. A candidate that reaches behind a camera is not in that view.
+// Maps in the order view, then candidate. A candidate that reaches behind a camera has an empty map
+// in that view.
 struct CandidateScene {
-  int width = 0, height = 0;  // of the map
+  int width = 0, height = 0;  // of a map
   std::size_t candidates = 0;
   std::vector<MapEdge> edges;
   std::vector<CandidateMap> maps;
   std::vector<std::uint32_t> nearest;
   std::vector<float> surface_m;
-  std::vector<float> tolerance_m;  // one a candidate
+  std::vector<float> tolerance_m;  // one per candidate
 
-  // What combination_chamfer reads of the given view; its particles are left to the caller.
-  ChamferView seen_from(std::size_t view) const;
+  // Input of combination_chamfer for the given view. The caller adds the particles.
+  ChamferView chamfer_view(std::size_t view) const;
 };
 
-// `camera` is that of the map; `tolerance` is a fraction of a candidate's diameter: nearer behind
-// its surface it hides nothing. All views in one call of each kernel and object: the caller bounds
-// views times candidates.
+struct CandidateSceneOptions {
+  VisibilityOptions visibility;
+  // Fraction of a candidate's diameter: a candidate hides nothing that lies less than this behind
+  // its surface.
+  double tolerance = 0.1;
+};
+
+// `camera` is that of the maps. Each kernel is called once per object for all views: the caller
+// bounds views times candidates. LogicError: more pixels than 32 bits can count.
 CandidateScene draw_candidates(std::span<const EdgeModel> models,
                                std::span<const Detection> candidates, const Camera& camera,
                                std::span<const Se3> camera_from_world, Backend& backend,
-                               const VisibilityOptions& visibility, double tolerance);
+                               const CandidateSceneOptions& options);
 
 }  // namespace edgescout

@@ -3,14 +3,17 @@
 #include <algorithm>
 
 #include "host/core/order.h"
-#include "host/detect/probability_over_views.h"
 #include "host/detect/rescore_in_views.h"
 #include "host/detect/suppression.h"
+#include "host/register/pose_classifier.h"
 #include "kernels/error.h"
 
 namespace edgescout {
 
 namespace {
+
+// Hits that the quick rescoring keeps, of 40,000 per image without those on known instances.
+constexpr std::size_t MAX_RESCORED_HITS = 20000;
 
 void sort_by_probability(std::vector<Detection>& detections) {
   std::ranges::stable_sort(detections, [](const Detection& a, const Detection& b) {
@@ -18,119 +21,60 @@ void sort_by_probability(std::vector<Detection>& detections) {
   });
 }
 
-// Best first. Duplicates exist within one object only.
-std::vector<Detection> different_ones(const std::vector<Detection>& detections,
-                                      std::span<const TemplateSet> sets) {
+// Most probable first. Only detections of one object can be duplicates.
+std::vector<Detection> without_duplicates(const std::vector<Detection>& detections,
+                                          std::span<const TemplateSet> sets) {
   std::vector<Detection> kept;
   for (std::size_t object = 0; object < sets.size(); ++object) {
-    std::vector<Detection> same;
+    std::vector<Detection> same_object;
     std::vector<Se3> poses;
     std::vector<double> keys;
     for (const Detection& d : detections)
       if (d.object == static_cast<int>(object)) {
-        same.push_back(d);
+        same_object.push_back(d);
         poses.push_back(d.world_from_object);
         keys.push_back(-d.probability);
       }
     const Mesh& mesh = sets[object].model.mesh;
     for (std::size_t i : best_distinct(poses, keys, mesh, sets[object].symmetries,
-                                       0.1 * mesh.diameter_m, poses.size()))
-      kept.push_back(same[i]);
+                                       thresholds::SAME_POSE * mesh.diameter_m, poses.size()))
+      kept.push_back(same_object[i]);
   }
   sort_by_probability(kept);
   return kept;
 }
 
 std::vector<double> capped_probabilities(std::span<const Detection> detections) {
-  constexpr double surest = 0.98;  // what that excludes stays ahead of what has hardly a chance
+  // A candidate that collides with a certain one still ranks above one with hardly a chance.
+  constexpr double max_probability = 0.98;
   std::vector<double> probabilities;
   for (const Detection& detection : detections)
-    probabilities.push_back(std::min(detection.probability, surest));
+    probabilities.push_back(std::min(detection.probability, max_probability));
   return probabilities;
 }
 
-// Of 40,000 an image, of which the known instances' are left out.
-constexpr std::size_t HITS_JUDGED = 20000;
+std::vector<Se3> poses_of_object(std::span<const ObjectPose> poses, std::size_t object) {
+  std::vector<Se3> same_object;
+  for (const ObjectPose& pose : poses)
+    if (pose.object == static_cast<int>(object)) same_object.push_back(pose.world_from_object);
+  return same_object;
+}
 
-std::vector<ScanHit> hits_of(const TemplateSet& set, std::size_t object,
-                             std::span<const Observation> images, std::span<const Se3> known,
-                             Backend& backend, const DetectOptions& options) {
+std::vector<std::span<const ScanHit>> hits_of_object(std::span<const ScannedView> images,
+                                                     std::size_t object) {
   std::vector<std::span<const ScanHit>> hits;
-  for (const Observation& image : images) {
+  for (const ScannedView& image : images) {
     check(object < image.hits.size(), "candidates_in_images: an image that was not scanned");
     hits.push_back(*image.hits[object]);
   }
-  return pooled_hits(set, images, hits, options.support_views,
-                     near_known(known, set, images.back().view.camera_from_world), HITS_JUDGED,
-                     backend, options.scan);
+  return hits;
 }
 
-}  // namespace
-
-std::vector<Detection> candidates_in_images(std::span<const TemplateSet> sets,
-                                            std::span<const Observation> images,
-                                            std::span<const ObjectPose> known, Backend& backend,
-                                            const DetectOptions& options) {
-  const Observation& newest = images.back();
-  std::vector<Detection> found;
-  for (std::size_t object = 0; object < sets.size(); ++object) {
-    std::vector<Se3> same;
-    for (const ObjectPose& instance : known)
-      if (instance.object == static_cast<int>(object)) same.push_back(instance.world_from_object);
-    for (const Refined& candidate : find_candidates(
-             sets[object], hits_of(sets[object], object, images, same, backend, options), newest,
-             images.first(images.size() - 1), same, backend, options)) {
-      found.push_back(candidate_in_world(
-          to_detection(static_cast<int>(object), candidate.registration, candidate.features),
-          newest.view.camera_from_world));
-      found.back().probability = probability_over_views(candidate.by_view);
-    }
-  }
-  sort_by_probability(found);
-  return found;
-}
-
-std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets,
-                                          std::span<const EdgeModel> models,
-                                          std::span<const Detection> candidates,
-                                          std::span<const RegisterView> views, std::size_t most,
-                                          Backend& backend, const DetectOptions& options) {
-  const std::vector<ObjectPose> starts = poses_of(candidates);
-  RefineOptions refine = options.refine;
-  refine.search.rotation_rad = 0;  // the search around them was made in their own images
-  const std::vector<Refined> refined = refine_poses(models, starts, views, backend, refine);
-  std::vector<Detection> detections;
-  for (std::size_t i = 0; i < refined.size(); ++i) {
-    if (refined[i].features.matched == 0) continue;
-    detections.push_back(
-        to_detection(starts[i].object, refined[i].registration, refined[i].features));
-    detections.back().probability = probability_over_views(refined[i].by_view);
-  }
-  return best_non_colliding(different_ones(detections, sets), most, models, options.penetration_m,
-                            backend.threads());
-}
-
-std::vector<Detection> best_non_colliding(const std::vector<Detection>& candidates,
-                                          std::size_t most, std::span<const EdgeModel> models,
-                                          double penetration_m, ThreadPool& pool) {
-  if (candidates.size() <= most) return candidates;
-  std::vector<std::size_t> chosen = largest_first(
-      exclusive_probabilities(capped_probabilities(candidates),
-                              plausible_pairs(models, poses_of(candidates), penetration_m, pool)));
-  chosen.resize(most);
-  std::ranges::sort(chosen);
-  std::vector<Detection> kept;
-  for (const std::size_t i : chosen) kept.push_back(candidates[i]);
-  return kept;
-}
-
-namespace {
-
-// Particles or candidates.
-bool near_any(const Detection& candidate, const auto& others, std::span<const TemplateSet> sets,
+// `known`: poses of particles or candidates, or of what else derives from ObjectPose.
+bool near_any(const Detection& candidate, const auto& known, std::span<const TemplateSet> sets,
               double radius) {
   const TemplateSet& set = sets[static_cast<std::size_t>(candidate.object)];
-  return std::ranges::any_of(others, [&](const auto& other) {
+  return std::ranges::any_of(known, [&](const ObjectPose& other) {
     return other.object == candidate.object &&
            pose_distance_m(other.world_from_object, candidate.world_from_object, set.model.mesh,
                            set.symmetries) < radius * set.model.mesh.diameter_m;
@@ -138,6 +82,61 @@ bool near_any(const Detection& candidate, const auto& others, std::span<const Te
 }
 
 }  // namespace
+
+std::vector<Detection> candidates_in_images(std::span<const TemplateSet> sets,
+                                            std::span<const ScannedView> images,
+                                            std::span<const ObjectPose> known, Backend& backend,
+                                            const DetectOptions& options) {
+  const std::vector<ObjectView> views = views_of(images);
+  const ObjectView& newest = views.back();
+  std::vector<Detection> found;
+  for (std::size_t object = 0; object < sets.size(); ++object) {
+    const TemplateSet& set = sets[object];
+    const std::vector<Se3> known_poses = poses_of_object(known, object);
+    const PoolOptions pool{options.scan, options.support_views, MAX_RESCORED_HITS,
+                           near_known(known_poses, set, newest.camera_from_world)};
+    const std::vector<ScanHit> hits =
+        pooled_hits(set, views, hits_of_object(images, object), backend, pool);
+    const ObjectSearch search{set, newest, std::span(views).first(views.size() - 1), backend};
+    for (const PoseEstimate& candidate : find_candidates(search, hits, known_poses, options)) {
+      found.push_back(candidate_in_world(to_detection(candidate), newest.camera_from_world));
+      found.back().object = static_cast<int>(object);
+      found.back().probability = PoseClassifier::probability(candidate.features);
+    }
+  }
+  sort_by_probability(found);
+  return found;
+}
+
+std::vector<Detection> refined_candidates(const Scene& scene, std::span<const TemplateSet> sets,
+                                          std::span<const Detection> candidates, std::size_t most,
+                                          const DetectOptions& options) {
+  RefineOptions refine = options.refine;
+  refine.search.rotation_rad = 0;  // the search around them was made in their own images
+  std::vector<Detection> detections;
+  for (const PoseEstimate& estimate : refine_poses(scene, object_poses(candidates), refine)) {
+    if (pool_over_views(estimate.features).matched == 0) continue;
+    detections.push_back(to_detection(estimate));
+    detections.back().probability = PoseClassifier::probability(estimate.features);
+  }
+  return best_non_colliding(without_duplicates(detections, sets), most, scene.models,
+                            options.penetration_m, scene.backend.threads());
+}
+
+std::vector<Detection> best_non_colliding(const std::vector<Detection>& candidates,
+                                          std::size_t most, std::span<const EdgeModel> models,
+                                          double penetration_m, ThreadPool& pool) {
+  if (candidates.size() <= most) return candidates;
+  const BitMatrix plausible =
+      plausible_pairs(models, object_poses(candidates), penetration_m, pool);
+  std::vector<std::size_t> chosen =
+      largest_first(exclusive_probabilities(capped_probabilities(candidates), plausible));
+  chosen.resize(most);
+  std::ranges::sort(chosen);
+  std::vector<Detection> kept;
+  for (const std::size_t i : chosen) kept.push_back(candidates[i]);
+  return kept;
+}
 
 std::vector<Detection> without_particles(std::span<const Detection> candidates,
                                          std::span<const Particle> particles,

@@ -7,43 +7,43 @@
 
 #include "host/active/particles.h"
 #include "host/detect/detect.h"
+#include "host/detect/scanned_view.h"
 
 namespace edgescout {
 
-// Of all objects, in the world; the most probable first. Without the instances that are known. The
-// images have been scanned for the objects (Observation::hits); the last one is new: what several
-// of them say is registered in it and in those that help it (detect/support_views.h).
+// Candidates of all objects, in the world, most probable first, without the instances in `known`.
+// The last image is the new one: hits of all images are registered in it and in its support views
+// (detect/support_views.h). LogicError: an image that was not scanned (scan_once).
 std::vector<Detection> candidates_in_images(std::span<const TemplateSet> sets,
-                                            std::span<const Observation> images,
+                                            std::span<const ScannedView> images,
                                             std::span<const ObjectPose> known, Backend& backend,
                                             const DetectOptions& options);
 
-// Registers candidates over all views (Eq. 11), gives them the probability that the views' features
-// together amount to (detect/probability_over_views.h), drops those that lie on no edge at all and
-// duplicates; of the rest best_non_colliding, most probable first.
-std::vector<Detection> refined_candidates(std::span<const TemplateSet> sets,
-                                          std::span<const EdgeModel> models,
-                                          std::span<const Detection> candidates,
-                                          std::span<const RegisterView> views, std::size_t most,
-                                          Backend& backend, const DetectOptions& options);
+// Registers candidates over all views of the scene (Eq. 11) and gives them the probability that
+// follows from all views (register/pose_classifier.h). Drops those that lie on no edge at all, and
+// duplicates. Keeps the best_non_colliding of the rest, most probable first.
+std::vector<Detection> refined_candidates(const Scene& scene, std::span<const TemplateSet> sets,
+                                          std::span<const Detection> candidates, std::size_t most,
+                                          const DetectOptions& options);
 
-// The `most` with the best chance to be there *beside* the others (exclusive_probabilities,
-// detect/plausible_pairs.h, none being surer than 98 %), in the order given. Many wrong poses lie
-// in and across an instance that is there, on its edges and its neighbours', and their views make
-// each as good as certain: by probability alone they leave no place for another instance, which has
-// nobody in its way.
+// The `most` candidates with the best chance to exist *next to* the others, in the order given: by
+// exclusive_probabilities (detect/plausible_pairs.h), with no probability above 98 %. Many wrong
+// poses lie in and across an instance that exists, on its edges and those of its neighbours, and
+// the views make each of them nearly certain. By probability alone they would leave no place for
+// another instance that collides with nothing.
 std::vector<Detection> best_non_colliding(const std::vector<Detection>& candidates,
                                           std::size_t most, std::span<const EdgeModel> models,
                                           double penetration_m, ThreadPool& pool);
 
-// Those that may be instances of which no particle knows: at least `min_probability`, and no
-// particle within `radius` of the object's diameter (modulo symmetry).
+// Candidates that may be instances without a particle: their probability is at least
+// `min_probability`, and no particle lies within `radius` times the object's diameter (modulo
+// symmetry).
 std::vector<Detection> without_particles(std::span<const Detection> candidates,
                                          std::span<const Particle> particles,
                                          std::span<const TemplateSet> sets, double radius,
                                          double min_probability);
 
-// Of those how many lie near no candidate there was before, within the same radius.
+// How many of the candidates lie near no candidate of `before`, within the same radius.
 std::size_t count_new(std::span<const Detection> candidates, std::span<const Detection> before,
                       std::span<const TemplateSet> sets, double radius);
 

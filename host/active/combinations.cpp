@@ -6,26 +6,26 @@
 #include <numeric>
 #include <string>
 
-#include "host/active/particles.h"
 #include "host/core/order.h"
 #include "host/core/random.h"
 #include "host/detect/plausible_pairs.h"
+#include "host/register/pose_estimate.h"
 #include "kernels/error.h"
 
 namespace edgescout {
 
 namespace {
 
-// Bin(n, 0.5): the ones among n fair coins.
-int coins(std::size_t n, Random& random) {
+// A draw from Bin(n, 0.5): the number of ones among n random bits.
+int binomial(std::size_t n, Random& random) {
   int ones = 0;
   for (; n >= 64; n -= 64) ones += std::popcount(random.bits());
   return n == 0 ? ones : ones + std::popcount(random.bits() >> (64 - n));
 }
 
-// Candidates in an order in which each next one is drawn with probability proportional to its
-// weight among those left: that of exponential waiting times, one a candidate, with the weights as
-// rates (Efraimidis & Spirakis 2006).
+// A random order of the candidates: each next one is drawn with probability proportional to its
+// weight among the rest. Equal to the order of exponential waiting times, one per candidate, with
+// the weights as rates (Efraimidis & Spirakis 2006).
 void draw_order(std::span<const double> weights, Random& random, std::vector<double>& waits,
                 std::vector<std::size_t>& order) {
   for (std::size_t i = 0; i < weights.size(); ++i)
@@ -38,11 +38,12 @@ std::span<const std::uint32_t> row(const BitMatrix& matrix, std::size_t index) {
   return std::span(matrix.words).subspan(index * matrix.row_words(), matrix.row_words());
 }
 
-bool stands_with_all(std::size_t candidate, const BitMatrix& plausible,
-                     std::span<const std::uint32_t> members) {
-  const std::span<const std::uint32_t> beside = row(plausible, candidate);
+// Whether the candidate collides with no member of a combination.
+bool fits_into(std::span<const std::uint32_t> members, std::size_t candidate,
+               const BitMatrix& plausible) {
+  const std::span<const std::uint32_t> compatible = row(plausible, candidate);
   for (std::size_t w = 0; w < members.size(); ++w)
-    if (members[w] & ~beside[w]) return false;
+    if (members[w] & ~compatible[w]) return false;
   return true;
 }
 
@@ -80,11 +81,11 @@ BitMatrix sample_combinations(std::span<const double> psi, const BitMatrix& plau
   std::vector<double> waits(candidates);
   std::vector<std::size_t> order(candidates);
   for (int j = 0; j < options.count; ++j) {
-    const int draws = coins(candidates, random);
+    const int draws = binomial(candidates, random);
     draw_order(weights, random, waits, order);
     const std::span<const std::uint32_t> members = row(combinations, j);
     for (int k = 0; k < draws; ++k)
-      if (stands_with_all(order[k], plausible, members)) combinations.set(j, order[k]);
+      if (fits_into(members, order[k], plausible)) combinations.set(j, order[k]);
   }
   return combinations;
 }
@@ -92,7 +93,7 @@ BitMatrix sample_combinations(std::span<const double> psi, const BitMatrix& plau
 BitMatrix sample_probable_combinations(std::span<const double> probabilities,
                                        const BitMatrix& plausible,
                                        const CombinationOptions& options) {
-  constexpr double least = 0.02;  // of presence and of absence: nobody is surer than that
+  constexpr double least = 0.02;  // probability of presence and of absence: none is certain
   const std::size_t candidates = probabilities.size();
   check_input(candidates, plausible, options);
   for (const double p : probabilities)
@@ -104,7 +105,7 @@ BitMatrix sample_probable_combinations(std::span<const double> probabilities,
     const std::span<const std::uint32_t> members = row(combinations, j);
     for (const std::size_t c : order)
       if (random.uniform() < std::clamp(probabilities[c], least, 1 - least) &&
-          stands_with_all(c, plausible, members))
+          fits_into(members, c, plausible))
         combinations.set(j, c);
   }
   return combinations;
@@ -119,7 +120,8 @@ BitMatrix candidate_combinations(std::span<const EdgeModel> models,
     psi.push_back(candidate.psi);
     probabilities.push_back(candidate.probability);
   }
-  const BitMatrix plausible = plausible_pairs(models, poses_of(candidates), penetration_m, threads);
+  const BitMatrix plausible =
+      plausible_pairs(models, object_poses(candidates), penetration_m, threads);
   return by_probability ? sample_probable_combinations(probabilities, plausible, options)
                         : sample_combinations(psi, plausible, options);
 }

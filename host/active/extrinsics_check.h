@@ -1,5 +1,5 @@
-// Whether the views' camera poses agree with their images: objects registered over all views must
-// also lie where each single image has them.
+// Checks the views' camera poses (extrinsics) against their images: objects registered over all
+// views must also lie where each single image shows them.
 #pragma once
 
 #include <span>
@@ -9,49 +9,52 @@
 
 namespace edgescout {
 
+// Result for one view.
 struct ExtrinsicsCheck {
-  double residual_px =
-      0;  // median over the objects of how far their points move in this image when only it
-          // has a say; 0 where `objects` is 0. Of two that disagree both have the larger
-  int objects = 0;  // that it and another image show, each by itself: these can be judged in it
-  int missing =
-      0;  // where none shows at all: objects that the others hold and this one should show
+  // How far the objects' points move in this image when they are registered on it alone: mean over
+  // an object's points, median over the objects. 0 where `objects` is 0. Of two views that disagree
+  // with each other both have the larger value.
+  double residual_px = 0;
+  int objects = 0;  // that this image and another one show, each by itself: only these count
+  // Where the image shows no object at all: how many it should show, by the other images.
+  int missing = 0;
   bool disagrees = false;
 };
 
 struct ExtrinsicsCheckOptions {
   double max_residual_px = 2;
-  double min_probability =
-      0.3;  // of an object's pose registered on the one image alone, for it to judge
-  // below it an object does not show at all; a part that others cover lies between the two. At most
-  // min_probability
+  // An image shows an object from this probability on, of the pose registered on it alone.
+  double min_probability = 0.3;
+  // An image shows nothing of an object below this probability. A part that others cover lies
+  // between the two. At most min_probability.
   double absent_probability = 0.03;
-  double held_probability =
-      0.5;              // of an object by the other images together, for an image to miss it
-  int max_missing = 1;  // one object may be hidden by what nobody knows
-  D2coOptions joint = joint_defaults(), single = single_defaults();
-  PoseScoreOptions score{1.0f, 4.0f, 60.0f};
-  static D2coOptions joint_defaults();
-  static D2coOptions single_defaults();
+  // Of an object by all other images, for it to count as missing.
+  double held_probability = 0.5;
+  int max_missing = 1;  // one object may be hidden by something unknown
+  D2coOptions joint = schedules::extrinsics_joint(), single = schedules::extrinsics_single();
+  PoseScoreOptions score = FeatureOptions{}.score;
 };
 
-// One a view. The worst view above max_residual_px is flagged and left out, then the rest are
-// judged again: one wrong pose spoils the joint registration for all others. Of two views that
-// disagree with each other the later is flagged. So is one that shows not a trace of several
-// objects that it should: its pose is so wrong that registration does not find them. Fewer than two
-// views or no objects: nothing can disagree; a scene of one object, or of two views, does not tell
-// a grossly wrong pose from an object that is hidden.
-std::vector<ExtrinsicsCheck> extrinsics_check(std::span<const EdgeModel> models,
+// One result per view of the scene. `objects`: poses in the world, from which registration starts.
+//
+// The worst view above max_residual_px is flagged and left out, then the rest is checked again: one
+// wrong camera pose spoils the joint registration of all others. Of two views that disagree with
+// each other the later one is flagged. A view is also flagged where it shows nothing at all of more
+// than max_missing objects that it should show: its pose is so wrong that registration does not
+// find them.
+//
+// Nothing is flagged with fewer than two views or without objects. A scene of one object, or of two
+// views, cannot distinguish a grossly wrong pose from a hidden object.
+std::vector<ExtrinsicsCheck> extrinsics_check(const Scene& scene,
                                               std::span<const ObjectPose> objects,
-                                              std::span<const RegisterView> views, Backend& backend,
                                               const ExtrinsicsCheckOptions& options = {});
 
-// What `before`, the same of fewer images, said of an image that nothing could judge this time
-// stands: that the objects are gone is no word for its pose.
-void keep_flags(std::span<const ExtrinsicsCheck> before, std::span<ExtrinsicsCheck> now);
+// Copies a flag of `before`, the check of fewer images, to `now` where `now` had no object to check
+// the image by: that the objects are gone does not make a camera pose right.
+void keep_unrefuted_flags(std::span<const ExtrinsicsCheck> before, std::span<ExtrinsicsCheck> now);
 
-// A warning in the log for each flag that `before`, the same of the images so far, did not have.
-void warn_of(std::span<const ExtrinsicsCheck> extrinsics_checks,
-             std::span<const ExtrinsicsCheck> before = {});
+// Logs one warning for each flag that `before`, the check of the images so far, did not have.
+void log_disagreements(std::span<const ExtrinsicsCheck> checks,
+                       std::span<const ExtrinsicsCheck> before = {});
 
 }  // namespace edgescout

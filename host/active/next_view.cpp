@@ -17,60 +17,61 @@ namespace edgescout {
 
 namespace {
 
-// Views whose maps are made at once: enough to keep every thread and device busy, few enough to
-// stay in memory, 8 bytes a pixel, were every candidate as large as the image.
-std::size_t views_at_once(std::size_t candidates, const Camera& map_camera) {
+// How many views' maps are made at once: enough to keep every thread and device busy, few enough
+// for the memory, 8 bytes per pixel, even if every candidate were as large as the image.
+std::size_t views_per_block(std::size_t candidates, const Camera& map_camera) {
   constexpr std::size_t maps = 2048, pixels = std::size_t(1) << 27;
   const std::size_t image = std::size_t(map_camera.width) * std::size_t(map_camera.height);
   return std::max<std::size_t>(1, std::min(maps, pixels / image) / candidates);
 }
 
-// The particles that have a weight, and what real views told about them.
-struct Watched {
+// The particles that have a weight, and which of their points real views have seen.
+struct WeightedParticles {
   std::vector<const Particle*> particles;
   std::vector<SeenPoints> seen;
-  std::vector<ParticleBelief> beliefs;
+  std::vector<ParticleBelief> beliefs;  // for the kernel
 };
 
-Watched watch(const Planning& planning, ThreadPool& pool, const NextViewOptions& options) {
-  Watched watched;
-  for (const Particle& particle : planning.particles)
+WeightedParticles weighted_particles(const NextViewProblem& problem,
+                                     const NextViewOptions& options) {
+  WeightedParticles weighted;
+  for (const Particle& particle : problem.particles)
     if (particle.log_weight > -std::numeric_limits<double>::infinity())
-      watched.particles.push_back(&particle);
-  // The paper's own formula: seen is what projects into an image, and the real views stand in
-  // Upsilon alone.
+      weighted.particles.push_back(&particle);
+  // In the paper's own formula a point was seen if it projects into an image, and the real views
+  // count in Upsilon alone.
   const double seen_px = options.use_paper_formula ? 0 : options.seen_px;
-  watched.seen.resize(watched.particles.size());
-  pool.for_each(watched.particles.size(), [&](std::size_t i) {
-    const Particle& particle = *watched.particles[i];
-    watched.seen[i] = seen_in(planning.tables[particle.object], particle.world_from_object,
-                              planning.real_views, seen_px);
+  weighted.seen.resize(weighted.particles.size());
+  problem.scene.backend.threads().for_each(weighted.particles.size(), [&](std::size_t i) {
+    const Particle& particle = *weighted.particles[i];
+    weighted.seen[i] = points_seen_in(problem.scene.views, problem.tables[particle.object],
+                                      particle.world_from_object, seen_px);
   });
-  for (std::size_t i = 0; i < watched.particles.size(); ++i) {
-    const Particle& particle = *watched.particles[i];
-    watched.beliefs.push_back({options.use_paper_formula ? 0 : particle.log_weight,
-                               watched.seen[i].count, planning.tables[particle.object].total,
-                               particle.upsilon_px2 / (options.reduction * options.reduction)});
+  for (std::size_t i = 0; i < weighted.particles.size(); ++i) {
+    const Particle& particle = *weighted.particles[i];
+    weighted.beliefs.push_back({options.use_paper_formula ? 0 : particle.log_weight,
+                                weighted.seen[i].count, problem.tables[particle.object].total,
+                                particle.upsilon_px2 / (options.reduction * options.reduction)});
   }
-  return watched;
+  return weighted;
 }
 
-// All particles' points that would show in a view.
-struct ShowingPoints {
+// Points of all particles that would project into one view.
+struct ParticlePoints {
   std::vector<ParticlePoint> points;
-  std::vector<std::uint32_t> first{0};
+  std::vector<std::uint32_t> first{0};  // of each particle, and the end
 };
 
-ShowingPoints showing(const Planning& planning, const Watched& watched,
-                      const Se3& camera_from_world, const Camera& map_camera, ThreadPool& pool) {
-  std::vector<std::vector<ParticlePoint>> lists(watched.particles.size());
-  pool.for_each(lists.size(), [&](std::size_t i) {
-    const Particle& particle = *watched.particles[i];
-    lists[i] =
-        showing_points(planning.tables[particle.object],
-                       camera_from_world * particle.world_from_object, map_camera, watched.seen[i]);
+ParticlePoints particle_points(const NextViewProblem& problem, const WeightedParticles& weighted,
+                               const Se3& camera_from_world, const Camera& map_camera) {
+  std::vector<std::vector<ParticlePoint>> lists(weighted.particles.size());
+  problem.scene.backend.threads().for_each(lists.size(), [&](std::size_t i) {
+    const Particle& particle = *weighted.particles[i];
+    lists[i] = points_in_image(problem.tables[particle.object],
+                               camera_from_world * particle.world_from_object, map_camera,
+                               weighted.seen[i]);
   });
-  ShowingPoints all;
+  ParticlePoints all;
   for (const std::vector<ParticlePoint>& list : lists) {
     all.points.insert(all.points.end(), list.begin(), list.end());
     all.first.push_back(std::uint32_t(all.points.size()));
@@ -78,55 +79,89 @@ ShowingPoints showing(const Planning& planning, const Watched& watched,
   return all;
 }
 
-// Eq. 15 with the likelihood of Eq. 20, of every view in `open`.
-std::vector<double> mutual_information(const Planning& planning, std::span<const std::size_t> open,
-                                       Backend& backend, const NextViewOptions& options) {
+// Eq. 15 with the likelihood of Eq. 20, for possible views in blocks.
+class MutualInformation {
+ public:
+  MutualInformation(const NextViewProblem& problem, const WeightedParticles& weighted,
+                    const NextViewOptions& options)
+      : problem_(problem),
+        weighted_(weighted),
+        options_(options),
+        map_camera_(scaled(problem.camera, 1 / options.reduction)) {}
+
+  std::size_t block_size() const {
+    return views_per_block(problem_.candidates.size(), map_camera_);
+  }
+  // Of cameras whose maps fit in memory at once.
+  std::vector<double> of_block(std::span<const Se3> camera_from_world) const;
+
+ private:
+  const NextViewProblem& problem_;
+  const WeightedParticles& weighted_;
+  const NextViewOptions& options_;
+  Camera map_camera_;
+};
+
+std::vector<double> MutualInformation::of_block(std::span<const Se3> camera_from_world) const {
+  Backend& backend = problem_.scene.backend;
+  const BitMatrix& combinations = *problem_.combinations;
+  const CombinationBits bits{combinations.rows, combinations.columns, combinations.words};
+  const ChamferOptions chamfer{float(options_.cap_px / options_.reduction)};
+  const double sigma_px = options_.sigma_px / options_.reduction;
+  const InformationOptions likelihood{2 * sigma_px * sigma_px, options_.use_paper_formula};
+  const CandidateScene candidates =
+      draw_candidates(problem_.scene.models, problem_.candidates, map_camera_, camera_from_world,
+                      backend, {options_.visibility, options_.tolerance});
+  std::vector<double> information(camera_from_world.size(), 0);
+  for (std::size_t i = 0; i < camera_from_world.size(); ++i) {
+    const ParticlePoints points =
+        particle_points(problem_, weighted_, camera_from_world[i], map_camera_);
+    if (points.points.empty()) continue;
+    ChamferView view = candidates.chamfer_view(i);
+    view.points = points.points;
+    view.first_point = points.first;
+    information[i] = backend.mutual_information(*backend.combination_chamfer(view, bits, chamfer),
+                                                weighted_.beliefs, likelihood);
+  }
+  return information;
+}
+
+// One per view of `open`.
+std::vector<double> mutual_information(const NextViewProblem& problem,
+                                       std::span<const std::size_t> open,
+                                       const NextViewOptions& options) {
   std::vector<double> information(open.size(), 0);
-  const Watched watched = watch(planning, backend.threads(), options);
-  if (planning.candidates.empty() || !planning.combinations || planning.combinations->rows == 0 ||
-      watched.particles.empty())
+  const WeightedParticles weighted = weighted_particles(problem, options);
+  if (problem.candidates.empty() || !problem.combinations || problem.combinations->rows == 0 ||
+      weighted.particles.empty())
     return information;
-  check(planning.combinations->columns == planning.candidates.size(),
+  check(problem.combinations->columns == problem.candidates.size(),
         "view_information: combinations of other candidates");
-  const CombinationBits bits{planning.combinations->rows, planning.combinations->columns,
-                             planning.combinations->words};
-  const Camera map_camera = scaled(planning.camera, 1 / options.reduction);
-  const ChamferOptions chamfer{float(options.cap_px / options.reduction)};
-  const double sigma_px = options.sigma_px / options.reduction;
-  const InformationOptions likelihood{2 * sigma_px * sigma_px, options.use_paper_formula};
-  const std::size_t block = views_at_once(planning.candidates.size(), map_camera);
+  const MutualInformation mutual(problem, weighted, options);
+  const std::size_t block = mutual.block_size();
   for (std::size_t first = 0; first < open.size(); first += block) {
     std::vector<Se3> cameras;
     for (std::size_t i = first; i < std::min(first + block, open.size()); ++i)
-      cameras.push_back(planning.views[open[i]]);
-    const CandidateScene scene =
-        draw_candidates(planning.models, planning.candidates, map_camera, cameras, backend,
-                        options.visibility, options.tolerance);
-    for (std::size_t i = 0; i < cameras.size(); ++i) {
-      const ShowingPoints points =
-          showing(planning, watched, cameras[i], map_camera, backend.threads());
-      if (points.points.empty()) continue;
-      ChamferView view = scene.seen_from(i);
-      view.points = points.points;
-      view.first_point = points.first;
-      information[first + i] = backend.mutual_information(
-          *backend.combination_chamfer(view, bits, chamfer), watched.beliefs, likelihood);
-    }
+      cameras.push_back(problem.possible_views[open[i]]);
+    std::ranges::copy(mutual.of_block(cameras),
+                      information.begin() + static_cast<std::ptrdiff_t>(first));
   }
   return information;
 }
 
 // Sec. 6.4: sum over the candidates of psi times the number of points that no real view has seen:
-// that project into none of their images.
-std::vector<double> disocclusion(const Planning& planning, std::span<const std::size_t> open,
-                                 ThreadPool& pool) {
+// points that project into none of the images.
+std::vector<double> disocclusion(const NextViewProblem& problem,
+                                 std::span<const std::size_t> open) {
   std::vector<double> gain(open.size(), 0);
-  for (const Detection& candidate : planning.candidates) {
-    const TemplateTable& table = planning.tables[candidate.object];
-    const SeenPoints seen = seen_in(table, candidate.world_from_object, planning.real_views, 0);
-    pool.for_each(open.size(), [&](std::size_t i) {
-      for (const ParticlePoint& point : showing_points(
-               table, planning.views[open[i]] * candidate.world_from_object, planning.camera, seen))
+  for (const Detection& candidate : problem.candidates) {
+    const TemplateTable& table = problem.tables[candidate.object];
+    const SeenPoints seen =
+        points_seen_in(problem.scene.views, table, candidate.world_from_object, 0);
+    problem.scene.backend.threads().for_each(open.size(), [&](std::size_t i) {
+      for (const ParticlePoint& point :
+           points_in_image(table, problem.possible_views[open[i]] * candidate.world_from_object,
+                           problem.camera, seen))
         gain[i] += candidate.psi * point.unseen;
     });
   }
@@ -135,8 +170,8 @@ std::vector<double> disocclusion(const Planning& planning, std::span<const std::
 
 std::vector<double> random_values(std::size_t views, std::span<const std::size_t> open,
                                   std::size_t step, std::uint64_t seed) {
-  // Every view draws, open or not: which one is taken at a step does not depend on what failed
-  // before.
+  // Every view gets a number, open or not: then the choice at a step does not depend on which views
+  // failed before.
   Random random = Random(seed).split("next view").split(step);
   std::vector<double> all(views);
   for (double& x : all) x = random.uniform();
@@ -156,79 +191,99 @@ std::vector<double> along_sequence(std::size_t views, std::span<const std::size_
   return values;
 }
 
-// The probability that nothing unknown stands before a camera, one a view.
-std::vector<double> free_sights(std::span<const Eigen::Vector3d> directions,
-                                const std::optional<Eigen::Vector3d>& above, double exponent) {
+// The probability that nothing unknown hides the scene from a camera, one per view.
+std::vector<double> free_line_of_sight(std::span<const Eigen::Vector3d> directions,
+                                       const std::optional<Eigen::Vector3d>& above,
+                                       double exponent) {
   std::vector<double> free;
   for (const Eigen::Vector3d& direction : directions)
     free.push_back(above ? std::pow(std::max(0.0, direction.dot(*above)), exponent) : 1);
   return free;
 }
 
-// What of a view no real one has told already.
-double unrepeated(const Eigen::Vector3d& direction, std::span<const Eigen::Vector3d> real,
-                  double view_correlation_angle_rad) {
-  double left = 1;
+// The fraction of a view's information that no real view has given already.
+double independent_share(const Eigen::Vector3d& direction, std::span<const Eigen::Vector3d> real,
+                         double correlation_angle_rad) {
+  if (!(correlation_angle_rad > 0)) return 1;
+  double share = 1;
   for (const Eigen::Vector3d& other : real) {
     const double angle =
-        std::acos(std::clamp(direction.dot(other), -1.0, 1.0)) / view_correlation_angle_rad;
-    left = std::min(left, 1 - std::exp(-angle * angle));
+        std::acos(std::clamp(direction.dot(other), -1.0, 1.0)) / correlation_angle_rad;
+    share = std::min(share, 1 - std::exp(-angle * angle));
   }
-  return left;
+  return share;
 }
 
-// What is left of a view's information where some cannot be seen and some has been told; the same
-// of what is unknown.
+// The fraction of a view's information that remains after visibility and correlation: of that about
+// candidates, and of the exploration bonus.
 struct Shares {
-  double known = 1, unknown = 1;
+  double candidates = 1, exploration = 1;
 };
 
-// One an open view.
-std::vector<Shares> shares_left(std::span<const std::size_t> open, const Planning& planning,
-                                const NextViewOptions& options) {
+// One per open view.
+std::vector<Shares> remaining_shares(const NextViewProblem& problem,
+                                     std::span<const std::size_t> open,
+                                     const NextViewOptions& options) {
   std::vector<Shares> shares(open.size());
-  const std::optional<Eigen::Vector3d> center_m = looked_at_m(planning.views);
+  const std::optional<Eigen::Vector3d> center_m = looked_at_m(problem.possible_views);
   if (!center_m) return shares;
   std::vector<Se3> taken;
-  for (const RegisterView& view : planning.real_views) taken.push_back(view.camera_from_world);
-  const std::vector<Eigen::Vector3d> directions = directions_to(planning.views, *center_m),
+  for (const ObjectView& view : problem.scene.views) taken.push_back(view.camera_from_world);
+  const std::vector<Eigen::Vector3d> directions = directions_to(problem.possible_views, *center_m),
                                      real = directions_to(taken, *center_m);
   const std::vector<double> free =
-      free_sights(directions, direction_above(directions), options.visibility_exponent);
+      free_line_of_sight(directions, direction_above(directions), options.visibility_exponent);
   for (std::size_t i = 0; i < open.size(); ++i) {
-    const auto left = [&](double view_correlation_angle_rad) {
-      return free[open[i]] *
-             (view_correlation_angle_rad > 0
-                  ? unrepeated(directions[open[i]], real, view_correlation_angle_rad)
-                  : 1);
+    const auto share = [&](double correlation_angle_rad) {
+      return free[open[i]] * independent_share(directions[open[i]], real, correlation_angle_rad);
     };
-    shares[i] = {left(options.view_correlation_angle_rad),
-                 left(options.exploration_correlation_angle_rad)};
+    shares[i] = {share(options.view_correlation_angle_rad),
+                 share(options.exploration_correlation_angle_rad)};
   }
   return shares;
 }
 
-std::vector<double> information_of(const Planning& planning, std::span<const std::size_t> open,
-                                   Backend& backend, const NextViewOptions& options) {
+// One per open view, before shares, bonus and motion.
+std::vector<double> strategy_values(const NextViewProblem& problem,
+                                    std::span<const std::size_t> open,
+                                    const NextViewOptions& options) {
+  const std::size_t views = problem.possible_views.size();
   switch (options.strategy) {
     case Strategy::Information:
-      return mutual_information(planning, open, backend, options);
+      return mutual_information(problem, open, options);
     case Strategy::Disocclusion:
-      return disocclusion(planning, open, backend.threads());
+      return disocclusion(problem, open);
     case Strategy::Random:
-      return random_values(planning.views.size(), open, planning.real_views.size(), options.seed);
+      return random_values(views, open, problem.scene.views.size(), options.seed);
     case Strategy::Fixed:
-      return along_sequence(planning.views.size(), open, options.sequence);
+      return along_sequence(views, open, options.sequence);
   }
   throw LogicError("unknown strategy");
 }
 
-double motion_cost(const Planning& planning, const Se3& view, const NextViewOptions& options) {
-  if (planning.real_views.empty()) return 0;
-  const Se3& last = planning.real_views.back().camera_from_world;
+double motion_cost(const NextViewProblem& problem, const Se3& view,
+                   const NextViewOptions& options) {
+  if (problem.scene.views.empty()) return 0;
+  const Se3& last = problem.scene.views.back().camera_from_world;
   return options.motion_cost_per_m *
              (inverse(view).translation_m - inverse(last).translation_m).norm() +
          options.motion_cost_per_rad * angle_between_rad(view, last);
+}
+
+std::vector<std::size_t> open_views(const NextViewProblem& problem,
+                                    const NextViewOptions& options) {
+  std::vector<std::size_t> open;
+  for (std::size_t v = 0; v < problem.possible_views.size(); ++v) {
+    const bool closed = (!problem.closed.empty() && problem.closed[v]) ||
+                        (options.reachable && !options.reachable(int(v)));
+    if (!closed) open.push_back(v);
+  }
+  return open;
+}
+
+// Only then do shares, exploration bonus and motion costs apply.
+bool is_in_nats(const NextViewOptions& options) {
+  return options.strategy == Strategy::Information && !options.use_paper_formula;
 }
 
 }  // namespace
@@ -266,36 +321,31 @@ void NextViewOptions::validate() const {
   in("view_correlation_angle_rad", view_correlation_angle_rad, 0, 100);
   in("exploration_bonus_nats", exploration_bonus_nats, 0, 1e3);
   in("exploration_correlation_angle_rad", exploration_correlation_angle_rad, 0, 100);
-  // The others, and the paper's own formula, do not count in nats.
-  const double dearest = strategy == Strategy::Information && !use_paper_formula ? 1e9 : 0;
-  in("motion_cost_per_m", motion_cost_per_m, 0, dearest);
-  in("motion_cost_per_rad", motion_cost_per_rad, 0, dearest);
+  const double max_cost = is_in_nats(*this) ? 1e9 : 0;
+  in("motion_cost_per_m", motion_cost_per_m, 0, max_cost);
+  in("motion_cost_per_rad", motion_cost_per_rad, 0, max_cost);
   visibility.validate();
 }
 
-std::vector<ViewInformation> view_information(const Planning& planning, Backend& backend,
+std::vector<ViewInformation> view_information(const NextViewProblem& problem,
                                               const NextViewOptions& options) {
   options.validate();
-  check(planning.tables.size() == planning.models.size(), "view_information: one table an object");
-  check(planning.closed.empty() || planning.closed.size() == planning.views.size(),
+  check(problem.tables.size() == problem.scene.models.size(),
+        "view_information: one table an object");
+  check(problem.closed.empty() || problem.closed.size() == problem.possible_views.size(),
         "view_information: one mark a view");
-  std::vector<ViewInformation> views(planning.views.size());
-  std::vector<std::size_t> open;
-  for (std::size_t v = 0; v < views.size(); ++v) {
-    const bool closed = (!planning.closed.empty() && planning.closed[v]) ||
-                        (options.reachable && !options.reachable(int(v)));
-    if (!closed) open.push_back(v);
-  }
+  std::vector<ViewInformation> views(problem.possible_views.size());
+  const std::vector<std::size_t> open = open_views(problem, options);
   if (open.empty()) return views;
-  const std::vector<double> information = information_of(planning, open, backend, options);
-  const bool in_nats = options.strategy == Strategy::Information && !options.use_paper_formula;
+  const std::vector<double> information = strategy_values(problem, open, options);
+  const bool in_nats = is_in_nats(options);
   const std::vector<Shares> shares =
-      in_nats ? shares_left(open, planning, options) : std::vector<Shares>(open.size());
-  const double exploration_bonus_nats = in_nats ? options.exploration_bonus_nats : 0;
+      in_nats ? remaining_shares(problem, open, options) : std::vector<Shares>(open.size());
+  const double bonus_nats = in_nats ? options.exploration_bonus_nats : 0;
   for (std::size_t i = 0; i < open.size(); ++i)
-    views[open[i]] = {true, shares[i].known * information[i], shares[i].known,
-                      exploration_bonus_nats * shares[i].unknown,
-                      motion_cost(planning, planning.views[open[i]], options)};
+    views[open[i]] = {true, shares[i].candidates * information[i], shares[i].candidates,
+                      bonus_nats * shares[i].exploration,
+                      motion_cost(problem, problem.possible_views[open[i]], options)};
   if (std::ranges::none_of(information, [](double x) { return x > 0; }))
     log(LogLevel::Warning,
         "no view promises any information: nothing is known that it could be about, or no view "

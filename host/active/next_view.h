@@ -1,5 +1,7 @@
-// Where to look next: the information every possible view is expected to give about the particles
-// (paper, Sec. 5.3, Eqs. 15-20), and the baselines of Sec. 6.4.
+// Chooses the next view: the information that every possible view is expected to give about the
+// particles (paper, Sec. 5.3, Eqs. 15-20), and the baselines of Sec. 6.4.
+//
+// Public header.
 #pragma once
 
 #include <cstdint>
@@ -21,83 +23,89 @@ Strategy strategy_from(const std::string& word);  // InputError on another word
 
 struct NextViewOptions {
   Strategy strategy = Strategy::Information;
-  double reduction = 4;    // image px a map px, [1, 16]
-  double cap_px = 40;      // of distances, image px; at most 15.9 map px
+  double reduction = 4;    // image px per map px, [1, 16]
+  double cap_px = 40;      // largest distance that counts, image px; at most 15.9 map px
   double sigma_px = 4;     // of the mean distance, image px; at least cap_px / 141
-  double tolerance = 0.1;  // of a candidate's diameter: nearer behind its surface it hides nothing
-  bool use_paper_formula =
-      false;  // the paper's own formula (kernels/mutual_information.h), all weights equal
-  // A template point was seen in a real view if an edge of its image lies so near, along it; 0: if
-  // it lies inside the image, as in the paper's own formula and in Strategy::Disocclusion always.
-  // At most 8.
+  double tolerance = 0.1;  // fraction of a candidate's diameter: it hides nothing that lies less
+                           // than this behind its surface
+  // The paper's own formula (kernels/mutual_information.h), with equal weights of all particles.
+  bool use_paper_formula = false;
+  // A template point was seen in a real view if an edge of the image lies within this distance
+  // along the point's direction, image px, [0, 8]. 0: if the point lies inside the image, as in the
+  // paper's own formula and always with Strategy::Disocclusion.
   double seen_px = 4;
   VisibilityOptions visibility{96, 0.01};
-  // What nobody knows of (undetected parts, clutter, the heap itself) hides more the lower a camera
-  // stands. A line of sight is free of it with probability cos^visibility_exponent of its angle to
-  // straight above, and a view that is not tells nothing: an erasure, which leaves that share of
-  // the information. Straight above is the mean direction from what the views look at to their
-  // cameras; where they stand all around there is none, and all are free. 0: all are free, as in
-  // the paper's own formula always. Views that look at no point in common (looked_at_m) are neither
-  // hidden nor repeated.
+
+  // The paper's own formula does not use the next four. Where the possible views look at no common
+  // point (looked_at_m, views.h), all of them are free and independent.
+
+  // Unknown things (undetected parts, clutter, the heap itself) hide more from a camera that stands
+  // low. A line of sight is free with probability cos(angle to straight above) ^
+  // visibility_exponent; a view that is not free gives no information, so this share of the
+  // information remains. No unit, [0, 100]. Straight above is the mean direction from the common
+  // point to the cameras. Where cameras stand all around there is none, and all views are free. 0:
+  // all views are free.
   double visibility_exponent = 0.5;
-  // Views near each other err alike: what misleads one (neighbours, shadows, a wrong pose's chance
-  // agreement, what hides a part) misleads the other. Of what a view would tell, a real view at an
-  // angle theta from it, as seen from what the views look at, has told exp(-(theta /
-  // view_correlation_angle_rad)^2) already; the nearest one counts. 0: every view is new, as in the
-  // paper's own formula always.
+  // Errors of near views are correlated: what misleads one view (neighbours, shadows, chance
+  // agreement of a wrong pose, an occluder) also misleads the other. A real view at an angle theta,
+  // seen from the common point, has already given exp(-(theta / view_correlation_angle_rad)^2) of
+  // the information; the nearest real view counts. rad, [0, 100]. 0: every view is independent.
   double view_correlation_angle_rad = 0.45;
-  // What no candidate is for may lie wherever no view has looked yet: a view that is new and open
-  // is expected to tell so many nats of it (ViewInformation::discovery). Little beside what a
-  // second view promises about the candidates; what is left to gain once they are decided. 0: no
-  // information but about candidates, as in the paper, and in its own formula always.
+  // Objects without a candidate may be where no view has looked. An independent, free view is
+  // expected to give this much information about them (ViewInformation::discovery). nats, [0,
+  // 1000]. It is little against what a second view promises about the candidates, and decides once
+  // they are certain. 0: only information about candidates counts, as in the paper.
   double exploration_bonus_nats = 0.5;
-  double exploration_correlation_angle_rad =
-      1;  // as view_correlation_angle_rad, of what is unknown
-  // nats, taken off the information (Strategy::Information alone, and not the paper's own formula):
-  // for the way from the last view's camera
+  // As view_correlation_angle_rad, for the exploration bonus. rad, [0, 100].
+  double exploration_correlation_angle_rad = 1;
+
+  // Costs of the motion from the last view's camera, nats per m and nats per rad; taken off the
+  // information. Only with Strategy::Information, and not with the paper's own formula.
   double motion_cost_per_m = 0;
   double motion_cost_per_rad = 0;
   std::function<bool(int view)> reachable;  // empty: all are
   std::vector<int> sequence;                // of Strategy::Fixed; empty: in the order of the views
   std::uint64_t seed = 1;                   // of Strategy::Random
-  void validate() const;  // throws InputError naming the field and the violated bound
+  void validate() const;                    // InputError naming the field and the violated bound
 };
 
-// All that a decision depends on. Spans must outlive the call.
-struct Planning {
-  std::span<const EdgeModel> models;
-  std::span<const TemplateTable> tables;  // one an object
+// Everything that a decision depends on. Refers to data of the caller.
+struct NextViewProblem {
+  Scene scene;  // the views are the images so far, in order; their tensors are not used
+  std::span<const TemplateTable> tables;  // one per object
   Camera camera;                          // ideal, full resolution
-  std::span<const Se3> views;             // camera_from_world of all possible views
-  // one a view: nonzero where it was taken or cannot be reached; empty: all are open
+  std::span<const Se3> possible_views;    // camera_from_world
+  // One per possible view: nonzero where it was taken or cannot be reached. Empty: all are open.
   std::span<const char> closed;
-  std::span<const RegisterView>
-      real_views;  // the images so far, in order; of the tensors nothing is read
   std::span<const Detection> candidates;    // in the world
-  const BitMatrix* combinations = nullptr;  // over the candidates; needed by Strategy::Information
+  const BitMatrix* combinations = nullptr;  // of the candidates; for Strategy::Information
   std::span<const Particle> particles;
 };
 
+// What is expected of one possible view.
 struct ViewInformation {
-  bool open = false;       // may be chosen; else the rest is 0
-  double information = 0;  // Information: nats; Disocclusion: sum of psi times new visible points;
-                           // Random: a draw from [0, 1); Fixed: falls along the sequence
-  double share = 0;  // that visibility_exponent and view_correlation_angle_rad leave: information
-                     // is so much of the mutual one
-  double discovery = 0;    // nats expected of what is unknown; Strategy::Information alone
-  double motion_cost = 0;  // from the last real view
+  bool open = false;  // may be chosen; else the rest is 0
+  // Information: nats. Disocclusion: sum of psi times new visible points. Random: a draw from
+  // [0, 1). Fixed: falls along the sequence.
+  double information = 0;
+  // Fraction that visibility_exponent and view_correlation_angle_rad leave of the mutual
+  // information; `information` contains it.
+  double share = 0;
+  double discovery = 0;    // exploration bonus, nats; Strategy::Information alone
+  double motion_cost = 0;  // from the last real view, nats
   double expected() const { return information + discovery; }
   double value() const { return expected() - motion_cost; }
 };
 
-// One a view. Without particles, candidates or combinations, and for views that see nothing of
-// them, the information is 0; where that is so of all open views a warning is logged.
-std::vector<ViewInformation> view_information(const Planning& planning, Backend& backend,
+// One per possible view. The information is 0 without particles, candidates or combinations, and
+// for views that see nothing of them. Where it is 0 for all open views, a warning is logged.
+// InputError: options out of bounds; LogicError: another number of tables or of `closed`,
+// combinations of other candidates.
+std::vector<ViewInformation> view_information(const NextViewProblem& problem,
                                               const NextViewOptions& options);
 
-// The open view of most value, of equals the one of most share: far from the views taken and high,
-// where nothing is known that information could be about and nothing expected of what is unknown.
-// Nothing where none is open.
+// The open view of the largest value; of equal ones that with the largest share, which is high and
+// far from the views taken. Nothing where no view is open.
 std::optional<int> best_view(std::span<const ViewInformation> views);
 
 }  // namespace edgescout

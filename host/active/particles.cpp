@@ -9,13 +9,15 @@
 #include "host/core/log.h"
 #include "host/core/option_bounds.h"
 #include "host/core/order.h"
+#include "host/register/d2co.h"
+#include "host/register/edge_icp.h"
 #include "kernels/mutual_information.h"
 
 namespace edgescout {
 
 namespace {
 
-// The candidates by psi, as many as there may be particles.
+// Indices of the candidates with the highest psi, at most this many.
 std::vector<std::size_t> best_candidates(std::span<const Detection> candidates, int most) {
   std::vector<double> psi;
   for (const Detection& candidate : candidates) psi.push_back(candidate.psi);
@@ -25,23 +27,6 @@ std::vector<std::size_t> best_candidates(std::span<const Detection> candidates, 
 }
 
 }  // namespace
-
-D2coOptions ParticleOptions::refine_defaults() {
-  D2coOptions options;
-  options.rounds = {{LOSS_GEMAN_MCCLURE, 12, 8, 250},
-                    {LOSS_GEMAN_MCCLURE, 5, 8, 300},
-                    {LOSS_GEMAN_MCCLURE, 2, 6, 400}};
-  options.visibility.depth_map_size_px = 96;
-  return options;
-}
-
-// Several views see every particle: some of their points place it well enough.
-EdgeIcpOptions ParticleOptions::edge_icp_defaults() {
-  EdgeIcpOptions options;
-  options.max_points = 200;
-  options.visibility.depth_map_size_px = 96;
-  return options;
-}
 
 void ParticleOptions::validate() const {
   const OptionBounds in("particles");
@@ -59,7 +44,7 @@ void ParticleOptions::validate() const {
   in("dead", dead_px, 1e-3, 1e3);
   in("min_points", min_points, 1, 1e5);
   d2co.validate();
-  edge_icp_options.validate();
+  edge_icp.validate();
   visibility.validate();
 }
 
@@ -78,7 +63,7 @@ Detection candidate_in_world(const Detection& in_camera, const Se3& camera_from_
 Se3 perturbed(const Se3& pose, const Matrix6d& covariance, const EdgeModel& model,
               const Spread& spread, Random& random) {
   const double diameter_m = model.mesh.diameter_m;
-  // Rotations as the way they move a point at half the diameter: all six in metres.
+  // Rotations count as the motion of a point at half the diameter: then all six are in metres.
   Vector6d metres = Vector6d::Ones();
   metres.tail<3>().setConstant(0.5 * diameter_m);
   Vector6d deviations = Vector6d::Constant(spread.max * diameter_m);
@@ -120,58 +105,41 @@ std::vector<Particle> draw_particles(std::span<const EdgeModel> models,
   return particles;
 }
 
-std::vector<ObjectPose> poses_of(std::span<const Particle> particles) {
-  std::vector<ObjectPose> poses;
-  for (const Particle& particle : particles)
-    poses.push_back({particle.object, particle.world_from_object});
-  return poses;
-}
-
-std::vector<ObjectPose> poses_of(std::span<const Detection> candidates) {
-  std::vector<ObjectPose> poses;
-  for (const Detection& candidate : candidates)
-    poses.push_back({candidate.object, candidate.world_from_object});
-  return poses;
-}
-
-void refine_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
-                      std::span<const RegisterView> views, Backend& backend,
+void refine_particles(const Scene& scene, std::span<Particle> particles,
                       const ParticleOptions& options) {
-  const std::vector<ObjectPose> starts = poses_of(particles);
-  std::vector<Registration> registrations =
-      register_poses(models, starts, views, backend, options.d2co);
-  if (options.use_edge_icp)
-    edge_icp(models, starts, views, backend, options.edge_icp_options, registrations);
+  std::vector<PoseEstimate> estimates =
+      register_poses(scene, object_poses(particles), options.d2co);
+  if (options.use_edge_icp) edge_icp(scene, estimates, options.edge_icp);
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    particles[i].world_from_object = registrations[i].world_from_object;
-    particles[i].covariance = registrations[i].covariance;
+    particles[i].world_from_object = estimates[i].world_from_object;
+    particles[i].covariance = estimates[i].covariance;
   }
 }
 
-ParticleUpdate update_particles(std::vector<Particle>& particles, std::vector<double>& unseen_px2,
-                                std::span<const EdgeModel> models,
+ParticleUpdate update_particles(const Scene& scene, std::vector<Particle>& particles,
+                                std::vector<double>& unseen_px2,
                                 std::span<const Detection> candidates,
-                                std::span<const RegisterView> views, Backend& backend,
                                 const ParticleOptions& options) {
   options.validate();
-  const Random random = Random(options.seed).split("particles").split(views.size());
+  const Random random = Random(options.seed).split("particles").split(scene.views.size());
   ParticleUpdate update;
   const auto refine_and_weigh = [&] {
-    refine_particles(models, particles, views, backend, options);
-    const Weighing weighing =
-        weigh_particles(models, particles, unseen_px2, views, backend, options);
+    refine_particles(scene, particles, options);
+    const Weighing weighing = weigh_particles(scene, particles, unseen_px2, options);
     update.gained_nats = weighing.gained_nats;
     return weighing.living;
   };
   if (refine_and_weigh() == 0 && !particles.empty()) {
-    const std::string all_died = "all particles died in image " + std::to_string(views.size());
+    const std::string all_died =
+        "all particles died in image " + std::to_string(scene.views.size());
     if (candidates.empty()) {
       log(LogLevel::Warning, all_died + ", and there is no candidate to draw others around");
     } else {
       log(LogLevel::Warning,
           all_died + "; drawn anew around " + std::to_string(candidates.size()) + " candidates");
       const Spread wider{options.drawn.min, 2 * options.drawn.max};
-      particles = draw_particles(models, candidates, options.count, wider, random.split("anew"));
+      particles =
+          draw_particles(scene.models, candidates, options.count, wider, random.split("anew"));
       unseen_px2.clear();
       if (refine_and_weigh() == 0) log(LogLevel::Warning, all_died + ", those drawn anew too");
       update.reseeded = true;

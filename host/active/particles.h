@@ -1,6 +1,6 @@
-// The belief about where objects are: weighted poses ("particles") of all object types (paper,
-// Sec. 5.3 and Algorithm 2, lines 11 and 15-19). A particle is one pose one object may have; what
-// it weighs says weigh_particles.h.
+// Particles: weighted poses of all objects that represent where instances may be (paper, Sec. 5.3
+// and Algorithm 2, lines 11 and 15-19). A particle is one pose that one object may have;
+// weigh_particles.h gives its weight.
 #pragma once
 
 #include <cstdint>
@@ -11,104 +11,98 @@
 #include "host/core/types.h"
 #include "host/detect/plausible_pairs.h"
 #include "host/model/template_set.h"
-#include "host/register/d2co.h"
-#include "host/register/edge_icp.h"
 #include "host/register/pose_features.h"
+#include "host/register/schedules.h"
+#include "host/register/thresholds.h"
 
 namespace edgescout {
 
-struct Particle {
-  int object = 0;
-  Se3 world_from_object;
-  Matrix6d covariance = Matrix6d::Zero();  // of the last refinement, or of the candidate it was
-                                           // drawn around; tangent of core/se3.h
-  double log_weight = 0;                   // natural; weigh_particles makes the weights sum to 1
-  double upsilon_px2 =
-      0;  // log_weight is resampled_px2 - upsilon_px2, over s, up to a constant common to all
+struct Particle : ObjectPose {
+  // Of the last refinement, or of the candidate that the particle was drawn around; tangent of
+  // core/se3.h.
+  Matrix6d covariance = Matrix6d::Zero();
+  double log_weight = 0;  // natural; weigh_particles makes the weights sum to 1
+  // log_weight is (resampled_px2 - upsilon_px2) / scale_px2, up to a constant common to all.
+  double upsilon_px2 = 0;
   double resampled_px2 = 0;
-  // Where it was weighed, one a real view, and so is upsilon_px2: what resampling has moved since
-  // keeps them. Empty until weighed.
-  std::vector<PoseFeatures> by_view;
+  // At the pose where the particle was weighed, one entry per real view; empty until then.
+  // upsilon_px2 is of that pose, too. Both stay when resampling moves the particle.
+  std::vector<PoseFeatures> features;
 };
 
-// How far drawn poses lie from where they were drawn around: a Gaussian of the covariance, its
-// standard deviations (rotations times half the diameter) clamped to these fractions of the
-// diameter. The lower bound keeps particles of one place apart, the upper one holds them where
-// nothing is known.
+// How far random poses lie from the pose they are drawn around: a Gaussian of the covariance. Its
+// standard deviations (rotations times half the diameter) are clamped to these fractions of the
+// diameter. The lower bound keeps particles of one place apart; the upper one keeps them near where
+// the covariance is unknown.
 struct Spread {
   double min = 0.005;
   double max = 0.1;
 };
 
 struct ParticleOptions {
-  // Drawn at first, and whenever they are resampled. Between the two each search adds a share for
-  // the candidates that are new: more are followed then, by half or so. At most
-  // INFORMATION_MAX_PARTICLES (kernels/mutual_information.h).
+  // Drawn at first, and whenever they are resampled. In between, each search adds a share for the
+  // new candidates, by which the number grows by about half. At most INFORMATION_MAX_PARTICLES
+  // (kernels/mutual_information.h).
   int count = 200;
   std::uint64_t seed = 1;
   double sigma_px = 4;            // of the mean DCD of a right pose, image px
   Spread drawn{0.02, 0.1};        // around candidates
   Spread roughened{0.003, 0.02};  // after resampling
-  double min_effective =
-      0.5;               // of the particles: with a lower effective sample size they are resampled
-  int min_per_mode = 4;  // particles kept for every mode that may be an instance
-  double min_mode_probability = 0.05;  // below it a mode lives by its weight alone
-  double mode_radius =
-      0.1;  // of the diameter: particles closer than that (modulo symmetry) are one mode
-  double penetration_m =
-      DEFAULT_PENETRATION_M;  // modes that reach further into each other exclude each other
-  double dead_px = 20;        // mean DCD above which a particle is no hypothesis any more
-  double min_points = 12;     // in an image, for it to say something about a particle
-  D2coOptions d2co = refine_defaults();
+  // Fraction of the particles: with a lower effective sample size they are resampled.
+  double min_effective = 0.5;
+  int min_per_mode = 4;                // particles kept for every mode that may be an instance
+  double min_mode_probability = 0.05;  // below it only a mode's weight keeps its particles
+  // Fraction of the diameter: particles nearer than that (modulo symmetry) are one mode.
+  double mode_radius = thresholds::SAME_POSE;
+  double penetration_m = DEFAULT_PENETRATION_M;  // modes that overlap further exclude each other
+  double dead_px = 20;                           // a particle of a larger mean DCD loses its weight
+  double min_points = thresholds::MIN_POINTS;  // that an image must show of a particle to weigh it
+  D2coOptions d2co = schedules::particles();
   bool use_edge_icp = true;
-  EdgeIcpOptions edge_icp_options = edge_icp_defaults();
-  PoseScoreOptions score{1.0f, 4.0f, 60.0f};
-  VisibilityOptions
-      visibility;  // of the points that are scored; probabilities are fitted with the finest
-  static D2coOptions refine_defaults();
-  static EdgeIcpOptions edge_icp_defaults();
+  EdgeIcpOptions edge_icp = schedules::particles_edge_icp();
+  PoseScoreOptions score = FeatureOptions{}.score;
+  // Of the points that are scored. The probabilities are fitted with the finest setting.
+  VisibilityOptions visibility;
   double scale_px2() const { return 2 * sigma_px * sigma_px; }
-  void validate() const;  // throws InputError naming the field and the violated bound
+  void validate() const;  // InputError naming the field and the violated bound
 };
 
-// A candidate of one view, found in its camera frame, carried to the world with its covariance.
+// Transforms a candidate of one view from its camera frame to the world, with its covariance.
 Detection candidate_in_world(const Detection& in_camera, const Se3& camera_from_world);
 
-// `count` particles, as many around each candidate, the first of each exactly there; with more
-// candidates than particles those with the highest psi. Equal weights. None where there is no
-// candidate.
+// `count` particles of equal weight, the same number around each candidate; the first of each is
+// exactly there. With more candidates than particles only those with the highest psi get one. No
+// candidate: no particle.
 std::vector<Particle> draw_particles(std::span<const EdgeModel> models,
                                      std::span<const Detection> candidates, int count,
                                      const Spread& spread, Random random);
 
-// A pose near another, from a Gaussian in its tangent, turned about the middle of the model
-// wherever its origin lies.
+// A random pose near another, from a Gaussian in its tangent. Rotations turn it about the centre of
+// the model, wherever the model's origin lies.
 Se3 perturbed(const Se3& pose, const Matrix6d& covariance, const EdgeModel& model,
               const Spread& spread, Random& random);
 
-std::vector<ObjectPose> poses_of(std::span<const Particle> particles);
-std::vector<ObjectPose> poses_of(std::span<const Detection> candidates);
-
-// Multi-view D2CO (Eq. 11) of all particles over all real views side by side: poses and
+// Multi-view D2CO (Eq. 11) of all particles over all views of the scene at once: sets poses and
 // covariances.
-void refine_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
-                      std::span<const RegisterView> views, Backend& backend,
+void refine_particles(const Scene& scene, std::span<Particle> particles,
                       const ParticleOptions& options);
 
-// What one real image did to the particles.
+// How one real image changed the particles.
 struct ParticleUpdate {
-  double effective = 0;    // sample size before resampling
-  bool reseeded = false;   // all had died and were drawn anew around the candidates
-  double gained_nats = 0;  // from it, before resampling
+  double effective = 0;    // effective sample size before resampling
+  bool reseeded = false;   // all had lost their weight and were drawn anew around the candidates
+  double gained_nats = 0;  // information from the image, before resampling
 };
 
-// Lines 15-17 of Algorithm 2, after the last of `views` was added: refine and weigh. Where every
-// particle died they are drawn anew around the candidates, once; a warning is logged, and another
-// where these die too. Deterministic from options.seed and the number of views.
-ParticleUpdate update_particles(std::vector<Particle>& particles, std::vector<double>& unseen_px2,
-                                std::span<const EdgeModel> models,
+// Lines 15-17 of Algorithm 2, after the last view of the scene was added: refines and weighs the
+// particles. `unseen_px2` as for weigh_particles.
+//
+// Where every particle lost its weight, they are drawn anew around the candidates, once, and a
+// warning is logged; another one where these lose it too. Deterministic from options.seed and the
+// number of views. InputError: options out of bounds.
+ParticleUpdate update_particles(const Scene& scene, std::vector<Particle>& particles,
+                                std::vector<double>& unseen_px2,
                                 std::span<const Detection> candidates,
-                                std::span<const RegisterView> views, Backend& backend,
                                 const ParticleOptions& options);
 
 }  // namespace edgescout

@@ -1,3 +1,4 @@
+// Resampling of the particles (modes.h).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,8 +11,8 @@ namespace edgescout {
 
 namespace {
 
-// Systematic resampling: `count` draws in proportion to the weights, all from one random number;
-// how often each is drawn.
+// Systematic resampling: `count` draws in proportion to the weights, all from one random number.
+// Returns how often each is drawn.
 std::vector<int> systematic(std::span<const double> weights, int count, Random& random) {
   double total = 0;
   for (const double w : weights) total += w;
@@ -23,14 +24,14 @@ std::vector<int> systematic(std::span<const double> weights, int count, Random& 
     reached += weights[i] / total * count;
     while (drawn < count && offset + drawn < reached) ++drawn, ++times[i];
   }
-  // What rounding left over at the end goes to the last one that has a weight.
+  // Draws that rounding left over go to the last one that has a weight.
   for (std::size_t i = weights.size(); drawn < count && i-- > 0;)
     if (weights[i] > 0) times[i] += count - drawn, drawn = count;
   return times;
 }
 
-// Modes that keep particles however light they are; heaviest first as given. Where none is probable
-// or heavy enough, all of them.
+// Modes that keep particles because they are probable or heavy enough, heaviest first as given. All
+// modes where none is.
 std::vector<const Mode*> kept_modes(std::span<const Mode> modes, int count,
                                     const ParticleOptions& options) {
   std::vector<const Mode*> kept, all;
@@ -44,7 +45,7 @@ std::vector<const Mode*> kept_modes(std::span<const Mode> modes, int count,
   return kept;
 }
 
-// Of a mode's particles, over the heaviest: light ones would all be 0.
+// Weights of a mode's particles relative to its heaviest; absolute ones could all underflow to 0.
 std::vector<double> weights_within(const Mode& mode, std::span<const Particle> particles) {
   double most = -std::numeric_limits<double>::infinity();
   for (const std::size_t i : mode.particles) most = std::max(most, particles[i].log_weight);
@@ -54,6 +55,7 @@ std::vector<double> weights_within(const Mode& mode, std::span<const Particle> p
   return weights;
 }
 
+// The number of particles of each mode.
 std::vector<int> quotas(std::span<const Mode* const> modes, int count,
                         const ParticleOptions& options, Random& random) {
   const int least = std::min<int>(options.min_per_mode, count / int(modes.size()));
@@ -73,12 +75,12 @@ std::vector<Particle> resample(std::span<const Particle> particles, std::span<co
   if (modes.empty()) return next;
   const std::vector<const Mode*> kept = kept_modes(modes, count, options);
   const std::vector<int> quota = quotas(kept, count, options, random);
-  // Weights have been normalised; resampled_px2 keeps what they were, so that particles drawn
-  // later, which have spent nothing, find their share among these.
+  // log_weight is normalised; resampled_px2 also keeps the constant, so that particles that are
+  // drawn later, with a resampled_px2 of 0, get the right share of the weight.
   const Particle& any = particles[modes[0].particles[0]];
   const double log_norm =
       (any.resampled_px2 - any.upsilon_px2) / options.scale_px2() - any.log_weight;
-  double total = 0;  // of the weights that go on
+  double total = 0;  // of the modes that keep particles
   for (std::size_t m = 0; m < kept.size(); ++m)
     if (quota[m] > 0) total += kept[m]->weight;
   for (std::size_t m = 0; m < kept.size(); ++m) {

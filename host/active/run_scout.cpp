@@ -1,4 +1,4 @@
-// Drives an active detection with a source of images to its end.
+// Algorithm 2's loop: propose a view, take its image, add it.
 #include "host/active/scout.h"
 #include "kernels/error.h"
 
@@ -6,8 +6,8 @@ namespace edgescout {
 
 namespace {
 
-// What the source cannot give, or gives but cannot be used, is no shot.
-std::optional<Shot> shot_of(Scout& scout, ViewSource& source, int view) {
+// Nothing where the source fails or its shot cannot be used: then the view is marked as failed.
+std::optional<Shot> acquire(Scout& scout, ViewSource& source, int view) {
   try {
     Shot shot = source.acquire(view);
     scout.require_fitting(shot.image, shot.camera_from_world);
@@ -25,7 +25,7 @@ std::optional<Shot> shot_of(Scout& scout, ViewSource& source, int view) {
 void run_scout(Scout& scout, ViewSource& source,
                const std::function<void(const ScoutState&)>& on_step) {
   while (const std::optional<ScoutDecision> proposal = scout.propose()) {
-    if (const std::optional<Shot> shot = shot_of(scout, source, proposal->view))
+    if (const std::optional<Shot> shot = acquire(scout, source, proposal->view))
       scout.give(proposal->view, shot->image, shot->camera_from_world);
     if (on_step) on_step(scout.state());
   }

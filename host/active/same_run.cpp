@@ -1,4 +1,4 @@
-// Whether a saved state can be gone on with.
+// Whether a run can continue from a saved state.
 #include <algorithm>
 #include <climits>
 
@@ -9,41 +9,41 @@ namespace edgescout {
 
 namespace {
 
-// The largest object and view that a state speaks of, and whether its decisions fit themselves.
-struct Mentioned {
+// Collects the largest indices of objects and views in a state, and checks its decisions.
+struct UsedIndices {
   int object = -1, view = -1;
-  bool fits = true;
+  bool valid = true;  // decisions and enumerators
 
-  explicit Mentioned(const ScoutState& state) : views_(state.views.size()) {
+  explicit UsedIndices(const ScoutState& state) : views_(state.views.size()) {
     objects_in(state.candidates);
     objects_in(state.particles);
     objects_in(state.detections);
-    decided(state.last_decision);
+    check_decision(state.last_decision);
     for (const ScoutStep& step : state.steps) {
-      decided(step.decision);
+      check_decision(step.decision);
       objects_in(step.before);
       objects_in(step.after);
       objects_in(step.detections);
       note(view, step.decision.view);
     }
-    fits = fits && is_one_of(state.end, ScoutEnd::TimeLimit);
+    valid = valid && is_one_of(state.end, ScoutEnd::TimeLimit);
     for (const FailedView& failed : state.failed) note(view, failed.view);
   }
 
  private:
-  // A negative one is none either.
+  // A negative index is invalid, too.
   static void note(int& most, int index) { most = std::max(most, index < 0 ? INT_MAX : index); }
   template <typename Enum>
   static bool is_one_of(Enum value, Enum last) {
     return static_cast<int>(value) >= 0 && value <= last;
   }
-  void decided(const ScoutDecision& decision) {
+  void check_decision(const ScoutDecision& decision) {
     objects_in(decision.candidates);
     for (const std::vector<int>* members : {&decision.likeliest, &decision.unlikeliest})
       for (const int member : *members)
-        fits = fits && member >= 0 && member < static_cast<int>(decision.candidates.size());
-    fits = fits && is_one_of(decision.strategy, Strategy::Fixed);
-    fits = fits && (decision.views.empty() || decision.views.size() == views_);
+        valid = valid && member >= 0 && member < static_cast<int>(decision.candidates.size());
+    valid = valid && is_one_of(decision.strategy, Strategy::Fixed);
+    valid = valid && (decision.views.empty() || decision.views.size() == views_);
   }
   static int object_of(const ModeDetection& x) { return x.detection.object; }
   static int object_of(const auto& x) { return x.object; }
@@ -67,9 +67,9 @@ void require_same_run(const ScoutState& saved, const ScoutState& run, const std:
     throw InputError(source, "camera", "another", "that of this run");
   if (saved.objects != run.objects)
     throw InputError(source, "objects", "others", "those of this run");
-  const Mentioned mentioned(saved);
-  if (mentioned.object >= static_cast<int>(run.objects.size()) ||
-      mentioned.view >= static_cast<int>(run.views.size()) || !mentioned.fits)
+  const UsedIndices used(saved);
+  if (used.object >= static_cast<int>(run.objects.size()) ||
+      used.view >= static_cast<int>(run.views.size()) || !used.valid)
     throw InputError(source, "indices", "an object, view or candidate that is none",
                      "those of this run");
 }

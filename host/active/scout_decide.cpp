@@ -1,19 +1,18 @@
-// Where a scout looks next.
+// Chooses a scout's next view (Algorithm 2, lines 4 to 10 and 13).
 #include "host/active/scout.h"
 
 namespace edgescout {
 
-// Line 13: where to look next.
 std::optional<ScoutDecision> Scout::propose() {
   if (proposal_ || has_ended_) return proposal_;
-  if (const ScoutEnd end = end_before_planning(); end != ScoutEnd::No) {
+  if (const ScoutEnd end = end_before_decision(); end != ScoutEnd::No) {
     state_.end = end;
     return {};
   }
   ScoutDecision decision = decide();
-  state_.end = decision.view < 0           ? ScoutEnd::NoViewLeft
-               : little_to_learn(decision) ? ScoutEnd::LittleToLearn
-                                           : ScoutEnd::No;
+  state_.end = decision.view < 0          ? ScoutEnd::NoViewLeft
+               : expects_little(decision) ? ScoutEnd::LittleToLearn
+                                          : ScoutEnd::No;
   has_ended_ = state_.end != ScoutEnd::No;
   state_.overrule();  // of a run that was resumed
   if (has_ended_)
@@ -23,7 +22,7 @@ std::optional<ScoutDecision> Scout::propose() {
   return proposal_;
 }
 
-ScoutDecision Scout::without_expectations(int view) const {
+ScoutDecision Scout::decision_without_expectations(int view) const {
   ScoutDecision decision;
   decision.view = view;
   decision.strategy = options_.next_view.strategy;
@@ -32,39 +31,53 @@ ScoutDecision Scout::without_expectations(int view) const {
   return decision;
 }
 
-// Lines 4 to 10 and 13. No view is left where the decision's is negative.
+// The decision's view is negative where no view is left.
 ScoutDecision Scout::decide() const {
-  // A fixed sequence, and chance, go on where the first view failed.
-  const bool needs_belief = options_.next_view.strategy == Strategy::Information ||
-                            options_.next_view.strategy == Strategy::Disocclusion;
-  if (state_.steps.empty() && (state_.failed.empty() || needs_belief))
-    return without_expectations(first_open_view());
-  ScoutDecision decision = without_expectations(-1);
+  // Fixed and Random need no candidates: they continue by their own rule where the first view
+  // failed.
+  const Strategy strategy = options_.next_view.strategy;
+  const bool needs_candidates =
+      strategy == Strategy::Information || strategy == Strategy::Disocclusion;
+  if (state_.steps.empty() && (state_.failed.empty() || needs_candidates))
+    return decision_without_expectations(first_open_view());
+  ScoutDecision decision = decision_without_expectations(-1);
   Stopwatch watch(decision.stages);
   decision.candidates = state_.candidates;
   BitMatrix combinations;
-  if (options_.next_view.strategy == Strategy::Information && !state_.candidates.empty()) {
-    CombinationOptions options = options_.combinations;
-    options.seed += state_.steps.size();
-    combinations =
-        candidate_combinations(models_, state_.candidates, options_.probable_combinations,
-                               options_.particles.penetration_m, options, backend_.threads());
-    std::vector<double> probabilities;
-    for (const Detection& candidate : state_.candidates)
-      probabilities.push_back(candidate.probability);
-    const CombinationExtremes extremes = extreme_combinations(combinations, probabilities);
-    decision.likeliest = extremes.likeliest;
-    decision.unlikeliest = extremes.unlikeliest;
-    done(watch, "combinations");
+  if (strategy == Strategy::Information && !state_.candidates.empty()) {
+    combinations = draw_combinations(decision);
+    record_stage(watch, "combinations");
   }
   const std::vector<char> closed = state_.closed();
-  const std::vector<RegisterView> views = views_of(observations_);
-  decision.views = view_information({models_, tables_, undistorted(camera_), state_.views, closed,
-                                     views, state_.candidates, &combinations, state_.particles},
-                                    backend_, options_.next_view);
+  const std::vector<ObjectView> views = views_of(views_);
+  decision.views = view_information({{models_, views, backend_},
+                                     tables_,
+                                     undistorted(camera_),
+                                     state_.views,
+                                     closed,
+                                     state_.candidates,
+                                     &combinations,
+                                     state_.particles},
+                                    options_.next_view);
   decision.view = best_view(decision.views).value_or(-1);
-  done(watch, "information");
+  record_stage(watch, "information");
   return decision;
+}
+
+// Also sets the decision's likeliest and unlikeliest.
+BitMatrix Scout::draw_combinations(ScoutDecision& decision) const {
+  CombinationOptions options = options_.combinations;
+  options.seed += state_.steps.size();
+  BitMatrix combinations =
+      candidate_combinations(models_, state_.candidates, options_.probable_combinations,
+                             options_.particles.penetration_m, options, backend_.threads());
+  std::vector<double> probabilities;
+  for (const Detection& candidate : state_.candidates)
+    probabilities.push_back(candidate.probability);
+  const CombinationExtremes extremes = extreme_combinations(combinations, probabilities);
+  decision.likeliest = extremes.likeliest;
+  decision.unlikeliest = extremes.unlikeliest;
+  return combinations;
 }
 
 int Scout::first_open_view() const {

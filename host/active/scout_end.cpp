@@ -1,43 +1,41 @@
-// When a scout has seen enough (Algorithm 2's termination criteria).
+// When a scout ends (Algorithm 2's termination criteria).
 #include <algorithm>
 
 #include "host/active/scout.h"
 
 namespace edgescout {
 
-ScoutEnd Scout::end_before_planning() const {
+ScoutEnd Scout::end_before_decision() const {
   const std::vector<char> closed = state_.closed();
   if (static_cast<int>(state_.steps.size()) >= options_.max_views) return ScoutEnd::ViewBudget;
   if (std::ranges::find(closed, 0) == closed.end()) return ScoutEnd::NoViewLeft;
-  if (certain()) return ScoutEnd::Certain;
-  if (little_learned()) return ScoutEnd::LittleLearned;
+  if (is_certain()) return ScoutEnd::Certain;
+  if (gained_little()) return ScoutEnd::LittleLearned;
   if (options_.max_seconds > 0 && state_.seconds() >= options_.max_seconds)
     return ScoutEnd::TimeLimit;
   return ScoutEnd::No;
 }
 
-// An image that shows what none had shown may be followed by others.
-bool Scout::certain() const {
+// An image that showed something new may be followed by others that do.
+bool Scout::is_certain() const {
   if (state_.detections.empty() || state_.entropy_nats >= options_.min_entropy_nats) return false;
   return !options_.detect_in_every_image || state_.steps.back().new_candidates == 0;
 }
 
-// Particles that died and were drawn anew have gained nothing, and have everything to learn.
-bool Scout::little_learned() const {
-  if (state_.steps.empty() || may_find_more()) return false;
+// No end without candidates, or where particles were drawn anew: then there is still everything to
+// learn.
+bool Scout::gained_little() const {
+  if (state_.steps.empty() || state_.candidates.empty()) return false;
   const ScoutStep& last = state_.steps.back();
   return last.new_candidates == 0 && !last.update.reseeded &&
          last.update.gained_nats < options_.min_gained_nats;
 }
 
-// Without candidates there is nothing that information could be about, and everything to find.
-bool Scout::may_find_more() const { return state_.candidates.empty(); }
-
-// About the candidates, from whichever view: what is unknown promises something as long as views
-// are left.
-bool Scout::little_to_learn(const ScoutDecision& decision) const {
+// Information about the candidates, from any view. The exploration bonus does not count: there is
+// some as long as views are left. No end without candidates, as above.
+bool Scout::expects_little(const ScoutDecision& decision) const {
   if (options_.next_view.strategy != Strategy::Information || options_.min_information_nats <= 0 ||
-      may_find_more())
+      state_.candidates.empty())
     return false;
   return std::ranges::all_of(decision.views, [&](const ViewInformation& view) {
     return !view.open || view.information - view.motion_cost < options_.min_information_nats;

@@ -1,4 +1,5 @@
-#include "host/active/scout.h"
+#include "host/active/scout_options.h"
+
 #include "host/core/option_bounds.h"
 
 namespace edgescout {
@@ -25,15 +26,14 @@ void ScoutOptions::validate() const {
   in("max_seconds", max_seconds, 0, 1e9);
   in("detections.min_probability", detections.min_probability, 0, 1);
   in("detections.support_probability", detections.support_probability, 0, 1);
-  in("extrinsics_checks.max_residual_px", extrinsics_checks.max_residual_px, 0, 1e9);
-  in("extrinsics_checks.min_probability", extrinsics_checks.min_probability, 0, 1);
-  in("extrinsics_checks.absent_probability", extrinsics_checks.absent_probability, 0,
-     extrinsics_checks.min_probability);
-  in("extrinsics_checks.held_probability", extrinsics_checks.held_probability, 0, 1);
-  in("extrinsics_checks.max_missing", extrinsics_checks.max_missing, 0, 1e9);
+  in("extrinsics.max_residual_px", extrinsics.max_residual_px, 0, 1e9);
+  in("extrinsics.min_probability", extrinsics.min_probability, 0, 1);
+  in("extrinsics.absent_probability", extrinsics.absent_probability, 0, extrinsics.min_probability);
+  in("extrinsics.held_probability", extrinsics.held_probability, 0, 1);
+  in("extrinsics.max_missing", extrinsics.max_missing, 0, 1e9);
   detections.edge_claims.validate();
-  extrinsics_checks.joint.validate();
-  extrinsics_checks.single.validate();
+  extrinsics.joint.validate();
+  extrinsics.single.validate();
   pipeline.validate();
   combinations.validate();
   particles.validate();

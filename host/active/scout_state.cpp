@@ -14,7 +14,7 @@ constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 14, "sco
 template <typename T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-// The two directions in which `fields` below goes through a struct.
+// Writes and reads: `fields` below lists a struct's members for both.
 class Put {
  public:
   explicit Put(BinaryWriter& out) : out_(out) {}
@@ -59,7 +59,7 @@ class Get {
   }
   template <typename T>
   void get(std::vector<T>& list) {
-    list.resize(in_.count(1));  // every element takes a byte at least
+    list.resize(in_.count(1));  // every element takes at least one byte
     for (T& element : list) get(element);
   }
   template <typename T>
@@ -68,7 +68,8 @@ class Get {
   BinaryReader& in_;
 };
 
-// Every struct's members, once for both directions; T may be const.
+// The members of every struct, once for both; T may be const. A change here needs a new version
+// above.
 template <typename T, typename Struct>
 concept A = std::same_as<std::remove_const_t<T>, Struct>;
 
@@ -97,7 +98,7 @@ void fields(auto& io, A<Detection> auto& x) {
 }
 void fields(auto& io, A<Particle> auto& x) {
   io(x.object, x.world_from_object, x.covariance, x.log_weight, x.upsilon_px2, x.resampled_px2,
-     x.by_view);
+     x.features);
 }
 void fields(auto& io, A<ScoutDecision> auto& x) {
   io(x.view, x.strategy, x.use_paper_formula, x.views, x.candidates, x.likeliest, x.unlikeliest,

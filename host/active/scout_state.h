@@ -1,5 +1,7 @@
-// Everything an active detection knows, step by step: what a log, a page or a robot's program
+// The whole state of an active detection, step by step: what a log, a page or a robot's program
 // reads, and what is saved after every step.
+//
+// Public header.
 #pragma once
 
 #include <filesystem>
@@ -17,15 +19,16 @@
 
 namespace edgescout {
 
-// Why a view, and what was thought when it was chosen.
+// A chosen view and what was expected when it was chosen.
 struct ScoutDecision {
   int view = 0;
-  Strategy strategy = Strategy::Information;  // by which `views` was judged
-  bool use_paper_formula = false;  // by the paper's own formula, which does not count in nats
-  // one a view; empty for the first image, of which nothing can be expected
+  Strategy strategy = Strategy::Information;  // by which `views` was computed
+  bool use_paper_formula = false;  // the paper's own formula, whose information is not in nats
+  // One per possible view. Empty for the first image, of which nothing can be expected.
   std::vector<ViewInformation> views;
   std::vector<Detection> candidates;  // world, at that time
-  // of the sampled combinations: indices into the candidates. Empty where none were sampled
+  // The most and the least probable of the sampled combinations: indices into the candidates. Empty
+  // where none were sampled.
   std::vector<int> likeliest, unlikeliest;
   std::vector<StageSeconds> stages;
 };
@@ -36,19 +39,20 @@ struct ScoutStep {
   Se3 camera_from_world;  // as given
   Image image;            // undistorted
   int searches = 0;       // of this image: ScoutOptions::max_searches
-  std::size_t new_candidates =
-      0;  // that no particle is near, nor any candidate there was before this image
-  // before this image's say, those drawn around its new candidates included
+  // Candidates near no particle and near no candidate that was known before this image.
+  std::size_t new_candidates = 0;
+  // The particles before this image was used, with those that were drawn around its new candidates.
   std::vector<Particle> before;
   std::vector<Particle> after;
   ParticleUpdate update;
-  bool resampled = false;  // after `detections` were reported (resample_where_poor)
+  bool resampled = false;  // after `detections` were made (resample_where_poor)
   std::vector<ModeDetection> detections;
-  // one a step so far: the later images' say on this and the earlier ones
+  // One per step so far: a later image also checks the earlier ones.
   std::vector<ExtrinsicsCheck> extrinsics_checks;
   std::vector<double> mode_probabilities;  // of all modes, before resampling; heaviest mode first
-  double entropy_nats = 0;                 // belief_entropy of these
-  std::vector<StageSeconds> stages;  // in the order they ran first, those of all searches together
+  double entropy_nats = 0;                 // belief_entropy of these modes
+  // In the order they ran first; the searches of one image are added up.
+  std::vector<StageSeconds> stages;
 };
 
 struct FailedView {
@@ -69,7 +73,7 @@ enum class ScoutEnd {
 };
 std::string to_string(ScoutEnd end);  // "", "view budget", ..
 
-// What tells the objects of one run from those of another.
+// Identifies an object, so that a saved state is not continued with other objects.
 struct ScoutObject {
   int id = 1;                     // BOP obj_id
   std::uint64_t fingerprint = 0;  // of its model and symmetries
@@ -77,36 +81,37 @@ struct ScoutObject {
 };
 
 struct ScoutState {
-  std::vector<ScoutObject> objects;  // that are sought, in their order
-  Camera camera;                     // that takes every image
+  std::vector<ScoutObject> objects;  // to find, in the caller's order
+  Camera camera;                     // of every image
   std::vector<Se3> views;            // camera_from_world of all possible views
   std::vector<ScoutStep> steps;
   std::vector<FailedView> failed;     // never proposed again
-  std::vector<Detection> candidates;  // world, best probability first
+  std::vector<Detection> candidates;  // world, most probable first
   std::vector<Particle> particles;
-  std::vector<double> unseen_px2;         // weigh_particles', one an image
-  std::vector<ModeDetection> detections;  // the modes that are instances, best probability first
+  std::vector<double> unseen_px2;         // of weigh_particles, one per image
+  std::vector<ModeDetection> detections;  // modes that are instances, most probable first
   double entropy_nats = 0;
   ScoutEnd end = ScoutEnd::No;
-  ScoutDecision
-      last_decision;  // that no image followed: of an end that was decided on (LittleToLearn)
-  double overruled_seconds = 0;  // of such decisions after which it went on all the same
+  // The decision that no image followed: the one that ended the run (LittleToLearn).
+  ScoutDecision last_decision;
+  double overruled_seconds = 0;  // of such decisions after which the run was continued
 
-  // One a view: nonzero where it was taken or cannot be reached.
+  // One per possible view: nonzero where it was taken or failed.
   std::vector<char> closed() const;
-  // Of all steps and decisions, those for views that failed included: the machine's, not the arm's.
+  // Computing time of all steps and decisions, with those for failed views; without the arm's
+  // motion.
   double seconds() const;
-  // Goes on after the end that last_decision was.
+  // Continues after the end that last_decision was.
   void overrule();
 };
 
-// A versioned binary file (io/binary_file.h), atomically. Loading throws InputError naming the
-// file: of another kind or version, cut short, a wrong checksum.
+// A versioned binary file (io/binary_file.h), written atomically. Loading throws InputError naming
+// the file: of another kind or version, cut short, a wrong checksum.
 void save_scout_state(const ScoutState& state, const std::filesystem::path& file);
 ScoutState load_scout_state(const std::filesystem::path& file);
 
-// InputError naming `source`: `saved` has another camera, other views or objects than `run`, or
-// speaks of one that is none.
+// InputError naming `source`: `saved` has another camera, other views or objects than `run`, or an
+// index of an object, view or candidate that does not exist.
 void require_same_run(const ScoutState& saved, const ScoutState& run, const std::string& source);
 
 }  // namespace edgescout

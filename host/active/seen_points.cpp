@@ -1,33 +1,31 @@
 #include "host/active/seen_points.h"
 
-#include <cmath>
-
 #include "kernels/pose_geometry.h"
 
 namespace edgescout {
 
 namespace {
 
-constexpr float MAX_TURN_RAD = 0.35f;  // between a template's edge and the image's that shows it
+constexpr float MAX_TURN_RAD = 0.35f;  // between the template's edge and that of the image
 
-bool in_image(double x, double y, const Camera& camera) {
+bool is_in_image(double x, double y, const Camera& camera) {
   return x >= -0.5 && y >= -0.5 && x < camera.width - 0.5 && y < camera.height - 0.5;
 }
 
 }  // namespace
 
-SeenPoints seen_in(const TemplateTable& table, const Se3& world_from_object,
-                   std::span<const RegisterView> real_views, double edge_px) {
+SeenPoints points_seen_in(std::span<const ObjectView> real_views, const TemplateTable& table,
+                          const Se3& world_from_object, double edge_px) {
   SeenPoints seen{std::vector<char>(table.total, 0), 0};
-  for (const RegisterView& view : real_views) {
+  for (const ObjectView& view : real_views) {
     const Se3 camera_from_object = view.camera_from_world * world_from_object;
     const Pose pose = to_pose(camera_from_object);
     const Intrinsics k = intrinsics_of(view.camera);
-    for (const TemplateTablePoint& p : table.seen_from(camera_from_object)) {
+    for (const TemplateTablePoint& p : table.visible_from(camera_from_object)) {
       const PosedPoint<float> posed = pose_point<float>(pose, p.point);
       if (seen.by_id[p.id] || !can_be_seen(posed.point)) continue;
       const ProjectedEdge<float> edge = project_edge(posed, k);
-      if (!in_image(edge.u, edge.v, view.camera)) continue;
+      if (!is_in_image(edge.u, edge.v, view.camera)) continue;
       if (edge_px > 0 && view.edges &&
           !view.edges->nearest(edge.u, edge.v, orientation(edge.dx, edge.dy), float(edge_px),
                                MAX_TURN_RAD))
@@ -39,16 +37,17 @@ SeenPoints seen_in(const TemplateTable& table, const Se3& world_from_object,
   return seen;
 }
 
-std::vector<ParticlePoint> showing_points(const TemplateTable& table, const Se3& camera_from_object,
-                                          const Camera& camera, const SeenPoints& seen) {
+std::vector<ParticlePoint> points_in_image(const TemplateTable& table,
+                                           const Se3& camera_from_object, const Camera& camera,
+                                           const SeenPoints& seen) {
   std::vector<ParticlePoint> points;
   const Pose pose = to_pose(camera_from_object);
   const Intrinsics k = intrinsics_of(camera);
-  for (const TemplateTablePoint& p : table.seen_from(camera_from_object)) {
+  for (const TemplateTablePoint& p : table.visible_from(camera_from_object)) {
     const PosedPoint<float> posed = pose_point<float>(pose, p.point);
     if (!can_be_seen(posed.point) || points.size() == CHAMFER_MAX_POINTS) continue;
     const ProjectedEdge<float> edge = project_edge(posed, k);
-    if (in_image(edge.u, edge.v, camera))
+    if (is_in_image(edge.u, edge.v, camera))
       points.push_back({edge.u, edge.v, posed.point.z, seen.by_id[p.id] ? 0u : 1u});
   }
   return points;

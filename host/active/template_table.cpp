@@ -1,6 +1,6 @@
 #include "host/active/template_table.h"
 
-#include <cmath>
+#include <algorithm>
 #include <unordered_map>
 
 #include "host/model/viewpoints.h"
@@ -10,7 +10,7 @@ namespace edgescout {
 
 namespace {
 
-// Numbers the cells of space that hold points, in the order they turn up.
+// Numbers the cubic cells that hold points, in the order in which they appear.
 class Cells {
  public:
   Cells(const Mesh& mesh, double size_m) : low_m_(mesh.box_min_m), size_m_(size_m) {}
@@ -29,7 +29,8 @@ class Cells {
   std::unordered_map<std::int64_t, std::uint32_t> numbers_;
 };
 
-// One point a cell and viewpoint; false where a viewpoint has more than `most`.
+// Fills the table with one point per cell and viewpoint. False where a viewpoint has more than
+// `most`.
 bool fill(TemplateTable& table, std::span<const std::vector<ModelPoint>> visible, Cells cells,
           int most) {
   table.points.assign(visible.size(), {});
@@ -48,30 +49,28 @@ bool fill(TemplateTable& table, std::span<const std::vector<ModelPoint>> visible
   return true;
 }
 
-}  // namespace
-
-const std::vector<TemplateTablePoint>& TemplateTable::seen_from(
-    const Se3& camera_from_object) const {
-  const Eigen::Vector3d to_eye = inverse(camera_from_object).translation_m - center_m;
-  std::size_t nearest = 0;
-  for (std::size_t v = 1; v < directions.size(); ++v)
-    if (directions[v].dot(to_eye) > directions[nearest].dot(to_eye)) nearest = v;
-  return points[nearest];
-}
-
-TemplateTable make_template_table(const EdgeModel& model, double distance_m, Backend& backend,
-                                  const TemplateTableOptions& options) {
-  check(options.most_points >= 1, "make_template_table: at least one point");
-  TemplateTable table;
-  table.center_m = model.center_m;
-  table.directions = icosphere(options.frequency);
+// Visible points from each direction.
+std::vector<std::vector<ModelPoint>> visible_from(std::span<const Eigen::Vector3d> towards_camera,
+                                                  const EdgeModel& model, double distance_m,
+                                                  Backend& backend) {
   std::vector<Se3> poses;
-  for (const Eigen::Vector3d& direction : table.directions) {
+  for (const Eigen::Vector3d& direction : towards_camera) {
     const Eigen::Quaterniond rotation = looking_from(direction);
     poses.push_back({rotation, Eigen::Vector3d(0, 0, std::max(distance_m, 1.2 * model.radius_m)) -
                                    rotation * model.center_m});
   }
-  const std::vector<std::vector<ModelPoint>> visible = visible_edges(model, poses, backend);
+  return visible_edges(model, poses, backend);
+}
+
+}  // namespace
+
+TemplateTable make_template_table(const EdgeModel& model, double distance_m, Backend& backend,
+                                  const TemplateTableOptions& options) {
+  check(options.most_points >= 1, "make_template_table: at least one point");
+  const std::vector<Eigen::Vector3d> towards_camera = icosphere(options.frequency);
+  const std::vector<std::vector<ModelPoint>> visible =
+      visible_from(towards_camera, model, distance_m, backend);
+  TemplateTable table{ViewpointIndex(towards_camera, model.center_m), {}, 0};
   double cell_m = model.raster_step_m;
   while (!fill(table, visible, Cells(model.mesh, cell_m), options.most_points)) cell_m *= 1.25;
   if (table.total == 0)

@@ -18,7 +18,8 @@ namespace {
 
 constexpr double RADIANS = std::numbers::pi / 180;
 
-// Cameras a ring: by circumference, largest remainders first, none without.
+// The number of cameras of each ring: in proportion to its circumference, rounded by largest
+// remainders, at least one.
 std::vector<int> share_among_rings(const HemisphereOptions& options) {
   std::vector<double> weight;
   double total = 0;
@@ -26,18 +27,18 @@ std::vector<int> share_among_rings(const HemisphereOptions& options) {
     total += weight.emplace_back(std::max(1e-6, std::cos(elevation * RADIANS)));
   std::vector<int> share(weight.size(), 1);
   for (int given = int(share.size()); given < options.count; ++given) {
-    std::size_t poorest = 0;
-    const auto lack = [&](std::size_t ring) {
+    std::size_t next = 0;
+    const auto missing = [&](std::size_t ring) {
       return options.count * weight[ring] / total - share[ring];
     };
     for (std::size_t ring = 1; ring < share.size(); ++ring)
-      if (lack(ring) > lack(poorest) + 1e-12) poorest = ring;
-    ++share[poorest];
+      if (missing(ring) > missing(next) + 1e-12) next = ring;
+    ++share[next];
   }
   return share;
 }
 
-bool alike(const Se3& a, const Se3& b) {
+bool is_same_view(const Se3& a, const Se3& b) {
   const Eigen::Vector3d eye_a = inverse(a).translation_m, eye_b = inverse(b).translation_m;
   return (eye_a - eye_b).norm() < 1e-4 && angle_between_rad(a, b) < 1e-4;
 }
@@ -102,14 +103,14 @@ std::optional<Eigen::Vector3d> looked_at_m(std::span<const Se3> camera_from_worl
   }
   // The smallest eigenvalue is the mean squared sine of the angle between the axes and their common
   // direction.
-  constexpr double LEAST_SPREAD = 0.003, NEAREST_M = 0.01;
+  constexpr double MIN_SPREAD = 0.003, MIN_DEPTH_M = 0.01;
   const auto count = double(camera_from_world.size());
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(a / count, Eigen::EigenvaluesOnly);
-  if (!(spread.eigenvalues()[0] >= LEAST_SPREAD)) return std::nullopt;
+  if (!(spread.eigenvalues()[0] >= MIN_SPREAD)) return std::nullopt;
   const Eigen::Vector3d point_m = a.ldlt().solve(b);
-  const auto before = std::ranges::count_if(
-      camera_from_world, [&](const Se3& pose) { return (pose * point_m).z() > NEAREST_M; });
-  if (2 * double(before) <= count) return std::nullopt;
+  const auto in_front = std::ranges::count_if(
+      camera_from_world, [&](const Se3& pose) { return (pose * point_m).z() > MIN_DEPTH_M; });
+  if (2 * double(in_front) <= count) return std::nullopt;
   return point_m;
 }
 
@@ -135,7 +136,7 @@ void validate_views(std::span<const Se3> camera_from_world, const std::string& s
     const std::string field = fmt::format("/{}/camera_from_world", i);
     require_rigid(view, source, field);
     for (std::size_t j = 0; j < i; ++j)
-      if (alike(view, camera_from_world[j]))
+      if (is_same_view(view, camera_from_world[j]))
         throw InputError(source, field, "the same pose as view " + std::to_string(j),
                          "views that differ");
   }

@@ -5,63 +5,64 @@
 #include <limits>
 
 #include "kernels/error.h"
+#include "host/register/pose_classifier.h"
 
 namespace edgescout {
 
 namespace {
 
-constexpr double NOTHING = -std::numeric_limits<double>::infinity();
+constexpr double NO_WEIGHT = -std::numeric_limits<double>::infinity();
 
 double log_sum_exp(std::span<const double> logs) {
-  const double most = logs.empty() ? NOTHING : *std::ranges::max_element(logs);
-  if (most == NOTHING) return NOTHING;
+  const double most = logs.empty() ? NO_WEIGHT : *std::ranges::max_element(logs);
+  if (most == NO_WEIGHT) return NO_WEIGHT;
   double sum = 0;
   for (const double x : logs) sum += std::exp(x - most);
   return most + std::log(sum);
 }
 
-// To a sum of 1; equal where all are nothing.
+// To weights of sum 1; equal weights where none has a weight.
 void normalise(std::span<double> logs) {
   const double total = log_sum_exp(logs);
-  for (double& x : logs) x = total == NOTHING ? -std::log(double(logs.size())) : x - total;
+  for (double& x : logs) x = total == NO_WEIGHT ? -std::log(double(logs.size())) : x - total;
 }
 
 double squared(double x) { return x * x; }
 
-bool sees(const PoseFeatures& in_view, const ParticleOptions& options) {
+bool is_seen(const PoseFeatures& in_view, const ParticleOptions& options) {
   return in_view.points >= options.min_points;
 }
 
-bool seen_at_all(const Particle& particle, const ParticleOptions& options) {
+bool is_seen_by_any(const Particle& particle, const ParticleOptions& options) {
   return is_finite(particle.world_from_object) &&
-         std::ranges::any_of(particle.by_view,
-                             [&](const PoseFeatures& f) { return sees(f, options); });
+         std::ranges::any_of(particle.features,
+                             [&](const PoseFeatures& f) { return is_seen(f, options); });
 }
 
-bool lives(const Particle& particle, const ParticleOptions& options) {
-  return seen_at_all(particle, options) &&
-         pool_over_views(particle.by_view).mean_px <= options.dead_px;
+bool keeps_weight(const Particle& particle, const ParticleOptions& options) {
+  return is_seen_by_any(particle, options) &&
+         pool_over_views(particle.features).mean_px <= options.dead_px;
 }
 
-// At the poses of today.
-void look_at(std::span<const EdgeModel> models, std::span<Particle> particles,
-             std::span<const RegisterView> views, Backend& backend,
-             const ParticleOptions& options) {
-  const std::vector<PoseFeatures> features = pose_features_by_view(
-      models, poses_of(particles), views, backend, options.score, options.visibility);
-  for (std::size_t i = 0; i < particles.size(); ++i)
-    particles[i].by_view.assign(features.begin() + i * views.size(),
-                                features.begin() + (i + 1) * views.size());
+// At the current poses.
+void measure_particles(const Scene& scene, std::span<Particle> particles,
+                       const ParticleOptions& options) {
+  const Grid<PoseFeatures> features =
+      features_by_view(scene, object_poses(particles), {options.score, options.visibility});
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const std::span<const PoseFeatures> by_view = features.row(i);
+    particles[i].features.assign(by_view.begin(), by_view.end());
+  }
 }
 
-// -s log of a view's mean likelihood over the particles that it sees, by the belief before it; not
-// a number where it sees none.
+// -s log of a view's mean likelihood over the particles that it sees, weighted as before the view;
+// NaN where it sees none.
 double mean_likelihood_px2(std::span<const Particle> particles, std::span<const double> log_before,
                            std::size_t view, const ParticleOptions& options) {
   std::vector<double> before, after;
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    const PoseFeatures& f = particles[i].by_view[view];
-    if (log_before[i] == NOTHING || !sees(f, options)) continue;
+    const PoseFeatures& f = particles[i].features[view];
+    if (log_before[i] == NO_WEIGHT || !is_seen(f, options)) continue;
     before.push_back(log_before[i]);
     after.push_back(log_before[i] - squared(f.mean_px) / options.scale_px2());
   }
@@ -69,52 +70,52 @@ double mean_likelihood_px2(std::span<const Particle> particles, std::span<const 
                         : options.scale_px2() * (log_sum_exp(before) - log_sum_exp(after));
 }
 
-// Adds one view's say to Upsilon and to the weights.
+// Adds one view to Upsilon and to the weights.
 void add_view(std::size_t view, double& unseen_px2, std::span<Particle> particles,
               std::span<double> log_weights, const ParticleOptions& options) {
   if (std::isnan(unseen_px2))
     unseen_px2 = mean_likelihood_px2(particles, log_weights, view, options);
   const double unseen = std::isnan(unseen_px2) ? 0 : unseen_px2;
   for (std::size_t i = 0; i < particles.size(); ++i) {
-    const PoseFeatures& f = particles[i].by_view[view];
-    const double counts = sees(f, options) ? squared(f.mean_px) : unseen;
-    particles[i].upsilon_px2 += counts;
-    log_weights[i] -= counts / options.scale_px2();
+    const PoseFeatures& f = particles[i].features[view];
+    const double added_px2 = is_seen(f, options) ? squared(f.mean_px) : unseen;
+    particles[i].upsilon_px2 += added_px2;
+    log_weights[i] -= added_px2 / options.scale_px2();
   }
 }
 
-// Kullback-Leibler, of normalised weights.
+// Kullback-Leibler divergence of normalised weights.
 double divergence_nats(std::span<const double> after, std::span<const double> before) {
   double nats = 0;
   for (std::size_t i = 0; i < after.size(); ++i)
-    if (after[i] > NOTHING) nats += std::exp(after[i]) * (after[i] - before[i]);
+    if (after[i] > NO_WEIGHT) nats += std::exp(after[i]) * (after[i] - before[i]);
   return std::max(0.0, nats);  // rounding can take it below
 }
 
 }  // namespace
 
-Weighing weigh_particles(std::span<const EdgeModel> models, std::span<Particle> particles,
-                         std::vector<double>& unseen_px2, std::span<const RegisterView> views,
-                         Backend& backend, const ParticleOptions& options) {
-  check(!views.empty(), "weigh_particles: at least one view");
-  look_at(models, particles, views, backend, options);
+Weighing weigh_particles(const Scene& scene, std::span<Particle> particles,
+                         std::vector<double>& unseen_px2, const ParticleOptions& options) {
+  const std::size_t views = scene.views.size();
+  check(views > 0, "weigh_particles: at least one view");
+  measure_particles(scene, particles, options);
   std::vector<double> logs, before_last;
   for (Particle& particle : particles) {
     particle.upsilon_px2 = 0;
-    logs.push_back(seen_at_all(particle, options) ? particle.resampled_px2 / options.scale_px2()
-                                                  : NOTHING);
+    logs.push_back(is_seen_by_any(particle, options) ? particle.resampled_px2 / options.scale_px2()
+                                                     : NO_WEIGHT);
   }
-  unseen_px2.resize(views.size(), std::nan(""));
-  for (std::size_t v = 0; v < views.size(); ++v) {
+  unseen_px2.resize(views, std::nan(""));
+  for (std::size_t v = 0; v < views; ++v) {
     before_last = logs;
     add_view(v, unseen_px2[v], particles, logs, options);
   }
   Weighing weighing;
   for (std::size_t i = 0; i < particles.size(); ++i)
-    if (lives(particles[i], options))
+    if (keeps_weight(particles[i], options))
       ++weighing.living;
     else
-      logs[i] = NOTHING;
+      logs[i] = NO_WEIGHT;
   normalise(before_last), normalise(logs);
   for (std::size_t i = 0; i < particles.size(); ++i) particles[i].log_weight = logs[i];
   if (weighing.living > 0) weighing.gained_nats = divergence_nats(logs, before_last);
@@ -126,7 +127,7 @@ double effective_sample_size(std::span<const Particle> particles) {
   for (const Particle& particle : particles)
     logs.push_back(particle.log_weight), squares.push_back(2 * particle.log_weight);
   const double total = log_sum_exp(logs);
-  return total == NOTHING ? 0 : std::exp(2 * total - log_sum_exp(squares));
+  return total == NO_WEIGHT ? 0 : std::exp(2 * total - log_sum_exp(squares));
 }
 
 }  // namespace edgescout

@@ -3,7 +3,8 @@
 #include <utility>
 
 #include "host/baselines/methods.h"
-#include "host/baselines/visible_points.h"
+#include "host/register/d2co.h"
+#include "host/register/visible_in_views.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -16,7 +17,7 @@ constexpr std::pair<Method, const char*> method_names[] = {{Method::D2co, "d2co"
                                                            {Method::CIcp, "c-icp"},
                                                            {Method::Direct, "direct"}};
 
-// Eq. 8 in one round: the visible points are those of the start.
+// Eq. 8 in one round, so with the visible points of the start.
 D2coOptions as_published(const BaselineOptions& options) {
   D2coOptions d2co;
   d2co.rounds = {{LOSS_HUBER, float(options.loss_scale_px), options.inner_iterations, 0}};
@@ -26,7 +27,7 @@ D2coOptions as_published(const BaselineOptions& options) {
   return d2co;
 }
 
-PoseSolver prepare_solver(Method method, std::span<const RegisterView> views,
+PoseSolver prepare_solver(Method method, std::span<const ObjectView> views,
                           const BaselineOptions& options) {
   switch (method) {
     case Method::DcIcp:
@@ -84,33 +85,28 @@ void BaselineOptions::validate() const {
     refuse("pyramid_levels", pyramid_levels, "a number in [1, 8]");
 }
 
-Registrar prepare_method(Method method, std::span<const EdgeModel> models,
-                         std::span<const RegisterView> views, Backend& backend,
-                         const BaselineOptions& options) {
+Registrar prepare_method(Method method, const Scene& scene, const BaselineOptions& options) {
   options.validate();
-  check(!views.empty(), "prepare_method: at least one view");
+  check(!scene.views.empty(), "prepare_method: at least one view");
   if (method == Method::D2co)
-    return [models, views, &backend, options](std::span<const ObjectPose> hypotheses) {
-      return register_poses(models, hypotheses, views, backend, as_published(options));
+    return [scene, options](std::span<const ObjectPose> starts) {
+      return register_poses(scene, starts, as_published(options));
     };
-  return [models, views, &backend, options,
-          solve = prepare_solver(method, views, options)](std::span<const ObjectPose> hypotheses) {
-    const std::vector<std::vector<ModelPoint>> points =
-        visible_points(models, hypotheses, views, backend, options.visibility);
-    std::vector<Registration> results;
-    for (std::size_t h = 0; h < hypotheses.size(); ++h)
+  return [scene, options, solve = prepare_solver(method, scene.views, options)](
+             std::span<const ObjectPose> starts) {
+    const Grid<std::vector<ModelPoint>> points = visible_points(scene, starts, options.visibility);
+    std::vector<PoseEstimate> results;
+    for (std::size_t i = 0; i < starts.size(); ++i)
       results.push_back(
-          registration_of(solve(hypotheses[h].world_from_object,
-                                std::span(points).subspan(h * views.size(), views.size()))));
+          estimate_of(solve(starts[i].world_from_object, points.row(i)), starts[i].object));
     return results;
   };
 }
 
-std::vector<Registration> register_with(Method method, std::span<const EdgeModel> models,
-                                        std::span<const ObjectPose> hypotheses,
-                                        std::span<const RegisterView> views, Backend& backend,
+std::vector<PoseEstimate> register_with(Method method, const Scene& scene,
+                                        std::span<const ObjectPose> starts,
                                         const BaselineOptions& options) {
-  return prepare_method(method, models, views, backend, options)(hypotheses);
+  return prepare_method(method, scene, options)(starts);
 }
 
 }  // namespace edgescout

@@ -1,6 +1,6 @@
 // C-ICP: Besl and McKay's ICP (A method for registration of 3-D shapes, PAMI 14(2), 1992) with the
 // chamfer distance transform's labels as closest points (Borgefors, PAMI 10(6), 1988). Direction
-// plays no part.
+// does not count.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -26,11 +26,11 @@ struct Labels {
 
 }  // namespace
 
-PoseSolver prepare_c_icp(std::span<const RegisterView> views, const BaselineOptions& options) {
+PoseSolver prepare_c_icp(std::span<const ObjectView> views, const BaselineOptions& options) {
   const auto labels = std::make_shared<std::vector<Labels>>();
-  for (const RegisterView& view : views) {
+  for (const ObjectView& view : views) {
     check(view.edges != nullptr, "c-icp: a view without edge points");
-    const std::span<const EdgePoint> edges = view.edges->points();
+    const std::span<const EdgePoint> edges = view.edges->points_by_cell();
     labels->push_back({{edges.begin(), edges.end()},
                        nearest_edges(edges, view.camera.width, view.camera.height)});
   }

@@ -1,6 +1,6 @@
 // Direct: "a simple coarse-to-fine object registration strategy that uses a Gaussian pyramid of
-// gradient magnitudes images" (paper, Sec. 6). No edge detection: r = 1 - |grad I| / (the level's
-// largest) at every projected point, its square minimised level by level.
+// gradient magnitudes images" (paper, Sec. 6). There is no edge detection. It minimises the squares
+// of r = 1 - |grad I| / (the level's largest) at all projected points, level by level.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -26,7 +26,7 @@ cv::Mat gradient_magnitude(const Image& image) {
   return magnitude;
 }
 
-// Over the level's largest; zero where the image is flat.
+// Divided by the level's largest; zero where the image is flat.
 ScalarImage normalised(const cv::Mat& magnitude) {
   double largest = 0;
   cv::minMaxLoc(magnitude, nullptr, &largest);
@@ -49,7 +49,7 @@ MagnitudePyramid magnitude_pyramid(const Image& image, int levels) {
 
 }  // namespace
 
-WorldSystem magnitude_system(std::span<const RegisterView> views,
+WorldSystem magnitude_system(std::span<const ObjectView> views,
                              std::span<const std::vector<ModelPoint>> points,
                              std::span<const MagnitudePyramid> pyramids, int level,
                              const Se3& world_from_object) {
@@ -57,24 +57,23 @@ WorldSystem magnitude_system(std::span<const RegisterView> views,
                          [&](WorldSystem& sum, std::size_t v, std::size_t,
                              const PosedPoint<double>& posed, const ProjectedEdge<double>& at) {
                            const int own = std::min(level, int(pyramids[v].size()) - 1);
-                           // A pixel of a halved image lies on every second one of the image
-                           // before.
+                           // Pixel i of a halved image lies on pixel 2 i of the larger one.
                            const double shrink = std::ldexp(1.0, -own);
                            const Sample m = sample(pyramids[v][own], shrink * at.u, shrink * at.v);
                            const double r = 1 - m.value;
                            add_residual(sum, r, 1, 0.5 * r * r,
                                         image_motion(-shrink * m.by_x, -shrink * m.by_y, posed,
-                                                     views[v].view->intrinsics));
+                                                     views[v].tensor->intrinsics));
                            sum.residual_sum += r;
                            sum.weight_sum += 1;
                            sum.points += 1;
                          });
 }
 
-PoseSolver prepare_direct(std::span<const RegisterView> views, const BaselineOptions& options) {
+PoseSolver prepare_direct(std::span<const ObjectView> views, const BaselineOptions& options) {
   const auto pyramids = std::make_shared<std::vector<MagnitudePyramid>>();
   int levels = 1;
-  for (const RegisterView& view : views) {
+  for (const ObjectView& view : views) {
     check(view.image != nullptr, "direct: a view without its image");
     pyramids->push_back(magnitude_pyramid(*view.image, options.pyramid_levels));
     levels = std::max(levels, int(pyramids->back().size()));

@@ -1,28 +1,30 @@
 #include "host/baselines/candidate_scores.h"
-#include "host/baselines/visible_points.h"
+#include "host/register/visible_in_views.h"
+#include "kernels/error.h"
 
 namespace edgescout {
 
-std::vector<double> fdcm_scores(std::span<const EdgeModel> models,
-                                std::span<const Candidate> candidates, const RegisterView& view,
-                                Backend& backend, const VisibilityOptions& visibility) {
+std::vector<double> fdcm_scores(const Scene& scene, std::span<const ObjectPose> candidates,
+                                const VisibilityOptions& visibility) {
+  check(scene.views.size() == 1, "fdcm: exactly one view");
+  const ObjectView& view = scene.views[0];
+  const Grid<std::vector<ModelPoint>> visible = visible_points(scene, candidates, visibility);
   std::vector<ModelPoint> points;
   std::vector<PoseProblem> problems;
-  for (const std::vector<ModelPoint>& list :
-       visible_points(models, candidates, view, backend, visibility)) {
-    const Candidate& candidate = candidates[problems.size()];
-    problems.push_back({to_pose(candidate.camera_from_object), std::uint32_t(points.size()),
-                        std::uint32_t(list.size()), 0});
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const std::vector<ModelPoint>& list = visible(i, 0);
+    problems.push_back({to_pose(view.camera_from_world * candidates[i].world_from_object),
+                        std::uint32_t(points.size()), std::uint32_t(list.size()), 0});
     points.insert(points.end(), list.begin(), list.end());
   }
   PoseScoreOptions options;
-  options.cap_px = view.view->options.cap_px;
+  options.cap_px = view.tensor->options.cap_px;
   std::vector<PoseScore> scores(problems.size());
-  backend.pose_score(std::span(&view.view, 1), points, problems, options, scores);
+  scene.backend.pose_score(std::span(&view.tensor, 1), points, problems, options, scores);
   std::vector<double> means;
   for (std::size_t i = 0; i < scores.size(); ++i) {
-    // The kernel's mean is over the points inside the image alone: few of them would make a good
-    // score of a candidate that hardly shows.
+    // The kernel averages over the points inside the image alone. Without this a candidate with few
+    // points inside could score well.
     const double inside =
         problems[i].point_count > 0 ? double(scores[i].points) / problems[i].point_count : 0;
     means.push_back(inside * scores[i].mean_px + (1 - inside) * options.cap_px);

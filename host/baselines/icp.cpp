@@ -6,7 +6,7 @@
 
 namespace edgescout {
 
-Pairs associate_all(std::span<const RegisterView> views,
+Pairs associate_all(std::span<const ObjectView> views,
                     std::span<const std::vector<ModelPoint>> points, const Se3& world_from_object,
                     const Associate& associate) {
   Pairs pairs;
@@ -19,7 +19,7 @@ Pairs associate_all(std::span<const RegisterView> views,
   return pairs;
 }
 
-WorldSystem pair_system(std::span<const RegisterView> views,
+WorldSystem pair_system(std::span<const ObjectView> views,
                         std::span<const std::vector<ModelPoint>> points, const Pairs& pairs,
                         const Se3& world_from_object, double loss_scale_px) {
   return sum_over_points(
@@ -28,7 +28,7 @@ WorldSystem pair_system(std::span<const RegisterView> views,
           const ProjectedEdge<double>& at) {
         const EdgePoint* edge = pairs[v][i];
         if (!edge) return;
-        const Intrinsics& k = views[v].view->intrinsics;
+        const Intrinsics& k = views[v].tensor->intrinsics;
         const double dx = at.u - edge->x_px, dy = at.v - edge->y_px, distance = std::hypot(dx, dy);
         const Weighted loss = huber(distance, loss_scale_px);
         add_residual(sum, dx, loss.weight, loss.rho, image_motion(1, 0, posed, k));
@@ -39,7 +39,7 @@ WorldSystem pair_system(std::span<const RegisterView> views,
       });
 }
 
-LmState iterate_closest_points(const Se3& start, std::span<const RegisterView> views,
+LmState iterate_closest_points(const Se3& start, std::span<const ObjectView> views,
                                std::span<const std::vector<ModelPoint>> points,
                                const Associate& associate, const BaselineOptions& options) {
   LmState state;
@@ -48,7 +48,8 @@ LmState iterate_closest_points(const Se3& start, std::span<const RegisterView> v
     const Se3 before = state.pose;
     const Pairs pairs = associate_all(views, points, before, associate);
     initialize(state, pair_system(views, points, pairs, state.pose, options.loss_scale_px));
-    // Gauss-Newton: every step is taken. The damping only keeps directions still that no pair sees.
+    // Gauss-Newton: every step is taken. The damping only stops motion in directions that no pair
+    // determines.
     state.damping = 1e-6;
     for (int inner = 0; inner < options.inner_iterations && state.active; ++inner) {
       compute_step(state);
@@ -59,7 +60,7 @@ LmState iterate_closest_points(const Se3& start, std::span<const RegisterView> v
     ++state.iterations;
     if (state.active &&
         is_small(local_coordinates(before, state.pose), options.min_step_m, options.min_step_rad))
-      state.active = false, state.reason = Convergence::SmallStep;
+      state.active = false, state.convergence = Convergence::SmallStep;
   }
   return state;
 }

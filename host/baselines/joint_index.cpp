@@ -22,7 +22,7 @@ int sector_of(float theta_rad) {
   return std::clamp(static_cast<int>(theta_rad / sector_rad), 0, JointIndex::SECTORS - 1);
 }
 
-// From a direction to the nearest one of a sector.
+// The turn from a direction to the nearest direction of a sector.
 float turn_to_sector(float theta_rad, int sector) {
   if (sector_of(theta_rad) == sector) return 0;
   return std::min(turn_between(theta_rad, sector * sector_rad),
@@ -71,9 +71,9 @@ void JointIndex::search_cell(int sector, int column, int row, const Query& query
   }
 }
 
-// Rings of cells about the query's nearest place in the image, until the nearest cell of a ring is
-// too far: from outside the image all of it is at least as far as the hypotenuse over the way to
-// that place and on.
+// Searches rings of cells about the query's nearest place in the image, until the nearest cell of a
+// ring is too far. From outside the image, a cell is at least as far as the hypotenuse of the way
+// to that place and the way from there to the cell.
 void JointIndex::search_sector(int sector, const Query& query, Best& best) const {
   const float turn_px = lambda_px_per_rad_ * turn_to_sector(query.theta_rad, sector);
   const float x_px = std::clamp(query.x_px, 0.0f, float(columns_ * CELL_PX)),
@@ -97,8 +97,8 @@ const EdgePoint* JointIndex::closest(float x_px, float y_px, float theta_rad) co
   const Query query{x_px, y_px, theta_rad};
   Best best{nullptr, std::numeric_limits<float>::max()};
   const int own = sector_of(theta_rad);
-  // Its own sector first, then those on either side of it: most are then too far in direction
-  // alone.
+  // The own sector first, then its neighbours on both sides: most other sectors are then too far by
+  // direction alone.
   for (int step = 0; step < SECTORS; ++step) {
     const int offset = step % 2 == 0 ? step / 2 : SECTORS - (step + 1) / 2;
     search_sector((own + offset) % SECTORS, query, best);

@@ -1,4 +1,4 @@
-// The edge point closest to an oriented image point in the joint space of place and direction
+// Finds the edge point closest to an oriented image point in the joint space of place and direction
 // (paper, Eq. 4; Liu et al., IJRR 2012).
 #pragma once
 
@@ -9,17 +9,17 @@
 
 namespace edgescout {
 
-// Exact: |x - e| + lambda * |theta - theta_e|_pi, directions undirected and not rounded to bins.
-// Edge points outside the image are left out.
+// The distance |x - e| + lambda * |theta - theta_e|_pi is exact: directions are not rounded to
+// bins. Directions have no sign. Edge points outside the image are left out.
 class JointIndex {
  public:
   JointIndex(std::span<const EdgePoint> edges, int width, int height, float lambda_px_per_rad);
-  // Null where there are no edge points at all, and of a place that is not finite or too far for a
-  // float to hold the square of its distance. (x, y) may lie outside the image; theta in [0, pi].
+  // (x, y) may lie outside the image; theta in [0, pi]. Null where there are no edge points, and
+  // for a place that is not finite or so far that a float cannot hold the square of its distance.
   const EdgePoint* closest(float x_px, float y_px, float theta_rad) const;
 
   static constexpr int CELL_PX = 16;
-  static constexpr int SECTORS = 12;  // of directions, a grid each
+  static constexpr int SECTORS = 12;  // of directions; each has its own grid
 
  private:
   struct Query {
@@ -34,8 +34,9 @@ class JointIndex {
 
   int columns_, rows_;
   float lambda_px_per_rad_;
-  std::vector<EdgePoint> points_;        // by sector and cell
-  std::vector<std::uint32_t> cell_end_;  // points of cell c: [cell_end_[c], cell_end_[c + 1])
+  std::vector<EdgePoint> points_;  // by sector and cell
+  // Points of cell c are points_[cell_end_[c]] up to points_[cell_end_[c + 1]].
+  std::vector<std::uint32_t> cell_end_;
 };
 
 }  // namespace edgescout

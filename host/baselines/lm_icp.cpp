@@ -1,5 +1,5 @@
 // LM-ICP: Fitzgibbon, Robust registration of 2D and 3D point sets, BMVC 2001: Levenberg-Marquardt
-// straight on the distance transform, which stands for the closest points, with a robust loss.
+// with a robust loss on the distance transform, which takes the place of the closest points.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -13,7 +13,7 @@ namespace edgescout {
 
 namespace {
 
-// As the tensor does: outside the image the border's value and the distance to it.
+// Like the tensor: outside the image the border's value plus the distance to it.
 Sample distance_at(const ScalarImage& distance, double x_px, double y_px) {
   Sample s = sample(distance, x_px, y_px);
   const double out_x = x_px - std::clamp(x_px, 0.0, distance.width - 1.0),
@@ -28,7 +28,7 @@ Sample distance_at(const ScalarImage& distance, double x_px, double y_px) {
 
 }  // namespace
 
-WorldSystem distance_system(std::span<const RegisterView> views,
+WorldSystem distance_system(std::span<const ObjectView> views,
                             std::span<const std::vector<ModelPoint>> points,
                             std::span<const ScalarImage> distances, const Se3& world_from_object,
                             double loss_scale_px) {
@@ -39,20 +39,20 @@ WorldSystem distance_system(std::span<const RegisterView> views,
                            const Weighted loss = huber(d.value, loss_scale_px);
                            add_residual(
                                sum, d.value, loss.weight, loss.rho,
-                               image_motion(d.by_x, d.by_y, posed, views[v].view->intrinsics));
+                               image_motion(d.by_x, d.by_y, posed, views[v].tensor->intrinsics));
                            sum.residual_sum += d.value;
                            sum.weight_sum += loss.weight;
                            sum.points += 1;
                          });
 }
 
-PoseSolver prepare_lm_icp(std::span<const RegisterView> views, const BaselineOptions& options) {
+PoseSolver prepare_lm_icp(std::span<const ObjectView> views, const BaselineOptions& options) {
   const auto distances = std::make_shared<std::vector<ScalarImage>>();
-  for (const RegisterView& view : views) {
+  for (const ObjectView& view : views) {
     check(view.edges != nullptr, "lm-icp: a view without edge points");
     const std::span<const EdgePoint> edges = view.edges->points();
     distances->push_back(distance_image(nearest_edges(edges, view.camera.width, view.camera.height),
-                                        edges, view.view->options.cap_px));
+                                        edges, view.tensor->options.cap_px));
   }
   return [views, options, distances](const Se3& start,
                                      std::span<const std::vector<ModelPoint>> points) {

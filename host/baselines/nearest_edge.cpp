@@ -12,7 +12,7 @@ Seed pixel_of(const EdgePoint& edge, int width, int height) {
   return seed_of(edge, {width, height, TensorOptions{}.bins});
 }
 
-// Every pixel's nearest seed in its own column.
+// The nearest seed of every pixel in its own column.
 void along_columns(NearestEdges& map, std::vector<int>& seed_row) {
   const auto take = [&](int x, int y, int from) {
     const std::size_t here = std::size_t(y) * map.width + x,
@@ -29,7 +29,7 @@ void along_columns(NearestEdges& map, std::vector<int>& seed_row) {
     for (int x = 0; x < map.width; ++x) take(x, y, y + 1);
 }
 
-// Lower envelope of the parabolas that the columns' seeds span over one row (Felzenszwalb and
+// Lower envelope of the parabolas of the columns' seeds over one row (Felzenszwalb and
 // Huttenlocher, 2012).
 void along_row(NearestEdges& map, const std::vector<int>& seed_row, int y) {
   const std::size_t row = std::size_t(y) * map.width;
@@ -39,7 +39,7 @@ void along_row(NearestEdges& map, const std::vector<int>& seed_row, int y) {
     return double(seed_row[row + x] - y) * (seed_row[row + x] - y);
   };
   std::vector<int> apex;     // columns whose parabolas make up the envelope
-  std::vector<double> from;  // where each begins to be the lowest
+  std::vector<double> from;  // where each becomes the lowest
   for (int x = 0; x < map.width; ++x) {
     if (column_seed[x] < 0) continue;
     double begin = -1;

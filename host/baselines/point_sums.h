@@ -8,7 +8,7 @@
 
 namespace edgescout {
 
-// One scalar residual r with weight w and loss rho; `motion` is its derivative by the camera's
+// Adds one scalar residual with its weight and loss. `motion` is its derivative by the camera's
 // tangent.
 inline void add_residual(WorldSystem& sum, double residual, double weight, double rho,
                          const Vector6d& motion) {
@@ -25,9 +25,9 @@ inline Weighted huber(double r, double scale) {
 }
 
 // Calls visit(sum, view, point index, posed point, projection) for every point in front of its
-// camera: `sum` is in the camera's tangent.
+// camera. `sum` is in the camera's tangent.
 template <typename Visit>
-WorldSystem sum_over_points(std::span<const RegisterView> views,
+WorldSystem sum_over_points(std::span<const ObjectView> views,
                             std::span<const std::vector<ModelPoint>> points,
                             const Se3& world_from_object, const Visit& visit) {
   WorldSystem sum;
@@ -37,14 +37,14 @@ WorldSystem sum_over_points(std::span<const RegisterView> views,
     for (std::size_t i = 0; i < points[v].size(); ++i) {
       const PosedPoint<double> posed = pose_point<double>(pose, points[v][i]);
       if (!can_be_seen(posed.point)) continue;
-      visit(in_camera, v, i, posed, project_edge(posed, views[v].view->intrinsics));
+      visit(in_camera, v, i, posed, project_edge(posed, views[v].tensor->intrinsics));
     }
     add_view(sum, in_camera, views[v].camera_from_world);
   }
   return sum;
 }
 
-// Levenberg-Marquardt from the state's pose on, at most `iterations` steps.
+// Levenberg-Marquardt from the state's pose, at most `iterations` steps.
 using SystemAt = std::function<WorldSystem(const Se3& world_from_object)>;
 void levenberg_marquardt(LmState& state, const SystemAt& system_at, int iterations,
                          double min_step_m, double min_step_rad);

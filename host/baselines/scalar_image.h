@@ -1,4 +1,4 @@
-// An image of real numbers, read between its pixels.
+// An image of real numbers with bilinear interpolation.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,8 @@ struct ScalarImage {
   std::vector<float> values;  // row-major
 };
 
-// Bilinear value and the derivative of the same interpolant. Outside the image: that of the nearest
-// border point, without slope across it.
+// Bilinear value and the derivative of the same interpolant. Outside the image: those of the
+// nearest border point, with slope 0 across the border.
 struct Sample {
   double value, by_x, by_y;
 };

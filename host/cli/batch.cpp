@@ -29,42 +29,42 @@ BatchSettings settings_of(std::span<const TemplateSet> sets, const BatchOptions&
   return settings;
 }
 
-// The images that are detected together: one, or all views of a scene.
+// The images of one detection: one image, or all views of a scene.
 struct Group {
   std::vector<const InputImage*> images;
-  std::string views;  // as settings tell them
+  std::string views;  // the value of the setting "views"
 };
 
 std::vector<Group> group_images(std::span<const InputImage> images, bool joint,
                                 const BatchSettings& settings) {
   std::vector<Group> groups;
-  for (const std::span<const InputImage> together : groups_of(images, joint)) {
+  for (const std::span<const InputImage> members : groups_of(images, joint)) {
     Group& group = groups.emplace_back();
-    for (const InputImage& image : together) group.images.push_back(&image);
+    for (const InputImage& image : members) group.images.push_back(&image);
     group.views = joint ? settings.jointly(group.images) : "alone";
   }
   return groups;
 }
 
-// What an image is before its device work: decoding and edges run on a thread and a CPU backend of
-// their own, beside the device's work on the group before.
-struct Prepared {
-  std::vector<PreparedImage> images;
-  std::vector<std::string> failures;  // empty where the image is good
+struct PreparedGroup {
+  std::vector<PreparedView> views;    // one per image of the group
+  std::vector<std::string> failures;  // one per image; empty if the image is good
 };
 
+// Decodes images and finds their edges, on its own CPU backend. It may run on another thread while
+// the device works on the group before.
 class Preparer {
  public:
   Preparer(const BatchOptions& options, const std::optional<Camera>& camera)
       : options_(options), camera_(camera), backend_(make_cpu_backend(1)) {}
-  Prepared prepare(const Group& group) {
-    Prepared prepared;
+  PreparedGroup prepare(const Group& group) {
+    PreparedGroup prepared;
     for (const InputImage* input : group.images) {
       try {
-        prepared.images.push_back(prepare_one(*input));
+        prepared.views.push_back(prepare_one(*input));
         prepared.failures.emplace_back();
       } catch (const InputError& error) {
-        prepared.images.emplace_back();
+        prepared.views.emplace_back();
         prepared.failures.emplace_back(error.what());
       }
     }
@@ -72,17 +72,17 @@ class Preparer {
   }
 
  private:
-  PreparedImage prepare_one(const InputImage& input) {
+  PreparedView prepare_one(const InputImage& input) {
     const auto start = Clock::now();
     const Image image = load_image(input.file);
-    const double decode_seconds = seconds_since(start);
+    PreparedView prepared{{}, {{"decode", seconds_since(start)}}};
     const Camera camera = camera_of(input, image.width, image.height,
                                     {camera_, options_.camera_file, options_.scale_camera});
-    const Se3 from_world = options_.joint ? *input.camera_from_world : Se3{};
-    PreparedImage prepared = naming(input, [&] {
-      return prepare_image(image, camera, from_world, *backend_, options_.pipeline);
+    const Se3 camera_from_world = options_.joint ? *input.camera_from_world : Se3{};
+    prepared.view = naming(input, [&] {
+      return prepare_view(image, camera, camera_from_world, *backend_, options_.pipeline,
+                          &prepared.stages);
     });
-    prepared.stages.insert(prepared.stages.begin(), {"decode", decode_seconds});
     return prepared;
   }
 
@@ -91,18 +91,7 @@ class Preparer {
   std::unique_ptr<Backend> backend_;
 };
 
-ImageResult result_of(const InputImage& input, const PreparedImage& prepared,
-                      const Detections& detections, std::span<const TemplateSet> sets,
-                      const Backend& backend, bool joint) {
-  ImageResult result = begin_result(input, prepared, detections, backend);
-  for (const TemplateSet& set : sets)
-    result.objects.push_back({set.object_id, set.model.mesh.name});
-  result.detections = detections.detections;
-  if (!joint) carry_to_world(result);
-  return result;
-}
-
-// Each is judged, also after one that is missing: what is there must not be another run's.
+// Checks every image, also after one without a result: any existing result must be of this run.
 bool is_done(const Group& group, const BatchOptions& options, const BatchSettings& settings) {
   bool all_done = true;
   for (const InputImage* input : group.images)
@@ -110,35 +99,36 @@ bool is_done(const Group& group, const BatchOptions& options, const BatchSetting
   return all_done;
 }
 
-// The batch behind the preparation: device work group by group.
+// Detects in the prepared groups one after the other and writes their results.
 class Detector {
  public:
   Detector(std::span<const InputImage> images, std::span<const TemplateSet> sets, Backend& backend,
            const BatchOptions& options, const BatchSettings& settings)
       : images_(images), sets_(sets), backend_(backend), options_(options), settings_(settings) {
     for (const TemplateSet& set : sets) models_.push_back(set.model);
+    summary.images = static_cast<int>(images.size());
   }
   void skip(const Group& group) {
     for (const InputImage* input : group.images) summary.finished.insert(input->name);
     summary.skipped += static_cast<int>(group.images.size());
   }
-  void work_on(const Group& group, Prepared prepared) {
-    Group good;
-    std::vector<PreparedImage> usable;
-    for (std::size_t i = 0; i < prepared.images.size(); ++i) {
+  void work_on(const Group& group, PreparedGroup prepared) {
+    Group good{{}, group.views};
+    std::vector<PreparedView> views;
+    for (std::size_t i = 0; i < prepared.views.size(); ++i) {
       if (!prepared.failures[i].empty()) {
         list_failure(*group.images[i], prepared.failures[i]);
         continue;
       }
       good.images.push_back(group.images[i]);
-      usable.push_back(std::move(prepared.images[i]));
+      views.push_back(std::move(prepared.views[i]));
     }
-    if (usable.empty()) return;
-    const std::optional<Detections> found = detect(good, usable);
-    if (found) write(good, usable, *found, group.views);
+    if (views.empty()) return;
+    const std::optional<Detections> found = detect(good, views);
+    if (found) write(good, views, *found);
   }
 
-  // Where no image can be used, the last one's error is that of the request.
+  // If no image can be used, throws the error of the last one.
   void require_any_usable() const {
     if (failed_ > 0 && failed_ == summary.images) throw InputError(last_failure_);
   }
@@ -146,11 +136,17 @@ class Detector {
   BatchSummary summary;
 
  private:
-  // Nothing where the device cannot: an image too large for it.
-  std::optional<Detections> detect(const Group& group, std::span<const PreparedImage> images) {
+  // Returns nothing if the device cannot detect, as in an image too large for it.
+  std::optional<Detections> detect(const Group& group, std::span<const PreparedView> prepared) {
+    std::vector<ObjectView> views;
+    for (const PreparedView& one : prepared) views.push_back(one.view);
     try {
-      return options_.joint ? detect_jointly(images, sets_, backend_, options_.pipeline)
-                            : detect_objects(images[0], sets_, backend_, options_.pipeline);
+      Detections found = options_.joint
+                             ? detect_jointly(views, sets_, backend_, options_.pipeline)
+                             : detect_objects(views[0], sets_, backend_, options_.pipeline);
+      const std::vector<StageSeconds> before = stages_of(prepared);
+      found.stages.insert(found.stages.begin(), before.begin(), before.end());
+      return found;
     } catch (const InputError& error) {
       for (const InputImage* input : group.images)
         list_failure(*input, input->file.string() + ": " + error.what());
@@ -159,25 +155,36 @@ class Detector {
   }
 
   // InputError: a folder that cannot be written.
-  void write(const Group& group, std::span<const PreparedImage> images, const Detections& found,
-             const std::string& views) {
+  void write(const Group& group, std::span<const PreparedView> views, const Detections& found) {
     require_writable_folder(options_.out);
-    // Not before there is something in their place.
+    // Earlier results are removed only when there are new ones.
     if (!options_.resume && summary.finished.empty()) start_anew(options_.out, images_);
     for (const StageSeconds& stage : found.stages)
       summary.stage_seconds[stage.name] += stage.seconds;
-    for (std::size_t i = 0; i < images.size(); ++i) {
+    for (std::size_t i = 0; i < views.size(); ++i) {
       const InputImage& input = *group.images[i];
-      if (options_.overlays) save_overlay(input, images[i], found, models_, backend_, options_.out);
-      ImageResult result = result_of(input, images[i], found, sets_, backend_, options_.joint);
-      result.settings = settings_.of(input, views);
+      const ObjectView& view = views[i].view;
+      if (options_.overlays)
+        save_overlay(input, {models_, {&view, 1}, backend_}, found.detections, options_.out);
+      ImageResult result = result_of(input, view, found);
+      result.settings = settings_.of(input, group.views);
       save_result(result, options_.out, input);
       summary.finished.insert(input.name);
       ++summary.done;
     }
   }
 
-  // The last of a batch where all failed is thrown, not logged.
+  ImageResult result_of(const InputImage& input, const ObjectView& view,
+                        const Detections& found) const {
+    ImageResult result = begin_result(input, view, found, backend_);
+    for (const TemplateSet& set : sets_)
+      result.objects.push_back({set.object_id, set.model.mesh.name});
+    result.detections = found.detections;
+    if (!options_.joint) carry_to_world(result);
+    return result;
+  }
+
+  // If all images fail, the last failure is thrown, not logged.
   void list_failure(const InputImage& input, const std::string& message) {
     summary.failures[input.file.string()] = message;
     last_failure_ = message;
@@ -196,11 +203,11 @@ class Detector {
 
 void work_through(const std::vector<Group>& open, Preparer& preparer, Detector& detector) {
   Progress progress("detect", open.size(), std::cerr, stderr_is_terminal());
-  std::future<Prepared> next;
+  std::future<PreparedGroup> next;
   if (!open.empty())
     next = std::async(std::launch::async, [&] { return preparer.prepare(open[0]); });
   for (std::size_t g = 0; g < open.size(); ++g) {
-    Prepared prepared = next.get();
+    PreparedGroup prepared = next.get();
     if (g + 1 < open.size())
       next = std::async(std::launch::async, [&, g] { return preparer.prepare(open[g + 1]); });
     detector.work_on(open[g], std::move(prepared));
@@ -229,7 +236,6 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
   Preparer preparer(options, settings.camera);
   Detector detector(images, sets, backend, options, settings);
   BatchSummary& summary = detector.summary;
-  summary.images = static_cast<int>(images.size());
   std::vector<Group> open;
   for (Group& group : group_images(images, options.joint, settings)) {
     if (options.resume && is_done(group, options, settings))

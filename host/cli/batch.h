@@ -1,5 +1,5 @@
-// A batch of images on its way through the detector: results on disk as soon as they exist,
-// failures listed, nothing done twice.
+// Runs the detector on a batch of images. Writes each result as soon as it exists, lists failures
+// and can resume.
 #pragma once
 
 #include <filesystem>
@@ -13,26 +13,30 @@ namespace edgescout {
 
 struct BatchOptions {
   std::filesystem::path out;
-  std::string camera_file;  // empty: BOP scenes bring their own
+  std::string camera_file;  // empty: the camera of the BOP scene
   bool scale_camera = false;
   bool resume = false;
   bool joint = false;  // all views of a BOP scene at once
   bool overlays = true;
   PipelineOptions pipeline;
-  Settings settings;  // of the verb, for a resumed batch to compare; models and cameras are added
+  Settings settings;  // of the verb; a resumed batch compares them. Models and cameras are added
 };
 
-// What `joint` asks for. InputError naming the first image without a world pose or given twice: the
-// same view again is no evidence of its own.
+// Checks the requirements of `joint`. InputError naming the first image that has no world pose or
+// is given twice: a repeated view gives no new information.
 void require_joinable(std::span<const InputImage> images);
 
-// Writes into `out`: NAME.json and NAME_overlay.png an image, results.csv (BOP) and summary.json,
-// in place of those of an earlier run on these images: whoever calls has asked
-// require_no_other_results. A bad image is listed and the batch goes on; where all are bad the last
-// one's error is thrown and nothing is written. Any other error ends the batch; results.csv holds
-// what was finished and summary.json the error too. With `resume` images whose result is there are
-// skipped; InputError, and nothing is written, where one of these was made with other models,
-// cameras, views or settings. Another image's result of the same name is none of these.
+// Writes into `out`: NAME.json and NAME_overlay.png for every image, results.csv (BOP) and
+// summary.json. They replace those of an earlier run on these images; call require_no_other_results
+// before.
+//
+// A bad image is listed and the batch continues. If all images are bad, the error of the last one
+// is thrown and nothing is written. Any other error ends the batch: results.csv then holds the
+// finished images, and summary.json also the error.
+//
+// With `resume`, images that have a result are skipped. InputError, and nothing is written: such a
+// result was made with other models, cameras, views or settings. A result of another image under
+// the same name is not skipped but replaced.
 BatchSummary run_batch(std::span<const InputImage> images, std::span<const TemplateSet> sets,
                        Backend& backend, const BatchOptions& options);
 

@@ -21,8 +21,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Whether a file holds JSON that is a result, or that is none; nothing where it is not JSON, as
-// what a disk spoilt.
+// Returns whether a JSON file is a result. Nothing: the file holds no JSON, as after a disk error.
 std::optional<bool> holds_result(const fs::path& file) {
   try {
     return is_image_result(file);
@@ -56,7 +55,7 @@ bool is_done(const fs::path& out, const InputImage& input, const Settings& setti
   try {
     result = load_image_result(file);
   } catch (const InputError&) {
-    return false;  // cut short, of an older format or another file: done again
+    return false;  // truncated, of a format that is not read, or another file: done again
   }
   if (result.image.string() != as_in_json(place_of(input).string()) ||
       result.scene_id != input.scene_id || result.image_id != input.image_id)
@@ -102,13 +101,13 @@ void start_anew(const fs::path& out, std::span<const InputImage> images) {
 
 void write_csv(std::span<const InputImage> images, BatchSummary& summary, const fs::path& out) {
   std::vector<BopResult> rows;
-  summary.lost = 0;
+  summary.out_of_sight = 0;
   for (const InputImage& input : images) {
     if (!summary.finished.contains(input.name)) continue;
     const ImageResult result = load_image_result(json_of(out, input));
     double seconds = 0;
     for (const StageSeconds& stage : result.stages) seconds += stage.seconds;
-    summary.lost += static_cast<int>(
+    summary.out_of_sight += static_cast<int>(
         std::ranges::count(result.detections, OUT_OF_SIGHT, &Detection::convergence));
     for (const Detection& d : result.detections)
       rows.push_back({result.scene_id, result.image_id,
@@ -126,7 +125,7 @@ void write_summary(const BatchSummary& summary, const std::string& device, const
       {"skipped", summary.skipped},
       {"failed", summary.failures.size()},
       {"poses", summary.poses},
-      {"poses_out_of_sight", summary.lost},
+      {"poses_out_of_sight", summary.out_of_sight},
       {"device", device},
       {"seconds", summary.seconds},
       {"images_per_second", summary.seconds > 0 ? summary.done / summary.seconds : 0.0}};
@@ -149,7 +148,7 @@ void write_ended(std::span<const InputImage> images, BatchSummary& summary,
     }
   };
   try_to([&] {
-    require_writable_folder(out);  // not there before the first result
+    require_writable_folder(out);  // the folder does not exist before the first result
     write_csv(images, summary, out);
   });
   try_to([&] { write_summary(summary, device, out); });

@@ -1,5 +1,5 @@
-// What a batch leaves in its folder beside the pictures: NAME.json an image, results.csv over all
-// and summary.json. The JSON files are the memory of a batch that was interrupted.
+// Writes the files of a batch apart from the pictures: NAME.json for every image, results.csv over
+// all images and summary.json. An interrupted batch resumes from the JSON files.
 #pragma once
 
 #include <filesystem>
@@ -16,55 +16,55 @@ namespace edgescout {
 struct BatchSummary {
   int images = 0, done = 0, skipped = 0;
   int poses = 0;                                // in results.csv: of images done and skipped
-  int lost = 0;                                 // of these poses: OUT_OF_SIGHT
+  int out_of_sight = 0;                         // of these poses: OUT_OF_SIGHT
   std::set<std::string> finished;               // names of the images done and skipped
   std::map<std::string, std::string> failures;  // message by file
   std::map<std::string, double> stage_seconds;  // of all images done, by stage
   double seconds = 0;
-  std::string error;  // that ended the batch; empty where none did
+  std::string error;  // the error that ended the batch; empty: none
 };
 
 std::filesystem::path json_of(const std::filesystem::path& out, const InputImage& input);
 std::filesystem::path overlay_of(const std::filesystem::path& out, const InputImage& input);
 
-// Detection::convergence of a pose that no image shows: nothing could be refined.
+// Detection::convergence of a pose that no image shows, so that nothing could be refined.
 inline constexpr const char* OUT_OF_SIGHT = "out of sight";
 
-// Detections of one image alone are found in its camera's frame: into the world, where its pose
-// there is known.
+// Transforms the detections of a single image from the camera frame to the world, if the pose of
+// the camera in the world is known.
 void carry_to_world(ImageResult& result);
 
-// As results name an image: the working folder of a later run may be another.
+// Returns the name of an image in results. It is absolute, since a later run may have another
+// working folder.
 std::filesystem::path place_of(const InputImage& input);
 
-// Whether a whole result of this very image is there, in today's format. InputError where it was
-// made with other settings: it is neither this batch's nor to be lost.
+// Returns whether there is a complete result of this image in a format that is read. InputError:
+// the result was made with other settings. It must neither be used nor be overwritten.
 bool is_done(const std::filesystem::path& out, const InputImage& input, const Settings& settings);
 
-// NAME.json. The log says, for debugging, how many poses there are and how long every stage took.
+// Writes NAME.json. Logs the number of poses and the time of every stage as Debug.
 void save_result(const ImageResult& result, const std::filesystem::path& out,
                  const InputImage& input);
 
-// A batch that is not taken up again leaves no other results beside its own. InputError where the
-// folder holds those of images that are not among these, or something else by the name of a result.
+// To be called for a batch that is not resumed. InputError: the folder has results of images that
+// are not among these, or a file that is no result but has the name of one.
 void require_no_other_results(const std::filesystem::path& out, std::span<const InputImage> images);
-// Removes what an earlier run wrote of these images, where require_no_other_results found nothing
-// else. Other files stay.
+// Removes the files that an earlier run wrote for these images. Other files stay. Call
+// require_no_other_results before.
 void start_anew(const std::filesystem::path& out, std::span<const InputImage> images);
 
-// results.csv, from the JSON files of the images that are finished: those that an earlier run left
-// of others are no results of this one. Its rows, and those out of sight, are counted in the
-// summary.
+// Writes results.csv from the JSON files of the finished images. JSON files that an earlier run
+// left for other images are not used. Counts in the summary the rows and the poses out of sight.
 void write_csv(std::span<const InputImage> images, BatchSummary& summary,
                const std::filesystem::path& out);
 
-// summary.json: counts, throughput, mean time of every stage, failures, the error of a batch that
-// one ended.
+// Writes summary.json: counts, throughput, mean time of every stage, failures, and the error that
+// ended the batch.
 void write_summary(const BatchSummary& summary, const std::string& device,
                    const std::filesystem::path& out);
 
-// Both for a batch that an error ends: those of an earlier run would lie. Failing to write is
-// logged: the error itself is what must be told.
+// Writes both for a batch that an error ends, so that those of an earlier run do not remain. If
+// writing fails, that is logged: the first error is the one to report.
 void write_ended(std::span<const InputImage> images, BatchSummary& summary,
                  const std::string& device, const std::filesystem::path& out);
 

@@ -32,7 +32,7 @@ std::string text_of(const Symmetries& symmetries) {
   return fmt::format("{}, {}", symmetries.discrete.size(), checksum_text(poses.bytes));
 }
 
-// The creases are there already where the model was made.
+// Without the options of the edges: the checksum of the model contains them.
 std::string text_of(const TemplateOptions& o) {
   return fmt::format(
       "frequency {}, latitude {} to {}, longitude {} to {}, {} in-plane steps, {} to {} m in "

@@ -1,6 +1,7 @@
-// What the result of an image is made with beside the image itself: models, options, cameras. It is
-// written with every result, so that a batch that is taken up again tells its own results from
-// those of another run.
+// Describes what the result of an image depends on apart from the image: models, options, cameras.
+//
+// These settings are written with every result. A resumed batch compares them, to recognise results
+// of another run.
 #pragma once
 
 #include <optional>
@@ -14,24 +15,24 @@
 
 namespace edgescout {
 
-// Not the device: what one left undone another may do.
+// The device is not among them: a batch may be resumed on another device.
 struct BatchSettings {
   Settings common;               // of all images
-  std::optional<Camera> camera;  // of all images; absent: each brings its own
+  std::optional<Camera> camera;  // of all images; absent: each image has its own
 
   // `views`: jointly(...), or "alone".
   Settings of(const InputImage& input, const std::string& views) const;
-  // Of images that are worked on together; all have a world pose.
+  // Describes the images of one joint detection. All must have a world pose.
   std::string jointly(const std::vector<const InputImage*>& views) const;
 };
 
 Settings settings_of(std::span<const TemplateSet> sets);
 std::pair<std::string, std::string> setting_of(int object_id, const EdgeModel& model);
 
-// Stands for what is too long to be told.
+// Returns a checksum in place of a value that is too long to be written.
 std::string checksum_text(std::string_view bytes);
 
-// InputError naming `file` and the first setting that differs or that only one side has.
+// InputError naming `file` and the first setting that differs or is missing on one side.
 void require_same(const Settings& found, const Settings& expected, const std::string& file);
 
 }  // namespace edgescout

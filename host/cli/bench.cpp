@@ -1,4 +1,4 @@
-// edgescout bench: the paper's experiments, and the devices found against the CPU.
+// edgescout bench: runs the experiments of the paper, and compares the devices with the CPU.
 #include "host/cli/bench_verbs.h"
 #include "host/cli/verbs.h"
 

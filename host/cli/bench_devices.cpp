@@ -1,4 +1,4 @@
-// edgescout bench devices: every stage on every device found, against the CPU.
+// edgescout bench devices: times every stage on every device and on the CPU.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -25,7 +25,7 @@ struct DevicesRequest {
 void run(DevicesRequest& request, CLI::App& verb) {
   request.options.pipeline.edges.method = edge_method_from_name(request.edge_method);
   request.options.validate();
-  for (const std::string& device : request.options.devices) make_backend(device);  // that is there
+  for (const std::string& device : request.options.devices) make_backend(device);  // it exists
   require_writable_folder(request.out);
   DevicesReport report;
   {
@@ -37,7 +37,7 @@ void run(DevicesRequest& request, CLI::App& verb) {
   report.commit = EDGESCOUT_COMMIT;
   report.settings = settings_of(verb, {"Measurement", "Templates", "Edges", "Tensor", "Detection"});
   for (const std::string& warning : report.warnings) log(LogLevel::Warning, warning);
-  // First, for a disk may have filled up meanwhile.
+  // Printed first, since the disk may be full by now.
   std::cout << devices_markdown(report) << std::flush;
   const std::filesystem::path out = request.out;
   write_file_atomically(out / "devices.json", devices_json(report));

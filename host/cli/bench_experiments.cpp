@@ -1,4 +1,4 @@
-// edgescout bench experiments: every method of the paper's experiments on the same data.
+// edgescout bench experiments: runs every method of the paper's experiments on the same data.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -25,7 +25,7 @@ struct ExperimentsRequest {
   ExperimentSettings settings;  // what was given on the command line
 };
 
-// The numbers that a form sets and an option changes.
+// The numbers that --short or --full sets and an option overrides.
 constexpr std::pair<const char*, int ExperimentSettings::*> SIZES[] = {
     {"scenes", &ExperimentSettings::scenes},
     {"groups", &ExperimentSettings::groups},
@@ -56,7 +56,8 @@ ExperimentSettings settings_of(const ExperimentsRequest& request, const CLI::App
   return settings;
 }
 
-// A bar an experiment. The first call for one says what an earlier run has done of it.
+// One progress bar per experiment. The first call for an experiment gives the cells that an earlier
+// run finished.
 class Bars {
  public:
   void move_to(const std::string& experiment, std::size_t done, std::size_t all) {
@@ -74,7 +75,7 @@ class Bars {
 };
 
 void run(const ExperimentsRequest& request, const CLI::App& verb) {
-  cv::setNumThreads(1);  // cells run side by side, and their times are those of one thread
+  cv::setNumThreads(1);  // cells run in parallel, and their times are those of one thread
   Bars bars;
   ExperimentRun run;
   run.out = request.out;
@@ -144,60 +145,66 @@ void add_method_options(CLI::App& verb, ExperimentsRequest& r) {
                "Of the Huber loss of all but edgescout, px");
 }
 
+void add_run_options(CLI::App& verb, ExperimentsRequest& r) {
+  verb.add_option("names", r.names, "Of the experiments: " + names_text() + "; default: all")
+      ->type_name("NAME");
+  verb.add_option("--out", r.out, "Folder of the results")->required()->type_name("DIR");
+  verb.add_option("--data", r.data,
+                  "Folder with d2co-starts, brackets, cat, triangle and cad; without it rendered "
+                  "images alone")
+      ->type_name("DIR");
+  verb.add_option("--device", r.device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
+      ->capture_default_str();
+  OptionTable(verb, "Run")
+      .flag("resume", r.resume, "Go on where DIR has finished cells of the same settings")
+      .flag("any-commit", r.any_commit,
+            "With --resume: also where these are of another commit; the report lists all of them")
+      .bounded("jobs", r.jobs, 0, 1024,
+               "Cells side by side on a CPU, each with up to 2 GB; 0: as many as it has threads")
+      .bounded("seed", r.settings.seed, 0u, 4000000000u, "Of scenes, starts and candidates")
+      .flag("times,!--no-times", r.settings.times,
+            "Measured times among the rows (default); without, two runs give the same bytes");
+}
+
+// An option of the group Bins with a list of values, separated by commas.
+template <typename T>
+void add_bin_list(CLI::App& verb, const std::string& name, std::vector<T>& list,
+                  const std::string& type_name, const std::string& help) {
+  verb.add_option(name, list, help)
+      ->type_name(type_name)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->group("Bins");
+}
+
+void add_bin_choices(CLI::App& verb, ExperimentSettings& s) {
+  add_bin_list(
+      verb, "--only-bins", s.only_bins, "NUMBER,..",
+      "These, in place of the first --bins and --cad-bins; of a kind that is given as 0 none");
+  add_bin_list(verb, "--searches", s.searches, "NAME,..",
+               "In the bins: of one (type, another from bin to bin), each (type by itself) and "
+               "all (together); "
+               "default: one,all");
+  add_bin_list(verb, "--strategies", s.strategies, "NAME,..",
+               "In the bins: of mi-max, random, dis, fixed (default: these) and clairvoyant, "
+               "which knows "
+               "the scene");
+  OptionTable(verb, "Bins")
+      .bounded("random-draws", s.random_draws, 1, 100,
+               "Of random in a bin: those after the first look once more each, for the mean at two "
+               "views");
+}
+
 }  // namespace
 
 void add_bench_experiments(CLI::App& bench, int& exit_code) {
   CLI::App* verb = bench.add_subcommand(
       "experiments", "Rerun the paper's experiments: tables, plots and every row behind them");
   auto request = std::make_shared<ExperimentsRequest>();
-  verb->add_option("names", request->names,
-                   "Of the experiments: " + names_text() + "; default: all")
-      ->type_name("NAME");
-  verb->add_option("--out", request->out, "Folder of the results")->required()->type_name("DIR");
-  verb->add_option("--data", request->data,
-                   "Folder with d2co-starts, brackets, cat, triangle and cad; without it rendered "
-                   "images alone")
-      ->type_name("DIR");
-  verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
-      ->capture_default_str();
-  OptionTable(*verb, "Run")
-      .flag("resume", request->resume, "Go on where DIR has finished cells of the same settings")
-      .flag("any-commit", request->any_commit,
-            "With --resume: also where these are of another commit; the report lists all of them")
-      .bounded("jobs", request->jobs, 0, 1024,
-               "Cells side by side on a CPU, each with up to 2 GB; 0: as many as it has threads")
-      .bounded("seed", request->settings.seed, 0u, 4000000000u, "Of scenes, starts and candidates")
-      .flag("times,!--no-times", request->settings.times,
-            "Measured times among the rows (default); without, two runs give the same bytes");
+  add_run_options(*verb, *request);
   add_sizes(*verb, *request);
   add_method_options(*verb, *request);
-  verb->add_option(
-          "--only-bins", request->settings.only_bins,
-          "These, in place of the first --bins and --cad-bins; of a kind that is given as 0 none")
-      ->type_name("NUMBER,..")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->group("Bins");
-  verb->add_option("--searches", request->settings.searches,
-                   "In the bins: of one (type, another from bin to bin), each (type by itself) and "
-                   "all (together); "
-                   "default: one,all")
-      ->type_name("NAME,..")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->group("Bins");
-  verb->add_option("--strategies", request->settings.strategies,
-                   "In the bins: of mi-max, random, dis, fixed (default: these) and clairvoyant, "
-                   "which knows "
-                   "the scene")
-      ->type_name("NAME,..")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->group("Bins");
-  OptionTable(*verb, "Bins")
-      .bounded("random-draws", request->settings.random_draws, 1, 100,
-               "Of random in a bin: those after the first look once more each, for the mean at two "
-               "views");
+  add_bin_choices(*verb, request->settings);
   add_bin_options(*verb, request->settings.scout);
   verb->callback([request, verb, &exit_code] {
     run(*request, *verb);

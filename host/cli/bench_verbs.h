@@ -1,4 +1,4 @@
-// The verbs under `edgescout bench`, one file each.
+// The verbs of `edgescout bench`. Each has its own file.
 #pragma once
 
 #include <CLI/CLI.hpp>

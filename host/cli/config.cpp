@@ -58,7 +58,7 @@ class YamlReader {
   YamlReader(std::string source, RunningVerb running)
       : source_(std::move(source)), running_(std::move(running)) {}
 
-  // `depth`: how many verbs' names stand above these keys.
+  // `depth`: number of verbs' names above these keys.
   void read(const YAML::Node& map, std::size_t depth) {
     for (const auto& entry : map) {
       const std::string key = entry.first.as<std::string>();
@@ -79,7 +79,7 @@ class YamlReader {
     if (depth < running_.names.size() && running_.names[depth] == verb) read(section, depth + 1);
   }
 
-  // Keys above the verb's own section reach the verb too: the nearest app that knows the option
+  // Keys above the verb's own section also apply to the verb: the nearest app that has the option
   // takes it.
   void add_item(const std::string& key, const YAML::Node& value, std::size_t depth) {
     std::size_t level = running_.apps.size();
@@ -170,7 +170,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(CLI::App& verb,
     return groups.contains(option->get_group());
   };
   for (CLI::Option* option : verb.get_options(is_row)) {
-    option->capture_default_str();  // of the field, whatever filled it
+    option->capture_default_str();  // the present value of the field
     settings.emplace_back(option->get_lnames().front(), option->get_default_str());
   }
   return settings;

@@ -1,4 +1,4 @@
-// edgescout detect: objects of known CAD models in images, folders of images or BOP scenes.
+// edgescout detect: finds objects of known CAD models in images, folders of images or BOP scenes.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -28,8 +28,8 @@ struct DetectRequest {
   BatchOptions batch;
 };
 
-// The camera that default distances are taken from: that of the first image that can be used. Where
-// none can, the last one's error.
+// Returns the camera from which default distances are computed: that of the first usable image. If
+// no image is usable, throws the error of the last one.
 Camera first_camera(const DetectRequest& request, std::span<const InputImage> images) {
   GivenCamera given{{}, request.batch.camera_file, request.batch.scale_camera};
   if (!given.file.empty()) given.camera = load_camera(given.file);
@@ -44,8 +44,8 @@ Camera first_camera(const DetectRequest& request, std::span<const InputImage> im
   throw InputError("command line", "inputs", "no image", "at least one");
 }
 
-// What can be judged without work is judged first: nothing is written for a request that cannot be
-// met.
+// Makes all cheap checks before it builds templates, so that nothing is written for an invalid
+// request.
 std::vector<TemplateSet> template_sets(const DetectRequest& request,
                                        std::span<const InputImage> images, Backend& backend) {
   const KnownModels known = load_models(request.models);

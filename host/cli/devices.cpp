@@ -1,4 +1,4 @@
-// edgescout devices: which Vulkan devices are there, and which would be taken.
+// edgescout devices: lists the Vulkan devices and the device that --device would use.
 #include <fmt/format.h>
 
 #include <iostream>

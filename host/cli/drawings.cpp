@@ -19,11 +19,11 @@ namespace {
 
 constexpr double PI = std::numbers::pi;
 
-// Where a view stands in the plot of the hemisphere.
+// The place of a view in the plot of the hemisphere.
 struct Place {
   double x, y;
 };
-constexpr double PLOT_RADIUS = 150, PLOT_MIDDLE = 180;  // 90 degrees from the top lie on the radius
+constexpr double PLOT_RADIUS = 150, PLOT_MIDDLE = 180;  // the radius is 90 degrees from the top
 
 Place place_of(const Eigen::Vector3d& direction, const Eigen::Vector3d& above) {
   const Eigen::Vector3d d =
@@ -50,7 +50,7 @@ std::string rings_svg() {
   return svg;
 }
 
-// The way the camera went, image by image.
+// The path of the camera, image by image.
 std::string path_svg(std::span<const DrawnView> views, const std::vector<Place>& places) {
   std::vector<std::pair<int, Place>> stops;
   for (std::size_t v = 0; v < views.size(); ++v)
@@ -97,24 +97,25 @@ std::string colour_bar_svg(double low, double high, const std::string& unit) {
                    low, high, unit);
 }
 
-// Depth of the nearest surface of all members at every pixel.
+// Depth of the nearest surface of all objects at every pixel.
 std::vector<float> surface_of(std::span<const EdgeModel> models,
-                              std::span<const ObjectPose> members, const Camera& camera,
+                              std::span<const DrawnObject> objects, const Camera& camera,
                               const Se3& camera_from_world, ThreadPool& pool) {
   std::vector<TriangleCorners> triangles;
-  for (const ObjectPose& member : members) {
-    const Mesh& mesh = models[static_cast<std::size_t>(member.object)].mesh;
+  for (const ObjectPose& object : objects) {
+    const Mesh& mesh = models[static_cast<std::size_t>(object.object)].mesh;
     for (const auto& corners : mesh.triangles) {
       TriangleCorners t;
-      for (int i = 0; i < 3; ++i) t[i] = member.world_from_object * mesh.vertices_m[corners[i]];
+      for (int i = 0; i < 3; ++i) t[i] = object.world_from_object * mesh.vertices_m[corners[i]];
       triangles.push_back(t);
     }
   }
   return rasterize(triangles, camera, camera_from_world, pool).depth_m;
 }
 
-// Whether a point lies in the image with no surface clearly before it in any of the 3 x 3 pixels
-// around; on a contour the background is among them.
+// Returns whether a point lies in the image and is visible in at least one of the 3 x 3 pixels
+// around it: no surface is clearly in front of it there. On a contour one of these pixels shows the
+// background.
 bool shows(const Eigen::Vector2d& pixel, double z_m, double tolerance_m, const Camera& camera,
            const std::vector<float>& depth_m) {
   const int x = static_cast<int>(std::lround(pixel.x())),
@@ -144,7 +145,7 @@ std::string inline_png(const std::string& png) {
 }
 
 std::string heat_colour(double fraction) {
-  // Viridis, at nine places.
+  // Viridis at nine points.
   constexpr double stops[9][3] = {{68, 1, 84},    {71, 44, 122},  {59, 81, 139},
                                   {44, 113, 142}, {33, 144, 141}, {39, 173, 129},
                                   {92, 200, 99},  {170, 220, 50}, {253, 231, 37}};
@@ -158,7 +159,7 @@ std::string heat_colour(double fraction) {
 }
 
 std::array<std::uint8_t, 3> distinct_colour(int number) {
-  // Hues a golden angle apart, at a lightness that shows on white.
+  // Hues at steps of the golden angle, with a lightness that is visible on white.
   const double hue = std::fmod(210 + 137.508 * number, 360) / 60;
   const auto channel = [&](double offset) {
     const double k = std::fmod(offset + hue, 6);
@@ -177,7 +178,7 @@ std::string hemisphere_svg(std::span<const DrawnView> views, const std::string& 
     low = std::min(low, *view.information);
     high = std::max(high, *view.information);
   }
-  // Where the views look at nothing in common any point shows their order.
+  // If the views look at no common point, any point shows their order.
   const Eigen::Vector3d center_m =
       looked_at_m(poses).value_or(inverse(poses[0]) * Eigen::Vector3d::UnitZ());
   const std::vector<Eigen::Vector3d> directions = directions_to(poses, center_m);
@@ -221,17 +222,17 @@ std::string particles_svg(const std::string& image_id, const Camera& camera,
   return svg + "</svg>";
 }
 
-RgbImage edge_map(std::span<const EdgeModel> models, std::span<const ObjectPose> members,
-                  std::span<const int> colours, const Camera& camera, const Se3& camera_from_world,
-                  int width_px, Backend& backend) {
-  const Camera small = scaled(camera, std::min(1.0, static_cast<double>(width_px) / camera.width));
+RgbImage edge_map(std::span<const EdgeModel> models, std::span<const DrawnObject> objects,
+                  const ObjectView& view, int width_px, Backend& backend) {
+  const Camera small =
+      scaled(view.camera, std::min(1.0, static_cast<double>(width_px) / view.camera.width));
   const std::vector<float> depth_m =
-      surface_of(models, members, small, camera_from_world, backend.threads());
+      surface_of(models, objects, small, view.camera_from_world, backend.threads());
   cv::Mat canvas(small.height, small.width, CV_8UC3, cv::Scalar(255, 255, 255));
-  for (std::size_t m = 0; m < members.size(); ++m) {
-    const EdgeModel& model = models[static_cast<std::size_t>(members[m].object)];
-    const Se3 camera_from_object = camera_from_world * members[m].world_from_object;
-    const auto [r, g, b] = distinct_colour(colours[m]);
+  for (const DrawnObject& object : objects) {
+    const EdgeModel& model = models[static_cast<std::size_t>(object.object)];
+    const Se3 camera_from_object = view.camera_from_world * object.world_from_object;
+    const auto [r, g, b] = distinct_colour(object.colour);
     const std::vector<ModelPoint> points =
         visible_edges(model, {&camera_from_object, 1}, backend)[0];
     for (const ModelPoint& point : points) {

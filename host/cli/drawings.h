@@ -1,5 +1,4 @@
-// Pictures of an active detection as text that stands in an HTML page by itself: SVG, and PNG in
-// base64.
+// Draws the pictures of an active detection as text for an HTML page: SVG, and PNG in base64.
 #pragma once
 
 #include <array>
@@ -11,47 +10,49 @@
 
 #include "host/io/image.h"
 #include "host/model/edge_model.h"
-#include "host/register/d2co.h"
+#include "host/register/object_view.h"
 
 namespace edgescout {
-
-class Backend;
 
 // "data:image/png;base64,..."
 std::string inline_png(const std::string& png);
 
-// "#rrggbb"; 0 dark blue, 1 yellow, of even steps to the eye and readable in grey.
+// "#rrggbb", from dark blue at 0 to yellow at 1. Equal steps look equal, also in grey.
 std::string heat_colour(double fraction);
-// Colours that can be told apart, for things numbered 0, 1 ..
+// A colour of its own for each of the numbers 0, 1 ..
 std::array<std::uint8_t, 3> distinct_colour(int number);
 
 struct DrawnView {
   Se3 camera_from_world;
-  std::optional<double> information;  // absent: not judged
-  int taken = 0;                      // 1, 2 ..: the image taken from there; 0: none
+  std::optional<double> information;  // absent: not computed
+  int taken = 0;                      // number of the image taken from there, 1, 2 ..; 0: none
   bool unreachable = false;
-  bool chosen = false;  // now
+  bool chosen = false;  // in this step
 };
-// The views' directions from what they look at, seen from above (direction_above, active/views.h;
-// +z where there is none): the middle is straight up, each ring 30 degrees lower. Coloured by
-// information, which is in `unit`.
+// Draws the directions of the views from the point that they look at, seen from above
+// (direction_above of active/views.h, else +z): the middle is straight up, each ring 30 degrees
+// lower. The colour is the information, in `unit`.
 std::string hemisphere_svg(std::span<const DrawnView> views, const std::string& unit);
 
 struct DrawnParticle {
   int object = 0;
   Se3 camera_from_object;
-  double weight = 0;  // of all particles: sums to 1
+  double weight = 0;  // the weights of all particles sum to 1
 };
-// Over the image with this id in the page: each particle a place and the object's x and y axes,
-// darker the heavier.
+// Draws particles over the image with this id in the page: each as a point with the object's x and
+// y axes; heavier particles are more opaque.
 std::string particles_svg(const std::string& image_id, const Camera& camera,
                           std::span<const DrawnParticle> particles,
                           std::span<const EdgeModel> models);
 
-// The edges a scene made of these objects would show, hidden ones removed, each object in its
-// colour; at most `width_px` wide.
-RgbImage edge_map(std::span<const EdgeModel> models, std::span<const ObjectPose> members,
-                  std::span<const int> colours, const Camera& camera, const Se3& camera_from_world,
-                  int width_px, Backend& backend);
+// An object of an edge map and the number of its colour (distinct_colour).
+struct DrawnObject : ObjectPose {
+  int colour = 0;
+};
+// Draws the edges of all objects as the camera of `view` would see them, each object in its colour.
+// Edges that one of the objects hides are left out. At most `width_px` wide. Of `view` only the
+// camera and its pose are used.
+RgbImage edge_map(std::span<const EdgeModel> models, std::span<const DrawnObject> objects,
+                  const ObjectView& view, int width_px, Backend& backend);
 
 }  // namespace edgescout

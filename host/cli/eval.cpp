@@ -1,4 +1,4 @@
-// edgescout eval: how good the poses of a BOP results CSV are.
+// edgescout eval: evaluates the poses of a BOP results CSV.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -56,7 +56,7 @@ std::vector<BopScene> load_scenes(const std::vector<std::string>& arguments) {
   return scenes;
 }
 
-// BOP keeps the images' size nowhere but in the images.
+// The size of BOP images is only known from the images.
 void read_image_sizes(BopScene& scene) {
   for (BopImage& image : scene.images) {
     const Image pixels = load_image(image.file);
@@ -65,7 +65,7 @@ void read_image_sizes(BopScene& scene) {
   }
 }
 
-// Said here and not by the evaluation, which does not know the file's name.
+// Checked here, since the evaluation does not know the file's name.
 void require_images(const BopScene& scene, std::span<const BopResult> results,
                     const std::string& file) {
   std::set<int> ids;
@@ -104,20 +104,20 @@ struct Evaluation {
   std::set<int> left_out;  // objects of the scenes without a model here
 };
 
-// Truths and estimates of objects without a model say nothing of the others. Returns their ids.
-// InputError: an estimate of an object that is not in the scenes either, no object of the scenes
-// has a model.
+// Removes the truths and estimates of objects without a model. Returns their ids. InputError: no
+// object of the scenes has a model; an estimate of an object that has no model and is not in the
+// scenes.
 std::set<int> leave_out_others(std::vector<EvaluationImage>& images,
                                const std::map<int, Object>& objects, const EvalRequest& request) {
   std::set<int> left_out;
-  std::size_t judged = 0;
+  std::size_t evaluated = 0;
   for (const EvaluationImage& image : images)
     for (const BopTruth& truth : image.truth)
       if (objects.contains(truth.object_id))
-        ++judged;
+        ++evaluated;
       else
         left_out.insert(truth.object_id);
-  if (judged == 0 && !left_out.empty())
+  if (evaluated == 0 && !left_out.empty())
     throw InputError("command line", "--model", "none of the scenes' objects",
                      fmt::format("one of obj_id {} (--object-id says which a file is)",
                                  fmt::join(left_out, ", ")));
@@ -180,7 +180,7 @@ void save_json(const Evaluation& evaluation, const EvalRequest& request) {
   write_file_atomically(request.json_file, json_text(root));
 }
 
-// What the figures leave out.
+// Prints what the figures do not contain.
 void print_limits(const Evaluation& evaluation, const EvalRequest& request) {
   if (!evaluation.left_out.empty())
     std::cout << fmt::format(

@@ -27,7 +27,7 @@ bool has_image_extension(const fs::path& file) {
   return known.contains(extension);
 }
 
-// What cannot be looked at is none.
+// A path that cannot be examined is no folder.
 bool is_folder(const fs::path& path) {
   std::error_code unknown;
   return fs::is_directory(path, unknown);

@@ -1,4 +1,4 @@
-// What a user names on the command line as input, as a list of images; and the models to look for.
+// Reads the inputs that the command line names: images, cameras and models.
 #pragma once
 
 #include <filesystem>
@@ -20,26 +20,26 @@ struct InputImage {
   int image_id = 0;
   std::optional<Camera> camera;  // of a BOP scene; size 0 x 0 until the image is read
   std::optional<Se3> camera_from_world;
-  // A name no other image of the batch has, for its result files: "000001_000012" in a BOP scene,
-  // else the file's stem (made unique by a number).
+  // The name of its result files, unique in the batch: "000001_000012" in a BOP scene, else the
+  // file's stem (with a number if needed).
   std::string name;
 };
 
 // Each argument is an image, a BOP scene folder (has scene_camera.json), a folder of such scenes,
-// or a folder of images (png, jpg, jpeg, pgm, ppm, bmp, tif, tiff; sorted by name). InputError
-// where one is none of these or holds no image.
+// or a folder of images (png, jpg, jpeg, pgm, ppm, bmp, tif, tiff; sorted by name). InputError: an
+// argument is none of these or has no image.
 std::vector<InputImage> list_images(const std::vector<std::string>& arguments);
 
-// What is worked on together: every image alone, or `by_scene` all of a scene that follow each
-// other.
+// Divides the images into groups of one, or with `by_scene` into the consecutive images of each
+// scene.
 std::vector<std::span<const InputImage>> groups_of(std::span<const InputImage> images,
                                                    bool by_scene);
 
-// Results among images that a scene does not list would be taken for images the next time.
-// InputError where `out` is the folder of one.
+// InputError: `out` is the folder of an image that belongs to no scene. The next run would read
+// result pictures as images.
 void require_other_folder(std::span<const InputImage> images, const std::filesystem::path& out);
 
-// What `work` makes of the image. Its InputErrors know no file: they get this one's name.
+// Returns the result of `work`. Adds the image's file name to its InputErrors.
 template <typename Work>
 auto naming(const InputImage& image, Work work) {
   try {
@@ -51,27 +51,27 @@ auto naming(const InputImage& image, Work work) {
 
 // A calibration that the user gives for all images.
 struct GivenCamera {
-  std::optional<Camera> camera;  // absent: BOP scenes bring their own
+  std::optional<Camera> camera;  // absent: the camera of the BOP scene
   std::string file;
   bool may_scale = false;  // to images of another size
 };
-// Warns of a calibration of unknown size, which fits images of every size and may be wrong for
-// most.
+// Warns of a calibration without image size: it is accepted for images of every size, but may be
+// wrong for most.
 void warn_of_unknown_size(const GivenCamera& given);
 
-// Of an image of this size. InputError naming the image and its calibration: there is none, one
-// that does not fit.
+// Returns the camera of an image of this size. InputError naming the image and its calibration:
+// there is none, or it does not fit.
 Camera camera_of(const InputImage& image, int width, int height, const GivenCamera& given);
 
 struct ModelArguments {
   std::vector<std::string> models;  // mesh files
   std::string unit;
   std::string models_info;  // BOP models_info.json; empty: no symmetries
-  // of the models; empty: the number at the end of the file's name, else 1, 2 ..
+  // One per model. Empty: the number at the end of the file's name, else 1, 2 ..
   std::vector<int> object_ids;
   std::vector<std::string> templates;  // template files, in place of models
 };
-// Surfaces of revolution are sampled in `continuous_steps` turns.
+// Continuous symmetries are sampled in `continuous_steps` steps.
 std::vector<Object> load_objects(const ModelArguments& arguments,
                                  int continuous_steps = DETECTION_SYMMETRY_STEPS);
 

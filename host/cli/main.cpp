@@ -1,4 +1,4 @@
-// edgescout VERB: dispatches, and turns every exception into one line and an exit code.
+// edgescout VERB: runs the verb and turns every exception into one line and an exit code.
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -47,7 +47,7 @@ int fail(const std::string& message, ExitCode code) {
   return code;
 }
 
-// CLI11 only says that a verb is missing, even where one was given but misspelt.
+// CLI11 reports a missing verb even if the verb is misspelt.
 std::string explanation(const CLI::ParseError& error, const CLI::App& app) {
   const std::vector<std::string> unknown = app.remaining();
   if (!app.get_subcommands().empty() || unknown.empty()) return error.what();
@@ -61,7 +61,7 @@ int run(int argc, char** argv) {
   CLI::App app{"Finds textureless rigid objects in grey images from their CAD models", "edgescout"};
   app.set_version_flag("--version", "edgescout " EDGESCOUT_VERSION);
   app.require_subcommand(1);
-  app.fallthrough();  // the program's own options may stand behind the verb too
+  app.fallthrough();  // the program's own options may also follow the verb
   add_yaml_config(app);
   add_log_level(app);
   int exit_code = exit_internal_error;
@@ -109,7 +109,7 @@ int run_and_catch(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ,
-              SIG_IGN);  // a file-size limit is then an error of write(), told like a full disk
+              SIG_IGN);  // a file-size limit is then an error of write(), as a full disk is
   edgescout::send_log_to_stderr();
   return edgescout::run_and_catch(argc, argv);
 }

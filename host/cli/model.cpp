@@ -1,4 +1,4 @@
-// edgescout model: what is in a CAD file; its other verbs have files of their own.
+// edgescout model: prints the properties of a CAD file. Its other verbs have their own files.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -17,8 +17,8 @@ namespace {
 
 struct EdgeCounts {
   std::size_t all = 0;
-  std::size_t open = 0;          // of one triangle: the border of a surface that is not closed
-  std::size_t non_manifold = 0;  // of more than two
+  std::size_t open = 0;          // with one triangle: the border of an open surface
+  std::size_t non_manifold = 0;  // with more than two triangles
 };
 
 EdgeCounts count_edges(const Mesh& mesh) {
@@ -69,7 +69,7 @@ struct InspectOptions {
   bool as_json = false;
 };
 
-// Reads every file before it prints, so that a bad one leaves nothing half said.
+// Reads every file before it prints, so that a bad file gives no partial output.
 void inspect(const InspectOptions& options) {
   const LengthUnit unit = length_unit(options.unit);
   std::vector<Mesh> meshes;

@@ -1,4 +1,4 @@
-// edgescout model build: a template file from a CAD file.
+// edgescout model build: makes a template file from a CAD file.
 #include <fmt/format.h>
 
 #include <iostream>

@@ -1,4 +1,4 @@
-// edgescout model draw: what the detector looks for, as a picture.
+// edgescout model draw: draws the edges that the detector compares with an image.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 #include "host/cli/exit_codes.h"
 #include "host/cli/model_verbs.h"
 #include "host/io/mesh.h"
-#include "host/io/overlay.h"
 #include "host/model/template_set.h"
+#include "host/overlay.h"
 #include "kernels/backend.h"
 #include "kernels/error.h"
 
@@ -25,7 +25,7 @@ struct DrawRequest {
   EdgeModelOptions edges;
 };
 
-// Where the object is looked at from, and how far away.
+// The viewpoints of the pictures and their distance from the object.
 struct Viewpoints {
   std::vector<Eigen::Quaterniond> camera_from_object;
   double distance_m = 0;
@@ -63,8 +63,8 @@ RgbImage draw_tile(const EdgeModel& model, const Eigen::Quaterniond& camera_from
                     std::vector<std::uint8_t>(static_cast<std::size_t>(size) * size, 0)};
   Camera camera;
   camera.width = camera.height = size;
-  // The bounding sphere's outline, a little wider than its radius for the perspective, fills 94 %
-  // of the tile.
+  // The outline of the bounding sphere fills 94 % of the tile. Perspective makes it a little wider
+  // than the sphere's radius.
   const double outline =
       model.radius_m / std::sqrt(distance_m * distance_m - model.radius_m * model.radius_m);
   camera.fx = camera.fy = 0.47 * size / outline;

@@ -1,4 +1,4 @@
-// The verbs under `edgescout model`, one file each.
+// The verbs of `edgescout model`. Each has its own file.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// How the page of an active detection looks.
+// The style sheet of the page of an active detection.
 #pragma once
 
 namespace edgescout {

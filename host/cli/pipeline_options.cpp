@@ -97,7 +97,9 @@ void add_detection_options(CLI::App& verb, PipelineOptions& o) {
                "reach further the less probable is doubted");
 }
 
-void add_belief_options(CLI::App& verb, ScoutOptions& o) {
+namespace {
+
+void add_information_options(CLI::App& verb, ScoutOptions& o) {
   OptionTable(verb, "Information")
       .bounded("map-reduction", o.next_view.reduction, 1.0, 16.0,
                "Image px that one px of the distance maps covers, along each axis")
@@ -128,6 +130,12 @@ void add_belief_options(CLI::App& verb, ScoutOptions& o) {
       .flag("scenes-by-probability,!--scenes-by-psi", o.probable_combinations,
             "Imagine scenes as often as they are believed in (default), or as in the paper's "
             "Algorithm 1");
+}
+
+}  // namespace
+
+void add_belief_options(CLI::App& verb, ScoutOptions& o) {
+  add_information_options(verb, o);
   OptionTable(verb, "Belief")
       .bounded("sigma", o.next_view.sigma_px, 0.001, 1000.0,
                "Standard deviation of the mean distance of a right pose, image px, in weights and "

@@ -59,7 +59,7 @@ std::string Progress::line() const {
         " s left";
   if (!on_terminal_) return title_ + ": " + counts + rest;
   const std::size_t filled = bar_width * done_ / total_;
-  // Return, the new text, and clear what an older, longer text left on the line.
+  // Goes to the start of the line, writes the text and clears the rest of an older, longer text.
   return "\r" + title_ + " [" + std::string(filled, '#') + std::string(bar_width - filled, '.') +
          "] " + counts + rest + "\x1b[K";
 }

@@ -1,4 +1,4 @@
-// How far a long job is: a bar on a terminal, a plain line at every tenth otherwise.
+// Shows the progress of a long job: as a bar on a terminal, otherwise as one line per tenth.
 #pragma once
 
 #include <chrono>
@@ -8,13 +8,13 @@
 
 namespace edgescout {
 
-// True where standard error is a terminal.
+// Returns whether standard error is a terminal.
 bool stderr_is_terminal();
 
-// May be stepped from several threads.
+// Its functions may be called from several threads.
 class Progress {
  public:
-  // `done_before`: what an earlier run left done, which took none of this one's time.
+  // `done_before`: the part that an earlier run finished. It does not count for the remaining time.
   Progress(std::string title, std::size_t total, std::ostream& out, bool on_terminal,
            std::size_t done_before = 0);
   Progress(const Progress&) = delete;
@@ -22,7 +22,7 @@ class Progress {
   ~Progress();  // ends the bar's line
 
   void step(std::size_t count = 1);
-  void move_to(std::size_t done);  // never backwards
+  void move_to(std::size_t done);  // a smaller value is ignored
 
  private:
   void draw();

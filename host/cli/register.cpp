@@ -1,4 +1,4 @@
-// edgescout register: refines given poses, of any origin, in one view or over all views of a scene.
+// edgescout register: refines given poses of any origin, in one view or over all views of a scene.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -43,7 +43,7 @@ std::vector<RegisterModel> load_models(const RegisterRequest& request) {
   return models;
 }
 
-// What a run writes anew must not be what it starts from.
+// The file of start poses must not be one that the run overwrites.
 void require_safe_starts(const RegisterRequest& request) {
   namespace fs = std::filesystem;
   std::error_code not_there;
@@ -75,9 +75,9 @@ int register_all(RegisterRequest& request) {
       "{} poses in {} images refined on {}, {} out of sight, {} images skipped, {} failed in "
       "{:.1f} s; "
       "results in {}\n",
-      summary.refined, summary.done, backend->name(), summary.lost, summary.skipped,
+      summary.refined, summary.done, backend->name(), summary.out_of_sight, summary.skipped,
       summary.images - summary.done - summary.skipped, summary.seconds, request.out);
-  return summary.failures.empty() && summary.lost == 0 ? exit_done : exit_some_failed;
+  return summary.failures.empty() && summary.out_of_sight == 0 ? exit_done : exit_some_failed;
 }
 
 void add_files(CLI::App& verb, RegisterRequest& request) {

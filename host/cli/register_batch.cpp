@@ -21,7 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// The images that starts were given in: those that get a result of their own.
+// The views in which starts were given. Each of them gets a result.
 std::vector<std::size_t> views_with_starts(const RegisterJob& job) {
   std::vector<std::size_t> views;
   for (std::size_t view = 0; view < job.views.size(); ++view)
@@ -62,7 +62,7 @@ std::vector<InputImage> all_views(std::span<const RegisterJob> jobs) {
   return views;
 }
 
-// The batch job by job.
+// Runs the jobs of a batch one after the other.
 class Registrar {
  public:
   Registrar(std::vector<InputImage> views, std::span<const RegisterModel> models, Backend& backend,
@@ -75,7 +75,7 @@ class Registrar {
     for (const RegisterModel& model : models) edge_models_.push_back(model.edges);
   }
 
-  // Each is judged, also after one that is missing: what is there must not be another run's.
+  // Checks every view, also after one without a result: any existing result must be of this run.
   bool is_done(const RegisterJob& job) const {
     bool all_done = true;
     for (std::size_t view : views_with_starts(job))
@@ -94,10 +94,11 @@ class Registrar {
   void write(const ReadyJob& ready, const Detections& found) {
     const RegisterJob& job = *ready.job;
     require_writable_folder(options_.out);
-    // Not before there is something in their place.
+    // Earlier results are removed only when there are new ones.
     if (!options_.resume && summary.finished.empty()) start_anew(options_.out, views_);
     for (std::size_t view = 0; options_.overlays && view < job.views.size(); ++view)
-      save_overlay(job.views[view], ready.views[view], found, edge_models_, backend_, options_.out);
+      save_overlay(job.views[view], {edge_models_, {&ready.views[view].view, 1}, backend_},
+                   found.detections, options_.out);
     for (std::size_t view : views_with_starts(job)) {
       ImageResult result = result_of(ready, view, found, models_, backend_);
       result.settings = settings_of_view(job, view);
@@ -142,7 +143,7 @@ std::vector<InputImage> images_of(std::span<const RegisterJob> jobs) {
   return images;
 }
 
-// Judged before any work: a result of another run ends the batch.
+// Existing results are checked before any work: a result of another run ends the batch.
 std::vector<const RegisterJob*> skip_done(std::span<const RegisterJob> jobs, Registrar& registrar,
                                           bool resume) {
   std::vector<const RegisterJob*> open;
@@ -186,18 +187,18 @@ RegisterSummary run_register(std::span<const RegisterJob> jobs,
   require_writable_place(options.out);
   if (!options.resume) require_no_other_results(options.out, all_views(jobs));
   warn_of_unknown_size({options.camera, options.camera_file, options.scale_camera});
-  const auto write_with = [&](const std::exception& error) {
+  const auto write_summary_of = [&](const std::exception& error) {
     summary.error = error.what();
     summary.seconds = seconds_since(start);
     write_ended(images, summary, backend.name(), options.out);
   };
   try {
     work_through(open, registrar);
-  } catch (const InputError& error) {  // where no image can be used nothing is written
-    if (!summary.finished.empty()) write_with(error);
+  } catch (const InputError& error) {  // if no image can be used, nothing is written
+    if (!summary.finished.empty()) write_summary_of(error);
     throw;
   } catch (const std::exception& error) {
-    if (std::filesystem::exists(options.out)) write_with(error);
+    if (std::filesystem::exists(options.out)) write_summary_of(error);
     throw;
   }
   summary.seconds = seconds_since(start);

@@ -1,5 +1,5 @@
-// Start poses on their way through the registration, one image or one scene of views at a time:
-// results on disk as soon as they exist.
+// Runs the registration of start poses, one image or one scene of views at a time. Writes each
+// result as soon as it exists.
 #pragma once
 
 #include <filesystem>
@@ -16,14 +16,14 @@ namespace edgescout {
 
 struct RegisterOptions {
   std::filesystem::path out;
-  std::optional<Camera> camera;  // absent: BOP scenes bring their own
+  std::optional<Camera> camera;  // absent: the camera of the BOP scene
   std::string camera_file;
   bool scale_camera = false;
   bool resume = false;
   bool overlays = true;
-  PipelineOptions pipeline;  // edges and tensor of it
+  PipelineOptions pipeline;  // only its edges and tensor are used
   RefineOptions refine;
-  Settings settings;  // see BatchOptions; models, cameras and starts are added
+  Settings settings;  // of the verb, as in BatchOptions; models, cameras and starts are added
 };
 
 struct RegisterModel {
@@ -31,8 +31,8 @@ struct RegisterModel {
   EdgeModel edges;
 };
 
-// What is registered together: the views, and the starts with the view that each was given in. One
-// view: its camera frame is the world. Several: all must have a world pose.
+// One registration: the views, and the starts with the view in which each was given. With one view
+// its camera frame is the world. With several views all must have a world pose.
 struct RegisterJob {
   std::vector<InputImage> views;
   struct Start {
@@ -43,28 +43,32 @@ struct RegisterJob {
   std::vector<Start> starts;
 };
 
-// One job an image, or a BOP scene with `multi_view`, in the order of the images; images without
-// starts are left out of single views. `poses_file` appears in errors. InputError: a start for an
-// image or an object that is not there, for more than one image, or with its object behind the
-// camera; no start that fits the images' scenes; a view without world pose. Starts of other scenes
-// are passed over.
+// Makes one job per image, or with `multi_view` one per BOP scene, in the order of the images. Jobs
+// without starts are left out. Starts of other scenes are ignored. `poses_file` appears in errors.
+// InputError: a start for an image or an object that is not given, for more than one image, or with
+// its object behind the camera; no start for the scenes of the images; a view without world pose in
+// a job of several views.
 std::vector<RegisterJob> make_jobs(std::span<const InputImage> images,
                                    std::span<const RegisterModel> models,
                                    std::span<const StartPose> poses, bool multi_view,
                                    const std::string& poses_file);
 
 struct RegisterSummary : BatchSummary {  // images: those with starts
-  int refined = 0;                       // poses, now
+  int refined = 0;                       // poses refined in this run
 };
 
-// Writes into `out`: NAME.json for every image with starts, its detections in the order of the
-// starts; NAME_overlay.png of every view; and at the end, also one by any other error, results.csv
-// with one row a start and summary.json; of earlier results as run_batch. A pose that no image
-// shows gets probability 0 and OUT_OF_SIGHT, and is warned of. A job with a bad image is listed and
-// the batch goes on. Where all jobs fail the last one's error is thrown and nothing is written.
-// With `resume`, jobs whose results are there are skipped; InputError, and nothing is written,
-// where one of these was made with other models, cameras, views, starts or settings. Another
-// image's result of the same name is none of these.
+// Writes into `out`: NAME.json for every image with starts, with its detections in the order of the
+// starts; NAME_overlay.png for every view; at the end results.csv, with one row per start, and
+// summary.json. Earlier results are handled as in run_batch. A pose that no image shows gets
+// probability 0 and OUT_OF_SIGHT, and a warning is logged.
+//
+// A job with a bad image is listed and the batch continues. If all jobs fail, the error of the last
+// one is thrown and nothing is written. Any other error ends the batch; results.csv and
+// summary.json are written all the same.
+//
+// With `resume`, jobs that have results are skipped. InputError, and nothing is written: such a
+// result was made with other models, cameras, views, starts or settings. A result of another image
+// under the same name is not skipped but replaced.
 RegisterSummary run_register(std::span<const RegisterJob> jobs,
                              std::span<const RegisterModel> models, Backend& backend,
                              const RegisterOptions& options);

@@ -4,33 +4,35 @@
 
 #include <algorithm>
 
-#include "host/cli/view_results.h"
 #include "host/core/log.h"
 #include "host/core/stopwatch.h"
-#include "host/detect/observation.h"
 #include "host/io/image.h"
+#include "host/register/pose_classifier.h"
 
 namespace edgescout {
 
 namespace {
 
-PreparedImage prepare_view(const InputImage& input, bool is_alone, Backend& backend,
-                           const RegisterOptions& options) {
+PreparedView prepare(const InputImage& input, bool is_single, Backend& backend,
+                     const RegisterOptions& options) {
   const Image image = load_image(input.file);
   const Camera camera = camera_of(input, image.width, image.height,
                                   {options.camera, options.camera_file, options.scale_camera});
-  const Se3 camera_from_world = is_alone ? Se3{} : *input.camera_from_world;
-  return naming(input, [&] {
-    return prepare_image(image, camera, camera_from_world, backend, options.pipeline);
+  const Se3 camera_from_world = is_single ? Se3{} : *input.camera_from_world;
+  PreparedView prepared;
+  prepared.view = naming(input, [&] {
+    return prepare_view(image, camera, camera_from_world, backend, options.pipeline,
+                        &prepared.stages);
   });
+  return prepared;
 }
 
-// Of the smallest object as the starts have it in this view; the image's size where none is in
-// front of it.
-double smallest_size_px(const ReadyJob& ready, const PreparedImage& view,
+// Returns the size in this view of the smallest object at its start; the image's size if all
+// objects are behind the camera.
+double smallest_size_px(std::span<const ObjectPose> starts, const ObjectView& view,
                         std::span<const RegisterModel> models) {
   double smallest = std::max(view.camera.width, view.camera.height);
-  for (const ObjectPose& start : ready.starts) {
+  for (const ObjectPose& start : starts) {
     const EdgeModel& model = models[static_cast<std::size_t>(start.object)].edges;
     const double depth_m =
         (view.camera_from_world * (start.world_from_object * model.center_m)).z();
@@ -40,8 +42,9 @@ double smallest_size_px(const ReadyJob& ready, const PreparedImage& view,
   return smallest;
 }
 
-// Whether the object's bounding sphere does, which looks longer the farther from the axis it is.
-bool reaches_into(const PreparedImage& view, const EdgeModel& model, const Se3& world_from_object) {
+// Returns whether the object's bounding sphere reaches into the image. Its projection is longer the
+// farther it is from the optical axis.
+bool reaches_into(const ObjectView& view, const EdgeModel& model, const Se3& world_from_object) {
   const Camera& camera = view.camera;
   const Eigen::Vector3d center_m = view.camera_from_world * (world_from_object * model.center_m);
   if (!(center_m.z() > 0)) return false;
@@ -52,18 +55,17 @@ bool reaches_into(const PreparedImage& view, const EdgeModel& model, const Se3& 
          center_px.y() > -radius_px && center_px.y() < camera.height + radius_px;
 }
 
-// What starts outside of every image is drawn to anything inside, however far away; what is a speck
-// fits everywhere.
-bool is_out_of_sight(const ReadyJob& ready, const ObjectPose& start, const EdgeModel& model,
-                     const PoseFeatures& refined) {
-  constexpr double least_px = 20;  // of visible edges, in all images together
-  return refined.length_px < least_px ||
-         std::ranges::none_of(ready.views, [&](const PreparedImage& view) {
+// A start outside of every image could be registered to any edge, however far away. An object of a
+// few pixels fits everywhere.
+bool is_out_of_sight(std::span<const ObjectView> views, const ObjectPose& start,
+                     const EdgeModel& model, const PoseFeatures& refined) {
+  constexpr double least_px = 20;  // of visible edges, summed over all images
+  return refined.length_px < least_px || std::ranges::none_of(views, [&](const ObjectView& view) {
            return reaches_into(view, model, start.world_from_object);
          });
 }
 
-void tell_out_of_sight(const ReadyJob& ready, std::size_t start, const RegisterModel& model) {
+void warn_of_out_of_sight(const ReadyJob& ready, std::size_t start, const RegisterModel& model) {
   const InputImage& input = ready.job->views[ready.job->starts[start].view];
   log(LogLevel::Warning, fmt::format("{}: object {}: found a start that no image shows, expected "
                                      "one in sight (lengths are in mm "
@@ -71,14 +73,26 @@ void tell_out_of_sight(const ReadyJob& ready, std::size_t start, const RegisterM
                                      input.file.string(), model.object_id));
 }
 
+std::vector<ObjectView> views_with_tensors(const ReadyJob& ready,
+                                           std::span<const RegisterModel> models, Backend& backend,
+                                           const TensorOptions& options) {
+  std::vector<ObjectView> views;
+  for (std::size_t i = 0; i < ready.views.size(); ++i) {
+    ObjectView& view = views.emplace_back(ready.views[i].view);
+    const double reduction = reduction_for(smallest_size_px(ready.starts, view, models));
+    naming(ready.job->views[i], [&] { add_tensors(view, reduction, backend, options); });
+  }
+  return views;
+}
+
 }  // namespace
 
 ReadyJob prepare_job(const RegisterJob& job, Backend& backend, const RegisterOptions& options) {
   ReadyJob ready{&job, {}, {}};
   for (const InputImage& view : job.views)
-    ready.views.push_back(prepare_view(view, job.views.size() == 1, backend, options));
+    ready.views.push_back(prepare(view, job.views.size() == 1, backend, options));
   for (const RegisterJob::Start& start : job.starts)
-    ready.starts.push_back({start.model, inverse(ready.views[start.view].camera_from_world) *
+    ready.starts.push_back({start.model, inverse(ready.views[start.view].view.camera_from_world) *
                                              start.camera_from_object});
   return ready;
 }
@@ -87,38 +101,29 @@ Detections refine_job(const ReadyJob& ready, std::span<const RegisterModel> mode
                       std::span<const EdgeModel> edge_models, Backend& backend,
                       const RegisterOptions& options) {
   Detections result;
-  for (const PreparedImage& view : ready.views)
-    result.stages.insert(result.stages.end(), view.stages.begin(), view.stages.end());
+  result.stages = stages_of(ready.views);
   Stopwatch watch(result.stages);
-  std::vector<RegisterView> views;
-  for (std::size_t i = 0; i < ready.views.size(); ++i) {
-    const PreparedImage& view = ready.views[i];
-    const double reduction = reduction_for(smallest_size_px(ready, view, models));
-    views.push_back(naming(ready.job->views[i], [&] {
-                      return observe(view.image, view.camera, view.camera_from_world, view.edges,
-                                     reduction, options.pipeline.tensor, backend);
-                    }).view);
-  }
+  const std::vector<ObjectView> views =
+      views_with_tensors(ready, models, backend, options.pipeline.tensor);
   watch.lap("tensors");
-  const std::vector<Refined> refined =
-      refine_poses(edge_models, ready.starts, views, backend, options.refine);
+  const std::vector<PoseEstimate> refined =
+      refine_poses({edge_models, views, backend}, ready.starts, options.refine);
   watch.lap("registration");
   for (std::size_t i = 0; i < refined.size(); ++i) {
-    const ObjectPose& given = ready.starts[i];
-    const RegisterModel& model = models[static_cast<std::size_t>(given.object)];
-    Detection& found = result.detections.emplace_back(
-        to_detection(given.object, refined[i].registration, refined[i].features));
-    if (!is_out_of_sight(ready, given, model.edges, refined[i].features)) continue;
+    const ObjectPose& start = ready.starts[i];
+    const RegisterModel& model = models[static_cast<std::size_t>(start.object)];
+    Detection& found = result.detections.emplace_back(to_detection(refined[i]));
+    if (!is_out_of_sight(views, start, model.edges, pool_over_views(refined[i].features))) continue;
     found.probability = 0;
     found.convergence = OUT_OF_SIGHT;
-    tell_out_of_sight(ready, i, model);
+    warn_of_out_of_sight(ready, i, model);
   }
   return result;
 }
 
 ImageResult result_of(const ReadyJob& ready, std::size_t view, const Detections& found,
                       std::span<const RegisterModel> models, const Backend& backend) {
-  ImageResult result = begin_result(ready.job->views[view], ready.views[view], found, backend);
+  ImageResult result = begin_result(ready.job->views[view], ready.views[view].view, found, backend);
   for (const RegisterModel& model : models)
     result.objects.push_back({model.object_id, model.edges.mesh.name});
   for (std::size_t i = 0; i < found.detections.size(); ++i)

@@ -1,4 +1,4 @@
-// Which start belongs to which image.
+// Assigns the starts to the images.
 #include <fmt/format.h>
 
 #include "host/cli/register_batch.h"
@@ -13,16 +13,16 @@ std::string described(const StartPose& pose) {
   return pose.image.empty() ? fmt::format("image {}", pose.image_id) : pose.image.string();
 }
 
-// The image of a start; none where it is of a scene that is not among the images.
+// Returns the image of a start; nothing if the start's scene is not among the images.
 std::optional<std::size_t> image_of(const StartPose& pose, std::span<const InputImage> images,
                                     const std::string& poses_file) {
-  bool scene_is_here = !pose.scene_id;
+  bool scene_is_given = !pose.scene_id;
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < images.size(); ++i) {
-    // Images of BOP scenes bring their camera; others are of no scene.
+    // Only images of BOP scenes have a camera; others belong to no scene.
     const std::optional<int> scene =
         images[i].camera ? std::optional(images[i].scene_id) : std::nullopt;
-    scene_is_here |= !scene || scene == pose.scene_id;
+    scene_is_given |= !scene || scene == pose.scene_id;
     if (!belongs_to(pose, images[i].file, scene, images[i].image_id)) continue;
     if (!found.empty() &&
         same_ending(pose, images[i].file) > same_ending(pose, images[found[0]].file))
@@ -37,7 +37,7 @@ std::optional<std::size_t> image_of(const StartPose& pose, std::span<const Input
                                  images[found[0]].file.string(), images[found[1]].file.string()),
                      "one that fits a single image");
   if (!found.empty()) return found[0];
-  if (scene_is_here)
+  if (scene_is_given)
     throw InputError(poses_file, "image", described(pose), "one of the images given");
   return std::nullopt;
 }
@@ -71,8 +71,8 @@ std::vector<RegisterJob> make_jobs(std::span<const InputImage> images,
                                    std::span<const StartPose> poses, bool multi_view,
                                    const std::string& poses_file) {
   std::vector<RegisterJob> jobs;
-  for (const std::span<const InputImage> together : groups_of(images, multi_view))
-    jobs.emplace_back().views.assign(together.begin(), together.end());
+  for (const std::span<const InputImage> views : groups_of(images, multi_view))
+    jobs.emplace_back().views.assign(views.begin(), views.end());
   std::vector<std::pair<std::size_t, std::size_t>> place;  // job and view of every image
   for (std::size_t j = 0; j < jobs.size(); ++j)
     for (std::size_t v = 0; v < jobs[j].views.size(); ++v) place.emplace_back(j, v);

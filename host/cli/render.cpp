@@ -1,4 +1,4 @@
-// edgescout render: scenes with known poses from CAD, in BOP's layout.
+// edgescout render: renders scenes with known poses from CAD models, in BOP's layout.
 #include <filesystem>
 #include <iostream>
 
@@ -27,7 +27,8 @@ struct RenderRequest {
   RenderOptions options;
 };
 
-// Models of files get the ids 1, 2 .. in the order given; the project's own parts keep theirs.
+// Models from files get the ids 1, 2 .. in the order given. The project's own parts have their own
+// ids.
 std::vector<Object> load_objects(const RenderRequest& request) {
   std::vector<Object> objects;
   if (request.models.empty() == request.parts.empty())
@@ -55,7 +56,8 @@ std::string scene_folder(int scene) {
   return std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits;
 }
 
-// Scenes and images that an earlier run left beside the new ones would be taken for theirs.
+// InputError: an earlier run left scenes or images that the new run does not replace. They would
+// look like results of the new run.
 void require_no_other_scenes(const RenderRequest& request) {
   std::error_code not_there;
   for (const std::filesystem::directory_entry& entry :
@@ -83,7 +85,7 @@ void render_scenes(const RenderRequest& request) {
   for (int i = 0; i < request.scenes; ++i) {
     RenderOptions options = request.options;
     options.seed += static_cast<unsigned>(i);
-    const Scene scene = make_scene(objects, options);
+    const SimulatedScene scene = make_scene(objects, options);
     write_bop_scene(scene, render(scene, pool), out / scene_folder(i));
     progress.step();
   }

@@ -1,5 +1,4 @@
-// What a rendered scene holds and how its images look, as rows of the table: one place for `render`
-// and `scout`.
+// Adds the options of a rendered scene and its images, for the verbs `render` and `scout`.
 #pragma once
 
 #include "host/cli/config.h"

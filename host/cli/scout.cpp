@@ -1,4 +1,4 @@
-// edgescout scout: looks again from the best place, until the objects are found.
+// edgescout scout: takes images from the next best view until the objects are found.
 #include <fmt/format.h>
 
 #include <iostream>
@@ -41,8 +41,9 @@ std::vector<Object> objects_of(const KnownModels& known) {
   return objects;
 }
 
-// Where the user says nothing: what the views see, 15 % on either side. Where they look at nothing
-// in common the distances stay open, to be taken from the objects' sizes.
+// Distances that the user does not give: those of the views from the point that they look at, and
+// 15 % more at both ends. If there is no such point, the distances stay at 0 and come from the
+// objects' sizes.
 TemplateOptions with_distances_of(TemplateOptions options, const std::vector<Se3>& views) {
   if (options.distance_min_m > 0 || options.distance_max_m > 0) return options;
   const std::optional<Eigen::Vector3d> center_m = looked_at_m(views);
@@ -64,9 +65,8 @@ TemplateOptions with_distances_of(TemplateOptions options, const std::vector<Se3
   return options;
 }
 
-// Options that look as if they changed something and would not, or would set nats against points
-// and ranks.
-void refuse_idle_options(const ScoutRequest& request, const CLI::App& verb) {
+// Refuses options that would have no effect, or that would compare nats with points or ranks.
+void refuse_unused_options(const ScoutRequest& request, const CLI::App& verb) {
   const ScoutOptions& o = request.options;
   const auto refuse = [&](const std::string& option, const std::string& beside,
                           const char* expected) {
@@ -88,18 +88,20 @@ void refuse_idle_options(const ScoutRequest& request, const CLI::App& verb) {
   }
 }
 
-// Also a YAML file's options count as given.
+// Options in a YAML file count as given.
 void resolve_options(ScoutRequest& request, const CLI::App& verb) {
   ScoutOptions& o = request.options;
   o.pipeline.edges.method = edge_method_from_name(request.edge_method);
   o.next_view.strategy = strategy_from(request.strategy);
   o.next_view.sequence = request.sequence;
-  refuse_idle_options(request, verb);
+  refuse_unused_options(request, verb);
   o.next_view.seed = o.combinations.seed = o.particles.seed = request.draws_seed;
   if (!request.sequence.empty() && verb.count("--first-view") == 0)
     o.first_view = request.sequence.front();
   o.validate();
   request.templates.validate();
+  for (auto& [name, value] : request.planning)
+    if (name == "first-view") value = std::to_string(o.first_view);  // may be the sequence's
 }
 
 void require_known_views(const ScoutOptions& options, std::size_t count) {
@@ -112,8 +114,8 @@ void require_known_views(const ScoutOptions& options, std::size_t count) {
   for (const int view : options.next_view.sequence) require("--sequence", view);
 }
 
-// Says on standard error what an image brought. Of a view that failed the scout has told.
-void tell(const ScoutState& state) {
+// Logs the result of an image. The scout itself logs a view that failed.
+void log_step(const ScoutState& state) {
   const bool just_failed =
       !state.failed.empty() && state.failed.back().after_step == state.steps.size();
   if (state.steps.empty() || just_failed) return;
@@ -128,7 +130,8 @@ void tell(const ScoutState& state) {
 void write_all(const ScoutState& state, const ScoutReport& report, const ScoutRequest& request,
                bool last, Backend& backend) {
   const fs::path out = request.out;
-  // The state last: without it there is nothing to go on from, and the log tells of what it is.
+  // The state is written after the log: a run that finds a state needs the log to check its
+  // settings.
   save_scout_log(state, report, out);
   save_scout_state(state, out / "scout.state");
   if (last) save_scout_results(state, report, out);
@@ -152,44 +155,59 @@ ScoutReport report_of(const ScoutRequest& request, const ScoutSource& source,
           source.scene_id};
 }
 
-int scout(ScoutRequest& request, const CLI::App& verb) {
-  resolve_options(request, verb);
-  for (auto& [name, value] : request.planning)
-    if (name == "first-view")
-      value = std::to_string(request.options.first_view);  // may be the sequence's
-  const std::unique_ptr<Backend> backend = make_backend(request.device);
-  const KnownModels known = load_models(request.models);
-  ScoutSource source = make_source(request.source, objects_of(known), backend->threads());
+ScoutSource source_of(const ScoutRequest& request, const KnownModels& known, Backend& backend) {
+  ScoutSource source = make_source(request.source, objects_of(known), backend.threads());
   std::ranges::copy(settings_of(known.sets), std::back_inserter(source.settings));
   const std::vector<Se3> views = source.source->views();
   require_known_views(request.options, views.size());
   validate_views(views, source.name);
-  const fs::path saved = fs::path(request.out) / "scout.state";
-  const bool goes_on = request.resume && fs::exists(saved);
-  if (goes_on) require_same_source(source.settings, request.out);
-  // Before the templates, which take long.
-  ScoutState state_before = goes_on ? load_scout_state(saved) : ScoutState{};
-  require_writable_folder(request.out);
-  const TemplateOptions templates =
-      known.objects.empty() ? request.templates : with_distances_of(request.templates, views);
-  const std::vector<TemplateSet> sets =
-      template_sets_of(known, templates, source.source->camera(), *backend);
-  Scout scout(sets, source.source->camera(), views, request.options, *backend);
-  if (goes_on) scout.resume(std::move(state_before), saved.string());
-  if (!goes_on) remove_scout_results(request.out);
-  const ScoutReport report = report_of(request, source, sets, *backend);
-  run_scout(scout, *source.source, [&](const ScoutState& state) {
-    tell(state);
-    write_all(state, report, request, false, *backend);
-  });
-  const ScoutState& state = scout.state();
-  write_all(state, report, request, true, *backend);
+  return source;
+}
+
+// The state of an earlier run to resume; nothing to start anew.
+std::optional<ScoutState> state_to_resume(const ScoutRequest& request, const fs::path& file,
+                                          const ScoutSource& source) {
+  if (!request.resume || !fs::exists(file)) return std::nullopt;
+  require_same_source(source.settings, request.out);
+  return load_scout_state(file);
+}
+
+void print_summary(const ScoutState& state, const std::string& out) {
   const std::string images = disagreeing_images(state);
   std::cout << fmt::format(
       "{} objects in {} images, {} views failed{}, {:.1f} s, ended by: {}; results in {}\n",
       state.detections.size(), state.steps.size(), state.failed.size(),
       images.empty() ? "" : ", camera poses of images " + images + " disagree", state.seconds(),
-      to_string(state.end), request.out);
+      to_string(state.end), out);
+}
+
+int scout(ScoutRequest& request, const CLI::App& verb) {
+  resolve_options(request, verb);
+  const std::unique_ptr<Backend> backend = make_backend(request.device);
+  const KnownModels known = load_models(request.models);
+  const ScoutSource source = source_of(request, known, *backend);
+  const fs::path file = fs::path(request.out) / "scout.state";
+  // Before the templates, which take long.
+  std::optional<ScoutState> saved = state_to_resume(request, file, source);
+  require_writable_folder(request.out);
+  const std::vector<Se3> views = source.source->views();
+  const TemplateOptions templates =
+      known.objects.empty() ? request.templates : with_distances_of(request.templates, views);
+  const std::vector<TemplateSet> sets =
+      template_sets_of(known, templates, source.source->camera(), *backend);
+  Scout scout(sets, source.source->camera(), views, request.options, *backend);
+  if (saved)
+    scout.resume(std::move(*saved), file.string());
+  else
+    remove_scout_results(request.out);
+  const ScoutReport report = report_of(request, source, sets, *backend);
+  run_scout(scout, *source.source, [&](const ScoutState& state) {
+    log_step(state);
+    write_all(state, report, request, false, *backend);
+  });
+  const ScoutState& state = scout.state();
+  write_all(state, report, request, true, *backend);
+  print_summary(state, request.out);
   return state.steps.empty() || !state.failed.empty() ? exit_some_failed : exit_done;
 }
 
@@ -254,12 +272,12 @@ void add_scout(CLI::App& app, int& exit_code) {
   add_template_options(*verb, request->templates);
   add_edge_and_tensor_options(*verb, request->options.pipeline, request->edge_method);
   add_search_options(*verb, request->options.pipeline.detect);
-  // The choice is among what the belief over all views holds.
+  // They choose among the instances of the belief over all views.
   add_choice_options(*verb, request->options.detections.min_probability,
                      request->options.detections.edge_claims);
   verb->callback([request, verb, &exit_code] {
-    // A run may go on with another budget, strategy and way to expect information: these change
-    // nothing of what was seen and believed.
+    // A resumed run may have another budget, another strategy and other options of the expected
+    // information: they do not change earlier detections or the belief.
     std::set<std::string> groups{"Belief", "Templates", "Edges", "Tensor", "Detection"};
     if (request->source.source == "cell") groups.insert({"Scene", "Image", "Arm"});
     request->source.settings = settings_of(*verb, groups);

@@ -1,4 +1,4 @@
-// The log and the results of an active detection.
+// Writes the log and the results of an active detection.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -55,7 +55,7 @@ json modes_json(const std::vector<ModeDetection>& modes, const ScoutReport& repo
   return list;
 }
 
-// One of the numbers of every view; null where a view was not open.
+// Returns one of the numbers of every view; null for a view that was not open.
 json of_open_views(const std::vector<ViewInformation>& views, double ViewInformation::*number) {
   json list = json::array();
   for (const ViewInformation& view : views) list.push_back(view.open ? json(view.*number) : json());
@@ -136,11 +136,11 @@ std::optional<DistanceToTruth> distance_to_truth(const Detection& detection,
                                                  const ScoutReport& report) {
   std::optional<DistanceToTruth> nearest;
   for (std::size_t i = 0; i < report.truth.size(); ++i) {
-    const TrueObject& there = report.truth[i];
-    if (there.object != detection.object) continue;
+    const TrueObject& truth = report.truth[i];
+    if (truth.object != detection.object) continue;
     const PoseError error =
-        pose_error(detection.world_from_object, there.world_from_object,
-                   report.sets[static_cast<std::size_t>(there.object)].symmetries);
+        pose_error(detection.world_from_object, truth.world_from_object,
+                   report.sets[static_cast<std::size_t>(truth.object)].symmetries);
     if (!nearest || error.distance_m < nearest->distance_m)
       nearest = {i, error.angle_rad, error.distance_m, error.passes()};
   }
@@ -167,10 +167,10 @@ void save_scout_log(const ScoutState& state, const ScoutReport& report,
                              {"after_step", failed.after_step},
                              {"decision_ms", stages_json(failed.stages)}});
   log["detections"] = modes_json(state.detections, report);
-  for (const TrueObject& there : report.truth)
+  for (const TrueObject& truth : report.truth)
     log["truth"].push_back(
-        {{"object_id", report.sets[static_cast<std::size_t>(there.object)].object_id},
-         {"world_from_object", pose_json(there.world_from_object)}});
+        {{"object_id", report.sets[static_cast<std::size_t>(truth.object)].object_id},
+         {"world_from_object", pose_json(truth.world_from_object)}});
   if (!state.last_decision.stages.empty())
     log["last_decision"] = {
         {"information", of_open_views(state.last_decision.views, &ViewInformation::information)},

@@ -1,4 +1,4 @@
-// The page of an active detection, step by step.
+// Writes the page of an active detection, step by step.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include "host/cli/drawings.h"
 #include "host/cli/page_style.h"
 #include "host/cli/scout_report.h"
-#include "host/io/overlay.h"
+#include "host/overlay.h"
 
 namespace edgescout {
 
@@ -72,7 +72,7 @@ class Page {
     html += tile(fmt::format("{} of {}", steps.size(), state_.views.size()), "views taken");
     html += tile(std::to_string(state_.detections.size()), "objects found");
     if (!report_.truth.empty())
-      html += tile(fmt::format("{} of {}", right_ones(), report_.truth.size()),
+      html += tile(fmt::format("{} of {}", count_right(), report_.truth.size()),
                    "right, of those that are there");
     if (!steps.empty())
       html += tile(fmt::format("{:.2f} → {:.2f}", steps.front().entropy_nats, state_.entropy_nats),
@@ -84,8 +84,8 @@ class Page {
            "</div>";
   }
 
-  // Each instance once, however many detections are right about it.
-  std::size_t right_ones() const {
+  // Counts each instance once, even with several right detections.
+  std::size_t count_right() const {
     std::set<std::size_t> instances;
     for (const ModeDetection& mode : state_.detections)
       if (const auto off = distance_to_truth(mode.detection, report_); off && off->right)
@@ -93,7 +93,7 @@ class Page {
     return instances.size();
   }
 
-  // Referred to by every picture of particles.
+  // Every picture of particles refers to this image.
   std::string first_image() const {
     const Image& image = state_.steps[0].image;
     return fmt::format(
@@ -146,7 +146,7 @@ class Page {
     const ScoutDecision& why = s.decision;
     std::string html =
         fmt::format("<section><h2>Image {} <small>view {}{}</small></h2>{}<div class=row>", i + 1,
-                    why.view, promise(why), warnings(s));
+                    why.view, expectation(why), warnings(s));
     html += figure(hemisphere(i), hemisphere_caption(why));
     html += png_figure(overlay(i, s.detections),
                        fmt::format("{} objects after this image", s.detections.size()));
@@ -165,14 +165,14 @@ class Page {
     return html + numbers(s) + "</section>";
   }
 
-  // Where a view was chosen for what it promises.
-  static std::string promise(const ScoutDecision& why) {
+  // The expectation by which the view was chosen.
+  static std::string expectation(const ScoutDecision& why) {
     if (why.views.empty()) return "";
     const ViewInformation& chosen = why.views[static_cast<std::size_t>(why.view)];
     if (why.strategy == Strategy::Information && why.use_paper_formula)
       return fmt::format(", {:.3g} by the paper's own formula", chosen.expected());
     if (why.strategy == Strategy::Information)
-      return fmt::format(", {:.3f} nats expected{}", chosen.expected(), of_the_unknown(chosen));
+      return fmt::format(", {:.3f} nats expected{}", chosen.expected(), share_of_unknown(chosen));
     if (why.strategy == Strategy::Disocclusion)
       return fmt::format(", {:.0f} points that no image has shown", chosen.expected());
     return "";
@@ -188,12 +188,12 @@ class Page {
     return fmt::format("Every view by {}, from above. Ringed: the one chosen.", by);
   }
 
-  static std::string of_the_unknown(const ViewInformation& view) {
+  static std::string share_of_unknown(const ViewInformation& view) {
     return view.discovery > 0 ? fmt::format(", {:.3f} of them of what is unknown", view.discovery)
                               : "";
   }
 
-  // Of this image and of earlier ones, on which this one has had its say.
+  // Of this image and of earlier ones, which are checked again with every image.
   static std::string warnings(const ScoutStep& s) {
     std::string html;
     for (std::size_t i = 0; i < s.extrinsics_checks.size(); ++i)
@@ -234,11 +234,12 @@ class Page {
 
   std::string scenes(const ScoutDecision& why) const {
     const auto drawn = [&](const std::vector<int>& members, const char* caption) {
-      std::vector<ObjectPose> poses;
-      for (const int c : members)
-        poses.push_back({why.candidates[c].object, why.candidates[c].world_from_object});
-      const RgbImage map =
-          edge_map(models_, poses, members, report_.camera, state_.views[why.view], 560, backend_);
+      std::vector<DrawnObject> objects;
+      for (const int c : members) objects.push_back({{why.candidates[c]}, c});
+      ObjectView view;
+      view.camera = report_.camera;
+      view.camera_from_world = state_.views[why.view];
+      const RgbImage map = edge_map(models_, objects, view, 560, backend_);
       return png_figure(map, fmt::format("{} scene imagined from this view: {} of {} candidates",
                                          caption, members.size(), why.candidates.size()));
     };

@@ -1,4 +1,4 @@
-// What an active detection leaves behind: a JSON log, poses image by image, and a page to look at.
+// Writes the results of an active detection: a JSON log, poses image by image, and an HTML page.
 #pragma once
 
 #include <filesystem>
@@ -12,34 +12,29 @@
 
 namespace edgescout {
 
-// An instance that is known to lie there, in a simulated cell.
-struct TrueObject {
-  int object = 0;
-  Se3 world_from_object;
-};
+using TrueObject = ObjectPose;  // an instance whose true pose is known, in a simulated cell
 
 struct ScoutReport {
   std::span<const TemplateSet> sets;
   Camera camera;  // ideal
   EdgesOptions edges;
   std::string device, source, strategy;
-  Settings settings;  // of the source and of what is seen and believed in it
-  Settings planning;  // of where to look and when to end: of the last run
+  Settings settings;  // of the source, of detection and of the belief
+  Settings planning;  // of the next view and of the end, as in the last run
   std::vector<TrueObject> truth;
-  std::vector<int> image_ids;                      // one a view
-  std::vector<std::filesystem::path> image_files;  // one a view, or empty: they have none
+  std::vector<int> image_ids;                      // one per view
+  std::vector<std::filesystem::path> image_files;  // one per view; empty: images without files
   int scene_id = 0;
 };
 
-// Numbers of the images whose camera pose the others contradict after the last one: "2, 5"; empty:
-// none.
+// Returns the numbers of the images whose camera pose disagrees with the others after the last
+// image: "2, 5"; empty: none.
 std::string disagreeing_images(const ScoutState& state);
 
-// Of ViewInformation::information; empty where it has none.
+// Returns the unit of ViewInformation::information; empty: it has no unit.
 const char* unit_of(const ScoutDecision& decision);
 
-// How far a detection lies from the nearest instance of its object; nothing where no truth is
-// known.
+// The distance of a detection from the nearest true instance of its object. Nothing without truth.
 struct DistanceToTruth {
   std::size_t instance = 0;  // index into the report's truth
   double angle_rad = 0, distance_m = 0;
@@ -48,27 +43,31 @@ struct DistanceToTruth {
 std::optional<DistanceToTruth> distance_to_truth(const Detection& detection,
                                                  const ScoutReport& report);
 
-// FOLDER/scout.json: {edgescout_scout: 1, device, source, settings {name: text}, planning {name:
-// text} and strategy (of the last run), camera (the ideal one), views, steps [..], last_decision,
-// failed [..], detections [..], truth [..] (of a cell), seconds, end}; poses are {R, t} as in
-// io/results.h. Atomically.
+// Writes FOLDER/scout.json atomically. Poses are {R, t} as in io/results.h. The fields:
+//   edgescout_scout   version of the format: 1
+//   device, source
+//   settings          {name: text}
+//   planning          {name: text}, of the last run
+//   strategy          of the last run
+//   camera            the ideal one
+//   views, steps [..], failed [..], detections [..], last_decision
+//   truth [..]        only of a cell
+//   seconds, end
 void save_scout_log(const ScoutState& state, const ScoutReport& report,
                     const std::filesystem::path& folder);
-// What an earlier run left, by its log: state, log, results and page, which must not be taken for
-// this one's. Other files stay. InputError: a log that cannot be read, a file that cannot be
-// removed.
+// Removes the files of an earlier run that its log names: state, log, results and page. Other files
+// stay. InputError: a log that cannot be read, a file that cannot be removed.
 void remove_scout_results(const std::filesystem::path& folder);
 // InputError naming the first setting of the source that differs from those in FOLDER/scout.json.
 void require_same_source(const Settings& settings, const std::filesystem::path& folder);
 
-// FOLDER/view_NNN.json (io/results.h) of every image taken, with all that was found in the world,
-// and FOLDER/results.csv (BOP). An image without a file has an empty name there: its id says which
-// it is.
+// Writes FOLDER/view_NNN.json (io/results.h) for every image, with all detections in the world, and
+// FOLDER/results.csv (BOP). The name of an image without a file is empty; its id identifies it.
 void save_scout_results(const ScoutState& state, const ScoutReport& report,
                         const std::filesystem::path& folder);
 
-// One HTML page that needs nothing beside itself: no network, no script, no other file.
-// `refreshing`: the browser reads it again every two seconds.
+// Returns an HTML page that needs no network, no script and no other file. `refreshing`: the
+// browser reloads it every two seconds.
 std::string scout_page(const ScoutState& state, const ScoutReport& report, bool refreshing,
                        Backend& backend);
 

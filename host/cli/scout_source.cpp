@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "host/active/recorded_views.h"
 #include "host/cli/batch_settings.h"
 #include "host/cli/scene_options.h"
 #include "host/io/bop.h"
@@ -15,7 +16,7 @@ namespace edgescout {
 
 namespace {
 
-std::vector<Se3> cell_views(const SourceRequest& request, const Scene& scene) {
+std::vector<Se3> cell_views(const SourceRequest& request, const SimulatedScene& scene) {
   if (!request.views_file.empty()) return load_views(request.views_file);
   if (request.center_m.size() != 3)
     throw InputError("command line", "--center",
@@ -33,7 +34,7 @@ ScoutSource make_cell(const SourceRequest& request, std::span<const Object> obje
     throw InputError("command line", "--camera", "one for a cell", "--width, --height and --focal");
   RenderOptions options = request.scene;
   options.min_distance_m = options.max_distance_m = request.hemisphere.radius_m;
-  const Scene scene = make_scene(objects, options);
+  const SimulatedScene scene = make_scene(objects, options);
   ArmNoise arm = request.arm;
   arm.seed = options.seed;
   ScoutSource made;
@@ -50,7 +51,8 @@ ScoutSource make_cell(const SourceRequest& request, std::span<const Object> obje
   return made;
 }
 
-// A BOP dataset has scenes in its folders, or in those of its splits; empty where there are none.
+// Returns a BOP scene in the folders of a dataset, or in the folders of its splits; empty if there
+// is none.
 std::filesystem::path scene_below(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   std::error_code unreadable;

@@ -1,10 +1,10 @@
-// Where `edgescout scout` takes its images: a rendered cell or views recorded before.
+// Makes the source of images of `edgescout scout`: a rendered cell or recorded views.
 #pragma once
 
-#include "host/active/source.h"
 #include "host/active/views.h"
 #include "host/cli/config.h"
 #include "host/cli/scout_report.h"
+#include "host/render/simulated_cell.h"
 
 namespace edgescout {
 
@@ -14,30 +14,30 @@ struct SourceRequest {
   std::string views_file;   // of a cell, in place of the hemisphere
   RenderOptions scene;      // of a cell
   ArmNoise arm;
-  HemisphereOptions hemisphere;  // radius 0: so that the parts fill the image
+  HemisphereOptions hemisphere;  // radius 0: such that the parts fill the image
   std::vector<double> center_m{0, 0, 0};
-  Settings settings;  // what a cell's images, and the belief, depend on beside models and views
+  // What the images of a cell and the belief depend on, apart from models and views.
+  Settings settings;
 };
 
 void add_source_options(CLI::App& verb, SourceRequest& request);
 
-// Of what was given on the command line. InputError: options of a cell with recorded views, of the
-// hemisphere with a list of views.
+// Checks the options that were given. InputError: options of a cell with recorded views, options of
+// the hemisphere with a list of views.
 void refuse_unused(const CLI::App& verb);
 
 struct ScoutSource {
   std::unique_ptr<ViewSource> source;
   std::string name;
-  Settings settings;              // what tells it from other runs with the same views and models
+  Settings settings;              // distinguishes it from other runs with the same views and models
   std::vector<TrueObject> truth;  // of a cell
-  std::vector<int> image_ids;     // one a view: BOP's, else its number
-  std::vector<std::filesystem::path>
-      image_files;  // one a view; empty in a cell, whose images have none
+  std::vector<int> image_ids;     // one per view: BOP's id, else the view's number
+  std::vector<std::filesystem::path> image_files;  // one per view; empty for a cell
   int scene_id = 0;
 };
 
-// `objects` lie in a cell. InputError: neither "cell" nor a folder of recorded views, a file of the
-// one with the other.
+// `objects` are placed in a cell. InputError: the source is neither "cell" nor a folder of recorded
+// views; a file is given that the other kind of source needs.
 ScoutSource make_source(const SourceRequest& request, std::span<const Object> objects,
                         ThreadPool& pool);
 

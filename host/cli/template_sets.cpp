@@ -54,8 +54,8 @@ KnownModels load_models(const ModelArguments& arguments) {
 
 namespace {
 
-// Where a unit or a distance is wrong by a factor, these two do not fit together.
-void tell_sizes(const TemplateSet& set) {
+// A wrong unit or distance shows in these numbers: they do not fit each other.
+void log_sizes(const TemplateSet& set) {
   log(LogLevel::Info,
       fmt::format(
           "object {} ({}): diameter {:.1f} mm, looked for {:.3f} to {:.3f} m from the camera",
@@ -74,7 +74,7 @@ std::vector<TemplateSet> template_sets_of(const KnownModels& known, const Templa
         build_templates(object, with_default_distances(options, object.mesh.diameter_m, camera),
                         backend, [&](int done, int all) { progress.move_to(100 * done / all); }));
   }
-  for (const TemplateSet& set : sets) tell_sizes(set);
+  for (const TemplateSet& set : sets) log_sizes(set);
   return sets;
 }
 

@@ -1,12 +1,11 @@
-// Every verb adds its subcommand and what runs it. The verb's callback may throw; only main
-// catches.
+// Adds the verbs of the program. The callback of a verb may throw; only main catches.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 namespace edgescout {
 
-// `exit_code` is set by the verb that ran (exit_codes.h); it outlives the app.
+// The verb that runs sets `exit_code` (exit_codes.h), which must outlive the app.
 void add_bench(CLI::App& app, int& exit_code);
 void add_detect(CLI::App& app, int& exit_code);
 void add_devices(CLI::App& app, int& exit_code);

@@ -1,21 +1,29 @@
-// What is written of one view, by whichever verb worked on it: its result and its overlay.
+// Writes the result and the overlay of one view, for all verbs.
 #pragma once
 
 #include <filesystem>
 #include <span>
 
 #include "host/cli/batch_results.h"
-#include "host/detect/detect.h"
+#include "host/pipeline.h"
 
 namespace edgescout {
 
-// All but objects and detections: which of these are the view's, the verb knows.
-ImageResult begin_result(const InputImage& input, const PreparedImage& prepared,
-                         const Detections& found, const Backend& backend);
+// An image that is ready for detection or registration, and the time that this took.
+struct PreparedView {
+  ObjectView view;
+  std::vector<StageSeconds> stages;
+};
 
-// NAME_overlay.png: the image with all that was found.
-void save_overlay(const InputImage& input, const PreparedImage& prepared, const Detections& found,
-                  std::span<const EdgeModel> models, Backend& backend,
-                  const std::filesystem::path& out);
+// Returns the stages of all views, one view after the other.
+std::vector<StageSeconds> stages_of(std::span<const PreparedView> views);
+
+// Returns the result without objects and detections, which the verb adds.
+ImageResult begin_result(const InputImage& input, const ObjectView& view, const Detections& found,
+                         const Backend& backend);
+
+// Writes NAME_overlay.png: the image with all detections. `scene` has the one view of the image.
+void save_overlay(const InputImage& input, const Scene& scene,
+                  std::span<const Detection> detections, const std::filesystem::path& out);
 
 }  // namespace edgescout

@@ -1,5 +1,4 @@
-// Rows of bits: which candidates stand in a combination, which pairs of candidates can exist
-// together.
+// A matrix of bits, for example which candidates a combination holds or which pairs can coexist.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +6,8 @@
 
 namespace edgescout {
 
-// Column c of a row is bit c % 32 of word c / 32; rows start at a word, bits beyond the columns are
-// zero.
+// Column c of a row is bit c % 32 of word c / 32. Every row starts at a word. Bits beyond the
+// columns are zero.
 struct BitMatrix {
   std::uint32_t rows = 0, columns = 0;
   std::vector<std::uint32_t> words;

@@ -1,8 +1,10 @@
 // The pinhole camera with Brown-Conrady distortion.
 //
-// Camera frame: +z forward, +x right, +y down. Pixel centres sit at integers: the image covers
-// [-0.5, width - 0.5) x [-0.5, height - 0.5). Inside the library images are undistorted once, on
-// entry (io/image.h), so everything downstream may assume `distortion` to be zero.
+// Camera frame: +z forward, +x right, +y down. Pixel centres are at integers: the image covers
+// [-0.5, width - 0.5) x [-0.5, height - 0.5). The library undistorts every image once, on entry
+// (io/image.h). All later code may assume that `distortion` is zero.
+//
+// Public header.
 #pragma once
 
 #include <array>
@@ -20,12 +22,12 @@ struct Camera {
   bool has_distortion() const;
 };
 
-// Bit for bit; images of one lens may be of several sizes.
+// Both compare bit for bit. Images of one lens may have several sizes.
 bool same_intrinsics(const Camera& a, const Camera& b);  // and distortion
-bool same_camera(const Camera& a, const Camera& b);      // and size
+bool same_camera(const Camera& a, const Camera& b);      // intrinsics, distortion and size
 
-// Throws InputError naming `source` and the field: size below 1, a value not finite, focal length
-// not positive, principal point further from the image than one image size.
+// InputError naming `source` and the field: a size below 1, a value that is not finite, a focal
+// length that is not positive, a principal point further from the image than one image size.
 void validate(const Camera& camera, const std::string& source);
 
 // Ideal (undistorted) projection of a point in the camera frame, z > 0; px.
@@ -34,8 +36,8 @@ Eigen::Vector2d project(const Camera& camera, const Eigen::Vector3d& x_in_camera
 Eigen::Vector3d ray_through(const Camera& camera, const Eigen::Vector2d& pixel);
 // The same camera without distortion.
 Camera undistorted(const Camera& camera);
-// The camera of an image resized by `factor` (new size = rounded factor * size); pixel centres at
-// integers make cx' = factor * (cx + 0.5) - 0.5.
+// The camera of an image resized by `factor`. The new size is rounded. With pixel centres at
+// integers cx' = factor * (cx + 0.5) - 0.5.
 Camera scaled(const Camera& camera, double factor);
 
 }  // namespace edgescout

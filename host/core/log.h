@@ -1,4 +1,6 @@
-// The library prints nothing: it hands its messages to one installed sink.
+// Messages of the library, which go to one installed sink. The library prints nothing itself.
+//
+// Public header.
 #pragma once
 
 #include <functional>
@@ -9,8 +11,8 @@ namespace edgescout {
 enum class LogLevel { Debug, Info, Warning, Error };
 using LogSink = std::function<void(LogLevel, const std::string&)>;
 
-// Replaces the sink for the whole process; an empty one (the start) drops every message. Not for
-// use while another thread logs.
+// Replaces the sink of the whole process. An empty sink (the default) drops every message. No other
+// thread may log at the same time.
 void set_log_sink(LogSink sink);
 void log(LogLevel level, const std::string& message);
 

@@ -1,4 +1,4 @@
-// What every validate() of options does: a number inside its bounds, or an error that names it.
+// Checks that a numeric option lies inside its bounds. For validate() of option structs.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 
 namespace edgescout {
 
-// Of one group of options:
+// For one group of options:
 //   const OptionBounds in("detect");
-//   in("coarse-poses", aligned, 1, 1e6);
+//   in("coarse-poses", coarse_poses, 1, 1e6);
 class OptionBounds {
  public:
   explicit OptionBounds(const char* group) : group_(group) {}
-  // InputError "options: GROUP.FIELD: found FOUND, expected LOW to HIGH"; NaN is in no bounds.
+  // InputError "options: GROUP.FIELD: found FOUND, expected LOW to HIGH". NaN is never inside.
   void operator()(const char* field, double found, double low, double high) const {
     if (!(found >= low && found <= high))
       throw InputError("options", std::string(group_) + "." + field, std::to_string(found),

@@ -1,4 +1,4 @@
-// The order in which the largest comes first.
+// Sorts indices by descending value.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace edgescout {
 
-// Indices of the values, the largest first, equal ones as they stand.
+// Indices of the values, the largest first. Equal values keep their order.
 inline std::vector<std::size_t> largest_first(std::span<const double> values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), 0);

@@ -1,5 +1,7 @@
-// Seeded random streams: the numbers depend on seed and name alone, not on the standard library's
-// distributions or on the order in which threads ask for them.
+// Seeded random streams with reproducible numbers.
+//
+// The numbers depend on seed and name alone, not on the standard library's distributions or on the
+// order in which threads draw.
 #pragma once
 
 #include <array>
@@ -11,7 +13,7 @@
 
 namespace edgescout {
 
-// xoshiro256**. Not for two threads at once: give each its own split.
+// xoshiro256**. Not thread-safe: give each thread its own split.
 class Random {
  public:
   explicit Random(std::uint64_t seed);

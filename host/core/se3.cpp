@@ -46,7 +46,7 @@ Se3 se3_from_matrix(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& tran
 
 Eigen::Quaterniond so3_exp(const Eigen::Vector3d& rotation_rad) {
   const double angle = rotation_rad.norm();
-  // sin(a/2)/a by its series near zero, where the quotient loses its digits.
+  // sin(a/2)/a. Near zero by its series: the quotient would lose precision there.
   const double scale = angle < 1e-6 ? 0.5 - angle * angle / 48.0 : std::sin(0.5 * angle) / angle;
   const Eigen::Vector3d v = scale * rotation_rad;
   return Eigen::Quaterniond(std::cos(0.5 * angle), v.x(), v.y(), v.z()).normalized();
@@ -74,7 +74,7 @@ Se3 retract_about(const Se3& b_from_a, const Eigen::Vector3d& center_m, const Ve
 Matrix6d covariance_about(const Se3& b_from_a, const Eigen::Vector3d& center_m,
                           const Matrix6d& covariance) {
   const Eigen::Vector3d lever_m = b_from_a.rotation * center_m;
-  Matrix6d about = Matrix6d::Identity();  // the centre moves by the translation plus turn x lever
+  Matrix6d about = Matrix6d::Identity();  // the centre moves by the translation plus turn x arm
   about.topRightCorner<3, 3>() << 0, lever_m.z(), -lever_m.y(), -lever_m.z(), 0, lever_m.x(),
       lever_m.y(), -lever_m.x(), 0;
   return about * covariance * about.transpose();

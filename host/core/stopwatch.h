@@ -1,4 +1,6 @@
-// Where the time goes: seconds by named stage.
+// Measures the seconds of named stages.
+//
+// Public header.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +19,7 @@ inline double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Names the time between two calls; a name that comes again adds to its stage.
+// Each call of lap() adds the time since the last call to the stage of that name.
 class Stopwatch {
  public:
   explicit Stopwatch(std::vector<StageSeconds>& stages) : stages_(stages) {}

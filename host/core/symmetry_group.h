@@ -1,4 +1,4 @@
-// The group that a few symmetries generate.
+// Builds the group that a few symmetries generate.
 #pragma once
 
 #include <span>
@@ -8,25 +8,24 @@
 
 namespace edgescout {
 
-// How far apart two members are at most while they are one: by both measures.
+// Two members within both tolerances are equal. The defaults allow for rounding.
 struct MemberTolerance {
-  double angle_rad = 1e-4, distance_m = 1e-6;  // of rounding
+  double angle_rad = 1e-4, distance_m = 1e-6;
 };
 
-// The identity first, then what is listed, but for what repeats to rounding.
+// The identity first, then the listed members without repetitions (to rounding).
 std::vector<Se3> with_identity(std::span<const Se3> listed);
 
-// These and every product of the generators; a product that is a member already to `same` is none
-// of its own. Nothing where they are more than `most`: then they generate no finite group, or
-// hardly one of a solid.
+// The generators and all their products, without members that are equal by `same`. Empty where
+// there are more than `most`: then the generators have no finite group, or none of a solid.
 std::vector<Se3> generated_group(std::span<const Se3> generators, std::size_t most,
                                  const MemberTolerance& same = {});
 
-// Adds it unless the members hold it already.
+// Adds a member unless an equal one is there.
 void add_unless_known(std::vector<Se3>& members, const Se3& member,
                       const MemberTolerance& same = {});
 
-// Whether no two members are one by this tolerance.
+// Whether no two members are equal by this tolerance.
 bool stand_apart(std::span<const Se3> members, const MemberTolerance& same);
 
 }  // namespace edgescout

@@ -1,4 +1,6 @@
-// The nouns of the system as plain structs: metres, radians, pixels.
+// Basic types as plain structs: images, meshes, objects, poses, detections. Units: m, rad, px.
+//
+// Public header.
 #pragma once
 
 #include <array>
@@ -11,7 +13,7 @@
 
 namespace edgescout {
 
-// Grey image, row-major, no padding.
+// Grey image, row-major, without padding.
 struct Image {
   int width = 0;
   int height = 0;
@@ -24,14 +26,14 @@ struct Mesh {
   std::string name;
   std::vector<Eigen::Vector3d> vertices_m;
   std::vector<std::array<int, 3>> triangles;  // counter-clockwise seen from outside
-  std::vector<Eigen::Vector3d> face_normals;  // unit, one a triangle
+  std::vector<Eigen::Vector3d> face_normals;  // unit, one per triangle
   Eigen::Vector3d box_min_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d box_max_m = Eigen::Vector3d::Zero();
   double diameter_m = 0;  // largest distance between two vertices
 };
 
-// Transforms that map the object onto itself. The identity is always the first member of
-// `discrete`; a continuous symmetry (axis through a point) is sampled into `discrete` on load.
+// Transforms that map the object onto itself. The first member of `discrete` is always the
+// identity. Loading samples a continuous symmetry (an axis through a point) into `discrete`.
 struct Symmetries {
   std::vector<Se3> discrete{Se3{}};
 };
@@ -42,27 +44,25 @@ struct Object {
   Symmetries symmetries;
 };
 
-// One 6-DoF hypothesis in one view.
-struct Candidate {
-  int object = 0;  // index into the caller's list of objects
-  Se3 camera_from_object;
-  double cost_px = 0;  // mean directional chamfer distance, lower is better
+// An object and its pose. `object` indexes the caller's list of objects. With a single view the
+// world may be its camera frame.
+struct ObjectPose {
+  int object = 0;
+  Se3 world_from_object;
 };
 
-struct Detection {
-  int object = 0;
-  Se3 world_from_object;  // the world is the camera frame where only one view exists
+// The report on one object that was found.
+struct Detection : ObjectPose {
   Matrix6d covariance = Matrix6d::Zero();  // tangent of core/se3.h
   double probability = 0;                  // calibrated, [0, 1]
   double psi = 0;                          // Eq. 10, [0, 1]
   double cost_px = 0;                      // mean tensor value over visible points
-  double matched_fraction =
-      0;  // of the predicted edge points, those with an edge of the image near
-  double psi_z_score =
-      0;  // of gradient directions, in standard errors above chance (register/pose_features.h)
-  double unexplained_grey = 1;  // of the contrast inside the silhouette, what the surface does not
-                                // explain (register/shading.h), [0, 1]
-  std::string convergence;      // why the refinement stopped
+  double matched_fraction = 0;  // of the visible edge points: those with an image edge near
+  double psi_z_score = 0;       // psi above chance, in standard errors (register/pose_features.h)
+  // Fraction of the contrast inside the silhouette that the surface does not explain
+  // (register/shading.h), [0, 1].
+  double unexplained_grey = 1;
+  std::string convergence;  // why the refinement stopped
 };
 
 }  // namespace edgescout

@@ -1,114 +1,160 @@
 #include "host/detect/detect.h"
 
+#include <cmath>
+
 #include "host/core/option_bounds.h"
-#include "host/detect/probability_over_views.h"
 #include "host/detect/support_views.h"
 #include "host/detect/suppression.h"
 #include "host/detect/template_points.h"
+#include "host/register/pose_classifier.h"
+#include "host/register/shading.h"
+#include "host/register/thresholds.h"
 
 namespace edgescout {
 
 namespace {
 
-// Of the object's diameter: poses closer than that are the same, and a hit so near to a known
-// instance is drawn to it by the alignment.
-constexpr double SAME_POSE = 0.1, NEAR_KNOWN = 0.2;
-
 // Of a template, before known objects hide some of them.
 constexpr int COARSE_JOINT_POINTS = 120;
 
-// Of one object, in metres and modulo its symmetry; `key` of an index is lower for better ones.
-std::vector<std::size_t> best_of(std::span<const Se3> poses, const TemplateSet& set,
-                                 std::size_t most, const auto& key) {
+// Distinct poses of the set's object, lowest key first, at most `most`; `keys` has one entry per
+// pose.
+template <typename PoseType>
+std::vector<PoseType> best_distinct_poses(const std::vector<PoseType>& poses,
+                                          const std::vector<double>& keys, const TemplateSet& set,
+                                          std::size_t most) {
+  std::vector<Se3> world_from_object;
+  for (const PoseType& pose : poses) world_from_object.push_back(pose.world_from_object);
+  const double radius_m = thresholds::SAME_POSE * set.model.mesh.diameter_m;
+  std::vector<PoseType> best;
+  for (std::size_t i :
+       best_distinct(world_from_object, keys, set.model.mesh, set.symmetries, radius_m, most))
+    best.push_back(poses[i]);
+  return best;
+}
+
+// Most probable first.
+std::vector<PoseEstimate> best_ranked(const std::vector<PoseEstimate>& poses,
+                                      const TemplateSet& set, std::size_t most) {
   std::vector<double> keys;
-  for (std::size_t i = 0; i < poses.size(); ++i) keys.push_back(key(i));
-  return best_distinct(poses, keys, set.model.mesh, set.symmetries,
-                       SAME_POSE * set.model.mesh.diameter_m, most);
+  for (const PoseEstimate& pose : poses) keys.push_back(-PoseClassifier::rank(pose.features));
+  return best_distinct_poses(poses, keys, set, most);
 }
 
-std::vector<ObjectPose> hypotheses_at(std::span<const Se3> poses,
-                                      std::span<const std::size_t> chosen) {
-  std::vector<ObjectPose> out;
-  for (std::size_t i : chosen) out.push_back({0, poses[i]});
-  return out;
+// Whether a pose in the frame of this camera lies within a fraction of the object's diameter of a
+// known instance.
+PoseFilter within_known(std::span<const Se3> known_in_world, const TemplateSet& set,
+                        const Se3& camera_from_world, double fraction) {
+  std::vector<Se3> in_camera;
+  for (const Se3& pose : known_in_world) in_camera.push_back(camera_from_world * pose);
+  return [known = KnownPoses(in_camera, set.model.mesh, set.symmetries),
+          radius_m = fraction * set.model.mesh.diameter_m](const Se3& camera_from_object) {
+    return known.any_within(radius_m, camera_from_object);
+  };
 }
 
-std::vector<Se3> poses_of(std::span<const ObjectPose> hypotheses) {
-  std::vector<Se3> poses;
-  for (const ObjectPose& h : hypotheses) poses.push_back(h.world_from_object);
-  return poses;
-}
-
-KnownPoses in_camera(std::span<const Se3> known_in_world, const TemplateSet& set,
-                     const Se3& camera_from_world) {
-  std::vector<Se3> poses;
-  for (const Se3& pose : known_in_world) poses.push_back(camera_from_world * pose);
-  return {poses, set.model.mesh, set.symmetries};
-}
-
-// The image's camera frame is the world.
-std::vector<RegisterView> views_around(const Observation& observation,
-                                       std::span<const Observation> others) {
-  std::vector<RegisterView> views = views_of(others);
-  views.insert(views.begin(), observation.view);
-  const Se3 world_from_first = inverse(observation.view.camera_from_world);
-  for (RegisterView& view : views)
-    view.camera_from_world = view.camera_from_world * world_from_first;
+// The searched view and those that support it. The camera frame of the searched one is the world.
+std::vector<ObjectView> views_around(const ObjectView& searched,
+                                     std::span<const ObjectView> support) {
+  std::vector<ObjectView> views(support.begin(), support.end());
+  views.insert(views.begin(), searched);
+  const Se3 world_from_searched = inverse(searched.camera_from_world);
+  for (ObjectView& view : views)
+    view.camera_from_world = view.camera_from_world * world_from_searched;
   views[0].camera_from_world = Se3{};
   return views;
 }
 
-// What a pose that several views were aligned in costs where it lies. Few points, of what hardly
-// shows, can be fitted to anything.
-double cost_of(const Registration& registration) {
-  constexpr int least_points = 12;
-  return registration.points >= least_points ? registration.cost_px2 / registration.points
-                                             : INFINITY;
+// Mean cost of a point, px^2. Infinite where too few points are visible: they can be fitted to
+// any edges.
+double cost_per_point(const PoseEstimate& pose) {
+  return pose.points >= thresholds::MIN_POINTS ? pose.cost_px2 / pose.points : INFINITY;
 }
 
-std::vector<RegisterView> coarse_of(std::vector<RegisterView> views) {
-  for (RegisterView& view : views) view.view = view.coarse;
-  return views;
-}
+// The stages of detect.h's table for one object. `search` has the supporting views that take part.
+class Cascade {
+ public:
+  Cascade(const ObjectSearch& search, std::span<const Se3> known_in_world,
+          const DetectOptions& options)
+      : set_(search.set),
+        backend_(search.backend),
+        options_(options),
+        views_(views_around(search.view, search.support)),
+        is_known_(within_known(known_in_world, set_, search.view.camera_from_world,
+                               thresholds::SAME_POSE)) {}
 
-// Those of the hits that are worth a look in full resolution, aligned on the coarse tensors.
-std::vector<ObjectPose> coarse_aligned(const TemplateSet& set, std::span<const ScanHit> hits,
-                                       std::span<const RegisterView> coarse, Backend& backend,
-                                       const DetectOptions& options) {
-  const bool jointly = coarse.size() > 1;
-  std::vector<Se3> poses;
-  for (const ScanHit& hit : hits) poses.push_back(hit.camera_from_object);
-  const std::vector<ObjectPose> starts = hypotheses_at(
-      poses,
-      best_of(poses, set, std::size_t(jointly ? options.coarse_poses_joint : options.coarse_poses),
-              [&](std::size_t i) { return hits[i].rank; }));
-  if (!jointly)
-    return object_poses_of(starts, register_poses({&set.model, 1}, starts, coarse, backend,
-                                                  options.refine.search.coarse));
-  const std::vector<Registration> registrations =
-      register_points(starts, coarse, template_points(set, coarse, COARSE_JOINT_POINTS, backend),
-                      backend, options.coarse_joint);
-  poses = poses_of(object_poses_of(starts, registrations));
-  return hypotheses_at(poses, best_of(poses, set, std::size_t(options.medium_poses_joint),
-                                      [&](std::size_t i) { return cost_of(registrations[i]); }));
+  // Aligns the best distinct hits on the coarse tensors.
+  std::vector<PoseEstimate> coarse(std::span<const ScanHit> hits) const {
+    std::vector<ObjectPose> poses;
+    std::vector<double> ranks;
+    for (const ScanHit& hit : hits) poses.push_back(hit.pose), ranks.push_back(hit.rank);
+    const int most = is_joint() ? options_.coarse_poses_joint : options_.coarse_poses;
+    const std::vector<ObjectPose> starts =
+        best_distinct_poses(poses, ranks, set_, std::size_t(most));
+    const std::vector<ObjectView> views = on_coarse_tensors(views_);
+    if (!is_joint()) return register_poses(scene_of(views), starts, options_.refine.search.coarse);
+    return register_points(scene_of(views), starts,
+                           template_points(set_, views, COARSE_JOINT_POINTS, backend_),
+                           options_.coarse_joint);
+  }
+
+  // Aligns poses on the full tensors, of several views those that cost least, and measures their
+  // features.
+  std::vector<PoseEstimate> medium(const std::vector<PoseEstimate>& aligned) const {
+    const std::vector<ObjectPose> starts =
+        object_poses(is_joint() ? least_costly(aligned) : aligned);
+    std::vector<PoseEstimate> poses = register_poses(scene_of(views_), starts, options_.medium);
+    drop_known(poses);
+    measure_features(scene_of(views_), poses, {options_.refine.score, options_.medium.visibility});
+    return poses;
+  }
+
+  // Refines the candidates: the highest ranks among distinct poses.
+  std::vector<PoseEstimate> fine(const std::vector<PoseEstimate>& aligned) const {
+    const std::vector<PoseEstimate> candidates =
+        best_ranked(aligned, set_, std::size_t(options_.candidates));
+    RefineOptions refine = options_.refine;
+    if (is_joint()) refine.search.rotation_rad = 0;  // several views bring starts near enough
+    std::vector<PoseEstimate> refined =
+        refine_poses(scene_of(views_), object_poses(candidates), refine);
+    drop_known(refined);
+    return best_ranked(refined, set_, refined.size());
+  }
+
+ private:
+  bool is_joint() const { return views_.size() > 1; }
+
+  Scene scene_of(std::span<const ObjectView> views) const {
+    return {{&set_.model, 1}, views, backend_};
+  }
+
+  std::vector<PoseEstimate> least_costly(const std::vector<PoseEstimate>& aligned) const {
+    std::vector<double> costs;
+    for (const PoseEstimate& pose : aligned) costs.push_back(cost_per_point(pose));
+    return best_distinct_poses(aligned, costs, set_, std::size_t(options_.medium_poses_joint));
+  }
+
+  void drop_known(std::vector<PoseEstimate>& poses) const {
+    std::erase_if(poses,
+                  [&](const PoseEstimate& pose) { return is_known_(pose.world_from_object); });
+  }
+
+  const TemplateSet& set_;
+  Backend& backend_;
+  const DetectOptions& options_;
+  std::vector<ObjectView> views_;  // the searched view first; its camera frame is the world
+  PoseFilter is_known_;
+};
+
+// From hits that are rescored in the supporting views of `search`.
+std::vector<PoseEstimate> run_cascade(const ObjectSearch& search, std::span<const ScanHit> hits,
+                                      std::span<const Se3> known_in_world,
+                                      const DetectOptions& options) {
+  const Cascade cascade(search, known_in_world, options);
+  return cascade.fine(cascade.medium(cascade.coarse(hits)));
 }
 
 }  // namespace
-
-D2coOptions DetectOptions::coarse_joint_defaults() {
-  D2coOptions options;
-  // By a cost this sharp they are told apart: what is hidden costs no more than what is a little
-  // off.
-  options.rounds = {{LOSS_GEMAN_MCCLURE, 10, 8, 60}, {LOSS_GEMAN_MCCLURE, 1, 4, 60}};
-  return options;
-}
-
-D2coOptions DetectOptions::medium_defaults() {
-  D2coOptions options;
-  options.rounds = {{LOSS_GEMAN_MCCLURE, 12, 6, 150}, {LOSS_GEMAN_MCCLURE, 5, 6, 200}};
-  options.visibility.depth_map_size_px = 96;
-  return options;
-}
 
 RefineOptions DetectOptions::refine_defaults() {
   RefineOptions options;
@@ -144,89 +190,49 @@ void DetectOptions::validate() const {
   edge_claims.validate();
 }
 
-Detection to_detection(int object, const Registration& registration, const PoseFeatures& features) {
+Detection to_detection(const PoseEstimate& estimate) {
+  const PoseFeatures features = pool_over_views(estimate.features);
   Detection d;
-  d.object = object;
-  d.world_from_object = registration.world_from_object;
-  d.covariance = registration.covariance;
-  d.probability = pose_probability(features);
+  d.object = estimate.object;
+  d.world_from_object = estimate.world_from_object;
+  d.covariance = estimate.covariance;
+  d.probability = PoseClassifier::probability(features);
   d.psi = features.psi;
   d.cost_px = features.mean_px;
   d.matched_fraction = features.matched;
   d.psi_z_score = psi_z_score(features);
   d.unexplained_grey = unexplained_grey(features.shading);
-  d.convergence = to_string(registration.reason);
+  d.convergence = to_string(estimate.convergence);
   return d;
 }
 
 PoseFilter near_known(std::span<const Se3> known_in_world, const TemplateSet& set,
                       const Se3& camera_from_world) {
-  return [known = in_camera(known_in_world, set, camera_from_world),
-          radius_m = NEAR_KNOWN * set.model.mesh.diameter_m](const Se3& camera_from_object) {
-    return known.any_within(radius_m, camera_from_object);
-  };
+  return within_known(known_in_world, set, camera_from_world, thresholds::NEAR_KNOWN);
 }
 
-std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation,
-                                     Backend& backend, const DetectOptions& options) {
-  return find_candidates(set, observation, {}, {}, backend, options);
+std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
+                                          std::span<const Se3> known_in_world,
+                                          const DetectOptions& options) {
+  const std::vector<ObjectView> support =
+      support_views(search.view, search.support, std::size_t(options.support_views));
+  const ObjectSearch supported{search.set, search.view, support, search.backend};
+  std::vector<ScanHit> hits = rescore_in_views(
+      supported, coarse_scan(search.set, search.view, search.backend, options.scan), options.scan);
+  std::erase_if(hits,
+                [is_near = near_known(known_in_world, search.set, search.view.camera_from_world)](
+                    const ScanHit& hit) { return is_near(hit.pose.world_from_object); });
+  return run_cascade(supported, hits, known_in_world, options);
 }
 
-std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation,
-                                     std::span<const Observation> others,
-                                     std::span<const Se3> known, Backend& backend,
-                                     const DetectOptions& options) {
-  const std::vector<Observation> helping =
-      support_views(observation, others, std::size_t(options.support_views));
-  std::vector<ScanHit> hits =
-      rescore_in_views(set, coarse_scan(set, observation, backend, options.scan), observation,
-                       helping, backend, options.scan);
-  std::erase_if(hits, [excluded = near_known(known, set, observation.view.camera_from_world)](
-                          const ScanHit& hit) { return excluded(hit.camera_from_object); });
-  return find_candidates(set, hits, observation, others, known, backend, options);
-}
-
-std::vector<Refined> find_candidates(const TemplateSet& set, std::span<const ScanHit> hits,
-                                     const Observation& observation,
-                                     std::span<const Observation> all_others,
-                                     std::span<const Se3> known, Backend& backend,
-                                     const DetectOptions& options) {
-  const std::vector<Observation> others =
-      support_views(observation, all_others, std::size_t(options.support_views));
-  const std::span<const EdgeModel> models(&set.model, 1);
-  const std::vector<RegisterView> full = views_around(observation, others);
-  const KnownPoses known_here = in_camera(known, set, observation.view.camera_from_world);
-  const auto is_known = [&](const Se3& pose) {
-    return known_here.any_within(SAME_POSE * set.model.mesh.diameter_m, pose);
-  };
-  std::vector<ObjectPose> hypotheses = coarse_aligned(set, hits, coarse_of(full), backend, options);
-  hypotheses = object_poses_of(hypotheses,
-                               register_poses(models, hypotheses, full, backend, options.medium));
-  std::erase_if(hypotheses, [&](const ObjectPose& h) { return is_known(h.world_from_object); });
-  const std::vector<Se3> poses = poses_of(hypotheses);
-  const std::vector<PoseFeatures> features = pose_features_by_view(
-      models, hypotheses, full, backend, options.refine.score, options.medium.visibility);
-  const auto of_pose = [&](std::size_t i) {
-    return std::span(features).subspan(i * full.size(), full.size());
-  };
-  const std::vector<std::size_t> chosen =
-      best_of(poses, set, std::size_t(options.candidates),
-              [&](std::size_t i) { return -merit(of_pose(i)); });
-
-  RefineOptions refine = options.refine;
-  if (!others.empty())
-    refine.search.rotation_rad = 0;  // several views leave no doubt that a search could settle
-  std::vector<Refined> refined =
-      refine_poses(models, hypotheses_at(poses, chosen), full, backend, refine);
-  std::erase_if(refined,
-                [&](const Refined& r) { return is_known(r.registration.world_from_object); });
-  std::vector<Se3> final_poses;
-  for (const Refined& r : refined) final_poses.push_back(r.registration.world_from_object);
-  std::vector<Refined> different;
-  for (std::size_t i : best_of(final_poses, set, refined.size(),
-                               [&](std::size_t i) { return -merit(refined[i].by_view); }))
-    different.push_back(refined[i]);
-  return different;
+std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
+                                          std::span<const ScanHit> rescored,
+                                          std::span<const Se3> known_in_world,
+                                          const DetectOptions& options) {
+  const std::vector<ObjectView> support =
+      support_views(search.view, search.support, std::size_t(options.support_views));
+  return run_cascade({search.set, search.view, support, search.backend}, rescored, known_in_world,
+                     options);
 }
 
 }  // namespace edgescout

@@ -1,12 +1,18 @@
-// From an observation to registered, scored detections of one object.
+// Finds the registered, scored candidates of one object in one image by a cascade of three stages.
+//
+//   stage   views     tensor   poses that enter                      registered by
+//   coarse  one       reduced  scan hits, coarse_poses               refine.search.coarse
+//   coarse  several   reduced  rescored hits, coarse_poses_joint     coarse_joint
+//   medium  any       full     all aligned, medium_poses_joint       medium
+//   fine    any       full     candidates                            refine
+//
+// Public header.
 #pragma once
 
 #include <vector>
 
-#include "host/detect/coarse_scan.h"
 #include "host/detect/edge_claims.h"
 #include "host/detect/plausible_pairs.h"
-#include "host/detect/probability.h"
 #include "host/detect/rescore_in_views.h"
 #include "host/register/refine.h"
 
@@ -14,62 +20,49 @@ namespace edgescout {
 
 struct DetectOptions {
   ScanOptions scan;
-  int support_views = 4;  // of other images that help to search one (support_views.h)
-  int coarse_poses =
-      2500;  // different ones among the scan's hits that are aligned, roughly and cheaply
-  // The same where other images helped to rank the hits (joint_scan.h): more roughly still, by
-  // `coarse_joint`, and the `medium_poses_joint` ones that fit best then go on.
-  int coarse_poses_joint = 3000;
-  int medium_poses_joint = 200;
-  D2coOptions coarse_joint = coarse_joint_defaults();
-  // different ones among those that are registered in full (the paper's object candidates)
-  int candidates = 60;
-  D2coOptions medium = medium_defaults();  // on the full tensor after the coarse one, before
-                                           // Psi can judge: it means nothing 3 px off
-  RefineOptions refine = refine_defaults();
+  int support_views = 4;          // other images that support the search of one (support_views.h)
+  int coarse_poses = 2500;        // distinct scan hits that enter the coarse stage
+  int coarse_poses_joint = 3000;  // the same where other images support the search
+  int medium_poses_joint = 200;   // of these, by cost, that enter the medium stage
+  int candidates = 60;  // distinct poses that enter the fine stage (the paper's object candidates)
+  D2coOptions coarse_joint = schedules::coarse_joint();
+  D2coOptions medium = schedules::medium();
+  RefineOptions refine = refine_defaults();  // the fine stage
   EdgeClaimOptions edge_claims;
-  // How far parts may reach into each other: of poses found in several views that reach further,
-  // the less probable one is doubted (plausible_pairs.h).
+  // How far parts may reach into each other, m. Where two poses found in several views reach
+  // further, the less probable one loses probability (plausible_pairs.h).
   double penetration_m = DEFAULT_PENETRATION_M;
-  double restart_rotation_rad = 0.3;  // turned starts around what was chosen (settle.h); 0: none
-  double min_probability = 0.05;      // of what is reported; docs/evaluation.md has the reliability
+  double restart_rotation_rad = 0.3;  // of turned starts around the selected poses; 0: none
+  double min_probability = 0.05;      // of a reported pose; docs/calibration.md has the reliability
   int max_detections = 100;
   static RefineOptions refine_defaults();
-  static D2coOptions coarse_joint_defaults();
-  static D2coOptions medium_defaults();
-  void validate() const;
+  void validate() const;  // InputError naming the field and the violated bound
 };
 
-Detection to_detection(int object, const Registration& registration, const PoseFeatures& features);
+// Of an estimate with features: they are pooled over its views.
+Detection to_detection(const PoseEstimate& estimate);
 
-// Whether a pose in the frame of this camera lies so near a known instance, within a fifth of the
-// diameter, that the alignment would draw it there.
+// Whether a pose in the frame of this camera lies so near a known instance (thresholds::NEAR_KNOWN)
+// that alignment would move it there.
 PoseFilter near_known(std::span<const Se3> known_in_world, const TemplateSet& set,
                       const Se3& camera_from_world);
 
-// The registered candidates of one object in one view (world: its camera frame), highest log-odds
-// first, duplicates merged.
-std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation,
-                                     Backend& backend, const DetectOptions& options);
+// The candidates of search.set in search.view with features, highest rank first, duplicates merged.
+// Poses are in the view's camera frame; their object is 0.
+//
+// At most options.support_views of search.support are chosen (support_views.h). They take part in
+// all stages: hits are rescored in them and poses are registered in them. Features hold search.view
+// first, then the chosen views. `known_in_world` are instances that need not be found again: hits
+// near them are not aligned, and poses that end within SAME_POSE of one are dropped.
+std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
+                                          std::span<const Se3> known_in_world,
+                                          const DetectOptions& options);
 
-// The same with the help of other images of the same static scene: hits are judged by all of them
-// (joint_scan.h), registered in all of them, and ranked by what all of them say
-// (probability_over_views.h). Of many others some are taken (support_views.h). Refined::by_view has
-// the given view first, then those that helped. `known` are the instances of the object that need
-// not be found again, in the world of the views: hits that are drawn to them are not aligned (nor
-// those of another part stacked so near on one), and what ends within a tenth is no candidate.
-std::vector<Refined> find_candidates(const TemplateSet& set, const Observation& observation,
-                                     std::span<const Observation> others,
-                                     std::span<const Se3> known, Backend& backend,
-                                     const DetectOptions& options);
-
-// The same of hits in the observation's camera frame, whatever image they come from, that all
-// images have judged already and of which none is drawn to a known instance (pooled_hits,
-// joint_scan.h).
-std::vector<Refined> find_candidates(const TemplateSet& set, std::span<const ScanHit> judged,
-                                     const Observation& observation,
-                                     std::span<const Observation> others,
-                                     std::span<const Se3> known, Backend& backend,
-                                     const DetectOptions& options);
+// The same from hits of any images that are in the camera frame of search.view, already rescored,
+// and near no known instance (pooled_hits).
+std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
+                                          std::span<const ScanHit> rescored,
+                                          std::span<const Se3> known_in_world,
+                                          const DetectOptions& options);
 
 }  // namespace edgescout

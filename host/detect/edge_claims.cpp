@@ -5,87 +5,125 @@
 #include <unordered_set>
 
 #include "host/core/option_bounds.h"
-#include "host/detect/probability_over_views.h"
+#include "host/register/pose_classifier.h"
 #include "host/register/visible_in_views.h"
-#include "kernels/error.h"
 #include "kernels/pose_geometry.h"
 
 namespace edgescout {
 
 namespace {
 
-// An image edge point, by view.
-struct EdgeKey {
+// An edge point of one view's image.
+struct ImageEdge {
   std::size_t view;
-  const EdgePoint* edge;
-  bool operator==(const EdgeKey&) const = default;
+  const EdgePoint* point;
+  bool operator==(const ImageEdge&) const = default;
 };
-struct EdgeKeyHash {
-  std::size_t operator()(const EdgeKey& key) const {
-    return std::hash<const void*>()(key.edge) ^ key.view;
+struct ImageEdgeHash {
+  std::size_t operator()(const ImageEdge& edge) const {
+    return std::hash<const void*>()(edge.point) ^ edge.view;
   }
 };
 
-struct Explained {
-  EdgeKey key;
-  double length_px;  // of the model edge it matches
+struct ExplainedEdge {
+  ImageEdge edge;
+  double length_px;  // of the model edge that it matches
 };
 
-// The image edges a pose explains, one entry a visible model point.
-std::vector<Explained> explained_edges(const EdgeModel& model, const ObjectPose& pose,
-                                       std::span<const RegisterView> views,
-                                       std::span<const VisibleInView> seen,
-                                       const EdgeClaimOptions& options) {
-  std::vector<Explained> explained;
-  for (std::size_t v = 0; v < views.size(); ++v) {
-    if (!views[v].edges) continue;
-    const Pose transform = to_pose(views[v].camera_from_world * pose.world_from_object);
-    for (const ModelPoint& point : seen[v].points) {
-      const PosedPoint<float> posed = pose_point<float>(transform, point);
-      if (!can_be_seen(posed.point)) continue;
-      const ProjectedEdge<float> edge = project_edge(posed, views[v].view->intrinsics);
-      const EdgePoint* match = views[v].edges->nearest(
-          edge.u, edge.v, orientation(edge.dx, edge.dy), options.match_px, options.max_turn_rad);
-      const double px_per_m = std::hypot(edge.dx, edge.dy) / (posed.point.z * posed.point.z);
-      if (match) explained.push_back({{v, match}, model.raster_step_m * px_per_m});
-    }
+// The edges of view `v` that the pose explains, one entry per visible model point that has one.
+void append_explained(const Scene& scene, const ObjectPose& pose, std::size_t v,
+                      const std::vector<ModelPoint>& visible, const EdgeClaimOptions& options,
+                      std::vector<ExplainedEdge>& explained) {
+  const ObjectView& view = scene.views[v];
+  const Pose camera_from_object = to_pose(view.camera_from_world * pose.world_from_object);
+  const double raster_step_m = scene.models[std::size_t(pose.object)].raster_step_m;
+  for (const ModelPoint& point : visible) {
+    const PosedPoint<float> posed = pose_point<float>(camera_from_object, point);
+    if (!can_be_seen(posed.point)) continue;
+    const ProjectedEdge<float> edge = project_edge(posed, view.tensor->intrinsics);
+    const EdgePoint* match = view.edges->nearest(edge.u, edge.v, orientation(edge.dx, edge.dy),
+                                                 options.match_px, options.max_turn_rad);
+    const double px_per_m = std::hypot(edge.dx, edge.dy) / (posed.point.z * posed.point.z);
+    if (match) explained.push_back({{v, match}, raster_step_m * px_per_m});
   }
+}
+
+std::vector<ExplainedEdge> explained_edges(const Scene& scene, const ObjectPose& pose,
+                                           const EdgeClaimOptions& options) {
+  const Grid<VisibleInView> visible = visible_in_views(scene, {&pose, 1});
+  std::vector<ExplainedEdge> explained;
+  for (std::size_t v = 0; v < scene.views.size(); ++v)
+    if (scene.views[v].edges)
+      append_explained(scene, pose, v, visible(0, v).points, options, explained);
   return explained;
+}
+
+// More than chance in all views together, or clearly so in two of them: other objects may hide the
+// pose from the rest.
+bool exceeds_chance(std::span<const PoseFeatures> by_view) {
+  constexpr double clear_z_score = 2;  // standard errors
+  return psi_z_score(pool_over_views(by_view)) > 0 ||
+         std::ranges::count_if(by_view, [](const PoseFeatures& features) {
+           return psi_z_score(features) > clear_z_score;
+         }) > 1;
 }
 
 class ClaimedEdges {
  public:
-  explicit ClaimedEdges(std::span<const RegisterView> views) : views_(views) {}
-  bool contains(const EdgeKey& key) const { return claimed_.contains(key); }
-  void claim(const std::vector<Explained>& explained, const EdgeClaimOptions& options) {
-    for (const Explained& e : explained)
-      views_[e.key.view].edges->for_each_near(e.key.edge->x_px, e.key.edge->y_px, options.match_px,
-                                              [&](const EdgePoint& edge) {
-                                                claimed_.insert({e.key.view, &edge});
-                                              });
+  ClaimedEdges(std::span<const ObjectView> views, double match_px)
+      : views_(views), match_px_(match_px) {}
+
+  // With their neighbours: an image edge is wider than one point.
+  void claim(const std::vector<ExplainedEdge>& explained) {
+    for (const auto& [edge, length_px] : explained)
+      views_[edge.view].edges->for_each_near(edge.point->x_px, edge.point->y_px, float(match_px_),
+                                             [&, view = edge.view](const EdgePoint& point) {
+                                               claimed_.insert({view, &point});
+                                             });
+  }
+
+  double unclaimed_fraction(const std::vector<ExplainedEdge>& explained) const {
+    double total_px = 0, unclaimed_px = 0;
+    for (const auto& [edge, length_px] : explained) {
+      total_px += length_px;
+      if (!claimed_.contains(edge)) unclaimed_px += length_px;
+    }
+    return total_px > 0 ? unclaimed_px / total_px : 0;
   }
 
  private:
-  std::span<const RegisterView> views_;
-  std::unordered_set<EdgeKey, EdgeKeyHash> claimed_;
+  std::span<const ObjectView> views_;
+  double match_px_;
+  std::unordered_set<ImageEdge, ImageEdgeHash> claimed_;
 };
 
-double unclaimed_fraction(const std::vector<Explained>& explained, const ClaimedEdges& claimed) {
-  double total = 0, unclaimed = 0;
-  for (const Explained& e : explained) {
-    total += e.length_px;
-    if (!claimed.contains(e.key)) unclaimed += e.length_px;
+// A pose that may still be chosen.
+struct Competitor {
+  EdgeClaim claim;
+  std::vector<ExplainedEdge> explained;
+  double rank;  // log-odds
+  double weighted_probability() const { return claim.unclaimed / (1 + std::exp(-rank)); }
+};
+
+std::vector<Competitor> competitors_of(const Scene& scene, std::span<const PoseEstimate> poses,
+                                       const EdgeClaimOptions& options) {
+  std::vector<Competitor> competitors;
+  for (std::size_t p = 0; p < poses.size(); ++p) {
+    std::vector<ExplainedEdge> explained = explained_edges(scene, poses[p], options);
+    if (exceeds_chance(poses[p].features))
+      competitors.push_back(
+          {{p, 1}, std::move(explained), PoseClassifier::rank(poses[p].features)});
   }
-  return total > 0 ? unclaimed / total : 0;
+  return competitors;
 }
 
-// More than chance in all views together, or clearly so in two of them: others may hide it from the
-// rest.
-bool exceeds_chance(std::span<const PoseFeatures> by_view) {
-  constexpr double clearly = 2;  // standard errors
-  return psi_z_score(pool_over_views(by_view)) > 0 ||
-         std::ranges::count_if(by_view,
-                               [](const PoseFeatures& f) { return psi_z_score(f) > clearly; }) > 1;
+// The first of the best; end() where no probability is above 0.
+auto best_of(std::vector<Competitor>& competitors) {
+  auto best = competitors.end();
+  double highest = 0;
+  for (auto it = competitors.begin(); it != competitors.end(); ++it)
+    if (const double p = it->weighted_probability(); p > highest) highest = p, best = it;
+  return best;
 }
 
 }  // namespace
@@ -97,38 +135,22 @@ void EdgeClaimOptions::validate() const {
   in("max_claimed", max_claimed, 0, 1);
 }
 
-std::vector<EdgeClaim> claim_edges(std::span<const EdgeModel> models,
-                                   std::span<const ObjectPose> poses,
-                                   std::span<const std::vector<PoseFeatures>> features,
-                                   std::span<const RegisterView> views, Backend& backend,
+std::vector<EdgeClaim> claim_edges(const Scene& scene, std::span<const PoseEstimate> poses,
                                    const EdgeClaimOptions& options) {
-  check(features.size() == poses.size(), "claim_edges: as many features as poses");
-  std::vector<std::vector<Explained>> explained(poses.size());
-  for (std::size_t p = 0; p < poses.size(); ++p) {
-    const std::vector<VisibleInView> seen =
-        visible_in_views(models, poses.subspan(p, 1), views, backend);
-    explained[p] = explained_edges(models[poses[p].object], poses[p], views, seen, options);
-  }
-  ClaimedEdges claimed(views);
-  std::vector<EdgeClaim> chosen;
-  std::vector<bool> open(poses.size(), true);
+  std::vector<Competitor> competitors = competitors_of(scene, poses, options);
+  ClaimedEdges claimed(scene.views, options.match_px);
+  std::vector<EdgeClaim> claims;
   for (;;) {
-    std::size_t best = poses.size();
-    double most_worth = 0;
-    for (std::size_t p = 0; p < poses.size(); ++p) {
-      if (!open[p]) continue;
-      const double unclaimed = unclaimed_fraction(explained[p], claimed);
-      if (unclaimed < 1 - options.max_claimed || !exceeds_chance(features[p])) {
-        open[p] = false;
-        continue;
-      }
-      const double worth = unclaimed / (1 + std::exp(-merit(features[p])));
-      if (worth > most_worth) most_worth = worth, best = p;
-    }
-    if (best == poses.size()) return chosen;
-    chosen.push_back({best, unclaimed_fraction(explained[best], claimed)});
-    claimed.claim(explained[best], options);
-    open[best] = false;
+    for (Competitor& competitor : competitors)
+      competitor.claim.unclaimed = claimed.unclaimed_fraction(competitor.explained);
+    std::erase_if(competitors, [&](const Competitor& competitor) {
+      return competitor.claim.unclaimed < 1 - options.max_claimed;
+    });
+    const auto best = best_of(competitors);
+    if (best == competitors.end()) return claims;
+    claims.push_back(best->claim);
+    claimed.claim(best->explained);
+    competitors.erase(best);
   }
 }
 

@@ -1,8 +1,7 @@
-// How much of the image a pose explains, and which poses remain when every edge of the image may be
-// explained only once.
+// Chooses poses so that every edge of the image is explained by one pose only.
 //
-// Of poses that compete for the same edges the one of most merit is taken first; the image edges it
-// explains are claimed.
+// Poses that explain the same edges compete for them. The pose with the highest rank is chosen
+// first and claims the image edges that it explains.
 #pragma once
 
 #include <span>
@@ -15,23 +14,21 @@ namespace edgescout {
 struct EdgeClaimOptions {
   float match_px = 3;  // from a projected point to the edge it explains
   float max_turn_rad = 0.35f;
-  double max_claimed =
-      0.5;  // of the length a pose explains: more claimed by better poses, and it goes
-  void validate() const;  // throws InputError naming the field and the violated bound
+  // Fraction of the edge length a pose explains; a pose of which better ones claim more is dropped.
+  double max_claimed = 0.5;
+  void validate() const;  // InputError naming the field and the violated bound
 };
 
+// A pose that was chosen.
 struct EdgeClaim {
-  std::size_t index = 0;  // into the candidates
+  std::size_t index = 0;  // into the poses
   double unclaimed = 1;   // fraction of its explained edge length no better pose had claimed
 };
 
-// Greedy choice among candidates (poses with their features, those of one pose's views side by
-// side): the most probable (merit, probability_over_views.h) times unclaimed first, those without
-// evidence never; all views count together. Views without an edge index do not take part.
-std::vector<EdgeClaim> claim_edges(std::span<const EdgeModel> models,
-                                   std::span<const ObjectPose> poses,
-                                   std::span<const std::vector<PoseFeatures>> features,
-                                   std::span<const RegisterView> views, Backend& backend,
+// Chooses greedily by logistic(PoseClassifier::rank) times the unclaimed fraction, highest first.
+// Never chooses a pose whose psi does not exceed chance. Lengths are summed over all views; views
+// without an edge index do not take part. The poses must have features.
+std::vector<EdgeClaim> claim_edges(const Scene& scene, std::span<const PoseEstimate> poses,
                                    const EdgeClaimOptions& options = {});
 
 }  // namespace edgescout

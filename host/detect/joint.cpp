@@ -1,51 +1,52 @@
 #include "host/detect/joint.h"
 
-#include "host/detect/probability_over_views.h"
 #include "host/detect/suppression.h"
+#include "host/register/pose_classifier.h"
+#include "host/register/thresholds.h"
 
 namespace edgescout {
 
 namespace {
 
-// the best of all views, as many as these have: what is right is found in several
-constexpr std::size_t VIEWS_WORTH = 4;
+// Candidates that are registered jointly, as multiples of those of one view. A right pose is found
+// in several views, so more views do not need more.
+constexpr std::size_t MOST_VIEWS = 4;
 
-// All views' candidates of one object in the world, best probability first, without duplicates.
-std::vector<ObjectPose> gather(int object, const TemplateSet& set,
-                               std::span<const std::vector<std::vector<Refined>>> candidates,
-                               std::span<const Observation> observations, std::size_t most) {
-  std::vector<Se3> poses;
+// The candidates of one object from all views, in the world, most probable first, without
+// duplicates.
+std::vector<ObjectPose> merge_candidates(std::span<const ObjectView> views, int object,
+                                         const TemplateSet& set,
+                                         const Grid<std::vector<PoseEstimate>>& candidates,
+                                         std::size_t most) {
+  std::vector<Se3> world_from_object;
   std::vector<double> keys;
-  for (std::size_t v = 0; v < candidates.size(); ++v)
-    for (const Refined& refined : candidates[v][static_cast<std::size_t>(object)]) {
-      poses.push_back(inverse(observations[v].view.camera_from_world) *
-                      refined.registration.world_from_object);
-      keys.push_back(-probability_over_views(refined.by_view));
+  for (std::size_t v = 0; v < views.size(); ++v)
+    for (const PoseEstimate& candidate : candidates(v, std::size_t(object))) {
+      world_from_object.push_back(inverse(views[v].camera_from_world) *
+                                  candidate.world_from_object);
+      keys.push_back(-PoseClassifier::probability(candidate.features));
     }
-  std::vector<ObjectPose> gathered;
-  for (std::size_t i : best_distinct(poses, keys, set.model.mesh, set.symmetries,
-                                     0.05 * set.model.mesh.diameter_m, most))
-    gathered.push_back({object, poses[i]});
-  return gathered;
+  const double radius_m = thresholds::SAME_ACROSS_VIEWS * set.model.mesh.diameter_m;
+  std::vector<ObjectPose> merged;
+  for (std::size_t i :
+       best_distinct(world_from_object, keys, set.model.mesh, set.symmetries, radius_m, most))
+    merged.push_back({object, world_from_object[i]});
+  return merged;
 }
 
 }  // namespace
 
-std::vector<Detection> join_views(std::span<const TemplateSet> sets,
-                                  std::span<const EdgeModel> models,
-                                  std::span<const std::vector<std::vector<Refined>>> candidates,
-                                  std::span<const Observation> observations, Backend& backend,
+std::vector<Detection> join_views(const Scene& scene, std::span<const TemplateSet> sets,
+                                  const Grid<std::vector<PoseEstimate>>& candidates,
                                   const DetectOptions& options) {
-  const std::vector<RegisterView> views = views_of(observations);
-  std::vector<ObjectPose> poses;
+  const std::size_t most = MOST_VIEWS * std::size_t(options.candidates);
+  std::vector<ObjectPose> starts;
   for (std::size_t object = 0; object < sets.size(); ++object) {
-    const std::vector<ObjectPose> gathered =
-        gather(int(object), sets[object], candidates, observations,
-               VIEWS_WORTH * std::size_t(options.candidates));
-    poses.insert(poses.end(), gathered.begin(), gathered.end());
+    const std::vector<ObjectPose> merged =
+        merge_candidates(scene.views, int(object), sets[object], candidates, most);
+    starts.insert(starts.end(), merged.begin(), merged.end());
   }
-  const std::vector<Refined> refined = refine_poses(models, poses, views, backend, options.refine);
-  return select_detections(models, poses, refined, views, backend, options);
+  return select_detections(scene, refine_poses(scene, starts, options.refine), options);
 }
 
 }  // namespace edgescout

@@ -1,17 +1,17 @@
-// Candidates of several calibrated views of one static scene, refined over all of them.
+// Refines the candidates of several calibrated views of one static scene over all views.
 #pragma once
 
+#include "host/core/grid.h"
 #include "host/detect/select_detections.h"
 
 namespace edgescout {
 
-// `candidates` by view and object, in the views' camera frames. Every candidate is carried to the
-// world, duplicates are merged, the best (as many as four views may have) are registered on the
-// tensors of all views at once (Eq. 11), and they are decided over all views.
-std::vector<Detection> join_views(std::span<const TemplateSet> sets,
-                                  std::span<const EdgeModel> models,
-                                  std::span<const std::vector<std::vector<Refined>>> candidates,
-                                  std::span<const Observation> observations, Backend& backend,
+// `candidates`: rows are views, columns are objects; poses are in the camera frames of the views.
+// Every candidate is transformed to the world and duplicates are merged. The most probable ones
+// (four times DetectOptions::candidates) are registered on the tensors of all views at once (Eq.
+// 11) and selected over all views.
+std::vector<Detection> join_views(const Scene& scene, std::span<const TemplateSet> sets,
+                                  const Grid<std::vector<PoseEstimate>>& candidates,
                                   const DetectOptions& options);
 
 }  // namespace edgescout

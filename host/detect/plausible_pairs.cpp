@@ -12,6 +12,7 @@
 
 #include "host/core/order.h"
 #include "host/model/viewpoints.h"
+#include "host/register/pose_classifier.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
 
@@ -21,15 +22,15 @@ namespace {
 
 using Tree = fcl::BVHModel<fcl::OBBRSSd>;
 
-// A mesh made ready: its triangles in a tree and one vertex of every connected piece, enough to
-// know whether the piece lies inside something it does not cut.
+// A mesh prepared for the tests. One vertex of every connected piece is enough to know whether the
+// piece lies inside something that it does not cut.
 struct Solid {
   const EdgeModel* model;
-  std::shared_ptr<Tree> tree;
-  std::vector<Eigen::Vector3d> pieces;
+  std::shared_ptr<Tree> tree;           // of triangles
+  std::vector<Eigen::Vector3d> pieces;  // one vertex each
 };
 
-std::vector<Eigen::Vector3d> a_vertex_of_each_piece(const Mesh& mesh) {
+std::vector<Eigen::Vector3d> vertex_of_each_piece(const Mesh& mesh) {
   std::vector<int> parent(mesh.vertices_m.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int v) {
@@ -51,11 +52,11 @@ Solid make_solid(const EdgeModel& model) {
   tree->beginModel();
   tree->addSubModel(model.mesh.vertices_m, triangles);
   tree->endModel();
-  return {&model, std::move(tree), a_vertex_of_each_piece(model.mesh)};
+  return {&model, std::move(tree), vertex_of_each_piece(model.mesh)};
 }
 
 // By the winding number: the solid angle of all triangles seen from the point, over 4 pi (Van
-// Oosterom & Strackee 1983). Meshes with small holes have an inside, too.
+// Oosterom & Strackee 1983). It works for meshes with small holes, too.
 bool inside(const Mesh& mesh, const Eigen::Vector3d& point) {
   double half_angles = 0;
   for (const std::array<int, 3>& t : mesh.triangles) {
@@ -68,7 +69,7 @@ bool inside(const Mesh& mesh, const Eigen::Vector3d& point) {
   return std::abs(half_angles) > std::numbers::pi;
 }
 
-bool holds_a_piece(const Solid& outer, const Solid& inner, const Se3& outer_from_inner) {
+bool contains_a_piece(const Solid& outer, const Solid& inner, const Se3& outer_from_inner) {
   for (const Eigen::Vector3d& vertex : inner.pieces) {
     const Eigen::Vector3d in_outer = outer_from_inner * vertex;
     const bool in_box = (in_outer.array() >= outer.model->mesh.box_min_m.array()).all() &&
@@ -85,27 +86,27 @@ fcl::Transform3d transform(const Se3& pose) {
   return t;
 }
 
-// Two posed solids, in the first one's frame.
+// Two posed solids, in the frame of the first.
 class Pair {
  public:
   Pair(const Solid& a, const Solid& b, const Se3& a_from_b) : a_(a), b_(b), a_from_b_(a_from_b) {}
 
   bool overlap(const Eigen::Vector3d& push_m) const {
     const Se3 pushed{a_from_b_.rotation, a_from_b_.translation_m + push_m};
-    return !contacts(pushed, 1).empty() || holds_a_piece(a_, b_, pushed) ||
-           holds_a_piece(b_, a_, inverse(pushed));
+    return !contacts(pushed, 1).empty() || contains_a_piece(a_, b_, pushed) ||
+           contains_a_piece(b_, a_, inverse(pushed));
   }
 
-  // Normals of the faces that cut each other, both ways.
+  // Normals of the faces that cut each other, with both signs.
   std::vector<Eigen::Vector3d> contact_normals() const {
-    constexpr std::size_t looked_at = 48;
+    constexpr std::size_t most = 48;
     std::vector<Eigen::Vector3d> normals;
     const auto add = [&](const Eigen::Vector3d& n) {
       for (const Eigen::Vector3d& known : normals)
         if (known.dot(n) > 0.99) return;
       normals.push_back(n);
     };
-    for (const fcl::Contactd& contact : contacts(a_from_b_, looked_at)) {
+    for (const fcl::Contactd& contact : contacts(a_from_b_, most)) {
       const Eigen::Vector3d& of_a = a_.model->mesh.face_normals[contact.b1];
       const Eigen::Vector3d of_b = a_from_b_.rotation * b_.model->mesh.face_normals[contact.b2];
       add(of_a), add(-of_b), add(-of_a), add(of_b);
@@ -128,13 +129,12 @@ class Pair {
   Se3 a_from_b_;
 };
 
-bool can_exist_together(const Pair& pair, double penetration_m) {
+bool can_coexist(const Pair& pair, double penetration_m) {
   if (!pair.overlap(Eigen::Vector3d::Zero())) return true;
   if (penetration_m == 0) return false;
   for (const Eigen::Vector3d& direction : pair.contact_normals())
-    for (const double length_m :
-         {penetration_m,
-          0.5 * penetration_m})  // the shorter one where there is something on the other side, too
+    // The shorter push helps where something is on the other side, too.
+    for (const double length_m : {penetration_m, 0.5 * penetration_m})
       if (!pair.overlap(length_m * direction)) return true;
   static const std::vector<Eigen::Vector3d> around = icosphere(2);
   for (const Eigen::Vector3d& direction : around)
@@ -153,7 +153,7 @@ BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Obj
   std::vector<Solid> solids;
   if (count > 1)
     for (const EdgeModel& model : models) solids.push_back(make_solid(model));
-  std::vector<char> pool_over_views(count * count, 1);
+  std::vector<char> is_plausible(count * count, 1);
   pool.for_each(count * count, [&](std::size_t cell) {
     const std::size_t i = cell / count, j = cell % count;
     if (j >= i) return;
@@ -164,23 +164,23 @@ BitMatrix plausible_pairs(std::span<const EdgeModel> models, std::span<const Obj
          (b.world_from_object * solid_b.model->center_m))
             .norm() > reach_m)
       return;
-    together[cell] = together[j * count + i] = can_exist_together(
+    is_plausible[cell] = is_plausible[j * count + i] = can_coexist(
         Pair(solid_a, solid_b, inverse(a.world_from_object) * b.world_from_object), penetration_m);
   });
   BitMatrix plausible(count, count);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < count; ++j)
-      if (together[i * count + j]) plausible.set(i, j);
+      if (is_plausible[i * count + j]) plausible.set(i, j);
   return plausible;
 }
 
 namespace {
 
-// The chance that none of these is there. Those that exclude each other add up, others are
-// independent.
-double chance_of_none(std::span<const std::size_t> candidates,
-                      std::span<const double> probabilities, const BitMatrix& plausible) {
-  std::vector<std::vector<std::size_t>> groups;  // whose members exclude each other
+// Probability that none of these candidates is there. Probabilities of those that exclude each
+// other add up; others are independent.
+double probability_of_none(std::span<const std::size_t> candidates,
+                           std::span<const double> probabilities, const BitMatrix& plausible) {
+  std::vector<std::vector<std::size_t>> groups;  // the members of a group exclude each other
   for (const std::size_t c : candidates) {
     const auto home = std::ranges::find_if(groups, [&](const auto& group) {
       return std::ranges::none_of(group,
@@ -209,12 +209,33 @@ std::vector<double> exclusive_probabilities(std::span<const double> probabilitie
   const std::vector<std::size_t> order = largest_first(probabilities);
   std::vector<double> left(probabilities.begin(), probabilities.end());
   for (std::size_t i = 0; i < order.size(); ++i) {
-    std::vector<std::size_t> in_the_way;
+    std::vector<std::size_t> excluding;
     for (std::size_t j = 0; j < i; ++j)
-      if (!plausible.has(order[i], order[j])) in_the_way.push_back(order[j]);
-    left[order[i]] *= chance_of_none(in_the_way, left, plausible);
+      if (!plausible.has(order[i], order[j])) excluding.push_back(order[j]);
+    left[order[i]] *= probability_of_none(excluding, left, plausible);
   }
   return left;
+}
+
+std::vector<double> probabilities_without_collisions(std::span<const EdgeModel> models,
+                                                     std::span<const PoseEstimate> poses,
+                                                     double penetration_m, ThreadPool& pool) {
+  constexpr double negligible = 0.01;  // a pose less probable is as good as ruled out already
+  std::vector<double> probabilities, of_placed;
+  std::vector<ObjectPose> placed;  // poses that several views inform
+  std::vector<std::size_t> placed_index;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    probabilities.push_back(PoseClassifier::probability(poses[i].features));
+    if (probabilities[i] < negligible || sum_informative_views(poses[i].features).views < 2)
+      continue;
+    of_placed.push_back(probabilities[i]);
+    placed.push_back(poses[i]);
+    placed_index.push_back(i);
+  }
+  const std::vector<double> left =
+      exclusive_probabilities(of_placed, plausible_pairs(models, placed, penetration_m, pool));
+  for (std::size_t i = 0; i < left.size(); ++i) probabilities[placed_index[i]] = left[i];
+  return probabilities;
 }
 
 }  // namespace edgescout

@@ -1,13 +1,12 @@
 #include "host/detect/rescore_in_views.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
-#include "host/detect/nearest_viewpoint.h"
 #include "host/detect/support_views.h"
 #include "host/detect/template_projection.h"
+#include "host/model/viewpoint_index.h"
 #include "host/register/occluders.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
@@ -16,66 +15,69 @@ namespace edgescout {
 
 namespace {
 
-constexpr std::size_t AT_ONCE = 4096;  // hits: 10 MB of points
+constexpr std::size_t HITS_PER_CALL = 4096;  // 10 MB of points
 constexpr double CHANCE_PX = TEMPLATE_SCORE_OUTSIDE / 4.0;
 
-// How closely a hit is looked at: points of its template, and distances tried, evenly over the gap
-// between templates.
-struct Care {
-  int points, steps;
-  double further(int step, double distance_ratio) const {
-    return (distance_ratio - 1) * (step / double(steps - 1) - 0.5);
+// How much work a rescoring is: points of each template, and distances that are tried, evenly over
+// the gap between the distances of two templates.
+struct Effort {
+  int points, distances;
+  // Change of the distance, as a fraction of it.
+  double shift(int step, double distance_ratio) const {
+    return (distance_ratio - 1) * (step / double(distances - 1) - 0.5);
   }
 };
-Care quick(const ScanOptions& options) { return {std::max(1, options.points / 3), 3}; }
-Care careful(const ScanOptions& options) { return {options.points, 5}; }
+Effort quick(const ScanOptions& options) { return {std::max(1, options.points / 3), 3}; }
+Effort full(const ScanOptions& options) { return {options.points, 5}; }
 
-// A viewpoint's points, and which of a pose's equal ones a camera sees them at.
-struct SeenTemplate {
-  const ThinnedView* view = nullptr;
-  const Se3* symmetry = nullptr;
+// A template set as any camera sees it: the thinned points of every viewpoint.
+struct VisibleTemplates {
+  const TemplateSet& set;
+  Effort effort;
+  ViewpointIndex index;
+  std::vector<ThinnedView> views;  // by viewpoint
+
+  VisibleTemplates(const TemplateSet& templates, const Effort& rescoring)
+      : set(templates), effort(rescoring), index(templates) {
+    for (const TemplateView& view : templates.views) views.emplace_back(view, rescoring.points);
+  }
 };
 
-// A template set as other views see it.
-class NearestViews {
- public:
-  NearestViews(const TemplateSet& set, int points) : nearest_(set) {
-    for (const TemplateView& view : set.views) views_.emplace_back(view, points);
-  }
-  SeenTemplate seen_at(const Se3& camera_from_object) const {
-    const auto [view, symmetry] = nearest_.of(camera_from_object);
-    return {&views_[view], symmetry};
-  }
-
- private:
-  NearestViewpoint nearest_;
-  std::vector<ThinnedView> views_;
-};
-
-// A hit in the camera frame of one of the images, and the way it is moved along.
-struct MovedHit {
+// A hit in the camera frame of one of the images, and the line it is moved along.
+struct MovableHit {
   Se3 camera_from_object;
-  Eigen::Vector3d towards_m;  // from its own camera to its middle
-  Se3 at(double further) const {
-    return {camera_from_object.rotation, camera_from_object.translation_m + further * towards_m};
+  Eigen::Vector3d ray_m;  // from the camera that found it to the object's centre
+  Se3 at(double shift) const {
+    return {camera_from_object.rotation, camera_from_object.translation_m + shift * ray_m};
   }
 };
 
-// What a view says of a hit: `rank`, as ScanHit's, of what known objects leave of it, and how much
-// that is.
-struct Say {
+// How well a hit fits one view: `rank`, as ScanHit::rank, over the points that known objects do not
+// hide, and the fraction of points that these are.
+struct ViewVote {
   double rank = 1, weight = 1;
 };
 
-// Known objects before the points of one tensor's pixels. One pixel of their map is looked at,
-// where Occluders::hide asks nine: a rank over sixty points bears one that falls on the other side.
-class Hiding {
+// Whether known objects hide the points of one tensor's pixels. Tests one pixel of their depth map,
+// where Occluders::hide tests nine: one point of sixty on the wrong side changes a rank little.
+class OccluderTest {
  public:
-  Hiding(const Observation& view, double tolerance_m)
-      : occluders_(view.view.occluders.get()), tolerance_m_(float(tolerance_m)) {
+  OccluderTest(const ObjectView& view, double tolerance_m)
+      : occluders_(view.occluders.get()), tolerance_m_(float(tolerance_m)) {
     if (occluders_) scale_ = float(occluders_->camera.width) / float(view.salient->shape.width);
   }
-  bool any() const { return occluders_ != nullptr; }
+
+  // Moves the visible points to the front; returns their number.
+  int keep_visible(const ThinnedView& view, const Pose& camera_from_object,
+                   TemplatePoint* points) const {
+    if (!occluders_) return view.count();
+    int kept = 0;
+    for (int i = 0; i < view.count(); ++i)
+      if (!hides(points[i], view.depth_m(camera_from_object, i))) points[kept++] = points[i];
+    return kept;
+  }
+
+ private:
   bool hides(const TemplatePoint& point, float depth_m) const {
     const int x = int((point.dx_px + 0.5f) * scale_), y = int((point.dy_px + 0.5f) * scale_);
     if (point.dx_px < 0 || point.dy_px < 0 || x >= occluders_->camera.width ||
@@ -86,191 +88,224 @@ class Hiding {
            depth_m - tolerance_m_;
   }
 
- private:
   const Occluders* occluders_;
   float scale_ = 1, tolerance_m_;
 };
 
-// Moves what is not hidden to the front; how many they are.
-int keep_unhidden(const Hiding& hiding, const ThinnedView& seen, const Pose& camera_from_object,
-                  TemplatePoint* points) {
-  int kept = 0;
-  for (int i = 0; i < seen.count(); ++i)
-    if (!hiding.hides(points[i], seen.depth_m(camera_from_object, i))) points[kept++] = points[i];
-  return kept;
-}
-
-Pose moved_to(Pose pose, const Eigen::Vector3d& translation_m) {
+Pose with_translation(Pose pose, const Eigen::Vector3d& translation_m) {
   for (int i = 0; i < 3; ++i) pose.m[4 * i + 3] = float(translation_m[i]);
   return pose;
 }
 
-// What this view says of the hits, in the frame of its camera: all steps of every one, side by
-// side.
-std::vector<Say> votes_of(const Observation& view, const TemplateSet& set,
-                          const NearestViews& templates, std::span<const MovedHit> moved,
-                          Backend& backend, const Care& care) {
-  const auto& salient = *view.salient;
-  const std::size_t width = std::size_t(care.points), steps = std::size_t(care.steps),
-                    count = moved.size() * steps;
-  std::vector<TemplatePoint> points(count * width);
-  std::vector<TemplateJob> jobs(count);
-  std::vector<int> shown(count);  // points; none: chance, or hidden
-  std::vector<Say> says(count);
-  const Hiding hiding(view, occlusion_tolerance_m(set.model));
-  const auto look = [&](std::size_t j, const Pose& pose, const ThinnedView& seen) {
-    TemplatePoint* to = points.data() + j * width;
-    if (seen.count() > 0 && seen.project(pose, salient.intrinsics, 0, 0, salient.shape.bins,
-                                         float(0.1 * set.model.radius_m), to)) {
-      shown[j] = hiding.any() ? keep_unhidden(hiding, seen, pose, to) : seen.count();
-      says[j].weight = double(shown[j]) / seen.count();
-    }
-    if (shown[j] == 0) to[0] = {};  // a job needs a point; its answer is not read
-    jobs[j] = {std::uint32_t(j * width), std::uint32_t(std::max(1, shown[j])), 0, 0, 1, 1};
-  };
-  const auto look_all_steps = [&](std::size_t h) {
-    // at the default distances three degrees at most between the steps, where viewpoints stand
-    // eleven apart
-    const SeenTemplate seen = templates.seen_at(moved[h].camera_from_object);
-    const Pose turned = to_pose(moved[h].camera_from_object * *seen.symmetry);
-    const Eigen::Vector3d middle_m = moved[h].camera_from_object.rotation * set.model.center_m,
-                          place_m =
-                              moved[h].camera_from_object.rotation * seen.symmetry->translation_m;
-    // one weight for all steps, or where nothing shows the step nearest to this camera would fit
-    // best
+// Scores hits in one view: all distances of every hit side by side.
+class ViewScoring {
+ public:
+  ViewScoring(const VisibleTemplates& templates, const ObjectView& view, std::size_t hits)
+      : templates_(templates),
+        view_(view),
+        occluder_test_(view, occlusion_tolerance_m(templates.set.model)),
+        points_(hits * num_distances() * num_points()),
+        jobs_(hits * num_distances()),
+        visible_(jobs_.size()),
+        votes_(jobs_.size()) {}
+
+  // Entry h * distances + step is hits[h] at that step; poses are in the frame of the view's
+  // camera.
+  std::vector<ViewVote> votes_of(std::span<const MovableHit> hits, Backend& backend) {
+    constexpr std::size_t chunk = 64;
+    backend.threads().for_each((hits.size() + chunk - 1) / chunk, [&](std::size_t c) {
+      for (std::size_t h = c * chunk; h < std::min(hits.size(), (c + 1) * chunk); ++h)
+        project_all_distances(hits[h], h);
+    });
+    std::vector<TemplateHit> scores(jobs_.size());
+    backend.template_score(*view_.salient, points_, jobs_, 1, scores);
+    for (std::size_t j = 0; j < jobs_.size(); ++j)
+      votes_[j].rank *= visible_[j] > 0 ? scores[j].sum / (4.0 * jobs_[j].point_count) : CHANCE_PX;
+    return votes_;
+  }
+
+ private:
+  std::size_t num_points() const { return std::size_t(templates_.effort.points); }
+  std::size_t num_distances() const { return std::size_t(templates_.effort.distances); }
+
+  // One viewpoint serves all distances: at the default ones the direction changes by three degrees
+  // at most, and viewpoints stand eleven degrees apart.
+  void project_all_distances(const MovableHit& hit, std::size_t h) {
+    const Se3& camera_from_object = hit.camera_from_object;
+    const ViewpointIndex::Nearest nearest = templates_.index.nearest(camera_from_object);
+    const Se3& symmetry = templates_.index.symmetry(nearest.symmetry);
+    const Pose camera_from_template = to_pose(camera_from_object * symmetry);
+    const Eigen::Vector3d center_m = camera_from_object.rotation * templates_.set.model.center_m,
+                          offset_m = camera_from_object.rotation * symmetry.translation_m;
+    // One weight for all distances: where nothing is visible, the nearest one would fit best.
     const double size_weight =
-        scan_size_weight((moved[h].camera_from_object.translation_m + middle_m).norm());
-    for (std::size_t step = 0; step < steps; ++step) {
-      const Eigen::Vector3d at_m =
-          moved[h].at(care.further(int(step), set.options.distance_ratio)).translation_m;
-      const std::size_t j = h * steps + step;
-      says[j].rank = size_weight;
-      look(j, moved_to(turned, at_m + place_m), *seen.view);
+        scan_size_weight((camera_from_object.translation_m + center_m).norm());
+    for (std::size_t step = 0; step < num_distances(); ++step) {
+      const double shift =
+          templates_.effort.shift(int(step), templates_.set.options.distance_ratio);
+      const std::size_t j = h * num_distances() + step;
+      votes_[j].rank = size_weight;
+      project(j, templates_.views[nearest.viewpoint],
+              with_translation(camera_from_template, hit.at(shift).translation_m + offset_m));
     }
-  };
-  constexpr std::size_t chunk = 64;
-  backend.threads().for_each((moved.size() + chunk - 1) / chunk, [&](std::size_t c) {
-    for (std::size_t h = c * chunk; h < std::min(moved.size(), (c + 1) * chunk); ++h)
-      look_all_steps(h);
-  });
-  std::vector<TemplateHit> hits(count);
-  backend.template_score(salient, points, jobs, 1, hits);
-  for (std::size_t j = 0; j < count; ++j)
-    says[j].rank *= shown[j] > 0 ? hits[j].sum / (4.0 * jobs[j].point_count) : CHANCE_PX;
-  return says;
+  }
+
+  void project(std::size_t j, const ThinnedView& view, const Pose& camera_from_template) {
+    const auto& salient = *view_.salient;
+    const float nearest_m = float(0.1 * templates_.set.model.radius_m);
+    TemplatePoint* points = points_.data() + j * num_points();
+    if (view.count() > 0 && view.project(camera_from_template, salient.intrinsics, 0, 0,
+                                         salient.shape.bins, nearest_m, points)) {
+      visible_[j] = occluder_test_.keep_visible(view, camera_from_template, points);
+      votes_[j].weight = double(visible_[j]) / view.count();
+    }
+    if (visible_[j] == 0) points[0] = {};  // a job needs a point; its answer is not read
+    jobs_[j] = {
+        std::uint32_t(j * num_points()), std::uint32_t(std::max(1, visible_[j])), 0, 0, 1, 1};
+  }
+
+  const VisibleTemplates& templates_;
+  const ObjectView& view_;
+  OccluderTest occluder_test_;
+  std::vector<TemplatePoint> points_;
+  // By hit and distance:
+  std::vector<TemplateJob> jobs_;
+  std::vector<int> visible_;  // number of points; 0: behind the camera or hidden
+  std::vector<ViewVote> votes_;
+};
+
+// Weighted sum of the ranks of a hit at one distance over the views so far.
+struct RankSum {
+  double sum, weight;
+  double mean() const { return sum / weight; }
+};
+
+// The ranks of all hits at all distances in all views, in the order of ViewScoring::votes_of.
+std::vector<RankSum> sum_ranks(const ObjectSearch& search, const VisibleTemplates& templates,
+                               std::span<const ScanHit> hits, std::span<const MovableHit> movable) {
+  const std::size_t distances = std::size_t(templates.effort.distances);
+  std::vector<RankSum> ranks;
+  for (std::size_t i = 0; i < hits.size() * distances; ++i)
+    ranks.push_back({hits[i / distances].rank, 1});  // its own view weighs 1
+  std::vector<MovableHit> in_other(movable.size());
+  for (const ObjectView& other : search.support) {
+    const Se3 other_from_own = other.camera_from_world * inverse(search.view.camera_from_world);
+    std::ranges::transform(movable, in_other.begin(), [&](const MovableHit& hit) {
+      return MovableHit{other_from_own * hit.camera_from_object,
+                        other_from_own.rotation * hit.ray_m};
+    });
+    const std::vector<ViewVote> votes =
+        ViewScoring(templates, other, in_other.size()).votes_of(in_other, search.backend);
+    for (std::size_t i = 0; i < ranks.size(); ++i)
+      ranks[i].sum += votes[i].weight * votes[i].rank, ranks[i].weight += votes[i].weight;
+  }
+  return ranks;
 }
 
 // In place.
-void judge(const TemplateSet& set, const NearestViews& templates, std::span<ScanHit> hits,
-           const Observation& own, std::span<const Observation> others, Backend& backend,
-           const Care& care) {
-  const std::size_t steps = std::size_t(care.steps);
-  std::vector<MovedHit> moved;
+void rescore(const ObjectSearch& search, const VisibleTemplates& templates,
+             std::span<ScanHit> hits) {
+  const std::size_t distances = std::size_t(templates.effort.distances);
+  std::vector<MovableHit> movable;
   for (const ScanHit& hit : hits)
-    moved.push_back({hit.camera_from_object, hit.camera_from_object * set.model.center_m});
-  std::vector<double> sums(moved.size() * steps),
-      weights(sums.size(), 1);  // its own view's say is whole
-  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = hits[i / steps].rank;
-  std::vector<MovedHit> there(moved.size());
-  for (const Observation& other : others) {
-    const Se3 other_from_own = other.view.camera_from_world * inverse(own.view.camera_from_world);
-    std::ranges::transform(moved, there.begin(), [&](const MovedHit& hit) {
-      return MovedHit{other_from_own * hit.camera_from_object,
-                      other_from_own.rotation * hit.towards_m};
-    });
-    const std::vector<Say> says = votes_of(other, set, templates, there, backend, care);
-    for (std::size_t i = 0; i < sums.size(); ++i)
-      sums[i] += says[i].weight * says[i].rank, weights[i] += says[i].weight;
-  }
+    movable.push_back(
+        {hit.pose.world_from_object, hit.pose.world_from_object * search.set.model.center_m});
+  const std::vector<RankSum> ranks = sum_ranks(search, templates, hits, movable);
   for (std::size_t h = 0; h < hits.size(); ++h) {
-    std::size_t best = h * steps + steps / 2;  // where it is, unless another is better
-    for (std::size_t i = h * steps; i < (h + 1) * steps; ++i)
-      if (sums[i] / weights[i] < sums[best] / weights[best]) best = i;
-    hits[h].camera_from_object =
-        moved[h].at(care.further(int(best % steps), set.options.distance_ratio));
-    hits[h].rank = sums[best] / weights[best];
+    std::size_t best = h * distances + distances / 2;  // unmoved, unless another is better
+    for (std::size_t i = h * distances; i < (h + 1) * distances; ++i)
+      if (ranks[i].mean() < ranks[best].mean()) best = i;
+    hits[h].pose.world_from_object = movable[h].at(
+        templates.effort.shift(int(best % distances), search.set.options.distance_ratio));
+    hits[h].rank = ranks[best].mean();
   }
 }
 
-// In the order given.
-std::vector<ScanHit> judged(const TemplateSet& set, std::span<const ScanHit> hits,
-                            const Observation& own, std::span<const Observation> others,
-                            Backend& backend, const Care& care) {
-  std::vector<ScanHit> judged(hits.begin(), hits.end());
-  if (others.empty()) return judged;
-  const NearestViews templates(set, care.points);
-  for (std::size_t begin = 0; begin < judged.size(); begin += AT_ONCE)
-    judge(set, templates,
-          std::span(judged).subspan(begin, std::min(AT_ONCE, judged.size() - begin)), own, others,
-          backend, care);
-  return judged;
+std::vector<ScanHit> rescored(const ObjectSearch& search, std::span<const ScanHit> hits,
+                              const Effort& effort) {
+  std::vector<ScanHit> rescored(hits.begin(), hits.end());
+  if (search.support.empty()) return rescored;
+  const VisibleTemplates templates(search.set, effort);
+  for (std::size_t begin = 0; begin < rescored.size(); begin += HITS_PER_CALL)
+    rescore(search, templates,
+            std::span(rescored).subspan(begin, std::min(HITS_PER_CALL, rescored.size() - begin)));
+  return rescored;
 }
 
-// What the hits of each image are judged by, and where they lie for the last image.
-struct Judges {
-  std::vector<std::vector<Observation>> others;
-  std::vector<Se3> last_from_own;
-  Judges(std::span<const Observation> images, int helping) {
-    for (std::size_t i = 0; i < images.size(); ++i) {
-      others.push_back(support_views(images[i], all_but(images, i), std::size_t(helping)));
-      last_from_own.push_back(images.back().view.camera_from_world *
-                              inverse(images[i].view.camera_from_world));
-    }
+// An image whose hits are pooled.
+struct PooledImage {
+  const ObjectView& view;
+  std::span<const ScanHit> hits;
+  std::vector<ObjectView> support;
+  Se3 last_from_own;  // camera frames
+  ObjectSearch search(const TemplateSet& set, Backend& backend) const {
+    return {set, view, support, backend};
   }
 };
 
-// The hits of each image that are among the `most` which a quick look ranks best.
-std::vector<std::vector<ScanHit>> worth_judging(const TemplateSet& set,
-                                                std::span<const Observation> images,
-                                                std::span<const std::span<const ScanHit>> hits,
-                                                const Judges& judges, const PoseFilter& excluded,
-                                                std::size_t most, Backend& backend,
-                                                const ScanOptions& options) {
+std::vector<PooledImage> pooled_images(std::span<const ObjectView> images,
+                                       std::span<const std::span<const ScanHit>> hits,
+                                       int most_support_views) {
+  std::vector<PooledImage> pooled;
+  for (std::size_t i = 0; i < images.size(); ++i)
+    pooled.push_back({images[i], hits[i],
+                      support_views(images[i], all_but(images, i), std::size_t(most_support_views)),
+                      images.back().camera_from_world * inverse(images[i].camera_from_world)});
+  return pooled;
+}
+
+bool is_excluded(const Se3& camera_from_object, const PoolOptions& options) {
+  return options.is_excluded && options.is_excluded(camera_from_object);
+}
+
+// The hits of each image, as they are, that are among the best `options.most` after a quick
+// rescoring.
+std::vector<std::vector<ScanHit>> preselect(const TemplateSet& set,
+                                            std::span<const PooledImage> images, Backend& backend,
+                                            const PoolOptions& options) {
   std::vector<std::vector<double>> ranks(images.size());
   std::vector<double> all;
   for (std::size_t i = 0; i < images.size(); ++i)
     for (const ScanHit& hit :
-         judged(set, hits[i], images[i], judges.others[i], backend, quick(options))) {
-      const bool left_out = excluded(judges.last_from_own[i] * hit.camera_from_object);
-      ranks[i].push_back(left_out ? INFINITY : hit.rank);
-      if (!left_out) all.push_back(hit.rank);
+         rescored(images[i].search(set, backend), images[i].hits, quick(options.scan))) {
+      const bool excluded =
+          is_excluded(images[i].last_from_own * hit.pose.world_from_object, options);
+      ranks[i].push_back(excluded ? INFINITY : hit.rank);
+      if (!excluded) all.push_back(hit.rank);
     }
   double limit = std::numeric_limits<double>::max();
-  if (images.size() > 1 && all.size() > most) {
-    std::ranges::nth_element(all, all.begin() + std::ptrdiff_t(most - 1));
-    limit = all[most - 1];
+  if (images.size() > 1 && all.size() > options.most) {
+    std::ranges::nth_element(all, all.begin() + std::ptrdiff_t(options.most - 1));
+    limit = all[options.most - 1];
   }
-  std::vector<std::vector<ScanHit>> worth(images.size());
+  std::vector<std::vector<ScanHit>> selected(images.size());
   for (std::size_t i = 0; i < images.size(); ++i)
-    for (std::size_t h = 0; h < hits[i].size(); ++h)
-      if (ranks[i][h] <= limit) worth[i].push_back(hits[i][h]);
-  return worth;
+    for (std::size_t h = 0; h < images[i].hits.size(); ++h)
+      if (ranks[i][h] <= limit) selected[i].push_back(images[i].hits[h]);
+  return selected;
 }
 
 }  // namespace
 
-std::vector<ScanHit> rescore_in_views(const TemplateSet& set, std::span<const ScanHit> hits,
-                                      const Observation& own, std::span<const Observation> others,
-                                      Backend& backend, const ScanOptions& options) {
-  return judged(set, hits, own, others, backend, careful(options));
+std::vector<ScanHit> rescore_in_views(const ObjectSearch& search, std::span<const ScanHit> hits,
+                                      const ScanOptions& options) {
+  return rescored(search, hits, full(options));
 }
 
-std::vector<ScanHit> pooled_hits(const TemplateSet& set, std::span<const Observation> images,
-                                 std::span<const std::span<const ScanHit>> hits, int helping,
-                                 const PoseFilter& excluded, std::size_t most, Backend& backend,
-                                 const ScanOptions& options) {
-  check(most >= 1, "pooled_hits: at least one hit");
-  const Judges judges(images, helping);
-  const std::vector<std::vector<ScanHit>> worth =
-      worth_judging(set, images, hits, judges, excluded, most, backend, options);
-  std::vector<ScanHit> pooled;
+std::vector<ScanHit> pooled_hits(const TemplateSet& set, std::span<const ObjectView> images,
+                                 std::span<const std::span<const ScanHit>> hits, Backend& backend,
+                                 const PoolOptions& options) {
+  check(options.most >= 1, "pooled_hits: at least one hit");
+  const std::vector<PooledImage> pooled = pooled_images(images, hits, options.support_views);
+  const std::vector<std::vector<ScanHit>> selected = preselect(set, pooled, backend, options);
+  std::vector<ScanHit> found;
   for (std::size_t i = 0; i < images.size(); ++i)
     for (ScanHit hit :
-         rescore_in_views(set, worth[i], images[i], judges.others[i], backend, options)) {
-      hit.camera_from_object = judges.last_from_own[i] * hit.camera_from_object;
-      if (!excluded(hit.camera_from_object)) pooled.push_back(hit);
+         rescore_in_views(pooled[i].search(set, backend), selected[i], options.scan)) {
+      hit.pose.world_from_object = pooled[i].last_from_own * hit.pose.world_from_object;
+      if (!is_excluded(hit.pose.world_from_object, options)) found.push_back(hit);
     }
-  return pooled;
+  return found;
 }
 
 }  // namespace edgescout

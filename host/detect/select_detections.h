@@ -1,4 +1,4 @@
-// From registered candidates to detections: what can exist together, looked at once more.
+// Selects detections from registered candidates: poses that can exist together, refined once more.
 #pragma once
 
 #include <span>
@@ -8,14 +8,16 @@
 
 namespace edgescout {
 
-// Candidates of all objects in the frame of `views` (the camera of one view, or the world),
-// refined. Keeps the probable ones, lets them compete for the image's edges (evidence.h), searches
-// once more around the winners (a wrong local optimum loses to the right one near it), and lets all
-// compete again. Best probability first.
-std::vector<Detection> select_detections(std::span<const EdgeModel> models,
-                                         std::span<const ObjectPose> poses,
-                                         std::span<const Refined> refined,
-                                         std::span<const RegisterView> views, Backend& backend,
+// `candidates` are of all objects, in the world of scene.views, with features. Most probable first.
+//
+// 1. Keeps the probable candidates.
+// 2. Drops those that collide with more probable ones (plausible_pairs.h).
+// 3. Lets the rest compete for the image's edges (edge_claims.h).
+// 4. Refines the winners again from turned starts: a wrong local optimum loses to a right one near
+// it.
+// 5. Repeats 2 and 3 with all poses.
+std::vector<Detection> select_detections(const Scene& scene,
+                                         std::span<const PoseEstimate> candidates,
                                          const DetectOptions& options);
 
 }  // namespace edgescout

@@ -20,7 +20,7 @@ std::array<Eigen::Vector3d, 8> box_corners(const Mesh& mesh) {
   return corners;
 }
 
-// Under the identity alone, given up as soon as it exceeds `limit`.
+// Under the identity symmetry. Infinite, without looking further, where it exceeds `limit`.
 double corner_distance_m(const Se3& a, const Se3& b, const std::array<Eigen::Vector3d, 8>& corners,
                          double limit) {
   const Eigen::Matrix3d turn = a.rotation.toRotationMatrix() - b.rotation.toRotationMatrix();
@@ -92,7 +92,7 @@ KnownPoses::KnownPoses(std::span<const Se3> poses, const Mesh& mesh, const Symme
 bool KnownPoses::any_within(double radius_m, const Se3& pose) const {
   const Eigen::Vector3d here = pose * center_m_;
   return std::ranges::any_of(poses_, [&](const Se3& known) {
-    // Some corner moves as far as their centre.
+    // Some corner moves at least as far as the centre.
     return (known * center_m_ - here).squaredNorm() < radius_m * radius_m &&
            corner_distance_m(pose, known, corners_, radius_m) < radius_m;
   });

@@ -1,4 +1,4 @@
-// Which of many poses are one and the same object.
+// Finds poses that are one and the same object.
 #pragma once
 
 #include <array>
@@ -9,28 +9,28 @@
 
 namespace edgescout {
 
-// Largest distance, m, between corresponding points of the object's bounding box under two poses:
-// min over symmetries of the max over the eight corners. A cheap upper bound on MSSD that is zero
-// only for equal poses (modulo symmetry).
+// Largest distance, m, between corresponding corners of the object's bounding box under two poses:
+// the minimum over symmetries of the maximum over the eight corners. A cheap upper bound on MSSD.
+// It is zero only for equal poses, modulo symmetry.
 double pose_distance_m(const Se3& a, const Se3& b, const Mesh& mesh, const Symmetries& symmetries);
 
-// Greedy: goes through the poses in the given order and keeps those further than `radius_m` from
-// all kept ones. Returns the kept indices, at most `most`.
+// Indices of distinct poses, at most `most`. Goes through the poses in the given order and keeps
+// those further than `radius_m` from all kept ones.
 std::vector<std::size_t> suppress_duplicates(std::span<const Se3> poses_best_first,
                                              const Mesh& mesh, const Symmetries& symmetries,
                                              double radius_m, std::size_t most);
 
-// The same of poses in any order: the lower its key, the better a pose; ties in the order given.
-// Indices best first.
+// The same for poses in any order, with one key per pose: a lower key is better. Indices of the
+// best pose first; ties in the order given.
 std::vector<std::size_t> best_distinct(std::span<const Se3> poses, std::span<const double> keys,
                                        const Mesh& mesh, const Symmetries& symmetries,
                                        double radius_m, std::size_t most);
 
-// Poses of one object where something is known to be.
+// Known poses of one object, in any one frame.
 class KnownPoses {
  public:
   KnownPoses(std::span<const Se3> poses, const Mesh& mesh, const Symmetries& symmetries);
-  // Whether one of them lies within `radius_m` (pose_distance_m).
+  // Whether a known pose lies within `radius_m` (pose_distance_m) of this one.
   bool any_within(double radius_m, const Se3& pose) const;
 
  private:

@@ -2,58 +2,64 @@
 
 #include "host/register/occluders.h"
 #include "kernels/thread_pool.h"
+#include "host/core/thinned.h"
 
 namespace edgescout {
 
 namespace {
 
-ModelPoint moved(const Se3& to_from_object, const ModelPoint& p) {
-  const Eigen::Vector3d at = to_from_object * Eigen::Vector3d(p.x_m, p.y_m, p.z_m),
-                        along = to_from_object.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz);
-  return {float(at.x()),    float(at.y()),    float(at.z()),
-          float(along.x()), float(along.y()), float(along.z())};
+ModelPoint transformed(const Se3& to_from_object, const ModelPoint& p) {
+  const Eigen::Vector3d position = to_from_object * Eigen::Vector3d(p.x_m, p.y_m, p.z_m),
+                        tangent = to_from_object.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz);
+  return {float(position.x()), float(position.y()), float(position.z()),
+          float(tangent.x()),  float(tangent.y()),  float(tangent.z())};
 }
 
-class Lookup {
+class TemplatePoints {
  public:
-  Lookup(const TemplateSet& set, std::span<const RegisterView> views, int most, ThreadPool& threads)
-      : tolerance_m_(occlusion_tolerance_m(set.model)),
+  TemplatePoints(const TemplateSet& set, std::span<const ObjectView> views, int most,
+                 ThreadPool& threads)
+      : occlusion_tolerance_m_(occlusion_tolerance_m(set.model)),
         views_(views),
-        nearest_(set),
+        viewpoints_(set),
         threads_(threads) {
     for (const TemplateView& view : set.views) points_.push_back(thinned(view.points, most));
   }
-  std::vector<std::vector<ModelPoint>> operator()(std::span<const ObjectPose> poses) const {
-    std::vector<std::vector<ModelPoint>> seen(poses.size() * views_.size());
+
+  Grid<std::vector<ModelPoint>> operator()(std::span<const ObjectPose> poses) const {
+    Grid<std::vector<ModelPoint>> visible(poses.size(), views_.size());
     threads_.for_each(poses.size(), [&](std::size_t p) {
       for (std::size_t v = 0; v < views_.size(); ++v)
-        seen[p * views_.size() + v] = seen_by(views_[v], poses[p].world_from_object);
+        visible(p, v) = visible_in(views_[v], poses[p].world_from_object);
     });
-    return seen;
+    return visible;
   }
 
  private:
-  std::vector<ModelPoint> seen_by(const RegisterView& view, const Se3& world_from_object) const {
+  std::vector<ModelPoint> visible_in(const ObjectView& view, const Se3& world_from_object) const {
     const Se3 camera_from_object = view.camera_from_world * world_from_object;
-    const auto [viewpoint, symmetry] = nearest_.of(camera_from_object);
+    const ViewpointIndex::Nearest nearest = viewpoints_.nearest(camera_from_object);
+    const Se3& symmetry = viewpoints_.symmetry(nearest.symmetry);
     std::vector<ModelPoint> points;
-    for (const ModelPoint& point : points_[viewpoint]) points.push_back(moved(*symmetry, point));
-    if (view.occluders) remove_hidden(points, *view.occluders, camera_from_object, tolerance_m_);
+    for (const ModelPoint& point : points_[nearest.viewpoint])
+      points.push_back(transformed(symmetry, point));
+    if (view.occluders)
+      remove_hidden(points, *view.occluders, camera_from_object, occlusion_tolerance_m_);
     return points;
   }
 
-  double tolerance_m_;
-  std::span<const RegisterView> views_;
-  NearestViewpoint nearest_;
-  std::vector<std::vector<ModelPoint>> points_;
+  double occlusion_tolerance_m_;
+  std::span<const ObjectView> views_;
+  ViewpointIndex viewpoints_;
+  std::vector<std::vector<ModelPoint>> points_;  // by viewpoint, thinned
   ThreadPool& threads_;
 };
 
 }  // namespace
 
-PointsInViews template_points(const TemplateSet& set, std::span<const RegisterView> views, int most,
+PointsInViews template_points(const TemplateSet& set, std::span<const ObjectView> views, int most,
                               Backend& backend) {
-  return Lookup(set, views, most, backend.threads());
+  return TemplatePoints(set, views, most, backend.threads());
 }
 
 }  // namespace edgescout

@@ -1,17 +1,18 @@
-// The points of an object's templates as several views see them: looked up where visible_in_views
-// draws.
+// Looks up the points of an object that several views see, in its templates.
+//
+// It is cheaper than visible_in_views, which draws a depth map per pose and view.
 #pragma once
 
-#include "host/detect/nearest_viewpoint.h"
-#include "host/register/register_points.h"
+#include "host/model/viewpoint_index.h"
+#include "host/register/d2co.h"
 
 namespace edgescout {
 
-// Of poses of the set's object: the points of the viewpoint nearest to each view's, at most `most`,
-// evenly thinned, without those that the view's occluders hide. They may project outside its image:
-// those count as far from every edge, or poses that reach over the border would have less to fit.
-// The set, the views and the backend must outlive what is returned.
-PointsInViews template_points(const TemplateSet& set, std::span<const RegisterView> views, int most,
+// Returns a function of poses of the set's object. It gives the points of the viewpoint nearest to
+// each view's, at most `most`, evenly thinned, without those that the view's occluders hide. Points
+// may project outside the image: they count as far from every edge. Otherwise poses that reach over
+// the border would have less to fit. The set, the views and the backend must outlive the function.
+PointsInViews template_points(const TemplateSet& set, std::span<const ObjectView> views, int most,
                               Backend& backend);
 
 }  // namespace edgescout

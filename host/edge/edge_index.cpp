@@ -15,7 +15,9 @@ int cell_of(float position_px, int cells) {
 
 EdgeIndex::EdgeIndex(std::span<const EdgePoint> edges, int width, int height)
     : columns_(std::max(1, (width + CELL_PX - 1) / CELL_PX)),
-      rows_(std::max(1, (height + CELL_PX - 1) / CELL_PX)) {
+      rows_(std::max(1, (height + CELL_PX - 1) / CELL_PX)),
+      points_(edges.begin(), edges.end()),
+      by_cell_(edges.size()) {
   const auto cell = [&](const EdgePoint& e) {
     return cell_of(e.y_px, rows_) * columns_ + cell_of(e.x_px, columns_);
   };
@@ -23,8 +25,7 @@ EdgeIndex::EdgeIndex(std::span<const EdgePoint> edges, int width, int height)
   for (const EdgePoint& edge : edges) ++cell_end_[cell(edge) + 1];
   for (std::size_t c = 1; c < cell_end_.size(); ++c) cell_end_[c] += cell_end_[c - 1];
   std::vector<std::uint32_t> next(cell_end_.begin(), cell_end_.end() - 1);
-  points_.resize(edges.size());
-  for (const EdgePoint& edge : edges) points_[next[cell(edge)]++] = edge;
+  for (const EdgePoint& edge : edges) by_cell_[next[cell(edge)]++] = edge;
 }
 
 EdgeIndex::Cells EdgeIndex::cells_around(float x_px, float y_px, float radius_px) const {

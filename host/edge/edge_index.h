@@ -1,4 +1,4 @@
-// Edge points of an image, found by place: a grid of cells.
+// Finds the edge points of an image by place, on a grid of cells.
 #pragma once
 
 #include <memory>
@@ -12,26 +12,29 @@ namespace edgescout {
 class EdgeIndex {
  public:
   EdgeIndex(std::span<const EdgePoint> edges, int width, int height);
+
   // The edge point nearest to (x, y) within `radius_px` (at most CELL_PX) whose direction differs
-  // from `theta_rad` by less than `max_turn_rad`; null where there is none.
+  // from `theta_rad` by less than `max_turn_rad`. Null where there is none.
   const EdgePoint* nearest(float x_px, float y_px, float theta_rad, float radius_px,
                            float max_turn_rad) const;
 
-  // Calls visit(const EdgePoint&) for every edge point within `radius_px` (at most CELL_PX),
-  // whatever its direction.
+  // Calls visit(const EdgePoint&) for every edge point within `radius_px` (at most CELL_PX) of any
+  // direction. References stay valid as long as the index; one edge point has one address.
   template <typename Visit>
   void for_each_near(float x_px, float y_px, float radius_px, const Visit& visit) const {
     const Cells cells = cells_around(x_px, y_px, radius_px);
     for (int y = cells.y0; y <= cells.y1; ++y)
       for (std::uint32_t i = cell_end_[y * columns_ + cells.x0];
            i < cell_end_[y * columns_ + cells.x1 + 1]; ++i) {
-        const float dx = points_[i].x_px - x_px, dy = points_[i].y_px - y_px;
-        if (dx * dx + dy * dy < radius_px * radius_px) visit(points_[i]);
+        const float dx = by_cell_[i].x_px - x_px, dy = by_cell_[i].y_px - y_px;
+        if (dx * dx + dy * dy < radius_px * radius_px) visit(by_cell_[i]);
       }
   }
 
-  // All of them, in no order that means anything.
+  // All edge points in the order given to the constructor: tensors are made of them in this order.
   std::span<const EdgePoint> points() const { return points_; }
+  // The same sorted by cell, in the order given within a cell.
+  std::span<const EdgePoint> points_by_cell() const { return by_cell_; }
 
   static constexpr int CELL_PX = 8;
 
@@ -42,8 +45,9 @@ class EdgeIndex {
   Cells cells_around(float x_px, float y_px, float radius_px) const;
 
   int columns_, rows_;
-  std::vector<EdgePoint> points_;        // by cell
-  std::vector<std::uint32_t> cell_end_;  // points of cell c: [cell_end_[c], cell_end_[c + 1])
+  std::vector<EdgePoint> points_, by_cell_;  // a copy each: lookups read neighbours in memory
+  // Points of cell c are by_cell_[cell_end_[c]] up to by_cell_[cell_end_[c + 1]].
+  std::vector<std::uint32_t> cell_end_;
 };
 
 }  // namespace edgescout

@@ -1,4 +1,6 @@
-// Image -> edge points, by either method.
+// Finds the edge points of an image by one of two methods.
+//
+// Public header.
 #pragma once
 
 #include <string>
@@ -13,14 +15,14 @@ namespace edgescout {
 class Backend;
 
 enum class EdgeMethod {
-  Gradient,  // the project's own detector, on whatever device the backend is; curves and low
-             // contrast too
+  Gradient,  // the project's own detector on the backend's device; also finds curves and edges of
+             // low contrast
   Lsd,       // straight segments, always on the CPU
 };
 
-// The gradient detector runs twice: once fine, once on a stronger blur with lower thresholds, where
-// only long chains count. The second pass finds faint edges of a grey level or two; its points are
-// taken only where the first pass has none near, since blur displaces edges.
+// The gradient detector runs twice. The first pass is fine. The second one uses a stronger blur and
+// lower thresholds and keeps long chains only: it finds faint edges of one or two grey levels. Blur
+// displaces edges, so points of the second pass count only where the first pass has none near.
 struct EdgesOptions {
   EdgeMethod method = EdgeMethod::Gradient;
   EdgeOptions gradient;
@@ -28,7 +30,7 @@ struct EdgesOptions {
   EdgeOptions faint{2.5f, 0.3f, 0.6f, 30};
   float faint_clearance_px = 3;  // from every edge of the first pass
   LsdOptions lsd;
-  void validate() const;  // throws InputError naming field and bound
+  void validate() const;  // InputError naming the field and the violated bound
 };
 
 // "gradient" or "lsd"; InputError on another word.

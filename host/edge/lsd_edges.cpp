@@ -20,7 +20,7 @@ float orientation_between(float a, float b) {
   return std::min(d, std::numbers::pi_v<float> - d);
 }
 
-// Points by cells as wide as the search radius: whoever is near lies in the nine cells around.
+// Points in cells as wide as the search radius: all near points lie in the nine cells around.
 class PointGrid {
  public:
   PointGrid(int width, int height)
@@ -50,8 +50,8 @@ class PointGrid {
   std::vector<std::vector<EdgePoint>> cells_;
 };
 
-// Segments of one image, pixel centres at integers. LSD works on a copy shrunk to 4/5 and maps back
-// without the half pixel that lies between a pixel's corner and its centre: 0.5 / 0.8 - 0.5 px are
+// Segments of one image, with pixel centres at integers. LSD works on a copy shrunk to 4/5. Its way
+// back ignores the half pixel between a pixel's corner and its centre: 0.5 / 0.8 - 0.5 px are
 // missing.
 std::vector<cv::Vec4f> detect_segments(const cv::Mat& image) {
   constexpr float shrink = 0.8f, missing_px = 0.5f / shrink - 0.5f;
@@ -68,7 +68,7 @@ float gradient_at(const Image& image, float x, float y) {
                            float(image.at(cx, cy + 1) - image.at(cx, cy - 1)));
 }
 
-// Draws a segment of the image itself, 1 px a step.
+// Samples a segment, in pixels of the image itself, in steps of 1 px.
 void draw_segment(const cv::Vec4f& segment, const Image& image, std::vector<EdgePoint>& points) {
   const float dx = segment[2] - segment[0], dy = segment[3] - segment[1],
               length = std::hypot(dx, dy);
@@ -97,8 +97,7 @@ std::vector<EdgePoint> lsd_edges(const Image& image, const LsdOptions& options) 
   cv::Mat level(image.height, image.width, CV_8U, const_cast<std::uint8_t*>(image.pixels.data()));
   std::vector<EdgePoint> found;
   PointGrid finer(image.width, image.height);
-  float scale =
-      1;  // level pixels to image pixels: pyrDown keeps every second pixel centre where it is
+  float scale = 1;  // image px per level px; pyrDown does not move the pixel centres that it keeps
   for (int k = 0; k < options.levels; ++k, scale *= 2) {
     if (k > 0) {
       cv::Mat half;

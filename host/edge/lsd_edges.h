@@ -1,5 +1,5 @@
-// Edges as line segments: LSD on a Gaussian pyramid, every segment drawn into edge points (paper,
-// Sec. 3.3).
+// Finds edges as line segments: LSD on a Gaussian pyramid, then each segment is sampled to edge
+// points (paper, Sec. 3.3).
 #pragma once
 
 #include <vector>
@@ -11,13 +11,13 @@ namespace edgescout {
 
 struct LsdOptions {
   int levels = 2;         // of the pyramid, [1, 6]; levels smaller than 16 px are left out
-  void validate() const;  // throws InputError naming field and bound
+  void validate() const;  // InputError naming the field and the violated bound
 };
 
-// One point a pixel along each segment, with the segment's orientation; strength is the image's
-// gradient there (central differences). The finest level comes first; a coarser one, mapped back to
-// the image, adds points only where no finer level has an edge of similar orientation (15 degrees)
-// within 2 px: blurring displaces edges. Points lie inside the image.
+// One point per pixel along each segment, with the segment's orientation. Its strength is the image
+// gradient there (central differences). The finest level comes first. A coarser level is mapped
+// back to the image and adds points only where no finer level has an edge of similar orientation
+// (15 degrees) within 2 px, because blur displaces edges. Points lie inside the image.
 std::vector<EdgePoint> lsd_edges(const Image& image, const LsdOptions& options);
 
 }  // namespace edgescout

@@ -15,8 +15,8 @@ float strong_quantile(std::span<const EdgePoint> edges) {
   return *at;
 }
 
-// A number in [0, 1) by place. Edges of one strength are thinned by it: evenly, and
-// alike in every run.
+// A number in [0, 1) that depends on the place. It thins edges of equal strength evenly and equally
+// in every run.
 double scattered(const EdgePoint& edge) {
   return std::fmod(12.9898 * edge.x_px + 78.233 * edge.y_px, 1.0);
 }

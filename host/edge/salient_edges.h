@@ -1,8 +1,9 @@
-// The edges a scan of the whole image should look at.
+// Selects the edges that a scan of the whole image uses.
 //
-// A template at a wrong place finds edges by chance, the more the denser they are: on texture it
-// outscores the object. So faint edges are left out, and of every block of the image only the
-// strongest stay, up to a density at which chance says little. Registration takes all edges again.
+// A template at a wrong place finds edges by chance. The denser the edges, the more it finds: on
+// texture it outscores the object. Therefore faint edges are left out, and each block of the image
+// keeps its strongest edges up to a density at which chance matters little. Registration uses all
+// edges again.
 #pragma once
 
 #include <span>
@@ -13,13 +14,13 @@
 namespace edgescout {
 
 struct SalientOptions {
-  double min_strength =
-      0.1;  // of the strength that 5 % of the edge points exceed: whatever the exposure
-  double max_density = 0.12;  // edge points a pixel of a block
+  // Relative to the strength that 5 % of the edge points exceed, so independent of the exposure.
+  double min_strength = 0.1;
+  double max_density = 0.12;  // edge points per pixel of a block
   int block_px = 48;
 };
 
-// In no particular order.
+// The order has no meaning.
 std::vector<EdgePoint> salient_edges(std::span<const EdgePoint> edges, int width, int height,
                                      const SalientOptions& options = {});
 

@@ -28,8 +28,8 @@ std::vector<CurvePoint> detection_curve(std::vector<ScoredPose> poses, int insta
 
 namespace {
 
-// As the curve's last point with at most so many false positives; every pose counts as often as its
-// image.
+// The rate at the last point of the curve with at most so many false positives. Every pose counts
+// as often as its image.
 int found_in(const std::vector<ScoredPose>& sorted, const std::vector<int>& times,
              double most_false) {
   std::set<int> found;

@@ -1,4 +1,4 @@
-// Which estimate found which true instance: BOP's greedy matching.
+// Matches estimates with true instances by BOP's greedy method.
 #pragma once
 
 #include <span>
@@ -8,10 +8,9 @@ namespace edgescout {
 
 inline constexpr int UNMATCHED = -1;
 
-// Estimates in their order, best score first, each take the free truth with the smallest error
-// below `threshold`. `errors` is [estimate][truth], infinite where a pair cannot match. Returns
-// every estimate's truth, or UNMATCHED; without truths there are no errors, and nothing is
-// returned.
+// Each estimate in turn, best score first, takes the free truth with the smallest error below
+// `threshold`. `errors` is [estimate][truth], infinite for a pair that cannot match. Returns the
+// truth of every estimate, or UNMATCHED. Without truths `errors` is empty, and so is the result.
 std::vector<int> match_in_order(std::span<const double> errors, int truths, double threshold);
 
 }  // namespace edgescout

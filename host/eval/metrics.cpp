@@ -6,8 +6,8 @@
 namespace edgescout {
 namespace {
 
-// Largest squared error over the vertices, given up as soon as it reaches `limit`: with many
-// symmetries nearly all of them are refuted by the first few vertices.
+// Returns the largest squared error over the vertices. Stops as soon as it reaches `limit`: with
+// many symmetries, the first few vertices exclude nearly all of them.
 template <typename Squared>
 double largest_squared(const Mesh& mesh, double limit, const Squared& squared) {
   double largest = 0;

@@ -9,20 +9,20 @@
 
 namespace edgescout {
 
-// What counts as correct: below both of the paper's bounds on the pose; or, where the true pose is
-// known in the image alone, no vertex so far from its place.
+// The criteria of a correct pose: angle and distance are below the paper's bounds; or, if the true
+// pose is only known in the image, all vertices are less than this from their places.
 inline constexpr double CORRECT_ANGLE_RAD = 0.1;
 inline constexpr double CORRECT_DISTANCE_M = 0.005;
 inline constexpr double CORRECT_MSPD_PX = 10;
 
-// Maximum symmetry-aware surface distance, m: min over symmetries S of max over vertices |P x - T S
-// x|.
+// Maximum symmetry-aware surface distance, m: min over symmetries S of the max over vertices x of
+// |P x - T S x|.
 double mssd_m(const Se3& estimate, const Se3& truth, const Object& object);
 // The same in the image, px (both poses camera_from_object).
 double mspd_px(const Se3& estimate, const Se3& truth, const Object& object, const Camera& camera);
-// Rotation and translation error, at the symmetry where the pair passes the bounds most easily
-// (smallest max of angle and distance, each over its bound; of those alike the one with the
-// smallest angle).
+// Rotation and translation error at the symmetry for which the pair passes the bounds most easily:
+// with the smallest max of angle and distance, each divided by its bound. Of equal ones, the
+// symmetry with the smallest angle.
 struct PoseError {
   double angle_rad = 0;
   double distance_m = 0;
@@ -30,7 +30,7 @@ struct PoseError {
               double max_distance_m = CORRECT_DISTANCE_M) const {
     return angle_rad < max_angle_rad && distance_m < max_distance_m;
   }
-  // Of the bound that it is worse by: below 1 where it is correct.
+  // The larger of both errors, each divided by its bound: below 1 if the pose is correct.
   double of_bounds(double max_angle_rad = CORRECT_ANGLE_RAD,
                    double max_distance_m = CORRECT_DISTANCE_M) const {
     return std::max(angle_rad / max_angle_rad, distance_m / max_distance_m);

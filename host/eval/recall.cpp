@@ -11,8 +11,8 @@
 namespace edgescout {
 namespace {
 
-// The instances of one object in one image, with the error of every estimate (rows, best score
-// first) against every truth.
+// The instances of one object in one image, with the error of every estimate (row, best score
+// first) against every truth (column).
 struct Instances {
   int truths = 0;
   std::vector<char> counts;            // per truth: not ignored
@@ -24,7 +24,7 @@ struct Instances {
 };
 
 struct Matches {
-  int found = 0;    // truths that count
+  int found = 0;    // truths that are not ignored
   int matched = 0;  // estimates, those of ignored truths included
 };
 
@@ -38,8 +38,8 @@ Matches match(const Instances& pair, std::span<const double> errors, double thre
   return matches;
 }
 
-// How many truths that count BOP finds: the others take no estimate, and as many estimates are
-// looked at as there are truths that count.
+// The number of truths that BOP finds. Ignored truths take no estimate. Only the n best estimates
+// are used, where n is the number of truths that are not ignored.
 int found_by_bop(const Instances& pair, std::span<const double> errors, double threshold) {
   std::vector<double> counting;
   for (std::size_t i = 0; i < errors.size(); ++i)

@@ -1,10 +1,10 @@
-// How many of the true instances were found, and how many finds are false: BOP's recalls and the
-// paper's.
+// Computes how many of the true instances were found and how many estimates are false: BOP's
+// recalls and the paper's.
 //
-// Matching, per image, object and threshold: estimates in order of falling score each take the free
-// truth with the smallest error below the threshold. Recall is matched truths / truths. A truth
-// seen by less than `min_visible_fraction` is ignored: not finding it is no miss, finding it is no
-// false positive. It can take an estimate, but for BOP's recalls.
+// Estimates are matched per image, object and threshold: each estimate, best score first, takes the
+// free truth with the smallest error below the threshold. Recall is matched truths / truths. A
+// truth with a visible fraction below `min_visible_fraction` is ignored: it is neither a miss nor,
+// if found, a false positive. It can take an estimate, except in BOP's recalls.
 #pragma once
 
 #include <array>
@@ -25,53 +25,52 @@ struct EvaluationImage {
   std::vector<BopResult> estimates;  // of this image
 };
 
-// A scene's images with the results that belong to them, by image_id. Results of other scenes are
-// passed over. InputError: a result of this scene for an image it does not have; an image without
-// truth or whose camera has no size yet.
+// Returns the images of a scene with their results, by image_id. Results of other scenes are
+// ignored. InputError: a result for an image that the scene does not have; an image without truth
+// or with a camera without size.
 std::vector<EvaluationImage> evaluation_images(const BopScene& scene,
                                                std::span<const BopResult> results);
 
 struct RecallOptions {
   double min_visible_fraction = 0.1;  // BOP's
-  // Estimates below it are dropped before everything. None is by default: other methods' scores may
-  // be negative.
+  // Estimates below it are dropped first. By default none is, since scores of other methods may be
+  // negative.
   double min_score = -std::numeric_limits<double>::infinity();
   double max_angle_rad = CORRECT_ANGLE_RAD;
   double max_distance_m = CORRECT_DISTANCE_M;
-  double max_mspd_px =
-      CORRECT_MSPD_PX;  // of `recall_mspd` and of a true find, whatever the image's width
-  // Throws InputError naming the field and the violated bound.
-  void validate() const;
+  // For `recall_mspd` and for false positives; does not depend on the image's width.
+  double max_mspd_px = CORRECT_MSPD_PX;
+  void validate() const;  // InputError naming the field and the violated bound
 };
 
 inline constexpr int RECALL_STEPS = 10;
 
 struct Recalls {
   int images = 0;
-  int truths = 0;     // that count
+  int truths = 0;     // without ignored ones
   int estimates = 0;  // not below min_score
-  // BOP: thresholds 5, 10 .. 50 % of the diameter (MSSD), 5, 10 .. 50 px times width / 640 (MSPD).
-  // As BOP does, only as many estimates of an object as it has truths that count in the image are
-  // looked at, best scores first, and ignored truths take none of them.
+  // BOP's thresholds: 5, 10 .. 50 % of the diameter (MSSD), 5, 10 .. 50 px times width / 640
+  // (MSPD). As in BOP, only the n best estimates of an object are used, where n is the number of
+  // its truths in the image that are not ignored. Ignored truths take no estimate.
   std::array<double, RECALL_STEPS> mssd{};
   std::array<double, RECALL_STEPS> mspd{};
   double ar_mssd = 0;  // mean over the thresholds
   double ar_mspd = 0;
   // Over all estimates:
-  double recall_raw = 0;        // angle and distance as they stand
+  double recall_raw = 0;        // angle and distance without symmetries
   double recall_symmetric = 0;  // modulo the object's symmetries
   double recall_mspd = 0;       // below max_mspd_px
-  int false_positives =
-      0;  // estimates that match no truth below max_mspd_px, ignored truths included
+  // Estimates that match no truth below max_mspd_px, not even an ignored one.
+  int false_positives = 0;
   double false_positives_per_image = 0;
 };
 
-// Objects by BOP id. All recalls are 0 where there is no truth. InputError: a truth or an estimate
-// of an object that is not in `objects`.
+// `objects`: by BOP id. Without truths all recalls are 0. InputError: a truth or an estimate of an
+// object that is not in `objects`.
 Recalls evaluate(std::span<const EvaluationImage> images, const std::map<int, Object>& objects,
                  const RecallOptions& options);
 
-// The same over the truths and estimates of one object alone, for each object.
+// The same for each object by itself.
 std::map<int, Recalls> evaluate_by_object(std::span<const EvaluationImage> images,
                                           const std::map<int, Object>& objects,
                                           const RecallOptions& options);

@@ -7,7 +7,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr double LEAST_TELLING = 0.3;  // visible fraction
+constexpr double LEAST_USEFUL = 0.3;  // visible fraction
 
 RenderOptions options_of(const ExperimentSettings& settings, int number, Random& random) {
   RenderOptions options = bin_image_options(settings);
@@ -28,9 +28,9 @@ Shot RenderedCell::acquire(int view) {
 const std::vector<double>& RenderedCell::visible(int view) {
   auto known = visible_.find(view);
   if (known == visible_.end()) {
-    Scene scene = scene_;
+    SimulatedScene scene = scene_;
     scene.views = {{camera(), views()[static_cast<std::size_t>(view)]}};
-    scene.options.supersampling = 1;  // the truth at the pixels' centres alone, and no picture
+    scene.options.supersampling = 1;  // only the truth at the pixel centres is needed, no image
     scene.lights.clear();
     known = visible_.emplace(view, render(scene, pool_)[0].visible_fraction).first;
   }
@@ -47,17 +47,17 @@ std::vector<int> fixed_sequence(const Bin& bin) {
   return sequence;
 }
 
-std::vector<int> clairvoyant_sequence(const Bin& bin, std::span<const BinInstance> sought,
+std::vector<int> clairvoyant_sequence(const Bin& bin, std::span<const BinInstance> targets,
                                       int views) {
   const int all = static_cast<int>(bin.cell->views().size());
-  std::vector<double> shown(sought.size(), 0);  // by the images so far
+  std::vector<double> shown(targets.size(), 0);  // by the images so far
   const auto with = [&](int view, std::size_t i) {
-    const double visible = bin.cell->visible(view)[sought[i].placed];
-    return std::min(1.0, shown[i] + std::max(0.0, visible - LEAST_TELLING));
+    const double visible = bin.cell->visible(view)[targets[i].placed];
+    return std::min(1.0, shown[i] + std::max(0.0, visible - LEAST_USEFUL));
   };
   std::vector<int> sequence;
   const auto take = [&](int view) {
-    for (std::size_t i = 0; i < sought.size(); ++i) shown[i] = with(view, i);
+    for (std::size_t i = 0; i < targets.size(); ++i) shown[i] = with(view, i);
     sequence.push_back(view);
   };
   take(bin.first_view);
@@ -67,7 +67,7 @@ std::vector<int> clairvoyant_sequence(const Bin& bin, std::span<const BinInstanc
     for (int view = 0; view < all; ++view) {
       if (std::ranges::count(sequence, view) > 0) continue;
       double sum = 0;
-      for (std::size_t i = 0; i < sought.size(); ++i) sum += with(view, i);
+      for (std::size_t i = 0; i < targets.size(); ++i) sum += with(view, i);
       if (sum > most) best = view, most = sum;
     }
     take(best);
@@ -84,7 +84,7 @@ Bin make_bin(std::span<const Object> types, const ExperimentSettings& settings, 
   bin.number = number;
   bin.parts = options.objects;
   bin.first_view = random.below(static_cast<int>(views.size()));
-  const Scene scene = make_scene(types, options);
+  const SimulatedScene scene = make_scene(types, options);
   bin.cell = std::make_unique<RenderedCell>(scene, views, pool);
   const std::vector<double>& visible = bin.cell->visible(bin.first_view);
   for (std::size_t i = 0; i < scene.placed.size(); ++i)

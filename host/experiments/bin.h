@@ -1,5 +1,7 @@
-// A bin of piled parts and the views around it, rendered with a hemisphere of them or photographed
-// (photographed_bin.h): what the strategies of the next view are compared on (paper, Sec. 6.4).
+// A bin of piled parts and the views around it, on which the strategies of the next view are
+// compared (paper, Sec. 6.4).
+//
+// A bin is rendered, with views on a hemisphere, or photographed (photographed_bin.h).
 #pragma once
 
 #include <map>
@@ -7,31 +9,31 @@
 #include <span>
 #include <vector>
 
-#include "host/active/source.h"
 #include "host/active/views.h"
 #include "host/experiments/settings.h"
+#include "host/render/simulated_cell.h"
 
 namespace edgescout {
 
 struct BinInstance {
   int object = 0;  // index into the types
   Se3 world_from_object;
-  double visible = 0;       // fraction of its silhouette, in the first view
-  double most_visible = 0;  // in any of the images so far
+  double visible = 0;       // visible fraction of its silhouette, in the first view
+  double most_visible = 0;  // the largest in the images so far
   std::size_t placed = 0;   // index into the scene's placed objects
 };
 
-// Where a bin's images come from.
+// The source of a bin's images.
 class BinCell : public ViewSource {
  public:
-  // How much of every placed object's silhouette shows from there.
+  // Returns the visible fraction of every placed object's silhouette in this view.
   virtual const std::vector<double>& visible(int view) = 0;
 };
 
-// A simulated cell whose images are rendered once, however many strategies ask for them.
+// A simulated cell that renders each image once and serves it to all strategies.
 class RenderedCell : public BinCell {
  public:
-  RenderedCell(const Scene& scene, std::vector<Se3> views, ThreadPool& pool)
+  RenderedCell(const SimulatedScene& scene, std::vector<Se3> views, ThreadPool& pool)
       : scene_(scene),
         cell_(scene, scene.views[0].camera, std::move(views), {}, pool),
         pool_(pool) {}
@@ -41,7 +43,7 @@ class RenderedCell : public BinCell {
   const std::vector<double>& visible(int view) override;
 
  private:
-  Scene scene_;
+  SimulatedScene scene_;
   SimulatedCell cell_;
   ThreadPool& pool_;
   std::map<int, Shot> shots_;
@@ -57,15 +59,14 @@ struct Bin {
 
 inline constexpr int FEWEST_PARTS_OF_BIN = 5, MOST_PARTS_OF_BIN = 20;
 HemisphereOptions bin_views();
-// The parts' distances from every view lie in this range.
-inline constexpr double BIN_DEPTH_MARGIN_M = 0.16;  // on either side of the hemisphere's radius
+// The distance of a part from any view differs from the hemisphere's radius by at most this.
+inline constexpr double BIN_DEPTH_MARGIN_M = 0.16;
 
-// Around the hemisphere and through its rings from the first view, as somebody would lay it out.
+// Returns a sequence around the hemisphere and through its rings, from the first view on.
 std::vector<int> fixed_sequence(const Bin& bin);
-// Views that show as much as they can of `sought`, one after the other, first view and all. What an
-// image shows of an instance helps from three tenths on, where the first hits are, and several
-// images together.
-std::vector<int> clairvoyant_sequence(const Bin& bin, std::span<const BinInstance> sought,
+// Returns the first view and then, one after the other, the views that show most of `targets`. The
+// visible fractions of an instance above 0.3 add up over the images: below that there are no hits.
+std::vector<int> clairvoyant_sequence(const Bin& bin, std::span<const BinInstance> targets,
                                       int views);
 
 Bin make_bin(std::span<const Object> types, const ExperimentSettings& settings, int number,

@@ -1,4 +1,4 @@
-// What the bins of the next best view hold beside foreign parts, and what is searched for in them.
+// The parts in the bins of the next best view, apart from foreign parts, and their templates.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +12,15 @@ namespace edgescout {
 
 // Three of the project's own parts.
 const std::vector<Object>& bin_types();
-// Three parts that others drew, of `data`/cad, each with its origin in the middle of its box:
-// AX-01, a bearing box of the paper; a flange; a plug adapter, which a half turn maps onto itself.
-// InputError naming the file.
+// Loads three parts of other authors from `data`/cad and moves their origins to the middle of their
+// boxes: AX-01, a bearing box of the paper; a flange; a plug adapter, which a half turn maps onto
+// itself. InputError naming the file.
 std::vector<Object> cad_bin_types(const std::filesystem::path& data);
 
-// One set a type.
+// One set per type.
 std::vector<TemplateSet> templates_between(std::span<const Object> types, double distance_min_m,
                                            double distance_max_m, Backend& backend);
-// At any distance from the views.
+// For all distances from the views of a bin.
 std::vector<TemplateSet> bin_templates(std::span<const Object> types, Backend& backend);
 
 }  // namespace edgescout

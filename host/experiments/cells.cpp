@@ -45,7 +45,8 @@ void require_same_settings(const Table& finished, const CellRun& run, const std:
                      run.commit + " as in this run, --any-commit, or another output folder");
 }
 
-// What an earlier run left of a cell. A damaged one is done again, of which `warn` says.
+// Returns the table that an earlier run left of a cell. A damaged file is made again; with `warn`
+// that is logged.
 std::optional<Table> finished_cell(const Cell& cell, const CellRun& run, bool warn) {
   const fs::path file = file_of(cell, run);
   if (!fs::exists(file)) return std::nullopt;
@@ -63,7 +64,7 @@ std::optional<Table> finished_cell(const Cell& cell, const CellRun& run, bool wa
   return table;
 }
 
-// Cells of another commit may have others.
+// Cells of another commit may have other columns.
 void require_same_columns(std::span<const Cell> cells, const CellRun& run,
                           const std::vector<std::optional<Table>>& tables, const Table& table) {
   for (std::size_t i = 0; i < cells.size(); ++i)
@@ -73,7 +74,7 @@ void require_same_columns(std::span<const Cell> cells, const CellRun& run,
                        "cells of one program, or another output folder");
 }
 
-// Takes open cells one after the other until none is left or one failed.
+// Runs the open cells one after the other until none is left or one failed.
 class Workers {
  public:
   Workers(std::span<const Cell> cells, const CellRun& run,

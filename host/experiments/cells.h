@@ -1,5 +1,7 @@
-// An experiment cut into cells: small units of work with a stable name, each a file as soon as it
-// is finished, so that stopping loses nothing and resuming does nothing twice.
+// Runs an experiment as cells: small units of work with a stable name.
+//
+// The result of a cell is a file as soon as the cell is finished. So a stopped run loses nothing,
+// and a resumed run repeats nothing.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +16,8 @@
 
 namespace edgescout {
 
-// `name` is the file's path below the folder of cells, without extension: "rendered/scene_007".
-// `run` may be called on any thread; its result must not depend on which cells ran before.
+// `name` is the path of the file in the folder of cells, without extension: "rendered/scene_007".
+// `run` may be called on any thread. Its result must not depend on the cells that ran before.
 struct Cell {
   std::string name;
   std::function<Table(Backend&)> run;
@@ -23,23 +25,24 @@ struct Cell {
 
 struct CellRun {
   std::filesystem::path folder;  // of the cells' files
-  Notes settings;                // what the results depend on; the head of every file
-  std::string commit;            // noted beside the settings
+  Notes settings;                // the results depend on them; every file begins with them
+  std::string commit;            // noted after the settings
   bool resume = false;
-  bool any_commit = false;  // finished cells of other commits are taken too
-  int workers = 1;          // cells that run side by side, each with a backend of its own
+  bool any_commit = false;  // also accepts finished cells of other commits
+  int workers = 1;          // number of cells that run in parallel, each with its own backend
   std::function<std::unique_ptr<Backend>()> make_backend;
-  // may be empty; at the start too, by one thread at a time
+  // May be empty. Called at the start and after every cell, by one thread at a time.
   std::function<void(std::size_t done, std::size_t all)> progress;
 };
 
-// The cells' tables, in their order. A finished cell's file is taken as it is with `resume`; one
-// that cannot be read is done again. InputError: finished cells without `resume`; a finished cell
-// with other settings, naming the first that differs, of another commit without `any_commit`, or
-// with other columns; a file that cannot be written. Whatever ends the run, finished cells stay.
+// Returns the tables of the cells, in their order. With `resume` the file of a finished cell is
+// used as it is; a file that cannot be read is made again. Finished cells stay, whatever ends the
+// run. InputError: a finished cell without `resume`; a finished cell with other settings (names the
+// first that differs), with other columns, or of another commit without `any_commit`; a file that
+// cannot be written.
 std::vector<Table> run_cells(std::span<const Cell> cells, const CellRun& run);
 
-// InputError where run_cells would throw one for finished cells, without running any.
+// Throws the InputError that run_cells would throw for finished cells, without running a cell.
 void require_resumable(std::span<const Cell> cells, const CellRun& run);
 
 }  // namespace edgescout

@@ -1,4 +1,4 @@
-// Which data an experiment ran on.
+// Identifies the data that an experiment ran on.
 #pragma once
 
 #include <filesystem>
@@ -6,9 +6,8 @@
 
 namespace edgescout {
 
-// What tells the data below a folder from others, wherever the folder lies: a checksum of all files
-// of its sets. InputError naming one of those that no set can do without (truths, cameras, starts,
-// meshes).
+// Returns a checksum of all files of the sets in the folder. It does not depend on the place of the
+// folder. InputError naming a missing file that a set needs (truths, cameras, starts, meshes).
 std::string data_mark(const std::filesystem::path& data);
 
 }  // namespace edgescout

@@ -36,10 +36,10 @@ DecisionWork make_decision_work(const Bin& bin, const DecisionSize& size, Backen
   work.views = hemisphere_views(hemisphere);
   work.closed.assign(work.views.size(), 0);
   work.closed[0] = 1;
-  RegisterView first;
+  ObjectView first;
   first.camera = work.camera;
   first.camera_from_world = work.views[0];
-  work.real.push_back(std::move(first));
+  work.real_views.push_back(std::move(first));
   Random random(1);
   for (int i = 0; i < size.candidates; ++i) {
     const BinInstance& instance = bin.instances[static_cast<std::size_t>(i) % bin.instances.size()];
@@ -54,13 +54,17 @@ DecisionWork make_decision_work(const Bin& bin, const DecisionSize& size, Backen
 int decide(const DecisionWork& work, Backend& backend) {
   CombinationOptions combinations;
   combinations.count = work.size.combinations;
-  const BitMatrix scenes = candidate_combinations(
+  const BitMatrix sampled = candidate_combinations(
       work.models, work.candidates, true, DEFAULT_PENETRATION_M, combinations, backend.threads());
-  const std::vector<ViewInformation> information =
-      view_information({work.models, work.tables, work.camera, work.views, work.closed, work.real,
-                        work.candidates, &scenes, work.particles},
-                       backend, {});
-  return best_view(information).value_or(-1);
+  const NextViewProblem problem{{work.models, work.real_views, backend},
+                                work.tables,
+                                work.camera,
+                                work.views,
+                                work.closed,
+                                work.candidates,
+                                &sampled,
+                                work.particles};
+  return best_view(view_information(problem, {})).value_or(-1);
 }
 
 }  // namespace edgescout

@@ -1,5 +1,5 @@
-// One whole decision where to look next, as a scout makes it, on a rendered bin: what benchmarks
-// time.
+// Makes one whole decision on the next view, as a scout does, on a rendered bin. Benchmarks time
+// it.
 #pragma once
 
 #include "host/active/next_view.h"
@@ -11,28 +11,28 @@ struct DecisionSize {
   int views = 32, candidates = 40, particles = 200, combinations = 1000;  // the paper's
 };
 
-// A bin's parts, each as several candidates some millimetres off, as a first image leaves them, and
-// particles around them; an image of 1024x768 was taken from a view beside those that are judged.
-// Of that image there is no edge: particles' points count as seen where they project into it.
+// The input of a decision: several candidates of each of a bin's parts, some millimetres off, as
+// after a first image, and particles around them. The image of 1024x768 was taken from one more
+// view, the first. It has no edges: points of particles count as seen if they project into it.
 struct DecisionWork {
   std::vector<EdgeModel> models;
   std::vector<TemplateTable> tables;
   Camera camera{1024, 768, 1000, 1000, 511.5, 383.5, {}};
-  std::vector<Se3> views;  // the first one was taken
+  std::vector<Se3> views;  // camera_from_world; the first was taken
   std::vector<char> closed;
-  std::vector<RegisterView> real;
+  std::vector<ObjectView> real_views;
   std::vector<Detection> candidates;
   std::vector<Particle> particles;
   DecisionSize size;
 };
 
-// Of the full experiments, the one that decisions are timed on.
+// The bin of the full experiments on which decisions are timed.
 Bin decision_bin(ThreadPool& pool);
-// `bin` holds the project's own parts.
+// `bin` must hold the project's own parts.
 DecisionWork make_decision_work(const Bin& bin, const DecisionSize& size, Backend& backend);
 
-// Which candidates exclude each other, scenes, visible edges and surfaces of every candidate in
-// every view, their maps, information: the view of most.
+// Finds the candidates that exclude each other, samples combinations, draws visible edges, surfaces
+// and maps of every candidate in every view, and computes the information. Returns the best view.
 int decide(const DecisionWork& work, Backend& backend);
 
 }  // namespace edgescout

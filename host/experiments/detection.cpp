@@ -23,16 +23,16 @@ namespace {
 struct Detector {
   const char* name;
   const char* column;
-  double sign;  // times it, the column is the higher the likelier
+  double sign;  // sign * column is higher for a likelier candidate
 };
-// Those of FDCM first, in the order of fdcm_views.
+// The FDCM detectors stand first, in the order of fdcm_views.
 constexpr Detector DETECTORS[] = {{"FDCM", "fdcm_px", -1},
                                   {"FDCM (LSD edges)", "fdcm_lsd_px", -1},
                                   {"FDCM (lambda 30)", "fdcm_own_px", -1},
                                   {"FDCM (cap 15 px)", "fdcm_cap_px", -1},
                                   {"LINE-2D", "line2d", 1}};
 static_assert(OWN_LAMBDA_PX_PER_RAD == 30, "as the detector's name says");
-constexpr float LOW_CAP_PX = 15;  // of what a point that is hidden or missed may cost
+constexpr float LOW_CAP_PX = 15;  // of the cost of a point that is hidden or not detected
 
 Notes options(const ExperimentSettings& s) {
   Notes notes{{"scenes", std::to_string(s.scenes)},
@@ -53,21 +53,34 @@ TensorOptions capped(TensorOptions options, float cap_px) {
   return options;
 }
 
-// What each FDCM sees. The edges must outlive it.
-std::vector<RegisterView> fdcm_views(const KnownScene& scene, const SceneEdges& edges,
-                                     const SceneEdges& lsd, const TensorOptions& tensor,
-                                     Backend& backend) {
+// The view of the first image for each FDCM detector. Its camera frame is the world.
+std::vector<ObjectView> fdcm_views(const KnownScene& scene, const SceneEdges& edges,
+                                   const SceneEdges& lsd, const TensorOptions& tensor,
+                                   Backend& backend) {
   const TensorOptions papers = with_lambda(tensor, PAPER_LAMBDA_PX_PER_RAD);
-  const auto seen = [&](const SceneEdges& points, const TensorOptions& of_tensor) {
-    return register_views(scene, points, of_tensor, backend)[0];
+  const auto view_with = [&](const SceneEdges& points, const TensorOptions& of_tensor) {
+    ObjectView view = register_views(scene, points, of_tensor, backend)[0];
+    view.camera_from_world = Se3{};
+    return view;
   };
-  return {seen(edges, papers), seen(lsd, papers),
-          seen(edges, with_lambda(tensor, OWN_LAMBDA_PX_PER_RAD)),
-          seen(edges, capped(papers, LOW_CAP_PX))};
+  return {view_with(edges, papers), view_with(lsd, papers),
+          view_with(edges, with_lambda(tensor, OWN_LAMBDA_PX_PER_RAD)),
+          view_with(edges, capped(papers, LOW_CAP_PX))};
 }
 
-// Columns: set, image, object, instances (of the object in the image), candidate, instance and how
-// much of it is visible (both empty: of none), and the scores.
+// The scores of all detectors, in the order of DETECTORS.
+std::vector<std::vector<double>> scores_of(std::span<const EdgeModel> models,
+                                           std::span<const ObjectPose> poses,
+                                           const std::vector<ObjectView>& views, Backend& backend) {
+  std::vector<std::vector<double>> scores;
+  for (const ObjectView& view : views)
+    scores.push_back(fdcm_scores({models, {&view, 1}, backend}, poses));
+  scores.push_back(line2d_scores({models, {&views[0], 1}, backend}, poses));
+  return scores;
+}
+
+// Columns: set, image, object, instances (of the object in the image), candidate, instance and its
+// visible fraction (both empty: the candidate is no pose of an instance), and the scores.
 Table score_candidates(const KnownScene& scene, const ExperimentSettings& settings,
                        Backend& backend) {
   Table table{{}, {"set", "image", "object", "instances", "candidate", "instance", "visible"}, {}};
@@ -76,19 +89,16 @@ Table score_candidates(const KnownScene& scene, const ExperimentSettings& settin
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
   const SceneEdges edges = edges_of(scene, backend),
                    lsd = edges_of(scene, backend, EdgeMethod::Lsd);
-  const std::vector<RegisterView> views = fdcm_views(scene, edges, lsd, settings.tensor, backend);
+  const std::vector<ObjectView> views = fdcm_views(scene, edges, lsd, settings.tensor, backend);
   for (int object = 0; object < static_cast<int>(scene.objects.size()); ++object) {
     const auto instances = std::ranges::count(scene.instances, object, &KnownInstance::object);
     if (instances == 0) continue;
     const std::vector<PoseCandidate> candidates =
         pose_candidates(scene, object, settings.candidates, settings.seed);
-    std::vector<Candidate> poses;
+    std::vector<ObjectPose> poses;
     for (const PoseCandidate& candidate : candidates)
-      poses.push_back({object, candidate.camera_from_object, 0});
-    std::vector<std::vector<double>> scores;  // by detector
-    for (const RegisterView& view : views)
-      scores.push_back(fdcm_scores(models, poses, view, backend));
-    scores.push_back(line2d_scores(models, poses, views[0], backend));
+      poses.push_back({object, candidate.camera_from_object});
+    const std::vector<std::vector<double>> scores = scores_of(models, poses, views, backend);
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       const int of = candidates[i].instance;
       std::vector<std::string> row{scene.set,
@@ -130,10 +140,10 @@ std::vector<Cell> cells(const ExperimentSettings& s) {
   return list;
 }
 
-// A detector's candidates in one set of images.
+// The candidates of one detector in one set of images.
 struct Scored {
   std::vector<ScoredPose> poses;
-  std::vector<int> instances;  // of every image, with a candidate or without
+  std::vector<int> instances;  // per image, found or not
   int all_instances() const { return std::accumulate(instances.begin(), instances.end(), 0); }
 };
 
@@ -156,8 +166,8 @@ Scored scored_by(const Detector& detector, const Table& table) {
   return scored;
 }
 
-// The corners of the staircase: where the rate rises, and the ends. On a logarithmic axis no false
-// positive at all is drawn as half of one.
+// Keeps the corners of the staircase: its ends and the points where the rate rises. On a
+// logarithmic axis no false positive at all is drawn as half of one.
 PlotLine line_of(const char* name, const std::vector<CurvePoint>& points, std::size_t images) {
   PlotLine line{name, {}};
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -177,7 +187,7 @@ struct Part {
   Table rows;
 };
 
-// All rendered images, each of their types, and every other set.
+// The parts of the report: each type of the rendered images, all rendered images, every other set.
 std::vector<Part> parts_of(const Table& table) {
   std::vector<Part> parts;
   for (const std::string& set : values_of(table, "set")) {
@@ -195,10 +205,10 @@ std::vector<Part> parts_of(const Table& table) {
   return parts;
 }
 
-constexpr double ALLOWED[] = {0, 0.1, 1, 10};  // false positives an image
+constexpr double ALLOWED[] = {0, 0.1, 1, 10};  // false positives per image
 
-// Rates of one detector, and what they would be in other images: resampled, of the same draws for
-// all.
+// The rate of one detector, and its rates in resampled sets of images. All detectors have the same
+// draws.
 struct Rates {
   double rate = 0;
   std::vector<double> resampled;
@@ -213,7 +223,7 @@ std::vector<Rates> rates_of(const Scored& scored, const std::vector<CurvePoint>&
   return rates;
 }
 
-// In points of percent, an FDCM's less LINE-2D's.
+// The rate of an FDCM detector less that of LINE-2D, in percentage points.
 std::string difference_row(const std::string& name, const Detector& detector,
                            const std::vector<Rates>& fdcm, const std::vector<Rates>& line2d) {
   std::string text = "| " + name + " | " + detector.name + " less LINE-2D, points";
@@ -227,9 +237,8 @@ std::string difference_row(const std::string& name, const Detector& detector,
   return text + " | |\n";
 }
 
-Report report(const ExperimentSettings& settings, const Table& table) {
-  Report result;
-  result.markdown = fmt::format(
+std::string introduction(const ExperimentSettings& settings) {
+  return fmt::format(
       "{} candidates an image and type: {} around every instance of which at least a tenth shows, "
       "within {} "
       "rad and {:.0f} mm; all others anywhere in a cube that holds the instances. "
@@ -246,34 +255,36 @@ Report report(const ExperimentSettings& settings, const Table& table) {
       settings.candidates, CANDIDATES_AN_INSTANCE, CANDIDATE_ANGLE_RAD, 1000 * CANDIDATE_DISTANCE_M,
       PAPER_LAMBDA_PX_PER_RAD, settings.tensor.cap_px,
       settings.data.empty() ? "" : std::string(" ") + PHOTOGRAPHS_COUNT_APART);
-  for (const Part& part : parts_of(table)) {
-    Panel panel{part.name,
-                "false positives an image (none: as half of one)",
-                "true positive rate",
-                {},
-                0,
-                1,
-                true};
-    std::vector<std::vector<Rates>> of_detector;
-    const Draws draws = draw_images(values_of(part.rows, "image").size());
-    for (const Detector& detector : DETECTORS) {
-      const Scored scored = scored_by(detector, part.rows);
-      const std::vector<CurvePoint> curve = detection_curve(scored.poses, scored.all_instances());
-      panel.lines.push_back(line_of(detector.name, curve, scored.instances.size()));
-      of_detector.push_back(rates_of(scored, curve, draws));
-      result.markdown += "| " + part.name + " | " + detector.name;
-      for (const Rates& rates : of_detector.back())
-        result.markdown +=
-            " | " +
-            percent(rates.rate, resampled_interval(rates.resampled,
-                                                   static_cast<double>(scored.instances.size())));
-      result.markdown += fmt::format(" | {} |\n", scored.all_instances());
-    }
-    for (std::size_t d = 0; d + 1 < of_detector.size(); ++d)
-      result.markdown +=
-          difference_row(part.name, DETECTORS[d], of_detector[d], of_detector.back());
-    result.panels.push_back(std::move(panel));
+}
+
+void add_part(Report& report, const Part& part) {
+  Panel panel{
+      part.name, "false positives an image (none: as half of one)", "true positive rate", {}, 0, 1,
+      true};
+  std::vector<std::vector<Rates>> of_detector;
+  const Draws draws = draw_images(values_of(part.rows, "image").size());
+  for (const Detector& detector : DETECTORS) {
+    const Scored scored = scored_by(detector, part.rows);
+    const std::vector<CurvePoint> curve = detection_curve(scored.poses, scored.all_instances());
+    panel.lines.push_back(line_of(detector.name, curve, scored.instances.size()));
+    of_detector.push_back(rates_of(scored, curve, draws));
+    report.markdown += "| " + part.name + " | " + detector.name;
+    for (const Rates& rates : of_detector.back())
+      report.markdown +=
+          " | " +
+          percent(rates.rate, resampled_interval(rates.resampled,
+                                                 static_cast<double>(scored.instances.size())));
+    report.markdown += fmt::format(" | {} |\n", scored.all_instances());
   }
+  for (std::size_t d = 0; d + 1 < of_detector.size(); ++d)
+    report.markdown += difference_row(part.name, DETECTORS[d], of_detector[d], of_detector.back());
+  report.panels.push_back(std::move(panel));
+}
+
+Report report(const ExperimentSettings& settings, const Table& table) {
+  Report result;
+  result.markdown = introduction(settings);
+  for (const Part& part : parts_of(table)) add_part(result, part);
   return result;
 }
 

@@ -1,5 +1,5 @@
-// Experiment 1: true positives against false positives of FDCM and LINE-2D on the same pose
-// candidates (paper, Sec. 6, "Object Detection").
+// Experiment 1: true and false positives of FDCM and LINE-2D on the same pose candidates (paper,
+// Sec. 6, "Object Detection").
 #pragma once
 
 #include "host/experiments/experiment.h"

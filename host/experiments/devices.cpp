@@ -29,22 +29,20 @@ double ms_since(Clock::time_point start) {
 }
 
 constexpr int PARTS = 5, POSES = 40;
-constexpr double ENOUGH_MS = 120000;  // a device that took so long is not asked again
+constexpr double ENOUGH_MS = 120000;  // a device that used more gets no further repetition
 constexpr int LEAST_REPETITIONS = 3;
 
-// The same for all devices: made on the CPU.
+// The input of the stages, made once on the CPU for all devices.
 struct Work {
   KnownScene scene;
   std::vector<TemplateSet> sets;
   std::vector<EdgeModel> models;
-  std::vector<ObjectPose> starts, truths;  // of registration and of scoring, camera frame
+  std::vector<ObjectPose> starts, truths;  // of registration and of scoring, in the camera frame
   DecisionWork decision;                   // of the next view
   PipelineOptions options;                 // of the whole pipeline
 };
 
-Work make_work(const DevicesOptions& o, Backend& cpu) {
-  Work work;
-  work.options = o.pipeline;
+KnownScene make_scene_of_parts(const DevicesOptions& o, ThreadPool& pool) {
   ExperimentSettings settings;
   settings.image_scale = o.image_scale;
   RenderOptions render = single_image_options(settings, 0);
@@ -52,21 +50,33 @@ Work make_work(const DevicesOptions& o, Backend& cpu) {
   render.objects = PARTS;
   render.clutter = 1;
   render.pile = 0.3;
-  work.scene = rendered_scene("devices", {make_part("bearing_block")}, render, cpu.threads());
-  if (work.scene.instances.empty())
+  KnownScene scene = rendered_scene("devices", {make_part("bearing_block")}, render, pool);
+  if (scene.instances.empty())
     throw InputError("bench devices", "seed", std::to_string(o.seed),
                      "one whose parts can be seen");
-  TemplateOptions templates = o.templates;
+  return scene;
+}
+
+// Distances left at 0: those of the parts in the image, and 15 % more at both ends.
+TemplateOptions with_distances_in(const KnownScene& scene, TemplateOptions templates) {
   double nearest_m = 1e9, farthest_m = 0;
-  for (const KnownInstance& instance : work.scene.instances) {
+  for (const KnownInstance& instance : scene.instances) {
     const double distance_m =
-        (work.scene.images[0].camera_from_world * instance.world_from_object).translation_m.norm();
+        (scene.images[0].camera_from_world * instance.world_from_object).translation_m.norm();
     nearest_m = std::min(nearest_m, distance_m);
     farthest_m = std::max(farthest_m, distance_m);
   }
   if (templates.distance_min_m == 0) templates.distance_min_m = 0.85 * nearest_m;
   if (templates.distance_max_m == 0) templates.distance_max_m = 1.15 * farthest_m;
-  work.sets.push_back(build_templates(work.scene.objects[0], templates, cpu));
+  return templates;
+}
+
+Work make_work(const DevicesOptions& o, Backend& cpu) {
+  Work work;
+  work.options = o.pipeline;
+  work.scene = make_scene_of_parts(o, cpu.threads());
+  work.sets.push_back(
+      build_templates(work.scene.objects[0], with_distances_in(work.scene, o.templates), cpu));
   work.models = models_of(work.sets);
   work.decision = make_decision_work(decision_bin(cpu.threads()), {}, cpu);
   const int each = (POSES + static_cast<int>(work.scene.instances.size()) - 1) /
@@ -80,7 +90,7 @@ Work make_work(const DevicesOptions& o, Backend& cpu) {
   return work;
 }
 
-// Times of the stages, one after the other on one image.
+// Measures the stages, one after the other on one image.
 class Stages {
  public:
   explicit Stages(std::vector<StageSamples>& samples) : samples_(samples) {}
@@ -99,37 +109,35 @@ class Stages {
 };
 
 void run_stages(const Work& work, Backend& backend, std::vector<StageSamples>& samples) {
-  const KnownImage& image = work.scene.images[0];
   Stages stages(samples);
-  const PreparedImage prepared = stages.time("edges", [&] {
-    return prepare_image(image.image, image.camera, Se3{}, backend, work.options);
+  const auto prepare = [&] {
+    const KnownImage& image = work.scene.images[0];
+    std::vector<StageSeconds> ignored;
+    return prepare_view(image.image, image.camera, Se3{}, backend, work.options, &ignored);
+  };
+  const ObjectView prepared = stages.time("edges", prepare);
+  const ObjectView view = stages.time("tensors", [&] {
+    ObjectView with_tensors = prepared;
+    add_tensors(with_tensors, work.sets, backend, work.options.tensor);
+    return with_tensors;
   });
-  const Observation observation = stages.time(
-      "tensors", [&] { return observe_prepared(prepared, work.sets, backend, work.options); });
-  const RegisterView& view = observation.view;
-  const std::span<const RegisterView> views(&view, 1);
-  stages.time("scan", [&] {
-    return coarse_scan(work.sets[0], observation, backend, work.options.detect.scan);
-  });
-  stages.time("registration", [&] {
-    return refine_poses(work.models, work.starts, views, backend, work.options.detect.refine);
-  });
-  stages.time("scoring", [&] {
-    return pose_features(work.models, work.truths, views, backend,
-                         work.options.detect.refine.score);
-  });
+  const Scene scene{work.models, {&view, 1}, backend};
+  const DetectOptions& detect = work.options.detect;
+  stages.time("scan", [&] { return coarse_scan(work.sets[0], view, backend, detect.scan); });
+  stages.time("registration", [&] { return refine_poses(scene, work.starts, detect.refine); });
+  FeatureOptions features;
+  features.score = detect.refine.score;
+  stages.time("scoring", [&] { return pooled_features(scene, work.truths, features); });
   stages.time("next view", [&] { return decide(work.decision, backend); });
-  stages.time("image to poses", [&] {
-    return detect_objects(prepare_image(image.image, image.camera, Se3{}, backend, work.options),
-                          work.sets, backend, work.options);
-  });
+  stages.time("image to poses",
+              [&] { return detect_objects(prepare(), work.sets, backend, work.options); });
 }
 
-// A device under measurement.
+// A device that is measured.
 struct Runner {
   DeviceTimes times;
   std::unique_ptr<Backend> backend;
-  double spent_ms = 0;
+  double used_ms = 0;
 };
 
 std::vector<Runner> make_runners(const DevicesOptions& options) {
@@ -155,7 +163,8 @@ std::vector<Runner> make_runners(const DevicesOptions& options) {
   return runners;
 }
 
-// The first image on a device does not count as time (pages, the driver's compiler), but as memory.
+// The first image on a device is not timed (memory pages, the driver's compiler). Its peak memory
+// is reported.
 void warm_up(Runner& runner, const Work& work) {
   forget_peak_memory();
   forget_peak_device_memory();
@@ -163,6 +172,16 @@ void warm_up(Runner& runner, const Work& work) {
   run_stages(work, *runner.backend, ignored);
   runner.times.peak_host_bytes = peak_memory_bytes();
   runner.times.peak_device_bytes = runner.backend->is_gpu() ? peak_device_memory_bytes() : 0;
+}
+
+void describe(const Work& work, DevicesReport& report) {
+  report.width = work.scene.images[0].camera.width;
+  report.height = work.scene.images[0].camera.height;
+  report.instances = static_cast<int>(work.scene.instances.size());
+  report.poses = static_cast<int>(work.starts.size());
+  const TemplateSet& set = work.sets[0];
+  report.templates = set.views.size() * static_cast<std::size_t>(set.options.in_plane_steps) *
+                     template_distances_m(set.options).size();
 }
 
 void time_kernels(Runner& runner, int repetitions) {
@@ -195,26 +214,20 @@ DevicesReport time_devices(const DevicesOptions& options,
   report.warnings = warnings_of(report.load);
   std::vector<Runner> runners = make_runners(options);
   const Work work = make_work(options, *runners[0].backend);
-  report.width = work.scene.images[0].camera.width;
-  report.height = work.scene.images[0].camera.height;
-  report.instances = static_cast<int>(work.scene.instances.size());
-  report.poses = static_cast<int>(work.starts.size());
-  const TemplateSet& set = work.sets[0];
-  report.templates = set.views.size() * static_cast<std::size_t>(set.options.in_plane_steps) *
-                     template_distances_m(set.options).size();
+  describe(work, report);
   for (Runner& runner : runners) {
     if (runner.times.is_software)
       report.warnings.push_back(runner.times.name +
                                 " is a software device: its times say nothing of a graphics card");
     warm_up(runner, work);
   }
-  // Side by side, so that what changes on the machine meanwhile meets all devices alike.
+  // The devices take turns, so that changes on the machine affect all of them alike.
   for (int i = 0; i < options.repetitions; ++i) {
     for (Runner& runner : runners) {
-      if (i >= LEAST_REPETITIONS && runner.spent_ms > ENOUGH_MS) continue;
+      if (i >= LEAST_REPETITIONS && runner.used_ms > ENOUGH_MS) continue;
       const Clock::time_point start = Clock::now();
       run_stages(work, *runner.backend, runner.times.stages);
-      runner.spent_ms += ms_since(start);
+      runner.used_ms += ms_since(start);
     }
     if (progress)
       progress(static_cast<std::size_t>(i) + 1, static_cast<std::size_t>(options.repetitions));

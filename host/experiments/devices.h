@@ -1,5 +1,5 @@
-// Every stage from an image to poses, and the decision where to look next, timed on every device
-// beside the CPU in one run.
+// Times every stage from an image to poses, and the decision on the next view, on the CPU and on
+// every other device in one run.
 #pragma once
 
 #include <functional>
@@ -13,14 +13,14 @@
 namespace edgescout {
 
 struct DevicesOptions {
-  std::vector<std::string> devices;  // as make_backend takes them; empty: cpu and every Vulkan
-                                     // device. "cpu" is always among them, first
-  int repetitions = 7;        // of every stage; a slow device gets fewer, but three
+  // As make_backend takes them. Empty: cpu and every Vulkan device. "cpu" is always the first.
+  std::vector<std::string> devices;
+  int repetitions = 7;        // of every stage; a slow device gets fewer, but at least three
   double image_scale = 1;     // of 1024 x 768
-  TemplateOptions templates;  // distances of 0: from those of the parts in the image
+  TemplateOptions templates;  // distances of 0: taken from the parts in the image
   PipelineOptions pipeline;
   unsigned seed = 1;      // of the image
-  bool kernels = true;    // also every kernel on its own, against the device's copying speed
+  bool kernels = true;    // also times every kernel, compared with the device's copying speed
   void validate() const;  // InputError naming the field and the violated bound
 };
 
@@ -33,30 +33,30 @@ struct StageSamples {
 
 struct DeviceTimes {
   std::string choice, name, driver;
-  bool is_software =
-      false;  // a rasteriser on the processor: right, but no measure of a graphics card
+  bool is_software = false;  // runs on the processor: its times say nothing of a graphics card
   // "edges", "tensors", "scan", "registration", "scoring", "next view", "image to poses"
   std::vector<StageSamples> stages;
-  // of the whole process while an image was searched, with what the devices before it keep
+  // Of the whole process during one image, with the memory that earlier devices keep.
   std::size_t peak_host_bytes = 0;
-  std::size_t peak_device_bytes =
-      0;  // in the device's buffers; part of the host's where memory is unified
+  // In the device's buffers. With unified memory they are part of the host's bytes.
+  std::size_t peak_device_bytes = 0;
   double copy_bytes_per_s = 0;  // read and written
   std::vector<bench::Row> kernels;
 };
 
 struct DevicesReport {
-  MachineLoad load, load_at_end;                        // before and after everything was timed
-  std::vector<std::string> warnings;                    // a busy machine, software devices
-  int width = 0, height = 0, instances = 0, poses = 0;  // of the image; poses registered and scored
-  std::size_t templates = 0;                            // that are searched for
+  MachineLoad load, load_at_end;             // before and after all measurements
+  std::vector<std::string> warnings;         // a busy machine, software devices
+  int width = 0, height = 0, instances = 0;  // of the image
+  int poses = 0;                             // that are registered and scored
+  std::size_t templates = 0;                 // in the scan
   DevicesOptions options;
   std::string commit;
   std::vector<std::pair<std::string, std::string>> settings;  // every option with its value
   std::vector<DeviceTimes> devices;                           // the CPU first
 };
 
-// `progress` (may be empty) is called with repetitions done and in all.
+// `progress` (may be empty) is called with the repetitions done and their total.
 DevicesReport time_devices(const DevicesOptions& options,
                            const std::function<void(std::size_t, std::size_t)>& progress);
 

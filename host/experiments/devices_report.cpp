@@ -1,4 +1,4 @@
-// The comparison of devices as JSON and as Markdown tables.
+// Writes the comparison of devices as JSON and as Markdown tables.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,12 +21,12 @@ double images_per_second(const DeviceTimes& device) {
   return 1000 / device.stages.back().median_ms();
 }
 
-// What copying as many bytes would take.
+// The time of copying as many bytes.
 double floor_ms(const bench::Row& kernel, const DeviceTimes& device) {
   return 1000 * static_cast<double>(kernel.bytes) / device.copy_bytes_per_s;
 }
 
-// How long the kernel itself took: the host's share is no matter of the device's memory.
+// The time of the kernel itself, without the host's share.
 double kernel_ms(const bench::Row& kernel) {
   return kernel.on_device_ms().value_or(kernel.median_ms);
 }

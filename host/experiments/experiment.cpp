@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The CPU's cells are single-threaded: their times are those of one thread, as the paper's.
+// Cells on a CPU have one thread: their times are those of one thread, as in the paper.
 std::unique_ptr<Backend> backend_of_cell(const std::string& device) {
   return device == "cpu" ? make_cpu_backend(1) : make_backend(device);
 }
@@ -36,11 +36,11 @@ Notes settings_notes(const Experiment& experiment, const ExperimentSettings& set
               {"device", device_name}};
   for (const auto& note : experiment.options(settings)) notes.push_back(note);
   notes.emplace_back("times", settings.times ? "yes" : "no");
-  if (settings.times) notes.emplace_back("machine", machine_name());  // its times are no other's
+  if (settings.times) notes.emplace_back("machine", machine_name());  // times depend on the machine
   return notes;
 }
 
-// Cells may be older than the program that makes a report of them.
+// The cells may be older than the program that makes the report.
 std::string provenance(const Table& table, const std::string& commit) {
   std::string text;
   bool same_commit = commit.empty();
@@ -63,7 +63,7 @@ void write_report(const Experiment& experiment, const ExperimentSettings& settin
                   experiment.title, report.markdown, name, made_with));
 }
 
-// Lists every experiment whose report is there, of this run or of an earlier one.
+// Lists every experiment that has a report, of this run or of an earlier one.
 void write_index(const fs::path& out) {
   std::string text = "# Experiments\n\n";
   for (const Experiment& experiment : experiments())
@@ -123,7 +123,8 @@ void run_experiments(const std::vector<Experiment>& chosen, const ExperimentSett
     throw InputError(settings.data.string(), "data", "no folder",
                      "one with d2co-starts, brackets, cat, triangle and cad");
   const std::string device_name = make_backend(run.device)->name();
-  // Of all: what is not there, or in the way, ends the run before it writes.
+  // All experiments are checked first: missing data or results of another run end the run before it
+  // writes.
   std::vector<std::vector<Cell>> cells;
   std::vector<CellRun> runs;
   for (const Experiment& experiment : chosen) {

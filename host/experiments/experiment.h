@@ -1,4 +1,4 @@
-// The experiments of the paper (Sec. 6), each as cells to run and a report of what they gave.
+// The experiments of the paper (Sec. 6): each has cells to run and a report of their results.
 #pragma once
 
 #include <functional>
@@ -12,22 +12,22 @@
 namespace edgescout {
 
 struct Report {
-  std::string markdown;  // tables and what they count, in the form of docs/evaluation.md
+  std::string markdown;  // tables with explanations, in the form of docs/evaluation.md
   std::vector<Panel> panels;
   int columns = 3;  // of panels
 };
 
 struct Experiment {
   std::string name, title;
-  Notes (*options)(
-      const ExperimentSettings&);  // what its results depend on, beside seed, device and commit
+  // What its results depend on, apart from seed, device and commit.
+  Notes (*options)(const ExperimentSettings&);
   std::vector<Cell> (*cells)(const ExperimentSettings&);
   Report (*report)(const ExperimentSettings&, const Table&);  // of the rows of all cells
 };
 
 // In the paper's order.
 const std::vector<Experiment>& experiments();
-// InputError listing the names there are on another one. No names: all of them.
+// No names: all experiments. InputError listing the known names: an unknown name.
 std::vector<Experiment> experiments_named(const std::vector<std::string>& names);
 
 struct ExperimentRun {
@@ -35,16 +35,16 @@ struct ExperimentRun {
   std::string device = "cpu";  // as make_backend takes it
   std::string commit;
   bool resume = false;
-  bool any_commit = false;  // finished cells of other commits are taken too
-  int jobs = 0;             // cells side by side on a CPU; 0: as many as it has threads
-  // may be empty
+  bool any_commit = false;  // also accepts finished cells of other commits
+  int jobs = 0;             // cells in parallel on a CPU; 0: as many as it has threads
+  // May be empty.
   std::function<void(const std::string& experiment, std::size_t done, std::size_t all)> progress;
 };
 
-// Writes into `out`: cells/NAME/.., and when the experiment's cells are finished NAME.csv (all
-// rows), NAME.md, NAME.svg; at the end index.md. On a CPU `jobs` cells run side by side, each on
-// one thread; on a device one after the other. InputError as run_cells; for settings out of bounds
-// and for data that is not there before anything is written.
+// Writes into `out`: cells/NAME/.. and, when all cells of an experiment are finished, NAME.csv (all
+// rows), NAME.md, NAME.svg and index.md. On a CPU `jobs` cells run in parallel, each on one thread.
+// On a device the cells run one after the other. InputError as run_cells. Settings out of bounds
+// and missing data are reported before anything is written.
 void run_experiments(const std::vector<Experiment>& chosen, const ExperimentSettings& settings,
                      const ExperimentRun& run);
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <numbers>
 
-#include "host/detect/observation.h"
+#include "host/detect/tensors.h"
 #include "host/edge/edges.h"
 #include "host/io/bop.h"
 #include "host/io/image.h"
@@ -22,10 +22,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Of a turned part, in which it is judged: every 0.01 rad half way, as the BOP toolkit does.
+// Samples of the symmetry of a turned part, as many as the BOP toolkit evaluates: a pose is at most
+// 0.01 rad from a sample.
 constexpr int TURNS = 315;
 
-// Of the smallest instance, in an image: what the coarse tensor must still resolve.
+// Size of the smallest instance in an image. The coarse tensor must resolve it.
 double smallest_size_px(const KnownScene& scene, const KnownImage& view) {
   double smallest = std::numeric_limits<double>::infinity();
   for (const KnownInstance& instance : scene.instances) {
@@ -79,7 +80,7 @@ KnownScene rendered_scene(const std::string& name, const std::vector<Object>& ty
   known.set = "rendered";
   known.name = name;
   known.objects = types;
-  const Scene scene = make_scene(known.objects, options);
+  const SimulatedScene scene = make_scene(known.objects, options);
   const std::vector<Rendering> renderings = render(scene, pool);
   for (std::size_t v = 0; v < scene.views.size(); ++v)
     known.images.push_back(
@@ -138,14 +139,17 @@ SceneEdges edges_of(const KnownScene& scene, Backend& backend, EdgeMethod method
   return edges;
 }
 
-std::vector<RegisterView> register_views(const KnownScene& scene, const SceneEdges& edges,
-                                         const TensorOptions& tensor, Backend& backend) {
-  std::vector<RegisterView> views;
+std::vector<ObjectView> register_views(const KnownScene& scene, const SceneEdges& edges,
+                                       const TensorOptions& tensor, Backend& backend) {
+  std::vector<ObjectView> views;
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
-    const KnownImage& view = scene.images[i];
-    views.push_back(observe(view.image, view.camera, view.camera_from_world, edges[i],
-                            reduction_for(smallest_size_px(scene, view)), tensor, backend)
-                        .view);
+    const KnownImage& known = scene.images[i];
+    ObjectView& view = views.emplace_back();
+    view.camera = known.camera;
+    view.camera_from_world = known.camera_from_world;
+    view.image = std::make_shared<Image>(known.image);
+    view.edges = std::make_shared<EdgeIndex>(edges[i], known.camera.width, known.camera.height);
+    add_tensors(view, reduction_for(smallest_size_px(scene, known)), backend, tensor);
   }
   return views;
 }

@@ -15,7 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double LEAST_SHARE = 0.9;  // of the processors, below which times are spoilt
+constexpr double LEAST_SHARE = 0.9;  // of the processors; below it times are unreliable
 
 double own_seconds() {
   timespec time{};
@@ -23,7 +23,7 @@ double own_seconds() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-// Of the time that passes a thread that never waits gets this share.
+// Returns the fraction of the wall-clock time that a thread gets which never waits.
 double share_of_one(Clock::duration length) {
   const Clock::time_point begin = Clock::now();
   const double own = own_seconds();

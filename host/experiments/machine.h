@@ -1,4 +1,4 @@
-// The machine that something is timed on: how busy it is, what memory was needed.
+// Describes the machine on which times are measured: its load and the memory that was used.
 #pragma once
 
 #include <cstddef>
@@ -9,26 +9,27 @@ namespace edgescout {
 
 struct MachineLoad {
   int threads = 1;
-  double load_average = 0;  // over the last minute; negative where the system does not tell
-  double share =
-      1;  // of the processors that this process gets when it asks for all of them, [0, 1]
+  double load_average = 0;  // over the last minute; negative if the system does not tell
+  // Fraction of the processors that this process gets when it uses all of them, [0, 1].
+  double share = 1;
 };
 
-// The processor as the system names it, and how many threads it runs: "AMD EPYC 7B13 x 2". No
-// comma.
+// Returns the system's name of the processor and its number of threads: "AMD EPYC 7B13 x 2".
+// Contains no comma.
 std::string machine_name();
 
-// Takes a fifth of a second of all processors.
+// Uses all processors for a fifth of a second.
 MachineLoad machine_load();
-// What may spoil times; empty where nothing does: a load average above a quarter of the threads, a
-// share below 0.9.
+// Returns what may make times wrong: a load average above a quarter of the threads, a share below
+// 0.9. Empty if there is nothing.
 std::vector<std::string> warnings_of(const MachineLoad& load);
-// The same at the end of a measurement, by the share alone: the load average is then the
-// measurement's own.
+// The same at the end of a measurement, by the share alone: the load average then contains the
+// measurement itself.
 std::vector<std::string> warnings_at_end(const MachineLoad& load);
 
-// Peak resident memory of this process since the last call of forget_peak_memory() that was true
-// (false: the system cannot forget), else since its start. 0 where the system does not tell.
+// peak_memory_bytes returns the peak resident memory of this process since the last successful
+// forget_peak_memory(), else since its start; 0 if the system does not tell. forget_peak_memory
+// returns false if the system cannot reset the peak.
 bool forget_peak_memory();
 std::size_t peak_memory_bytes();
 

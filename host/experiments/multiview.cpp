@@ -18,8 +18,8 @@ namespace {
 
 constexpr int VIEWS = 3;  // the first and N_v = 2 more
 
-// Of the recorded starts more are taken than in one view, on the one pile of photographs more
-// starts: there are few images of which there are others.
+// More recorded starts are used than for one view, and more starts on the only pile of photographs,
+// since few images have other views.
 int recorded_every(const ExperimentSettings& s) { return (s.every + 2) / 3; }
 int pile_starts(const ExperimentSettings& s) { return 5 * s.group_starts; }
 
@@ -85,7 +85,7 @@ std::string name_of(const Trial& trial) {
                      trial.views == 1 ? "one view" : fmt::format("{} views", trial.views));
 }
 
-// Three views less one of every method, and of D2CO the paper's lambda less edgescout's own.
+// Compares three views with one for every method, and for D2CO the paper's lambda with edgescout's.
 std::vector<Comparison> comparisons() {
   std::vector<Comparison> list;
   for (const Trial& several : trials()) {

@@ -7,7 +7,7 @@
 
 #include "host/active/candidates.h"
 #include "host/core/random.h"
-#include "host/experiments/bin_judge.h"
+#include "host/experiments/bin_score.h"
 #include "host/experiments/bin_types.h"
 #include "host/experiments/data_mark.h"
 #include "host/experiments/photographed_bin.h"
@@ -18,31 +18,33 @@ namespace edgescout {
 
 namespace {
 
-// What is found in the images of a bin: each is scanned for each type once, for all searches and
-// strategies that look there.
+// Detects objects in the images of a bin. Each image is scanned for each type once; the hits serve
+// all searches and strategies.
 class Detector {
  public:
   Detector(const std::vector<TemplateSet>& sets, const DetectOptions& options, Backend& backend)
       : sets_(sets), options_(options), backend_(backend) {}
-  // Of `count` types from `first_type` on, from which objects are counted.
-  std::vector<Detection> find(std::span<const int> views, std::span<const Observation> images,
+  // Detects `count` types from `first_type` on. Objects are counted from there.
+  std::vector<Detection> find(std::span<const int> views, std::span<const ObjectView> images,
                               std::span<const ObjectPose> known, int first_type, int count) {
-    std::vector<Observation> scanned(images.begin(), images.end());
-    for (std::size_t i = 0; i < scanned.size(); ++i)
+    std::vector<ScannedView> scanned;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      scanned.push_back({images[i], {}});
       for (int type = first_type; type < first_type + count; ++type)
         scanned[i].hits.push_back(hits(views[i], images[i], static_cast<std::size_t>(type)));
+    }
     return candidates_in_images(std::span(sets_).subspan(static_cast<std::size_t>(first_type),
                                                          static_cast<std::size_t>(count)),
                                 scanned, known, backend_, options_);
   }
 
  private:
-  ScanHits hits(int view, const Observation& observation, std::size_t type) {
-    // coarser tensors where only large types are sought
-    ScanHits& known = hits_[std::tuple(view, type, observation.reduction)];
+  ScanHits hits(int view, const ObjectView& image, std::size_t type) {
+    // The tensors are coarser if only large types are searched.
+    ScanHits& known = hits_[std::tuple(view, type, image.reduction)];
     if (!known)
       known = std::make_shared<std::vector<ScanHit>>(
-          coarse_scan(sets_[type], observation, backend_, options_.scan));
+          coarse_scan(sets_[type], image, backend_, options_.scan));
     return known;
   }
 
@@ -52,7 +54,7 @@ class Detector {
   std::map<std::tuple<int, std::size_t, double>, ScanHits> hits_;
 };
 
-// The types of a bin's parts, and the name they have among the rows.
+// The types of a bin's parts and their name in the rows.
 struct BinParts {
   std::string name;
   std::vector<Object> types;
@@ -61,7 +63,7 @@ struct BinParts {
 BinParts own_parts() { return {"own", bin_types()}; }
 BinParts cad_parts(const std::filesystem::path& data) { return {"cad", cad_bin_types(data)}; }
 
-// What is searched for in a bin: `count` types from the first one.
+// The types that are searched in a bin: `count` types from the first one.
 struct Search {
   std::string name, parts;
   int count = 0, first_type = 0;
@@ -89,7 +91,7 @@ Search make_search(const std::string& name, const Bin& bin, const BinParts& part
   return search;
 }
 
-// By the names of ExperimentSettings::searches.
+// The searches named by ExperimentSettings::searches.
 std::vector<Search> searches_of(const ExperimentSettings& s, const Bin& bin, const BinParts& parts,
                                 std::span<const TemplateSet> sets) {
   const int types = static_cast<int>(sets.size());
@@ -104,33 +106,39 @@ std::vector<Search> searches_of(const ExperimentSettings& s, const Bin& bin, con
   return searches;
 }
 
-// The BOP ids of what is sought.
-std::string sought_text(const Search& search) {
+// The BOP ids of the types of a search.
+std::string ids_text(const Search& search) {
   std::vector<int> ids;
   for (const Object& object : search.objects) ids.push_back(object.id);
   return fmt::format("{}", fmt::join(ids, " "));
 }
 
-// Of what is drawn more than once, `draw` counts from 0.
+// A strategy and the number of its draw, counted from 0.
+struct Run {
+  std::string strategy;
+  int draw = 0;
+};
+
 ScoutOptions options_for(const ExperimentSettings& s, const Bin& bin, const Search& search,
-                         Detector& detector, const std::string& strategy, int draw) {
+                         Detector& detector, const Run& run) {
   ScoutOptions options = s.scout;
-  options.detect = [&](std::span<const int> views, std::span<const Observation> images,
+  options.detect = [&](std::span<const int> views, std::span<const ObjectView> images,
                        std::span<const ObjectPose> known) {
     return detector.find(views, images, known, search.first_type, search.count);
   };
   options.first_view = bin.first_view;
-  const bool knows = strategy == CLAIRVOYANT;
-  options.next_view.strategy = knows ? Strategy::Fixed : strategy_from(strategy);
+  const bool is_clairvoyant = run.strategy == CLAIRVOYANT;
+  options.next_view.strategy = is_clairvoyant ? Strategy::Fixed : strategy_from(run.strategy);
   options.next_view.seed = options.combinations.seed = options.particles.seed =
       static_cast<std::uint64_t>(bin.number) + 1;
-  if (draw > 0) {
+  if (run.draw > 0) {
     options.next_view.seed =
-        Random(options.next_view.seed).split(static_cast<std::uint64_t>(draw)).bits();
+        Random(options.next_view.seed).split(static_cast<std::uint64_t>(run.draw)).bits();
     options.max_views = std::min(options.max_views, 2);
   }
-  options.next_view.sequence =
-      knows ? clairvoyant_sequence(bin, search.instances, s.scout.max_views) : fixed_sequence(bin);
+  options.next_view.sequence = is_clairvoyant
+                                   ? clairvoyant_sequence(bin, search.instances, s.scout.max_views)
+                                   : fixed_sequence(bin);
   return options;
 }
 
@@ -141,27 +149,26 @@ double seconds_of(const ScoutStep& step) {
   return seconds;
 }
 
-void look_from(int view, const Bin& bin, std::vector<BinInstance>& instances) {
+void add_visibility(int view, const Bin& bin, std::vector<BinInstance>& instances) {
   const std::vector<double>& visible = bin.cell->visible(view);
   for (BinInstance& instance : instances)
     instance.most_visible = std::max(instance.most_visible, visible[instance.placed]);
 }
 
-// Two a step, which chose and used an image. The first image, of which all draws know the same, is
-// the first draw's.
+// Adds two rows per step, for lightly and highly occluded instances. The first image is the same
+// for all draws; only the first draw has its rows.
 void add_rows(Table& table, const ExperimentSettings& s, const Bin& bin, const Search& search,
-              const std::string& strategy, int draw, const ScoutState& state) {
+              const Run& run, const ScoutState& state) {
   std::vector<BinInstance> instances = search.instances;
   for (std::size_t i = 0; i < state.steps.size(); ++i) {
     const ScoutStep& step = state.steps[i];
-    look_from(step.decision.view, bin, instances);
-    if (draw > 0 && i == 0) continue;
-    const Judgement judgement = judge(instances, step, search.objects, bin.cell->camera(),
-                                      state.steps[0].camera_from_world);
-    for (const auto& [group, tally] :
-         {std::pair{"light", judgement.light}, {"heavy", judgement.heavy}})
+    add_visibility(step.decision.view, bin, instances);
+    if (run.draw > 0 && i == 0) continue;
+    const BinScore score = score_bin(instances, step, search.objects, bin.cell->camera(),
+                                     state.steps[0].camera_from_world);
+    for (const auto& [group, tally] : {std::pair{"light", score.light}, {"heavy", score.heavy}})
       table.rows.push_back({std::to_string(bin.number), search.parts, std::to_string(bin.parts),
-                            search.name, sought_text(search), strategy, std::to_string(draw),
+                            search.name, ids_text(search), run.strategy, std::to_string(run.draw),
                             std::to_string(i + 1), std::to_string(step.decision.view), group,
                             std::to_string(tally.instances), std::to_string(tally.correct),
                             std::to_string(tally.correct_px), std::to_string(tally.wrong),
@@ -175,21 +182,22 @@ int draws_of(const ExperimentSettings& s, const std::string& strategy) {
   return strategy == "random" ? s.random_draws : 1;
 }
 
-// The first image once, then every strategy from what was known after it.
+// Processes the first image once. Then every strategy continues from the state after it.
 void run_search(Table& table, const ExperimentSettings& s, const Bin& bin, const Search& search,
                 Detector& detector, Backend& backend) {
-  const auto scout_for = [&](const std::string& strategy, int draw) {
+  const auto scout_for = [&](const Run& run) {
     return Scout(search.sets, bin.cell->camera(), bin.cell->views(),
-                 options_for(s, bin, search, detector, strategy, draw), backend);
+                 options_for(s, bin, search, detector, run), backend);
   };
-  Scout first = scout_for(s.strategies[0], 0);
+  Scout first = scout_for({s.strategies[0], 0});
   first.give(bin.first_view, bin.cell->acquire(bin.first_view).image);
   for (const std::string& strategy : s.strategies)
     for (int draw = 0; draw < draws_of(s, strategy); ++draw) {
-      Scout scout = scout_for(strategy, draw);
+      const Run run{strategy, draw};
+      Scout scout = scout_for(run);
       scout.resume(first.state(), "first image");
       run_scout(scout, *bin.cell);
-      add_rows(table, s, bin, search, strategy, draw, scout.state());
+      add_rows(table, s, bin, search, run, scout.state());
     }
 }
 
@@ -211,10 +219,10 @@ Table run_bin(const ExperimentSettings& s, const BinParts& parts, int number, Ba
   return table;
 }
 
-// Of one type alone, which is all that lies there.
+// A photographed pile has parts of one type only.
 Table run_pile(ExperimentSettings s, const Photographs& pile, int first_view, Backend& backend) {
   Table table = no_rows();
-  std::erase(s.strategies, CLAIRVOYANT);  // nobody knows what shows
+  std::erase(s.strategies, CLAIRVOYANT);  // the visible fractions are unknown
   if (s.strategies.empty()) return table;
   const KnownScene scene = photographed_scene(pile);
   const BinParts parts{PHOTOGRAPHED_BINS, scene.objects};
@@ -227,7 +235,7 @@ Table run_pile(ExperimentSettings s, const Photographs& pile, int first_view, Ba
 
 Notes options(const ExperimentSettings& s) {
   const ScoutOptions& o = s.scout;
-  // Not the number of bins: more of them may be added to a finished run.
+  // Without the number of bins: more of them may be added to a finished run.
   Notes notes{
       {"image_scale", number_text(s.image_scale)},
       {"supersampling", std::to_string(s.supersampling)},
@@ -280,7 +288,7 @@ std::vector<Cell> cells(const ExperimentSettings& s) {
   if (s.data.empty()) return list;
   add("cad_bin", cad_parts(s.data), s.bin_numbers(s.cad_bins));
   if (!s.only_bins.empty()) return list;
-  // Every photograph in turn is the first; of few frames the first alone.
+  // Every photograph in turn is the first view; with frames_every only some of them.
   const Photographs pile = photographs_in(s.data, s.frames_every)[0];
   for (int view = 0; view < static_cast<int>(pile.images.size()); view += s.frames_every)
     list.push_back(

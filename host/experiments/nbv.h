@@ -1,13 +1,14 @@
-// Experiment 4: where to look next. MI-MAX against Random, DIS and a fixed sequence in bins of
-// piled parts: how many instances are localised, and how many false ones reported, after every view
-// (paper, Sec. 6.4, figure 15).
+// Experiment 4: the next best view in bins of piled parts (paper, Sec. 6.4, figure 15).
+//
+// Compares MI-MAX with Random, DIS and a fixed sequence: how many instances are localised and how
+// many false ones are reported after every view.
 #pragma once
 
 #include "host/experiments/experiment.h"
 
 namespace edgescout {
 
-// What rows say of photographed bins in place of their kind of parts.
+// The kind of parts in the rows of photographed bins.
 inline constexpr char PHOTOGRAPHED_BINS[] = "photographs";
 
 Experiment nbv_experiment();

@@ -14,7 +14,7 @@ struct Searched {
   std::string search, group, title;
 };
 
-// What was found in one bin: of several draws the mean. `wrong` counts searches as trials.
+// The result in one bin: the mean of its draws. In `wrong` the trials are searches.
 struct BinOutcome {
   std::string number, types;
   std::set<std::string> draws = {};
@@ -23,8 +23,8 @@ struct BinOutcome {
 
 struct Outcome {
   std::vector<std::string> bins;  // number and types of each
-  // One a bin number: bins of one number have the same draws of their layout, whatever their parts,
-  // and are no two independent samples.
+  // One per bin number: bins of one number have the same random layout, whatever their parts, so
+  // they are not independent samples.
   std::vector<Cluster> correct, wrong, shown;
 };
 
@@ -47,7 +47,7 @@ Table rows_of(const Table& table, const Searched& searched, const std::string& s
   });
 }
 
-// A set of bins that a report has tables of: of one kind of parts, or all.
+// A set of bins with tables in the report: bins of one kind of parts, or all.
 struct BinSet {
   std::string types, prefix;  // `types` empty: all
 };
@@ -75,7 +75,7 @@ std::vector<BinSet> sets_in(const Table& table) {
   return sets;
 }
 
-// Those of which there are instances.
+// The searches that have instances.
 std::vector<Searched> searches_in(const Table& table, const BinSet& set) {
   std::vector<Searched> list;
   for (const std::string& search : values_of(table, "search"))
@@ -104,14 +104,14 @@ BinOutcome& bin_of(std::vector<BinOutcome>& bins, const std::string& number,
   return known == bins.end() ? bins.emplace_back(BinOutcome{number, types}) : *known;
 }
 
-// After so many views, of all searches in a bin together.
+// The result after so many views, pooled over all searches in a bin.
 std::vector<BinOutcome> bins_after(const Table& rows, const std::string& views) {
   std::vector<BinOutcome> bins;
   for (std::size_t row = 0; row < rows.rows.size(); ++row) {
     if (text_in(rows, row, "views") != views) continue;
     BinOutcome& bin = bin_of(bins, text_in(rows, row, "bin"), text_in(rows, row, "types"));
     bin.draws.insert(text_in(rows, row, "draw"));
-    // Where a photographed part lies is known in the image.
+    // The true pose of a photographed part is only known in the image.
     const bool in_image = bin.types == PHOTOGRAPHED_BINS;
     add(bin.correct, number_in(rows, row, in_image ? "correct_px" : "correct"),
         number_in(rows, row, "instances"));
@@ -164,7 +164,7 @@ PlotPoint point_of(double x, const std::vector<Cluster>& clusters) {
   return point;
 }
 
-// What some strategies reached after each number of views: [strategy][views].
+// The results of the strategies after each number of views: [strategy][views].
 using Outcomes = std::vector<std::vector<Outcome>>;
 
 std::string cell_of(const std::vector<Cluster>& clusters, Measure measure) {
@@ -172,9 +172,9 @@ std::string cell_of(const std::vector<Cluster>& clusters, Measure measure) {
   return percent(rate(clusters), bootstrap_interval(clusters));
 }
 
-// What one strategy has more than another, over the same draws of bins.
+// The difference of two strategies, over the same draws of bins.
 std::string difference_of(const Outcome& a, const Outcome& b, Measure measure) {
-  if (a.bins != b.bins) return "";  // one of them has ended before, in some bins
+  if (a.bins != b.bins) return "";  // in some bins one of them ended earlier
   const std::vector<Cluster>&these = clusters_of(a, measure), &those = clusters_of(b, measure);
   if (std::ranges::equal(these, those, {}, &Cluster::hits, &Cluster::hits)) return "0";
   const double more = rate(these) - rate(those);
@@ -184,7 +184,7 @@ std::string difference_of(const Outcome& a, const Outcome& b, Measure measure) {
   return points(more, interval);
 }
 
-// A row a strategy, and one for what the first has more than each other.
+// One row per strategy, and one row per difference between the first strategy and another.
 std::string table_of(const Outcomes& outcomes, const std::vector<std::string>& strategies,
                      const std::vector<std::string>& views, Measure measure) {
   std::string text = fmt::format("| {} |", title_of(measure)), line = "|---|";
@@ -231,7 +231,7 @@ std::string tables_of(const Table& table, const Searched& searched,
   return text;
 }
 
-// Rising: "0 to 3, 7".
+// `numbers` must ascend: "0 to 3, 7".
 std::string ranges_text(const std::vector<int>& numbers) {
   std::string text;
   for (std::size_t first = 0, last = 0; first < numbers.size(); first = ++last) {
@@ -242,7 +242,7 @@ std::string ranges_text(const std::vector<int>& numbers) {
   return text;
 }
 
-// Of the searches in which some strategy has more than one.
+// Names the searches in which a strategy has more than one draw.
 std::string draws_text(const Table& table) {
   std::string text;
   for (const std::string& search : values_of(table, "search")) {
@@ -258,7 +258,7 @@ std::string draws_text(const Table& table) {
   return text;
 }
 
-// Where there are both kinds of parts.
+// Empty unless there are both kinds of parts.
 std::string pairs_text(const Table& table) {
   if (kinds_of_rendered_bins(table).size() < 2) return "";
   return " Bins of one number share number of parts, first view and random views, whatever the "
@@ -266,7 +266,7 @@ std::string pairs_text(const Table& table) {
          "intervals of all bins they are drawn together.";
 }
 
-// Where there are photographs.
+// Empty without photographs.
 std::string photographs_text(const Table& table) {
   const std::size_t first_views = values_of(rows_of_set(table, PHOTOGRAPHED_BINS), "bin").size();
   if (first_views == 0) return "";
@@ -279,7 +279,7 @@ std::string photographs_text(const Table& table) {
       first_views, image_criterion().text);
 }
 
-// How many there are of each kind of parts, and by what numbers they come again.
+// The number of bins of each kind of parts and the numbers that reproduce them.
 std::string bins_text(const Table& table) {
   std::string text;
   for (const std::string& types : kinds_of_rendered_bins(table)) {
@@ -363,7 +363,7 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
   report.columns = static_cast<int>(columns);
   for (const BinSet& set : sets_in(table)) {
     const Table rows = rows_in(set);
-    // Of fewer photographs fewer views; nobody is clairvoyant there.
+    // Photographs have fewer views and no clairvoyant strategy.
     const std::vector<std::string> views = values_of(rows, "views"),
                                    strategies = values_of(rows, "strategy");
     const std::vector<Searched> searches = searches_in(rows, set);
@@ -373,7 +373,7 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
       for (const Searched& searched : searches)
         report.panels.push_back(panel_of(rows, searched, strategies, views, measure));
       report.panels.resize((report.panels.size() + columns - 1) / columns *
-                           columns);  // each in its row
+                           columns);  // each measure has its own rows
     }
   }
   report.markdown += times_text(table);

@@ -1,5 +1,5 @@
-// A pile that was photographed from several places, as a bin: what can be chosen are the other
-// photographs.
+// Makes a bin of a pile that was photographed from several places. The next view is one of the
+// other photographs.
 #pragma once
 
 #include "host/experiments/bin.h"
@@ -8,12 +8,12 @@
 
 namespace edgescout {
 
-// `scene`: all photographs, in the order of the views; its objects are the bin's types. Nobody
-// knows how much of a part shows: all of it counts as visible. The bin's number is its first view.
-// InputError where the photographs are of different cameras.
+// `scene` holds all photographs in the order of the views. Its objects are the bin's types. The
+// visible fraction of a part is unknown and counts as 1. The bin's number is its first view.
+// InputError: the photographs have different cameras.
 Bin photographed_bin(const KnownScene& scene, int first_view);
 
-// For distances of 2:1 about the pile.
+// For a range of distances of 2:1 around the pile's distance.
 std::vector<TemplateSet> pile_templates(const KnownScene& scene, Backend& backend);
 
 }  // namespace edgescout

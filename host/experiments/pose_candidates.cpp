@@ -12,7 +12,7 @@ Se3 camera_from_instance(const KnownScene& scene, const KnownInstance& instance)
   return scene.images[0].camera_from_world * instance.world_from_object;
 }
 
-// In the camera's frame.
+// In the camera frame.
 struct Cube {
   Eigen::Vector3d middle_m;
   double half_side_m = 0;

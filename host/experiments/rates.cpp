@@ -14,7 +14,8 @@ namespace edgescout {
 
 namespace {
 
-using Clusters = std::map<std::string, Cluster>;  // what succeeds and fails together
+using Clusters =
+    std::map<std::string, Cluster>;  // by image: registrations that are not independent
 
 std::vector<Cluster> as_list(const Clusters& clusters) {
   std::vector<Cluster> list;
@@ -26,7 +27,7 @@ std::string image_of(const Table& table, std::size_t row) {
   return text_in(table, row, "set") + "/" + text_in(table, row, "image");
 }
 
-// The images of a table, or where it has but one the instances in it.
+// The clusters of a table: its images or, if it has one image, the instances in it.
 class ClusterKeys {
  public:
   explicit ClusterKeys(const Table& table) : table_(table) {
@@ -57,7 +58,7 @@ double trials_of(const std::vector<Cluster>& clusters) {
   return trials;
 }
 
-// Points of percent; empty where the two did not run from the same starts.
+// In percentage points; empty if the two did not run from the same starts.
 std::string difference_text(const std::vector<Cluster>& a, const std::vector<Cluster>& b) {
   const auto trials = [](const Cluster& cluster) { return cluster.trials; };
   if (a.empty() || !std::ranges::equal(a, b, {}, trials, trials)) return "";
@@ -72,7 +73,7 @@ std::string difference_row(const std::string& name, const LevelRates& first,
   return text + " | " + difference_text(first.all, other.all) + " | | |\n";
 }
 
-// Below some ten clusters a bootstrap of them draws too little of their spread.
+// A bootstrap over fewer than some ten clusters underestimates their spread.
 std::string intervals_text(const Table& table) {
   constexpr std::size_t few = 10;
   const ClusterKeys keys(table);
@@ -82,7 +83,7 @@ std::string intervals_text(const Table& table) {
                      clusters.size() < few ? ", so few that the true ones are wider" : "");
 }
 
-// Recorded starts lie at the levels' ends; drawn ones anywhere.
+// Recorded starts lie at the bounds of the levels, random ones anywhere.
 double step_rad(const Table& table) {
   const auto is_end = [](const std::string& distance) {
     return std::ranges::any_of(LEVELS_RAD,
@@ -95,14 +96,14 @@ PlotLine line_of(const Series& series, const Table& table, const Criterion& crit
                  double step) {
   std::map<int, Clusters> bins;
   const ClusterKeys keys(table);
-  constexpr double SLACK = 1e-6;  // a distance written with six digits stays in its bin
+  constexpr double SLACK = 1e-6;  // so that a distance rounded to six digits stays in its bin
   for (std::size_t row = 0; row < table.rows.size(); ++row)
     if (series.has(table, row))
       count(bins[static_cast<int>(std::ceil(number_in(table, row, "distance_rad") / step - SLACK))],
             keys, table, row, criterion);
   PlotLine line{series.name, {}};
-  const bool at_the_end =
-      step == 0.1;  // of its bin lies every start, else the middle stands for them
+  const bool at_the_end = step == 0.1;  // every start lies at the end of its bin; otherwise the
+                                        // middle of the bin represents them
   for (const auto& [bin, clusters] : bins) {
     const std::vector<Cluster> list = as_list(clusters);
     const Interval interval = bootstrap_interval(list);

@@ -1,4 +1,5 @@
-// Rates of correct registrations by method and by the start's distance, as table and as plot.
+// Computes rates of correct registrations by method and by the start's distance, as tables and
+// plots.
 #pragma once
 
 #include <functional>
@@ -12,60 +13,62 @@
 
 namespace edgescout {
 
-// What makes one row of a table and one line of a plot of the columns of trials.h.
+// The rows of a table of trials.h that make one row of a report's table and one line of its plot.
 struct Series {
   std::string name;
   std::function<bool(const Table&, std::size_t row)> has;
 };
 
-// Whether a registration counts as correct: the column "right", or a bound on "mspd_px".
+// Decides whether a registration is correct: by the column "right" or by a bound on "mspd_px".
 struct Criterion {
   std::string text;
   std::function<bool(const Table&, std::size_t row)> holds;
 };
 Criterion pose_criterion();   // below 0.1 rad and 5 mm
-Criterion image_criterion();  // no vertex 10 px or more from its place
+Criterion image_criterion();  // all vertices less than 10 px from their places
 
-// Starts nearer than this and at least as far as the one before belong together.
+// Upper bounds of the levels of a start's distance.
 inline constexpr double LEVELS_RAD[] = {0.1, 0.2, 0.3, 0.4};
-// Level 1 to 4 of a start's distance; distances of exactly 0.1 rad are level 1.
+// Returns level 1 to 4. A distance of exactly 0.1 rad is level 1.
 int level_of(double distance_rad);
 
-// Registrations of a series that fall together, the images as clusters.
+// The registrations of a series. Each image is a cluster.
 struct LevelRates {
   std::vector<Cluster> clusters[4];  // by level
-  std::vector<Cluster> all;          // of all levels together
-  std::vector<double> ms;  // of every registration whose time is known: its batch's mean; none of a
-                           // table of several commits
+  std::vector<Cluster> all;          // of all levels
+  // Time of every registration for which it is known: the mean of its batch. Empty for a table of
+  // several commits.
+  std::vector<double> ms;
 };
 LevelRates rates_of(const Table& table, const Series& series, const Criterion& criterion);
 
-// Two series by their names: what the first has more than the other.
+// The names of two series. Their difference is the first less the second.
 using Comparison = std::pair<std::string, std::string>;
 
-// Markdown: a row a series, a column a level with its 95 % interval (bootstrap over images, of one
-// image over its instances), starts and mean milliseconds; then a row a comparison of series that
-// ran from the same starts, over the same draws; and over how many the intervals are.
+// Returns Markdown with one row per series: for every level the rate and its 95 % interval
+// (bootstrap over images; with a single image over its instances), the number of starts and the
+// mean milliseconds. Then follows one row per comparison of two series that ran from the same
+// starts, over the same draws. The last line says how many clusters the intervals have.
 std::string rate_table(const Table& table, const std::vector<Series>& series,
                        const Criterion& criterion, const std::vector<Comparison>& compared = {});
-// The rate over the start's distance, in steps of 0.05 rad, or of 0.1 where all starts lie at the
-// levels' ends.
+// Plots the rate over the start's distance, in steps of 0.05 rad, or of 0.1 if all starts lie at
+// the bounds of the levels.
 Panel rate_panel(const std::string& title, const Table& table, const std::vector<Series>& series,
                  const Criterion& criterion);
 
-// The rows that fit, columns and notes kept.
+// Returns the rows for which `fits` holds, with all columns and notes.
 Table rows_where(const Table& table,
                  const std::function<bool(const Table&, std::size_t row)>& fits);
-// Cells of several programs have no one time.
+// Returns whether all cells were made by one commit. Times of several commits are not comparable.
 bool is_of_one_commit(const Table& table);
-// Different texts of a column, in the order they come.
+// Returns the different texts of a column, in order of appearance.
 std::vector<std::string> values_of(const Table& table, std::string_view column);
 
 std::string percent(double rate);                            // "87 %", "66.7 %"
 std::string percent(double rate, const Interval& interval);  // "87 % [82, 91]"
-// A difference of rates in points of percent: "+4.9 [+0.4, +9.4]".
+// A difference of rates in percentage points: "+4.9 [+0.4, +9.4]".
 std::string points(double difference, const Interval& interval);
-double median(std::vector<double> values);       // 0 of none
-double mean(const std::vector<double>& values);  // 0 of none
+double median(std::vector<double> values);       // 0 without values
+double mean(const std::vector<double>& values);  // 0 without values
 
 }  // namespace edgescout

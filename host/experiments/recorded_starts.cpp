@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Rotations stand in the files with as few as six digits: the nearest rotation is taken.
-// Millimetres become metres.
+// Rotations in the files may have only six digits, so the nearest rotation is used. Millimetres
+// become metres.
 Se3 pose_of(const std::vector<double>& rotation, const std::vector<double>& translation_mm) {
   const Eigen::Matrix3d given =
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(rotation.data());
@@ -47,7 +47,7 @@ void require_columns(const Table& table, const fs::path& file,
                        "a column of this name");
 }
 
-// Of a start, 1 to 4. InputError naming file and row.
+// The level of a start, 1 to 4. InputError naming file and row.
 int level_in(const Table& table, std::size_t row, const fs::path& file) {
   const std::string& text = text_in(table, row, "level");
   if (text.size() != 1 || text[0] < '1' || text[0] > '4')
@@ -69,7 +69,7 @@ bool is_target(const JsonField& object) {
   return target.value.get<bool>();
 }
 
-// InputError naming the first image or mesh of the set that is not there.
+// InputError naming the first missing image or mesh of the set.
 void require_files_of(const fs::path& folder) {
   const fs::path file = folder / "ground_truth.json";
   const nlohmann::json json = read_json(file);

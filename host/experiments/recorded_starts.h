@@ -1,6 +1,7 @@
-// The set d2co-starts: rendered images, starts at four distances from the truth, and where the
-// original implementation's methods ended from them. Layout: ground_truth.json, starts.csv, cad/,
-// images/, original_results/ (docs/evaluation.md).
+// Reads the set d2co-starts: rendered images, starts at four distances from the truth, and the
+// results of the original implementation's methods from these starts.
+//
+// Layout: ground_truth.json, starts.csv, cad/, images/, original_results/ (docs/evaluation.md).
 #pragma once
 
 #include <filesystem>
@@ -19,18 +20,20 @@ struct RecordedStart {
   Se3 camera_from_object;  // in the first image
 };
 
-// The images' names, those with starts alone. InputError naming the first file of the set that is
-// missing, or the row of a start whose level is none of the four.
+// Returns the names of the images that have starts. InputError naming the first missing file of the
+// set, or the row of a start whose level is not 1 to 4.
 std::vector<std::string> recorded_images(const std::filesystem::path& folder);
-// The named image, after it `others` more of the same scene (0 where it has none).
+// Loads the named image and `others` more of the same scene.
 KnownScene recorded_scene(const std::filesystem::path& folder, const std::string& image,
                           int others);
+// Returns how many more images of the same scene there are.
 int other_views(const std::filesystem::path& folder, const std::string& image);
-// Those of this image whose number `every` divides: 9 and 27 are what the original methods ran on.
+// Returns the starts of this image whose number is a multiple of `every`. The original methods ran
+// on the multiples of 9 and 27.
 std::vector<RecordedStart> recorded_starts(const std::filesystem::path& folder,
                                            const KnownScene& scene, int every);
 
-// A pose somebody's method ended at, and whether they counted it as right.
+// A pose at which another program's method ended, and whether its authors counted it as correct.
 struct RecordedResult {
   int start = 0;
   std::string image, instance, method;

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Sets of starts_by_distance.
+// Suffix of the name of sets with starts_by_distance.
 constexpr const char* BY_DISTANCE = " by distance";
 
 Trial as_in_the_original() { return {"d2co", 1, PAPER_LAMBDA_PX_PER_RAD, ORIGINAL_SMOOTHING}; }
@@ -91,8 +91,8 @@ std::vector<Series> series_in(const Table& table) {
   return list;
 }
 
-// The paper's first two: each lambda by itself, the original's smoothing, and each with the lambda
-// that suits it; and what the search adds.
+// Compares the paper's first two methods: with each lambda, with the original's smoothing, and each
+// with its best lambda. The last comparison is the gain from the search.
 std::vector<Comparison> comparisons() {
   std::vector<Comparison> list;
   for (const float lambda : {PAPER_LAMBDA_PX_PER_RAD, OWN_LAMBDA_PX_PER_RAD})
@@ -108,7 +108,7 @@ Table rows_of_set(const Table& table, const std::string& set) {
                     [&](const Table& t, std::size_t row) { return text_in(t, row, "set") == set; });
 }
 
-// The original implementation's results from the starts that ran here, as rows of the same columns.
+// Returns the original implementation's results from the same starts, as rows of the same columns.
 Table original_rows(const Table& ran, const fs::path& results) {
   std::set<std::string> starts;
   for (const std::string& start : values_of(ran, "start")) starts.insert(start);
@@ -133,8 +133,7 @@ Table original_rows(const Table& ran, const fs::path& results) {
   return table;
 }
 
-// The original implementation's results beside these, file by file; of one that is not there that
-// it is not.
+// Reports the original implementation's results, file by file. Missing files are named.
 std::string original_text(const Table& ran, const fs::path& data) {
   std::string text;
   for (const auto& [name, what] :
@@ -192,7 +191,7 @@ std::string steps_text(const Table& table, const std::string& method) {
   return fmt::format("{:.0f} | {:.0f} %", median(std::move(steps)), 100 * share);
 }
 
-// The paper's table 1, on the rendered scenes.
+// Table 1 of the paper, on the rendered scenes.
 std::string time_table(const Table& rendered, const BaselineOptions& limits) {
   constexpr std::pair<const char*, double> PAPER_MS[] = {
       {"d2co", 56.49}, {"dc-icp", 659.09}, {"lm-icp", 68.43}, {"c-icp", 601.10}, {"direct", 65.83}};

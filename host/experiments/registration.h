@@ -1,4 +1,4 @@
-// Experiment 2: the rate of correct registrations against the start's distance, all methods, and
+// Experiment 2: the rate of correct registrations by the start's distance for all methods, and
 // their times (paper, Sec. 6, "Object Registration").
 #pragma once
 

@@ -35,8 +35,8 @@ void require_words(const std::vector<std::string>& words, std::span<const std::s
   }
 }
 
-// Every second image has a cluttered board, as "many images" of the paper do; how many parts there
-// are and how much they hide each other changes from scene to scene.
+// Every second image has a cluttered board, as "many images" of the paper. The number of parts and
+// how much they hide each other change from scene to scene.
 RenderOptions options_of(const ExperimentSettings& settings, const char* dataset, int number,
                          int most_parts) {
   Random random = Random(settings.seed).split(dataset).split(static_cast<std::uint64_t>(number));
@@ -68,7 +68,7 @@ std::pair<std::string, std::string> lambda_note() {
 }
 
 ExperimentSettings::ExperimentSettings() {
-  scout.min_entropy_nats = 0;  // all strategies use up their views
+  scout.min_entropy_nats = 0;  // all strategies take all their views
 }
 
 ExperimentSettings ExperimentSettings::short_form() { return {}; }

@@ -1,4 +1,4 @@
-// Rows of results with what they were made with: a CSV file whose first lines are "# name: value".
+// A table of results with notes, as a CSV file. The first lines are the notes, "# name: value".
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace edgescout {
 
-// name and value, in the order they are written
+// Name and value, in the order of the file.
 using Notes = std::vector<std::pair<std::string, std::string>>;
 
 struct Table {
@@ -17,23 +17,24 @@ struct Table {
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;  // as many cells as columns
 
-  std::size_t column(std::string_view name) const;  // LogicError where there is none of this name
+  std::size_t column(std::string_view name) const;  // LogicError: no column of this name
 };
 
-// Columns and cells must hold no comma and no line break, notes no line break and their names no
-// colon: LogicError otherwise.
+// LogicError: a column or cell with a comma or line break, a note with a line break, the name of a
+// note with a colon.
 std::string to_csv(const Table& table);
-// InputError naming `source` and the line: no line of columns, a row of another length.
+// InputError naming `source` and the line: there is no line of columns, or a row has another
+// length.
 Table table_from_csv(std::string_view text, const std::string& source);
 Table load_table(const std::filesystem::path& file);
 
-// The rows of all tables, which have the same columns and notes; of a note that differs all values,
-// joined by a blank.
+// Returns the rows of all tables, which must have the same columns and notes. If a note differs,
+// all its values are joined by a blank.
 Table joined(const std::vector<Table>& tables);
 
-// As results are written: six significant digits.
+// Six significant digits, as in all results.
 std::string number_text(double value);
-// InputError naming the column where the text is no number.
+// InputError naming the column: the text is no number.
 double number_in(const Table& table, std::size_t row, std::string_view column);
 const std::string& text_in(const Table& table, std::size_t row, std::string_view column);
 

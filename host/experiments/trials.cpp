@@ -21,8 +21,8 @@ namespace {
 
 constexpr const char* EDGESCOUT = "edgescout";
 
-// On a CPU the thread's own time: other work on the machine does not count. On a device the time
-// that passes.
+// On a CPU the CPU time of this thread, so that other work on the machine does not count. On a
+// device the wall-clock time.
 double seconds_now(const Backend& backend) {
   if (backend.is_gpu())
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
@@ -32,15 +32,8 @@ double seconds_now(const Backend& backend) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-Registrar edgescout_itself(std::span<const EdgeModel> models, std::span<const RegisterView> views,
-                           Backend& backend) {
-  return [models, views, &backend](std::span<const ObjectPose> starts) {
-    const RefineOptions defaults;
-    std::vector<Registration> registrations;
-    for (const Refined& refined : refine_poses(models, starts, views, backend, defaults))
-      registrations.push_back(refined.registration);
-    return registrations;
-  };
+Registrar prepare_edgescout(const Scene& scene) {
+  return [scene](std::span<const ObjectPose> starts) { return refine_poses(scene, starts, {}); };
 }
 
 TensorOptions tensor_of(const Trial& trial, const ExperimentSettings& settings) {
@@ -50,7 +43,7 @@ TensorOptions tensor_of(const Trial& trial, const ExperimentSettings& settings) 
   return tensor;
 }
 
-// The views with every tensor that the trials read.
+// Makes the views with every tensor that the trials need, each once.
 class TrialViews {
  public:
   TrialViews(const KnownScene& scene, const ExperimentSettings& settings, Backend& backend)
@@ -58,9 +51,9 @@ class TrialViews {
         settings_(settings),
         backend_(backend),
         edges_(edges_of(scene, backend, settings.edges)) {}
-  std::span<const RegisterView> of(const Trial& trial) {
+  std::span<const ObjectView> of(const Trial& trial) {
     const TensorOptions tensor = tensor_of(trial, settings_);
-    std::vector<RegisterView>& views = made_[{tensor.lambda_px_per_rad, tensor.smoothing_variance}];
+    std::vector<ObjectView>& views = made_[{tensor.lambda_px_per_rad, tensor.smoothing_variance}];
     if (views.empty()) views = register_views(scene_, edges_, tensor, backend_);
     return views;
   }
@@ -70,37 +63,38 @@ class TrialViews {
   const ExperimentSettings& settings_;
   Backend& backend_;
   SceneEdges edges_;
-  std::map<std::pair<float, float>, std::vector<RegisterView>> made_;  // by lambda and smoothing
+  std::map<std::pair<float, float>, std::vector<ObjectView>> made_;  // by lambda and smoothing
 };
 
 struct TimedRegistrations {
-  std::vector<Registration> registrations;  // one a start
-  double ms = 0;                            // of one
+  std::vector<PoseEstimate> estimates;  // one per start
+  double ms = 0;                        // of one registration
 };
 
-// All starts of one call have one type, so that every method works on batches alike.
-TimedRegistrations run_trial(const Trial& trial, const KnownScene& scene,
-                             const std::vector<Start>& starts, std::span<const EdgeModel> models,
-                             std::span<const RegisterView> views, const BaselineOptions& options,
-                             Backend& backend) {
-  const Registrar registrar =
-      trial.method == EDGESCOUT
-          ? edgescout_itself(models, views, backend)
-          : prepare_method(method_from(trial.method), models, views, backend, options);
-  const Se3& camera_from_world = scene.images[0].camera_from_world;
-  std::vector<ObjectPose> hypotheses;
+std::vector<ObjectPose> poses_in_world(const KnownScene& known, const std::vector<Start>& starts) {
+  const Se3& camera_from_world = known.images[0].camera_from_world;
+  std::vector<ObjectPose> poses;
   for (const Start& start : starts)
-    hypotheses.push_back({scene.instances[start.instance].object,
-                          inverse(camera_from_world) * start.camera_from_object});
-  const double begin = seconds_now(backend);
+    poses.push_back({known.instances[start.instance].object,
+                     inverse(camera_from_world) * start.camera_from_object});
+  return poses;
+}
+
+// All starts of one call are of one object, so that every method works on batches of equal kind.
+TimedRegistrations run_trial(const Trial& trial, const Scene& scene,
+                             std::span<const ObjectPose> starts, const BaselineOptions& options) {
+  const Registrar registrar = trial.method == EDGESCOUT
+                                  ? prepare_edgescout(scene)
+                                  : prepare_method(method_from(trial.method), scene, options);
+  const double begin = seconds_now(scene.backend);
   TimedRegistrations result;
-  result.registrations = registrar(hypotheses);
-  result.ms = 1000 * (seconds_now(backend) - begin) / static_cast<double>(starts.size());
+  result.estimates = registrar(starts);
+  result.ms = 1000 * (seconds_now(scene.backend) - begin) / static_cast<double>(starts.size());
   return result;
 }
 
 std::vector<std::string> row_of(const KnownScene& scene, const Start& start, const Trial& trial,
-                                const Registration& found, const std::string& ms) {
+                                const PoseEstimate& found, const std::string& ms) {
   const KnownInstance& instance = scene.instances[start.instance];
   const Object& object = scene.objects[instance.object];
   const Se3 truth = scene.images[0].camera_from_world * instance.world_from_object,
@@ -120,7 +114,7 @@ std::vector<std::string> row_of(const KnownScene& scene, const Start& start, con
           number_text(mspd_px(pose, truth, object, scene.images[0].camera)),
           error.passes() ? "1" : "0",
           std::to_string(found.iterations),
-          found.reason == Convergence::IterationLimit ? "1" : "0",
+          found.convergence == Convergence::IterationLimit ? "1" : "0",
           ms};
 }
 
@@ -142,8 +136,9 @@ Se3 nearest_equal(const Se3& truth, const Symmetries& symmetries, const Se3& pos
          });
 }
 
-// Turned by as much as the step says from the nearest pose that looks like the truth: of a turn
-// about the axis of a shaft nothing is left, so what is left sets the direction.
+// Moves the truth by `step`. The angle of the step is kept between the result and the nearest pose
+// that looks like the truth: a turn about the axis of a shaft changes nothing, so the direction
+// comes from the remaining part of the turn.
 Se3 moved_off(Se3 truth, const Symmetries& symmetries, Vector6d step) {
   constexpr int corrections = 10;
   const double turn_rad = step.tail<3>().norm();
@@ -156,8 +151,8 @@ Se3 moved_off(Se3 truth, const Symmetries& symmetries, Vector6d step) {
   return start;
 }
 
-// In random directions, so far off as `offset_of` the truth, the start's number around its instance
-// and a source of chance says.
+// Makes starts in random directions from every instance. `offset_of` gives their distance from the
+// truth, the start's number and a source of random numbers.
 std::vector<Start> starts_off(const KnownScene& scene, int count, const Random& seed,
                               const std::function<Offset(const Se3&, int, Random&)>& offset_of) {
   std::vector<Start> starts;
@@ -230,18 +225,20 @@ Table run_trials(const KnownScene& scene, const std::vector<Start>& starts,
                  Backend& backend) {
   std::vector<EdgeModel> models;
   for (const Object& object : scene.objects) models.push_back(make_edge_model(object.mesh));
-  TrialViews seen(scene, settings, backend);
+  TrialViews trial_views(scene, settings, backend);
   Table table{{}, trial_columns(), {}};
-  for (const std::vector<Start>& group : by_object(scene, starts))
+  for (const std::vector<Start>& group : by_object(scene, starts)) {
+    const std::vector<ObjectPose> poses = poses_in_world(scene, group);
     for (const Trial& trial : trials) {
-      const std::span<const RegisterView> views = seen.of(trial);
+      const std::span<const ObjectView> views = trial_views.of(trial);
       if (trial.views > static_cast<int>(views.size())) continue;
-      const TimedRegistrations found = run_trial(
-          trial, scene, group, models, views.first(trial.views), settings.methods, backend);
+      const TimedRegistrations found =
+          run_trial(trial, {models, views.first(trial.views), backend}, poses, settings.methods);
       for (std::size_t i = 0; i < group.size(); ++i)
-        table.rows.push_back(row_of(scene, group[i], trial, found.registrations[i],
+        table.rows.push_back(row_of(scene, group[i], trial, found.estimates[i],
                                     settings.times ? number_text(found.ms) : ""));
     }
+  }
   return table;
 }
 

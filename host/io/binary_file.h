@@ -1,5 +1,7 @@
-// Internal to host: the project's own binary files. A header that can be checked before anything is
-// believed (magic, version, length, checksum), then plain little-endian numbers.
+// Internal to host: reads and writes the project's own binary files.
+//
+// A file has a header (magic, version, length, checksum) that is checked before the payload is
+// read. The payload is plain little-endian numbers.
 #pragma once
 
 #include <array>
@@ -15,7 +17,7 @@
 
 namespace edgescout {
 
-// What tells one kind of file from another.
+// Identifies one kind of file.
 struct BinaryFormat {
   std::array<char, 8> magic;
   std::uint32_t version;
@@ -52,7 +54,7 @@ class BinaryWriter {
   std::string bytes;
 };
 
-// InputError naming the file where a list is longer than what is left of it.
+// Throws InputError naming the file where a list is longer than the rest of the file.
 class BinaryReader {
  public:
   BinaryReader(std::string_view bytes, std::string source, const char* name)
@@ -78,7 +80,7 @@ class BinaryReader {
   }
   Eigen::Quaterniond get_rotation();
   Se3 get_pose();
-  // Number of elements of at least `element_bytes` each that follow.
+  // Reads the number of elements that follow. Each takes at least `element_bytes`.
   std::size_t count(std::size_t element_bytes);
   bool at_end() const { return bytes_.empty(); }
 
@@ -92,11 +94,11 @@ class BinaryReader {
 // FNV-1a, 64 bit.
 std::uint64_t checksum(std::string_view bytes);
 
-// Header and payload, atomically.
+// Writes header and payload atomically.
 void write_binary_file(const std::filesystem::path& file, const BinaryFormat& format,
                        std::string_view payload);
-// The payload. InputError naming the file for a file cut short, of another version, with a wrong
-// checksum or of another kind.
+// Returns the payload. InputError naming the file: it is cut short, of another version or another
+// kind, or its checksum is wrong.
 std::string read_binary_file(const std::filesystem::path& file, const BinaryFormat& format);
 
 }  // namespace edgescout

@@ -17,21 +17,21 @@ namespace {
 constexpr double metres_per_mm = 1e-3;
 
 int scene_number(const fs::path& folder) {
-  const fs::path whole = fs::absolute(folder).lexically_normal();  // "." has a name of its own
+  const fs::path whole = fs::absolute(folder).lexically_normal();  // resolves "."
   const std::string name = (whole.has_filename() ? whole : whole.parent_path()).filename().string();
   int number = 0;
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
   return error == std::errc{} && end == name.data() + name.size() ? number : 0;
 }
 
-// What cannot be looked at is not there.
+// A path that cannot be examined counts as missing.
 bool is_there(const fs::path& path) {
   std::error_code unknown;
   return fs::exists(path, unknown);
 }
 
-// The image under gray/ or rgb/; where none is there, the name that one would have, so that reading
-// it says what is missing.
+// Returns the image under gray/ or rgb/. If there is none, returns the name that it would have, so
+// that the error of reading it names the missing file.
 fs::path image_file(const fs::path& folder, int image_id) {
   const std::string digits = std::to_string(image_id);
   const std::string stem = std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits;
@@ -51,9 +51,9 @@ std::map<int, BopImage> read_images(const fs::path& folder) {
     image.image_id = integer_key(key, root);
     image.file = image_file(folder, image.image_id);
     image.camera = camera_from_bop(entry);
-    Camera judged = image.camera;
-    judged.width = judged.height = 1 << 20;  // the real size is the image's
-    validate(judged, entry.source + ": " + entry.path);
+    Camera checked = image.camera;
+    checked.width = checked.height = 1 << 20;  // the real size is known when the image is read
+    validate(checked, entry.source + ": " + entry.path);
     if (entry.has("cam_R_w2c"))
       image.camera_from_world =
           pose_from(entry.at("cam_R_w2c"), entry.at("cam_t_w2c"), metres_per_mm);
@@ -67,7 +67,7 @@ void read_truth(const fs::path& folder, std::map<int, std::vector<BopTruth>>& tr
   const json content = read_json(folder / "scene_gt.json");
   const JsonField root{content, (folder / "scene_gt.json").string(), ""};
   for (const auto& [key, value] : content.items()) {
-    std::vector<BopTruth>& objects = truth[integer_key(key, root)];  // also where there are none
+    std::vector<BopTruth>& objects = truth[integer_key(key, root)];  // also without any object
     for (const JsonField& entry : root.at(key).elements())
       objects.push_back({entry.at("obj_id").integer(),
                          pose_from(entry.at("cam_R_m2c"), entry.at("cam_t_m2c"), metres_per_mm),
@@ -79,7 +79,7 @@ void read_visible_fractions(const fs::path& folder, std::map<int, std::vector<Bo
   if (!is_there(folder / "scene_gt_info.json")) return;
   const json content = read_json(folder / "scene_gt_info.json");
   const JsonField root{content, (folder / "scene_gt_info.json").string(), ""};
-  std::map<int, std::string> keys;  // which may be padded with zeros
+  std::map<int, std::string> keys;  // as written: they may be padded with zeros
   for (const auto& [key, value] : content.items()) keys[integer_key(key, root)] = key;
   for (auto& [image_id, objects] : truth) {
     if (objects.empty()) continue;

@@ -1,4 +1,7 @@
-// BOP datasets and result files (millimetres there, metres here; converted at this border).
+// Reads and writes BOP datasets and result files. BOP has millimetres; these functions convert to
+// and from metres.
+//
+// Public header.
 #pragma once
 
 #include <filesystem>
@@ -14,35 +17,36 @@ namespace edgescout {
 struct BopImage {
   int image_id = 0;
   std::filesystem::path file;  // under gray/ or rgb/: .png, .jpg, .jpeg or .tif
-  Camera camera;               // size 0 x 0 until the image is read; `dist` is read where given
-  std::optional<Se3> camera_from_world;  // where cam_R_w2c and cam_t_w2c are given
+  Camera camera;               // size 0 x 0 until the image is read; `dist` is read if given
+  std::optional<Se3> camera_from_world;  // set if the file has cam_R_w2c and cam_t_w2c
 };
 
 struct BopTruth {
   int object_id = 0;
   Se3 camera_from_object;
-  double visible_fraction = 1;  // visib_fract of scene_gt_info.json, 1 where there is none
+  double visible_fraction = 1;  // visib_fract of scene_gt_info.json; 1 without that file
 };
 
 struct BopScene {
-  int scene_id = 0;  // from the folder's name, 0 where that is no number
+  int scene_id = 0;  // from the folder's name; 0 if that is no number
   std::filesystem::path folder;
   std::vector<BopImage> images;                // by image_id
-  std::map<int, std::vector<BopTruth>> truth;  // by image_id; empty where there is no scene_gt.json
+  std::map<int, std::vector<BopTruth>> truth;  // by image_id; empty without scene_gt.json
 };
 
 bool is_bop_scene(const std::filesystem::path& folder);  // has scene_camera.json
 BopScene load_bop_scene(const std::filesystem::path& folder);
 
-// enough to tell duplicates: 0.05 rad at most between a pose and the next sample
+// Enough to find duplicates: a pose is at most 0.05 rad from the next sample.
 inline constexpr int DETECTION_SYMMETRY_STEPS = 64;
-// as the BOP toolkit evaluates (max_sym_disc_step 0.01): 0.01 rad
+// The BOP toolkit's value for evaluation (max_sym_disc_step 0.01): 0.01 rad.
 inline constexpr int EVALUATION_SYMMETRY_STEPS = 315;
 
-// models_info.json: symmetries by object id. Continuous symmetries are sampled in
-// `continuous_steps` steps. Discrete ones are closed to the group that they generate; they may be
-// measured, to 0.1 rad and 1 % of the diameter. Where they generate no finite one they are taken as
-// listed. Every discrete one is combined with every sample, as BOP does.
+// Reads the symmetries of models_info.json, by object id. Continuous symmetries are sampled in
+// `continuous_steps` steps. Discrete symmetries are extended to the group that they generate. They
+// may be measured values, exact to 0.1 rad and 1 % of the diameter. If they generate no finite
+// group, they are taken as listed. Every discrete symmetry is combined with every sample, as BOP
+// does.
 std::map<int, Symmetries> load_symmetries(const std::filesystem::path& models_info,
                                           int continuous_steps = DETECTION_SYMMETRY_STEPS);
 
@@ -57,8 +61,8 @@ std::vector<BopResult> load_bop_results(const std::filesystem::path& file);
 void save_bop_results(const std::vector<BopResult>& results,
                       const std::filesystem::path& file);  // atomically
 
-// Writes scene_camera.json, scene_gt.json and scene_gt_info.json of a rendered scene; images are
-// the caller's to write.
+// Writes scene_camera.json, scene_gt.json and scene_gt_info.json of a rendered scene. The caller
+// writes the images.
 void save_bop_scene(const BopScene& scene, const std::filesystem::path& folder);
 
 }  // namespace edgescout

@@ -1,4 +1,4 @@
-// BOP's results CSV.
+// Reads and writes the BOP results CSV.
 #include <charconv>
 #include <cmath>
 
@@ -70,7 +70,7 @@ BopResult read_result(const std::string& text, const CsvLine& line) {
   return result;
 }
 
-// The shortest text that reads back as the same number.
+// Returns the shortest text that reads back as the same number.
 void append(std::string& text, double value, char after) {
   char digits[32];
   text.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);

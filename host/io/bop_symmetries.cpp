@@ -1,4 +1,4 @@
-// models_info.json: from BOP's few given symmetries to the whole, sampled group.
+// Reads models_info.json and extends the symmetries listed there to the whole, sampled group.
 #include <algorithm>
 #include <numbers>
 
@@ -12,16 +12,17 @@ namespace edgescout {
 namespace {
 
 constexpr std::size_t max_discrete =
-    240;  // twice the largest finite rotation group of a solid, with room
+    240;  // more than twice the largest finite rotation group of a solid
 
 // Published symmetries are measured: the squares of LINEMOD's two half turns are 0.007 and 0.053
 // rad, 0.15 and 0.06 mm off the identity.
 constexpr double measured_angle_rad = 0.1;
 constexpr double measured_share_of_diameter = 0.01;
 
-// BOP lists every symmetry, others may list generators. What generates no group exactly is taken
-// for measured where the members are then clearly no noise of each other (orders up to 31).
-// Otherwise the list is what there is.
+// BOP lists every symmetry; other files may list generators. If the list generates no exact group,
+// its members are treated as measured values. The resulting group is accepted if its members are
+// clearly farther from each other than the measurement error (orders up to 31). Otherwise the list
+// is taken as it is.
 std::vector<Se3> group_of(std::span<const Se3> given, double diameter_m) {
   std::vector<Se3> group = generated_group(given, max_discrete);
   if (!group.empty()) return group;
@@ -49,7 +50,7 @@ std::vector<Se3> read_discrete(const JsonField& object) {
   return group_of(given, object.has("diameter") ? 1e-3 * object.at("diameter").number() : 0);
 }
 
-// Rotations about every given axis in equal steps; several axes (a ball) are sampled one by one, as
+// Rotations about every given axis in equal steps. Several axes (a ball) are sampled one by one, as
 // BOP does.
 std::vector<Se3> read_continuous(const JsonField& object, int steps) {
   std::vector<Se3> samples{Se3{}};

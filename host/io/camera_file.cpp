@@ -13,15 +13,16 @@ namespace edgescout {
 
 namespace {
 
-// The first of several names of one field; programs that write OpenCV YAML differ.
+// Returns the field under the first of several names that exists: programs that write OpenCV YAML
+// use different names.
 YAML::Node any_of(const YAML::Node& root, std::initializer_list<const char*> names) {
   for (const char* name : names)
     if (const YAML::Node node = root[name]) return node;
   return YAML::Node(YAML::NodeType::Undefined);
 }
 
-// Numbers, or lists of them nested `depth` deep at most. An alias can make a list an element of
-// itself.
+// Reads a number, or lists of numbers with at most `depth` levels. The limit is needed since an
+// alias can make a list an element of itself.
 void flatten(const YAML::Node& node, int depth, std::vector<double>& numbers) {
   if (node.IsSequence() && depth > 0)
     for (const YAML::Node& element : node) flatten(element, depth - 1, numbers);
@@ -29,7 +30,7 @@ void flatten(const YAML::Node& node, int depth, std::vector<double>& numbers) {
     numbers.push_back(node.as<double>());
 }
 
-// A matrix as ROS and OpenCV write it (rows, cols, data) or as plain, perhaps nested, lists.
+// Reads a matrix as ROS and OpenCV write it (rows, cols, data), or as plain or nested lists.
 std::vector<double> matrix_numbers(const YAML::Node& node, const std::string& source,
                                    const char* field) {
   if (!node) throw InputError(source, field, "nothing", "a matrix");
@@ -122,10 +123,10 @@ Camera load_camera(const std::filesystem::path& file) {
   if ((camera.width == 0) != (camera.height == 0))
     throw InputError(source, camera.width ? "image_height" : "image_width", "nothing",
                      "both sizes or neither");
-  // where the file gives no size, the principal point is judged once the image's is known
-  Camera judged = camera;
-  if (camera.width == 0) judged.width = judged.height = 1 << 20;
-  validate(judged, source);
+  // Without a size in the file, the principal point is checked when the image's size is known.
+  Camera checked = camera;
+  if (camera.width == 0) checked.width = checked.height = 1 << 20;
+  validate(checked, source);
   return camera;
 }
 
@@ -143,8 +144,8 @@ Camera camera_for_image(const Camera& calibration, int width, int height, bool a
       throw InputError(source, "image size", size(width, height),
                        "the calibration's " + size(calibration.width, calibration.height) +
                            (pure_scale ? " (a pure scale: allow it with --scale-camera)" : ""));
-    // Axis by axis, as the rounding of the image's size leaves two slightly different factors; see
-    // scaled() for the half pixels.
+    // Each axis has its own factor, since the image's size is rounded. See scaled() for the half
+    // pixels.
     camera.fx *= x;
     camera.fy *= y;
     camera.cx = x * (camera.cx + 0.5) - 0.5;

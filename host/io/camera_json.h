@@ -1,4 +1,4 @@
-// Internal to host/io: what camera files and BOP scenes have in common.
+// Internal to host/io: the code that camera files and BOP scenes share.
 #pragma once
 
 #include "host/core/camera.h"
@@ -6,15 +6,15 @@
 
 namespace edgescout {
 
-// A 3x3 matrix by row; InputError on another count, a skew above 1e-3 px, or a last row other than
-// 0 0 1.
+// `k` is a 3x3 matrix by row. InputError: another count, a skew above 1e-3 px, a last row other
+// than 0 0 1.
 void set_intrinsics(Camera& camera, const std::vector<double>& k, const std::string& source,
                     const std::string& field);
-// 0, 4, 5 or 8 coefficients in OpenCV's order; more only where they are zero.
+// 0, 4, 5 or 8 coefficients in OpenCV's order. More are accepted if they are zero.
 void set_distortion(Camera& camera, const std::vector<double>& coefficients,
                     const std::string& source, const std::string& field);
-// BOP's camera.json (fx fy cx cy width height) or an entry of scene_camera.json (cam_K); `dist`
-// where given.
+// Reads BOP's camera.json (fx fy cx cy width height) or an entry of scene_camera.json (cam_K), and
+// `dist` if given.
 Camera camera_from_bop(const JsonField& entry);
 
 }  // namespace edgescout

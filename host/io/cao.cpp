@@ -1,7 +1,8 @@
-// ViSP's text CAD format: V1, then counted sections: points, segments, faces by segments, faces by
-// points and (optional) cylinders and circles. `#` starts a comment; `load("file")` includes
-// another file; a line may end in name=... and other settings of the tracker, which mean nothing
-// here.
+// Reads ViSP's text CAD format.
+//
+// The file has V1, then counted sections: points, segments, faces by segments, faces by points and
+// (optional) cylinders and circles. `#` starts a comment. `load("file")` includes another file. A
+// line may end in name=... and other settings of the tracker, which are ignored.
 #include <Eigen/Geometry>
 #include <numbers>
 
@@ -20,7 +21,7 @@ constexpr int circle_corners = 64;
 constexpr int max_include_depth = 8;
 
 struct CaoText {
-  std::string sections;  // without comments, includes and settings; line for line
+  std::string sections;  // without comments, includes and settings; lines keep their numbers
   std::vector<std::string> includes;
 };
 
@@ -87,7 +88,7 @@ class CaoReader {
     triangulate(corners, mesh_.vertices, mesh_.triangles);
   }
 
-  // Chains the segments end to end; a segment may be given in either direction.
+  // Chains the segments end to end. A segment may have either direction.
   void face_by_segments() {
     std::vector<std::array<int, 2>> sides;
     for (int n = tokens_.count("number of segments of a face"); n > 0; --n)
@@ -108,7 +109,8 @@ class CaoReader {
     triangulate(corners, mesh_.vertices, mesh_.triangles);
   }
 
-  // The same corners for both senses of the axis, so that the rims of cylinders and circles weld.
+  // Both directions of the axis give the same corners, so that the rims of cylinders and circles
+  // weld.
   std::vector<int> add_ring(const Vector3d& centre, const Vector3d& axis, double radius) {
     int least = 0;
     axis.cwiseAbs().minCoeff(&least);
@@ -128,7 +130,7 @@ class CaoReader {
     return r;
   }
 
-  // Side walls only; its flat ends, where it has any, are circles or faces of the file.
+  // Adds the side walls only. If the cylinder has flat ends, they are circles or faces of the file.
   void cylinder() {
     const Vector3d from = mesh_.vertices[point()], to = mesh_.vertices[point()];
     const double r = radius();

@@ -20,8 +20,8 @@ namespace {
 
 std::string reason(int error) { return std::strerror(error); }
 
-// A name beside `file` that no other writer uses now. A killed run may have left one: in a
-// container every run has the same process id.
+// Returns a name in the folder of `file` that no other writer uses now. It may exist already, left
+// by a killed run: in a container every run has the same process id.
 fs::path temporary_beside(const fs::path& file) {
   static std::atomic<unsigned> counter{0};
   std::ostringstream name;
@@ -29,7 +29,7 @@ fs::path temporary_beside(const fs::path& file) {
   return file.parent_path() / name.str();
 }
 
-// An open temporary file beside `file` that disappears unless it is renamed into place.
+// An open temporary file in the folder of `file`. It is deleted unless it is renamed to its target.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& file) {
@@ -47,7 +47,7 @@ class TemporaryFile {
     if (created_ && !renamed_) ::unlink(path_.c_str());
   }
 
-  // Each returns 0 or the errno of the first failure; after a failure the rest does nothing.
+  // Each returns 0 or the errno of the first failure. After a failure the functions do nothing.
   int write(std::string_view content) {
     while (!error_ && !content.empty()) {
       const ssize_t written = ::write(descriptor_, content.data(), content.size());
@@ -74,10 +74,10 @@ class TemporaryFile {
   bool renamed_ = false;
 };
 
-// InputError about `folder`.
-void prove_writable(const fs::path& where, const fs::path& folder) {
-  TemporaryFile proof(where / "probe");
-  if (const int error = proof.write("x"))
+// Writes in `where`. InputError about `folder`: that fails.
+void require_writable(const fs::path& where, const fs::path& folder) {
+  TemporaryFile probe(where / "probe");
+  if (const int error = probe.write("x"))
     throw InputError(folder.string(), "output folder", reason(error),
                      "a folder that can be written");
 }
@@ -85,7 +85,7 @@ void prove_writable(const fs::path& where, const fs::path& folder) {
 }  // namespace
 
 std::string read_file(const fs::path& file) {
-  std::error_code unknown;  // told by opening it
+  std::error_code unknown;  // opening the file reports the error
   if (fs::is_directory(file, unknown))
     throw InputError(file.string(), "file", "a folder", "a readable file");
   std::ifstream stream(file, std::ios::binary);
@@ -123,7 +123,7 @@ void require_writable_place(const fs::path& folder) {
                      folder.empty() ? "no name" : missing.message(),
                      "a folder that can be created");
   while (!fs::exists(there, missing) && there.has_relative_path()) there = there.parent_path();
-  prove_writable(there, folder);
+  require_writable(there, folder);
 }
 
 void require_writable_folder(const fs::path& folder) {
@@ -132,7 +132,7 @@ void require_writable_folder(const fs::path& folder) {
   if (failure)
     throw InputError(folder.string(), "output folder", failure.message(),
                      "a folder that can be created");
-  prove_writable(folder, folder);
+  require_writable(folder, folder);
 }
 
 }  // namespace edgescout

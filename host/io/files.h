@@ -1,4 +1,4 @@
-// Whole files, read and written safely.
+// Reads and writes whole files safely.
 #pragma once
 
 #include <filesystem>
@@ -8,24 +8,24 @@
 
 namespace edgescout {
 
-// InputError naming the file where it is missing or unreadable.
+// InputError naming the file: it is missing or unreadable.
 std::string read_file(const std::filesystem::path& file);
 
-// Writes beside the target, flushes and renames: a reader sees the old file or the whole new one.
-// InputError naming the file and the system's reason (full disk, no permission); nothing is left
-// behind then.
+// Writes a temporary file in the same folder, flushes it and renames it. A reader sees the old file
+// or the whole new one. InputError naming the file and the system's reason (full disk, no
+// permission); then no temporary file remains.
 void write_file_atomically(const std::filesystem::path& file, std::string_view content);
 
-// Results of an earlier run, which must not be taken for those of the next; one that is not there
-// is none. InputError naming the file that cannot be removed.
+// Removes the results of an earlier run, so that nobody mistakes them for those of the next run.
+// Missing files are ignored. InputError naming the file that cannot be removed.
 void remove_earlier_files(std::span<const std::filesystem::path> files);
 
-// Proves that the folder, or while it is not there its nearest parent, can be written, and leaves
-// nothing in it; InputError otherwise.
+// Checks that the folder can be written. If it does not exist, checks its nearest existing parent.
+// Leaves no file behind. InputError: it cannot be written.
 void require_writable_place(const std::filesystem::path& folder);
 
-// Creates the folder (and parents) and proves that a file can be written in it; InputError
-// otherwise.
+// Creates the folder (and parents) and checks that a file can be written in it. InputError: it
+// cannot be created or written.
 void require_writable_folder(const std::filesystem::path& folder);
 
 }  // namespace edgescout

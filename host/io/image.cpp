@@ -23,8 +23,8 @@ std::string size_text(int width, int height) {
   return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// Decoders fill the missing rest of a cut image with grey and only warn; the end marks of the two
-// common formats tell.
+// Decoders fill the missing rest of a truncated image with grey and only warn. So the end marks of
+// the two common formats are checked here.
 bool is_cut_short(const std::string& bytes) {
   if (bytes.starts_with("\x89PNG")) return bytes.find("IEND") == std::string::npos;
   if (!bytes.starts_with("\xff\xd8")) return false;
@@ -34,7 +34,7 @@ bool is_cut_short(const std::string& bytes) {
   return end == std::string::npos || (scan != std::string::npos && end < scan);
 }
 
-// OpenCV says it in its own way.
+// OpenCV has its own error for it.
 bool is_out_of_memory(const std::exception& error) {
   const auto* of_opencv = dynamic_cast<const cv::Exception*>(&error);
   return (of_opencv && of_opencv->code == cv::Error::StsNoMem) ||
@@ -68,8 +68,8 @@ cv::Mat to_grey(const cv::Mat& image, const std::string& source) {
   if (image.channels() != 3 && image.channels() != 4)
     throw InputError(source, "channels", std::to_string(image.channels()),
                      "1 (grey), 3 or 4 (colour)");
-  static std::atomic_flag said;
-  if (!said.test_and_set())
+  static std::atomic_flag was_logged;
+  if (!was_logged.test_and_set())
     log(LogLevel::Info,
         source + ": colour image converted to grey (not repeated for further images)");
   cv::Mat grey;

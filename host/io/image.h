@@ -1,4 +1,6 @@
-// Images from and to files, and the one place where lens distortion is taken out.
+// Reads and writes images, and removes lens distortion. No other code handles distorted images.
+//
+// Public header.
 #pragma once
 
 #include <filesystem>
@@ -8,14 +10,14 @@
 
 namespace edgescout {
 
-// Grey, 8 bit. A colour image is converted (and logged once as Info). InputError: missing, not an
-// image, 16 bit, smaller than 16 x 16 px.
+// Reads a grey image of 8 bit. A colour image is converted; the first one is logged as Info.
+// InputError: the file is missing, is not an image, has 16 bit or is smaller than 16 x 16 px.
 Image load_image(const std::filesystem::path& file);
 
-// Resamples an image of `camera` into that of undistorted(camera), bicubic; returns it unchanged
-// where there is no distortion. Pixels that no ray of the original reaches repeat its border.
-// InputError: another number of pixels than its size says; distortion in an image with a side above
-// 32766 px. LogicError: an image of another size than the camera's.
+// Resamples an image of `camera` into an image of undistorted(camera), bicubic. Without distortion
+// the image is returned unchanged. Pixels that no ray of the original reaches repeat its border.
+// InputError: the number of pixels disagrees with the image's size, or an image with distortion has
+// a side above 32766 px. LogicError: the image and the camera differ in size.
 Image undistort(const Image& image, const Camera& camera);
 
 // RGB, 8 bit, row-major.
@@ -24,7 +26,7 @@ struct RgbImage {
   int height = 0;
   std::vector<std::uint8_t> pixels;
 };
-// A PNG file's bytes. LogicError: another number of pixels than the size says.
+// Returns the bytes of a PNG file. LogicError: the number of pixels disagrees with the size.
 std::string encode_png(const RgbImage& image);
 std::string encode_png(const Image& image);
 void save_png(const RgbImage& image, const std::filesystem::path& file);  // atomically

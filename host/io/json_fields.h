@@ -1,4 +1,4 @@
-// Internal to host/io: JSON files read with errors that name the file and the field.
+// Internal to host: reads JSON files, with errors that name the file and the field.
 #pragma once
 
 #include <filesystem>
@@ -10,17 +10,17 @@
 
 namespace edgescout {
 
-// InputError where the file is missing or is no JSON object or array.
+// InputError: the file is missing or holds no JSON object or array.
 nlohmann::json read_json(const std::filesystem::path& file);
 
-// A member of an object with a place to name in errors: "FILE: /3/cam_K".
+// A value of a JSON file and its place, which errors name: "FILE: /3/cam_K".
 struct JsonField {
   const nlohmann::json& value;
   std::string source;  // the file
   std::string path;    // where in the file
 
   bool has(const std::string& name) const { return value.is_object() && value.contains(name); }
-  JsonField at(const std::string& name) const;  // InputError where it is missing
+  JsonField at(const std::string& name) const;  // InputError: it is missing
   double number() const;                        // finite
   int integer() const;
   std::string text() const;
@@ -30,10 +30,10 @@ struct JsonField {
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const;
 };
 
-// "000012" -> 12; InputError naming the field where the key is no whole number.
+// "000012" -> 12. InputError naming the field: the key is no whole number.
 int integer_key(const std::string& key, const JsonField& parent);
 
-// R as 9 numbers by row, t as 3 in units of `metres_per_unit`. InputError where R is no rotation.
+// R: 9 numbers by row. t: 3 numbers in units of `metres_per_unit`. InputError: R is no rotation.
 Se3 pose_from(const JsonField& rotation, const JsonField& translation, double metres_per_unit);
 std::vector<double> rotation_numbers(const Se3& pose);  // by row
 std::vector<double> translation_numbers(const Se3& pose, double metres_per_unit);

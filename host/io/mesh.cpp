@@ -14,10 +14,10 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Closer than this share of the diameter, two vertices are one; thinner than this, a triangle has
+// Fraction of the diameter. Two vertices closer than this are one; a triangle thinner than this has
 // no usable normal.
 constexpr double weld_share = 1e-6;
-// Beyond any unit mistaken for another; keeps squares and grid indices far from overflow.
+// Larger than any mesh with a wrong unit. Keeps squares and grid indices far from overflow.
 constexpr double max_coordinate_m = 1e9;
 
 void require_usable(const std::string& name, const std::vector<Vector3d>& vertices,
@@ -37,7 +37,8 @@ void require_usable(const std::string& name, const std::vector<Vector3d>& vertic
                          "0 to " + std::to_string(count - 1));
 }
 
-// Keeps only vertices that a triangle uses: a stray point would falsify the box and the diameter.
+// Keeps only vertices that a triangle uses: a stray point would make the box and the diameter
+// wrong.
 void drop_unused_vertices(std::vector<Vector3d>& vertices,
                           std::vector<std::array<int, 3>>& triangles) {
   std::vector<int> new_index(vertices.size(), -1);
@@ -53,13 +54,14 @@ void drop_unused_vertices(std::vector<Vector3d>& vertices,
   vertices = std::move(used);
 }
 
-// Vertices in a hash of cubes; a query looks only into the cubes its tolerance ball touches.
+// Stores vertices in a hash of cubes. A query examines only the cubes that its tolerance ball
+// touches.
 class WeldGrid {
  public:
   WeldGrid(const Vector3d& origin, double tolerance)
       : origin_(origin), tolerance_(tolerance), cell_(16 * tolerance) {}
 
-  // The index of a vertex within the tolerance of `x`, else of `x` itself, now added.
+  // Returns the index of a vertex within the tolerance of `x`. If there is none, adds `x`.
   int find_or_add(const Vector3d& x) {
     const Eigen::Array3d low = ((x - origin_).array() - tolerance_) / cell_;
     const Eigen::Array3d high = ((x - origin_).array() + tolerance_) / cell_;
@@ -78,8 +80,8 @@ class WeldGrid {
   std::vector<Vector3d> take() { return std::move(vertices_); }
 
  private:
-  // At most 1e6 * sqrt(3) / 16 cells an axis, so 21 bits hold each index (offset by one for the
-  // border).
+  // There are at most 1e6 * sqrt(3) / 16 cells per axis, so 21 bits hold each index (offset by one
+  // for the border).
   static std::uint64_t key(int i, int j, int k) {
     const auto part = [](int n) { return static_cast<std::uint64_t>(n + 1) & 0x1fffff; };
     return part(i) | part(j) << 21 | part(k) << 42;

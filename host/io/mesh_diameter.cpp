@@ -23,7 +23,7 @@ const Vector3d& farthest_from(const Vector3d& x, const std::vector<Vector3d>& po
   });
 }
 
-// A good lower bound: from the farthest point of the farthest point, and so on.
+// Finds a good lower bound: goes from a point to the farthest point from it, and repeats.
 double farthest_pair_guess(const std::vector<Vector3d>& points) {
   Vector3d from = points.front();
   double best = 0;

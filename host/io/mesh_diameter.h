@@ -1,4 +1,4 @@
-// The exact diameter of a point set.
+// Computes the exact diameter of a point set.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace edgescout {
 
-// The largest distance between two of the points; 0 for fewer than two. Exact: pairs of grid cells
-// whose boxes cannot hold a longer pair than the best known are skipped, all others are compared
-// point by point.
+// Returns the largest distance between two of the points; 0 for fewer than two. A pair of grid
+// cells is skipped if their boxes cannot hold a pair longer than the best known one. All other
+// pairs of cells are compared point by point, so the result is exact.
 double largest_distance(const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace edgescout

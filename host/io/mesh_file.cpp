@@ -1,4 +1,4 @@
-// Mesh files: which reader, which unit; OBJ through assimp; PLY out.
+// Chooses the reader of a mesh file and applies the unit. Reads OBJ by assimp. Writes PLY.
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <algorithm>

@@ -1,5 +1,5 @@
-// PLY, text and binary of either byte order. Read here and not by assimp, which fills up what a cut
-// file lacks.
+// Reads PLY, text and binary of either byte order. Assimp is not used: it invents the missing data
+// of a truncated file.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -92,7 +92,7 @@ Header read_header(std::string_view text, const std::string& source) {
   return header;
 }
 
-// The body's numbers one after the other, whatever the storage.
+// Reads the numbers of the body one after the other, from text or binary.
 class Numbers {
  public:
   Numbers(std::string_view body, Storage storage, const std::string& source)
@@ -190,7 +190,7 @@ void require_coordinates(const Element& vertex, const std::string& source) {
       throw InputError(source, "PLY header", std::string("vertices without ") + axis, "x, y and z");
 }
 
-// So that no count promises more rows than there are bytes in the file.
+// A count must not be larger than the number of bytes in the file allows.
 void require_properties(const Header& header, const std::string& source) {
   for (const Element& element : header.elements) {
     if (element.name == "vertex") require_coordinates(element, source);
@@ -225,7 +225,7 @@ RawMesh read_ply(const std::filesystem::path& file) {
   require_properties(header, source);
   Numbers numbers(std::string_view(bytes).substr(end + 1), header.storage, source);
   RawMesh mesh;
-  // kept until all vertices are known: the order of the elements is free
+  // Kept until all vertices are known: the elements may stand in any order.
   std::vector<std::vector<int>> faces;
   for (const Element& element : header.elements)
     for (int i = 0; i < element.count; ++i) {

@@ -9,7 +9,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-// Newell's normal: right for concave polygons too.
+// Newell's normal, which is correct for concave polygons too.
 Vector3d polygon_normal(const std::vector<int>& corners, const std::vector<Vector3d>& x) {
   Vector3d normal = Vector3d::Zero();
   const Vector3d& origin = x[corners.front()];
@@ -23,8 +23,8 @@ double turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return ab.x() * ac.y() - ab.y() * ac.x();
 }
 
-// Whether corner i of the remaining polygon can be cut off: convex, and no other corner in its
-// triangle.
+// Returns whether corner i of the remaining polygon can be cut off: it is convex, and no other
+// corner lies in its triangle.
 bool is_ear(const std::vector<int>& rest, std::size_t i, const std::vector<Vector2d>& flat) {
   const std::size_t n = rest.size(), before = (i + n - 1) % n, after = (i + 1) % n;
   const Vector2d &a = flat[rest[before]], &b = flat[rest[i]], &c = flat[rest[after]];

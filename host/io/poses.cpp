@@ -21,7 +21,7 @@ std::vector<StartPose> from_bop_results(const std::filesystem::path& file) {
 std::vector<StartPose> from_image_result(const std::filesystem::path& file) {
   const ImageResult result = load_image_result(file);
   const Se3 camera_from_world = result.camera_from_world.value_or(Se3{});
-  // A result of an image outside of every scene says 0 as well.
+  // The scene id is also 0 for an image that belongs to no scene.
   const std::optional<int> scene =
       result.scene_id == 0 ? std::nullopt : std::optional(result.scene_id);
   std::vector<StartPose> poses;

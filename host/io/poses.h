@@ -1,9 +1,12 @@
-// Poses to start a registration from, of any origin.
+// Reads poses from which a registration starts, whatever program made them.
 //
-// Three forms: a BOP results CSV (.csv); a result of this tool (results.h); or a JSON list
-//   [{"image": 12 or "000012.png", "object": 1, "R": 9 numbers by row, "t": 3 in metres, "scene":
-//   48 (optional), "score": 0.7 (optional)}, ...]
+// Three formats are read: a BOP results CSV (.csv), a result of this program (results.h), and a
+// JSON list
+//   [{"image": 12 or "000012.png", "object": 1, "R": 9 numbers by row, "t": 3 in metres,
+//     "scene": 48 (optional), "score": 0.7 (optional)}, ...]
 // where R and t map the object frame to the camera frame.
+//
+// Public header.
 #pragma once
 
 #include <filesystem>
@@ -16,25 +19,24 @@
 namespace edgescout {
 
 struct StartPose {
-  std::optional<int> scene_id;  // absent: of any scene
+  std::optional<int> scene_id;  // absent: fits any scene
   int image_id = 0;
-  std::filesystem::path
-      image;  // as written; where not empty, it names the image instead of image_id
+  // As written in the file. If not empty, it names the image in place of image_id.
+  std::filesystem::path image;
   int object_id = 1;
   Se3 camera_from_object;
-  double score = 0;  // as written; registration does not ask for it
+  double score = 0;  // as written; registration does not use it
 };
 
 // InputError naming file, line or field.
 std::vector<StartPose> load_start_poses(const std::filesystem::path& file);
 
-// Whether the pose may be meant for this image. Images are compared by their file names: folders
-// may have moved since. No scene on either side fits every scene.
+// Returns whether the pose may belong to this image. Images are compared by their file names, since
+// folders may have moved. A pose or an image without a scene fits every scene.
 bool belongs_to(const StartPose& pose, const std::filesystem::path& image,
                 std::optional<int> scene_id, int image_id);
-// How many names at the ends of the pose's path and the image's are the same: the file's, its
-// folder's and so on. Of several images of one file name the pose is meant for the one with the
-// most.
+// Counts the names that the ends of both paths have in common: the file's name, its folder's and so
+// on. If several images have one file name, the pose belongs to the image with the highest count.
 int same_ending(const StartPose& pose, const std::filesystem::path& image);
 
 }  // namespace edgescout

@@ -1,4 +1,4 @@
-// Internal to host/io: triangles as a file gives them, in the file's unit, before make_mesh cleans
+// Internal to host/io: triangles as they stand in a file, in the file's unit. make_mesh cleans
 // them.
 #pragma once
 
@@ -16,14 +16,15 @@ struct RawMesh {
   std::vector<std::array<int, 3>> triangles;
 };
 
-// Each throws InputError naming the file and what is wrong with it.
+// Each throws InputError naming the file and the error in it.
 RawMesh read_stl(const std::filesystem::path& file);
 RawMesh read_ply(const std::filesystem::path& file);
 RawMesh read_cao(const std::filesystem::path& file);
 RawMesh read_obj(const std::filesystem::path& file);
 
-// Cuts the ears off a simple, (nearly) planar polygon; corners are indices into `vertices`. The
-// triangles keep the polygon's sense. What a self-crossing polygon leaves over becomes a fan.
+// Triangulates a simple, (nearly) planar polygon by ear clipping. `corners` are indices into
+// `vertices`. The triangles have the polygon's orientation. If the polygon crosses itself, the rest
+// that has no ear becomes a fan.
 void triangulate(const std::vector<int>& corners, const std::vector<Eigen::Vector3d>& vertices,
                  std::vector<std::array<int, 3>>& triangles);
 

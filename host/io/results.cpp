@@ -9,12 +9,15 @@
 
 namespace edgescout {
 
-using json = nlohmann::ordered_json;  // keeps the order of the fields for who reads the file
+using json = nlohmann::ordered_json;  // keeps the order of the fields, for people who read the file
 
 namespace {
 
-constexpr int format_version = 2;
+constexpr int format_version = 3;
+constexpr int oldest_version = 2;  // of those that are read
 constexpr const char* version_field = "edgescout_result";
+constexpr const char* psi_z_score_field = "psi_z_score";
+constexpr const char* psi_z_score_field_of_version_2 = "evidence";
 
 json pose_json(const Se3& pose) {
   const Eigen::Quaterniond& q = pose.rotation;
@@ -38,7 +41,7 @@ json detection_json(const Detection& detection, const ImageResult& result) {
           {"psi", detection.psi},
           {"cost_px", detection.cost_px},
           {"matched_fraction", detection.matched_fraction},
-          {"evidence", detection.psi_z_score},
+          {psi_z_score_field, detection.psi_z_score},
           {"unexplained_grey", detection.unexplained_grey},
           {"convergence", detection.convergence},
           {"world_from_object", pose_json(detection.world_from_object)},
@@ -80,7 +83,16 @@ int index_of(const JsonField& object_id, const std::vector<ObjectName>& objects)
   object_id.fail(object_id.value.dump(), "the id of one of the file's objects");
 }
 
-Detection read_detection(const JsonField& field, const std::vector<ObjectName>& objects) {
+int read_version(const JsonField& root) {
+  const JsonField version = root.at(version_field);
+  if (version.integer() < oldest_version || version.integer() > format_version)
+    version.fail(version.value.dump(), "version " + std::to_string(oldest_version) + " or " +
+                                           std::to_string(format_version));
+  return version.integer();
+}
+
+Detection read_detection(const JsonField& field, const std::vector<ObjectName>& objects,
+                         int version) {
   Detection detection;
   detection.object = index_of(field.at("object_id"), objects);
   detection.world_from_object = read_pose(field.at("world_from_object"));
@@ -93,7 +105,8 @@ Detection read_detection(const JsonField& field, const std::vector<ObjectName>& 
   detection.psi = number_or_nan(field.at("psi"));
   detection.cost_px = number_or_nan(field.at("cost_px"));
   detection.matched_fraction = number_or_nan(field.at("matched_fraction"));
-  detection.psi_z_score = number_or_nan(field.at("evidence"));
+  detection.psi_z_score =
+      number_or_nan(field.at(version == 2 ? psi_z_score_field_of_version_2 : psi_z_score_field));
   detection.unexplained_grey = number_or_nan(field.at("unexplained_grey"));
   detection.convergence = field.at("convergence").text();
   return detection;
@@ -127,8 +140,7 @@ void save_image_result(const ImageResult& result, const std::filesystem::path& f
 ImageResult load_image_result(const std::filesystem::path& file) {
   const nlohmann::json content = read_json(file);
   const JsonField root{content, file.string(), ""};
-  if (const JsonField version = root.at(version_field); version.integer() != format_version)
-    version.fail(version.value.dump(), std::to_string(format_version));
+  const int version = read_version(root);
   ImageResult result;
   result.image = root.at("image").text();
   result.scene_id = root.at("scene_id").integer();
@@ -143,7 +155,7 @@ ImageResult load_image_result(const std::filesystem::path& file) {
   for (const JsonField& object : root.at("objects").elements())
     result.objects.push_back({object.at("id").integer(), object.at("name").text()});
   for (const JsonField& detection : root.at("detections").elements())
-    result.detections.push_back(read_detection(detection, result.objects));
+    result.detections.push_back(read_detection(detection, result.objects, version));
   return result;
 }
 

@@ -1,7 +1,9 @@
-// What is found in one image, as JSON: the tool's own result file.
+// Reads and writes the program's own result file: the objects found in one image, as JSON.
 //
-// Poses are `{"R": 9 numbers by row, "t": 3 in metres, "quaternion_wxyz": 4}`; covariances 36
-// numbers by row in the tangent of core/se3.h.
+// A pose is `{"R": 9 numbers by row, "t": 3 in metres, "quaternion_wxyz": 4}`. A covariance is 36
+// numbers by row, in the tangent of core/se3.h.
+//
+// Public header.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +22,7 @@ struct ObjectName {
   std::string name;
 };
 
-// What a result was made with beside its image, by name: checksums of models, numbers of the
+// What a result depends on apart from its image, by name: checksums of models, numbers of the
 // camera, options.
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
@@ -30,26 +32,32 @@ struct ImageResult {
   int image_id = 0;
   Camera camera;
   std::string device;                    // Backend::name()
-  Settings settings;                     // empty: not told; by name once read
-  std::vector<StageSeconds> stages;      // in the order they ran
-  std::optional<Se3> camera_from_world;  // where absent, the world is the camera frame
-  std::vector<ObjectName> objects;       // what Detection::object indexes
+  Settings settings;                     // empty: unknown; sorted by name after reading
+  std::vector<StageSeconds> stages;      // in the order in which they ran
+  std::optional<Se3> camera_from_world;  // absent: the world is the camera frame
+  std::vector<ObjectName> objects;       // Detection::object is an index into them
   std::vector<Detection> detections;
 };
 
-// Atomically. The fields: edgescout_result (version of the format, 2), image, scene_id, image_id,
-// device, camera, settings {name: text} (optional), world (whose frame it is, for who reads the
-// file: "scene" or "camera"), camera_from_world (of a scene), timings_ms [{stage, ms}], objects
-// [{id, name}], detections [{object_id, object, world_from_object, camera_from_object, covariance,
-// probability, psi, cost_px, matched_fraction, evidence, unexplained_grey, convergence}]. A number
-// that is not finite becomes null.
+// Writes atomically. A number that is not finite becomes null. The fields:
+//   edgescout_result   version of the format: 3
+//   image, scene_id, image_id, device, camera
+//   settings           {name: text}, optional
+//   world              the frame of the poses: "scene" or "camera"
+//   camera_from_world  only if `world` is "scene"
+//   timings_ms         [{stage, ms}]
+//   objects            [{id, name}]
+//   detections         [{object_id, object, probability, psi, cost_px, matched_fraction,
+//                      psi_z_score, unexplained_grey, convergence, world_from_object,
+//                      camera_from_object, covariance}]
 void save_image_result(const ImageResult& result, const std::filesystem::path& file);
 
-// InputError naming file and field: missing, no JSON, another version, a field missing or of
-// another type.
+// Reads the versions 2 and 3 of the format. In version 2 the field psi_z_score is named `evidence`.
+// InputError naming file and field: the file is missing, is no JSON or has another version; a field
+// is missing or of another type.
 ImageResult load_image_result(const std::filesystem::path& file);
 
-// Whether the file holds the fields of a result (of any version).
+// Returns whether the file is a result of any version.
 bool is_image_result(const std::filesystem::path& file);
 
 }  // namespace edgescout

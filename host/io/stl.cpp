@@ -1,5 +1,5 @@
-// STL, binary and ASCII. Read here and not by assimp: the format is tiny, and a file that is cut
-// short or whose count lies must be an error, where assimp loads what it can.
+// Reads STL, binary and ASCII. Assimp is not used: a truncated file or a wrong count must be an
+// error, but assimp loads as much as it can.
 #include <cstdint>
 #include <cstring>
 
@@ -40,7 +40,7 @@ RawMesh read_binary(const std::string& bytes) {
   return mesh;
 }
 
-// facet normal x y z, outer loop, three times vertex x y z, endloop, endfacet.
+// Reads: facet normal x y z, outer loop, three times vertex x y z, endloop, endfacet.
 void read_facet(TextTokens& tokens, RawMesh& mesh) {
   tokens.expect("normal");
   for (int i = 0; i < 3; ++i) tokens.number("facet normal");
@@ -75,7 +75,7 @@ RawMesh read_ascii(const std::string& bytes, const std::string& source) {
 RawMesh read_stl(const std::filesystem::path& file) {
   const std::string bytes = read_file(file), source = file.string();
   const bool has_header = bytes.size() >= header_bytes;
-  // Binary files may start with "solid" too: a size that fits the count decides.
+  // Binary files may start with "solid" too. The file is binary if its size fits the count.
   if (has_header && promised_bytes(bytes) == bytes.size()) return read_binary(bytes);
   const bool is_text = bytes.find_first_of(std::string("\0", 1)) == std::string::npos;
   const std::size_t start = bytes.find_first_not_of(" \t\r\n");

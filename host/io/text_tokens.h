@@ -1,4 +1,4 @@
-// Internal to host/io: the words of a text, with errors that name the file and the line.
+// Internal to host/io: splits a text into words, with errors that name the file and the line.
 #pragma once
 
 #include <string>
@@ -11,8 +11,8 @@ class TextTokens {
   // Keeps a reference to `text`.
   TextTokens(std::string_view text, std::string source) : text_(text), source_(std::move(source)) {}
 
-  bool at_end();                            // nothing but white space is left
-  std::string_view word(const char* what);  // InputError at the end: "truncated"
+  bool at_end();                            // only white space is left
+  std::string_view word(const char* what);  // InputError at the end of the text: "truncated"
   void expect(std::string_view expected);
   double number(const char* what);  // "nan" and "inf" are read as such
   int count(const char* what);      // 0 .. 100 million

@@ -11,7 +11,7 @@ namespace edgescout {
 namespace {
 
 constexpr int MOST_TURNS = 360;
-constexpr std::size_t MOST_MEMBERS = 2 * MOST_TURNS;  // with a half turn about another axis
+constexpr std::size_t MOST_MEMBERS = 2 * MOST_TURNS;  // and a half turn about another axis
 
 Eigen::Vector3d surface_centroid_m(const Mesh& mesh) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -28,8 +28,8 @@ Eigen::Vector3d surface_centroid_m(const Mesh& mesh) {
 
 struct Turns {
   Eigen::Vector3d axis;
-  int order;       // or steps
-  bool is_finite;  // else any turn
+  int order;       // of a surface of revolution: its samples
+  bool is_finite;  // false: a surface of revolution
 };
 
 Turns turns_of(const std::string& word, int continuous_steps) {

@@ -31,8 +31,8 @@ bool is_smooth(const Mesh& mesh, const std::vector<int>& faces, double cos_creas
          mesh.face_normals[faces[0]].dot(mesh.face_normals[faces[1]]) > cos_crease;
 }
 
-// Corners (3 * triangle + corner) that share a vertex and a smooth edge at it belong to one piece
-// of surface: union-find.
+// Groups corners (3 * triangle + corner) that share a vertex and a smooth edge at it: union-find. A
+// group is one piece of surface.
 class CornerGroups {
  public:
   explicit CornerGroups(std::size_t corners) : parent_(corners) {

@@ -1,5 +1,9 @@
-// The edges a mesh can show, prepared once: sharp creases, open borders and the fields from which
-// the silhouette of a curved surface is drawn for each viewpoint (paper, Sec. 3.1).
+// All edges that a mesh can show, prepared once (paper, Sec. 3.1).
+//
+// They are sharp creases, open borders and the normals from which the contours of curved surfaces
+// are computed for each viewpoint.
+//
+// Public header.
 #pragma once
 
 #include <vector>
@@ -10,27 +14,27 @@
 namespace edgescout {
 
 struct EdgeModelOptions {
-  // between face normals: a sharper edge is drawn, a flatter one is smooth surface; (0, 180)
+  // Between face normals. A sharper edge is drawn, a flatter one is smooth surface; (0, 180).
   double crease_angle_deg = 25;
   double raster_step_m = 0;  // between raster points along an edge; 0: diameter / 80
-  void validate() const;     // throws InputError naming the field and the violated bound
+  void validate() const;     // InputError naming the field and the violated bound
 };
 
-// A point of the paper's raster template, and the edge's unit direction there; object frame.
+// A point of the paper's raster template with the edge's unit direction there; object frame.
 struct RasterPoint {
   Eigen::Vector3d point_m, tangent;
 };
 
 struct EdgeModel {
-  // A sharp or open edge of the mesh, each once however many faces share it.
+  // A sharp or open edge of the mesh. Each is listed once, however many faces share it.
   struct Segment {
     Eigen::Vector3d from_m, to_m;
   };
   std::vector<Segment> creases;
   std::vector<RasterPoint> crease_points;  // along them
   // Normals at the corners of every triangle, averaged by area over the smooth surface around the
-  // vertex: they stay apart across a crease. Only triangles whose corner normals differ can carry a
-  // contour; `curved` lists them.
+  // vertex. They differ across a crease. `curved` lists the triangles whose corner normals differ:
+  // only these can hold a contour.
   std::vector<std::array<Eigen::Vector3d, 3>> corner_normals;
   std::vector<int> curved;
 
@@ -39,7 +43,7 @@ struct EdgeModel {
   Eigen::Vector3d center_m = Eigen::Vector3d::Zero();  // of the bounding box
   double radius_m = 0;  // of the smallest sphere about the centre that holds the mesh
 
-  // The mesh once more as the kernels take it.
+  // The mesh in the kernels' format.
   std::vector<float> vertices;
   std::vector<std::uint32_t> triangles;
   TriangleMesh triangle_mesh() const { return {vertices, triangles}; }
@@ -47,14 +51,14 @@ struct EdgeModel {
 
 EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options = {});
 
-// Appends what an edge from one place to another is sampled to. Short segments (a finely
-// tessellated curve) get a point with the probability of their length, decided by where they lie,
-// so that curves are sampled as densely as straight edges and equally in every run.
+// Appends the samples of an edge between two points. A segment shorter than the step (of a finely
+// tessellated curve) gets a point with a probability in proportion to its length. Its place
+// decides, so curves are sampled as densely as straight edges and equally in every run.
 void add_raster_points(const Eigen::Vector3d& from_m, const Eigen::Vector3d& to_m,
                        double raster_step_m, std::vector<RasterPoint>& points);
 
-// Of its mesh, creases and raster step: what was made with a model of another one is not taken up
-// with this (a batch's results, an active detection's state).
+// A checksum of mesh, creases and raster step. Batches of results and states of active detection
+// carry it: they are refused with a model of another fingerprint.
 std::uint64_t fingerprint(const EdgeModel& model);
 
 }  // namespace edgescout

@@ -60,7 +60,7 @@ TemplateSet build_templates(const Object& object, const TemplateOptions& options
   set.model = make_edge_model(object.mesh, options.edges);
   const std::vector<Eigen::Vector3d> directions =
       viewpoints_in(options.range, object.symmetries, options.frequency);
-  // The visible set hardly depends on the distance within 2 : 1; take the geometric middle.
+  // The visible points hardly depend on the distance within 2 : 1. This is the geometric mean.
   const double distance = std::max(std::sqrt(options.distance_min_m * options.distance_max_m),
                                    1.2 * set.model.radius_m);
   constexpr std::size_t chunk = 32;

@@ -1,10 +1,10 @@
-// An object's templates: the visible edge points of every viewpoint, from which detection makes its
-// image templates.
+// The templates of an object: the visible edge points of every viewpoint.
 //
-// In-plane rotation and image position need no templates of their own: they turn and shift the
-// camera about the line of sight, which leaves the visible points as they are. Detection applies
-// them relative to the viewing ray, not to the image plane, so that perspective at the image's
-// border is right.
+// In-plane rotation and image position need no templates of their own: they turn the camera, which
+// does not change the visible points. Detection applies them relative to the viewing ray, not to
+// the image plane, so the perspective at the image's border is right.
+//
+// Public header.
 #pragma once
 
 #include <filesystem>
@@ -21,15 +21,15 @@ struct TemplateOptions {
   int frequency = 5;        // of the icosphere: 10 f^2 + 2 viewpoints, about 60 / f degrees apart
   SphereRange range;        // of viewpoints, in the object frame
   int in_plane_steps = 24;  // rotations about the line of sight, over a full turn
-  // of the object's centre from the camera; 0: from the object's size and the camera
+  // From the camera to the object's centre. 0: from the object's size and the camera.
   double distance_min_m = 0;
   double distance_max_m = 0;
   double distance_ratio = 1.1;  // between neighbouring distances
   EdgeModelOptions edges;
-  void validate() const;  // throws InputError naming the field and the violated bound
+  void validate() const;  // InputError naming the field and the violated bound
 };
 
-// Fills distances left at 0: the object's diameter spans between a sixth and a third of the image's
+// Sets distances that are 0: the object's diameter then spans a sixth to a third of the image's
 // smaller side (a range of 2 : 1).
 TemplateOptions with_default_distances(TemplateOptions options, double diameter_m,
                                        const Camera& camera);
@@ -48,17 +48,17 @@ struct TemplateSet {
   std::vector<TemplateView> views;
 };
 
-// `progress` is called with (views done, views in all), from this thread. InputError: options out
-// of bounds, no viewpoint that shows an edge; LogicError: distances that are not set.
+// Calls `progress` with (views done, all views) from this thread. InputError: options out of
+// bounds, no viewpoint that shows an edge. LogicError: distances that are not set.
 TemplateSet build_templates(const Object& object, const TemplateOptions& options, Backend& backend,
                             const std::function<void(int, int)>& progress = {});
 
-// One file: magic, version, length and checksum, then the payload (mesh included: a set needs no
-// other file). Written atomically. Loading throws InputError naming the file for a file cut short,
-// of another version, with a wrong checksum or no template file at all.
+// One file: magic, version, length, checksum, payload. It holds the mesh, so a set needs no other
+// file. Saving is atomic. Loading throws InputError naming the file: cut short, of another version,
+// with a wrong checksum, or no template file.
 void save_templates(const TemplateSet& set, const std::filesystem::path& file);
 TemplateSet load_templates(const std::filesystem::path& file);
-// By how it begins; false where it cannot be read.
+// Reads the start of the file. False where it cannot be read.
 bool is_template_file(const std::filesystem::path& file);
 
 }  // namespace edgescout

@@ -53,8 +53,8 @@ std::vector<Eigen::Vector3d> modulo_symmetry(const std::vector<Eigen::Vector3d>&
   for (const Eigen::Vector3d& d : directions) {
     bool canonical = true;
     for (const Se3& symmetry : symmetries.discrete) {
-      // d may stand this far beyond the plane that halves w and its image under the symmetry, times
-      // |S w - w|.
+      // d may lie margin_rad beyond the plane midway between w and its image under the symmetry;
+      // scaled by |S w - w|.
       const double margin = std::sin(margin_rad) * (symmetry.rotation * generic - generic).norm();
       canonical &= d.dot(generic) >= (symmetry.rotation * d).dot(generic) - margin;
     }
@@ -65,12 +65,12 @@ std::vector<Eigen::Vector3d> modulo_symmetry(const std::vector<Eigen::Vector3d>&
 
 std::vector<Eigen::Vector3d> viewpoints_in(const SphereRange& range, const Symmetries& symmetries,
                                            int frequency) {
-  std::vector<Eigen::Vector3d> asked;
+  std::vector<Eigen::Vector3d> wanted;
   for (const Eigen::Vector3d& d : icosphere(frequency))
     if (std::ranges::any_of(symmetries.discrete,
                             [&](const Se3& s) { return range.contains(s.rotation * d); }))
-      asked.push_back(d);
-  return modulo_symmetry(asked, symmetries, ICOSPHERE_GAP_RAD / frequency);
+      wanted.push_back(d);
+  return modulo_symmetry(wanted, symmetries, ICOSPHERE_GAP_RAD / frequency);
 }
 
 Eigen::Quaterniond looking_from(const Eigen::Vector3d& direction) {

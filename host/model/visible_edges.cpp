@@ -14,7 +14,7 @@ namespace {
 Intrinsics frame_object(const EdgeModel& model, const Se3& camera_from_object, int size) {
   const Eigen::Vector3d center = camera_from_object * model.center_m;
   const double reach = std::max(center.z() - model.radius_m, 0.05 * center.z());
-  // Half the opening that holds the sphere however far off the axis it lies.
+  // Half the opening that contains the sphere, also far off the axis.
   const double half = 1.05 * model.radius_m / reach * (1 + center.head<2>().norm() / center.z());
   const double focal = 0.5 * (size - 3) / half;
   return {float(focal), float(focal), float(0.5 * (size - 1) - focal * center.x() / center.z()),
@@ -25,7 +25,8 @@ struct Window {
   const float* depth;
   int size;
   Intrinsics k;
-  // Whether a surface in the 3 x 3 pixels around the projection, or none, lies as far as the point.
+  // Whether one of the 3 x 3 pixels around the projection shows a surface as far as the point, or
+  // none.
   bool shows(const Eigen::Vector3d& p, double tolerance_m) const {
     const double u = k.fx * p.x() / p.z() + k.cx + 0.5, v = k.fy * p.y() / p.z() + k.cy + 0.5;
     if (!(u >= 1 && v >= 1 && u < size - 1 && v < size - 1)) return true;
@@ -39,8 +40,8 @@ struct Window {
   }
 };
 
-// Where the points of a template are taken from, and what is left of them.
-struct Looking {
+// Collects the visible points of one pose.
+struct VisiblePoints {
   Eigen::Matrix3d turn;
   Eigen::Vector3d shift_m;
   Window window;
@@ -77,8 +78,9 @@ bool contour_in_triangle(const EdgeModel& model, int triangle, const Eigen::Vect
 
 std::vector<ModelPoint> points_of_pose(const EdgeModel& model, const Se3& pose,
                                        const Window& window, double tolerance_m) {
-  Looking looking{pose.rotation.toRotationMatrix(), pose.translation_m, window, tolerance_m, {}};
-  looking.add_visible(model.crease_points);
+  VisiblePoints visible{
+      pose.rotation.toRotationMatrix(), pose.translation_m, window, tolerance_m, {}};
+  visible.add_visible(model.crease_points);
   const Eigen::Vector3d eye = inverse(pose).translation_m;
   std::vector<RasterPoint> contours;
   for (int triangle : model.curved) {
@@ -86,8 +88,8 @@ std::vector<ModelPoint> points_of_pose(const EdgeModel& model, const Se3& pose,
     if (contour_in_triangle(model, triangle, eye, ends))
       add_raster_points(ends[0], ends[1], model.raster_step_m, contours);
   }
-  looking.add_visible(contours);
-  return std::move(looking.points);
+  visible.add_visible(contours);
+  return std::move(visible.points);
 }
 
 }  // namespace

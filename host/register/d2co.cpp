@@ -1,14 +1,11 @@
 #include "host/register/d2co.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
-
-#include "host/core/option_bounds.h"
+#include "host/core/thinned.h"
+#include "host/register/d2co_ceres.h"
 #include "host/register/lm_state.h"
-#include "host/register/register_points.h"
 #include "host/register/visible_in_views.h"
 #include "kernels/error.h"
 
@@ -16,25 +13,26 @@ namespace edgescout {
 
 namespace {
 
-// Visible points of every (hypothesis, view), in one list.
-struct PointSets {
-  std::vector<ModelPoint> points;
-  std::vector<std::uint32_t> first, count;  // [hypothesis * views + view]
+struct PointRange {
+  std::uint32_t first = 0, count = 0;
 };
 
-PointSets collect_points(std::span<const ObjectPose> hypotheses, std::span<const LmState> states,
-                         const PointsInViews& points, std::size_t views, int most) {
-  std::vector<ObjectPose> poses;
-  for (std::size_t h = 0; h < hypotheses.size(); ++h)
-    poses.push_back({hypotheses[h].object, states[h].pose});
-  const std::vector<std::vector<ModelPoint>> in_views = points(poses);
-  check(in_views.size() == poses.size() * views,
+// The points of every pose and view in one list, as the kernel takes them.
+struct PointSets {
+  std::vector<ModelPoint> points;
+  Grid<PointRange> ranges;  // rows are poses, columns views
+};
+
+PointSets collect_points(std::span<const ObjectPose> poses, std::size_t views,
+                         const PointsInViews& points, int most) {
+  const Grid<std::vector<ModelPoint>> in_views = points(poses);
+  check(in_views.rows() == poses.size() && in_views.columns() == views,
         "register_points: one list of points a pose and view");
-  PointSets sets;
-  for (const std::vector<ModelPoint>& seen : in_views) {
-    const std::vector<ModelPoint> kept = thinned(seen, most);
-    sets.first.push_back(static_cast<std::uint32_t>(sets.points.size()));
-    sets.count.push_back(static_cast<std::uint32_t>(kept.size()));
+  PointSets sets{{}, Grid<PointRange>(poses.size(), views)};
+  for (std::size_t i = 0; i < in_views.values().size(); ++i) {
+    const std::vector<ModelPoint> kept = thinned(in_views.values()[i], most);
+    sets.ranges.values()[i] = {static_cast<std::uint32_t>(sets.points.size()),
+                               static_cast<std::uint32_t>(kept.size())};
     sets.points.insert(sets.points.end(), kept.begin(), kept.end());
   }
   return sets;
@@ -42,38 +40,37 @@ PointSets collect_points(std::span<const ObjectPose> hypotheses, std::span<const
 
 class Evaluator {
  public:
-  Evaluator(const PointSets& sets, std::span<const RegisterView> views, Backend& backend,
-            const PoseLoss& loss)
-      : sets_(sets), views_(views), backend_(backend), loss_(loss) {
-    for (const RegisterView& view : views) handles_.push_back(view.view);
+  Evaluator(const PointSets& sets, const Scene& scene, const PoseLoss& loss)
+      : sets_(sets), scene_(scene), loss_(loss) {
+    for (const ObjectView& view : scene.views) tensors_.push_back(view.tensor);
   }
 
-  // Systems at the trial poses of the active states, in the states' order; inactive ones stay
-  // empty.
+  // Systems at the trial poses of the active states, in the states' order. Those of inactive
+  // states stay empty.
   std::vector<WorldSystem> at_trials(std::span<const LmState> states) {
+    const std::span<const ObjectView> views = scene_.views;
     problems_.clear();
-    for (std::size_t h = 0; h < states.size(); ++h)
-      for (std::size_t v = 0; states[h].active && v < views_.size(); ++v) {
-        const std::size_t slot = h * views_.size() + v;
-        problems_.push_back({to_pose(views_[v].camera_from_world * states[h].trial),
-                             sets_.first[slot], sets_.count[slot], static_cast<std::uint32_t>(v)});
+    for (std::size_t p = 0; p < states.size(); ++p)
+      for (std::size_t v = 0; states[p].active && v < views.size(); ++v) {
+        const PointRange range = sets_.ranges(p, v);
+        problems_.push_back({to_pose(views[v].camera_from_world * states[p].trial), range.first,
+                             range.count, static_cast<std::uint32_t>(v)});
       }
     results_.resize(problems_.size());
-    backend_.pose_normal_equations(handles_, sets_.points, problems_, loss_, results_);
+    scene_.backend.pose_normal_equations(tensors_, sets_.points, problems_, loss_, results_);
     std::vector<WorldSystem> systems(states.size());
     std::size_t next = 0;
-    for (std::size_t h = 0; h < states.size(); ++h)
-      for (std::size_t v = 0; states[h].active && v < views_.size(); ++v)
-        add_view(systems[h], results_[next++], views_[v].camera_from_world);
+    for (std::size_t p = 0; p < states.size(); ++p)
+      for (std::size_t v = 0; states[p].active && v < views.size(); ++v)
+        add_view(systems[p], results_[next++], views[v].camera_from_world);
     return systems;
   }
 
  private:
   const PointSets& sets_;
-  std::span<const RegisterView> views_;
-  Backend& backend_;
+  const Scene& scene_;
   PoseLoss loss_;
-  std::vector<ViewHandle> handles_;
+  std::vector<ViewHandle> tensors_;
   std::vector<PoseProblem> problems_;
   std::vector<NormalEquations> results_;
 };
@@ -82,115 +79,59 @@ void run_round(std::span<LmState> states, Evaluator& evaluator, const D2coRound&
                const D2coOptions& options) {
   for (LmState& state : states) restart(state);
   std::vector<WorldSystem> systems = evaluator.at_trials(states);
-  for (std::size_t h = 0; h < states.size(); ++h) initialize(states[h], systems[h]);
+  for (std::size_t p = 0; p < states.size(); ++p) initialize(states[p], systems[p]);
   for (int i = 0; i < round.iterations; ++i) {
-    if (std::ranges::none_of(states, [](const LmState& t) { return t.active; })) return;
+    if (std::ranges::none_of(states, [](const LmState& state) { return state.active; })) return;
     for (LmState& state : states)
       if (state.active) compute_step(state);
     systems = evaluator.at_trials(states);
-    for (std::size_t h = 0; h < states.size(); ++h)
-      if (states[h].active)
-        accept_step(states[h], systems[h], options.min_step_m, options.min_step_rad);
+    for (std::size_t p = 0; p < states.size(); ++p)
+      if (states[p].active)
+        accept_step(states[p], systems[p], options.min_step_m, options.min_step_rad);
   }
 }
 
 }  // namespace
 
-std::vector<ModelPoint> thinned(const std::vector<ModelPoint>& points, int most) {
-  if (most <= 0 || int(points.size()) <= most) return points;
-  std::vector<ModelPoint> kept(most);
-  for (int i = 0; i < most; ++i) kept[i] = points[std::size_t(i) * points.size() / most];
-  return kept;
-}
-
-Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance) {
-  const Eigen::LDLT<Matrix6d> factor(hessian);
-  if (factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0)
-    return residual_variance * factor.solve(Matrix6d::Identity());
-  // Not a product with the identity: zero times infinity is no number.
-  Matrix6d unknown = Matrix6d::Zero();
-  unknown.diagonal().setConstant(std::numeric_limits<double>::infinity());
-  return unknown;
-}
-
-std::vector<D2coRound> D2coOptions::default_rounds() {
-  return {{LOSS_GEMAN_MCCLURE, 30, 12, 400},
-          {LOSS_GEMAN_MCCLURE, 15, 12, 500},
-          {LOSS_GEMAN_MCCLURE, 8, 12, 700},
-          {LOSS_GEMAN_MCCLURE, 4, 12, 0},
-          {LOSS_GEMAN_MCCLURE, 2, 12, 0}};
-}
-
-void D2coOptions::validate() const {
-  const OptionBounds in("register");
-  if (rounds.empty()) throw InputError("options", "register.rounds", "none", "at least one round");
-  for (const D2coRound& round : rounds) {
-    if (round.loss != LOSS_HUBER && round.loss != LOSS_GEMAN_MCCLURE)
-      throw InputError("options", "register.loss", std::to_string(round.loss),
-                       "Huber's or Geman and McClure's");
-    in("scale", round.scale_px, 1e-3, 1000);
-    in("iterations", round.iterations, 1, 1000);
-    in("max_points", round.max_points, 0, 1e6);
+void check_problem(std::span<const ObjectPose> starts, std::size_t models,
+                   std::span<const ObjectView> views) {
+  check(!views.empty(), "register_poses: at least one view");
+  for (const ObjectView& view : views)
+    check(is_finite(view.camera_from_world), "register_poses: a view whose pose is not finite");
+  for (const ObjectPose& start : starts) {
+    check(start.object >= 0 && static_cast<std::size_t>(start.object) < models,
+          "register_poses: no such model");
+    check(is_finite(start.world_from_object), "register_poses: a start that is not finite");
   }
-  in("min_step_m", min_step_m, 0, 1e9);
-  in("min_step_rad", min_step_rad, 0, 1e9);
-  visibility.validate();
 }
 
-std::string to_string(Convergence reason) {
-  switch (reason) {
-    case Convergence::SmallStep:
-      return "small step";
-    case Convergence::NoDecrease:
-      return "no decrease";
-    case Convergence::IterationLimit:
-      return "iteration limit";
-    case Convergence::NoPoints:
-      return "no visible points";
-  }
-  throw LogicError("unknown convergence reason");
-}
-
-std::vector<ObjectPose> object_poses_of(std::span<const ObjectPose> starts,
-                                        std::span<const Registration> registrations) {
-  std::vector<ObjectPose> poses;
-  for (std::size_t i = 0; i < starts.size(); ++i)
-    poses.push_back({starts[i].object, registrations[i].world_from_object});
-  return poses;
-}
-
-std::vector<Registration> register_poses(std::span<const EdgeModel> models,
-                                         std::span<const ObjectPose> hypotheses,
-                                         std::span<const RegisterView> views, Backend& backend,
+std::vector<PoseEstimate> register_poses(const Scene& scene, std::span<const ObjectPose> starts,
                                          const D2coOptions& options) {
-  check_problem(hypotheses, models.size(), views);
-  const auto drawn = [&](std::span<const ObjectPose> poses) {
-    std::vector<std::vector<ModelPoint>> points;
-    for (VisibleInView& seen : visible_in_views(models, poses, views, backend, options.visibility))
-      points.push_back(std::move(seen.points));
-    return points;
+  if (options.solver == Solver::Ceres) return register_poses_ceres(scene, starts, options);
+  check_problem(starts, scene.models.size(), scene.views);
+  const auto points = [&](std::span<const ObjectPose> poses) {
+    return visible_points(scene, poses, options.visibility);
   };
-  return register_points(hypotheses, views, drawn, backend, options);
+  return register_points(scene, starts, points, options);
 }
 
-std::vector<Registration> register_points(std::span<const ObjectPose> hypotheses,
-                                          std::span<const RegisterView> views,
-                                          const PointsInViews& points, Backend& backend,
-                                          const D2coOptions& options) {
+std::vector<PoseEstimate> register_points(const Scene& scene, std::span<const ObjectPose> starts,
+                                          const PointsInViews& points, const D2coOptions& options) {
   options.validate();
-  check_problem(hypotheses, std::numeric_limits<std::size_t>::max(), views);
-  std::vector<LmState> states(hypotheses.size());
-  for (std::size_t h = 0; h < hypotheses.size(); ++h)
-    states[h].pose = hypotheses[h].world_from_object;
+  check_problem(starts, std::numeric_limits<std::size_t>::max(), scene.views);
+  std::vector<ObjectPose> poses(starts.begin(), starts.end());
+  std::vector<LmState> states(starts.size());
+  for (std::size_t p = 0; p < starts.size(); ++p) states[p].pose = starts[p].world_from_object;
   for (const D2coRound& round : options.rounds) {
-    const PointSets sets =
-        collect_points(hypotheses, states, points, views.size(), round.max_points);
-    Evaluator evaluator(sets, views, backend, {round.loss, round.scale_px});
+    for (std::size_t p = 0; p < poses.size(); ++p) poses[p].world_from_object = states[p].pose;
+    const PointSets sets = collect_points(poses, scene.views.size(), points, round.max_points);
+    Evaluator evaluator(sets, scene, {round.loss, round.scale_px});
     run_round(states, evaluator, round, options);
   }
-  std::vector<Registration> results;
-  for (const LmState& state : states) results.push_back(registration_of(state));
-  return results;
+  std::vector<PoseEstimate> estimates;
+  for (std::size_t p = 0; p < starts.size(); ++p)
+    estimates.push_back(estimate_of(states[p], starts[p].object));
+  return estimates;
 }
 
 }  // namespace edgescout

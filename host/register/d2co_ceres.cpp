@@ -9,27 +9,26 @@
 #include "host/register/point_cost.h"
 #include "host/register/se3_manifold.h"
 #include "host/register/visible_in_views.h"
-#include "host/register/world_system.h"
 #include "kernels/error.h"
 
 namespace edgescout {
 
 namespace {
 
-// A view with its tensor on the host.
+// A view with the values of its tensor on the host.
 struct HostView {
-  RegisterView view;
-  std::vector<std::uint16_t> tensor = view.view->tensor();
-  TensorView tensor_view() const { return {tensor, view.view->shape, view.view->intrinsics}; }
+  ObjectView view;
+  std::vector<std::uint16_t> values = view.tensor->tensor();
+  TensorView tensor_view() const { return {values, view.tensor->shape, view.tensor->intrinsics}; }
 };
 
-std::vector<HostView> download(std::span<const RegisterView> views) {
+std::vector<HostView> download(std::span<const ObjectView> views) {
   std::vector<HostView> host;
-  for (const RegisterView& view : views) host.push_back({view});
+  for (const ObjectView& view : views) host.push_back({view});
   return host;
 }
 
-// One round of one pose. The loss must outlive the problem, and is declared before it.
+// One round of one pose. The loss is declared before the problem because it must outlive it.
 struct RoundProblem {
   std::unique_ptr<ceres::LossFunction> loss;
   ceres::Problem problem{lent_loss()};
@@ -51,7 +50,8 @@ void add_visible_points(RoundProblem& round, const EdgeModel& model, const HostV
   const Se3& camera_from_world = view.view.camera_from_world;
   const ObjectPose pose{0, from_parameters(round.pose.data())};
   const std::vector<ModelPoint> visible =
-      visible_in_views({&model, 1}, {&pose, 1}, {&view.view, 1}, backend, visibility)[0].points;
+      visible_in_views({{&model, 1}, {&view.view, 1}, backend}, {&pose, 1}, visibility)(0, 0)
+          .points;
   const std::size_t kept = most > 0 ? std::min(visible.size(), std::size_t(most)) : visible.size();
   for (std::size_t i = 0; i < kept; ++i)
     round.problem.AddResidualBlock(
@@ -64,15 +64,15 @@ ceres::Solver::Options solver_options(const D2coRound& round, const D2coOptions&
   solver.linear_solver_type = ceres::DENSE_QR;
   solver.logging_type = ceres::SILENT;
   solver.max_num_iterations = round.iterations;
-  // Ceres judges the step by its length among the 7 parameters, relative to theirs, which is at
-  // least that of the quaternion, one: a rotation counts half.
+  // Ceres compares the length of the step in the 7 parameters with the length of the parameters.
+  // The latter is at least 1, the quaternion's. A rotation counts half.
   solver.parameter_tolerance = std::min(options.min_step_m, 0.5 * options.min_step_rad);
   solver.function_tolerance = 0;
   solver.gradient_tolerance = 0;
   return solver;
 }
 
-Convergence reason_of(const ceres::Solver::Summary& summary) {
+Convergence convergence_of(const ceres::Solver::Summary& summary) {
   switch (summary.termination_type) {
     case ceres::CONVERGENCE:
       return Convergence::SmallStep;
@@ -83,8 +83,8 @@ Convergence reason_of(const ceres::Solver::Summary& summary) {
   }
 }
 
-// The weighted system at the solution, in the world's tangent. Ceres counts no point that it could
-// not evaluate: then the system is empty.
+// The weighted system at the solution, in the world's tangent. Empty where Ceres could not evaluate
+// all points.
 WorldSystem system_at_solution(RoundProblem& round) {
   ceres::Problem::EvaluateOptions bare;
   bare.apply_loss_function = false;
@@ -106,7 +106,7 @@ WorldSystem system_at_solution(RoundProblem& round) {
   return system;
 }
 
-void fill(Registration& result, const WorldSystem& system) {
+void fill(PoseEstimate& result, const WorldSystem& system) {
   result.cost_px2 = system.cost;
   result.points = static_cast<int>(system.points);
   result.mean_px = system.points > 0 ? system.residual_sum / system.points : 0;
@@ -114,39 +114,39 @@ void fill(Registration& result, const WorldSystem& system) {
       pose_covariance(system.hessian, 2 * system.cost / std::max(1.0, system.weight_sum - 6));
 }
 
-void solve_round(Registration& result, const EdgeModel& model, std::span<const HostView> views,
+void solve_round(PoseEstimate& result, const EdgeModel& model, std::span<const HostView> views,
                  Backend& backend, const D2coRound& round, const D2coOptions& options) {
   RoundProblem at_pose(result.world_from_object, {round.loss, round.scale_px});
   for (const HostView& view : views)
     add_visible_points(at_pose, model, view, backend, options.visibility, round.max_points);
   if (at_pose.problem.NumResiduals() == 0) {
-    result.reason = Convergence::NoPoints;
+    result.convergence = Convergence::NoPoints;
     fill(result, {});
     return;
   }
   ceres::Solver::Summary summary;
   ceres::Solve(solver_options(round, options), &at_pose.problem, &summary);
   result.world_from_object = from_parameters(at_pose.pose.data());
-  // The first entry is the start itself; there is none where even that could not be evaluated.
+  // The first entry is the start itself. There is none where the start could not be evaluated.
   result.iterations += std::max(0, static_cast<int>(summary.iterations.size()) - 1);
-  result.reason = reason_of(summary);
+  result.convergence = convergence_of(summary);
   fill(result, system_at_solution(at_pose));
 }
 
 }  // namespace
 
-std::vector<Registration> register_poses_ceres(std::span<const EdgeModel> models,
-                                               std::span<const ObjectPose> hypotheses,
-                                               std::span<const RegisterView> views,
-                                               Backend& backend, const D2coOptions& options) {
+std::vector<PoseEstimate> register_poses_ceres(const Scene& scene,
+                                               std::span<const ObjectPose> starts,
+                                               const D2coOptions& options) {
   options.validate();
-  check_problem(hypotheses, models.size(), views);
-  const std::vector<HostView> host = download(views);
-  std::vector<Registration> results(hypotheses.size());
-  for (std::size_t h = 0; h < hypotheses.size(); ++h) {
-    results[h].world_from_object = hypotheses[h].world_from_object;
+  check_problem(starts, scene.models.size(), scene.views);
+  const std::vector<HostView> views = download(scene.views);
+  std::vector<PoseEstimate> results;
+  for (const ObjectPose& start : starts) {
+    PoseEstimate& result = results.emplace_back();
+    static_cast<ObjectPose&>(result) = start;
     for (const D2coRound& round : options.rounds)
-      solve_round(results[h], models[hypotheses[h].object], host, backend, round, options);
+      solve_round(result, scene.models[start.object], views, scene.backend, round, options);
   }
   return results;
 }

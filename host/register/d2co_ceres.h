@@ -1,19 +1,18 @@
-// D2CO once more with Ceres, one residual a point and one pose after the other: the judge of the
-// batched solver in d2co.h.
+// D2CO by Ceres: one residual per point, one pose after the other. Reference of the batched solver.
 //
-// Same rounds, visible points, losses and covariance. Levenberg-Marquardt is Ceres' own: it stops
-// by Ceres' measure of a small step, never larger than the options' (SmallStep), at the iteration
-// limit, or where no step could be taken (NoDecrease). Tensors are copied to the host once a call,
-// so any backend will do.
+// Rounds, visible points, losses and covariance are those of register_poses. Levenberg-Marquardt is
+// Ceres' own. It stops at a small step by Ceres' measure, which is never larger than the options'
+// (SmallStep), at the iteration limit, or where no step could be taken (NoDecrease). Each call
+// copies the tensors to the host, so it works with any backend.
 #pragma once
 
 #include "host/register/d2co.h"
 
 namespace edgescout {
 
-std::vector<Registration> register_poses_ceres(std::span<const EdgeModel> models,
-                                               std::span<const ObjectPose> hypotheses,
-                                               std::span<const RegisterView> views,
-                                               Backend& backend, const D2coOptions& options = {});
+// As register_poses, which calls it for Solver::Ceres.
+std::vector<PoseEstimate> register_poses_ceres(const Scene& scene,
+                                               std::span<const ObjectPose> starts,
+                                               const D2coOptions& options = {});
 
 }  // namespace edgescout

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/register/d2co.h"
+#include "host/register/lm_state.h"
 
 namespace edgescout {
 
@@ -31,8 +31,8 @@ Matrix6d EdgeCovariance::covariance() const {
     between_px2 += sums.distance_px * sums.distance_px;
     free_within += sums.weight * (1 - 1.0 / sums.points);
   }
-  // E[within] = b free_within; E[between] = a free_between + b own_between, with the pose at its
-  // optimum.
+  // With the pose at its optimum: E[within] = b free_within, E[between] = a free_between + b
+  // own_between.
   const double own_px2 = std::max(0.0, squares_px2_ - explained_px2) / std::max(1.0, free_within);
   const Matrix6d taken = inverse * by_edge;
   const double own_between = std::max(0.0, weight - taken.trace()),

@@ -1,18 +1,20 @@
-// Covariance of a pose from signed distances to edges, where all points of one edge err together.
+// Covariance of a pose from signed distances to edges, where the points of one edge share an error.
 //
-// Light, shadow, a bevel or the camera's grey curve displace an edge in the image as a whole, by
-// tenths of a pixel: a hundred points along it tell little more than ten. With J the derivatives of
-// the distances, w the points' weights and a distance's error the sum of one of its edge (variance
-// a) and one of its own (b),
+// Light, shadow, a bevel or the camera's grey curve displace a whole edge in the image by tenths of
+// a pixel. A hundred points along it inform little more than ten. The model: the error of a
+// distance is the sum of an error of its edge (variance a) and an error of its own (variance b).
+// Then
 //
-//   covariance = c H^-1 (b H + a M) H^-1,   H = sum over points of w J J',   M = sum over edges of
-//   g g', g = sum over the edge's points of w J
+//   covariance = c H^-1 (b H + a M) H^-1
+//   H = sum over points of w J J'
+//   M = sum over edges of g g',  g = sum over the edge's points of w J
 //
-// (least squares with clustered errors, Liang and Zeger, Biometrika 1986; their errors' covariance
-// is modelled by two variances here, since one view has too few edges to take it from the distances
-// as they are). The two are those that make the sums of squares within edges and between them what
-// they are (analysis of variance); what the pose took out of them is given back. c is for what all
-// edges have in common, which leaves no distance.
+// with J the derivatives of the distances and w the points' weights. This is least squares with
+// clustered errors (Liang and Zeger, Biometrika 1986). Theirs takes the errors' covariance from the
+// distances themselves; one view has too few edges for that, so two variances model it here. a and
+// b follow from the sums of squares within edges and between edges (analysis of variance),
+// corrected for what the fitted pose removed from them. c accounts for errors common to all edges,
+// which no distance shows.
 #pragma once
 
 #include <cstdint>
@@ -22,19 +24,20 @@
 
 namespace edgescout {
 
-// A priori an edge is displaced by this standard deviation, known as well as from so many edges.
+// Prior of the displacement of an edge: its standard deviation, and how many edges it counts for.
 inline constexpr double EXPECTED_DISPLACEMENT_PX = 0.15;
 inline constexpr double EXPECTED_FROM_EDGES = 4;
 // c: bright surfaces look larger than dark ones, parts stand in their own shadow. Over rendered
-// scenes true errors were twice what the distances alone tell (tests/register/polish_test.cpp).
+// scenes true errors were twice those that the distances alone predict
+// (tests/register/edge_icp_test.cpp).
 inline constexpr double COMMON_TO_EDGES = 4;
 
 class EdgeCovariance {
  public:
-  // A point `distance_px` off its edge, of weight > 0. `edge`: any number, equal where points err
-  // together; their distances must have the sign of one side.
+  // Adds a point at the signed distance `distance_px` from its edge, with a weight > 0. Points of
+  // one edge have the same number `edge`; their signs must refer to the same side of it.
   void add(std::uint64_t edge, double distance_px, double weight, const Vector6d& jacobian);
-  // In the jacobians' tangent; infinite where the points do not hold the pose.
+  // In the tangent of the jacobians. Infinite where the points do not determine the pose.
   Matrix6d covariance() const;
 
  private:

@@ -5,10 +5,13 @@
 #include <Eigen/Cholesky>
 
 #include "host/core/option_bounds.h"
+#include "host/core/thinned.h"
+#include "host/register/d2co.h"
 #include "host/register/edge_covariance.h"
 #include "host/register/image_motion.h"
+#include "host/register/lm_state.h"
+#include "host/register/thresholds.h"
 #include "host/register/visible_in_views.h"
-#include "host/register/world_system.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
 
@@ -16,8 +19,8 @@ namespace edgescout {
 
 namespace {
 
-// One model point against its edge point: signed distance to the edge's tangent line, px, and its
-// derivative by the camera's tangent.
+// A model point compared with its edge point: signed distance to the edge's tangent line, px, and
+// the derivative of that distance by the camera's tangent.
 struct LineResidual {
   double nx, ny;  // normal of the line
   double value;
@@ -35,14 +38,14 @@ struct Counts {
   int points = 0, matched = 0;
 };
 
-// Calls visit(residual, weight, projected point) for every point that finds an edge. Derivatives
-// are by the camera's tangent.
+// Calls visit(residual, weight, projected point) for every point that has an edge point near.
+// Derivatives are by the camera's tangent.
 template <typename Visit>
-Counts match_points(const RegisterView& view, const Se3& world_from_object,
+Counts match_points(const ObjectView& view, const Se3& world_from_object,
                     std::span<const ModelPoint> points, const EdgeIcpRound& round,
                     float max_turn_rad, const Visit& visit) {
   const Pose pose = to_pose(view.camera_from_world * world_from_object);
-  const Intrinsics& k = view.view->intrinsics;
+  const Intrinsics& k = view.tensor->intrinsics;
   Counts counts;
   for (const ModelPoint& model : points) {
     const PosedPoint<double> posed = pose_point<double>(pose, model);
@@ -61,8 +64,8 @@ Counts match_points(const RegisterView& view, const Se3& world_from_object,
   return counts;
 }
 
-// [R, 0; 0, R]: from the world's tangent to the camera's (world_system.h).
-Matrix6d camera_tangent(const RegisterView& view) {
+// [R, 0; 0, R]: maps the world's tangent to the camera's (world_system.h).
+Matrix6d camera_tangent(const ObjectView& view) {
   Matrix6d camera_from_world = Matrix6d::Zero();
   camera_from_world.topLeftCorner<3, 3>() = camera_from_world.bottomRightCorner<3, 3>() =
       view.camera_from_world.rotation.toRotationMatrix();
@@ -75,7 +78,7 @@ struct LineSystem {
   Counts counts;
 };
 
-void add_points(LineSystem& sum, const RegisterView& view, const Se3& world_from_object,
+void add_points(LineSystem& sum, const ObjectView& view, const Se3& world_from_object,
                 std::span<const ModelPoint> points, const EdgeIcpRound& round, float max_turn_rad) {
   Matrix6d hessian = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
@@ -91,8 +94,8 @@ void add_points(LineSystem& sum, const RegisterView& view, const Se3& world_from
   sum.counts.matched += counts.matched;
 }
 
-// Points on one straight line of a view share a number, those of a curve one for every 15 degrees
-// of it.
+// Numbers the edges of all views. Points on one straight line of a view share a number. Points on a
+// curve share one per 15 degrees of the curve.
 std::uint64_t line_number(std::size_t view, double theta_rad, double offset_px) {
   constexpr double arc_rad = std::numbers::pi / 12, width_px = 4;
   constexpr std::int64_t arcs = 16, offsets = 1 << 24;  // more than there are of either
@@ -101,18 +104,18 @@ std::uint64_t line_number(std::size_t view, double theta_rad, double offset_px) 
   return std::uint64_t((std::int64_t(view) * arcs + arc) * offsets + offset + offsets / 2);
 }
 
-Matrix6d covariance_at(const Se3& pose, std::span<const RegisterView> views,
-                       std::span<const VisibleInView> seen, const EdgeIcpRound& round,
+Matrix6d covariance_at(const Se3& pose, std::span<const ObjectView> views,
+                       std::span<const VisibleInView> visible, const EdgeIcpRound& round,
                        float max_turn_rad) {
   EdgeCovariance sum;
   for (std::size_t v = 0; v < views.size(); ++v) {
     if (!views[v].edges) continue;
     const Matrix6d to_camera = camera_tangent(views[v]);
-    match_points(views[v], pose, seen[v].points, round, max_turn_rad,
+    match_points(views[v], pose, visible[v].points, round, max_turn_rad,
                  [&](const LineResidual& r, double weight, const ProjectedEdge<double>& p) {
                    const double theta = orientation(p.dx, p.dy), nx = -std::sin(theta),
                                 ny = std::cos(theta);
-                   // The edge's direction may have wrapped where the point's has not.
+                   // The edge's direction may have wrapped at pi where the point's has not.
                    const double sign = r.nx * nx + r.ny * ny < 0 ? -1 : 1;
                    sum.add(line_number(v, theta, nx * p.u + ny * p.v), sign * r.value, weight,
                            sign * to_camera.transpose() * r.jacobian);
@@ -121,29 +124,28 @@ Matrix6d covariance_at(const Se3& pose, std::span<const RegisterView> views,
   return sum.covariance();
 }
 
-LineSystem system_at(const Se3& pose, std::span<const RegisterView> views,
-                     std::span<const VisibleInView> seen, const EdgeIcpRound& round,
+LineSystem system_at(const Se3& pose, std::span<const ObjectView> views,
+                     std::span<const VisibleInView> visible, const EdgeIcpRound& round,
                      float max_turn_rad) {
   LineSystem sum;
   for (std::size_t v = 0; v < views.size(); ++v)
-    if (views[v].edges) add_points(sum, views[v], pose, seen[v].points, round, max_turn_rad);
+    if (views[v].edges) add_points(sum, views[v], pose, visible[v].points, round, max_turn_rad);
   return sum;
 }
 
 bool enough(const LineSystem& system, const EdgeIcpOptions& options) {
-  constexpr int least_matched = 12;  // twice the unknowns
-  return system.counts.matched >= least_matched &&
+  return system.counts.matched >= thresholds::MIN_POINTS &&
          system.counts.matched >= options.min_matched * system.counts.points;
 }
 
-void edge_icp_of_one(Registration& registration, std::span<const RegisterView> views,
-                     std::span<const VisibleInView> seen, const EdgeIcpOptions& options) {
-  Se3 pose = registration.world_from_object;
+void edge_icp_of_one(PoseEstimate& estimate, std::span<const ObjectView> views,
+                     std::span<const VisibleInView> visible, const EdgeIcpOptions& options) {
+  Se3 pose = estimate.world_from_object;
   for (const EdgeIcpRound& round : options.rounds)
     for (int i = 0; i < round.iterations; ++i) {
-      LineSystem system = system_at(pose, views, seen, round, options.max_turn_rad);
+      LineSystem system = system_at(pose, views, visible, round, options.max_turn_rad);
       if (!enough(system, options)) return;
-      system.hessian.diagonal() *= 1 + 1e-4;  // keeps directions no edge sees where they are
+      system.hessian.diagonal() *= 1 + 1e-4;  // no motion in directions that no edge determines
       const Vector6d step = -system.hessian.ldlt().solve(system.gradient);
       if (!step.allFinite()) return;
       pose = retract(pose, step);
@@ -152,11 +154,11 @@ void edge_icp_of_one(Registration& registration, std::span<const RegisterView> v
         break;
     }
   const LineSystem final_system =
-      system_at(pose, views, seen, options.rounds.back(), options.max_turn_rad);
+      system_at(pose, views, visible, options.rounds.back(), options.max_turn_rad);
   if (!enough(final_system, options)) return;
-  registration.world_from_object = pose;
-  registration.covariance =
-      covariance_at(pose, views, seen, options.rounds.back(), options.max_turn_rad);
+  estimate.world_from_object = pose;
+  estimate.covariance =
+      covariance_at(pose, views, visible, options.rounds.back(), options.max_turn_rad);
 }
 
 }  // namespace
@@ -177,15 +179,12 @@ void EdgeIcpOptions::validate() const {
   in("min_step_rad", min_step_rad, 0, 1e9);
 }
 
-void edge_icp(std::span<const EdgeModel> models, std::span<const ObjectPose> hypotheses,
-              std::span<const RegisterView> views, Backend& backend, const EdgeIcpOptions& options,
-              std::span<Registration> registrations) {
-  std::vector<VisibleInView> seen = visible_in_views(
-      models, object_poses_of(hypotheses, registrations), views, backend, options.visibility);
-  for (VisibleInView& view : seen) view.points = thinned(view.points, options.max_points);
-  backend.threads().for_each(hypotheses.size(), [&](std::size_t h) {
-    edge_icp_of_one(registrations[h], views,
-                    std::span(seen).subspan(h * views.size(), views.size()), options);
+void edge_icp(const Scene& scene, std::span<PoseEstimate> poses, const EdgeIcpOptions& options) {
+  Grid<VisibleInView> visible = visible_in_views(scene, object_poses(poses), options.visibility);
+  for (VisibleInView& cell : visible.values())
+    cell.points = thinned(cell.points, options.max_points);
+  scene.backend.threads().for_each(poses.size(), [&](std::size_t p) {
+    edge_icp_of_one(poses[p], scene.views, visible.row(p), options);
   });
 }
 

@@ -1,4 +1,4 @@
-// How an image place of a posed model point moves with the pose.
+// Derivative of the image position of a model point by the pose.
 #pragma once
 
 #include "host/core/se3.h"
@@ -6,8 +6,8 @@
 
 namespace edgescout {
 
-// Derivative of nx * u + ny * v by the camera's tangent (core/se3.h), (u, v) the projection of the
-// point.
+// Derivative of nx * u + ny * v by the camera's tangent (core/se3.h), where (u, v) is the
+// projection of the point.
 inline Vector6d image_motion(double nx, double ny, const PosedPoint<double>& p,
                              const Intrinsics& k) {
   const double z = p.point.z;

@@ -1,35 +1,22 @@
 #include "host/register/lm_state.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <Eigen/Cholesky>
 
-#include "kernels/error.h"
-
 namespace edgescout {
-
-void check_problem(std::span<const ObjectPose> starts, std::size_t models,
-                   std::span<const RegisterView> views) {
-  check(!views.empty(), "register_poses: at least one view");
-  for (const RegisterView& view : views)
-    check(is_finite(view.camera_from_world), "register_poses: a view whose pose is not finite");
-  for (const ObjectPose& start : starts) {
-    check(start.object >= 0 && static_cast<std::size_t>(start.object) < models,
-          "register_poses: no such model");
-    check(is_finite(start.world_from_object), "register_poses: a start that is not finite");
-  }
-}
 
 void restart(LmState& state) {
   state.active = true;
   state.damping = 1e-3;
   state.trial = state.pose;
-  state.reason = Convergence::IterationLimit;
+  state.convergence = Convergence::IterationLimit;
 }
 
 void initialize(LmState& state, const WorldSystem& system) {
   state.system = system;
-  if (system.points == 0) state.active = false, state.reason = Convergence::NoPoints;
+  if (system.points == 0) state.active = false, state.convergence = Convergence::NoPoints;
 }
 
 void compute_step(LmState& state) {
@@ -44,7 +31,7 @@ void compute_step(LmState& state) {
 void accept_step(LmState& state, const WorldSystem& at_trial, double min_step_m,
                  double min_step_rad) {
   ++state.iterations;
-  // Points that left through the camera plane must not look like progress: compare means.
+  // Means, not sums: points that left through the camera plane must not count as progress.
   const bool better = at_trial.points > 0 &&
                       at_trial.cost / at_trial.points < state.system.cost / state.system.points;
   if (better) {
@@ -55,23 +42,64 @@ void accept_step(LmState& state, const WorldSystem& at_trial, double min_step_m,
     state.damping *= 6;
   }
   if (is_small(state.step, min_step_m, min_step_rad))
-    state.active = false, state.reason = Convergence::SmallStep;
-  if (!better && state.damping > 1e6) state.active = false, state.reason = Convergence::NoDecrease;
+    state.active = false, state.convergence = Convergence::SmallStep;
+  if (!better && state.damping > 1e6)
+    state.active = false, state.convergence = Convergence::NoDecrease;
 }
 
 bool is_small(const Vector6d& step, double min_step_m, double min_step_rad) {
   return step.head<3>().norm() < min_step_m && step.tail<3>().norm() < min_step_rad;
 }
 
-Registration registration_of(const LmState& state) {
-  Registration result;
+void add_view(WorldSystem& sum, const NormalEquations& view, const Se3& camera_from_world) {
+  WorldSystem in_camera;
+  int entry = 0;
+  for (int a = 0; a < 6; ++a) {
+    for (int b = a; b < 6; ++b)
+      in_camera.hessian(a, b) = in_camera.hessian(b, a) = view.hessian[entry++];
+    in_camera.gradient[a] = view.gradient[a];
+  }
+  in_camera.cost = view.cost;
+  in_camera.residual_sum = view.residual_sum;
+  in_camera.weight_sum = view.weight_sum;
+  in_camera.points = view.points;
+  add_view(sum, in_camera, camera_from_world);
+}
+
+void add_view(WorldSystem& sum, const WorldSystem& in_camera, const Se3& camera_from_world) {
+  Matrix6d camera_from_world_tangent = Matrix6d::Zero();
+  camera_from_world_tangent.topLeftCorner<3, 3>() = camera_from_world.rotation.toRotationMatrix();
+  camera_from_world_tangent.bottomRightCorner<3, 3>() =
+      camera_from_world_tangent.topLeftCorner<3, 3>();
+  sum.hessian +=
+      camera_from_world_tangent.transpose() * in_camera.hessian * camera_from_world_tangent;
+  sum.gradient += camera_from_world_tangent.transpose() * in_camera.gradient;
+  sum.cost += in_camera.cost;
+  sum.residual_sum += in_camera.residual_sum;
+  sum.weight_sum += in_camera.weight_sum;
+  sum.points += in_camera.points;
+}
+
+Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance) {
+  const Eigen::LDLT<Matrix6d> factor(hessian);
+  if (factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0)
+    return residual_variance * factor.solve(Matrix6d::Identity());
+  // Not infinity times the identity: zero times infinity is NaN.
+  Matrix6d unknown = Matrix6d::Zero();
+  unknown.diagonal().setConstant(std::numeric_limits<double>::infinity());
+  return unknown;
+}
+
+PoseEstimate estimate_of(const LmState& state, int object) {
+  PoseEstimate result;
+  result.object = object;
   result.world_from_object = state.pose;
   const WorldSystem& system = state.system;
   result.cost_px2 = system.cost;
   result.points = static_cast<int>(system.points);
   result.mean_px = system.points > 0 ? system.residual_sum / system.points : 0;
   result.iterations = state.iterations;
-  result.reason = state.reason;
+  result.convergence = state.convergence;
   result.covariance =
       pose_covariance(system.hessian, 2 * system.cost / std::max(1.0, system.weight_sum - 6));
   return result;

@@ -1,11 +1,29 @@
-// One pose on its way through Levenberg-Marquardt, a step at a time, so that whoever sums the
-// systems may do so for many poses at once.
+// The state of Levenberg-Marquardt for one pose, advanced step by step.
+//
+// The caller sums the systems and may do so for many poses at once.
 #pragma once
 
-#include "host/register/d2co.h"
-#include "host/register/world_system.h"
+#include "host/register/d2co_options.h"
+#include "host/register/pose_estimate.h"
+#include "host/register/scene.h"
+#include "kernels/pose_normal_equations.h"
 
 namespace edgescout {
+
+struct WorldSystem {
+  Matrix6d hessian = Matrix6d::Zero();
+  Vector6d gradient = Vector6d::Zero();
+  double cost = 0;
+  double residual_sum = 0;
+  double weight_sum = 0;
+  double points = 0;
+};
+
+// A step [dt, dw] in the world's tangent is [R dt, R dw] in the camera's, R being the rotation of
+// camera_from_world: both parts of the tangent act on the left and about the object's origin.
+void add_view(WorldSystem& sum, const NormalEquations& view, const Se3& camera_from_world);
+// The same for a system in double with both triangles of the Hessian filled.
+void add_view(WorldSystem& sum, const WorldSystem& in_camera, const Se3& camera_from_world);
 
 struct LmState {
   Se3 pose, trial;
@@ -14,25 +32,26 @@ struct LmState {
   double damping = 1e-3;
   bool active = true;
   int iterations = 0;
-  Convergence reason = Convergence::IterationLimit;
+  Convergence convergence = Convergence::IterationLimit;
 };
 
-// LogicError for a start that is no pose or of no model, for no view or one that stands nowhere.
-void check_problem(std::span<const ObjectPose> starts, std::size_t models,
-                   std::span<const RegisterView> views);
-// Before a round: the first trial is the pose itself.
+// Begins a round: the first trial is the pose itself.
 void restart(LmState& state);
-// With the system at the first trial: a pose without points in front of the camera goes no further.
+// Takes the system at the first trial. Ends the state where no point lies in front of the camera.
 void initialize(LmState& state, const WorldSystem& system);
-// The next trial from the system at the pose. Marquardt's damping scales with the diagonal, so
-// metres and radians are damped alike: by the image motion they cause.
+// Computes the next trial from the system at the pose. Marquardt's damping scales with the
+// diagonal: metres and radians are damped equally, by the image motion that they cause.
 void compute_step(LmState& state);
-// Takes the trial where it lowered the mean cost; ends the state at a small step or where no step
-// helps.
+// Takes the trial if it lowers the mean cost. Ends the state at a small step, or where no step
+// lowers the cost.
 void accept_step(LmState& state, const WorldSystem& at_trial, double min_step_m,
                  double min_step_rad);
 bool is_small(const Vector6d& step, double min_step_m, double min_step_rad);
 
-Registration registration_of(const LmState& state);
+PoseEstimate estimate_of(const LmState& state, int object);
+
+// Covariance of a pose from its final system: variance * hessian^-1 in the tangent of core/se3.h,
+// infinite where singular.
+Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance);
 
 }  // namespace edgescout

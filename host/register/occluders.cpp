@@ -3,29 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/error.h"
-
 namespace edgescout {
 
 namespace {
 
-constexpr double REDUCTION = 2;     // edges of occluders are known to a pixel or two at best
+constexpr double REDUCTION = 2;     // image px per map px: edges of occluders are not better known
 constexpr double TOLERANCE = 0.05;  // of the hidden object's diameter
 
 void draw(const EdgeModel& model, std::span<const Se3> camera_from_object, Occluders& occluders,
           Backend& backend) {
   const Camera& c = occluders.camera;
-  std::vector<float> own(occluders.depth_m.size());
+  std::vector<float> depth_m(occluders.depth_m.size());  // of one pose alone
   for (const Se3& pose : camera_from_object) {
     if ((pose * model.center_m).z() <= model.radius_m) continue;
     const DepthJob job{to_pose(pose), intrinsics_of(c)};
-    backend.depth_raster(model.triangle_mesh(), {&job, 1}, c.width, c.height, own);
-    std::ranges::transform(own, occluders.depth_m, occluders.depth_m.begin(),
+    backend.depth_raster(model.triangle_mesh(), {&job, 1}, c.width, c.height, depth_m);
+    std::ranges::transform(depth_m, occluders.depth_m, occluders.depth_m.begin(),
                            [](float a, float b) { return std::min(a, b); });
   }
 }
 
-// How many of the 3 x 3 pixels around a point's projection show something nearer; none outside the
+// How many of the 3 x 3 pixels around a point's projection show something nearer. 0 outside the
 // image.
 int nearer_around(const Occluders& occluders, const Eigen::Vector3d& in_camera,
                   double tolerance_m) {
@@ -63,7 +61,7 @@ void remove_hidden(std::vector<ModelPoint>& points, const Occluders& occluders,
 
 std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> models,
                                                 std::span<const ObjectPose> known,
-                                                const RegisterView& view, Backend& backend) {
+                                                const ObjectView& view, Backend& backend) {
   if (known.empty()) return nullptr;
   auto occluders = std::make_shared<Occluders>();
   occluders->camera = scaled(view.camera, 1 / REDUCTION);
@@ -71,8 +69,9 @@ std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> model
       std::size_t(occluders->camera.width) * std::size_t(occluders->camera.height), DEPTH_EMPTY);
   for (std::size_t object = 0; object < models.size(); ++object) {
     std::vector<Se3> poses;
-    for (const ObjectPose& h : known)
-      if (h.object == int(object)) poses.push_back(view.camera_from_world * h.world_from_object);
+    for (const ObjectPose& pose : known)
+      if (pose.object == int(object))
+        poses.push_back(view.camera_from_world * pose.world_from_object);
     draw(models[object], poses, *occluders, backend);
   }
   return occluders;

@@ -1,15 +1,16 @@
-// What objects in known places hide of everything behind them in one view.
+// A depth map of known objects in one view: everything behind it is hidden.
 //
-// visible_edges knows only what an object hides of itself. In a pile its neighbours hide more, and
-// edges that cannot be seen count as missing: a right pose whose half is covered looks wrong. Where
-// the neighbours are known, the covered points are left out of registration and score instead.
+// visible_edges removes what an object hides of itself. In a pile its neighbours hide more, and
+// hidden edges count as missing: a right pose of a half covered part scores low. Where the
+// neighbours are known, the covered points are left out of registration and score.
 #pragma once
 
 #include <memory>
 #include <span>
 #include <vector>
 
-#include "host/register/d2co.h"
+#include "host/model/visible_edges.h"
+#include "host/register/scene.h"
 
 namespace edgescout {
 
@@ -17,24 +18,24 @@ struct Occluders {
   Camera camera;               // of the reduced map
   std::vector<float> depth_m;  // nearest known surface, row by row; DEPTH_EMPTY where there is none
 
-  // Whether each of the 3 x 3 pixels around its projection lies nearer by more than `tolerance_m`:
-  // certainly hidden, what is on an occluder's contour is not. Outside the image nothing is.
+  // Whether the point is certainly hidden: all 3 x 3 pixels around its projection lie nearer by
+  // more than `tolerance_m`. On an occluder's contour and outside the image no point is.
   bool hide(const Eigen::Vector3d& in_camera, double tolerance_m) const;
-  // Whether one of them does: grey this close to an occluder may be the occluder's.
+  // Whether one of the 3 x 3 pixels lies nearer: the grey value may be the occluder's.
   bool may_hide(const Eigen::Vector3d& in_camera, double tolerance_m) const;
 };
 
-// Leaves the points of an object that the occluders do not hide.
+// Removes the points of an object that the occluders hide.
 void remove_hidden(std::vector<ModelPoint>& points, const Occluders& occluders,
                    const Se3& camera_from_object, double tolerance_m);
 
-// Nothing where `known` is empty. The view's own occluders play no part.
+// Null where `known` is empty. Ignores the view's own occluders.
 std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> models,
                                                 std::span<const ObjectPose> known,
-                                                const RegisterView& view, Backend& backend);
+                                                const ObjectView& view, Backend& backend);
 
-// Known objects would hide themselves where a pose is a little off: what lies less than this behind
-// their surface is not hidden.
+// Points less than this behind a known surface are not hidden. Without a tolerance a known object
+// would hide itself where its pose is a little off.
 double occlusion_tolerance_m(const EdgeModel& model);
 
 }  // namespace edgescout

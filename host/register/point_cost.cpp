@@ -36,8 +36,8 @@ Eigen::Matrix<double, 3, 6> image_by_edge(const Intrinsics& k, const Eigen::Vect
   by_edge.topLeftCorner<2, 3>() = by_point;
   const Eigen::Vector2d d = by_point * tangent;
   if (d.norm() < POSE_MIN_FORESHORTENING * k.fx / p.z()) return by_edge;
-  // z d = [fx (tx - tz x/z), fy (ty - tz y/z)] has the same direction; x/z and y/z move as the
-  // projection does.
+  // z d = [fx (tx - tz x/z), fy (ty - tz y/z)] has the same direction as d. x/z and y/z have the
+  // derivatives of the projection.
   Eigen::Matrix<double, 2, 6> by_both;
   by_both.leftCols<3>() = -tangent.z() * by_point;
   by_both.rightCols<3>() = p.z() * by_point;

@@ -1,6 +1,8 @@
-// One model point in one view as a residual of Ceres: the tensor's value in px where the point
-// falls, as kernels/pose_normal_equations.h defines it, with the derivative worked out a second
-// time, in matrices. Private to host/register and its tests.
+// One model point in one view as a residual of Ceres.
+//
+// The residual is the tensor's value in px at the point's projection, as
+// kernels/pose_normal_equations.h defines it. The derivative is a second, independent
+// implementation, in matrices. Private to host/register and its tests.
 #pragma once
 
 #include <memory>
@@ -13,9 +15,9 @@
 
 namespace edgescout {
 
-// Parameters: world_from_object in the order of se3_manifold.h. Not owned: the tensor behind
-// `view`. A pose that brings the point to POSE_MIN_DEPTH_M or nearer cannot be evaluated: Ceres
-// takes such a step back.
+// Parameters: world_from_object in the order of se3_manifold.h. The tensor behind `view` must
+// outlive the cost. Poses that bring the point to POSE_MIN_DEPTH_M or nearer cannot be evaluated:
+// Ceres rejects such a step.
 class PointCost : public ceres::SizedCostFunction<1, 7> {
  public:
   PointCost(const TensorView& view, const Se3& camera_from_world, const ModelPoint& point);
@@ -28,7 +30,8 @@ class PointCost : public ceres::SizedCostFunction<1, 7> {
   Eigen::Vector3d point_m_, tangent_;
 };
 
-// Geman-McClure as Ceres writes losses, twice rho over the squared residual: s^2 t / (s^2 + t).
+// Geman-McClure in Ceres' form, twice rho as a function of the squared residual t:
+// s^2 t / (s^2 + t).
 class GemanMcClureLoss : public ceres::LossFunction {
  public:
   explicit GemanMcClureLoss(double scale_px) : squared_scale_(scale_px * scale_px) {}
@@ -38,7 +41,7 @@ class GemanMcClureLoss : public ceres::LossFunction {
   double squared_scale_;
 };
 
-// Half of what it returns is the rho of the kernel's header.
+// The loss is twice the rho of the kernel's header.
 std::unique_ptr<ceres::LossFunction> make_loss(const PoseLoss& loss);
 
 }  // namespace edgescout

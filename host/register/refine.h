@@ -1,5 +1,8 @@
-// A pose from a rough start: search around it, D2CO, polish, features. What detection does with its
-// candidates and what `edgescout register` does with anybody's.
+// From a rough start to a pose: search around it, D2CO, edge ICP, features.
+//
+// Detection does this with its candidates, `edgescout register` with given starts.
+//
+// Public header.
 #pragma once
 
 #include <span>
@@ -8,43 +11,39 @@
 #include "host/register/d2co.h"
 #include "host/register/edge_icp.h"
 #include "host/register/pose_features.h"
+#include "host/register/schedules.h"
 
 namespace edgescout {
 
-// Search: besides the start itself, starts turned by `rotation_rad` about the 6 axis directions and
-// 8 cube diagonals of the camera frame are registered coarsely (few points, wide loss); of those
-// and the start as it was given the ones with the highest log-odds (pose_features.h) go on.
+// The search registers the start and 14 turned copies of it coarsely (few points, wide loss). The
+// copies are turned by `rotation_rad` about the 6 axis directions and 8 cube diagonals of the
+// camera frame. Of these poses and the start as it was given, those of the highest
+// PoseClassifier::rank go on.
 struct SearchOptions {
   double rotation_rad = 0.3;  // 0: no search, the start alone; in [0, 1]
   int num_kept = 4;           // different poses that go on to the full registration
-  D2coOptions coarse = coarse_defaults();
-  static D2coOptions coarse_defaults();
+  D2coOptions coarse = schedules::search();
 };
 
 struct RefineOptions {
   SearchOptions search;
-  D2coOptions d2co = full_defaults();
-  D2coRound unsearched{LOSS_GEMAN_MCCLURE, 30, 10,
-                       300};  // goes before d2co's rounds where no search brought the start near
+  // The final rounds. d2co.solver chooses their implementation; the search has its own
+  // (search.coarse.solver) and stays batched unless that is changed as well.
+  D2coOptions d2co = schedules::fine();
+  D2coRound unsearched =
+      schedules::unsearched();  // precedes d2co's rounds where there is no search
   bool use_edge_icp = true;
-  EdgeIcpOptions edge_icp_options;
-  PoseScoreOptions score{1.0f, 4.0f, 60.0f};
-  int at_once = 256;  // pairs of a hypothesis and a view, with a search up to 2 MB of points each;
-                      // results do not depend on it
-  static D2coOptions full_defaults();
-  void validate() const;
+  EdgeIcpOptions edge_icp;
+  PoseScoreOptions score = FeatureOptions{}.score;
+  // Pairs of a pose and a view that are processed at once. With a search a pair takes up to 2 MB of
+  // points. Results do not depend on it.
+  int batch_size = 256;
+  void validate() const;  // InputError naming the field and the violated bound
 };
 
-struct Refined {
-  Registration registration;
-  PoseFeatures features;              // over all views
-  std::vector<PoseFeatures> by_view;  // in the order of the views
-};
-
-// Results in the order of the hypotheses.
-std::vector<Refined> refine_poses(std::span<const EdgeModel> models,
-                                  std::span<const ObjectPose> hypotheses,
-                                  std::span<const RegisterView> views, Backend& backend,
-                                  const RefineOptions& options);
+// In the order of the starts, with features. The first view's camera frame turns the starts of the
+// search. InputError: options out of bounds; LogicError: no view.
+std::vector<PoseEstimate> refine_poses(const Scene& scene, std::span<const ObjectPose> starts,
+                                       const RefineOptions& options);
 
 }  // namespace edgescout

@@ -52,8 +52,8 @@ bool Se3Manifold::MinusJacobian(const double* x, double* jacobian) const {
   Eigen::Map<Eigen::Matrix<double, 6, 7, Eigen::RowMajor>> by_ambient(jacobian);
   by_ambient.setZero();
   by_ambient.topLeftCorner<3, 3>().setIdentity();
-  // The columns of Plus' Jacobian are orthogonal, of length 1/2: four times the transpose is its
-  // inverse on the tangent.
+  // The columns of the Jacobian of Plus are orthogonal and of length 1/2. Four times its transpose
+  // is its inverse on the tangent.
   by_ambient.bottomRightCorner<3, 4>() = 4 * quaternion_by_rotation(x + 3).transpose();
   return true;
 }

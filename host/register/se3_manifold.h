@@ -1,7 +1,9 @@
 // The pose space of core/se3.h for Ceres: 7 parameters [tx ty tz, qx qy qz qw], tangent
-// [translation m, rotation rad]. Ceres' own quaternion manifolds take half the angle and know
-// nothing of the project's order; a covariance must not depend on who computed it. Private to
-// host/register and its tests: the only header here that brings in Ceres, with point_cost.h.
+// [translation m, rotation rad].
+//
+// Ceres' own quaternion manifolds use half the angle and another order. Covariances of both solvers
+// must agree. Private to host/register and its tests: only this header and point_cost.h include
+// Ceres.
 #pragma once
 
 #include <array>
@@ -14,7 +16,7 @@ namespace edgescout {
 
 using PoseParameters = std::array<double, 7>;
 PoseParameters to_parameters(const Se3& pose);
-// The quaternion is taken as it is: of unit norm wherever Ceres came by Se3Manifold::Plus.
+// Does not normalise the quaternion: Se3Manifold::Plus keeps its norm at 1.
 Se3 from_parameters(const double* parameters);
 
 // Plus(x, d) = retract(x, d), Minus(y, x) = local_coordinates(x, y).

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/model/visible_edges.h"
 #include "host/register/occluders.h"
 #include "kernels/thread_pool.h"
 
@@ -12,18 +13,17 @@ namespace edgescout {
 namespace {
 
 constexpr int WINDOW_PX = 96;  // square depth map of the object
-// image pixels between its pixels: blur at a silhouette must not reach the pixels one further in
+// Image pixels between pixels of the map. Blur at a silhouette must not reach the next pixel
+// inside.
 constexpr int FEWEST_STRIDE = 2;
-// relative second difference of inverse depth: more is an edge or another surface
+// Relative second difference of inverse depth. A larger one is an edge or another surface.
 constexpr double LARGEST_BEND = 4e-3;
 constexpr int HARMONICS = 9;
-constexpr double FEWEST_PIXELS = 60;  // fewer, and nine harmonics explain any grey
-constexpr double NOISE_GREY = 2;
-
+constexpr double FEWEST_PIXELS = 60;  // nine harmonics explain any grey of fewer pixels
 using Harmonics = Eigen::Matrix<double, HARMONICS, 1>;
 
-// Part of the image: window pixel (i, j) is image pixel (x + stride i, y + stride j), so that
-// samples need no interpolation.
+// Part of the image: window pixel (i, j) is image pixel (x + stride i, y + stride j). Samples need
+// no interpolation.
 struct Window {
   int x = 0, y = 0, stride = FEWEST_STRIDE;
 };
@@ -52,8 +52,8 @@ Harmonics harmonics(const Eigen::Vector3d& n) {
   return h;
 }
 
-// The normal at an inner pixel of a depth map: on a plane n . X = d inverse depth is linear in the
-// pixel, 1 / z = n . (u, v, 1) / d. False where the nine pixels around are not one smooth surface.
+// The normal at an inner pixel of a depth map. On a plane n . X = d inverse depth is linear in the
+// pixel: 1 / z = n . (u, v, 1) / d. False where the nine pixels around are not one smooth surface.
 bool normal_at(const float* depth, int i, int j, const Intrinsics& k, Eigen::Vector3d& normal) {
   double w[3][3];
   for (int y = -1; y <= 1; ++y)
@@ -78,14 +78,34 @@ Eigen::Vector3d point_at(const float* depth, int i, int j, const Intrinsics& k) 
   return {(i - k.cx) / k.fx * z, (j - k.cy) / k.fy * z, z};
 }
 
-// Least squares of grey on the harmonics, by its normal equations.
-Shading explain(const RegisterView& view, const Window& window, const float* depth,
-                const Intrinsics& k, double tolerance_m) {
-  const Image& image = *view.image;
+// Sums for the least squares of grey on the harmonics, by its normal equations.
+struct GreySums {
   Eigen::Matrix<double, HARMONICS, HARMONICS> system =
       Eigen::Matrix<double, HARMONICS, HARMONICS>::Zero();
   Harmonics right = Harmonics::Zero();
   double count = 0, sum = 0, squares = 0;
+
+  void add(const Eigen::Vector3d& normal, double grey) {
+    const Harmonics h = harmonics(normal);
+    system.selfadjointView<Eigen::Lower>().rankUpdate(h);
+    right += grey * h;
+    count += 1, sum += grey, squares += grey * grey;
+  }
+
+  Shading explain() {
+    if (count < FEWEST_PIXELS) return {};
+    system.diagonal().array() += 1e-6 * count;  // few faces leave harmonics undetermined
+    const Harmonics best = system.selfadjointView<Eigen::Lower>().ldlt().solve(right);
+    const double about_mean = squares - sum * sum / count;
+    return {count, about_mean, std::clamp(squares - best.dot(right), 0.0, about_mean)};
+  }
+};
+
+// `depth` is the map of the window, `k` its intrinsics.
+Shading explain(const ObjectView& view, const Window& window, const float* depth,
+                const Intrinsics& k, double tolerance_m) {
+  const Image& image = *view.image;
+  GreySums sums;
   for (int j = 1; j + 1 < WINDOW_PX; ++j)
     for (int i = 1; i + 1 < WINDOW_PX; ++i) {
       if (depth[std::size_t(j) * WINDOW_PX + i] == DEPTH_EMPTY) continue;
@@ -96,73 +116,64 @@ Shading explain(const RegisterView& view, const Window& window, const float* dep
         continue;
       if (view.occluders && view.occluders->may_hide(point_at(depth, i, j, k), tolerance_m))
         continue;
-      const double grey = image.at(x, y);
-      const Harmonics h = harmonics(normal);
-      system.selfadjointView<Eigen::Lower>().rankUpdate(h);
-      right += grey * h;
-      count += 1, sum += grey, squares += grey * grey;
+      sums.add(normal, image.at(x, y));
     }
-  if (count < FEWEST_PIXELS) return {};
-  system.diagonal().array() += 1e-6 * count;  // few faces leave harmonics undetermined
-  const Harmonics best = system.selfadjointView<Eigen::Lower>().ldlt().solve(right);
-  const double about_mean = squares - sum * sum / count;
-  return {count, about_mean, std::clamp(squares - best.dot(right), 0.0, about_mean)};
+  return sums.explain();
 }
 
-struct Task {
-  Window window;
-  std::size_t slot;  // of the result
-  std::size_t view;
+// Windows of one object's poses in all views, with the depth maps that they need.
+struct Tasks {
+  struct Task {
+    Window window;
+    std::size_t pose, view;
+  };
+  std::vector<Task> list;
+  std::vector<DepthJob> jobs;
 };
+
+Tasks tasks_of(const Scene& scene, std::span<const ObjectPose> poses, std::size_t object) {
+  const EdgeModel& model = scene.models[object];
+  Tasks tasks;
+  for (std::size_t p = 0; p < poses.size(); ++p)
+    for (std::size_t v = 0; poses[p].object == int(object) && v < scene.views.size(); ++v) {
+      const ObjectView& view = scene.views[v];
+      const Se3 camera_from_object = view.camera_from_world * poses[p].world_from_object;
+      if (!view.image || (camera_from_object * model.center_m).z() <= model.radius_m * 0.05)
+        continue;
+      const Window window = frame_object(model, camera_from_object, view.tensor->intrinsics);
+      tasks.list.push_back({window, p, v});
+      tasks.jobs.push_back(
+          {to_pose(camera_from_object), intrinsics_of(window, view.tensor->intrinsics)});
+    }
+  return tasks;
+}
+
+void explain_all(Grid<Shading>& result, const Scene& scene, const Tasks& tasks,
+                 const EdgeModel& model) {
+  constexpr std::size_t chunk = 256;  // bounds the memory however many poses there are
+  constexpr std::size_t map = std::size_t(WINDOW_PX) * WINDOW_PX;
+  const double tolerance_m = occlusion_tolerance_m(model);
+  std::vector<float> depth;
+  for (std::size_t first = 0; first < tasks.list.size(); first += chunk) {
+    const std::size_t count = std::min(chunk, tasks.list.size() - first);
+    depth.resize(count * map);
+    scene.backend.depth_raster(model.triangle_mesh(), std::span(tasks.jobs).subspan(first, count),
+                               WINDOW_PX, WINDOW_PX, depth);
+    scene.backend.threads().for_each(count, [&](std::size_t i) {
+      const Tasks::Task& task = tasks.list[first + i];
+      result(task.pose, task.view) =
+          explain(scene.views[task.view], task.window, depth.data() + i * map,
+                  tasks.jobs[first + i].intrinsics, tolerance_m);
+    });
+  }
+}
 
 }  // namespace
 
-void add(Shading& sum, const Shading& other) {
-  sum.pixels += other.pixels;
-  sum.squares += other.squares;
-  sum.unexplained += other.unexplained;
-}
-
-double unexplained_grey(const Shading& shading) {
-  const double noise = shading.pixels * NOISE_GREY * NOISE_GREY;
-  return shading.pixels > 0 ? std::sqrt((shading.unexplained + noise) / (shading.squares + noise))
-                            : 1;
-}
-
-std::vector<Shading> shading(std::span<const EdgeModel> models, std::span<const ObjectPose> poses,
-                             std::span<const RegisterView> views, Backend& backend) {
-  std::vector<Shading> result(poses.size() * views.size());
-  constexpr std::size_t chunk = 256,
-                        map = std::size_t(WINDOW_PX) *
-                              WINDOW_PX;  // bounded memory however many poses there are
-  std::vector<float> depth;
-  for (std::size_t object = 0; object < models.size(); ++object) {
-    const double tolerance_m = occlusion_tolerance_m(models[object]);
-    std::vector<Task> tasks;
-    std::vector<DepthJob> jobs;
-    for (std::size_t p = 0; p < poses.size(); ++p)
-      for (std::size_t v = 0; poses[p].object == int(object) && v < views.size(); ++v) {
-        const Se3 pose = views[v].camera_from_world * poses[p].world_from_object;
-        if (!views[v].image ||
-            (pose * models[object].center_m).z() <= models[object].radius_m * 0.05)
-          continue;
-        const Window window = frame_object(models[object], pose, views[v].view->intrinsics);
-        tasks.push_back({window, p * views.size() + v, v});
-        jobs.push_back({to_pose(pose), intrinsics_of(window, views[v].view->intrinsics)});
-      }
-    for (std::size_t first = 0; first < tasks.size(); first += chunk) {
-      const std::size_t count = std::min(chunk, tasks.size() - first);
-      depth.resize(count * map);
-      backend.depth_raster(models[object].triangle_mesh(),
-                           std::span<const DepthJob>(jobs).subspan(first, count), WINDOW_PX,
-                           WINDOW_PX, depth);
-      backend.threads().for_each(count, [&](std::size_t i) {
-        const Task& task = tasks[first + i];
-        result[task.slot] = explain(views[task.view], task.window, depth.data() + i * map,
-                                    jobs[first + i].intrinsics, tolerance_m);
-      });
-    }
-  }
+Grid<Shading> shading(const Scene& scene, std::span<const ObjectPose> poses) {
+  Grid<Shading> result(poses.size(), scene.views.size());
+  for (std::size_t object = 0; object < scene.models.size(); ++object)
+    explain_all(result, scene, tasks_of(scene, poses, object), scene.models[object]);
   return result;
 }
 

@@ -1,38 +1,61 @@
 #include "host/register/visible_in_views.h"
 
+#include <utility>
+
 #include "host/register/occluders.h"
 #include "kernels/error.h"
 
 namespace edgescout {
 
-std::vector<VisibleInView> visible_in_views(std::span<const EdgeModel> models,
-                                            std::span<const ObjectPose> poses,
-                                            std::span<const RegisterView> views, Backend& backend,
-                                            const VisibilityOptions& visibility) {
-  for (const ObjectPose& pose : poses)
-    check(pose.object >= 0 && std::size_t(pose.object) < models.size(),
-          "visible_in_views: no such model");
-  std::vector<VisibleInView> seen(poses.size() * views.size());
-  for (std::size_t object = 0; object < models.size(); ++object) {
-    const EdgeModel& model = models[object];
-    std::vector<Se3> camera_from_object;
-    std::vector<std::size_t> slots;
-    for (std::size_t p = 0; p < poses.size(); ++p)
-      for (std::size_t v = 0; poses[p].object == int(object) && v < views.size(); ++v) {
-        camera_from_object.push_back(views[v].camera_from_world * poses[p].world_from_object);
-        slots.push_back(p * views.size() + v);
-      }
-    std::vector<std::vector<ModelPoint>> visible =
-        visible_edges(model, camera_from_object, backend, visibility);
-    for (std::size_t i = 0; i < slots.size(); ++i) {
-      VisibleInView& slot = seen[slots[i]];
-      slot.points = std::move(visible[i]);
-      slot.unoccluded = slot.points.size();
-      if (const Occluders* occluders = views[slots[i] % views.size()].occluders.get())
-        remove_hidden(slot.points, *occluders, camera_from_object[i], occlusion_tolerance_m(model));
+namespace {
+
+struct PoseInView {
+  std::size_t pose, view;
+};
+
+// The cells of one object's poses.
+void fill_object(Grid<VisibleInView>& visible, const Scene& scene,
+                 std::span<const ObjectPose> poses, std::size_t object,
+                 const VisibilityOptions& visibility) {
+  const EdgeModel& model = scene.models[object];
+  std::vector<Se3> camera_from_object;
+  std::vector<PoseInView> cells;
+  for (std::size_t p = 0; p < poses.size(); ++p)
+    for (std::size_t v = 0; poses[p].object == int(object) && v < scene.views.size(); ++v) {
+      camera_from_object.push_back(scene.views[v].camera_from_world * poses[p].world_from_object);
+      cells.push_back({p, v});
     }
+  std::vector<std::vector<ModelPoint>> points =
+      visible_edges(model, camera_from_object, scene.backend, visibility);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    VisibleInView& cell = visible(cells[i].pose, cells[i].view);
+    cell.points = std::move(points[i]);
+    cell.unoccluded = cell.points.size();
+    if (const Occluders* occluders = scene.views[cells[i].view].occluders.get())
+      remove_hidden(cell.points, *occluders, camera_from_object[i], occlusion_tolerance_m(model));
   }
-  return seen;
+}
+
+}  // namespace
+
+Grid<VisibleInView> visible_in_views(const Scene& scene, std::span<const ObjectPose> poses,
+                                     const VisibilityOptions& visibility) {
+  for (const ObjectPose& pose : poses)
+    check(pose.object >= 0 && std::size_t(pose.object) < scene.models.size(),
+          "visible_in_views: no such model");
+  Grid<VisibleInView> visible(poses.size(), scene.views.size());
+  for (std::size_t object = 0; object < scene.models.size(); ++object)
+    fill_object(visible, scene, poses, object, visibility);
+  return visible;
+}
+
+Grid<std::vector<ModelPoint>> visible_points(const Scene& scene, std::span<const ObjectPose> poses,
+                                             const VisibilityOptions& visibility) {
+  Grid<VisibleInView> visible = visible_in_views(scene, poses, visibility);
+  Grid<std::vector<ModelPoint>> points(visible.rows(), visible.columns());
+  for (std::size_t i = 0; i < visible.values().size(); ++i)
+    points.values()[i] = std::move(visible.values()[i].points);
+  return points;
 }
 
 }  // namespace edgescout

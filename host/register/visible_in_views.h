@@ -4,7 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "host/register/d2co.h"
+#include "host/core/grid.h"
+#include "host/model/visible_edges.h"
+#include "host/register/scene.h"
 
 namespace edgescout {
 
@@ -13,11 +15,12 @@ struct VisibleInView {
   std::size_t unoccluded = 0;      // how many there would be without occluders
 };
 
-// One entry a pose and view, views of one pose side by side. Points project inside the image or
-// not.
-std::vector<VisibleInView> visible_in_views(std::span<const EdgeModel> models,
-                                            std::span<const ObjectPose> poses,
-                                            std::span<const RegisterView> views, Backend& backend,
-                                            const VisibilityOptions& visibility = {});
+// Rows are poses, columns views. Points project inside the image or not.
+Grid<VisibleInView> visible_in_views(const Scene& scene, std::span<const ObjectPose> poses,
+                                     const VisibilityOptions& visibility = {});
+
+// The points alone.
+Grid<std::vector<ModelPoint>> visible_points(const Scene& scene, std::span<const ObjectPose> poses,
+                                             const VisibilityOptions& visibility = {});
 
 }  // namespace edgescout

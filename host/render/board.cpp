@@ -9,7 +9,7 @@
 namespace edgescout {
 namespace {
 
-// Draws at random places; every shape takes its numbers from `random` in a fixed order.
+// Draws shapes at random places. Every shape takes its numbers from `random` in a fixed order.
 class Printer {
  public:
   Printer(cv::Mat& board, double smallest_px, double largest_px, Random& random)
@@ -79,7 +79,7 @@ class Printer {
     cv::line(board_, from, to, ink(), stroke(), cv::LINE_AA);
   }
 
-  // A patch drawn upright, then turned into its place.
+  // Draws an upright patch, then turns it into its place.
   void stamp(const cv::Mat& ink_map, const cv::Mat& mask) {
     const cv::Point centre = place();
     cv::Mat turn = cv::getRotationMatrix2D({0.5f * ink_map.cols, 0.5f * ink_map.rows},
@@ -149,8 +149,8 @@ class Printer {
   Random& random_;
 };
 
-// Low, cloudy variation of the paper: an even grey would leave nothing for an edge detector to
-// stumble over.
+// Adds a low, cloudy variation of the paper, so that the edge detector's robustness is tested: an
+// even grey has no false edges.
 void add_grain(cv::Mat& board, Random& random) {
   for (const auto& [cells, amplitude] : {std::pair{6, 0.04}, {40, 0.02}, {400, 0.02}}) {
     cv::Mat coarse(cells, cells, CV_32F), fine;
@@ -167,7 +167,7 @@ void add_grain(cv::Mat& board, Random& random) {
 Image print_board(int side_px, int clutter, double smallest_px, double largest_px, Random random) {
   const double paper = std::pow(random.uniform(0.45, 0.85), 2);
   cv::Mat board(side_px, side_px, CV_8U, cv::Scalar::all(255 * paper));
-  // So much print that shapes of middling size would cover the given share of the board once over.
+  // As many shapes of middle size as together have the given share of the board's area.
   const double middle = std::sqrt(smallest_px * largest_px);
   const double cover = clutter == 0 ? 0.0 : clutter == 1 ? 0.45 : 1.2;
   const int shapes = static_cast<int>(cover * side_px * side_px / (middle * middle));

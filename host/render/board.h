@@ -1,4 +1,4 @@
-// The printed board the parts lie on: shapes, words and patterns that produce edges of their own.
+// Makes the printed board under the parts. Its shapes, words and patterns give edges of their own.
 #pragma once
 
 #include "host/core/random.h"
@@ -6,8 +6,8 @@
 
 namespace edgescout {
 
-// Albedo * 255 of a square board, `side_px` wide. `clutter` 0: paper grain only; 1 and 2: more and
-// more print. `smallest_px` and `largest_px` bound the size of what is printed.
+// Returns albedo * 255 of a square board, `side_px` wide. `clutter` 0: paper grain only; 1 and 2:
+// increasing amounts of print. `smallest_px` and `largest_px` bound the size of the printed shapes.
 Image print_board(int side_px, int clutter, double smallest_px, double largest_px, Random random);
 
 }  // namespace edgescout

@@ -7,8 +7,8 @@
 namespace edgescout {
 namespace {
 
-// Corner normals of one mesh in its own frame: the mean, weighted by corner angle, of the faces
-// that meet there less sharply than a crease.
+// Computes the corner normals of one mesh in its own frame: the mean, weighted by corner angle, of
+// the faces that meet at the corner without a crease.
 std::vector<TriangleCorners> smooth_normals(const Mesh& mesh) {
   const double crease_cosine = std::cos(35 * std::numbers::pi / 180);
   std::vector<std::vector<std::pair<int, double>>> faces(mesh.vertices_m.size());  // face, angle
@@ -62,7 +62,7 @@ Eigen::Matrix<double, 3, 4> pixel_from_world(const SceneView& view) {
 
 }  // namespace
 
-WorldTriangles world_triangles(const Scene& scene) {
+WorldTriangles world_triangles(const SimulatedScene& scene) {
   std::vector<std::vector<TriangleCorners>> normals;
   for (const Object& object : scene.objects) normals.push_back(smooth_normals(object.mesh));
   WorldTriangles world;
@@ -83,7 +83,7 @@ WorldTriangles world_triangles(const Scene& scene) {
   return world;
 }
 
-Lighting::Lighting(const Scene& scene, const WorldTriangles& triangles, ThreadPool& pool)
+Lighting::Lighting(const SimulatedScene& scene, const WorldTriangles& triangles, ThreadPool& pool)
     : scene_(scene) {
   if (!scene.options.shadows) return;
   const double reach = 1.02 * scene_reach_m(triangles);
@@ -98,7 +98,7 @@ Lighting::Lighting(const Scene& scene, const WorldTriangles& triangles, ThreadPo
 
 double Lighting::lit_fraction(const ShadowMap& map, const Eigen::Vector3d& point_m,
                               const Eigen::Vector3d& normal) const {
-  // Off the surface by the size of a texel, or it would shade itself.
+  // The point is moved off the surface by one texel, else the surface would shade itself.
   const Eigen::Vector3d x =
       map.pixel_from_world * (point_m + 1.5 * map.texel_m * normal).homogeneous();
   const Eigen::Vector2d pixel = x.hnormalized();

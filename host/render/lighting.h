@@ -1,4 +1,4 @@
-// The scene's triangles in the world, and the light that reaches a point of them.
+// Computes the triangles of a scene in the world frame and the light that reaches a point on them.
 #pragma once
 
 #include <span>
@@ -13,20 +13,20 @@ struct WorldTriangles {
   std::vector<TriangleCorners> corners_m;
   std::vector<TriangleCorners>
       normals;              // unit; smoothed over the surface up to creases of 35 degrees
-  std::vector<int> placed;  // whose, index into Scene::placed
+  std::vector<int> placed;  // index into SimulatedScene::placed
 };
 
-WorldTriangles world_triangles(const Scene& scene);
+WorldTriangles world_triangles(const SimulatedScene& scene);
 
 struct ReceivedLight {
-  double diffuse = 0;   // irradiance: times albedo it is what the camera sees, 1 is white
-  double specular = 0;  // to be added
+  double diffuse = 0;   // irradiance; times the albedo it is what the camera sees; 1 is white
+  double specular = 0;  // added to that
 };
 
 class Lighting {
  public:
-  // Draws one shadow map a light where the options ask for shadows. `scene` must outlive this.
-  Lighting(const Scene& scene, const WorldTriangles& triangles, ThreadPool& pool);
+  // Draws one shadow map per light if the options ask for shadows. `scene` must outlive this.
+  Lighting(const SimulatedScene& scene, const WorldTriangles& triangles, ThreadPool& pool);
 
   // `normal` and `to_viewer`: unit, on the same side of the surface.
   ReceivedLight at(const Eigen::Vector3d& point_m, const Eigen::Vector3d& normal,
@@ -42,8 +42,8 @@ class Lighting {
   double lit_fraction(const ShadowMap& map, const Eigen::Vector3d& point_m,
                       const Eigen::Vector3d& normal) const;
 
-  const Scene& scene_;
-  std::vector<ShadowMap> maps_;  // one a light, or none
+  const SimulatedScene& scene_;
+  std::vector<ShadowMap> maps_;  // one per light, or none
 };
 
 }  // namespace edgescout

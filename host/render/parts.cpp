@@ -16,8 +16,8 @@ Se3 turn(const Eigen::Vector3d& axis, double angle_rad) {
   return {so3_exp(angle_rad * axis), Eigen::Vector3d::Zero()};
 }
 
-// `steps` turns about z, and each of them with the part turned over about x where it has such a
-// twin.
+// `steps` turns about z. If the part also looks the same upside down, each turn once more with a
+// half turn about x.
 Symmetries turns_about_z(int steps, bool turns_over) {
   Symmetries symmetries;
   symmetries.discrete.clear();

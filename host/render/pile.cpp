@@ -15,8 +15,8 @@ double support(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d
   return highest;
 }
 
-// Vertices about the centre of mass, those only that are extreme in one of many directions: a rest
-// pose touches with no others.
+// Vertices relative to the centre of mass. Only vertices that are extreme in one of many directions
+// are kept: no other vertex can touch the plane.
 std::vector<Eigen::Vector3d> extreme_points(const Mesh& mesh, const Eigen::Vector3d& centre) {
   constexpr int DIRECTIONS = 1000;
   if (mesh.vertices_m.size() <= DIRECTIONS / 2) {
@@ -59,8 +59,8 @@ Eigen::Vector3d surface_centre(const Mesh& mesh) {
 
 Eigen::Quaterniond random_rest(const Mesh& mesh, Random& random) {
   const std::vector<Eigen::Vector3d> points = extreme_points(mesh, surface_centre(mesh));
-  // The height of the centre over the plane as a function of which direction is down has its minima
-  // where the part rests; rolling goes downhill from a random start.
+  // The part rests at the minima of the centre's height over the plane, as a function of the
+  // direction that points down. The search descends from a random start.
   Eigen::Vector3d down = random.direction();
   double height = support(points, down);
   for (double step = 0.3; step > 1e-5;) {
@@ -77,7 +77,7 @@ Eigen::Quaterniond random_rest(const Mesh& mesh, Random& random) {
   return (yaw * Eigen::Quaterniond::FromTwoVectors(down, -Eigen::Vector3d::UnitZ())).normalized();
 }
 
-// Lowest and highest surface over each cell of a window of the table, relative to the object's
+// Lowest and highest surface over each cell in a window of the table, relative to the object's
 // origin.
 struct PileTable::Footprint {
   int x0 = 0, y0 = 0, width = 0, height = 0;
@@ -159,7 +159,7 @@ double PileTable::rest_height(const Footprint& f) const {
 }
 
 void PileTable::occupy(const Footprint& f, double height_m) {
-  // One cell wider than the part: what a cell's centre misses must not be run into.
+  // One cell wider than the part, since the surface between cell centres is not sampled.
   for (int y = -1; y <= f.height; ++y)
     for (int x = -1; x <= f.width; ++x) {
       const int column = f.x0 + x, row = f.y0 + y;
@@ -172,8 +172,7 @@ void PileTable::occupy(const Footprint& f, double height_m) {
     }
 }
 
-Se3 PileTable::select_detections(const Mesh& mesh, Se3 pose, double radius_m,
-                                 Random& random) const {
+Se3 PileTable::slide_downhill(const Mesh& mesh, Se3 pose, double radius_m, Random& random) const {
   constexpr int TRIALS = 150;
   const Eigen::Vector3d centre = surface_centre(mesh);
   const auto energy = [&](const Se3& at) { return (at * centre).z(); };
@@ -210,8 +209,7 @@ Se3 PileTable::place(const Mesh& mesh, double radius_m, bool alone, Random& rand
     if (bare || !alone) break;
     reach *= 1.01;
   }
-  if (pose.translation_m.z() > bare_height + 1e-6)
-    pose = select_detections(mesh, pose, reach, random);
+  if (pose.translation_m.z() > bare_height + 1e-6) pose = slide_downhill(mesh, pose, reach, random);
   occupy(footprint(mesh, pose.rotation, pose.translation_m.head<2>()), pose.translation_m.z());
   return pose;
 }

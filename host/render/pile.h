@@ -1,8 +1,8 @@
-// Puts parts on a table, one after the other, without letting them run into each other.
+// Puts parts on a table, one after the other, so that they do not overlap.
 //
-// No physics: a part comes to rest on one of the faces of its convex hull, is let down vertically
-// on a height map of what lies there, and where it lands on others it slides and tilts by random
-// trial towards lower potential energy.
+// There is no physics. A part rests on one of the faces of its convex hull. It is lowered
+// vertically onto a height map of the parts on the table. If it lands on other parts, it slides and
+// tilts by random trials towards lower potential energy.
 #pragma once
 
 #include <vector>
@@ -12,21 +12,21 @@
 
 namespace edgescout {
 
-// A pose in which the mesh, set down on a plane with normal +z, does not roll; turned at random
+// Returns a rotation in which the mesh does not roll on a plane with normal +z, with a random turn
 // about z.
 Eigen::Quaterniond random_rest(const Mesh& mesh, Random& random);
 
-// Centre of mass of the surface.
+// Returns the centre of mass of the surface.
 Eigen::Vector3d surface_centre(const Mesh& mesh);
 
 class PileTable {
  public:
-  // A square of `side_m` about the origin, its heights sampled every `cell_m`: the accuracy of
-  // contact.
+  // A square of side `side_m` about the origin. Its heights are sampled every `cell_m`, which is
+  // the accuracy of contact.
   PileTable(double side_m, double cell_m);
 
-  // Drops the mesh somewhere within `radius_m` of the origin. `alone`: on the bare table, apart
-  // from everything else, outside the radius where there is no room left.
+  // Drops the mesh somewhere within `radius_m` of the origin. `alone`: it lies on the bare table
+  // and touches nothing; if there is no room left, it lies outside the radius.
   Se3 place(const Mesh& mesh, double radius_m, bool alone, Random& random);
 
  private:
@@ -35,7 +35,8 @@ class PileTable {
                       const Eigen::Vector2d& at) const;
   double rest_height(const Footprint& footprint) const;
   void occupy(const Footprint& footprint, double height_m);
-  Se3 select_detections(const Mesh& mesh, Se3 pose, double radius_m, Random& random) const;
+  // Moves a part that landed on others towards lower potential energy.
+  Se3 slide_downhill(const Mesh& mesh, Se3 pose, double radius_m, Random& random) const;
 
   int cells_ = 0;
   double cell_m_ = 0;

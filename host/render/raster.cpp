@@ -91,8 +91,8 @@ Raster rasterize(std::span<const TriangleCorners> x_in_world, const Camera& came
   const std::size_t size = static_cast<std::size_t>(camera.width) * camera.height;
   raster.depth_m.assign(size, std::numeric_limits<float>::infinity());
   raster.triangle.assign(size, -1);
-  // Bands of rows: no two threads write the same pixel, and every pixel sees its triangles in the
-  // same order.
+  // Each thread draws bands of rows. So no two threads write the same pixel, and every pixel gets
+  // its triangles in the same order.
   constexpr int BAND = 64;
   pool.for_each((camera.height + BAND - 1) / BAND, [&](std::size_t band) {
     const int first = static_cast<int>(band) * BAND,

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int BOARD = -1, HORIZON = -2;
 
-// What one sample of a pixel looks at.
+// What one sample of a pixel sees.
 struct Hit {
   int triangle = HORIZON;  // or BOARD
   Eigen::Vector3d point_m, normal, to_viewer;
@@ -23,7 +23,7 @@ struct Hit {
 };
 
 struct ViewContext {
-  const Scene& scene;
+  const SimulatedScene& scene;
   const WorldTriangles& triangles;
   const Lighting& lighting;
   Camera fine;  // of the supersampled image
@@ -67,8 +67,8 @@ Hit trace(const ViewContext& view, int x, int y) {
   return hit;
 }
 
-// The print's rows run downwards, the board's y upwards: words must not come out mirrored.
-double board_albedo(const Scene& scene, const Se3& board_from_world,
+// The print's rows go down, the board's y goes up. Without the flip, words would be mirrored.
+double board_albedo(const SimulatedScene& scene, const Se3& board_from_world,
                     const Eigen::Vector3d& point_m) {
   const Eigen::Vector3d p = board_from_world * point_m;
   const double scale = scene.board.width / scene.board_side_m;
@@ -83,8 +83,8 @@ double board_albedo(const Scene& scene, const Se3& board_from_world,
   return ((1 - fv) * top + fv * bottom) / 255;
 }
 
-// Mean light of one pixel's samples, 1 is white. Light is asked for once a surface and pixel;
-// print, which is finer, once a sample.
+// Computes the mean light of one pixel's samples; 1 is white. The light is computed once per
+// surface and pixel. The print, which is finer, is read once per sample.
 class PixelShader {
  public:
   explicit PixelShader(const ViewContext& view)
@@ -123,11 +123,11 @@ class PixelShader {
 
   const ViewContext& view_;
   Se3 board_from_world_;
-  Material board_{0, 0.015, 12};  // paper: hardly a gloss; its albedo is printed
+  Material board_{0, 0.015, 12};  // paper: nearly matt; its albedo is the print
   std::vector<std::pair<int, ReceivedLight>> seen_;
 };
 
-// From light to grey levels: lens blur, the display curve of cameras, sensor noise.
+// Converts light to grey levels: lens blur, the display curve of cameras, sensor noise.
 Image develop(cv::Mat light, const RenderOptions& options, const Random& random) {
   if (options.blur_px > 0)
     cv::GaussianBlur(light, light, {0, 0}, options.blur_px, options.blur_px, cv::BORDER_REPLICATE);
@@ -146,10 +146,10 @@ Image develop(cv::Mat light, const RenderOptions& options, const Random& random)
   return image;
 }
 
-// Pixels of one object's silhouette with nothing before it and no end of the image. One that
-// touches the camera may be thousands of images wide: of such a one every so many pixels are looked
-// at.
-double silhouette_px(const Scene& scene, const PlacedObject& part, const SceneView& view,
+// Counts the pixels of one object's silhouette, as if nothing hid it and the image had no border.
+// An object close to the camera may be thousands of images wide; then only a fraction of the pixels
+// is sampled.
+double silhouette_px(const SimulatedScene& scene, const PlacedObject& part, const SceneView& view,
                      ThreadPool& pool) {
   const Mesh& mesh = scene.objects[part.object].mesh;
   std::vector<TriangleCorners> triangles;
@@ -201,7 +201,7 @@ void read_truth(const ViewContext& view, const SceneView& scene_view, Rendering&
 
 }  // namespace
 
-std::vector<Rendering> render(const Scene& scene, ThreadPool& pool) {
+std::vector<Rendering> render(const SimulatedScene& scene, ThreadPool& pool) {
   const WorldTriangles triangles = world_triangles(scene);
   const Lighting lighting(scene, triangles, pool);
   std::vector<Rendering> renderings;

@@ -1,4 +1,4 @@
-// Images of a scene, with the truth at every pixel.
+// Renders the images of a scene, with ground truth at every pixel.
 #pragma once
 
 #include <vector>
@@ -11,14 +11,14 @@ class ThreadPool;
 
 struct Rendering {
   Image image;
-  std::vector<int> placed;  // per pixel centre: index into Scene::placed, -1 on the board
-  std::vector<float>
-      depth_m;  // per pixel centre: camera-frame z, board included; infinity above the horizon
-  // per placed object: its pixels seen / its whole silhouette, beyond the image too
+  std::vector<int> placed;  // per pixel centre: index into SimulatedScene::placed, -1 on the board
+  // per pixel centre: camera-frame z, board included; infinity above the horizon
+  std::vector<float> depth_m;
+  // per placed object: visible pixels / pixels of its whole silhouette, also outside the image
   std::vector<double> visible_fraction;
 };
 
-// All views. The bytes depend on the scene alone, not on the number of threads.
-std::vector<Rendering> render(const Scene& scene, ThreadPool& pool);
+// Renders all views. The pixels depend only on the scene, not on the number of threads.
+std::vector<Rendering> render(const SimulatedScene& scene, ThreadPool& pool);
 
 }  // namespace edgescout

@@ -25,7 +25,7 @@ Eigen::Vector3d on_sphere(double azimuth_rad, double elevation_rad) {
           std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad)};
 }
 
-// Of a workshop: bare metal, dark plastic, light plastic.
+// Materials of a workshop: bare metal, dark plastic, light plastic.
 Material random_material(Random& random) {
   switch (random.below(3)) {
     case 0:
@@ -55,7 +55,7 @@ Mesh foreign_part(double diameter_m, Random& random) {
   }
 }
 
-void add_foreign_parts(Scene& scene, double diameter_m, Random random) {
+void add_foreign_parts(SimulatedScene& scene, double diameter_m, Random random) {
   constexpr int COUNT[] = {0, 3, 8};
   for (int i = 0; i < COUNT[scene.options.clutter]; ++i) {
     PlacedObject part;
@@ -67,7 +67,7 @@ void add_foreign_parts(Scene& scene, double diameter_m, Random random) {
   }
 }
 
-void add_targets(Scene& scene, Random random) {
+void add_targets(SimulatedScene& scene, Random random) {
   const int models = static_cast<int>(scene.objects.size());
   const int first = random.below(models);
   std::vector<Material> materials;
@@ -81,7 +81,7 @@ void add_targets(Scene& scene, Random random) {
   }
 }
 
-// Fisher-Yates, so that foreign parts lie below, between and above.
+// Fisher-Yates shuffle, so that foreign parts lie below, between and above the targets.
 std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
   std::vector<std::size_t> order(count);
   for (std::size_t i = 0; i < count; ++i) order[i] = i;
@@ -90,13 +90,13 @@ std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
   return order;
 }
 
-// Where the middle of the mesh lies in its own frame, if not at its origin.
+// The middle of the mesh in its own frame, if that is not the origin.
 Eigen::Vector3d middle_m(const Mesh& mesh) {
   const Eigen::Vector3d box_m = (mesh.box_min_m + mesh.box_max_m) / 2;
   return box_m.norm() < 1e-6 * mesh.diameter_m ? Eigen::Vector3d::Zero() : box_m;
 }
 
-// The table puts origins into its circle and turns parts about them.
+// The table places origins and turns parts about them, so the mesh is moved to its middle first.
 Se3 place_by_middle(PileTable& table, Mesh mesh, double radius_m, bool alone, Random& random) {
   const Eigen::Vector3d middle = middle_m(mesh);
   for (Eigen::Vector3d& vertex_m : mesh.vertices_m) vertex_m -= middle;
@@ -105,7 +105,7 @@ Se3 place_by_middle(PileTable& table, Mesh mesh, double radius_m, bool alone, Ra
   return pose;
 }
 
-void lay_out(Scene& scene, double diameter_m, Random random) {
+void lay_out(SimulatedScene& scene, double diameter_m, Random random) {
   const double crowd = std::sqrt(static_cast<double>(scene.placed.size()));
   const double radius = diameter_m * crowd * (0.65 - 0.35 * scene.options.pile);
   PileTable table(8 * diameter_m * crowd, diameter_m / 80);
@@ -117,8 +117,8 @@ void lay_out(Scene& scene, double diameter_m, Random random) {
   }
 }
 
-// Radius about the origin that holds all targets' centres and half their size.
-double reach_m(const Scene& scene) {
+// Radius about the origin that contains the centres of all targets and half their size.
+double reach_m(const SimulatedScene& scene) {
   double reach = 0;
   for (const PlacedObject& part : scene.placed) {
     const Mesh& mesh = scene.objects[part.object].mesh;
@@ -142,7 +142,7 @@ Se3 look_at(const Eigen::Vector3d& eye_m, const Eigen::Vector3d& target_m, doubl
   return {turned.rotation.normalized(), -(turned.rotation * eye_m)};
 }
 
-void add_views(Scene& scene, Random random) {
+void add_views(SimulatedScene& scene, Random random) {
   const RenderOptions& o = scene.options;
   const double reach = reach_m(scene);
   const double filling_m = o.focal_px * reach / (0.5 * std::min(o.width, o.height));
@@ -170,8 +170,8 @@ void add_views(Scene& scene, Random random) {
   }
 }
 
-// A lamp of some width: a cluster of points, which gives its shadows a soft rim.
-void add_lamp(Scene& scene, double irradiance, double reach, Random& random) {
+// Adds a lamp of some width: a cluster of points, which makes the border of its shadows soft.
+void add_lamp(SimulatedScene& scene, double irradiance, double reach, Random& random) {
   constexpr int POINTS = 8;
   const double distance = reach * random.uniform(4, 9);
   const double elevation = random.uniform(0.6, 1.35);
@@ -181,7 +181,7 @@ void add_lamp(Scene& scene, double irradiance, double reach, Random& random) {
     scene.lights.push_back({centre + width * random.direction(), irradiance / POINTS, 640});
 }
 
-void add_lights(Scene& scene, Random random) {
+void add_lights(SimulatedScene& scene, Random random) {
   const double reach = reach_m(scene);
   const double exposure = random.uniform(0.75, 1.3);
   const double lamps = exposure * random.uniform(0.4, 0.75), share = random.uniform(0.55, 0.85);
@@ -198,7 +198,7 @@ void add_lights(Scene& scene, Random random) {
 }
 
 // Either a wide board that fills the view, or a sheet whose own edges are seen.
-void lay_board(Scene& scene, double diameter_m, Random random) {
+void lay_board(SimulatedScene& scene, double diameter_m, Random random) {
   constexpr double TEXELS_PER_PIXEL = 1.0;
   constexpr int LARGEST_PX = 4096;
   double pixel_m = std::numeric_limits<double>::infinity(), seen_m = 0;
@@ -225,7 +225,7 @@ void lay_board(Scene& scene, double diameter_m, Random random) {
 
 }  // namespace
 
-Scene make_scene(std::span<const Object> objects, const RenderOptions& options) {
+SimulatedScene make_scene(std::span<const Object> objects, const RenderOptions& options) {
   options.validate();
   if (objects.empty()) throw InputError("render: found no model, expected at least one");
   for (const Object& object : objects)
@@ -233,7 +233,7 @@ Scene make_scene(std::span<const Object> objects, const RenderOptions& options) 
       throw InputError(object.mesh.name, "triangles", "none", "at least one");
   const Random random(options.seed);
   const double diameter_m = mean_diameter_m(objects);
-  Scene scene;
+  SimulatedScene scene;
   scene.options = options;
   scene.objects.assign(objects.begin(), objects.end());
   add_targets(scene, random.split("targets"));

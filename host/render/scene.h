@@ -1,8 +1,8 @@
-// Scenes with known poses: parts lying or piled on a printed board, lights, and cameras on a
-// hemisphere.
+// Makes scenes with known poses: parts on a printed board, apart or in a pile, with lights and with
+// cameras on a hemisphere.
 //
-// World frame: the board is the plane z = 0, +z up, metres. A scene is fully determined by its
-// objects and options.
+// World frame: the board is the plane z = 0, +z up, metres. Objects and options determine a scene
+// completely.
 #pragma once
 
 #include <span>
@@ -17,19 +17,19 @@ struct RenderOptions {
   int width = 1024;
   int height = 768;
   double focal_px = 1200;
-  int objects = 8;    // instances, dealt evenly over the models; [1, 20]
+  int objects = 8;    // instances, divided evenly among the models; [1, 20]
   int views = 1;      // [1, 50]
   int clutter = 1;    // 0: bare board; 1: printed shapes and 3 foreign parts; 2: many and 8
-  double pile = 0.5;  // 0: apart, nothing hides anything; 1: all dropped on one heap
+  double pile = 0.5;  // 0: all apart, nothing hides anything; 1: all dropped on one pile
   double min_elevation_deg = 35;  // of the cameras over the board; [10, 90]
   double max_elevation_deg = 80;
-  double min_distance_m =
-      0;  // camera to the middle of the parts; both 0: so that they fill the image
+  // Camera to the middle of the parts. Both 0: such that the parts fill the image.
+  double min_distance_m = 0;
   double max_distance_m = 0;
   double blur_px = 0.6;   // standard deviation of a Gaussian; [0, 10]
   double noise_grey = 2;  // the same, grey levels; [0, 50]
-  int supersampling =
-      3;  // samples a pixel and axis; odd, so that one sits on the pixel's centre; [1, 7]
+  // Samples per pixel and axis; odd, so that one sample is at the pixel's centre; [1, 7].
+  int supersampling = 3;
   bool shadows = true;
   // Throws InputError naming the field and the violated bound.
   void validate() const;
@@ -42,17 +42,17 @@ struct Material {
 };
 
 struct PlacedObject {
-  int object = 0;  // index into Scene::objects
+  int object = 0;  // index into SimulatedScene::objects
   Se3 world_from_object;
   Material material;
-  bool target = true;  // false: a foreign part, no ground truth is written
+  bool target = true;  // false: a foreign part, for which no ground truth is written
 };
 
 struct Light {
   Eigen::Vector3d position_m;
-  // at the world's origin on a surface facing the light; falls with the squared distance
+  // At the world's origin on a surface that faces the light. Falls with the squared distance.
   double irradiance = 0;
-  int shadow_px = 512;  // side of its shadow map: fewer, softer
+  int shadow_px = 512;  // side of its shadow map; smaller is softer
 };
 
 struct SceneView {
@@ -60,12 +60,13 @@ struct SceneView {
   Se3 camera_from_world;
 };
 
-struct Scene {
+// Not the Scene of register/scene.h, which holds what registration works on.
+struct SimulatedScene {
   RenderOptions options;
   std::vector<Object> objects;  // the targets' models first, then the foreign parts'
   std::vector<PlacedObject> placed;
-  std::vector<Light> lights;  // key lights as clusters of points, then the sky
-  double ambient = 0.05;      // irradiance that comes from everywhere and casts no shadow
+  std::vector<Light> lights;  // lamps as clusters of points, then the sky
+  double ambient = 0.05;      // irradiance from all directions, without shadows
   Image board;  // print, albedo * 255, over the square of board_side_m about the origin
   double board_side_m = 0;
   Se3 world_from_board;      // turns and shifts it in its plane
@@ -73,7 +74,7 @@ struct Scene {
   std::vector<SceneView> views;
 };
 
-// InputError: options out of range, no object, an object without triangles.
-Scene make_scene(std::span<const Object> objects, const RenderOptions& options);
+// InputError: options out of bounds, no object, an object without triangles.
+SimulatedScene make_scene(std::span<const Object> objects, const RenderOptions& options);
 
 }  // namespace edgescout

@@ -23,7 +23,7 @@ struct Shell {
   }
 };
 
-// A plane face; `x` and `y` span it, x cross y points outwards.
+// A plane face. `x` and `y` span it; x cross y points outwards.
 void add_face(Shell& shell, const Eigen::Vector3d& x, const Eigen::Vector3d& y,
               const Loop3d& outline, const std::vector<Loop3d>& holes) {
   const auto flat = [&](const Loop3d& loop) {
@@ -41,8 +41,8 @@ void add_face(Shell& shell, const Eigen::Vector3d& x, const Eigen::Vector3d& y,
     shell.add(corners[a], corners[b], corners[c]);
 }
 
-// The wall between two loops of equal length. Seen from outside, `bottom` runs to the right and
-// `top` lies above it.
+// Adds the wall between two loops of equal length. Seen from outside, `bottom` goes to the right
+// and `top` lies above it.
 void add_wall(Shell& shell, const Loop3d& bottom, const Loop3d& top) {
   for (std::size_t i = 0; i < bottom.size(); ++i) {
     const std::size_t j = (i + 1) % bottom.size();

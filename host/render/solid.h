@@ -1,6 +1,6 @@
-// Closed solids by extrusion and revolution, made of triangles that share every corner.
+// Makes closed solids by extrusion and revolution, of triangles that share every corner.
 //
-// Lengths here are millimetres, as on a drawing; `finish` converts.
+// Lengths are in millimetres, as on a drawing. The returned meshes are in metres.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace edgescout {
 
-// A round hole straight through two parallel sides of an extrusion. Side i runs from corner i to
+// A straight round hole through two parallel sides of an extrusion. Side i goes from corner i to
 // corner i + 1 of the outline.
 struct CrossHole {
   int from_side = 0;
@@ -23,21 +23,21 @@ struct CrossHole {
 
 struct Extrusion {
   Loop2d outline_mm;                   // counter-clockwise
-  std::vector<Loop2d> holes_mm;        // clockwise; right through, along z
-  std::vector<CrossHole> cross_holes;  // must not meet each other nor the holes
+  std::vector<Loop2d> holes_mm;        // clockwise; through the whole solid, along z
+  std::vector<CrossHole> cross_holes;  // must not meet each other or the holes
   double height_mm = 0;                // z from 0 to here
 };
 
-// Circle for a hole (clockwise) or an outline (counter-clockwise).
+// Returns a circle for a hole (clockwise) or an outline (counter-clockwise).
 Loop2d circle(const Eigen::Vector2d& centre_mm, double radius_mm, bool clockwise, int corners = 32);
 
-// Object frame: centre of the bounding box.
+// The origin of the object frame is the centre of the bounding box.
 Mesh extrude(const std::string& name, const Extrusion& extrusion);
-// `profile_mm` is a closed counter-clockwise loop of (r, z), r >= 0, turned about z. Corners with r
-// = 0 lie on the axis.
+// Turns `profile_mm` about z: a closed counter-clockwise loop of (r, z), r >= 0. Corners with r = 0
+// lie on the axis.
 Mesh revolve(const std::string& name, const Loop2d& profile_mm, int segments = 48);
 
-// Volume enclosed by a closed mesh, m^3; positive where its triangles face outwards.
+// Returns the volume of a closed mesh, m^3; positive if its triangles face outwards.
 double enclosed_volume_m3(const Mesh& mesh);
 
 }  // namespace edgescout

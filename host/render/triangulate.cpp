@@ -66,8 +66,8 @@ class EarClipper {
     return {ring_[(i + n - 1) % n], ring_[i], ring_[(i + 1) % n]};
   }
 
-  // Joins a hole to the ring by the shortest segment that crosses nothing: the ring walks in, round
-  // the hole, and back.
+  // Joins a hole to the ring by the shortest segment that crosses nothing. The ring then goes to
+  // the hole, around it, and back.
   void bridge(const std::vector<std::vector<int>>& holes, std::size_t which) {
     const std::vector<int>& hole = holes[which];
     double shortest = std::numeric_limits<double>::infinity();
@@ -89,7 +89,7 @@ class EarClipper {
     ring_.insert(ring_.begin() + static_cast<std::ptrdiff_t>(from) + 1, walk.begin(), walk.end());
   }
 
-  // Is the point within the wedge of the polygon's inside at ring corner r?
+  // Returns whether the point lies in the wedge of the polygon's inside at ring corner r.
   bool opens_inwards(std::size_t r, int point) const {
     const auto [before, at, after] = corner(r);
     const Eigen::Vector2d &a = points_[before], &b = points_[at], &c = points_[after],
@@ -111,8 +111,8 @@ class EarClipper {
                                          holes.end(), crosses);
   }
 
-  // How far the corner is from a sliver: 2 * area over the squared longest side; not positive where
-  // it is no ear.
+  // Measures how far the corner's triangle is from a sliver: 2 * area over the squared longest
+  // side. Not positive if the corner is no ear.
   double quality(std::size_t i) const {
     const auto [ia, ib, ic] = corner(i);
     const Eigen::Vector2d &a = points_[ia], &b = points_[ib], &c = points_[ic];
@@ -140,7 +140,7 @@ class EarClipper {
   }
 
   Loop2d points_;
-  std::vector<int> ring_;  // the outline and, once bridged, its holes, as one loop
+  std::vector<int> ring_;  // the outline and the holes joined to it so far, as one loop
 };
 
 }  // namespace

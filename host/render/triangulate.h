@@ -1,4 +1,4 @@
-// Triangles of a planar polygon with holes, by ear clipping.
+// Triangulates a planar polygon with holes by ear clipping.
 #pragma once
 
 #include <array>
@@ -8,13 +8,13 @@
 
 namespace edgescout {
 
-// Closed loop of corners; the last is joined to the first. No two neighbouring edges may be
-// parallel at a corner.
+// A closed loop of corners; the last is joined to the first. Two neighbouring edges must not be
+// parallel at their corner.
 using Loop2d = std::vector<Eigen::Vector2d>;
 
-// `outline` counter-clockwise, `holes` clockwise, disjoint and inside it. Indices into outline,
-// hole 0, hole 1 .. one after the other; triangles counter-clockwise. LogicError where the loops
-// are not such a polygon.
+// `outline` is counter-clockwise. `holes` are clockwise, disjoint and inside it. Returns
+// counter-clockwise triangles of indices into outline, hole 0, hole 1 .. one after the other.
+// LogicError: the loops are not such a polygon.
 std::vector<std::array<int, 3>> triangulate(const Loop2d& outline,
                                             const std::vector<Loop2d>& holes);
 

@@ -41,14 +41,14 @@ json model_info(const Object& object, const std::map<int, Eigen::Vector3d>& turn
     return info;
   }
   for (std::size_t i = 1; i < object.symmetries.discrete.size();
-       ++i)  // the identity goes without saying
+       ++i)  // BOP does not list the identity
     info["symmetries_discrete"].push_back(matrix_mm(object.symmetries.discrete[i]));
   return info;
 }
 
 }  // namespace
 
-void write_bop_scene(const Scene& scene, std::span<const Rendering> renderings,
+void write_bop_scene(const SimulatedScene& scene, std::span<const Rendering> renderings,
                      const std::filesystem::path& folder) {
   check(renderings.size() == scene.views.size(), "write_bop_scene: one rendering a view");
   require_writable_folder(folder / "gray");

@@ -49,6 +49,30 @@ Case tensor_case(Backend& backend, const Scale& s) {
           }};
 }
 
+// The templates of one region: the points of a template set's viewpoints under many poses.
+Case projection_case(Backend& backend, const Scale& s) {
+  std::mt19937 rng(7);
+  constexpr std::uint32_t viewpoints = 162, points = 60;
+  const Poses poses = random_poses(rng, s.templates, viewpoints * points);
+  const ModelPointsHandle kept = backend.make_model_points(poses.points);
+  const float focal = 1.2f * float(s.coarse_width), x = 0.5f * float(s.coarse_width),
+              y = 0.5f * float(s.coarse_height);
+  const TemplateProjectOptions options{{focal, focal, x, y}, TensorOptions{}.bins, 0.01f};
+  std::vector<TemplateProjectJob> jobs;
+  for (std::uint32_t t = 0; t < poses.problems.size(); ++t)
+    jobs.push_back(
+        {poses.problems[t].camera_from_object, t % viewpoints * points, points, t * points, x, y});
+  const auto projected = std::make_shared<std::vector<TemplatePoint>>(jobs.size() * points);
+  const auto too_near = std::make_shared<std::vector<std::uint32_t>>(jobs.size());
+  return {"template_project",
+          std::to_string(s.templates) + " templates of " + std::to_string(points) + " points",
+          poses.points.size() * sizeof(ModelPoint) + jobs.size() * sizeof(TemplateProjectJob) +
+              projected->size() * sizeof(TemplatePoint),
+          [&backend, kept, options, jobs, projected, too_near] {
+            backend.template_project(*kept, jobs, options, *projected, *too_near);
+          }};
+}
+
 Case template_case(Backend& backend, const Scale& s, std::uint32_t columns, std::uint32_t rows) {
   std::mt19937 rng(2);
   const TensorOptions options;
@@ -187,7 +211,8 @@ std::vector<Case> next_view_cases(Backend& backend, const HypothesesSize& size) 
 std::vector<Case> make_cases(Backend& backend, Size size) {
   const Scale s = scale_of(size);
   std::vector<Case> cases{edge_case(backend, s), tensor_case(backend, s),
-                          template_case(backend, s, 1, 1), template_case(backend, s, 16, 12)};
+                          projection_case(backend, s), template_case(backend, s, 1, 1),
+                          template_case(backend, s, 16, 12)};
   for (Case& c : pose_cases(backend, s)) cases.push_back(std::move(c));
   cases.push_back(depth_case(backend, s));
   for (Case& c : next_view_cases(backend, s.hypotheses)) cases.push_back(std::move(c));

@@ -13,6 +13,7 @@
 #include "kernels/gpu/mutual_information.h"
 #include "kernels/gpu/pose_normal_equations.h"
 #include "kernels/gpu/pose_score.h"
+#include "kernels/gpu/template_project.h"
 #include "kernels/gpu/template_score.h"
 #include "kernels/thread_pool.h"
 
@@ -47,6 +48,18 @@ class VulkanView : public BackendView {
  public:
   DeviceTensor values;
   Buffer<std::int16_t> gradient_x2;
+};
+
+class VulkanModelPoints : public BackendModelPoints {
+ public:
+  explicit VulkanModelPoints(std::shared_ptr<const Device> device) : device_(std::move(device)) {}
+  const Device& device() const { return *device_; }
+
+ private:
+  std::shared_ptr<const Device> device_;
+
+ public:
+  Buffer<float> planes;
 };
 
 class VulkanChamfer : public BackendChamfer {
@@ -84,6 +97,7 @@ class VulkanBackend : public Backend {
         builder_(*device_),
         edges_(*device_),
         templates_(*device_),
+        projector_(*device_),
         systems_(*device_),
         scorer_(*device_),
         raster_(*device_),
@@ -146,6 +160,35 @@ class VulkanBackend : public Backend {
       templates_.record(batch, tensor, points, jobs.subspan(first, count), anchor_step,
                         hits.subspan(first, count));
       run(batch);
+    }
+  }
+
+  ModelPointsHandle make_model_points(std::span<const ModelPoint> points) override {
+    check_template_points(points);
+    const ModelPointPlanes planes(points);
+    auto made = std::make_shared<VulkanModelPoints>(device_);
+    made->count = planes.count();
+    made->planes.reserve(*device_, planes.values().size(), "templates' model points");
+    Batch batch(*device_, "model points upload");
+    batch.upload(made->planes, planes.values());
+    run(batch);
+    return made;
+  }
+
+  void template_project(const BackendModelPoints& points, std::span<const TemplateProjectJob> jobs,
+                        const TemplateProjectOptions& options, std::span<TemplatePoint> projected,
+                        std::span<std::uint32_t> too_near) override {
+    const auto* mine = dynamic_cast<const VulkanModelPoints*>(&points);
+    check(mine != nullptr && &mine->device() == device_.get(), "model points of another backend");
+    check_template_project(mine->count, jobs, options, projected.size(), too_near.size());
+    for (std::size_t first = 0, count = 0; first < jobs.size(); first += count) {
+      count = projector_.that_fit(jobs.subspan(first));
+      const auto some = jobs.subspan(first, count);
+      Batch batch(*device_, "template_project");
+      projector_.record(batch, mine->planes, some, options);
+      projector_.download(batch);
+      run(batch);
+      projector_.collect(some, projected, too_near.subspan(first, count));
     }
   }
 
@@ -259,6 +302,7 @@ class VulkanBackend : public Backend {
   DcdTensorBuilder builder_;
   EdgeDetect edges_;
   TemplateScore templates_;
+  TemplateProject projector_;
   PoseNormalEquations systems_;
   PoseScorer scorer_;
   DepthRaster raster_;

@@ -13,14 +13,14 @@ TEST(CandidateScene, HoldsEdgesAndSurfacesOfEveryView) {
   Plan t(3);
   const Camera camera = scaled(test_camera(), 0.25);
   const CandidateScene scene = draw_candidates(t.models, t.candidates, camera, t.views, *t.backend,
-                                               t.options.visibility, t.options.tolerance);
+                                               {t.options.visibility, t.options.tolerance});
   ASSERT_EQ(scene.maps.size(), t.views.size() * 3);
   ASSERT_EQ(scene.tolerance_m.size(), 3u);
   for (std::size_t c = 0; c < 3; ++c)
-    EXPECT_FLOAT_EQ(scene.seen_from(1).tolerance_m[c],
+    EXPECT_FLOAT_EQ(scene.chamfer_view(1).tolerance_m[c],
                     float(0.1 * t.models[c % 2].mesh.diameter_m));
   for (std::size_t v = 0; v < t.views.size(); v += 3) {
-    const ChamferView seen = scene.seen_from(v);
+    const ChamferView seen = scene.chamfer_view(v);
     for (std::size_t c = 0; c < 3; ++c) {
       const Se3 pose = t.views[v] * t.candidates[c].world_from_object;
       const EdgeModel& model = t.models[t.candidates[c].object];

@@ -1,4 +1,4 @@
-// Candidates of several images: what any of them shows.
+// Candidates found in several images.
 #include "host/active/candidates.h"
 
 #include <gtest/gtest.h>
@@ -14,16 +14,18 @@ namespace {
 // From three places; the last image shows nothing at all.
 struct BlankLast : SmallCell {
   DetectOptions options = SmallCell::options().pipeline.detect;
-  std::vector<Observation> images;
+  std::vector<ScannedView> images;
 
   BlankLast() {
     SimulatedCell cell = source();
     for (const int view : {0, 2, 4}) {
       Shot shot = cell.acquire(view);
       if (view == 4) std::ranges::fill(shot.image.pixels, 128);
-      images.push_back(observe_prepared(
-          prepare_image(shot.image, camera(), shot.camera_from_world, *backend, {}), sets, *backend,
-          {}));
+      std::vector<StageSeconds> stages;
+      ObjectView image =
+          prepare_view(shot.image, camera(), shot.camera_from_world, *backend, {}, &stages);
+      add_tensors(image, sets, *backend, {});
+      images.push_back({image, {}});
     }
   }
   bool is_right(const Se3& world_from_object) const {
@@ -34,13 +36,14 @@ struct BlankLast : SmallCell {
 
 TEST(Candidates, AreFoundWhereTheNewestImageShowsNothing) {
   BlankLast t;
-  const auto in_world = [&](const Refined& r) {
-    return inverse(t.images[2].view.camera_from_world) * r.registration.world_from_object;
+  const std::vector<ObjectView> views = views_of(t.images);
+  const auto in_world = [&](const PoseEstimate& r) {
+    return inverse(views[2].camera_from_world) * r.world_from_object;
   };
-  for (const Refined& r : find_candidates(t.sets[0], t.images[2], std::span(t.images).first(2), {},
-                                          *t.backend, t.options))
+  const ObjectSearch in_newest{t.sets[0], views[2], std::span(views).first(2), *t.backend};
+  for (const PoseEstimate& r : find_candidates(in_newest, {}, t.options))
     EXPECT_FALSE(t.is_right(in_world(r))) << "by its own hits";
-  for (Observation& image : t.images) scan_for(t.sets, image, *t.backend, t.options.scan);
+  for (ScannedView& image : t.images) scan_once(t.sets, image, *t.backend, t.options.scan);
   const std::vector<Detection> found =
       candidates_in_images(t.sets, t.images, {}, *t.backend, t.options);
   ASSERT_FALSE(found.empty());
@@ -53,14 +56,14 @@ TEST(Candidates, AreFoundWhereTheNewestImageShowsNothing) {
 TEST(Candidates, NeedImagesThatWereScanned) {
   BlankLast t;
   EXPECT_THROW(candidates_in_images(t.sets, t.images, {}, *t.backend, t.options), LogicError);
-  scan_for(t.sets, t.images[0], *t.backend, t.options.scan);
+  scan_once(t.sets, t.images[0], *t.backend, t.options.scan);
   const auto hits = t.images[0].hits;
-  scan_for(t.sets, t.images[0], *t.backend, t.options.scan);
+  scan_once(t.sets, t.images[0], *t.backend, t.options.scan);
   EXPECT_EQ(t.images[0].hits, hits) << "once";
 }
 
-// However certain their views make what stands in one another's way.
-TEST(Candidates, KeepAPlaceForWhatHasNobodyInItsWay) {
+// However certain the views make poses that collide with each other.
+TEST(Candidates, KeepAPlaceForPosesThatCollideWithNothing) {
   const SmallCell t;
   const std::vector<EdgeModel> models = models_of(t.sets);
   const auto at = [&](double diameters, double probability) {

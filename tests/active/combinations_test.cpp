@@ -12,14 +12,14 @@
 namespace edgescout::test {
 namespace {
 
-BitMatrix all_together(std::size_t count) {
+BitMatrix all_compatible(std::size_t count) {
   BitMatrix pairs(count, count);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < count; ++j) pairs.set(i, j);
   return pairs;
 }
 
-BitMatrix each_alone(std::size_t count) {
+BitMatrix all_colliding(std::size_t count) {
   BitMatrix pairs(count, count);
   for (std::size_t i = 0; i < count; ++i) pairs.set(i, i);
   return pairs;
@@ -53,7 +53,7 @@ void follow(const std::vector<double>& weights, const BitMatrix& plausible, int 
 
 TEST(SampleCombinations, HasTheDistributionOfAlgorithm1) {
   const std::vector<double> psi{0.95, 0.2, 0.7, 0.5, 0.85};
-  BitMatrix plausible = each_alone(5);
+  BitMatrix plausible = all_colliding(5);
   for (auto [i, j] : {std::pair(0, 2), {1, 2}, {0, 4}, {2, 3}, {3, 4}, {1, 4}})
     plausible.set(i, j), plausible.set(j, i);
   CombinationOptions options;
@@ -75,10 +75,10 @@ TEST(SampleCombinations, HasTheDistributionOfAlgorithm1) {
         << std::hex << set;
 }
 
-TEST(SampleCombinations, NeverJoinsWhatClashes) {
+TEST(SampleCombinations, NeverJoinsCollidingCandidates) {
   Random random = test_random();
   const std::size_t count = 70;  // more than two words
-  BitMatrix plausible = each_alone(count);
+  BitMatrix plausible = all_colliding(count);
   for (std::size_t i = 0; i < count; ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (random.uniform() < 0.8) plausible.set(i, j), plausible.set(j, i);
@@ -100,29 +100,29 @@ TEST(SampleCombinations, NeverJoinsWhatClashes) {
 
 TEST(SampleCombinations, DependsOnTheSeedAlone) {
   const std::vector<double> psi(40, 0.8);
-  const BitMatrix a = sample_combinations(psi, all_together(40), {100, 3, 1}),
-                  b = sample_combinations(psi, all_together(40), {100, 3, 1});
+  const BitMatrix a = sample_combinations(psi, all_compatible(40), {100, 3, 1}),
+                  b = sample_combinations(psi, all_compatible(40), {100, 3, 1});
   EXPECT_EQ(a.words, b.words);
-  EXPECT_NE(a.words, sample_combinations(psi, all_together(40), {100, 4, 1}).words);
+  EXPECT_NE(a.words, sample_combinations(psi, all_compatible(40), {100, 4, 1}).words);
 }
 
 TEST(SampleCombinations, SharpnessPrefersTheGood) {
   std::vector<double> psi(20, 0.5);
   psi[3] = 0.95;
   const auto share = [&](double sharpness) {
-    const BitMatrix drawn = sample_combinations(psi, each_alone(20), {4000, 1, sharpness});
+    const BitMatrix drawn = sample_combinations(psi, all_colliding(20), {4000, 1, sharpness});
     double with = 0;
     for (std::size_t j = 0; j < drawn.rows; ++j) with += drawn.has(j, 3);
     return with / drawn.rows;
   };
-  EXPECT_NEAR(share(0), 0.05, 0.015);  // all clash: the first draw stays, and all are alike
+  EXPECT_NEAR(share(0), 0.05, 0.015);  // all collide: the first draw stays, and all are alike
   EXPECT_NEAR(share(20), std::exp(-0.05) / (std::exp(-0.05) + 19 * std::exp(-5.0)), 0.02);
 }
 
-// All pairs clash: what is left are scenes of one object, and the empty one where no coin fell.
+// All pairs collide: combinations of one object remain, and the empty one where nothing was drawn.
 TEST(SampleCombinations, AllImplausibleLeavesSingleObjects) {
   const BitMatrix drawn =
-      sample_combinations(std::vector<double>(8, 0.9), each_alone(8), {4000, 1, 1});
+      sample_combinations(std::vector<double>(8, 0.9), all_colliding(8), {4000, 1, 1});
   int empty = 0;
   for (std::size_t j = 0; j < drawn.rows; ++j) {
     const int members = std::popcount(row_of(drawn, j));
@@ -132,30 +132,30 @@ TEST(SampleCombinations, AllImplausibleLeavesSingleObjects) {
   EXPECT_NEAR(empty / 4000.0, 1 / 256.0, 0.005);
 }
 
-// Probability of every scene, by asking each candidate in turn.
-void ask(const std::vector<double>& probabilities, const BitMatrix& plausible,
-         const std::vector<std::size_t>& order, std::size_t asked, std::uint32_t set,
-         double probability, std::map<std::uint32_t, double>& outcome) {
-  if (asked == order.size()) {
+// Probability of every combination: each candidate is in it or not, one after the other.
+void enumerate(const std::vector<double>& probabilities, const BitMatrix& plausible,
+               const std::vector<std::size_t>& order, std::size_t done, std::uint32_t set,
+               double probability, std::map<std::uint32_t, double>& outcome) {
+  if (done == order.size()) {
     outcome[set] += probability;
     return;
   }
-  const std::size_t c = order[asked];
+  const std::size_t c = order[done];
   bool fits = true;
   for (std::size_t m = 0; m < order.size(); ++m) fits &= !(set >> m & 1) || plausible.has(c, m);
   const double p = fits ? probabilities[c] : 0;
-  ask(probabilities, plausible, order, asked + 1, set, probability * (1 - p), outcome);
+  enumerate(probabilities, plausible, order, done + 1, set, probability * (1 - p), outcome);
   if (fits)
-    ask(probabilities, plausible, order, asked + 1, set | 1u << c, probability * p, outcome);
+    enumerate(probabilities, plausible, order, done + 1, set | 1u << c, probability * p, outcome);
 }
 
 TEST(SampleProbableCombinations, HasTheProbabilitiesOfTheCandidates) {
   const std::vector<double> probabilities{0.3, 0.9, 0.05, 0.6, 0.5};
-  BitMatrix plausible = all_together(5);
+  BitMatrix plausible = all_compatible(5);
   for (auto [i, j] : {std::pair(0, 1), {3, 4}})
     plausible.words[i] &= ~(1u << j), plausible.words[j] &= ~(1u << i);
   std::map<std::uint32_t, double> expected, found;
-  ask(probabilities, plausible, {1, 3, 4, 0, 2}, 0, 0, 1, expected);
+  enumerate(probabilities, plausible, {1, 3, 4, 0, 2}, 0, 0, 1, expected);
   CombinationOptions options;
   options.count = 400000;
   const BitMatrix drawn = sample_probable_combinations(probabilities, plausible, options);
@@ -166,10 +166,10 @@ TEST(SampleProbableCombinations, HasTheProbabilitiesOfTheCandidates) {
         << std::hex << set;
 }
 
-// What is certain is still left out now and then, what is ruled out still imagined.
+// A certain candidate is still left out at times, and an impossible one is still in some.
 TEST(SampleProbableCombinations, IsNeverCertain) {
   const BitMatrix drawn =
-      sample_probable_combinations(std::vector<double>{0, 1}, all_together(2), {20000, 1, 1});
+      sample_probable_combinations(std::vector<double>{0, 1}, all_compatible(2), {20000, 1, 1});
   double first = 0, second = 0;
   for (std::size_t j = 0; j < drawn.rows; ++j) first += drawn.has(j, 0), second += drawn.has(j, 1);
   EXPECT_NEAR(first / drawn.rows, 0.02, 0.005);
@@ -179,7 +179,7 @@ TEST(SampleProbableCombinations, IsNeverCertain) {
 TEST(SampleProbableCombinations, DependsOnTheSeedAlone) {
   const std::vector<double> probabilities(40, 0.5);
   const auto words = [&](std::uint64_t seed) {
-    return sample_probable_combinations(probabilities, all_together(40), {100, seed, 1}).words;
+    return sample_probable_combinations(probabilities, all_compatible(40), {100, seed, 1}).words;
   };
   EXPECT_EQ(words(3), words(3));
   EXPECT_NE(words(3), words(4));
@@ -194,18 +194,18 @@ TEST(SampleCombinations, NeedsACandidate) {
   expect_input_error([] { sample_combinations({}, BitMatrix(0, 0), {}); }, {"candidates", "none"});
   expect_input_error(
       [] {
-        sample_combinations(std::vector<double>{1}, all_together(1), {0, 1, 1});
+        sample_combinations(std::vector<double>{1}, all_compatible(1), {0, 1, 1});
       },
       {"combinations.count"});
   expect_input_error(
       [] {
-        sample_combinations(std::vector<double>{1}, all_together(1), {1, 1, -1});
+        sample_combinations(std::vector<double>{1}, all_compatible(1), {1, 1, -1});
       },
       {"combinations.sharpness"});
 }
 
-// Probabilities of all eight scenes of three candidates, multiplied out: 0.9 or 0.1, 0.3 or 0.7,
-// 0.6 or 0.4.
+// Probabilities of all eight combinations of three candidates, multiplied out: 0.9 or 0.1, 0.3 or
+// 0.7, 0.6 or 0.4.
 TEST(ExtremeCombinations, AreTheMostAndTheLeastProbable) {
   const std::vector<double> probabilities{0.9, 0.3, 0.6};
   const auto extremes = [&](std::initializer_list<std::uint32_t> rows) {
@@ -220,13 +220,13 @@ TEST(ExtremeCombinations, AreTheMostAndTheLeastProbable) {
   EXPECT_EQ(some.likeliest, (std::vector{0}));
   EXPECT_EQ(some.unlikeliest, (std::vector{1, 2}));
   const CombinationExtremes none = extremes({0, 2});
-  EXPECT_TRUE(none.likeliest.empty()) << "a scene without objects";
+  EXPECT_TRUE(none.likeliest.empty()) << "a combination without objects";
   EXPECT_EQ(none.unlikeliest, (std::vector{1}));
   EXPECT_TRUE(extremes({}).likeliest.empty() && extremes({}).unlikeliest.empty());
 }
 
-// One nobody doubts and one nobody believes in leave the others to decide.
-TEST(ExtremeCombinations, BearCertainty) {
+// A certain candidate and an impossible one leave the decision to the others.
+TEST(ExtremeCombinations, HandleCertainCandidates) {
   BitMatrix combinations(3, 3);
   combinations.words = {0b001, 0b101, 0b011};
   const CombinationExtremes extremes =

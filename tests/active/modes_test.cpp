@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "host/detect/probability_over_views.h"
+#include "host/register/pose_classifier.h"
 #include "kernels/thread_pool.h"
 #include "tests/active/rendered_scene.h"
 #include "tests/test_random.h"
@@ -13,7 +13,7 @@ namespace edgescout::test {
 namespace {
 
 // Features that make a pose probable or not, whatever it is.
-PoseFeatures features(bool probable) {
+PoseFeatures features_of(bool probable) {
   PoseFeatures f;
   f.psi = probable ? 0.95 : 0.3;
   f.mean_px = probable ? 1 : 9;
@@ -30,7 +30,7 @@ Particle particle(int object, const Se3& pose, double weight, bool probable) {
   p.object = object;
   p.world_from_object = pose;
   p.log_weight = std::log(weight);
-  p.by_view = {features(probable)};
+  p.features = {features_of(probable)};
   p.covariance.setIdentity();
   return p;
 }
@@ -42,9 +42,9 @@ struct Nuts {
   mutable ThreadPool threads{1};
 };
 
-// With a small sigma one particle has all the weight that a number can say; another that is as
+// With a small sigma one particle has all the weight that a double can hold. Another one that is as
 // probable by its images stays a mode and keeps its particles.
-TEST(FindModes, ForgetsNoneForBeingLight) {
+TEST(FindModes, KeepsLightModes) {
   const Nuts t;
   std::vector<Particle> particles;
   for (const double x_m : {0.0, 0.3})
@@ -65,7 +65,7 @@ TEST(FindModes, ForgetsNoneForBeingLight) {
   EXPECT_EQ(light, std::size_t(t.options.min_per_mode));
 }
 
-TEST(FindModes, JoinsSymmetricPosesAndNothingElse) {
+TEST(FindModes, JoinsOnlySymmetricPoses) {
   Random random = test_random();
   const Nuts t;
   const Se3 here{random.rotation(), {0, 0, 0.5}}, there{random.rotation(), {0.2, 0, 0.5}};
@@ -90,21 +90,21 @@ TEST(FindModes, JoinsSymmetricPosesAndNothingElse) {
   EXPECT_LT(modes[1].probability, 0.05);
 }
 
-TEST(FindModes, DoubtsWhatStandsInAMoreProbableMode) {
+TEST(FindModes, LowersTheProbabilityInsideAMoreProbableMode) {
   Random random = test_random();
   const Nuts t;
   const Se3 here{random.rotation(), {0, 0, 0.5}}, there{random.rotation(), {0.3, 0, 0.5}};
   std::vector<Particle> particles{particle(0, here, 0.4, true), particle(1, here, 0.3, true),
                                   particle(1, there, 0.2, true)};
-  particles[1].by_view[0].psi -= 0.05;
+  particles[1].features[0].psi -= 0.05;
   const double alone = find_modes(particles, t.sets, t.models, t.options, t.threads)[1].probability;
-  EXPECT_EQ(alone, probability_over_views(particles[1].by_view))
-      << "one view does not tell how far away";
-  for (Particle& p : particles) p.by_view.push_back(p.by_view[0]);
+  EXPECT_EQ(alone, PoseClassifier::probability(particles[1].features))
+      << "one view does not determine the distance";
+  for (Particle& p : particles) p.features.push_back(p.features[0]);
   const std::vector<Mode> modes = find_modes(particles, t.sets, t.models, t.options, t.threads);
   ASSERT_EQ(modes.size(), 3u);
-  const double first = probability_over_views(particles[0].by_view),
-               second = probability_over_views(particles[1].by_view);
+  const double first = PoseClassifier::probability(particles[0].features),
+               second = PoseClassifier::probability(particles[1].features);
   ASSERT_GT(first, second);
   ASSERT_GT(second, 0.01);
   EXPECT_EQ(modes[0].probability, first);
@@ -196,10 +196,10 @@ TEST(BeliefEntropy, IsZeroWhereAllIsCertain) {
   Mode sure, open;
   sure.probability = 1;
   open.probability = 0.5;
-  Mode gone;
-  gone.probability = 0;
+  Mode absent;
+  absent.probability = 0;
   EXPECT_EQ(belief_entropy({}), 0);
-  EXPECT_EQ(belief_entropy(std::vector<Mode>{sure, gone, sure}), 0);
+  EXPECT_EQ(belief_entropy(std::vector<Mode>{sure, absent, sure}), 0);
   EXPECT_NEAR(belief_entropy(std::vector<Mode>{sure, open, open}), 2 * std::log(2.0), 1e-12);
 }
 

@@ -1,4 +1,4 @@
-// What a view is said to tell.
+// The information that is expected of a view.
 #include "host/active/next_view.h"
 
 #include <gtest/gtest.h>
@@ -36,20 +36,20 @@ TEST(ViewInformation, IsTheSameOnEveryDevice) {
   Plan t;
   const std::vector<ViewInformation> fast = t.information(),
                                      reference = view_information(
-                                         t.planning(), *make_reference_backend(), t.options);
+                                         t.problem(*make_reference_backend()), t.options);
   for (std::size_t v = 0; v < fast.size(); ++v)
     EXPECT_NEAR(fast[v].information, reference[v].information,
                 1e-3 * (1 + reference[v].information));
   if (vulkan_devices().empty()) GTEST_SKIP() << "no Vulkan device";
   const std::vector<ViewInformation> device =
-      view_information(t.planning(), *make_vulkan_backend(0), t.options);
+      view_information(t.problem(*make_vulkan_backend(0)), t.options);
   for (std::size_t v = 0; v < fast.size(); ++v)
     EXPECT_NEAR(fast[v].information, device[v].information, 5e-3 * (1 + fast[v].information));
 }
 
-// More candidates than maps of all views fit at once: judged in blocks, and the same as each by
-// itself.
-TEST(ViewInformation, OfManyViewsIsThatOfEachByItself) {
+// So many candidates that the maps of all views do not fit at once: the result of the blocks is the
+// same as that of each view alone.
+TEST(ViewInformation, OfManyViewsIsThatOfEachAlone) {
   Plan t;
   const std::vector<Detection> few = t.candidates;
   for (std::size_t i = 0; t.candidates.size() < 300; ++i) {
@@ -68,9 +68,9 @@ TEST(ViewInformation, OfManyViewsIsThatOfEachByItself) {
   }
 }
 
-// A large object that is sought but nowhere believed in changes nothing: what the small ones hide
-// is a matter of their size.
-TEST(ViewInformation, DoesNotDependOnObjectsThatAreNotThere) {
+// A large object without candidates changes nothing: what the small ones hide depends on their own
+// size.
+TEST(ViewInformation, DoesNotDependOnObjectsWithoutCandidates) {
   Plan t;
   const std::vector<ViewInformation> before = t.information();
   Mesh large = make_part("l_bracket").mesh;
@@ -91,8 +91,8 @@ TEST(ViewInformation, DoesNotDependOnObjectsThatAreNotThere) {
   EXPECT_GT(differing, 0u) << "nothing was hidden in the first place";
 }
 
-// Nothing to tell apart: one particle, or all candidates in every combination.
-TEST(ViewInformation, IsZeroWhereNothingIsOpen) {
+// Nothing to distinguish: one particle, or all candidates in every combination.
+TEST(ViewInformation, IsZeroWhereNothingIsUncertain) {
   Plan t;
   t.particles.resize(1);
   for (const ViewInformation& v : t.information()) EXPECT_NEAR(v.information, 0, 1e-9);
@@ -112,14 +112,14 @@ TEST(ViewInformation, OfViewsThatSeeNothingIsZero) {
   EXPECT_EQ(views[3].information, 0);
   EXPECT_EQ(views[4].information, 0);
   EXPECT_GT(views[5].information, 0);
-  // None sees anything: said aloud, and the first open one is as good as any.
+  // None sees anything: a warning is logged, and the first open view is chosen.
   for (Se3& view : t.views) view = look_at({inverse(view).translation_m.x(), 0, 0.5}, {0, 0, 5});
   const CollectedLog log;
-  const std::vector<ViewInformation> blind = t.information();
-  for (const ViewInformation& v : blind) EXPECT_EQ(v.information, 0);
+  const std::vector<ViewInformation> unseeing = t.information();
+  for (const ViewInformation& v : unseeing) EXPECT_EQ(v.information, 0);
   ASSERT_EQ(log.messages.size(), 1u);
   EXPECT_NE(log.messages[0].second.find("no view promises"), std::string::npos);
-  EXPECT_EQ(best_view(blind), 1);
+  EXPECT_EQ(best_view(unseeing), 1);
   // Of equals the one of most share.
   std::vector<ViewInformation> equal(4, {true, 0, 0.5});
   equal[2].share = 0.9, equal[3] = {false, 0, 1};
@@ -142,8 +142,8 @@ TEST(ViewInformation, WithoutCandidatesOrParticlesIsZero) {
   }
 }
 
-// All candidates at one place: each combination is one of them or none, and there is still
-// something to learn.
+// All candidates at one place: each combination has one of them or none, and there is still some
+// information.
 TEST(ViewInformation, WorksWhereAllPairsAreImplausible) {
   Plan t;
   for (Detection& c : t.candidates) c.world_from_object.translation_m = {0, 0, 0.03};
@@ -158,7 +158,7 @@ TEST(ViewInformation, WorksWhereAllPairsAreImplausible) {
   for (std::size_t v = 1; v < views.size(); ++v) EXPECT_GT(views[v].information, 0);
 }
 
-TEST(ViewInformation, PrefersTheViewThatTellsHypothesesApart) {
+TEST(ViewInformation, PrefersTheViewThatDistinguishesPoses) {
   Plan t(1);
   t.candidates.clear();
   // Two brackets that differ by a shift along the line of sight of view `front`, hardly visible
@@ -183,9 +183,9 @@ TEST(ViewInformation, PrefersTheViewThatTellsHypothesesApart) {
   EXPECT_GT(views[1].information, 2 * views[0].information);
 }
 
-// Cameras on rings of 35 and 70 degrees: what is unknown leaves a line of sight free with the
-// sine's power, whatever the strategy knows besides.
-TEST(ViewInformation, IsWorthLessWhereTheUnknownMayHideMore) {
+// Cameras on rings of 35 and 70 degrees: a line of sight is free with a power of the elevation's
+// sine.
+TEST(ViewInformation, FallsWhereTheUnknownMayHideMore) {
   Plan t;
   const std::vector<ViewInformation> free = t.information();
   t.options.visibility_exponent = 2;
@@ -199,18 +199,17 @@ TEST(ViewInformation, IsWorthLessWhereTheUnknownMayHideMore) {
     shares.insert(std::round(1e6 * eye.z()));
   }
   EXPECT_EQ(shares.size(), 2u);
-  // A turned world changes nothing: what is above follows from the views.
+  // A turned world changes nothing: the direction above follows from the views.
   const Se3 turned_from_world{Eigen::Quaterniond(0.3, 0.5, -0.2, 0.7).normalized(), {1, -2, 3}};
   for (Se3& view : t.views) view = view * inverse(turned_from_world);
-  for (RegisterView& view : t.real)
+  for (ObjectView& view : t.real)
     view.camera_from_world = view.camera_from_world * inverse(turned_from_world);
   for (Detection& c : t.candidates) c.world_from_object = turned_from_world * c.world_from_object;
   for (Particle& p : t.particles) p.world_from_object = turned_from_world * p.world_from_object;
   const std::vector<ViewInformation> turned = t.information();
   for (std::size_t v = 1; v < views.size(); ++v)
     EXPECT_NEAR(turned[v].information, views[v].information, 0.02 * views[v].information) << v;
-  // The paper's own formula stays what it is, and other strategies do not imagine what they would
-  // see.
+  // The paper's own formula and the other strategies do not use it.
   const auto does_not_matter = [&] {
     t.options.visibility_exponent = 2;
     const std::vector<ViewInformation> some = t.information();
@@ -225,7 +224,7 @@ TEST(ViewInformation, IsWorthLessWhereTheUnknownMayHideMore) {
   does_not_matter();
 }
 
-// Real views stand in Upsilon alone there: weights that follow from them would count them twice.
+// Real views count in Upsilon alone there: weights that follow from them would count them twice.
 TEST(ViewInformation, OfThePapersFormulaWeighsAllParticlesAlike) {
   Plan t;
   t.options.use_paper_formula = true;
@@ -239,9 +238,9 @@ TEST(ViewInformation, OfThePapersFormulaWeighsAllParticlesAlike) {
   }
 }
 
-// An image that shows no edge has shown no point, by default; in the paper what projects into it
-// was seen.
-TEST(ViewInformation, AsksTheImagesEdgesUnlessThePaperDoesNot) {
+// By default an image without edges has shown no point. In the paper's formula every point that
+// projects into it was seen.
+TEST(ViewInformation, UsesTheImagesEdgesUnlikeThePaper) {
   const auto views_with = [](const auto& change, bool edgeless) {
     Plan t;
     change(t.options);
@@ -258,8 +257,8 @@ TEST(ViewInformation, AsksTheImagesEdgesUnlessThePaperDoesNot) {
   EXPECT_EQ(views_with(dis, false), views_with(dis, true));
 }
 
-// What the nearest real view is, by the angle at what all look at, has told already.
-TEST(ViewInformation, IsWorthLessNearARealView) {
+// The nearest real view, by the angle at the common point, has given a part of the information.
+TEST(ViewInformation, FallsNearARealView) {
   Plan t;
   t.real = {looked_from(t.views[0]), looked_from(t.views[3])};
   t.closed[3] = 1;
@@ -289,9 +288,8 @@ TEST(ViewInformation, IsWorthLessNearARealView) {
   for (std::size_t v = 1; v < views.size(); ++v) EXPECT_EQ(some[v].information, all[v].information);
 }
 
-// What no candidate is for is expected where no view has looked yet, whatever is expected of the
-// candidates.
-TEST(ViewInformation, ExpectsSomethingOfTheUnknownFarFromRealViews) {
+// The exploration bonus is paid where no view has looked yet, independent of the candidates.
+TEST(ViewInformation, HasAnExplorationBonusFarFromRealViews) {
   Plan t;
   t.options.visibility_exponent = 0.5;
   const std::vector<ViewInformation> known = t.information();
@@ -330,7 +328,7 @@ TEST(ViewInformation, OfNoViewsIsNone) {
   EXPECT_TRUE(t.information().empty());
 }
 
-TEST(ViewInformation, KnowsNoAboveWhereCamerasStandAllAround) {
+TEST(ViewInformation, HasNoDirectionAboveWhereCamerasStandAllAround) {
   Plan t(2);
   const Se3 upside_down{
       Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitX())),
@@ -345,7 +343,7 @@ TEST(ViewInformation, KnowsNoAboveWhereCamerasStandAllAround) {
     EXPECT_EQ(views[v].information, free[v].information) << v;
 }
 
-TEST(NextViewOptions, KnowsNoCostOfMotionWhereNoNatsAreCounted) {
+TEST(NextViewOptions, AllowsNoMotionCostWhereInformationIsNotInNats) {
   NextViewOptions options;
   options.motion_cost_per_rad = 1;
   EXPECT_NO_THROW(options.validate());
@@ -353,7 +351,7 @@ TEST(NextViewOptions, KnowsNoCostOfMotionWhereNoNatsAreCounted) {
   expect_input_error([&] { options.validate(); }, {"next_view.motion_cost_per_rad"});
 }
 
-TEST(ViewInformation, TakesMotionAndReachIntoAccount) {
+TEST(ViewInformation, CountsMotionAndSkipsUnreachableViews) {
   Plan t;
   t.options.motion_cost_per_m = 2;
   t.options.motion_cost_per_rad = 3;

@@ -70,8 +70,7 @@ TEST(Perturbed, HasTheCovarianceWithinItsBounds) {
   EXPECT_NEAR(std::sqrt(unknown / 3), 6e-3, 3e-4);
 }
 
-// CAD files have their origin anywhere: the same part, told from another origin, moves in the same
-// way.
+// CAD files have their origin anywhere: the same part with another origin moves in the same way.
 TEST(Perturbed, MovesAPartTheSameWayWhereverItsOriginLies) {
   Random random = test_random();
   EdgeModel model, elsewhere;
@@ -145,20 +144,20 @@ TEST(DrawParticles, SharesThemAmongTheCandidates) {
   EXPECT_TRUE(draw_particles(models, {}, 5, {0.02, 0.1}, random).empty());
 }
 
-// As a scout does it.
+// Updates and resamples, as a scout does.
 ParticleUpdate updated(std::vector<Particle>& particles, std::vector<double>& unseen_px2,
                        const RenderedScene& t, std::span<const Detection> candidates,
-                       std::span<const RegisterView> views, Backend& backend,
+                       std::span<const ObjectView> views, Backend& backend,
                        const ParticleOptions& options) {
   const ParticleUpdate update =
-      update_particles(particles, unseen_px2, t.models, candidates, views, backend, options);
+      update_particles({t.models, views, backend}, particles, unseen_px2, candidates, options);
   resample_where_poor(particles,
                       find_modes(particles, t.sets, t.models, options, backend.threads()), t.models,
                       views.size(), options);
   return update;
 }
 
-// Three parts of two kinds: their candidates some millimetres off, and two where nothing is.
+// Three parts of two kinds: candidates some millimetres off, and two where there is no part.
 TEST(UpdateParticles, FindsTheInstancesAndDropsTheRest) {
   Random random = test_random();
   const RenderedScene t({"l_bracket", "bearing_block"}, 3, 3);
@@ -172,9 +171,9 @@ TEST(UpdateParticles, FindsTheInstancesAndDropsTheRest) {
   std::vector<double> unseen_px2;
   std::vector<Particle> particles =
       draw_particles(t.models, candidates, options.count, options.drawn, random);
-  const std::vector<RegisterView> all = t.views(*backend);
+  const std::vector<ObjectView> all = t.views(*backend);
   for (std::size_t seen = 1; seen <= 3; ++seen) {
-    const std::span<const RegisterView> views(all.data(), seen);
+    const std::span<const ObjectView> views(all.data(), seen);
     const ParticleUpdate update =
         updated(particles, unseen_px2, t, candidates, views, *backend, options);
     std::printf("%zu views: effective %.1f of %zu\n", seen, update.effective, particles.size());
@@ -187,7 +186,7 @@ TEST(UpdateParticles, FindsTheInstancesAndDropsTheRest) {
     std::printf("mode of object %d: %zu particles, weight %.3f, probability %.3f\n", m.object,
                 m.particles.size(), m.weight, m.probability);
   const std::vector<ModeDetection> found =
-      mode_detections(particles, modes, t.sets, t.models, all, *backend);
+      mode_detections({t.models, all, *backend}, t.sets, particles, modes);
   ASSERT_EQ(found.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     const PlacedObject& truth = t.scene.placed[i];
@@ -237,7 +236,7 @@ TEST(UpdateParticles, DrawsAnewWhereAllDied) {
             0.006);
 }
 
-TEST(UpdateParticles, SaysWhereNothingCanBeDrawnAnew) {
+TEST(UpdateParticles, WarnsWhereNothingCanBeDrawnAnew) {
   Random random = test_random();
   const RenderedScene t({"l_bracket"}, 1, 1);
   const auto backend = make_cpu_backend(2);
@@ -250,7 +249,8 @@ TEST(UpdateParticles, SaysWhereNothingCanBeDrawnAnew) {
         draw_particles(t.models, candidates, options.count, options.drawn, random);
     std::vector<double> unseen_px2;
     const CollectedLog log;
-    update_particles(particles, unseen_px2, t.models, around, t.views(*backend), *backend, options);
+    const std::vector<ObjectView> views = t.views(*backend);
+    update_particles({t.models, views, *backend}, particles, unseen_px2, around, options);
     EXPECT_EQ(particles.size(), 10u);
     for (const Particle& p : particles) EXPECT_NEAR(p.log_weight, -std::log(10.0), 1e-12);
     std::string all;

@@ -1,5 +1,5 @@
-// A few parts about the origin as candidates and particles, cameras around them: what a next view
-// is chosen from.
+// Parts around the origin as candidates and particles, with cameras around them: a problem for the
+// choice of the next view.
 #pragma once
 
 #include "host/active/combinations.h"
@@ -11,8 +11,8 @@ namespace edgescout::test {
 
 inline Camera test_camera() { return {480, 360, 600, 600, 239.5, 179.5, {}}; }
 
-inline RegisterView looked_from(const Se3& camera_from_world) {
-  RegisterView view;
+inline ObjectView looked_from(const Se3& camera_from_world) {
+  ObjectView view;
   view.camera = test_camera();
   view.camera_from_world = camera_from_world;
   return view;
@@ -23,7 +23,7 @@ struct Plan {
   std::vector<EdgeModel> models;
   std::vector<TemplateTable> tables;
   std::vector<Se3> views;
-  std::vector<RegisterView> real;
+  std::vector<ObjectView> real;
   std::vector<Detection> candidates;
   std::vector<Particle> particles;
   BitMatrix combinations;
@@ -58,12 +58,12 @@ struct Plan {
     combinations =
         candidate_combinations(models, candidates, false, 0.002, {60, 1, 1}, backend->threads());
   }
-  Planning planning() const {
-    return {models, tables,     test_camera(), views,    closed,
-            real,   candidates, &combinations, particles};
+  NextViewProblem problem(Backend& device) const {
+    return {{models, real, device}, tables,   test_camera(), views, closed, candidates,
+            &combinations,          particles};
   }
   std::vector<ViewInformation> information() {
-    return view_information(planning(), *backend, options);
+    return view_information(problem(*backend), options);
   }
 };
 

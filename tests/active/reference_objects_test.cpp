@@ -15,8 +15,9 @@ ModeDetection at(int object, double x_m) {
   return mode;
 }
 
-// What an image took away still speaks, where nothing else is reported, in its latest pose.
-TEST(ReferenceObjects, AreWhatIsReportedAndWhatWas) {
+// An earlier instance that is not reported any more counts in its latest pose, where nothing else
+// is reported.
+TEST(ReferenceObjects, AreReportedNowOrWereBefore) {
   const std::vector<EdgeModel> models{make_edge_model(make_part("l_bracket").mesh),
                                       make_edge_model(make_part("bearing_block").mesh)};
   const double size_m = std::min(models[0].mesh.diameter_m, models[1].mesh.diameter_m);
@@ -25,8 +26,8 @@ TEST(ReferenceObjects, AreWhatIsReportedAndWhatWas) {
   steps[1].detections = {at(0, 2 + 0.2 * size_m), at(0, 6)};
   const std::vector<ModeDetection> now{at(1, 0.1 * size_m)};
   std::vector<std::pair<int, double>> found;
-  for (const ObjectPose& h : reference_objects(models, steps, now))
-    found.emplace_back(h.object, h.world_from_object.translation_m.x());
+  for (const ObjectPose& pose : reference_objects(models, steps, now))
+    found.emplace_back(pose.object, pose.world_from_object.translation_m.x());
   EXPECT_EQ(found, (std::vector<std::pair<int, double>>{
                        {1, 0.1 * size_m}, {0, 2 + 0.2 * size_m}, {0, 6}, {1, 4}}));
   EXPECT_TRUE(reference_objects(models, {}, {}).empty());

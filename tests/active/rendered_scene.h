@@ -1,10 +1,9 @@
-// Parts lying apart on a bare board, seen from several places: everything the belief about them is
-// made of.
+// Separate parts on a bare board, rendered in several views, with models and candidates.
 #pragma once
 
 #include "host/active/particles.h"
-#include "host/detect/observation.h"
 #include "host/pipeline.h"
+#include "host/register/object_view.h"
 #include "host/render/parts.h"
 #include "host/render/renderer.h"
 #include "kernels/thread_pool.h"
@@ -21,7 +20,7 @@ inline TemplateSet set_of(const Object& object) {
 
 struct RenderedScene {
   std::vector<Object> parts;
-  Scene scene;
+  SimulatedScene scene;
   std::vector<Rendering> renderings;
   std::vector<TemplateSet> sets;
   std::vector<EdgeModel> models;
@@ -45,18 +44,18 @@ struct RenderedScene {
 
   Camera camera() const { return scene.views[0].camera; }
 
-  // `camera_from_world` is what the arm says; absent: the truth.
-  RegisterView view(std::size_t index, Backend& backend,
-                    std::optional<Se3> camera_from_world = {}) const {
-    const PreparedImage prepared = prepare_image(
+  // `camera_from_world`: the pose that the arm reports; absent: the true one.
+  ObjectView view(std::size_t index, Backend& backend,
+                  std::optional<Se3> camera_from_world = {}) const {
+    std::vector<StageSeconds> stages;
+    ObjectView prepared = prepare_view(
         renderings[index].image, scene.views[index].camera,
-        camera_from_world.value_or(scene.views[index].camera_from_world), backend, {});
-    return observe(prepared.image, prepared.camera, prepared.camera_from_world, prepared.edges, 1,
-                   {}, backend)
-        .view;
+        camera_from_world.value_or(scene.views[index].camera_from_world), backend, {}, &stages);
+    add_tensors(prepared, 1.0, backend, {});
+    return prepared;
   }
-  std::vector<RegisterView> views(Backend& backend) const {
-    std::vector<RegisterView> all;
+  std::vector<ObjectView> views(Backend& backend) const {
+    std::vector<ObjectView> all;
     for (std::size_t v = 0; v < scene.views.size(); ++v) all.push_back(view(v, backend));
     return all;
   }

@@ -1,4 +1,4 @@
-// Two active detections that came to the same.
+// Compares two active detections.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ inline void expect_same(const ScoutState& a, const ScoutState& b) {
     EXPECT_EQ(a.particles[i].resampled_px2, b.particles[i].resampled_px2);
   }
   ASSERT_EQ(a.unseen_px2.size(), b.unseen_px2.size());
-  for (std::size_t v = 0; v < a.unseen_px2.size(); ++v)  // not a number in both is the same
+  for (std::size_t v = 0; v < a.unseen_px2.size(); ++v)  // NaN in both is the same
     EXPECT_EQ(std::bit_cast<std::uint64_t>(a.unseen_px2[v]),
               std::bit_cast<std::uint64_t>(b.unseen_px2[v]));
   ASSERT_EQ(a.detections.size(), b.detections.size());

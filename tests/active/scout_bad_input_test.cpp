@@ -1,5 +1,4 @@
-// Sources that fail, images that show nothing, cameras that are not where they say, options out of
-// range.
+// Sources that fail, images that show nothing, wrong camera poses, options out of range.
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -36,14 +35,14 @@ TEST(Scout, GoesOnPastAFailedAcquisition) {
   EXPECT_EQ(t.found(state), 1);
 }
 
-// A detector of the user's own is input like an image.
-TEST(Scout, RefusesWhatADetectorCannotHaveFound) {
+// The result of a user's own detector is checked like other input.
+TEST(Scout, RefusesDetectionsThatCannotBe) {
   SmallCell t;
   SimulatedCell cell = t.source();
   Detection found;
   found.world_from_object = t.scene.placed[0].world_from_object;
   ScoutOptions options = t.options();
-  options.detect = [&](std::span<const int>, std::span<const Observation>,
+  options.detect = [&](std::span<const int>, std::span<const ObjectView>,
                        std::span<const ObjectPose>) { return std::vector{found}; };
   Scout scout = t.scout(options);
   const auto refuses = [&](const char* word) {
@@ -62,8 +61,7 @@ TEST(Scout, RefusesWhatADetectorCannotHaveFound) {
   refuses("pose");
 }
 
-// Where the first view cannot be had, a strategy that asks nothing of the belief goes on by its own
-// rule.
+// Where the first view fails, a strategy that needs no candidates continues by its own rule.
 TEST(Scout, KeepsToItsStrategyWhereTheFirstViewFails) {
   SmallCell t;
   SimulatedCell cell = t.source();
@@ -92,7 +90,7 @@ TEST(Scout, KeepsToItsStrategyWhereTheFirstViewFails) {
       << "nothing is known: the next one";
 }
 
-// A driver's fault must not end the run.
+// A fault of a driver must not end the run.
 TEST(Scout, GoesOnPastAShotThatCannotBeUsed) {
   SmallCell t;
   SimulatedCell cell = t.source();
@@ -130,7 +128,7 @@ TEST(Scout, EndsWhereNoViewCanBeHad) {
   EXPECT_TRUE(scout.state().detections.empty());
 }
 
-TEST(Scout, WithNothingToSeeItLooksOnAndFindsNothing) {
+TEST(Scout, FindsNothingInBlankImages) {
   SmallCell t;
   CallbackSource blank(t.camera(), t.views, [&](int view) {
     return Shot{{320, 240, std::vector<std::uint8_t>(320 * 240, 90)}, t.views[view]};
@@ -147,19 +145,18 @@ TEST(Scout, FlagsACameraPoseThatDisagrees) {
   SimulatedCell cell = t.source();
   Scout scout = t.scout();
   for (const int view : {0, 2}) scout.give(view, cell.acquire(view).image);
-  for (const ExtrinsicsCheck& extrinsics_checks : scout.state().steps.back().extrinsics_checks)
-    EXPECT_FALSE(extrinsics_checks.disagrees) << extrinsics_checks.residual_px;
+  for (const ExtrinsicsCheck& check : scout.state().steps.back().extrinsics_checks)
+    EXPECT_FALSE(check.disagrees) << check.residual_px;
   scout.give(5, cell.acquire(5).image, Se3{so3_exp({0, 0.02, 0}), {0.004, 0, 0}} * t.views[5]);
-  const std::vector<ExtrinsicsCheck>& extrinsics_checks =
-      scout.state().steps.back().extrinsics_checks;
-  ASSERT_EQ(extrinsics_checks.size(), 3u);
-  EXPECT_TRUE(extrinsics_checks[2].disagrees) << extrinsics_checks[2].residual_px;
-  EXPECT_FALSE(extrinsics_checks[0].disagrees || extrinsics_checks[1].disagrees);
+  const std::vector<ExtrinsicsCheck>& checks = scout.state().steps.back().extrinsics_checks;
+  ASSERT_EQ(checks.size(), 3u);
+  EXPECT_TRUE(checks[2].disagrees) << checks[2].residual_px;
+  EXPECT_FALSE(checks[0].disagrees || checks[1].disagrees);
 }
 
-// An image from a place quite other than said takes the belief in all that the others show. Be it
-// the second or the third, it is flagged, and stays so.
-TEST(Scout, FlagsAGrosslyWrongCameraPoseThatEndsAllBelief) {
+// An image with a grossly wrong camera pose makes every instance improbable. Whether it is the
+// second or the third image, it is flagged and stays so.
+TEST(Scout, FlagsAGrosslyWrongCameraPose) {
   SmallCell t(3);
   SimulatedCell cell = t.source();
   const std::vector<int> order{4, 6, 2, 0};
@@ -169,8 +166,8 @@ TEST(Scout, FlagsAGrosslyWrongCameraPoseThatEndsAllBelief) {
     Scout scout = t.scout();
     for (std::size_t i = 0; i < order.size(); ++i) {
       const Se3& right = t.views[static_cast<std::size_t>(order[i])];
-      const Se3 said = i == odd ? right * Se3{so3_exp({0.2, 0, 0.35}), {0, 0, 0}} : right;
-      scout.give(order[i], cell.acquire(order[i]).image, said);
+      const Se3 reported = i == odd ? right * Se3{so3_exp({0.2, 0, 0.35}), {0, 0, 0}} : right;
+      scout.give(order[i], cell.acquire(order[i]).image, reported);
       const ScoutStep& step = scout.state().steps.back();
       std::printf("image %zu%s: %zu objects;", i + 1, i == odd ? " (wrong)" : "",
                   step.detections.size());
@@ -178,7 +175,7 @@ TEST(Scout, FlagsAGrosslyWrongCameraPoseThatEndsAllBelief) {
         std::printf(" %.2f px by %d, %d missing%s;", v.residual_px, v.objects, v.missing,
                     v.disagrees ? ", disagrees" : "");
       std::printf("\n");
-      // Two images alone do not tell a wrong pose from objects that are hidden.
+      // Two images alone cannot distinguish a wrong pose from hidden objects.
       for (std::size_t v = 0; i >= 2 && v <= i; ++v)
         EXPECT_EQ(step.extrinsics_checks[v].disagrees, v == odd) << v;
     }
@@ -221,10 +218,10 @@ TEST(Scout, RefusesWhatItCannotUse) {
     options.next_view.sequence = {0, view, 3};
     expect_input_error([&] { t.scout(options); }, {"sequence", std::to_string(view), "8 views"});
   }
-  const auto expect_refused = [&](const char* field, const auto& spoil) {
-    ScoutOptions spoilt = t.options();
-    spoil(spoilt);
-    expect_input_error([&] { t.scout(spoilt); }, {field});
+  const auto expect_refused = [&](const char* field, const auto& change) {
+    ScoutOptions changed = t.options();
+    change(changed);
+    expect_input_error([&] { t.scout(changed); }, {field});
   };
   expect_refused("region_columns",
                  [](ScoutOptions& o) { o.pipeline.detect.scan.region_columns = 0; });
@@ -235,19 +232,18 @@ TEST(Scout, RefusesWhatItCannotUse) {
                  [](ScoutOptions& o) { o.next_view.visibility.tolerance = NAN; });
   expect_refused("visibility.tolerance",
                  [](ScoutOptions& o) { o.particles.d2co.visibility.tolerance = -1; });
-  expect_refused("polish.rounds",
-                 [](ScoutOptions& o) { o.particles.edge_icp_options.rounds.clear(); });
+  expect_refused("polish.rounds", [](ScoutOptions& o) { o.particles.edge_icp.rounds.clear(); });
   expect_refused("polish.radius", [](ScoutOptions& o) {
-    o.pipeline.detect.refine.edge_icp_options.rounds[0].radius_px = 8.5f;
+    o.pipeline.detect.refine.edge_icp.rounds[0].radius_px = 8.5f;
   });
   expect_refused("edge_claims.match",
                  [](ScoutOptions& o) { o.detections.edge_claims.match_px = 9; });
   expect_refused("edge_claims.match",
                  [](ScoutOptions& o) { o.pipeline.detect.edge_claims.match_px = NAN; });
-  expect_refused("absent_probability",
-                 [](ScoutOptions& o) { o.extrinsics_checks.absent_probability = 0.5; });
-  expect_refused("max_residual_px",
-                 [](ScoutOptions& o) { o.extrinsics_checks.max_residual_px = NAN; });
+  expect_refused("extrinsics.absent_probability",
+                 [](ScoutOptions& o) { o.extrinsics.absent_probability = 0.5; });
+  expect_refused("extrinsics.max_residual_px",
+                 [](ScoutOptions& o) { o.extrinsics.max_residual_px = NAN; });
   expect_refused("detections.min_probability",
                  [](ScoutOptions& o) { o.detections.min_probability = -1; });
   expect_refused("min_information_nats", [](ScoutOptions& o) {

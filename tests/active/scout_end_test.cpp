@@ -1,4 +1,4 @@
-// When a scout has seen enough, and when it has not (host/active/scout_end.cpp).
+// When a scout ends and when it does not (host/active/scout_end.cpp).
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -23,14 +23,15 @@ TEST(Scout, EndsByEachOfItsLimits) {
   };
   using End = std::pair<ScoutEnd, std::size_t>;
   EXPECT_EQ(ended([](ScoutOptions& o) { o.max_views = 1; }), End(ScoutEnd::ViewBudget, 1));
-  // Certain of what was found: what an image shows for the first time may not be the last.
+  // Certain of what was found, but not in an image that shows something new: others may follow.
   Detection there;
   there.world_from_object = t.scene.placed[0].world_from_object;
   there.psi = 0.9;
   const auto always_there = [&](ScoutOptions& o) {
     o.min_entropy_nats = 1000;
-    o.detect = [&](std::span<const int>, std::span<const Observation>,
-                   std::span<const ObjectPose>) { return std::vector{there}; };
+    o.detect = [&](std::span<const int>, std::span<const ObjectView>, std::span<const ObjectPose>) {
+      return std::vector{there};
+    };
   };
   EXPECT_EQ(ended(always_there), End(ScoutEnd::Certain, 2));
   EXPECT_EQ(ended([&](ScoutOptions& o) { always_there(o), o.detect_in_every_image = false; }),
@@ -39,15 +40,15 @@ TEST(Scout, EndsByEachOfItsLimits) {
   EXPECT_EQ(ended([](ScoutOptions& o) { o.max_seconds = 1e-6; }), End(ScoutEnd::TimeLimit, 1));
   EXPECT_EQ(ended([](ScoutOptions& o) { o.min_information_nats = 1000; }),
             End(ScoutEnd::LittleToLearn, 1));
-  const auto hopeful = [](ScoutOptions& o) {
+  const auto exploring = [](ScoutOptions& o) {
     o.next_view.exploration_bonus_nats = 1000;
     o.min_information_nats = 100;
   };
-  EXPECT_EQ(ended(hopeful), End(ScoutEnd::LittleToLearn, 1))
-      << "it is about what is known to be there";
-  const auto dear = [](ScoutOptions& o) { o.next_view.motion_cost_per_m = 1000; };
-  EXPECT_EQ(ended(dear), End(ScoutEnd::ViewBudget, 3)) << "without a limit no way is too far";
-  EXPECT_EQ(ended([&](ScoutOptions& o) { dear(o), o.min_information_nats = 1e-9; }),
+  EXPECT_EQ(ended(exploring), End(ScoutEnd::LittleToLearn, 1))
+      << "only information about candidates counts";
+  const auto costly = [](ScoutOptions& o) { o.next_view.motion_cost_per_m = 1000; };
+  EXPECT_EQ(ended(costly), End(ScoutEnd::ViewBudget, 3)) << "without a limit no way is too far";
+  EXPECT_EQ(ended([&](ScoutOptions& o) { costly(o), o.min_information_nats = 1e-9; }),
             End(ScoutEnd::LittleToLearn, 1))
       << "what the way costs is taken off";
   // The first image's candidates are all new; the later ones find the same.
@@ -64,9 +65,9 @@ TEST(Scout, EndsByEachOfItsLimits) {
       End(ScoutEnd::NoViewLeft, 1));
 }
 
-// What is unknown sends the camera to a view that tells little about the candidates, while another
-// would tell more: that is not the end.
-TEST(Scout, GoesOnWhileAnyViewTellsEnough) {
+// The exploration bonus leads to a view with little information about the candidates, while another
+// view has more: that is not the end.
+TEST(Scout, GoesOnWhileAnyViewGivesEnough) {
   SmallCell t;
   SimulatedCell cell = t.source();
   ScoutOptions options = t.options();
@@ -91,7 +92,7 @@ TEST(Scout, GoesOnWhileAnyViewTellsEnough) {
   EXPECT_FALSE(proposed());
 }
 
-// The decision that ends a run is made once, and is there to be read.
+// The decision that ends a run is made once and can be read.
 TEST(Scout, KeepsTheDecisionThatEndsIt) {
   SmallCell t;
   SimulatedCell cell = t.source();
@@ -111,12 +112,12 @@ TEST(Scout, KeepsTheDecisionThatEndsIt) {
   EXPECT_TRUE(scout.state().last_decision.views.empty());
   double second = 0;
   for (const StageSeconds& stage : scout.state().steps[1].stages) second += stage.seconds;
-  EXPECT_NEAR(scout.state().seconds(), after + second, 1e-9) << "the time is spent all the same";
+  EXPECT_NEAR(scout.state().seconds(), after + second, 1e-9) << "the time counts all the same";
 }
 
-// All particles are dead at once and again when drawn anew: nothing was gained, and nothing is
-// decided.
-TEST(Scout, DoesNotTakeACollapseForTheEnd) {
+// All particles lose their weight at once, and again when drawn anew: nothing was gained, and
+// nothing is certain.
+TEST(Scout, DoesNotEndWhereAllParticlesDie) {
   SmallCell t;
   SimulatedCell cell = t.source();
   ScoutOptions options = t.options();
@@ -130,20 +131,20 @@ TEST(Scout, DoesNotTakeACollapseForTheEnd) {
   EXPECT_EQ(scout.state().end, ScoutEnd::ViewBudget);
 }
 
-// No information where nothing was found is no reason to stop looking.
+// No information because nothing was found is no reason to end.
 TEST(Scout, GoesOnWhereTheFirstImageShowsNothing) {
   SmallCell t;
   ScoutOptions options = t.options();
   options.min_information_nats = 0.05;
-  options.detect = [](std::span<const int>, std::span<const Observation>,
+  options.detect = [](std::span<const int>, std::span<const ObjectView>,
                       std::span<const ObjectPose>) { return std::vector<Detection>{}; };
   Scout scout = t.scout(options);
   SimulatedCell cell = t.source();
   run_scout(scout, cell);
   EXPECT_EQ(scout.state().end, ScoutEnd::ViewBudget);
   EXPECT_EQ(scout.state().steps.size(), 3u);
-  // With nothing to know about, from where most of what is unknown is expected: away from the first
-  // view.
+  // Without candidates the view of the largest exploration bonus is chosen, away from the first
+  // one.
   const auto eye = [&](int view) {
     return inverse(t.views[static_cast<std::size_t>(view)]).translation_m;
   };

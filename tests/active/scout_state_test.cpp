@@ -1,10 +1,11 @@
-// What is saved after every step, and taken up again.
+// Saving a state after every step and continuing from it.
 #include "host/active/scout_state.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
 
+#include "kernels/error.h"
 #include "tests/active/same_state.h"
 #include "tests/active/small_cell.h"
 #include "tests/io/expect_input_error.h"
@@ -14,10 +15,10 @@
 namespace edgescout::test {
 namespace {
 
-// Taken up from what was saved after so many images: the same to the end as without a stop, which
-// is returned.
-ScoutState expect_goes_on(SmallCell& t, const ScoutOptions& options, ViewSource& cell,
-                          std::initializer_list<std::size_t> stops) {
+// Continues from the states saved after these numbers of images and expects the same end as without
+// a stop. Returns that end.
+ScoutState expect_continues(SmallCell& t, const ScoutOptions& options, ViewSource& cell,
+                            std::initializer_list<std::size_t> stops) {
   const TemporaryFolder folder;
   const auto saved_after = [&](std::size_t steps) { return folder.path() / std::to_string(steps); };
   Scout whole = t.scout(options);
@@ -35,14 +36,14 @@ ScoutState expect_goes_on(SmallCell& t, const ScoutOptions& options, ViewSource&
   return whole.state();
 }
 
-TEST(ScoutState, GoesOnFromASavedStateAsIfNothingHadHappened) {
+TEST(ScoutState, ContinuesFromASavedState) {
   SmallCell t;
   SimulatedCell cell = t.source({0.0005, 0.001, true, 3});
-  expect_goes_on(t, SmallCell::options(), cell, {1, 2});
+  expect_continues(t, SmallCell::options(), cell, {1, 2});
 }
 
 // A view that failed before the first image and one after it are not proposed again.
-TEST(ScoutState, GoesOnPastViewsThatFailed) {
+TEST(ScoutState, ContinuesPastViewsThatFailed) {
   SmallCell t;
   SimulatedCell cell = t.source();
   const TemporaryFolder folder;
@@ -79,17 +80,17 @@ TEST(ScoutState, GoesOnPastViewsThatFailed) {
     for (const FailedView& f : failed) EXPECT_NE(view, f.view);
 }
 
-// Parts on a heap, of which every reported one hides what is behind it: the next image's
-// registrations depend on that.
-TEST(ScoutState, GoesOnWithWhatHidesOthers) {
+// Parts on a heap. Every reported one is an occluder, on which the next image's registrations
+// depend.
+TEST(ScoutState, ContinuesWithOccluders) {
   SmallCell t(4, 1);
   ScoutOptions options = SmallCell::options();
   options.known_probability = 0;
   SimulatedCell cell = t.source();
-  expect_goes_on(t, options, cell, {2});
+  expect_continues(t, options, cell, {2});
 }
 
-// The cell as a lens shows it.
+// The cell seen through a lens with distortion.
 class BehindLens : public ViewSource {
  public:
   BehindLens(SimulatedCell cell, const Camera& camera) : cell_(std::move(cell)), camera_(camera) {}
@@ -119,16 +120,16 @@ class BehindLens : public ViewSource {
   Camera camera_;
 };
 
-// A saved state has images without the distortion, which must not be taken out twice.
-TEST(ScoutState, GoesOnBehindALens) {
+// A saved state has undistorted images; they must not be undistorted again.
+TEST(ScoutState, ContinuesBehindALens) {
   SmallCell t;
   SimulatedCell straight = t.source();
   t.scene.views[0].camera.distortion = {-0.25, 0.08, 0.001, -0.002};
   BehindLens cell(std::move(straight), t.camera());
-  EXPECT_EQ(t.found(expect_goes_on(t, SmallCell::options(), cell, {2})), 1);
+  EXPECT_EQ(t.found(expect_continues(t, SmallCell::options(), cell, {2})), 1);
 }
 
-// Whatever a log or a page reads from it comes back, too.
+// Everything that a log or a page reads is saved, too.
 TEST(ScoutState, IsWrittenTheSameAfterItWasRead) {
   SmallCell t;
   const TemporaryFolder folder;
@@ -156,7 +157,7 @@ TEST(ScoutState, IsWrittenTheSameAfterItWasRead) {
   EXPECT_EQ(loaded.camera.fx, t.camera().fx);
 }
 
-TEST(ScoutState, KeepsWhatWasOverruledAndHowAViewWasJudged) {
+TEST(ScoutState, KeepsOverruledTimeAndTheFormula) {
   const TemporaryFolder folder;
   ScoutState state;
   state.views = {Se3{}};
@@ -170,6 +171,26 @@ TEST(ScoutState, KeepsWhatWasOverruledAndHowAViewWasJudged) {
   read.overrule();
   EXPECT_TRUE(read.last_decision.stages.empty());
   EXPECT_EQ(read.seconds(), 3.75);
+}
+
+// The version stands after eight bytes of magic.
+TEST(ScoutState, OfAnotherVersionIsRefusedInOneLine) {
+  const TemporaryFolder folder;
+  save_scout_state({}, folder.path() / "state");
+  const std::string current = content_of(folder.path() / "state");
+  ASSERT_EQ(current[8], 14);
+  for (const char version : {13, 15}) {
+    std::string other = current;
+    other[8] = version;
+    const std::string file = folder.write("other.state", other);
+    try {
+      load_scout_state(file);
+      ADD_FAILURE() << int(version);
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.what(),
+                file + ": version: found " + std::to_string(int(version)) + ", expected 14");
+    }
+  }
 }
 
 TEST(ScoutState, OfAnotherRunOrDamagedIsRefused) {
@@ -193,13 +214,13 @@ TEST(ScoutState, OfAnotherRunOrDamagedIsRefused) {
   const std::string bad = folder.write("bad.state", flipped);
   expect_input_error([&] { load_scout_state(bad); }, {"bad.state", "checksum"});
   SmallCell nut("hex_nut");
-  Scout seeks_another = nut.scout();
-  expect_input_error([&] { seeks_another.resume(load_scout_state(file), file); },
+  Scout with_other_objects = nut.scout();
+  expect_input_error([&] { with_other_objects.resume(load_scout_state(file), file); },
                      {"scout.state", "objects"});
   Scout same = t.scout();
-  const auto refused = [&](const std::function<void(ScoutState&)>& spoil) {
+  const auto refused = [&](const std::function<void(ScoutState&)>& damage) {
     ScoutState wrong = scout.state();
-    spoil(wrong);
+    damage(wrong);
     expect_input_error([&] { same.resume(wrong, file); }, {"scout.state", "indices"});
   };
   refused([](ScoutState& s) { s.steps[0].after[0].object = 1; });
@@ -210,11 +231,11 @@ TEST(ScoutState, OfAnotherRunOrDamagedIsRefused) {
   refused([](ScoutState& s) { s.last_decision.views.resize(1); });
   refused([](ScoutState& s) { s.end = ScoutEnd(77); });
   refused([](ScoutState& s) { s.failed.push_back({-1, "", 0, {}}); });
-  // Calibrated anew: the saved images were made for another camera.
+  // A new calibration: the saved images belong to another camera.
   Camera calibrated = t.camera();
   calibrated.fx *= 1.01;
-  Scout sees_else(t.sets, calibrated, t.views, options, *t.backend);
-  expect_input_error([&] { sees_else.resume(load_scout_state(file), file); },
+  Scout with_other_camera(t.sets, calibrated, t.views, options, *t.backend);
+  expect_input_error([&] { with_other_camera.resume(load_scout_state(file), file); },
                      {"scout.state", "camera"});
   t.views.pop_back();
   Scout other = t.scout();

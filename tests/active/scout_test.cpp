@@ -53,9 +53,9 @@ TEST(Scout, TakesCandidatesFromADetectorOfOnesOwn) {
   near_truth.psi = 0.9;
   options.known_probability = 0.2;
   options.max_searches = 1;
-  options.detect = [&](std::span<const int> views, std::span<const Observation> images,
+  options.detect = [&](std::span<const int> views, std::span<const ObjectView> images,
                        std::span<const ObjectPose> known) {
-    EXPECT_EQ(images.back().view.camera.width, t.camera().width);
+    EXPECT_EQ(images.back().camera.width, t.camera().width);
     EXPECT_EQ(images.size(), asked.size() + 1);
     EXPECT_EQ(std::vector(views.begin(), views.end() - 1), asked);
     EXPECT_EQ(known.size(), asked.empty() ? 0u : 1u);
@@ -73,16 +73,16 @@ TEST(Scout, TakesCandidatesFromADetectorOfOnesOwn) {
   EXPECT_EQ(t.found(scout.state()), 1);
 }
 
-// Of two parts the detector has room for one: what is known is asked of no more, and makes room.
-struct RoomForOne {
+// A detector that finds one of two parts at a time, the second one after the first is known.
+struct OneAtATime {
   SmallCell t{2};
   std::vector<std::size_t> known;  // at each search
 
-  ScoutState looked_around(const std::function<void(ScoutOptions&)>& with, int images = 1) {
+  ScoutState run(const std::function<void(ScoutOptions&)>& with, int images = 1) {
     ScoutOptions options = SmallCell::options();
     options.max_views = images;
     options.known_probability = 0.2;
-    options.detect = [&](std::span<const int>, std::span<const Observation>,
+    options.detect = [&](std::span<const int>, std::span<const ObjectView>,
                          std::span<const ObjectPose> now) {
       known.push_back(now.size());
       std::vector<Detection> found;
@@ -102,10 +102,10 @@ struct RoomForOne {
   }
 };
 
-TEST(Scout, SearchesAnImageAgainThatMadeMoreKnown) {
-  RoomForOne r;
+TEST(Scout, SearchesAnImageAgainThatMadeMoreInstancesKnown) {
+  OneAtATime r;
   const auto searches = [](int most) { return [=](ScoutOptions& o) { o.max_searches = most; }; };
-  const ScoutState once = r.looked_around(searches(1)), twice = r.looked_around(searches(2));
+  const ScoutState once = r.run(searches(1)), twice = r.run(searches(2));
   EXPECT_EQ(r.known, (std::vector<std::size_t>{0, 1}));
   EXPECT_EQ(r.t.found(once), 1);
   EXPECT_EQ(r.t.found(twice), 2);
@@ -115,32 +115,30 @@ TEST(Scout, SearchesAnImageAgainThatMadeMoreKnown) {
   EXPECT_EQ(both.searches, 2);
   EXPECT_EQ(first.new_candidates, 1u);
   EXPECT_EQ(both.new_candidates, 2u);
-  // What was believed before the image's say is what both searches drew; its first part the first's
-  // alone.
+  // `before` has the particles that both searches drew; its first part is that of the first search.
   ASSERT_GT(both.before.size(), first.before.size());
   for (std::size_t i = 0; i < first.before.size(); ++i)
     EXPECT_TRUE(same(both.before[i].world_from_object, first.before[i].world_from_object)) << i;
   std::set<std::string> names;
   for (const StageSeconds& stage : both.stages) names.insert(stage.name);
-  EXPECT_EQ(names.size(), both.stages.size()) << "the time of both searches together";
+  EXPECT_EQ(names.size(), both.stages.size()) << "the times of both searches are added up";
   // The last search made nothing more known.
-  r.looked_around(searches(9));
+  r.run(searches(9));
   EXPECT_EQ(r.known, (std::vector<std::size_t>{0, 1, 2}));
 }
 
 TEST(Scout, SearchesAnImageOnceWhereNothingBecomesKnown) {
-  RoomForOne r;
-  EXPECT_EQ(r.looked_around([](ScoutOptions& o) { o.known_probability = 2; }, 2).steps[1].searches,
-            1);
+  OneAtATime r;
+  EXPECT_EQ(r.run([](ScoutOptions& o) { o.known_probability = 2; }, 2).steps[1].searches, 1);
   EXPECT_EQ(r.known, (std::vector<std::size_t>{0, 0}));
   const auto as_in_the_paper = [](ScoutOptions& o) { o.detect_in_every_image = false; };
-  const ScoutState state = r.looked_around(as_in_the_paper, 2);
+  const ScoutState state = r.run(as_in_the_paper, 2);
   EXPECT_EQ(r.known, (std::vector<std::size_t>{0}));
   EXPECT_EQ(state.steps[0].searches, 1);
   EXPECT_EQ(state.steps[1].searches, 0);
 }
 
-TEST(Scout, EveryStrategyLooksAround) {
+TEST(Scout, FindsTheObjectWithEveryStrategy) {
   SmallCell t;
   SimulatedCell cell = t.source();
   for (const Strategy strategy : {Strategy::Disocclusion, Strategy::Random, Strategy::Fixed}) {
@@ -178,14 +176,14 @@ TEST(Scout, CountsTheTimeOfDecisionsThatWereNotFollowed) {
   EXPECT_EQ(seconds_of(scout.state().steps.back().decision), seconds_of(ignored));
 }
 
-TEST(Scout, CancelledItStandsWhereItStoodAndCanGoOn) {
+TEST(Scout, CanContinueAfterCancellation) {
   SmallCell t;
   SimulatedCell cell = t.source();
   ScoutOptions options = t.options();
   options.max_views = 2;
   options.detect_in_every_image = false;
-  Scout undisturbed = t.scout(options);
-  run_scout(undisturbed, cell);
+  Scout uninterrupted = t.scout(options);
+  run_scout(uninterrupted, cell);
   int asked = 0, cancel_at = 0;
   options.cancelled = [&] { return ++asked == cancel_at; };
   Scout scout = t.scout(options);
@@ -206,10 +204,10 @@ TEST(Scout, CancelledItStandsWhereItStoodAndCanGoOn) {
     EXPECT_GE(cancellations, 5) << "stages of image " << step;
   }
   EXPECT_FALSE(scout.propose());
-  expect_same(undisturbed.state(), scout.state());
+  expect_same(uninterrupted.state(), scout.state());
 }
 
-// Candidates that there were too few particles for are not new with every image.
+// A candidate that got no particle, because there are too few, is not new in the next image.
 TEST(Scout, CountsACandidateAsNewOnce) {
   SmallCell t{2};
   SimulatedCell cell = t.source();
@@ -218,7 +216,7 @@ TEST(Scout, CountsACandidateAsNewOnce) {
   options.next_view.strategy = Strategy::Fixed;
   options.particles.count = 1;
   options.max_views = 2;
-  options.detect = [&](std::span<const int>, std::span<const Observation>,
+  options.detect = [&](std::span<const int>, std::span<const ObjectView>,
                        std::span<const ObjectPose>) {
     std::vector<Detection> found(2);
     for (std::size_t i = 0; i < 2; ++i) {
@@ -236,8 +234,8 @@ TEST(Scout, CountsACandidateAsNewOnce) {
   EXPECT_EQ(scout.state().steps[1].new_candidates, 0u);
 }
 
-// Copies are moved apart so that they can be told apart, not because anybody doubts their places.
-TEST(Scout, TakesNoRoughnessForUncertainty) {
+// Roughening moves copies of particles apart. It is not part of the covariance.
+TEST(Scout, DoesNotCountRougheningAsUncertainty) {
   SmallCell t;
   SimulatedCell cell = t.source();
   const auto found = [&](const Spread& roughened) {
@@ -257,7 +255,7 @@ TEST(Scout, TakesNoRoughnessForUncertainty) {
     EXPECT_EQ(smooth[i].detection.covariance, rough[i].detection.covariance);
 }
 
-// As in the paper one image is searched, but the first one that shows anything.
+// As in the paper one image is searched: the first one that shows anything.
 TEST(Scout, SearchesUntilThereAreCandidates) {
   SmallCell t;
   ScoutOptions options = t.options();
@@ -266,7 +264,7 @@ TEST(Scout, SearchesUntilThereAreCandidates) {
   there.world_from_object = t.scene.placed[0].world_from_object;
   there.psi = 0.9;
   int asked = 0;
-  options.detect = [&](std::span<const int>, std::span<const Observation>,
+  options.detect = [&](std::span<const int>, std::span<const ObjectView>,
                        std::span<const ObjectPose>) {
     return ++asked == 1 ? std::vector<Detection>{} : std::vector{there};
   };
@@ -278,7 +276,7 @@ TEST(Scout, SearchesUntilThereAreCandidates) {
   EXPECT_EQ(t.found(scout.state()), 1);
 }
 
-TEST(Scout, ProposesTheSameUntilThereIsNews) {
+TEST(Scout, ProposesTheSameUntilANewImageOrFailure) {
   SmallCell t;
   SimulatedCell cell = t.source();
   Scout scout = t.scout();

@@ -1,10 +1,11 @@
-// A small rendered cell with brackets, and what a scout needs to look around in it within seconds.
+// A small rendered cell with brackets, and options with which a scout runs in it within seconds.
 #pragma once
 
 #include "host/active/scout.h"
 #include "host/active/views.h"
 #include "host/eval/metrics.h"
 #include "host/render/parts.h"
+#include "host/render/simulated_cell.h"
 #include "kernels/thread_pool.h"
 #include "tests/bare_board.h"
 
@@ -13,7 +14,7 @@ namespace edgescout::test {
 struct SmallCell {
   Object part;
   ThreadPool pool{2};
-  Scene scene;
+  SimulatedScene scene;
   std::vector<Se3> views = hemisphere_views({{0, 0, 0.01}, 0.3, {40, 70}, 8});
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
   std::vector<TemplateSet> sets;
@@ -30,7 +31,7 @@ struct SmallCell {
   Camera camera() const { return scene.views[0].camera; }
   SimulatedCell source(const ArmNoise& noise = {}) { return {scene, camera(), views, noise, pool}; }
 
-  // Few of everything, three images; where the line of what is reported lies is fitted elsewhere.
+  // Few of everything, three images. The limit of what is reported is lower than fitted.
   static ScoutOptions options() {
     ScoutOptions o;
     o.pipeline.detect.coarse_poses = 200;

@@ -1,4 +1,4 @@
-// The ways to choose that imagine no scenes.
+// The strategies that use no combinations.
 #include <gtest/gtest.h>
 
 #include "tests/active/plan.h"
@@ -16,9 +16,9 @@ TEST(Disocclusion, SumsNewPointsByPsi) {
     for (const Detection& c : t.candidates) {
       const TemplateTable& table = t.tables[c.object];
       std::vector<char> seen(table.total, 0);
-      for (const TemplateTablePoint& p : table.seen_from(t.views[0] * c.world_from_object))
+      for (const TemplateTablePoint& p : table.visible_from(t.views[0] * c.world_from_object))
         seen[p.id] = 1;  // all project into the image
-      for (const TemplateTablePoint& p : table.seen_from(t.views[v] * c.world_from_object))
+      for (const TemplateTablePoint& p : table.visible_from(t.views[v] * c.world_from_object))
         expected += seen[p.id] ? 0 : c.psi;
     }
     EXPECT_NEAR(views[v].information, expected, 1e-6);

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "host/model/viewpoints.h"
 #include "tests/model/box.h"
 #include "tests/register/scene.h"
 #include "tests/test_random.h"
@@ -16,7 +17,7 @@ Eigen::Vector3d place(const TemplateTablePoint& p) {
   return {p.point.x_m, p.point.y_m, p.point.z_m};
 }
 
-TEST(TemplateTable, GivesOnePlaceOneNumber) {
+TEST(TemplateTable, GivesEachPlaceOneId) {
   const auto backend = make_cpu_backend(2);
   const EdgeModel model = part_model("bearing_block");
   TemplateTableOptions options;
@@ -44,7 +45,7 @@ TEST(TemplateTable, GivesOnePlaceOneNumber) {
 }
 
 // Seen straight on, a face of a box shows its own four edges and hides those behind it.
-TEST(TemplateTable, KnowsWhatShowsFromWhere) {
+TEST(TemplateTable, HasThePointsVisibleFromEachSide) {
   const auto backend = make_cpu_backend(2);
   const EdgeModel model = make_edge_model(box_mesh(0.06, 0.05, 0.04));
   const TemplateTable table = make_template_table(model, 0.5, *backend);
@@ -54,19 +55,19 @@ TEST(TemplateTable, KnowsWhatShowsFromWhere) {
   for (int i = 0; i < poses; ++i) {
     const Se3 camera_from_object{random.rotation(), {0.01, -0.02, 0.5}};
     const Eigen::Vector3d eye = inverse(camera_from_object).translation_m;
-    const std::vector<TemplateTablePoint>& seen = table.seen_from(camera_from_object);
+    const std::vector<TemplateTablePoint>& seen = table.visible_from(camera_from_object);
     const std::vector<ModelPoint> exact =
         visible_edges(model, std::span(&camera_from_object, 1), *backend)[0];
     // The viewpoint is off by some degrees, in which the three edges of a face may come or go, of
     // nine or seven; nearly all points are common.
-    const auto beside = [](const TemplateTablePoint& p, const ModelPoint& e) {
+    const auto is_near = [](const TemplateTablePoint& p, const ModelPoint& e) {
       return (Eigen::Vector3d(e.x_m, e.y_m, e.z_m) - place(p)).norm() < 0.002;
     };
     const auto shows = [&](const TemplateTablePoint& p) {
-      return std::ranges::any_of(exact, [&](const ModelPoint& e) { return beside(p, e); });
+      return std::ranges::any_of(exact, [&](const ModelPoint& e) { return is_near(p, e); });
     };
     const auto is_known = [&](const ModelPoint& e) {
-      return std::ranges::any_of(seen, [&](const TemplateTablePoint& p) { return beside(p, e); });
+      return std::ranges::any_of(seen, [&](const TemplateTablePoint& p) { return is_near(p, e); });
     };
     const double right = double(std::ranges::count_if(seen, shows)) / double(seen.size()),
                  known = double(std::ranges::count_if(exact, is_known)) / double(exact.size());
@@ -86,17 +87,19 @@ TEST(TemplateTable, KnowsWhatShowsFromWhere) {
 TEST(TemplateTable, TakesTheNearestViewpoint) {
   Random random = test_random();
   const auto backend = make_cpu_backend(2);
-  const TemplateTable table = make_template_table(part_model("l_bracket"), 0.4, *backend, {2, 500});
+  const EdgeModel model = part_model("l_bracket");
+  const TemplateTable table = make_template_table(model, 0.4, *backend, {2, 500});
+  const std::vector<Eigen::Vector3d> directions = icosphere(2);
   for (int i = 0; i < 50; ++i) {
     const Se3 pose{random.rotation(), {0, 0, 0.6}};
-    const Eigen::Vector3d direction = (inverse(pose).translation_m - table.center_m).normalized();
+    const Eigen::Vector3d direction = (inverse(pose).translation_m - model.center_m).normalized();
     double least = 9;
     std::size_t nearest = 0;
-    for (std::size_t v = 0; v < table.directions.size(); ++v) {
-      const double angle = std::acos(std::clamp(direction.dot(table.directions[v]), -1.0, 1.0));
+    for (std::size_t v = 0; v < directions.size(); ++v) {
+      const double angle = std::acos(std::clamp(direction.dot(directions[v]), -1.0, 1.0));
       if (angle < least) least = angle, nearest = v;
     }
-    EXPECT_EQ(&table.seen_from(pose), &table.points[nearest]);
+    EXPECT_EQ(&table.visible_from(pose), &table.points[nearest]);
   }
 }
 

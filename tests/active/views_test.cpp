@@ -58,7 +58,7 @@ TEST(Hemisphere, SpreadsARingEvenly) {
   }
 }
 
-TEST(Hemisphere, RefusesWhatMakesNoViews) {
+TEST(Hemisphere, RefusesOptionsWithoutViews) {
   const auto with = [](auto change) {
     return [change] {
       HemisphereOptions options;
@@ -119,7 +119,7 @@ TEST(ViewList, NamesFileAndFieldOfWhatIsWrong) {
   expect_input_error([&] { load_views(folder.path() / "none.json"); }, {"none.json"});
 }
 
-TEST(ViewList, InMemoryIsJudgedAlike) {
+TEST(ViewList, ValidatesViewsInMemory) {
   Se3 odd;
   odd.rotation.coeffs() *= 1.1;
   expect_input_error([&] { validate_views(std::vector<Se3>{odd}, "robot"); },
@@ -144,7 +144,7 @@ TEST(LookedAt, IsWhereTheAxesMeet) {
   EXPECT_LT((*point_m - options.center_m).norm(), 1e-9);
 }
 
-// Wherever the world's axes point.
+// In any direction of the world's axes.
 TEST(DirectionAbove, IsWhereTheCamerasStand) {
   HemisphereOptions options;
   options.center_m = {0.1, -0.2, 0.3};
@@ -161,8 +161,8 @@ TEST(DirectionAbove, IsWhereTheCamerasStand) {
   EXPECT_FALSE(direction_above(directions_to(around, {0, 0, 0})));
 }
 
-// A gantry's cameras, with 1 mrad of tilt, would "meet" tens of metres away; those of a head that
-// pans and tilts meet in themselves.
+// The axes of a gantry's cameras, with 1 mrad of tilt, come nearest tens of metres away. Those of a
+// head that pans and tilts meet in the cameras.
 TEST(LookedAt, IsNothingWhereViewsHaveNoPointInCommon) {
   Random random(3);
   std::vector<Se3> one{look_at({0, 0, 0.5}, {0, 0, 0})}, gantry, head;

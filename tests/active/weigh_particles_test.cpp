@@ -10,6 +10,7 @@
 #include "tests/active/rendered_scene.h"
 #include "tests/register/scene.h"
 #include "tests/test_random.h"
+#include "host/register/pose_classifier.h"
 
 namespace edgescout::test {
 namespace {
@@ -51,11 +52,11 @@ struct IdealScene {
     return p;
   }
   Weighing weigh(std::span<Particle> particles) {
-    return weigh_particles(models, particles, unseen_px2, part.views, *backend, options);
+    return weigh_particles({models, part.views, *backend}, particles, unseen_px2, options);
   }
 };
 
-// As a scout does it, for a scene of l-brackets.
+// Resamples as a scout does, for a scene of l-brackets.
 std::vector<Particle> resampled(const auto& scene, std::span<const Particle> particles, int count,
                                 const Random& random) {
   const std::vector<TemplateSet> sets{set_of(make_part("l_bracket"))};
@@ -76,20 +77,20 @@ TEST(WeighParticles, FollowsTheSquaredMeansOfAllViews) {
   double log_weight[4], total = 0;
   for (int i = 0; i < 4; ++i) {
     double upsilon = 0;
-    for (const RegisterView& view : t.part.views) {
+    for (const ObjectView& view : t.part.views) {
       const Se3 pose = view.camera_from_world * particles[i].world_from_object;
       const std::vector<ModelPoint> points =
           visible_edges(t.part.model, std::span(&pose, 1), *t.backend, t.options.visibility)[0];
-      const TensorShape shape = view.view->shape;
-      const std::vector<std::uint16_t> tensor = view.view->tensor();
+      const TensorShape shape = view.tensor->shape;
+      const std::vector<std::uint16_t> tensor = view.tensor->tensor();
       double sum = 0;
       int inside = 0;
       for (const ModelPoint& point : points) {
-        const Landing at = land(view.view->intrinsics, pose, point);
+        const Landing at = land(view.tensor->intrinsics, pose, point);
         if (at.u < -0.5 || at.v < -0.5 || at.u >= view.camera.width - 0.5 ||
             at.v >= view.camera.height - 0.5)
           continue;
-        sum += tensor_lookup({tensor, shape, view.view->intrinsics}, float(at.u), float(at.v),
+        sum += tensor_lookup({tensor, shape, view.tensor->intrinsics}, float(at.u), float(at.v),
                              float(at.theta), nullptr);
         ++inside;
       }
@@ -109,25 +110,26 @@ TEST(WeighParticles, AViewThatSeesNothingOfAParticleLeavesItsShare) {
   IdealScene t(random);
   std::vector<Particle> particles;
   for (int i = 0; i < 6; ++i) particles.push_back(t.off_by(0.001 * i, random));
-  std::vector<RegisterView> views(t.part.views.begin(), t.part.views.begin() + 1);
-  weigh_particles(t.models, particles, t.unseen_px2, views, *t.backend, t.options);
+  std::vector<ObjectView> views(t.part.views.begin(), t.part.views.begin() + 1);
+  weigh_particles({t.models, views, *t.backend}, particles, t.unseen_px2, t.options);
   std::vector<double> before;
   for (const Particle& p : particles) before.push_back(p.log_weight);
   // A camera that looks the other way sees none of them.
   views.push_back(t.part.views[1]);
   views[1].camera_from_world = Se3{so3_exp({0, 3, 0}), {0, 0, 0}} * views[1].camera_from_world;
-  EXPECT_EQ(weigh_particles(t.models, particles, t.unseen_px2, views, *t.backend, t.options).living,
-            6u);
+  EXPECT_EQ(
+      weigh_particles({t.models, views, *t.backend}, particles, t.unseen_px2, t.options).living,
+      6u);
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(particles[i].log_weight, before[i], 1e-9);
 }
 
-// Two views of a part: one from afar that sees every particle, one that sees those at the part
-// alone, of which few fit and many do not.
+// Two views of a part. A distant one sees every particle; a near one sees only particles at the
+// part, of which few fit and many do not.
 struct HalfSeen {
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
   std::vector<EdgeModel> models{part_model("l_bracket")};
-  std::vector<RegisterView> views;
-  std::vector<Particle> particles;  // the first one beside the second view's image
+  std::vector<ObjectView> views;
+  std::vector<Particle> particles;  // the first one outside the second view's image
   ParticleOptions options;
   std::vector<double> unseen_px2;
 
@@ -150,7 +152,7 @@ struct HalfSeen {
     particles.emplace_back().world_from_object = {truth.rotation, truth.translation_m + off_m};
   }
   Weighing weigh(std::size_t view_count) {
-    return weigh_particles(models, particles, unseen_px2, {views.data(), view_count}, *backend,
+    return weigh_particles({models, {views.data(), view_count}, *backend}, particles, unseen_px2,
                            options);
   }
 };
@@ -159,15 +161,15 @@ TEST(WeighParticles, AViewThatSeesOthersLeavesAParticleItsShare) {
   Random random = test_random();
   HalfSeen t(random);
   ASSERT_EQ(t.weigh(1).living, 24u);
-  ASSERT_GE(t.particles[0].by_view[0].points, t.options.min_points);
+  ASSERT_GE(t.particles[0].features[0].points, t.options.min_points);
   const std::vector<Particle> before = t.particles;
   ASSERT_EQ(t.weigh(2).living, 24u);
-  ASSERT_LT(t.particles[0].by_view[1].points, t.options.min_points);
+  ASSERT_LT(t.particles[0].features[1].points, t.options.min_points);
   EXPECT_NEAR(t.particles[0].log_weight, before[0].log_weight, 1e-9);
   EXPECT_GT(t.particles[1].log_weight, before[1].log_weight + 0.2);
   EXPECT_LT(t.particles[4].log_weight, before[4].log_weight - 0.2);
-  // Those that do not fit die, and a new one is drawn beside the image: what the view counts for a
-  // particle it does not see has been decided before.
+  // Particles that do not fit are removed, and a new one is drawn outside the image: the view
+  // counts for it what was fixed before.
   const double ratio = t.particles[0].log_weight - t.particles[1].log_weight;
   t.particles.resize(4);
   t.particles.push_back(before[0]);
@@ -176,7 +178,7 @@ TEST(WeighParticles, AViewThatSeesOthersLeavesAParticleItsShare) {
   EXPECT_EQ(t.particles[4].log_weight, t.particles[0].log_weight);
 }
 
-// However they are drawn anew, one that a view does not see has the share it had.
+// A particle that a view does not see keeps its share of the weight over resampling.
 TEST(WeighParticles, AnUnseenOneKeepsItsShareOverResampling) {
   Random random = test_random();
   HalfSeen t(random);
@@ -184,11 +186,11 @@ TEST(WeighParticles, AnUnseenOneKeepsItsShareOverResampling) {
   t.options.min_mode_probability = 0;
   t.options.sigma_px = 40;
   t.weigh(2);
-  const Eigen::Vector3d beside_m = t.particles[0].world_from_object.translation_m;
+  const Eigen::Vector3d outside_m = t.particles[0].world_from_object.translation_m;
   const auto share = [&] {
     double sum = 0;
     for (const Particle& p : t.particles)
-      if ((p.world_from_object.translation_m - beside_m).norm() < 1e-6)
+      if ((p.world_from_object.translation_m - outside_m).norm() < 1e-6)
         sum += std::exp(p.log_weight);
     return sum;
   };
@@ -202,9 +204,8 @@ TEST(WeighParticles, AnUnseenOneKeepsItsShareOverResampling) {
   }
 }
 
-// A view that sees nothing so far tells nothing; of one that is drawn into its image it tells what
-// it shows.
-TEST(WeighParticles, AViewSettlesWhenItSeesTheFirstOnes) {
+// A view that has seen no particle yet changes no weight. Its first particle fixes its mean.
+TEST(WeighParticles, AViewFixesItsMeanWhenItSeesTheFirstParticle) {
   Random random = test_random();
   HalfSeen t(random);
   const std::vector<Particle> all = t.particles;
@@ -218,30 +219,30 @@ TEST(WeighParticles, AViewSettlesWhenItSeesTheFirstOnes) {
   t.particles.push_back(all[1]);
   t.weigh(2);
   EXPECT_NEAR(t.unseen_px2[1],
-              t.particles[2].by_view[1].mean_px * t.particles[2].by_view[1].mean_px, 1e-9);
+              t.particles[2].features[1].mean_px * t.particles[2].features[1].mean_px, 1e-9);
 }
 
-// Those that a view proves wrong are what it taught most about.
-TEST(WeighParticles, LearnsFromWhatDies) {
+// Particles that lose their weight by a view count in its information.
+TEST(WeighParticles, GainsInformationFromParticlesThatLoseTheirWeight) {
   Random random = test_random();
   HalfSeen t(random);
-  const double deathless_nats = t.weigh(2).gained_nats;
-  const std::vector<Particle> deathless = t.particles;
+  const double all_nats = t.weigh(2).gained_nats;
+  const std::vector<Particle> all = t.particles;
   std::vector<double> means;
-  for (const Particle& p : deathless) means.push_back(pool_over_views(p.by_view).mean_px);
+  for (const Particle& p : all) means.push_back(pool_over_views(p.features).mean_px);
   std::ranges::nth_element(means, means.begin() + 12);
-  t.options.dead_px = means[12];  // half of them die
+  t.options.dead_px = means[12];  // half of them lose their weight
   t.unseen_px2.clear();
   const Weighing weighing = t.weigh(2);
   EXPECT_EQ(weighing.living, 13u);
-  EXPECT_GT(deathless_nats, 0.05);
-  EXPECT_NEAR(weighing.gained_nats, deathless_nats, 0.1 * deathless_nats);
+  EXPECT_GT(all_nats, 0.05);
+  EXPECT_NEAR(weighing.gained_nats, all_nats, 0.1 * all_nats);
   for (std::size_t i = 2; i < 4; ++i)
     EXPECT_NEAR(t.particles[i].log_weight - t.particles[1].log_weight,
-                deathless[i].log_weight - deathless[1].log_weight, 1e-9);
+                all[i].log_weight - all[1].log_weight, 1e-9);
 }
 
-TEST(WeighParticles, TellsWhatTheLastViewTaught) {
+TEST(WeighParticles, MeasuresTheInformationOfTheLastView) {
   Random random = test_random();
   HalfSeen t(random);
   double gained = 0;
@@ -258,13 +259,13 @@ TEST(WeighParticles, TellsWhatTheLastViewTaught) {
         std::exp(t.particles[i].log_weight) * (t.particles[i].log_weight - before[i].log_weight);
   EXPECT_GT(gained, 0.05);
   EXPECT_NEAR(second, gained, 1e-9);
-  // A camera that looks the other way teaches nothing.
+  // A camera that looks the other way gives none.
   t.views.push_back(t.views[1]);
   t.views[2].camera_from_world = Se3{so3_exp({0, 3, 0}), {0, 0, 0}} * t.views[1].camera_from_world;
   EXPECT_NEAR(t.weigh(3).gained_nats, 0, 1e-12);
 }
 
-TEST(WeighParticles, TheDeadHaveNoWeight) {
+TEST(WeighParticles, DeadParticlesHaveNoWeight) {
   Random random = test_random();
   IdealScene t(random);
   std::vector<Particle> particles{t.off_by(0.001, random), t.off_by(0.001, random),
@@ -315,9 +316,9 @@ TEST(WeighParticles, CountsNoViewTwiceAfterResampling) {
   }
 }
 
-// One that is drawn after others have been resampled weighs what it would have weighed from the
-// start.
-TEST(WeighParticles, LateOnesFindTheirShare) {
+// A particle that is drawn after others were resampled gets the weight that it would have had from
+// the start.
+TEST(WeighParticles, LateParticlesGetTheirShare) {
   Random random = test_random();
   IdealScene t(random);
   t.options.roughened = {0, 0};

@@ -1,4 +1,4 @@
-// The methods side by side on rendered images of known pose, and what they refuse.
+// All methods on rendered images of known poses, and the inputs that they refuse.
 #include "host/baselines/baseline.h"
 
 #include <gtest/gtest.h>
@@ -22,8 +22,15 @@ using namespace test;
 struct Rendered {
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
   RenderedScene scene{{"bearing_block"}, 1, 3};
-  std::vector<RegisterView> views = scene.views(*backend);
+  std::vector<ObjectView> views = scene.views(*backend);
   Se3 truth = scene.scene.placed[0].world_from_object;
+
+  // The first `count` views.
+  Scene first(std::size_t count) const {
+    return {scene.models, std::span(views).first(count), *backend};
+  }
+  Scene all() const { return first(views.size()); }
+  Scene with(const ObjectView& view) const { return {scene.models, {&view, 1}, *backend}; }
 
   std::vector<ObjectPose> starts(int count, double distance_m, double angle_rad,
                                  Random random) const {
@@ -48,11 +55,10 @@ void PrintTo(const Accuracy& accuracy, std::ostream* out) { *out << to_string(ac
 class Baseline : public ::testing::TestWithParam<Accuracy> {
  protected:
   // The first views, from ten starts.
-  std::vector<Registration> results(std::size_t views, double distance_m, double angle_rad) const {
+  std::vector<PoseEstimate> results(std::size_t views, double distance_m, double angle_rad) const {
     const Rendered& r = rendered();
     const std::vector<ObjectPose> starts = r.starts(10, distance_m, angle_rad, test_random());
-    return register_with(GetParam().method, r.scene.models, starts, std::span(r.views).first(views),
-                         *r.backend);
+    return register_with(GetParam().method, r.first(views), starts);
   }
 };
 INSTANTIATE_TEST_SUITE_P(Methods, Baseline,
@@ -67,8 +73,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, Baseline,
                            return name;
                          });
 
-// Depth and tilt one view knows badly: what counts is where the part shows. The starts are about 4
-// px off.
+// One view determines depth and tilt badly, so the error is measured in the image. The starts are
+// about 4 px off.
 TEST_P(Baseline, RecoversAPartInOneView) {
   const Rendered& r = rendered();
   const Se3& camera_from_world = r.views[0].camera_from_world;
@@ -77,14 +83,14 @@ TEST_P(Baseline, RecoversAPartInOneView) {
                    r.scene.camera());
   };
   std::vector<double> off;
-  for (const Registration& found : results(1, 0.001, 0.02))
+  for (const PoseEstimate& found : results(1, 0.001, 0.02))
     off.push_back(off_px(found.world_from_object));
   std::ranges::sort(off);
   EXPECT_LT(off[5], GetParam().one_view_px);
 }
 
 TEST_P(Baseline, RecoversAPartInThreeViews) {
-  for (const Registration& found : results(3, 0.003, 0.05)) {
+  for (const PoseEstimate& found : results(3, 0.003, 0.05)) {
     EXPECT_LT(distance_between_m(found.world_from_object, rendered().truth),
               GetParam().three_views_m);
     EXPECT_LT(angle_between_rad(found.world_from_object, rendered().truth),
@@ -100,13 +106,12 @@ TEST_P(Baseline, TakesNoMoreIterationsThanAllowed) {
   options.outer_iterations = options.inner_iterations = 3;
   options.pyramid_levels = 1;
   const std::vector<ObjectPose> starts = r.starts(1, 0.005, 0.1, test_random());
-  const Registration found =
-      register_with(GetParam().method, r.scene.models, starts, r.views, *r.backend, options)[0];
+  const PoseEstimate found = register_with(GetParam().method, r.all(), starts, options)[0];
   EXPECT_EQ(found.iterations, 3);
-  EXPECT_EQ(found.reason, Convergence::IterationLimit);
+  EXPECT_EQ(found.convergence, Convergence::IterationLimit);
 }
 
-// Near its end a method stops by itself, and not sooner than its smallest step says.
+// Near the optimum a method stops by itself, and a larger smallest step stops it sooner.
 TEST_P(Baseline, EndsByASmallStep) {
   const Rendered& r = rendered();
   const std::vector<ObjectPose> starts = r.starts(5, 0.0005, 0.01, test_random());
@@ -115,18 +120,18 @@ TEST_P(Baseline, EndsByASmallStep) {
     options.inner_iterations = options.outer_iterations = 1000;
     options.min_step_m *= coarser;
     options.min_step_rad *= coarser;
-    return register_with(GetParam().method, r.scene.models, starts, r.views, *r.backend, options);
+    return register_with(GetParam().method, r.all(), starts, options);
   };
   int fine = 0, coarse = 0;
-  for (const Registration& found : results_with(1)) {
-    EXPECT_EQ(found.reason, Convergence::SmallStep) << found.iterations;
+  for (const PoseEstimate& found : results_with(1)) {
+    EXPECT_EQ(found.convergence, Convergence::SmallStep) << found.iterations;
     fine += found.iterations;
   }
-  for (const Registration& found : results_with(1000)) coarse += found.iterations;
+  for (const PoseEstimate& found : results_with(1000)) coarse += found.iterations;
   EXPECT_LT(coarse, fine);
 }
 
-// `inner_iterations` is what ends the solve of every method, be it an association's or the whole.
+// `inner_iterations` ends the solve of every method, of one association or of the whole.
 TEST_P(Baseline, SolvesWithTheLimitThatAllShare) {
   const Rendered& r = rendered();
   const std::vector<ObjectPose> start = r.starts(1, 0.003, 0.05, test_random());
@@ -135,8 +140,7 @@ TEST_P(Baseline, SolvesWithTheLimitThatAllShare) {
     options.outer_iterations = 1;
     options.inner_iterations = inner;
     options.pyramid_levels = 1;
-    const Registration found =
-        register_with(GetParam().method, r.scene.models, start, r.views, *r.backend, options)[0];
+    const PoseEstimate found = register_with(GetParam().method, r.all(), start, options)[0];
     return distance_between_m(found.world_from_object, start[0].world_from_object);
   };
   EXPECT_GT(moved_m(1), 0);
@@ -145,12 +149,10 @@ TEST_P(Baseline, SolvesWithTheLimitThatAllShare) {
 
 TEST_P(Baseline, LeavesWhatLiesBehindTheCameraWhereItIs) {
   const Rendered& r = rendered();
-  const std::span<const RegisterView> view = std::span(r.views).first(1);
   const ObjectPose behind{
-      0, inverse(view[0].camera_from_world) * Se3{Eigen::Quaterniond::Identity(), {0, 0, -0.5}}};
-  const Registration found =
-      register_with(GetParam().method, r.scene.models, std::span(&behind, 1), view, *r.backend)[0];
-  EXPECT_EQ(found.reason, Convergence::NoPoints);
+      0, inverse(r.views[0].camera_from_world) * Se3{Eigen::Quaterniond::Identity(), {0, 0, -0.5}}};
+  const PoseEstimate found = register_with(GetParam().method, r.first(1), {&behind, 1})[0];
+  EXPECT_EQ(found.convergence, Convergence::NoPoints);
   EXPECT_EQ(found.points, 0);
   EXPECT_EQ(distance_between_m(found.world_from_object, behind.world_from_object), 0);
 }
@@ -161,7 +163,7 @@ TEST_P(Baseline, RefusesOptionsOutOfRange) {
     BaselineOptions options;
     spoil(options);
     try {
-      register_with(GetParam().method, r.scene.models, {}, r.views, *r.backend, options);
+      register_with(GetParam().method, r.all(), {}, options);
       ADD_FAILURE() << field;
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find(field), std::string::npos) << error.what();
@@ -180,38 +182,33 @@ TEST_P(Baseline, RefusesOptionsOutOfRange) {
 TEST(BaselineMethods, WantAViewAndTheModel) {
   const Rendered& r = rendered();
   const ObjectPose unknown{1, r.truth};
-  EXPECT_THROW(register_with(Method::CIcp, r.scene.models, {}, {}, *r.backend), LogicError);
-  EXPECT_THROW(
-      register_with(Method::CIcp, r.scene.models, std::span(&unknown, 1), r.views, *r.backend),
-      LogicError);
+  EXPECT_THROW(register_with(Method::CIcp, r.first(0), {}), LogicError);
+  EXPECT_THROW(register_with(Method::CIcp, r.all(), {&unknown, 1}), LogicError);
 }
 
-// A wall right before the camera hides the part.
+// A wall close to the camera hides the part.
 TEST(BaselineMethods, LeaveOutWhatOccludersHide) {
   const Rendered& r = rendered();
-  RegisterView view = r.views[0];
+  ObjectView view = r.views[0];
   const ObjectPose truth{0, r.truth};
   Occluders wall{view.camera, {}};
   wall.depth_m.assign(std::size_t(view.camera.width) * std::size_t(view.camera.height), 0.05f);
   view.occluders = std::make_shared<const Occluders>(wall);
-  const Candidate candidate{0, view.camera_from_world * r.truth};
   for (const Method method : all_methods())
-    EXPECT_EQ(register_with(method, r.scene.models, {&truth, 1}, {&view, 1}, *r.backend)[0].reason,
+    EXPECT_EQ(register_with(method, r.with(view), {&truth, 1})[0].convergence,
               Convergence::NoPoints)
         << to_string(method);
-  EXPECT_EQ(fdcm_scores(r.scene.models, {&candidate, 1}, view, *r.backend)[0],
-            view.view->options.cap_px);
-  EXPECT_EQ(line2d_scores(r.scene.models, {&candidate, 1}, view, *r.backend)[0], 0);
+  EXPECT_EQ(fdcm_scores(r.with(view), {&truth, 1})[0], view.tensor->options.cap_px);
+  EXPECT_EQ(line2d_scores(r.with(view), {&truth, 1})[0], 0);
 }
 
 TEST(BaselineMethods, WantWhatTheyRead) {
   const Rendered& r = rendered();
-  RegisterView bare = r.views[0];
+  ObjectView bare = r.views[0];
   bare.edges = nullptr;
   bare.image = nullptr;
   for (const Method method : {Method::DcIcp, Method::LmIcp, Method::CIcp, Method::Direct})
-    EXPECT_THROW(prepare_method(method, r.scene.models, std::span(&bare, 1), *r.backend),
-                 LogicError);
+    EXPECT_THROW(prepare_method(method, r.with(bare)), LogicError);
 }
 
 TEST(BaselineMethods, AreKnownByName) {

@@ -1,4 +1,4 @@
-// DC-ICP's association against a look at every edge point.
+// DC-ICP's association, compared with a search over all edge points.
 #include "host/baselines/joint_index.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +45,7 @@ TEST(JointIndex, FindsTheClosestInPlaceAndDirection) {
     }
 }
 
-// A pose that ran away projects anywhere: the image is searched once over and no further.
+// A pose far off projects anywhere. The search covers the image once.
 TEST(JointIndex, FindsTheClosestFromFarOutsideTheImage) {
   Random random = test_random();
   const std::vector<EdgePoint> edges = random_edges(40, 157, 93, random);

@@ -1,5 +1,5 @@
-// Scores of given candidates: what LINE-2D says of drawn and rendered images, FDCM against its sum
-// written out.
+// Scores of given candidates: LINE-2D on drawn and rendered images, FDCM against its sum computed
+// here.
 #include "host/baselines/candidate_scores.h"
 
 #include <gtest/gtest.h>
@@ -12,20 +12,21 @@
 #include "tests/active/rendered_scene.h"
 #include "tests/register/scene.h"
 #include "tests/test_random.h"
+#include "host/core/thinned.h"
 
 namespace edgescout {
 namespace {
 
 using namespace test;
 
-RegisterView view_of_image(const Image& image) {
-  RegisterView view;
+ObjectView view_of_image(const Image& image) {
+  ObjectView view;
   view.camera = scene_camera();
   view.image = std::make_shared<Image>(image);
   return view;
 }
 
-// A bright square of 60 mm, 0.4 m before the camera, turned in the image: 105 px a side.
+// A bright square of 60 mm, 0.4 m from the camera, turned in the image: 105 px per side.
 constexpr double square_m = 0.06, square_z_m = 0.4;
 Image drawn_square(double turn_rad, double shift_x_px = 0) {
   const Camera camera = scene_camera();
@@ -46,11 +47,11 @@ class Line2d : public ::testing::Test {
   // Of a flat box with the square as its front.
   double score(const Image& image, const Se3& camera_from_object,
                const Line2dOptions& options = {}) {
-    RegisterView view = view_of_image(image);
+    ObjectView view = view_of_image(image);
     const Camera& c = view.camera;
-    view.view = backend->make_view({}, c.width, c.height, {}, intrinsics_of(c), {});
-    const Candidate candidate{0, camera_from_object};
-    return line2d_scores(std::span(&box, 1), std::span(&candidate, 1), view, *backend, options)[0];
+    view.tensor = backend->make_view({}, c.width, c.height, {}, intrinsics_of(c), {});
+    const ObjectPose candidate{0, camera_from_object};
+    return line2d_scores({{&box, 1}, {&view, 1}, *backend}, {&candidate, 1}, options)[0];
   }
   static Se3 square_pose(double turn_rad, double shift_x_m = 0) {
     return {Eigen::Quaterniond(Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ())),
@@ -60,7 +61,7 @@ class Line2d : public ::testing::Test {
   EdgeModel box = make_edge_model(make_box({square_m, square_m, 0.002}));
 };
 
-// Whatever the square's turn, so whatever the directions: the labels are OpenCV's.
+// For all turns of the square, so for all directions: the labels equal OpenCV's.
 TEST_F(Line2d, IsCompleteOnADrawingOfTheObject) {
   for (int step = 0; step < 16; ++step) {
     const double turn = step * std::numbers::pi / 32;
@@ -68,7 +69,7 @@ TEST_F(Line2d, IsCompleteOnADrawingOfTheObject) {
   }
 }
 
-// Blur and spread forgive a few pixels; chance gives a half.
+// Blur and spread tolerate a few pixels. Chance gives a half.
 TEST_F(Line2d, FallsWithTheDistanceFromTheObject) {
   const Image image = drawn_square(0.3);
   const double px_m = square_z_m / scene_camera().fx;
@@ -124,31 +125,28 @@ TEST_F(Line2d, RefusesOptionsOutOfRange) {
 }
 
 TEST_F(Line2d, WantsAnImageAndTheModel) {
-  RegisterView view;
+  ObjectView view;
   view.camera = scene_camera();
-  const Candidate candidate{1, {}};
-  EXPECT_THROW(line2d_scores(std::span(&box, 1), {}, view, *backend), LogicError);
+  const ObjectPose candidate{1, {}};
+  EXPECT_THROW(line2d_scores({{&box, 1}, {&view, 1}, *backend}, {}), LogicError);
   view = view_of_image(drawn_square(0));
-  EXPECT_THROW(line2d_scores(std::span(&box, 1), std::span(&candidate, 1), view, *backend),
-               LogicError);
+  EXPECT_THROW(line2d_scores({{&box, 1}, {&view, 1}, *backend}, {&candidate, 1}), LogicError);
+  EXPECT_THROW(line2d_scores({{&box, 1}, {}, *backend}, {}), LogicError);
 }
 
-// Three parts on a board, each at its truth and at 20 poses beside it.
+// Three parts on a board, each at its true pose and at 20 poses near it.
 TEST(CandidateScores, PreferTheTruthInRenderedImages) {
   const std::unique_ptr<Backend> backend = make_cpu_backend(2);
   const RenderedScene scene({"l_bracket", "bearing_block", "u_channel"}, 3, 1);
-  const RegisterView view = scene.view(0, *backend);
+  const ObjectView view = scene.view(0, *backend);
   Random random = test_random();
   for (std::size_t placed = 0; placed < 3; ++placed) {
     const PlacedObject& object = scene.scene.placed[placed];
-    std::vector<Candidate> candidates{
-        {object.object, view.camera_from_world * object.world_from_object}};
-    for (int i = 0; i < 20; ++i) {
-      const Detection off = scene.candidate(placed, 0.015, 0.3, random);
-      candidates.push_back({off.object, view.camera_from_world * off.world_from_object});
-    }
-    const std::vector<double> line2d = line2d_scores(scene.models, candidates, view, *backend),
-                              fdcm = fdcm_scores(scene.models, candidates, view, *backend);
+    std::vector<ObjectPose> candidates{{object.object, object.world_from_object}};
+    for (int i = 0; i < 20; ++i) candidates.push_back(scene.candidate(placed, 0.015, 0.3, random));
+    const Scene one{scene.models, {&view, 1}, *backend};
+    const std::vector<double> line2d = line2d_scores(one, candidates),
+                              fdcm = fdcm_scores(one, candidates);
     EXPECT_GT(line2d[0], 80);
     EXPECT_LT(fdcm[0], 5);
     EXPECT_EQ(std::ranges::max_element(line2d), line2d.begin());
@@ -161,19 +159,21 @@ TEST(CandidateScores, OfFdcmAreMeansOverAllVisiblePoints) {
   const std::unique_ptr<Backend> backend = make_cpu_backend(2);
   Random random = test_random();
   const PartScene scene("l_bracket", 1, random, *backend);
-  RegisterView view = scene.views[0];
+  const ObjectView& view = scene.views[0];
   const Se3 truth = view.camera_from_world * scene.truth;
-  std::vector<Candidate> candidates;
+  std::vector<Se3> camera_from_object;
+  std::vector<ObjectPose> candidates;
   for (const Eigen::Vector3d& shift :
        {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.01, -0.02, 0.03), Eigen::Vector3d(0.12, 0, 0),
-        Eigen::Vector3d(0.4, 0, 0), Eigen::Vector3d(0, 0, -0.8)})
-    candidates.push_back({0, {truth.rotation, truth.translation_m + shift}});
-  const std::vector<double> scores =
-      fdcm_scores(std::span(&scene.model, 1), candidates, view, *backend);
-  const std::vector<std::uint16_t> tensor = view.view->tensor();
-  const TensorView values{tensor, view.view->shape, view.view->intrinsics};
+        Eigen::Vector3d(0.4, 0, 0), Eigen::Vector3d(0, 0, -0.8)}) {
+    camera_from_object.push_back({truth.rotation, truth.translation_m + shift});
+    candidates.push_back({0, inverse(view.camera_from_world) * camera_from_object.back()});
+  }
+  const std::vector<double> scores = fdcm_scores(scene.on(*backend), candidates);
+  const std::vector<std::uint16_t> tensor = view.tensor->tensor();
+  const TensorView values{tensor, view.tensor->shape, view.tensor->intrinsics};
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const Se3& pose = candidates[i].camera_from_object;
+    const Se3& pose = camera_from_object[i];
     const std::vector<ModelPoint> points =
         visible_edges(scene.model, std::span(&pose, 1), *backend)[0];
     double sum = 0;
@@ -182,15 +182,15 @@ TEST(CandidateScores, OfFdcmAreMeansOverAllVisiblePoints) {
       const bool inside = at.u >= 0 && at.v >= 0 && at.u <= values.shape.width - 1 &&
                           at.v <= values.shape.height - 1;
       sum += inside ? tensor_lookup(values, float(at.u), float(at.v), float(at.theta), nullptr)
-                    : view.view->options.cap_px;
+                    : view.tensor->options.cap_px;
     }
     const double expected =
-        points.empty() ? view.view->options.cap_px : sum / double(points.size());
+        points.empty() ? view.tensor->options.cap_px : sum / double(points.size());
     EXPECT_NEAR(scores[i], expected, 2e-3 * (1 + expected)) << i;
   }
   EXPECT_LT(scores[0], 2);
-  EXPECT_EQ(scores[3], view.view->options.cap_px);
-  EXPECT_EQ(scores[4], view.view->options.cap_px);
+  EXPECT_EQ(scores[3], view.tensor->options.cap_px);
+  EXPECT_EQ(scores[4], view.tensor->options.cap_px);
 }
 
 }  // namespace

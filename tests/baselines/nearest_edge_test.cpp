@@ -1,4 +1,4 @@
-// The labelled distance transform against a look at every seed.
+// The labelled distance transform, compared with a search over all seeds.
 #include "host/baselines/nearest_edge.h"
 
 #include <gtest/gtest.h>

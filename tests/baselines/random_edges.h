@@ -1,4 +1,4 @@
-// Edge points strewn over an image.
+// Random edge points in an image.
 #pragma once
 
 #include <numbers>

@@ -1,5 +1,5 @@
-// The systems that the baselines solve, against differences of their cost, in two views that look
-// from different sides.
+// The systems that the baselines solve, compared with differences of their cost, in two views from
+// different sides.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -15,16 +15,16 @@ namespace {
 
 using namespace test;
 
-// A pose before two cameras and points that land well inside both images.
+// A pose in front of two cameras and points that project well inside both images.
 class Systems : public ::testing::Test {
  protected:
   Systems() {
     const Camera camera = scene_camera();
     for (const double x : {0.1, -0.25}) {
-      RegisterView view;
+      ObjectView view;
       view.camera = camera;
       view.camera_from_world = camera_looking_at({x, 0.2, 0.45}, pose.translation_m);
-      view.view =
+      view.tensor =
           backend->make_view({}, camera.width, camera.height, {}, intrinsics_of(camera), {});
       views.push_back(view);
       points.emplace_back();
@@ -32,7 +32,7 @@ class Systems : public ::testing::Test {
     }
   }
 
-  // A plane over the image, so that what lies between the pixels is known.
+  // A plane over the image, so that values between pixels are known.
   static ScalarImage slope(int width, int height, double base, double by_x, double by_y) {
     ScalarImage image{width, height, std::vector<float>(std::size_t(width) * height)};
     for (int y = 0; y < height; ++y)
@@ -41,7 +41,7 @@ class Systems : public ::testing::Test {
     return image;
   }
 
-  // Poses pass through single precision: the steps are long enough for that.
+  // Poses are rounded to single precision: the steps are long enough for that.
   void expect_gradient(const std::function<WorldSystem(const Se3&)>& system_at) {
     const WorldSystem system = system_at(pose);
     EXPECT_EQ(system.points, 80);
@@ -56,7 +56,7 @@ class Systems : public ::testing::Test {
   Random random = test_random();
   std::unique_ptr<Backend> backend = make_cpu_backend(1);
   Se3 pose{random.rotation(), {0.02, -0.01, 0.03}};
-  std::vector<RegisterView> views;
+  std::vector<ObjectView> views;
   std::vector<std::vector<ModelPoint>> points;
 };
 
@@ -80,7 +80,7 @@ TEST_F(Systems, OfDistancesDeriveTheirCost) {
         [&](const Se3& at) { return distance_system(views, points, distances, at, scale); });
 }
 
-// 6 px of image: nearly all points land outside and are pulled back by their distance to it.
+// An image of 6 px: nearly all points project outside, and their distance to it pulls them back.
 TEST_F(Systems, OfDistancesPullBackFromOutside) {
   const std::vector<ScalarImage> distances{slope(6, 6, 3, 0, 0), slope(6, 6, 3, 0, 0)};
   expect_gradient([&](const Se3& at) { return distance_system(views, points, distances, at, 50); });
@@ -101,7 +101,7 @@ TEST_F(Systems, LeaveOutPointsWithoutAnEdge) {
   pairs[1][7] = &edge;
   const WorldSystem system = pair_system(views, points, pairs, pose, 4);
   const Landing at =
-      land(views[1].view->intrinsics, views[1].camera_from_world * pose, points[1][7]);
+      land(views[1].tensor->intrinsics, views[1].camera_from_world * pose, points[1][7]);
   EXPECT_EQ(system.points, 1);
   EXPECT_NEAR(system.residual_sum, std::hypot(at.u - 100, at.v - 100), 1e-3);
 }

@@ -35,6 +35,14 @@ class FailingBackend : public Backend {
                       std::span<TemplateHit> hits) override {
     cpu_->template_score(view, points, jobs, anchor_step, hits);
   }
+  ModelPointsHandle make_model_points(std::span<const ModelPoint> points) override {
+    return cpu_->make_model_points(points);
+  }
+  void template_project(const BackendModelPoints& points, std::span<const TemplateProjectJob> jobs,
+                        const TemplateProjectOptions& options, std::span<TemplatePoint> projected,
+                        std::span<std::uint32_t> too_near) override {
+    cpu_->template_project(points, jobs, options, projected, too_near);
+  }
   void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
                              std::span<const PoseProblem> problems, const PoseLoss& loss,
                              std::span<NormalEquations> out) override {
@@ -148,7 +156,7 @@ TEST(RunBatch, KeepsAnEarlierRunsResultsUntilItHasItsFirst) {
   EXPECT_EQ(t.summary().at("done"), 3);
 }
 
-TEST(RunBatch, TellsOfTheLostDeviceWhereTheListCannotBeWritten) {
+TEST(RunBatch, ReportsTheLostDeviceIfTheListCannotBeWritten) {
   const Batch t;
   fs::create_directories(t.out / "results.csv/in the way");
   FailingBackend backend(views_per_image,
@@ -184,7 +192,7 @@ TEST(RunBatch, MixesNoJointResultsWithThoseOfOneView) {
                      {"views"});
 }
 
-// Where the scene says now that the camera stood elsewhere, poses in the world are others.
+// If the scene now has another camera pose, poses in the world change.
 TEST(RunBatch, MixesNoResultsOfCamerasThatMoved) {
   Batch t;
   run_batch(t.images, t.sets, *make_cpu_backend(2), t.options);
@@ -220,7 +228,7 @@ TEST(RunBatch, RefusesWhereTheDeviceCanWorkOnNoImage) {
   const CollectedLog log;
   expect_input_error([&] { run_batch(one, t.sets, backend, t.options); },
                      {"000000.png: image: size: found 320x240, expected less"});
-  EXPECT_TRUE(log.messages.empty()) << "told twice";
+  EXPECT_TRUE(log.messages.empty()) << "logged twice";
   EXPECT_FALSE(fs::exists(t.out)) << "something was written";
 }
 
@@ -248,7 +256,7 @@ TEST(RunBatch, JoinsOnlyViewsOfKnownPlace) {
   EXPECT_FALSE(fs::exists(t.out));
 }
 
-// The same view again is no evidence of its own.
+// A repeated view gives no new information.
 TEST(RunBatch, JoinsEveryViewOnce) {
   Batch t;
   t.options.joint = true;
@@ -278,10 +286,10 @@ TEST(ListImages, KnowsWhichImagesAreOfOneScene) {
       {"000003", "scene_camera.json", "images"});
 }
 
-TEST(ListImages, TellsWhatItCannotLookAt) {
+TEST(ListImages, NamesWhatItCannotExamine) {
   const TemporaryFolder folder;
   fs::create_symlink("loop.png", folder.path() / "loop.png");
-  EXPECT_EQ(list_images({folder.path()}).size(), 1u) << "listed: reading it says what is wrong";
+  EXPECT_EQ(list_images({folder.path()}).size(), 1u) << "listed: reading it gives the error";
   expect_input_error([&] { list_images({folder.path() / std::string(300, 'a')}); },
                      {"aaa", "input"});
 }

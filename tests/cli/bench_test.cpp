@@ -317,7 +317,7 @@ std::vector<std::string> devices_in_short(const fs::path& out) {
   return arguments;
 }
 
-TEST(BenchDevices, TimesEveryStageBesideTheCpu) {
+TEST(BenchDevices, TimesEveryStageAndComparesWithTheCpu) {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out";
   const Outcome outcome = run_program(devices_in_short(out));
@@ -348,7 +348,7 @@ TEST(BenchDevices, TimesEveryStageBesideTheCpu) {
     }
 }
 
-// What was measured is said before the files are written, of which here the first cannot be.
+// The times are printed before the files are written. Here the first file cannot be written.
 TEST(BenchDevices, SayTheTimesAlsoWhereTheyCannotBeWritten) {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out";

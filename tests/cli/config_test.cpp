@@ -57,7 +57,7 @@ struct Program {
   }
 };
 
-TEST(OptionTable, TellsWhatAResultDependsOnWhoeverSetIt) {
+TEST(OptionTable, ListsTheSettingsOfAResultWhereverTheyComeFrom) {
   Program p;
   p.parse({"first", "--lambda", "50.0", "--fast"});
   CLI::App& verb = *p.app.get_subcommand("first");

@@ -64,7 +64,7 @@ TEST(DetectResume, ListsNoOlderResultOfAnImageThatFailsNow) {
   for (const BopResult& row : load_bop_results(t.out / "results.csv")) EXPECT_EQ(row.image_id, 0);
 }
 
-TEST(DetectResume, LeavesNothingOfAnEarlierRunBesideItsOwn) {
+TEST(DetectResume, LeavesNoResultsOfAnEarlierRun) {
   const Copies t(2);
   ASSERT_EQ(run_program(t.arguments()).exit_code, 0);
   t.folder.write("out/notes.json", "{}");

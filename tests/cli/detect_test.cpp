@@ -247,7 +247,7 @@ TEST(Detect, RefusesTheOnlyImageWhereItIsTooLarge) {
   EXPECT_NE(outcome.err.find("wide.png: image: size: found 32767x120", error), std::string::npos)
       << outcome.err;
   EXPECT_EQ(outcome.err.find("edgescout: warning: "), std::string::npos)
-      << "told twice: " << outcome.err;
+      << "logged twice: " << outcome.err;
   EXPECT_FALSE(fs::exists(t.out)) << "something was written";
 }
 

@@ -57,9 +57,9 @@ TEST(Eval, OfTheTruthIsOne) {
       << evaluated.outcome.out;
 }
 
-// As BOP's own subsets are judged. What else the scenes and the results hold is neither missed nor
-// false.
-TEST(Eval, JudgesTheObjectsWhoseModelsAreGiven) {
+// As BOP's own subsets are evaluated. Other objects in the scenes and results are neither misses
+// nor false positives.
+TEST(Eval, EvaluatesTheObjectsWhoseModelsAreGiven) {
   const TemporaryFolder folder;
   std::vector<BopResult> rows = true_results(load_bop_scene(one_view()), 0);
   const auto of_object_2 = std::ranges::count(rows, 2, &BopResult::object_id);
@@ -135,7 +135,7 @@ TEST(Eval, DropsNothingUnlessAsked) {
             0);
 }
 
-TEST(Eval, RefusesWhatItCannotJudge) {
+TEST(Eval, RefusesWhatItCannotEvaluate) {
   const TemporaryFolder folder;
   const BopResult good = truth_of_both_scenes()[0];
   const auto results = [&](BopResult row) {

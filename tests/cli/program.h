@@ -1,4 +1,4 @@
-// Runs the built program and keeps what it said.
+// Runs the built program and keeps its output.
 #pragma once
 
 #include <fcntl.h>

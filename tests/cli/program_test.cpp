@@ -107,7 +107,7 @@ TEST(Devices, RejectsADeviceThatIsNotThere) {
   expect_bad_request({"devices", "--device", "cuda"}, {"device", "cuda", "cpu"});
 }
 
-TEST(Devices, TellsAFullStandardOutput) {
+TEST(Devices, ReportsAFullStandardOutput) {
   const TemporaryFolder folder;
   const auto err = folder.path() / "err";
   const std::string command = "'" EDGESCOUT_CLI "' devices >/dev/full 2>'" + err.string() + "'";

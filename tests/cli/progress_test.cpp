@@ -11,7 +11,7 @@
 namespace edgescout {
 namespace {
 
-TEST(Progress, SaysALineAtEveryTenthWithoutATerminal) {
+TEST(Progress, WritesALineAtEveryTenthWithoutATerminal) {
   std::ostringstream out;
   {
     Progress progress("build", 1000, out, false);
@@ -24,7 +24,7 @@ TEST(Progress, SaysALineAtEveryTenthWithoutATerminal) {
   EXPECT_EQ(text.find('\r'), std::string::npos);
 }
 
-TEST(Progress, SaysEveryStepOfAShortJob) {
+TEST(Progress, WritesEveryStepOfAShortJob) {
   std::ostringstream out;
   Progress progress("image", 3, out, false);
   for (int i = 0; i < 3; ++i) progress.step();
@@ -52,7 +52,7 @@ TEST(Progress, DrawsABarOverItselfOnATerminal) {
 
 // Of a million half were there before; a hundredth takes 50 ms or more, so that what is left takes
 // 2 s at least.
-TEST(Progress, JudgesTheTimeLeftByWhatThisRunHasDone) {
+TEST(Progress, EstimatesTheTimeLeftFromThisRun) {
   std::ostringstream out;
   {
     Progress progress("bins", 1000000, out, true, 500000);

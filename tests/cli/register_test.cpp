@@ -137,8 +137,9 @@ TEST(Register, GoesOnPastABadImage) {
   EXPECT_FALSE(fs::exists(out / "000001_000000.json"));
 }
 
-// Metres where millimetres belong, and a place beside the image: both are drawn to something in it.
-TEST(Register, TellsPosesThatNoImageShows) {
+// A start in metres in place of millimetres, and a start outside the image: without the check both
+// would be registered to something in the image.
+TEST(Register, ReportsPosesThatNoImageShows) {
   const TemporaryFolder folder;
   const BopScene scene = load_bop_scene(one_view());
   std::vector<BopResult> starts(3, certain_truths(scene).at(0));
@@ -243,8 +244,8 @@ TEST(Register, RefusesWhatWouldMixImages) {
   EXPECT_EQ(std::distance(fs::directory_iterator(a.parent_path()), {}), 1);
 }
 
-// Two images of one name are told apart by their folders, also where those have moved.
-TEST(Register, TellsImagesOfOneNameApartByTheirFolders) {
+// Two images of one name are distinguished by their folders, also after these have moved.
+TEST(Register, DistinguishesImagesOfOneNameByTheirFolders) {
   const TemporaryFolder folder;
   const auto [a, b] = two_of_one_name(folder.path());
   const BopResult start = good_start();

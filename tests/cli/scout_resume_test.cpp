@@ -20,12 +20,12 @@ TEST(Scout, KilledItGoesOnToTheSameEnd) {
   const nlohmann::json a = whole.log(), b = t.log();
   ASSERT_EQ(a.at("steps").size(), b.at("steps").size());
   for (std::size_t i = 0; i < a["steps"].size(); ++i)
-    for (const char* field : {"view", "information", "entropy_nats", "modes", "agreement"})
+    for (const char* field : {"view", "information", "entropy_nats", "modes", "extrinsics_checks"})
       EXPECT_EQ(a["steps"][i].at(field), b["steps"][i].at(field)) << i << field;
   EXPECT_EQ(a.at("detections"), b.at("detections"));
 }
 
-// Other parts may lie under the same views: their images are no evidence about these.
+// Other parts may lie under the same views: their images give no information about these.
 TEST(Scout, DoesNotGoOnInAnotherCell) {
   const SmallScout t;
   ASSERT_EQ(run_program(t.arguments()).exit_code, 0);

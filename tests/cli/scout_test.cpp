@@ -1,4 +1,4 @@
-// edgescout scout: what it finds and writes, and the page that needs nothing beside itself.
+// edgescout scout: its results, and the page that needs no other file.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -46,7 +46,7 @@ TEST(Scout, FindsThePartAndShowsHow) {
     }
     EXPECT_EQ(taken, i);
     EXPECT_FALSE(step.at("decision_ms").empty());
-    EXPECT_EQ(step.at("agreement").size(), static_cast<std::size_t>(i + 1));
+    EXPECT_EQ(step.at("extrinsics_checks").size(), static_cast<std::size_t>(i + 1));
     EXPECT_GE(step.at("gained_nats").get<double>(), 0);
   }
   EXPECT_GT(log["steps"][0].at("gained_nats").get<double>(), 0);

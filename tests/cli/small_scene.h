@@ -17,7 +17,7 @@ struct SmallScene {
 
   explicit SmallScene(int views = 1) {
     const std::vector<Object> parts{make_part("l_bracket")};
-    const Scene made = make_scene(parts, bare_board(1, views));
+    const SimulatedScene made = make_scene(parts, bare_board(1, views));
     ThreadPool pool(2);
     write_bop_scene(made, render(made, pool), scene);
   }

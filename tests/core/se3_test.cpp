@@ -100,7 +100,7 @@ TEST(Se3, TangentActsOnTheLeftAndAboutTheObjectsOrigin) {
   turn[5] = 0.5;
   const Se3 turned = retract(pose, turn);
   EXPECT_EQ(turned.translation_m, pose.translation_m);
-  // Along the destination frame's axes: a point off the origin circles about the destination's z.
+  // Along axes of the destination frame: a point off the origin turns about the destination's z.
   const Eigen::Vector3d arm = pose * Eigen::Vector3d(1, 2, 3) - pose.translation_m;
   const Eigen::Vector3d expected = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()) * arm;
   EXPECT_NEAR((turned * Eigen::Vector3d(1, 2, 3) - pose.translation_m - expected).norm(), 0, 1e-12);

@@ -30,8 +30,7 @@ TEST(PlaceTemplate, PutsTheCentreWhereItIsAskedFor) {
   }
 }
 
-// From wherever in the image, the object turns the same side to the camera: its visible points
-// stay.
+// At any place of the image, the object turns the same side to the camera: its visible points stay.
 TEST(PlaceTemplate, ShowsTheViewpointsSideEverywhere) {
   const auto backend = make_cpu_backend(1);
   const TemplateSet set = part_templates("l_bracket", 1, 0.3, 0.3, *backend);
@@ -82,20 +81,20 @@ TEST(CoarseScan, FindsTheTemplateThatMadeTheEdges) {
       const Eigen::Vector2d place(2 * random.below(coarse.width / 4) + coarse.width / 4 / 2 * 2,
                                   2 * random.below(coarse.height / 4) + coarse.height / 4 / 2 * 2);
       const Se3 truth = place_template(set, set.views[view], turn, distance, place, coarse);
-      const Observation observation = observe_edges(
-          ideal_edges(dense, small_camera(), truth, *backend), small_camera(), reduction, *backend);
-      const ScanHit best = best_of(coarse_scan(set, observation, *backend, {}));
+      const ObjectView image = view_of_edges(ideal_edges(dense, small_camera(), truth, *backend),
+                                             small_camera(), reduction, *backend);
+      const ScanHit best = best_of(coarse_scan(set, image, *backend, {}));
       EXPECT_LT(best.mean_px, 1.6);  // smoothing over orientation alone makes it 1.25
-      EXPECT_EQ(best.view, view);
-      EXPECT_LT(angle_between_rad(best.camera_from_object, truth), 1e-3);
-      EXPECT_NEAR((best.camera_from_object * set.model.center_m).norm(), distance, 1e-9);
-      EXPECT_LT((project(coarse, best.camera_from_object * set.model.center_m) - place).norm(),
+      EXPECT_EQ(best.viewpoint, view);
+      EXPECT_LT(angle_between_rad(best.pose.world_from_object, truth), 1e-3);
+      EXPECT_NEAR((best.pose.world_from_object * set.model.center_m).norm(), distance, 1e-9);
+      EXPECT_LT((project(coarse, best.pose.world_from_object * set.model.center_m) - place).norm(),
                 1e-6);
     }
   }
 }
 
-// Two of a kind: where only one of them may be, nothing else is looked at.
+// Two parts of one kind: the scan looks only where one of them is.
 TEST(CoarseScan, LooksWhereItIsToldTo) {
   const auto backend = make_cpu_backend(2);
   const TemplateSet set = part_templates("l_bracket", 2, 0.27, 0.33, *backend);
@@ -108,14 +107,14 @@ TEST(CoarseScan, LooksWhereItIsToldTo) {
       edges.push_back(edge);
   }
   for (const double reduction : {1.0, 3.0}) {
-    const Observation observation = observe_edges(edges, small_camera(), reduction, *backend);
+    const ObjectView image = view_of_edges(edges, small_camera(), reduction, *backend);
     ScanOptions options;
     options.within = {200, 90, 90, 0};  // down to the border
-    const std::vector<ScanHit> hits = coarse_scan(set, observation, *backend, options);
+    const std::vector<ScanHit> hits = coarse_scan(set, image, *backend, options);
     double least_x = 1e9, most_x = 0, least_y = 1e9, most_y = 0;
     for (const ScanHit& hit : hits) {
       const Eigen::Vector2d at =
-          project(small_camera(), hit.camera_from_object * set.model.center_m);
+          project(small_camera(), hit.pose.world_from_object * set.model.center_m);
       least_x = std::min(least_x, at.x()), most_x = std::max(most_x, at.x());
       least_y = std::min(least_y, at.y()), most_y = std::max(most_y, at.y());
     }
@@ -126,27 +125,27 @@ TEST(CoarseScan, LooksWhereItIsToldTo) {
     EXPECT_GT(most_x, 290 - 2 * reduction - 1);
     EXPECT_GT(most_y, 235);
     const Eigen::Vector2d best =
-        project(small_camera(), best_of(hits).camera_from_object * set.model.center_m);
+        project(small_camera(), best_of(hits).pose.world_from_object * set.model.center_m);
     EXPECT_LT((best - Eigen::Vector2d(240, 120)).norm(), 3 * reduction);
     options.within = {101.2, 70.2, 0.1, 0.1};  // between two anchors: the next one
-    for (const ScanHit& hit : coarse_scan(set, observation, *backend, options))
-      EXPECT_LT((project(small_camera(), hit.camera_from_object * set.model.center_m) -
+    for (const ScanHit& hit : coarse_scan(set, image, *backend, options))
+      EXPECT_LT((project(small_camera(), hit.pose.world_from_object * set.model.center_m) -
                  Eigen::Vector2d(101.2, 70.2))
                     .norm(),
                 2.9 * reduction);
     options.within = {319, 239, 0, 0};  // behind the last one: that
-    for (const ScanHit& hit : coarse_scan(set, observation, *backend, options))
-      EXPECT_LT((project(small_camera(), hit.camera_from_object * set.model.center_m) -
+    for (const ScanHit& hit : coarse_scan(set, image, *backend, options))
+      EXPECT_LT((project(small_camera(), hit.pose.world_from_object * set.model.center_m) -
                  Eigen::Vector2d(319, 239))
                     .norm(),
                 3.5 * reduction);
     options.within = {0, 240, 0, 0};
-    expect_input_error([&] { coarse_scan(set, observation, *backend, options); },
+    expect_input_error([&] { coarse_scan(set, image, *backend, options); },
                        {"detect.region", "320x240"});
   }
 }
 
-// Some of the object lies outside: no reason to prefer another template somewhere else.
+// Part of the object lies outside the image: another template elsewhere must not win.
 TEST(CoarseScan, FindsAnObjectThatReachesOverTheBorder) {
   const auto backend = make_cpu_backend(2);
   const TemplateSet set = part_templates("l_bracket", 2, 0.27, 0.33, *backend);
@@ -160,43 +159,43 @@ TEST(CoarseScan, FindsAnObjectThatReachesOverTheBorder) {
     std::vector<EdgePoint> seen;
     for (const EdgePoint& edge : edges)
       if (edge.x_px >= 0 && edge.x_px < float(small_camera().width)) seen.push_back(edge);
-    const Observation observation = observe_edges(seen, small_camera(), 1, *backend);
-    const ScanHit best = best_of(coarse_scan(set, observation, *backend, {}));
+    const ObjectView image = view_of_edges(seen, small_camera(), 1, *backend);
+    const ScanHit best = best_of(coarse_scan(set, image, *backend, {}));
     const double outside = 1 - double(seen.size()) / double(edges.size());
     EXPECT_GT(outside, 0.1);
     EXPECT_LT(best.mean_px, 1.6 + 6.5 * outside);  // 1.6: as above
-    EXPECT_EQ(best.view, view);
-    EXPECT_LT(angle_between_rad(best.camera_from_object, truth), 1e-3);
+    EXPECT_EQ(best.viewpoint, view);
+    EXPECT_LT(angle_between_rad(best.pose.world_from_object, truth), 1e-3);
     EXPECT_LT(
-        (project(small_camera(), best.camera_from_object * set.model.center_m) - place).norm(),
+        (project(small_camera(), best.pose.world_from_object * set.model.center_m) - place).norm(),
         1e-6);
   }
 }
 
-// The scan as its header says it, in double and one value at a time.
+// The scan as its header describes it, in double and one value at a time.
 struct BruteForce {
   const TemplateSet& set;
-  const Observation& observation;
+  const ObjectView& image;
   const ScanOptions& options;
-  std::vector<std::uint16_t> tensor = observation.view.coarse->tensor();
+  std::vector<std::uint16_t> tensor = image.coarse->tensor();
 
   double value(int x, int y, int bin) const {
-    const TensorShape& shape = observation.view.coarse->shape;
+    const TensorShape& shape = image.coarse->shape;
     if (x < 0 || y < 0 || x >= shape.width || y >= shape.height) return 3.25;
     return std::min(16, (tensor[shape.index(x, y, bin)] + 32) / 64) / 4.0;
   }
   // Mean of a template drawn at `middle` and shifted to an anchor.
   double mean(const TemplateView& view, const Se3& at_middle, const Eigen::Vector2d& shift) const {
     const int count = std::min<int>(options.points, int(view.points.size()));
-    const int bins = observation.view.coarse->shape.bins;
+    const int bins = image.coarse->shape.bins;
     double sum = 0;
     for (int i = 0; i < count; ++i) {
       const ModelPoint& p = view.points[std::size_t(i) * view.points.size() / count];
       const Eigen::Vector3d point = at_middle * Eigen::Vector3d(p.x_m, p.y_m, p.z_m);
       const Eigen::Vector3d ahead =
           point + 1e-6 * (at_middle.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz));
-      const Eigen::Vector2d pixel = project(observation.coarse_camera, point),
-                            along = project(observation.coarse_camera, ahead) - pixel;
+      const Eigen::Vector2d pixel = project(image.coarse_camera, point),
+                            along = project(image.coarse_camera, ahead) - pixel;
       const double theta = std::fmod(std::atan2(along.y(), along.x()) + 2 * pi, pi);
       sum += value(int(std::lround(pixel.x()) + shift.x()), int(std::lround(pixel.y()) + shift.y()),
                    int(std::lround(theta * bins / pi)) % bins);
@@ -209,7 +208,7 @@ struct BruteForce {
     const int step = options.anchor_step;
     const Eigen::Vector2d middle(std::round(x0 + 0.5 * step * (columns - 1)),
                                  std::round(y0 + 0.5 * step * (rows - 1)));
-    const Se3 pose = place_template(set, view, turn, distance, middle, observation.coarse_camera);
+    const Se3 pose = place_template(set, view, turn, distance, middle, image.coarse_camera);
     double lowest = 1e9;
     for (int r = 0; r < rows; ++r)
       for (int c = 0; c < columns; ++c)
@@ -230,15 +229,15 @@ TEST(CoarseScan, EqualsBruteForceOverAllPlaces) {
   for (int i = 0; i < 150; ++i)
     edges.push_back({float(random.uniform(0, 60)), float(random.uniform(0, 44)),
                      float(random.uniform(0, pi)), 1});
-  const Observation observation = observe_edges(edges, camera, 1, *backend);
+  const ObjectView image = view_of_edges(edges, camera, 1, *backend);
   ScanOptions options;  // 21 x 15 anchors: two regions by two, of different sizes
   options.points = 20;
   options.anchor_step = 3;
   options.region_columns = 12;
   options.region_rows = 9;
-  options.kept = 4 * 7;
-  const BruteForce brute{set, observation, options};
-  const std::vector<ScanHit> hits = coarse_scan(set, observation, *backend, options);
+  options.num_kept = 4 * 7;
+  const BruteForce brute{set, image, options};
+  const std::vector<ScanHit> hits = coarse_scan(set, image, *backend, options);
   ASSERT_EQ(hits.size(), 4u * 7u);
   std::size_t hit = 0;
   for (const auto& [y0, rows] : {std::pair{0, 9}, {27, 6}})
@@ -254,7 +253,7 @@ TEST(CoarseScan, EqualsBruteForceOverAllPlaces) {
         EXPECT_NEAR(hits[hit].rank, ranks[kept], 0.026)
             << "one point that rounds the other way is 0.25 / 20";
         const Eigen::Vector2d at =
-            project(camera, hits[hit].camera_from_object * set.model.center_m);
+            project(camera, hits[hit].pose.world_from_object * set.model.center_m);
         EXPECT_GE(at.x(), x0 - 1e-6);
         EXPECT_LE(at.x(), x0 + 3 * (columns - 1) + 1e-6);
         EXPECT_GE(at.y(), y0 - 1e-6);

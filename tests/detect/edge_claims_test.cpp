@@ -3,9 +3,17 @@
 #include <gtest/gtest.h>
 
 #include "tests/detect/part_image.h"
+#include "host/register/pose_classifier.h"
 
 namespace edgescout::test {
 namespace {
+
+PoseEstimate estimate_of(const Se3& world_from_object, const std::vector<PoseFeatures>& features) {
+  PoseEstimate estimate;
+  estimate.world_from_object = world_from_object;
+  estimate.features = features;
+  return estimate;
+}
 
 // Two brackets side by side.
 struct TwoParts {
@@ -13,33 +21,31 @@ struct TwoParts {
   std::vector<EdgeModel> models{part_model("l_bracket")};
   Se3 left{so3_exp({0.6, 0.3, 0.2}), {-0.06, 0, 0.35}},
       right{so3_exp({2.1, -0.4, 1.0}), {0.06, 0.01, 0.35}};
-  std::vector<RegisterView> views;
+  std::vector<ObjectView> views;
 
   TwoParts() {
     const EdgeModel dense = part_model("l_bracket", 2e-4);
     std::vector<EdgePoint> edges = ideal_edges(dense, small_camera(), left, *backend);
     const std::vector<EdgePoint> more = ideal_edges(dense, small_camera(), right, *backend);
     edges.insert(edges.end(), more.begin(), more.end());
-    views.push_back(observe_edges(edges, small_camera(), 1, *backend).view);
+    views.push_back(view_of_edges(edges, small_camera(), 1, *backend));
   }
   static Se3 shifted(const Se3& pose, double x_m) {
     return {pose.rotation, pose.translation_m + Eigen::Vector3d(x_m, 0, 0)};
   }
-  // Poses whose edges agree fully and are so long, px; not at all where that is negative.
+  // Poses whose edges agree fully and have these lengths, px; a negative length: no edge agrees.
   std::vector<EdgeClaim> choose(const std::vector<Se3>& poses,
                                 const std::vector<double>& lengths_px,
                                 const EdgeClaimOptions& options = {}) const {
-    std::vector<ObjectPose> hypotheses;
-    for (const Se3& pose : poses) hypotheses.push_back({0, pose});
-    std::vector<std::vector<PoseFeatures>> features;
-    for (double length_px : lengths_px) {
+    std::vector<PoseEstimate> estimates;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
       PoseFeatures f;
-      f.psi = length_px > 0 ? 1 : 0;
+      f.psi = lengths_px[i] > 0 ? 1 : 0;
       f.points = 100;
-      f.length_px = std::abs(length_px);
-      features.push_back({f});
+      f.length_px = std::abs(lengths_px[i]);
+      estimates.push_back(estimate_of(poses[i], {f}));
     }
-    return claim_edges(models, hypotheses, features, views, *backend, options);
+    return claim_edges({models, views, *backend}, estimates, options);
   }
 };
 
@@ -66,7 +72,7 @@ TEST(ClaimEdges, PosesOnDifferentEdgesBothStay) {
             (Indices{2, 0}));
 }
 
-TEST(ClaimEdges, WhatExplainsNothingGoes) {
+TEST(ClaimEdges, DropsPosesThatExplainNothing) {
   const TwoParts t;
   const Se3 nowhere{t.left.rotation, {0, 0.07, 0.35}};
   EXPECT_EQ(indices(t.choose({nowhere, t.left}, {1000, 10})), Indices{1});
@@ -94,13 +100,12 @@ TEST(ClaimEdges, CountsOnlyViewsWithEdges) {
   EXPECT_TRUE(t.choose({t.left}, {100}).empty());
 }
 
-TEST(ClaimEdges, CountsAllViewsTogether) {
+TEST(ClaimEdges, SumsOverAllViews) {
   TwoParts t;
   const EdgeModel dense = part_model("l_bracket", 2e-4);
   const auto view_of_one = [&](const Se3& pose) {
-    return observe_edges(ideal_edges(dense, small_camera(), pose, *t.backend), small_camera(), 1,
-                         *t.backend)
-        .view;
+    return view_of_edges(ideal_edges(dense, small_camera(), pose, *t.backend), small_camera(), 1,
+                         *t.backend);
   };
   t.views = {view_of_one(t.left)};
   EXPECT_EQ(indices(t.choose({t.left, t.right}, {90, 100})), Indices{0});
@@ -108,8 +113,8 @@ TEST(ClaimEdges, CountsAllViewsTogether) {
   EXPECT_EQ(indices(t.choose({t.left, t.right}, {90, 100})), (Indices{1, 0}));
 }
 
-// Views that do not show a pose, because others hide it, take nothing from those that do.
-TEST(ClaimEdges, KeepsWhatSomeViewsShow) {
+// Views in which others hide a pose do not count against it.
+TEST(ClaimEdges, KeepsPosesThatSomeViewsShow) {
   const TwoParts t;
   PoseFeatures good, hidden;
   good.points = good.visible = hidden.points = hidden.visible = 200;
@@ -121,15 +126,12 @@ TEST(ClaimEdges, KeepsWhatSomeViewsShow) {
   const std::vector<PoseFeatures> shown{good, good, good, hidden, hidden, hidden}, never(6, hidden),
       once{good, hidden, hidden, hidden};
   ASSERT_LT(psi_z_score(pool_over_views(shown)), 0);
-  const std::vector<ObjectPose> pose{{0, t.left}};
-  EXPECT_EQ(claim_edges(t.models, pose, std::vector<std::vector<PoseFeatures>>{shown}, t.views,
-                        *t.backend)
-                .size(),
-            1u);
+  const auto claims = [&](const std::vector<PoseFeatures>& features) {
+    return claim_edges({t.models, t.views, *t.backend}, std::vector{estimate_of(t.left, features)});
+  };
+  EXPECT_EQ(claims(shown).size(), 1u);
   for (const std::vector<PoseFeatures>& features : {never, once})
-    EXPECT_TRUE(claim_edges(t.models, pose, std::vector<std::vector<PoseFeatures>>{features},
-                            t.views, *t.backend)
-                    .empty());
+    EXPECT_TRUE(claims(features).empty());
 }
 
 }  // namespace

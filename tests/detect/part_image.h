@@ -1,9 +1,9 @@
-// One part before a small camera: ideal edges, observations and templates of it.
+// One part in front of a small camera: its ideal edges, views and templates.
 #pragma once
 
 #include <gtest/gtest.h>
 
-#include "host/detect/observation.h"
+#include "host/detect/tensors.h"
 #include "host/model/template_set.h"
 #include "tests/register/scene.h"
 
@@ -11,13 +11,17 @@ namespace edgescout::test {
 
 inline Camera small_camera() { return {320, 240, 400, 400, 159.5, 119.5, {}}; }
 
-// No image, so no Psi: the edges alone. World: the camera frame.
-inline Observation observe_edges(const std::vector<EdgePoint>& edges, const Camera& camera,
-                                 double reduction, Backend& backend) {
-  const Image blank{
-      camera.width, camera.height,
-      std::vector<std::uint8_t>(static_cast<std::size_t>(camera.width) * camera.height)};
-  return observe(blank, camera, Se3{}, edges, reduction, {}, backend);
+// The edges alone: the image is blank, so psi means nothing. The world is the camera frame.
+inline ObjectView view_of_edges(const std::vector<EdgePoint>& edges, const Camera& camera,
+                                double reduction, Backend& backend) {
+  ObjectView view;
+  view.camera = camera;
+  view.image = std::make_shared<Image>(
+      Image{camera.width, camera.height,
+            std::vector<std::uint8_t>(static_cast<std::size_t>(camera.width) * camera.height)});
+  view.edges = std::make_shared<EdgeIndex>(edges, camera.width, camera.height);
+  add_tensors(view, reduction, backend, {});
+  return view;
 }
 
 inline TemplateSet part_templates(const std::string& part, int frequency, double distance_min_m,

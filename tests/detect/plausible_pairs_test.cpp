@@ -1,5 +1,5 @@
-// Penetration of boxes is known; that of parts is judged by pushing them apart along a fine set of
-// directions.
+// The penetration of boxes is known; that of parts is tested by pushing them apart along a fine set
+// of directions.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,8 +18,8 @@
 namespace edgescout::test {
 namespace {
 
-bool pool_over_views(const std::vector<EdgeModel>& models, const ObjectPose& a, const ObjectPose& b,
-                     double penetration_m) {
+bool are_plausible(const std::vector<EdgeModel>& models, const ObjectPose& a, const ObjectPose& b,
+                   double penetration_m) {
   ThreadPool pool(1);
   const BitMatrix pairs =
       plausible_pairs(models, std::vector<ObjectPose>{a, b}, penetration_m, pool);
@@ -46,7 +46,7 @@ TEST(PlausiblePairs, BoxesMayOverlapByTheTolerance) {
     shift[axis] = sides[axis] - overlap;
     const Se3 world{random.rotation(), random.direction()};
     const ObjectPose a{0, world}, b{0, world * Se3{Eigen::Quaterniond::Identity(), shift}};
-    EXPECT_EQ(pool_over_views(models, a, b, tolerance), i % 2 == 1)
+    EXPECT_EQ(are_plausible(models, a, b, tolerance), i % 2 == 1)
         << "overlap " << overlap << " along axis " << axis;
   }
 }
@@ -58,16 +58,16 @@ TEST(PlausiblePairs, AnEdgeReachesAsDeepAsItsTip) {
   for (double d : {0.001, 0.003, 0.006}) {
     ObjectPose tip = at(0, 0.001, 0.002, 0.025 + half_diagonal - d);
     tip.world_from_object.rotation = so3_exp({0, std::numbers::pi / 4, 0});
-    EXPECT_TRUE(pool_over_views(models, at(0, 0, 0, 0), tip, 1.03 * d));
-    EXPECT_FALSE(pool_over_views(models, at(0, 0, 0, 0), tip, 0.97 * d));
+    EXPECT_TRUE(are_plausible(models, at(0, 0, 0, 0), tip, 1.03 * d));
+    EXPECT_FALSE(are_plausible(models, at(0, 0, 0, 0), tip, 0.97 * d));
   }
 }
 
 TEST(PlausiblePairs, TouchingAndApartAreFine) {
   const std::vector<EdgeModel> models{make_edge_model(box_mesh(0.05, 0.05, 0.05))};
-  EXPECT_TRUE(pool_over_views(models, at(0, 0, 0, 0), at(0, 0.05, 0.01, 0), 0.0005));
-  EXPECT_TRUE(pool_over_views(models, at(0, 0, 0, 0), at(0, 0.0501, 0.01, 0), 0));
-  EXPECT_FALSE(pool_over_views(models, at(0, 0, 0, 0), at(0, 0.0499, 0.01, 0), 0));
+  EXPECT_TRUE(are_plausible(models, at(0, 0, 0, 0), at(0, 0.05, 0.01, 0), 0.0005));
+  EXPECT_TRUE(are_plausible(models, at(0, 0, 0, 0), at(0, 0.0501, 0.01, 0), 0));
+  EXPECT_FALSE(are_plausible(models, at(0, 0, 0, 0), at(0, 0.0499, 0.01, 0), 0));
 }
 
 TEST(PlausiblePairs, OneInsideTheOtherClashes) {
@@ -75,29 +75,29 @@ TEST(PlausiblePairs, OneInsideTheOtherClashes) {
                                       make_edge_model(box_mesh(0.02, 0.02, 0.02))};
   for (const bool swapped : {false, true}) {
     const ObjectPose outer = at(0, 0, 0, 0), inner = at(1, 0.01, -0.02, 0.005);
-    EXPECT_FALSE(pool_over_views(models, swapped ? inner : outer, swapped ? outer : inner, 0.002));
-    EXPECT_FALSE(pool_over_views(models, swapped ? inner : outer, swapped ? outer : inner, 0));
+    EXPECT_FALSE(are_plausible(models, swapped ? inner : outer, swapped ? outer : inner, 0.002));
+    EXPECT_FALSE(are_plausible(models, swapped ? inner : outer, swapped ? outer : inner, 0));
   }
-  // 20 mm deep below the nearest face, its far side 31 mm: out it comes when pushed by that.
+  // 20 mm deep below the nearest face, its far side 31 mm: a push of that length takes it out.
   const ObjectPose inner = at(1, 0, 0, 0.05 - 0.021);
-  EXPECT_FALSE(pool_over_views(models, at(0, 0, 0, 0), inner, 0.030));
-  EXPECT_TRUE(pool_over_views(models, at(0, 0, 0, 0), inner, 0.034));
+  EXPECT_FALSE(are_plausible(models, at(0, 0, 0, 0), inner, 0.030));
+  EXPECT_TRUE(are_plausible(models, at(0, 0, 0, 0), inner, 0.034));
 }
 
-// A nut around a shaft: in each other's bounding boxes and yet apart.
+// A nut around a shaft: their bounding boxes overlap, the parts do not.
 TEST(PlausiblePairs, HolesAreEmpty) {
   const std::vector<EdgeModel> models{make_edge_model(make_ring(0.03, 0.02, 0.01)),
                                       make_edge_model(make_bar(0.019, 0.1))};
-  EXPECT_TRUE(pool_over_views(models, at(0, 0, 0, 0), at(1, 0, 0, 0), 0));
-  EXPECT_FALSE(pool_over_views(models, at(0, 0, 0, 0), at(1, 0.005, 0, 0), 0));
+  EXPECT_TRUE(are_plausible(models, at(0, 0, 0, 0), at(1, 0, 0, 0), 0));
+  EXPECT_FALSE(are_plausible(models, at(0, 0, 0, 0), at(1, 0.005, 0, 0), 0));
   EXPECT_FALSE(
-      pool_over_views(models, at(0, 0, 0, 0), at(1, 0.008, 0, 0), 0.002));  // 7 mm into the wall
-  EXPECT_TRUE(pool_over_views(models, at(0, 0, 0, 0), at(1, 0.0025, 0, 0),
-                              0.002));  // 1.5 mm; the other side is only 2.5 mm away
+      are_plausible(models, at(0, 0, 0, 0), at(1, 0.008, 0, 0), 0.002));  // 7 mm into the wall
+  EXPECT_TRUE(are_plausible(models, at(0, 0, 0, 0), at(1, 0.0025, 0, 0),
+                            0.002));  // 1.5 mm; the other side is only 2.5 mm away
 }
 
-// What is said to clash does so wherever it is pushed; what is said to be apart is, by the verdict
-// at zero tolerance.
+// A pair that is not plausible clashes wherever it is pushed; one that is plausible comes apart, by
+// the answer at zero tolerance.
 TEST(PlausiblePairs, PartsAgreeWithPushingThemEverywhere) {
   Random random = test_random();
   const std::vector<EdgeModel> models{make_edge_model(make_part("l_bracket").mesh),
@@ -107,8 +107,8 @@ TEST(PlausiblePairs, PartsAgreeWithPushingThemEverywhere) {
   for (int i = 0; i < 25; ++i) {
     const ObjectPose a{i % 2, {random.rotation(), Eigen::Vector3d::Zero()}};
     ObjectPose b{1 - i % 2, {random.rotation(), random.uniform(0.02, 0.05) * random.direction()}};
-    const bool free = pool_over_views(models, a, b, 0),
-               tolerated = pool_over_views(models, a, b, tolerance);
+    const bool free = are_plausible(models, a, b, 0),
+               tolerated = are_plausible(models, a, b, tolerance);
     EXPECT_TRUE(!free || tolerated);
     // A tenth less than the tolerance, in 92 directions.
     bool comes_apart = free;
@@ -117,7 +117,7 @@ TEST(PlausiblePairs, PartsAgreeWithPushingThemEverywhere) {
       const ObjectPose moved{
           b.object,
           {b.world_from_object.rotation, b.world_from_object.translation_m + 0.9 * tolerance * d}};
-      comes_apart = pool_over_views(models, a, moved, 0);
+      comes_apart = are_plausible(models, a, moved, 0);
     }
     EXPECT_TRUE(tolerated || !comes_apart);
     clashing += !tolerated;
@@ -150,7 +150,7 @@ TEST(PlausiblePairs, ManyCandidatesOnSeveralThreads) {
     for (std::size_t j = 0; j < i; ++j) {
       clashes += !pairs.has(i, j);
       if ((i * 40 + j) % 7 == 0) {
-        EXPECT_EQ(pairs.has(i, j), pool_over_views(models, candidates[i], candidates[j], 0.002))
+        EXPECT_EQ(pairs.has(i, j), are_plausible(models, candidates[i], candidates[j], 0.002))
             << i << " " << j;
       }
     }
@@ -159,13 +159,13 @@ TEST(PlausiblePairs, ManyCandidatesOnSeveralThreads) {
   EXPECT_LT(clashes, 700);
 }
 
-TEST(PlausiblePairs, RefusesAToleranceThatIsNone) {
+TEST(PlausiblePairs, RefusesANegativeTolerance) {
   ThreadPool pool(1);
   expect_input_error([&] { plausible_pairs({}, {}, -1, pool); }, {"penetration"});
   EXPECT_EQ(plausible_pairs({}, {}, 0, pool).rows, 0u);
 }
 
-TEST(ExclusiveProbabilities, CountWhatStandsInTheWay) {
+TEST(ExclusiveProbabilities, CountMoreProbablePosesInTheSamePlace) {
   BitMatrix plausible(4, 4);
   const auto allow = [&](std::size_t i, std::size_t j) {
     plausible.set(i, j), plausible.set(j, i);
@@ -176,13 +176,13 @@ TEST(ExclusiveProbabilities, CountWhatStandsInTheWay) {
       exclusive_probabilities(std::vector{0.9, 0.3, 0.8, 0.4}, plausible);
   EXPECT_DOUBLE_EQ(left[0], 0.9);
   EXPECT_DOUBLE_EQ(left[2], 0.8 * (1 - 0.9));
-  // what is itself ruled out rules out as little
+  // a pose that is nearly ruled out itself rules out little
   EXPECT_DOUBLE_EQ(left[1], 0.3 * (1 - left[2]));
   EXPECT_DOUBLE_EQ(left[3], 0.4);
   EXPECT_TRUE(exclusive_probabilities({}, BitMatrix(0, 0)).empty());
 }
 
-TEST(ExclusiveProbabilities, OfThingsInOnePlaceAreNoMoreThanCertain) {
+TEST(ExclusiveProbabilities, OfPosesInOnePlaceSumToOneAtMost) {
   Random random = test_random();
   for (const std::size_t count : {2, 3, 5, 10}) {
     BitMatrix none(count, count);
@@ -196,7 +196,7 @@ TEST(ExclusiveProbabilities, OfThingsInOnePlaceAreNoMoreThanCertain) {
   }
 }
 
-// Two that stand apart may each be in a third one's way.
+// Two poses that do not collide may each collide with a third one.
 TEST(ExclusiveProbabilities, OfIndependentOnesMultiply) {
   BitMatrix plausible(3, 3);
   for (std::size_t i = 0; i < 3; ++i) plausible.set(i, i);

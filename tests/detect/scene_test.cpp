@@ -1,5 +1,5 @@
-// Rendered scenes of known pose through the whole pipeline: found, more exactly by two views than
-// by one, and alike on every device.
+// Rendered scenes of known pose through the whole pipeline: parts are found, more exactly by two
+// views than by one, and the same on every device.
 #include <gtest/gtest.h>
 
 #include "host/detect/detect.h"
@@ -17,7 +17,7 @@ namespace {
 // One part on a bare board, from `views` places 0.3 m away.
 struct RenderedPart {
   Object part;
-  Scene scene;
+  SimulatedScene scene;
   std::vector<Rendering> renderings;
   std::vector<TemplateSet> sets;
 
@@ -28,7 +28,7 @@ struct RenderedPart {
     renderings = render(scene, pool);
     sets.push_back(build_templates(part, near_templates(0.03), *make_cpu_backend(2)));
   }
-  // What is probable enough to be reported is fitted elsewhere; here the best one counts.
+  // The threshold of reported poses is fitted elsewhere; here the best one counts.
   static PipelineOptions options() {
     PipelineOptions all;
     all.detect.min_probability = 0.02;
@@ -38,15 +38,21 @@ struct RenderedPart {
   Se3 truth_in(std::size_t view) const {
     return scene.views[view].camera_from_world * world_truth();
   }
-  PreparedImage prepared(std::size_t view, const Se3& camera_from_world, Backend& backend) const {
-    return prepare_image(renderings[view].image, scene.views[view].camera, camera_from_world,
-                         backend, options());
+  ObjectView prepared(std::size_t view, const Se3& camera_from_world, Backend& backend) const {
+    std::vector<StageSeconds> stages;
+    return prepare_view(renderings[view].image, scene.views[view].camera, camera_from_world,
+                        backend, options(), &stages);
+  }
+  ObjectView with_tensors(std::size_t view, Backend& backend) const {
+    ObjectView built = prepared(view, scene.views[view].camera_from_world, backend);
+    add_tensors(built, sets, backend, options().tensor);
+    return built;
   }
   Detections detect(std::size_t view, Backend& backend) const {
     return detect_objects(prepared(view, Se3{}, backend), sets, backend, options());
   }
   Detections detect_in_all(Backend& backend) const {
-    std::vector<PreparedImage> views;
+    std::vector<ObjectView> views;
     for (std::size_t v = 0; v < scene.views.size(); ++v)
       views.push_back(prepared(v, scene.views[v].camera_from_world, backend));
     return detect_jointly(views, sets, backend, options());
@@ -58,8 +64,8 @@ struct RenderedPart {
 
 class DetectParts : public ::testing::TestWithParam<std::string> {};
 
-// The parts are 60 to 100 px long: across the line of sight their place is sure to a millimetre,
-// along it only to 2 % of the distance.
+// The parts are 60 to 100 px long: their position is certain to a millimetre across the line of
+// sight, and only to 2 % of the distance along it.
 TEST_P(DetectParts, AreFoundOnTheBoard) {
   const RenderedPart t(GetParam());
   const auto backend = make_cpu_backend(2);
@@ -117,55 +123,54 @@ TEST(DetectObjects, IsTheSameOnADevice) {
                    device = t.detect(0, *make_vulkan_backend(0));
   ASSERT_EQ(cpu.detections.size(), device.detections.size());
   ASSERT_FALSE(cpu.detections.empty());
-  // The right one. Those below it are wrong, and a wrong pose may end in either of two optima that
-  // are as good to a thousandth.
+  // Compares the right pose. Those below it are wrong, and a wrong pose may end in either of two
+  // optima whose costs are equal to a thousandth.
   const Detection &a = cpu.detections[0], &b = device.detections[0];
   EXPECT_LT(distance_between_m(a.world_from_object, b.world_from_object), 0.0005);
   EXPECT_LT(angle_between_rad(a.world_from_object, b.world_from_object), 0.005);
   EXPECT_NEAR(a.probability, b.probability, 0.01);
 }
 
-// What one view knows least, the distance, the others see: candidates are as exact as after
+// One view determines the distance least; the others see it. Candidates are as exact as after
 // registration in all views.
-TEST(FindCandidates, WithOtherViewsAreRightInAllOfThem) {
+TEST(FindCandidates, WithSupportViewsAreRightInAllOfThem) {
   const RenderedPart t("bearing_block", 3);
   const auto backend = make_cpu_backend(2);
-  std::vector<Observation> views;
-  for (std::size_t v = 0; v < 3; ++v)
-    views.push_back(observe_prepared(t.prepared(v, t.scene.views[v].camera_from_world, *backend),
-                                     t.sets, *backend, t.options()));
+  std::vector<ObjectView> views;
+  for (std::size_t v = 0; v < 3; ++v) views.push_back(t.with_tensors(v, *backend));
   const DetectOptions options = t.options().detect;
-  const std::vector<Refined> alone = find_candidates(t.sets[0], views[0], *backend, options),
-                             helped =
-                                 find_candidates(t.sets[0], views[0], std::span(views).subspan(1),
-                                                 {}, *backend, options);
+  const std::span<const ObjectView> others = std::span(views).subspan(1);
+  const std::vector<PoseEstimate> alone = find_candidates({t.sets[0], views[0], {}, *backend}, {},
+                                                          options),
+                                  supported = find_candidates(
+                                      {t.sets[0], views[0], others, *backend}, {}, options);
   ASSERT_FALSE(alone.empty());
-  ASSERT_FALSE(helped.empty());
-  EXPECT_EQ(alone[0].by_view.size(), 1u);
-  EXPECT_EQ(helped[0].by_view.size(), 3u);
-  const PoseError single = t.error(alone[0].registration.world_from_object, t.truth_in(0)),
-                  joint = t.error(helped[0].registration.world_from_object, t.truth_in(0));
-  std::printf("alone %.2f mm, helped %.3f mm\n", 1000 * single.distance_m, 1000 * joint.distance_m);
+  ASSERT_FALSE(supported.empty());
+  EXPECT_EQ(alone[0].features.size(), 1u);
+  EXPECT_EQ(supported[0].features.size(), 3u);
+  const PoseError single = t.error(alone[0].world_from_object, t.truth_in(0)),
+                  joint = t.error(supported[0].world_from_object, t.truth_in(0));
+  std::printf("alone %.2f mm, supported %.3f mm\n", 1000 * single.distance_m,
+              1000 * joint.distance_m);
   EXPECT_LT(joint.distance_m, 0.0005);
   EXPECT_LT(joint.angle_rad, 0.01);
   EXPECT_LT(joint.distance_m, single.distance_m);
 }
 
-TEST(FindCandidates, LeavesOutWhatIsKnown) {
+TEST(FindCandidates, LeavesOutKnownInstances) {
   const RenderedPart t("bearing_block", 2);
   const auto backend = make_cpu_backend(2);
-  // Of a scene whose world is not the camera's.
-  const Observation view = observe_prepared(
-      t.prepared(1, t.scene.views[1].camera_from_world, *backend), t.sets, *backend, t.options());
+  // The world of the scene is not the camera frame.
+  const ObjectView view = t.with_tensors(1, *backend);
   const std::vector<Se3> known{t.scene.placed[0].world_from_object};
   const Mesh& mesh = t.sets[0].model.mesh;
-  const auto nearest = [&](std::span<const Se3> of_known) {
+  const auto nearest = [&](std::span<const Se3> known_in_world) {
     double least = 1;
-    for (const Refined& r :
-         find_candidates(t.sets[0], view, {}, of_known, *backend, t.options().detect))
-      least = std::min(least, pose_distance_m(r.registration.world_from_object, t.truth_in(1), mesh,
-                                              t.sets[0].symmetries) /
-                                  mesh.diameter_m);
+    for (const PoseEstimate& r :
+         find_candidates({t.sets[0], view, {}, *backend}, known_in_world, t.options().detect))
+      least = std::min(
+          least, pose_distance_m(r.world_from_object, t.truth_in(1), mesh, t.sets[0].symmetries) /
+                     mesh.diameter_m);
     return least;
   };
   EXPECT_LT(nearest({}), 0.02);
@@ -173,24 +178,22 @@ TEST(FindCandidates, LeavesOutWhatIsKnown) {
   EXPECT_LT(nearest(known), 1) << "others are still found";
 }
 
-// Of two parts the better one is all that is found where there is one place; known, it leaves it to
-// the other.
-TEST(FindCandidates, HaveMorePlaceWhereSomethingIsKnown) {
+// With one candidate only the better of two parts is found. Where that one is known, the other is
+// found.
+TEST(FindCandidates, KnownInstancesLeaveTheirPlaceToOthers) {
   const RenderedPart t("bearing_block", 3, 2);
   const auto backend = make_cpu_backend(2);
-  std::vector<Observation> views;
-  for (std::size_t v = 0; v < 3; ++v)
-    views.push_back(observe_prepared(t.prepared(v, t.scene.views[v].camera_from_world, *backend),
-                                     t.sets, *backend, t.options()));
+  std::vector<ObjectView> views;
+  for (std::size_t v = 0; v < 3; ++v) views.push_back(t.with_tensors(v, *backend));
   DetectOptions options = t.options().detect;
   options.candidates = 1;
   const auto found = [&](std::span<const Se3> known) {
-    for (const Refined& r : find_candidates(t.sets[0], views[0], std::span(views).subspan(1), known,
-                                            *backend, options))
+    for (const PoseEstimate& r : find_candidates(
+             {t.sets[0], views[0], std::span(views).subspan(1), *backend}, known, options))
       for (int i = 0; i < 2; ++i) {
         const Se3 truth =
             t.scene.views[0].camera_from_world * t.scene.placed[std::size_t(i)].world_from_object;
-        if (t.error(r.registration.world_from_object, truth).passes()) return i;
+        if (t.error(r.world_from_object, truth).passes()) return i;
       }
     return -1;
   };

@@ -8,20 +8,18 @@
 namespace edgescout::test {
 namespace {
 
-// A part that one camera sees and four others, which look past it, do not: they say nothing about
-// it.
-TEST(Settle, ViewsThatLookElsewhereTakeNothingFromAPose) {
+// One camera sees a part; four others look past it and do not count.
+TEST(SelectDetections, ViewsThatLookElsewhereDoNotCountAgainstAPose) {
   const RenderedScene scene({"l_bracket"}, 1, 1);
   const auto backend = make_cpu_backend(2);
-  std::vector<RegisterView> views{scene.view(0, *backend)};
+  std::vector<ObjectView> views{scene.view(0, *backend)};
   const ObjectPose truth{0, scene.scene.placed[0].world_from_object};
   const DetectOptions options;
-  const auto decided = [&] {
-    const std::vector<Refined> refined =
-        refine_poses(scene.models, {&truth, 1}, views, *backend, options.refine);
-    return select_detections(scene.models, {&truth, 1}, refined, views, *backend, options);
+  const auto selected = [&] {
+    const Scene seen{scene.models, views, *backend};
+    return select_detections(seen, refine_poses(seen, {&truth, 1}, options.refine), options);
   };
-  const std::vector<Detection> alone = decided();
+  const std::vector<Detection> alone = selected();
   ASSERT_EQ(alone.size(), 1u);
   EXPECT_GT(alone[0].probability, 0.5);
   for (const double turn_rad : {-1.0, -0.9, 0.9, 1.0}) {
@@ -29,42 +27,44 @@ TEST(Settle, ViewsThatLookElsewhereTakeNothingFromAPose) {
     views.back().camera_from_world =
         Se3{so3_exp({0, turn_rad, 0}), {0, 0, 0}} * views[0].camera_from_world;
   }
-  const std::vector<Detection> among_others = decided();
+  const std::vector<Detection> among_others = selected();
   ASSERT_EQ(among_others.size(), 1u);
   EXPECT_NEAR(among_others[0].probability, alone[0].probability, 0.02);
 }
 
-// Of two poses that would stand in one another, seen by two views that make both certain, one is
-// there. From one view it cannot be told how far away they are, and both stay.
-TEST(Settle, OfPosesInsideEachOtherTheBetterStays) {
+// Two views make two poses certain that reach into each other: one is kept. One view does not
+// determine their distances, and both are kept.
+TEST(SelectDetections, OfPosesInsideEachOtherTheBetterStays) {
   const RenderedScene scene({"l_bracket"}, 1, 2);
   const auto backend = make_cpu_backend(2);
-  std::vector<RegisterView> views{scene.view(0, *backend), scene.view(1, *backend)};
+  std::vector<ObjectView> views{scene.view(0, *backend), scene.view(1, *backend)};
   const Se3 truth = scene.scene.placed[0].world_from_object;
   const std::vector<ObjectPose> poses{
       {0, {truth.rotation, truth.translation_m + Eigen::Vector3d(0.01, 0, 0)}}, {0, truth}};
-  std::vector<Refined> refined(2);
+  std::vector<PoseEstimate> refined(2);
   for (std::size_t i = 0; i < 2; ++i) {
-    refined[i].registration.world_from_object = poses[i].world_from_object;
-    refined[i].by_view = pose_features_by_view(scene.models, {&poses[1], 1}, views, *backend, {});
+    refined[i].world_from_object = poses[i].world_from_object;
+    const Grid<PoseFeatures> features =
+        features_by_view({scene.models, views, *backend}, {&poses[1], 1});
+    refined[i].features.assign(features.row(0).begin(), features.row(0).end());
   }
-  refined[0].by_view[0].psi *= 0.98;
+  refined[0].features[0].psi *= 0.98;
   DetectOptions options;
   options.restart_rotation_rad = 0;
   options.edge_claims.max_claimed = 1;
-  const auto decided = [&] {
-    return select_detections(scene.models, poses, refined, views, *backend, options);
+  const auto selected = [&] {
+    return select_detections({scene.models, views, *backend}, refined, options);
   };
-  std::vector<Detection> detections = decided();
+  std::vector<Detection> detections = selected();
   ASSERT_EQ(detections.size(), 1u);
   EXPECT_GT(detections[0].probability, 0.9);
   EXPECT_LT(distance_between_m(detections[0].world_from_object, truth), 1e-9);
   options.penetration_m = 0.5;
-  EXPECT_EQ(decided().size(), 2u) << "allowed to";
+  EXPECT_EQ(selected().size(), 2u) << "they may reach so far";
   options.penetration_m = DEFAULT_PENETRATION_M;
   views.pop_back();
-  for (Refined& r : refined) r.by_view.pop_back();
-  EXPECT_EQ(decided().size(), 2u) << "one view";
+  for (PoseEstimate& r : refined) r.features.pop_back();
+  EXPECT_EQ(selected().size(), 2u) << "one view";
   options.penetration_m = -1;
   expect_input_error([&] { options.validate(); }, {"penetration"});
 }

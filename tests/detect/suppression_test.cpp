@@ -36,7 +36,7 @@ double brute_distance(const Se3& a, const Se3& b, const Object& object) {
   return best;
 }
 
-TEST(PoseDistance, IsTheCornersWorstAtTheBestSymmetry) {
+TEST(PoseDistance, IsTheLargestOverCornersAtTheBestSymmetry) {
   Random random = test_random();
   for (const char* part : {"l_bracket", "hex_nut"}) {
     const Object object = make_part(part);
@@ -62,7 +62,7 @@ TEST(SuppressDuplicates, KnowsAPoseUnderEverySymmetry) {
   EXPECT_GT(suppress_duplicates(poses, nut.mesh, Symmetries{}, 0.003, 100).size(), 5u);
 }
 
-TEST(SuppressDuplicates, KeepsTheOrderAndAtMostSoMany) {
+TEST(SuppressDuplicates, KeepsTheOrderAndAtMostTheNumberAskedFor) {
   const Object bracket = make_part("l_bracket");
   Random random = test_random();
   const Se3 a = random_pose(random), b = moved(a, 0.02, 0, random), c = moved(a, 0, 1.0, random);
@@ -75,7 +75,7 @@ TEST(SuppressDuplicates, KeepsTheOrderAndAtMostSoMany) {
   EXPECT_TRUE(suppress_duplicates({}, bracket.mesh, bracket.symmetries, 0.002, 2).empty());
 }
 
-TEST(BestDifferent, PrefersTheLowerKeyOfTwoThatAreOne) {
+TEST(BestDistinct, PrefersTheLowerKeyOfTwoDuplicates) {
   const Object bracket = make_part("l_bracket");
   Random random = test_random();
   const Se3 a = random_pose(random), b = moved(a, 0.02, 0, random);
@@ -91,8 +91,7 @@ TEST(BestDifferent, PrefersTheLowerKeyOfTwoThatAreOne) {
       LogicError);
 }
 
-// Every pose that was dropped lies within the radius of a kept one before it, and no two kept ones
-// do.
+// Every dropped pose lies within the radius of an earlier kept one; no two kept ones do.
 TEST(SuppressDuplicates, AgreesWithTheDistance) {
   Random random = test_random();
   for (const char* part : {"l_bracket", "u_channel", "hex_nut"}) {
@@ -117,7 +116,7 @@ TEST(SuppressDuplicates, AgreesWithTheDistance) {
   }
 }
 
-TEST(KnownPoses, HoldWhatIsNearModuloSymmetry) {
+TEST(KnownPoses, AreFoundNearModuloSymmetry) {
   Random random = test_random();
   for (const char* part : {"l_bracket", "hex_nut"}) {
     const Object object = make_part(part);

@@ -1,4 +1,4 @@
-// Points looked up: against those that a depth map of the same pose shows.
+// Points that are looked up, against those that a depth map of the same pose shows.
 #include "host/detect/template_points.h"
 
 #include <gtest/gtest.h>
@@ -7,6 +7,7 @@
 #include "host/register/visible_in_views.h"
 #include "tests/detect/part_image.h"
 #include "tests/test_random.h"
+#include "host/core/thinned.h"
 
 namespace edgescout::test {
 namespace {
@@ -14,25 +15,26 @@ namespace {
 Eigen::Vector3d place(const ModelPoint& p) { return {p.x_m, p.y_m, p.z_m}; }
 Eigen::Vector3d along(const ModelPoint& p) { return {p.tx, p.ty, p.tz}; }
 
-// Of `points`, how many have one of `others` within `near_m` that runs the same way.
+// The fraction of `points` that have one of `others` within `near_m` in the same direction.
 double fraction_near(const std::vector<ModelPoint>& points, const std::vector<ModelPoint>& others,
                      double near_m) {
-  const auto beside = [&](const ModelPoint& a) {
+  const auto has_neighbour = [&](const ModelPoint& a) {
     return std::ranges::any_of(others, [&](const ModelPoint& b) {
       return (place(a) - place(b)).norm() < near_m && std::abs(along(a).dot(along(b))) > 0.9;
     });
   };
-  return double(std::ranges::count_if(points, beside)) / double(points.size());
+  return double(std::ranges::count_if(points, has_neighbour)) / double(points.size());
 }
 
-struct LookedAt {
+struct PosesInViews {
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
   TemplateSet set;
-  std::vector<RegisterView> views{2};
+  std::vector<ObjectView> views{2};
   std::vector<ObjectPose> poses;
 
-  LookedAt(const char* part, Random& random) : set(part_templates(part, 5, 0.28, 0.34, *backend)) {
-    for (RegisterView& view : views) {
+  PosesInViews(const char* part, Random& random)
+      : set(part_templates(part, 5, 0.28, 0.34, *backend)) {
+    for (ObjectView& view : views) {
       view.camera = small_camera();
       view.camera_from_world =
           camera_looking_at(0.31 * random.direction(), Eigen::Vector3d::Zero());
@@ -40,21 +42,23 @@ struct LookedAt {
     for (int i = 0; i < 12; ++i)
       poses.push_back({0, {random.rotation(), 0.01 * random.direction()}});
   }
-  std::vector<std::vector<ModelPoint>> points(int most) const {
+  Grid<std::vector<ModelPoint>> points(int most) const {
     return template_points(set, views, most, *backend)(poses);
   }
 };
 
-// One of the parts looks the same after a half turn, and its set has viewpoints on one side only.
-TEST(TemplatePoints, AreThoseThatShow) {
+// One of the parts looks the same after a half turn; its set has viewpoints on one side only.
+TEST(TemplatePoints, AreTheVisibleOnes) {
   Random random = test_random();
   bool symmetric = false;
   for (const char* part : {"l_bracket", "bearing_block", "u_channel"}) {
-    const LookedAt t(part, random);
+    const PosesInViews t(part, random);
     symmetric |= t.set.symmetries.discrete.size() > 1;
-    const std::vector<VisibleInView> shown =
-        visible_in_views({&t.set.model, 1}, t.poses, t.views, *t.backend);
-    const std::vector<std::vector<ModelPoint>> all = t.points(0);
+    const Grid<VisibleInView> visible =
+        visible_in_views({{&t.set.model, 1}, t.views, *t.backend}, t.poses);
+    const Grid<std::vector<ModelPoint>> looked_up = t.points(0);
+    const std::span<const VisibleInView> shown = visible.values();
+    const std::span<const std::vector<ModelPoint>> all = looked_up.values();
     ASSERT_EQ(all.size(), shown.size());
     const double near_m = 0.03 * t.set.model.mesh.diameter_m;
     double right = 0, found = 0;
@@ -68,29 +72,29 @@ TEST(TemplatePoints, AreThoseThatShow) {
   EXPECT_TRUE(symmetric);
 }
 
-TEST(TemplatePoints, AreThinnedEvenlyAndLackWhatIsHidden) {
+TEST(TemplatePoints, AreThinnedEvenlyWithoutHiddenOnes) {
   Random random = test_random();
-  LookedAt t("l_bracket", random);
-  const std::vector<std::vector<ModelPoint>> all = t.points(0), some = t.points(50);
+  PosesInViews t("l_bracket", random);
+  const Grid<std::vector<ModelPoint>> all = t.points(0), some = t.points(50);
   const ObjectPose cover{
       0, inverse(t.views[1].camera_from_world) * Se3{random.rotation(), {0, 0, 0.2}}};
   t.views[1].occluders = make_occluders({&t.set.model, 1}, {&cover, 1}, t.views[1], *t.backend);
-  const std::vector<std::vector<ModelPoint>> left = t.points(50);
+  const Grid<std::vector<ModelPoint>> left = t.points(50);
   std::size_t hidden = 0;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    std::vector<ModelPoint> expected = thinned(all[i], 50);
-    ASSERT_EQ(some[i].size(), expected.size());
+  for (std::size_t i = 0; i < all.values().size(); ++i) {
+    std::vector<ModelPoint> expected = thinned(all.values()[i], 50);
+    ASSERT_EQ(some.values()[i].size(), expected.size());
     for (std::size_t p = 0; p < expected.size(); ++p)
-      EXPECT_EQ(place(some[i][p]), place(expected[p]));
+      EXPECT_EQ(place(some.values()[i][p]), place(expected[p]));
     if (i % 2 == 1)
       hidden += std::erase_if(expected, [&](const ModelPoint& p) {
         return t.views[1].occluders->hide(
             t.views[1].camera_from_world * t.poses[i / 2].world_from_object * place(p),
             occlusion_tolerance_m(t.set.model));
       });
-    ASSERT_EQ(left[i].size(), expected.size());
+    ASSERT_EQ(left.values()[i].size(), expected.size());
     for (std::size_t p = 0; p < expected.size(); ++p)
-      EXPECT_EQ(place(left[i][p]), place(expected[p]));
+      EXPECT_EQ(place(left.values()[i][p]), place(expected[p]));
   }
   EXPECT_GT(hidden, 50u);
 }

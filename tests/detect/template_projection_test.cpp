@@ -8,13 +8,14 @@
 #include "kernels/pose_geometry.h"
 #include "tests/detect/part_image.h"
 #include "tests/test_random.h"
+#include "host/core/thinned.h"
 
 namespace edgescout::test {
 namespace {
 
 constexpr int BINS = 60;
 
-// In double, one point at a time, as kernels/pose_geometry.h has it.
+// Against kernels/pose_geometry.h in double, one point at a time.
 TEST(ThinnedView, ProjectsAndRoundsEveryPoint) {
   const auto backend = make_cpu_backend(1);
   const TemplateSet set = part_templates("bearing_block", 2, 0.3, 0.3, *backend);
@@ -36,7 +37,7 @@ TEST(ThinnedView, ProjectsAndRoundsEveryPoint) {
       const ModelPoint& point = view.points[p * view.points.size() / found.size()];
       const ProjectedEdge<double> edge = project_edge(pose_point<double>(pose, point), k);
       const double bin = orientation(edge.dx, edge.dy) * BINS / std::numbers::pi;
-      // Half a pixel, half a bin, and what single precision adds at the border between two.
+      // Half a pixel, half a bin, and the error of single precision at the border between two.
       EXPECT_NEAR(found[p].dx_px, edge.u - 100, 0.501);
       EXPECT_NEAR(found[p].dy_px, edge.v - 80, 0.501);
       EXPECT_LT(std::abs(std::remainder(found[p].bin - bin, double(BINS))), 0.501);
@@ -50,7 +51,7 @@ TEST(ThinnedView, ProjectsAndRoundsEveryPoint) {
   EXPECT_LT(apart, all / 500);
 }
 
-TEST(ThinnedView, SaysWhenAPointIsTooNear) {
+TEST(ThinnedView, ReportsPointsThatAreTooNear) {
   const auto backend = make_cpu_backend(1);
   const TemplateSet set = part_templates("l_bracket", 1, 0.3, 0.3, *backend);
   const ThinnedView thinned(set.views[0], 50);
@@ -62,9 +63,8 @@ TEST(ThinnedView, SaysWhenAPointIsTooNear) {
   EXPECT_FALSE(thinned.project(to_pose(behind), {300, 300, 0, 0}, 0, 0, BINS, 0.1f, found.data()));
 }
 
-// A point that lands far outside is still outside after the job's place is added, not wrapped
-// around.
-TEST(ThinnedView, ClampsWhatLandsFarOutside) {
+// A point far outside stays outside after the place of a job is added; it does not wrap around.
+TEST(ThinnedView, ClampsPointsFarOutside) {
   TemplateView view;
   view.points = {{100, -100, 0, 1, 0, 0}};
   TemplatePoint found;

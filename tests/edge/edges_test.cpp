@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(Edges, BothMethods, testing::Values(EdgeMethod::Gradien
                          [](const auto& test) { return name_of(test.param); });
 
 TEST(LsdEdges, CoarseLevelsAddOnlyWhatTheFineOnesMiss) {
-  // One sharp line the finest level sees, and a soft ramp only the coarse levels can see.
+  // A sharp line for the finest level and a soft ramp that only the coarse levels find.
   Image image = half_plane(256, 256, 60, 128, 0, 90, 7);
   for (int y = 0; y < 256; ++y)
     for (int x = 110; x < 256; ++x) {

@@ -23,7 +23,7 @@ TEST(DetectionCurve, CountsEveryThreshold) {
 }
 
 // No threshold parts poses of one score: the order they are listed in must not matter.
-TEST(DetectionCurve, AcceptsEqualScoresTogether) {
+TEST(DetectionCurve, AcceptsEqualScoresAtOnce) {
   const std::vector<CurvePoint> curve = detection_curve({{1, 0}, {1, -1}, {1, 1}}, 2);
   ASSERT_EQ(curve.size(), 2u);
   EXPECT_EQ(curve[1].false_positives, 1);
@@ -31,7 +31,7 @@ TEST(DetectionCurve, AcceptsEqualScoresTogether) {
   EXPECT_DOUBLE_EQ(rate_at(curve, 0), 0);
 }
 
-TEST(DetectionCurve, TellsTheRateAtANumberOfFalsePositives) {
+TEST(DetectionCurve, ReturnsTheRateAtANumberOfFalsePositives) {
   const std::vector<CurvePoint> curve = detection_curve(poses, 3);
   EXPECT_DOUBLE_EQ(rate_at(curve, 0), 1 / 3.0);
   EXPECT_DOUBLE_EQ(rate_at(curve, 1), 2 / 3.0);

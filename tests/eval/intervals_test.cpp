@@ -25,7 +25,7 @@ TEST(Wilson, StaysInsideAtTheEnds) {
   EXPECT_NEAR(wilson_interval(10, 10).low, 10 / 13.8416, 1e-12);
 }
 
-TEST(Wilson, OfNothingSaysNothing) {
+TEST(Wilson, IsZeroToOneWithoutTrials) {
   EXPECT_EQ(wilson_interval(0, 0).low, 0);
   EXPECT_EQ(wilson_interval(0, 0).high, 1);
 }
@@ -36,7 +36,7 @@ TEST(Rate, WeighsClustersByTheirTrials) {
   EXPECT_EQ(rate({}), 0);
 }
 
-// Ten images without a hit do not say that there never is one.
+// Ten images without a hit do not prove a rate of 0.
 TEST(Bootstrap, OfClustersThatAgreeIsWilsonsOverThem) {
   const std::vector<Cluster> none{{0, 5}, {0, 5}, {0, 2}, {0, 0}}, alike(7, {3, 4});
   EXPECT_EQ(bootstrap_interval(none).low, 0);

@@ -172,7 +172,7 @@ TEST(Recall, CountsEveryScoreByDefault) {
   EXPECT_DOUBLE_EQ(evaluate(std::vector{one}, OBJECTS, {}).recall_mspd, 1);
 }
 
-TEST(Recall, TellsRawFromSymmetric) {
+TEST(Recall, DistinguishesRawFromSymmetric) {
   std::map<int, Object> objects = OBJECTS;
   const Se3 half_turn{so3_exp({0, 0, 3.14159265358979}), {0, 0, 0}};
   objects[1].symmetries.discrete.push_back(half_turn);
@@ -270,7 +270,7 @@ TEST(EvaluationImages, RefuseWhatDoesNotFitTheScene) {
   EXPECT_THROW(evaluation_images(scene, {}), InputError);
 }
 
-TEST(Recall, RefusesWhatItCannotJudge) {
+TEST(Recall, RefusesWhatItCannotEvaluate) {
   EvaluationImage one = image();
   one.estimates = {estimate(3, 0, 1)};
   EXPECT_THROW(evaluate(std::vector{one}, OBJECTS, {}), InputError);

@@ -101,8 +101,8 @@ TEST(Cells, OfOtherSettingsAreNoPartOfThisRun) {
   expect_input_error([&] { t.go(); }, {"a.csv", "scenes", "found 3", "expected nothing"});
 }
 
-// Another build may count otherwise: it goes on where it is told to, and the cells say so.
-TEST(Cells, OfSeveralCommitsAreToldApart) {
+// Another build may give other results. It continues only with any_commit, and the cells note it.
+TEST(Cells, OfSeveralCommitsAreDistinguished) {
   Trial t;
   t.go();
   fs::remove(t.run.folder / "b.csv");
@@ -134,16 +134,16 @@ TEST(Cells, KeepWhatIsFinishedWhereOneFails) {
 TEST(Cells, GiveTheSameSideBySide) {
   std::vector<std::string> names;
   for (int i = 0; i < 40; ++i) names.push_back("cell_" + std::to_string(i));
-  Trial alone(names), pool_over_views(names);
-  together.run.workers = 4;
+  Trial alone(names), parallel(names);
+  parallel.run.workers = 4;
   std::size_t last = 0, calls = 0;
-  together.run.progress = [&](std::size_t done, std::size_t all) {
+  parallel.run.progress = [&](std::size_t done, std::size_t all) {
     EXPECT_EQ(done, calls++);
     EXPECT_EQ(all, names.size());
     last = done;
   };
-  const std::vector<Table> one = alone.go(), four = together.go();
-  EXPECT_EQ(alone.files(), together.files());
+  const std::vector<Table> one = alone.go(), four = parallel.go();
+  EXPECT_EQ(alone.files(), parallel.files());
   for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(one[i].rows, four[i].rows);
   EXPECT_EQ(last, names.size());
 }

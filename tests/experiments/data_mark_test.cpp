@@ -1,4 +1,4 @@
-// Results say on which data they were made, so that those of other data are not mixed with them.
+// Results note their data, so that results of other data are not mixed with them.
 #include "host/experiments/data_mark.h"
 
 #include <gtest/gtest.h>

@@ -19,7 +19,7 @@ TEST(DecisionWork, IsAsLargeAsAskedFor) {
   const Bin bin = make_bin(bin_types(), settings, 2, backend->threads());
   const DecisionSize size{6, 9, 30, 50};
   const DecisionWork work = make_decision_work(bin, size, *backend);
-  EXPECT_EQ(work.views.size(), 7u) << "one beside those that are judged was taken";
+  EXPECT_EQ(work.views.size(), 7u) << "one more than the candidates: it was taken";
   EXPECT_EQ(std::ranges::count(work.closed, 1), 1);
   EXPECT_EQ(work.candidates.size(), 9u);
   EXPECT_EQ(work.particles.size(), 30u);

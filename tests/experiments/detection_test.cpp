@@ -1,4 +1,4 @@
-// The rows that detectors are judged by, and what their report says beside its table.
+// Tests the rows of the detectors' scores and the text of their report.
 #include "host/experiments/detection.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ ExperimentSettings one_small_image() {
   return settings;
 }
 
-// So that the instances can be told apart by how much of them shows.
+// The visible fraction distinguishes the instances.
 TEST(DetectionRows, SayHowMuchOfAnInstanceShows) {
   const ExperimentSettings settings = one_small_image();
   const std::unique_ptr<Backend> backend = make_cpu_backend(1);
@@ -72,7 +72,7 @@ TEST(DetectionReport, IsMadeOfOlderRowsToo) {
   EXPECT_NE(text.find("| rendered, all types | FDCM | 100 %"), std::string::npos) << text;
 }
 
-TEST(DetectionReport, SaysThatPhotographsOfOneSceneCountApart) {
+TEST(DetectionReport, NotesThatPhotographsOfOneSceneCountAsIndependent) {
   ExperimentSettings settings;
   EXPECT_EQ(
       detection_experiment().report(settings, older_rows()).markdown.find(PHOTOGRAPHS_COUNT_APART),

@@ -68,8 +68,8 @@ TEST(MakeBin, HoldsItsPromises) {
   }
 }
 
-// What the instances' own images say: more or less of one hidden behind another.
-TEST(BinCell, TellsHowMuchShowsFromEveryView) {
+// The visible fraction of an instance is what its own images show: more or less behind another.
+TEST(BinCell, GivesTheVisibleFractionInEveryView) {
   ThreadPool pool(2);
   const std::vector<Object> types{make_part("l_bracket"), make_part("bearing_block"),
                                   make_part("u_channel")};
@@ -197,9 +197,9 @@ TEST(NbvReport, KeepsCadPartsApartAndAddsThemUp) {
   EXPECT_DOUBLE_EQ(report.panels[4].lines[0].points[0].y, 0.125);
 }
 
-// Bins of one number stand together among all bins: of two pairs that agree the interval is
-// Wilson's of two trials, though of either kind of parts one bin fails.
-TEST(NbvReport, DrawsBinsOfOneNumberTogether) {
+// Bins of one number are one cluster among all bins. Two pairs that agree have Wilson's interval of
+// two trials, although one bin of each kind of parts fails.
+TEST(NbvReport, ResamplesBinsOfOneNumberAsOne) {
   Table table = no_rows();
   for (const auto& [bin, types, correct] :
        {std::tuple{"0", "own", "4"}, {"1", "own", "0"}, {"0", "cad", "0"}, {"1", "cad", "4"}})
@@ -229,7 +229,7 @@ TEST(NbvReport, TakesTheMeanOverDrawsBeforeItAddsBinsOfOneNumber) {
 
 // Strategies that ended early in bins of other parts have nothing to be compared over, though the
 // numbers are the same.
-TEST(NbvReport, TellsBinsOfOneNumberApartWhereItCompares) {
+TEST(NbvReport, DistinguishesBinsOfOneNumberInComparisons) {
   Table table = no_rows();
   for (const auto& [types, strategy, views] : {std::tuple{"own", "mi-max", "1"},
                                                {"cad", "mi-max", "1"},
@@ -277,8 +277,8 @@ TEST(NbvReport, ComparesStrategiesInTheSameBinsAlone) {
       << report.markdown;
 }
 
-// Draws of one search say nothing of another, which has one.
-TEST(NbvReport, SaysOfWhichSearchThereAreSeveralDraws) {
+// The draws of one search do not apply to another search, which has one draw.
+TEST(NbvReport, NamesTheSearchesWithSeveralDraws) {
   Table table = no_rows();
   for (const char* search : {"one", "all"})
     for (const char* strategy : {"mi-max", "random"})
@@ -323,7 +323,7 @@ TEST(NbvReport, TakesTheMeanOverDraws) {
 
 // Searches for each type in one bin are one cluster: of two bins that agree, the interval is
 // Wilson's of two trials.
-TEST(NbvReport, CountsSearchesOfOneBinTogether) {
+TEST(NbvReport, PoolsTheSearchesOfOneBin) {
   Table table = no_rows();
   for (const auto& [bin, correct, wrong] :
        {std::tuple{"0", "4", "0"}, {"0", "1", "3"}, {"1", "4", "0"}, {"1", "1", "3"}})
@@ -338,9 +338,9 @@ TEST(NbvReport, CountsSearchesOfOneBinTogether) {
   EXPECT_NE(report.markdown.find("| MI-MAX | 1.50 |"), std::string::npos) << report.markdown;
 }
 
-// Meshes of other hands, where they are: about the middle of their boxes, and as symmetric as they
-// are said to be: a turned vertex lies near another, as far as a tessellation has one there.
-TEST(CadBinTypes, AreCentredAndAsSymmetricAsTheyAreSaidToBe) {
+// Meshes of other authors, if present: centred on their boxes, and as symmetric as stated: a turned
+// vertex is near another one, as far as the tessellation has one there.
+TEST(CadBinTypes, AreCentredAndHaveTheirStatedSymmetry) {
   const char* data = std::getenv("EDGESCOUT_DATA");
   if (!data || !std::filesystem::exists(std::filesystem::path(data) / "cad"))
     GTEST_SKIP() << "EDGESCOUT_DATA names no folder with cad";

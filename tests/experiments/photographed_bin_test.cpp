@@ -55,7 +55,7 @@ TEST(PhotographedBin, NeedsOneCamera) {
   expect_input_error([&] { photographed_bin(scene, 0); }, {"pile", "cameras"});
 }
 
-TEST(PhotographedBin, IsSoughtAtTheDistancesThatThePileHas) {
+TEST(PhotographedBin, HasTemplatesForTheDistancesOfThePile) {
   const KnownScene scene = pile();
   const std::vector<TemplateSet> sets = pile_templates(scene, *make_cpu_backend(2));
   ASSERT_EQ(sets.size(), 1u);

@@ -27,8 +27,8 @@ class RecordedStarts : public testing::Test {
   fs::path folder;
 };
 
-// The published files say of every final pose whether its authors counted it as right.
-TEST_F(RecordedStarts, OriginalResultsAreJudgedAsPublished) {
+// The published files note for every final pose whether its authors counted it as correct.
+TEST_F(RecordedStarts, OriginalResultsAreCorrectAsPublished) {
   std::map<std::string, KnownScene> scenes;
   int files = 0, poses = 0, right = 0;
   for (const fs::directory_entry& file : fs::directory_iterator(folder / "original_results")) {
@@ -52,8 +52,8 @@ TEST_F(RecordedStarts, OriginalResultsAreJudgedAsPublished) {
   EXPECT_GT(right, 2000);
 }
 
-// What starts.csv says of a start's level is how far it lies from the truth.
-TEST_F(RecordedStarts, LieAsFarFromTheTruthAsTheirLevelSays) {
+// The level of a start in starts.csv is its distance from the truth.
+TEST_F(RecordedStarts, LieAtTheDistanceOfTheirLevel) {
   int count = 0;
   for (const std::string& image : recorded_images(folder)) {
     const KnownScene scene = recorded_scene(folder, image, 0);
@@ -68,7 +68,7 @@ TEST_F(RecordedStarts, LieAsFarFromTheTruthAsTheirLevelSays) {
   EXPECT_EQ(count, 1500);
 }
 
-TEST_F(RecordedStarts, OfOneSceneInThreeViewsBelongTogether) {
+TEST_F(RecordedStarts, OfOneSceneInThreeViewsAgree) {
   EXPECT_EQ(other_views(folder, "m00_v0"), 2);
   EXPECT_EQ(other_views(folder, "s00"), 0);
   const KnownScene scene = recorded_scene(folder, "m00_v0", 2);

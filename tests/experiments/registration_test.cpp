@@ -1,4 +1,4 @@
-// What the report of registrations says beside its tables.
+// Tests the text of the report of registrations.
 #include "host/experiments/registration.h"
 
 #include <gtest/gtest.h>
@@ -47,8 +47,8 @@ TEST(RegistrationReport, NamesTheOriginalResultsThatAreMissing) {
   }
 }
 
-// What is no independent sample is said to be none.
-TEST(RegistrationReport, SaysThatPhotographsOfOneSceneCountApart) {
+// The report notes samples that are not independent.
+TEST(RegistrationReport, NotesThatPhotographsOfOneSceneCountAsIndependent) {
   const auto text_of = [](const char* set) {
     return registration_experiment().report({}, registration_in(set)).markdown;
   };

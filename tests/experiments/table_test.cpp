@@ -47,7 +47,7 @@ TEST(Table, RefusesCellsThatWouldBreakTheFile) {
   EXPECT_THROW(to_csv({{{"seed", "1\n2"}}, {"a"}, {}}), LogicError);
 }
 
-TEST(Table, JoinsRowsAndTellsNotesThatDiffer) {
+TEST(Table, JoinsRowsAndListsNotesThatDiffer) {
   const Table one{{{"seed", "1"}, {"commit", "abc"}}, {"a"}, {{"1"}}},
       two{{{"seed", "1"}, {"commit", "def"}}, {"a"}, {{"2"}}};
   const Table all = joined({one, two, one});

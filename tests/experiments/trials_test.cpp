@@ -129,7 +129,7 @@ TEST(Candidates, AreAsManyAsAskedForWhereThereIsRoomForFew) {
   EXPECT_EQ(pose_candidates(empty_scene(), 0, 5, 1).size(), 5u);
 }
 
-// From up to 0.1 rad and 5 mm on a bare board every registration ends right, and the rows say so.
+// From up to 0.1 rad and 5 mm on a bare board every registration is correct, and the rows show it.
 TEST(Trials, RowsSayWhatThePosesAre) {
   const ExperimentSettings settings = small_settings();
   RenderOptions options = single_image_options(settings, 0);
@@ -158,7 +158,7 @@ TEST(Trials, RowsSayWhatThePosesAre) {
     EXPECT_EQ(text_in(table, row, "right"), is_right ? "1" : "0");
     EXPECT_GT(number_in(table, row, "ms"), 0);
     EXPECT_GT(number_in(table, row, "steps"), 0);
-    if (text_in(table, row, "method") != "edgescout") {  // whose polish has a limit of its own
+    if (text_in(table, row, "method") != "edgescout") {  // its edge ICP has its own limit
       EXPECT_EQ(number_in(table, row, "cut_off"), number_in(table, row, "steps") >= 100) << row;
     }
     right += is_right && text_in(table, row, "method") == "edgescout";
@@ -166,7 +166,7 @@ TEST(Trials, RowsSayWhatThePosesAre) {
   EXPECT_EQ(right, 4);
 }
 
-// What the settings say of methods, edges and tensors is what runs, and what the notes tell.
+// The settings of methods, edges and tensors determine the run and the notes.
 TEST(Trials, FollowTheSettings) {
   ExperimentSettings settings = small_settings();
   RenderOptions options = single_image_options(settings, 0);

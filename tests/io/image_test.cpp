@@ -38,8 +38,8 @@ TEST(LoadImage, ReadsWhatSavePngWrote) {
   EXPECT_EQ(folder.entries(), 1u);
 }
 
-// The only test of this program that reads colour: the conversion is said once a process.
-TEST(LoadImage, ConvertsColourAndSaysSo) {
+// The only test of this program that reads colour: the conversion is logged once per process.
+TEST(LoadImage, ConvertsColourAndLogsIt) {
   const TemporaryFolder folder;
   RgbImage colour{20, 20, {}};
   for (int i = 0; i < 400; ++i)
@@ -86,7 +86,7 @@ TEST(LoadImage, RejectsWhatIsNoImage) {
                      {"text.png", "no image decoder"});
 }
 
-// The process may take no more than so many bytes beside what it has.
+// Limits the memory that the process may allocate in addition to its present memory.
 class MemoryLimit {
  public:
   explicit MemoryLimit(rlim_t more_bytes) {
@@ -105,7 +105,7 @@ class MemoryLimit {
   rlimit old_{};
 };
 
-TEST(LoadImage, TellsAGoodImageThatFindsNoRoomFromABadOne) {
+TEST(LoadImage, DistinguishesLackOfMemoryFromABadImage) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "sanitizers need memory of their own";
 #endif
@@ -148,16 +148,16 @@ TEST(Undistort, TakesTheLensOutOfASmoothScene) {
     }
   const Image flat = undistort(seen, camera);
   ASSERT_EQ(flat.width, camera.width);
-  int judged = 0;
+  int compared = 0;
   for (int y = 0; y < flat.height; ++y)
     for (int x = 0; x < flat.width; ++x) {
       const Eigen::Vector2d from = distort(camera, x, y);
       if (from.x() < 3 || from.y() < 3 || from.x() > 196 || from.y() > 156) continue;
       // Rounding to grey levels twice, and remap's fixed-point coordinates of 1/32 px.
       EXPECT_NEAR(flat.at(x, y), scene(x, y), 1.5) << x << " " << y;
-      ++judged;
+      ++compared;
     }
-  EXPECT_GT(judged, 25000);
+  EXPECT_GT(compared, 25000);
 }
 
 TEST(Undistort, ReturnsTheImageWithoutDistortionAndRefusesAnotherSize) {

@@ -189,8 +189,8 @@ TEST(LoadMesh, RejectsPlyRowsThatHoldNothing) {
                      {"rows.ply", "100000000 of edge without a property"});
 }
 
-// Every cut either still holds a whole mesh or is told as an error; a cut before the last triangle
-// is never whole where the format counts.
+// Every truncated file either still holds a whole mesh or is an error. A file cut before the last
+// triangle is always an error if the format has counts.
 void cut_everywhere(const NamedFile& file, const TemporaryFolder& folder, bool counted) {
   constexpr std::size_t cuts = 100;
   int errors = 0;

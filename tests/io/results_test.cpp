@@ -130,15 +130,56 @@ TEST(ImageResult, RejectsOtherVersionsAndFilesCutShort) {
     expect_input_error([&] { load_image_result(cut); }, {"cut.json"});
   }
   std::string newer = whole;
-  newer.replace(newer.find("\"edgescout_result\": 2"), 21, "\"edgescout_result\": 3");
+  newer.replace(newer.find("\"edgescout_result\": 3"), 21, "\"edgescout_result\": 4");
   expect_input_error([&] { load_image_result(folder.write("new.json", newer)); },
-                     {"new.json", "/edgescout_result", "found 3", "expected 2"});
+                     {"new.json", "/edgescout_result", "found 4", "expected version 2 or 3"});
+  std::string older = whole;
+  older.replace(older.find("\"edgescout_result\": 3"), 21, "\"edgescout_result\": 1");
+  expect_input_error([&] { load_image_result(folder.write("old.json", older)); },
+                     {"old.json", "/edgescout_result", "found 1", "expected version 2 or 3"});
   expect_input_error([&] { load_image_result(folder.write("other.json", "{}")); },
                      {"other.json", "/edgescout_result"});
   std::string alien = whole;
   alien.replace(alien.find("\"object_id\": 7"), 14, "\"object_id\": 8");
   expect_input_error([&] { load_image_result(folder.write("a.json", alien)); },
                      {"a.json", "/detections/0/object_id", "8"});
+}
+
+// The same file with every occurrence of `from` replaced.
+std::string replaced(std::string text, std::string_view from, std::string_view to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+TEST(ImageResult, ReadsThePsiZScoreOfVersions2And3) {
+  const TemporaryFolder folder;
+  save_image_result(sample_result(), folder.path() / "r.json");
+  const std::string version_3 = content_of(folder.path() / "r.json");
+  EXPECT_NE(version_3.find("\"edgescout_result\": 3"), std::string::npos);
+  EXPECT_NE(version_3.find("\"psi_z_score\": 7.5"), std::string::npos);
+  EXPECT_EQ(version_3.find("evidence"), std::string::npos);
+  const std::string version_2 =
+      replaced(replaced(version_3, "\"edgescout_result\": 3", "\"edgescout_result\": 2"),
+               "psi_z_score", "evidence");
+  const ImageResult back = load_image_result(folder.write("old.json", version_2));
+  ASSERT_EQ(back.detections.size(), 2u);
+  EXPECT_EQ(back.detections[0].psi_z_score, 7.5);
+  EXPECT_EQ(back.detections[1].psi_z_score, 7.5);
+  EXPECT_EQ(back.detections[0].psi, 0.8);
+}
+
+TEST(ImageResult, RefusesAFieldOfTheOtherVersion) {
+  const TemporaryFolder folder;
+  save_image_result(sample_result(), folder.path() / "r.json");
+  const std::string version_3 = content_of(folder.path() / "r.json");
+  const std::string named_as_in_2 = replaced(version_3, "psi_z_score", "evidence"),
+                    numbered_as_2 =
+                        replaced(version_3, "\"edgescout_result\": 3", "\"edgescout_result\": 2");
+  expect_input_error([&] { load_image_result(folder.write("a.json", named_as_in_2)); },
+                     {"a.json", "/detections/0/psi_z_score"});
+  expect_input_error([&] { load_image_result(folder.write("b.json", numbered_as_2)); },
+                     {"b.json", "/detections/0/evidence"});
 }
 
 TEST(StartPoses, ComeFromOurOwnResultsInTheCameraFrame) {
@@ -186,7 +227,7 @@ TEST(StartPoses, ComeFromAPlainList) {
   EXPECT_EQ(same_ending(poses[1], "/images/x/b.png"), 1);
   EXPECT_EQ(same_ending(poses[1], "/b.png"), 1);
   EXPECT_EQ(same_ending(poses[1], "/a/x.png"), 0);
-  StartPose of_latin_1;  // as a result of the image tells it
+  StartPose of_latin_1;  // as in a result of the image
   of_latin_1.image = "a\xef\xbf\xbd/caf\xef\xbf\xbd.png";
   EXPECT_TRUE(belongs_to(of_latin_1, "caf\xe9.png", std::nullopt, 0));
   EXPECT_EQ(same_ending(of_latin_1, "/a\xe9/caf\xe9.png"), 2);

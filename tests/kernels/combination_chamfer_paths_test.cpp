@@ -18,9 +18,9 @@ class CombinationChamferPaths : public test::PathTest {
  protected:
   void expect_equal(const test::ChamferScene& scene, const ChamferOptions& options) {
     const ChamferHandle found =
-        tested->combination_chamfer(scene.view(), scene.combination_count(), options);
+        tested->combination_chamfer(scene.view(), scene.combinations(), options);
     const ChamferHandle expected =
-        reference->combination_chamfer(scene.view(), scene.combination_count(), options);
+        reference->combination_chamfer(scene.view(), scene.combinations(), options);
     EXPECT_EQ(found->particles, scene.view().particles());
     EXPECT_EQ(found->combinations, scene.combination_count);
     EXPECT_EQ(found->cells(), expected->cells());
@@ -91,7 +91,7 @@ TEST_P(CombinationChamferPaths, BrokenInputIsOurBug) {
   const auto run = [&](const auto& spoil, const ChamferOptions& options = {}) {
     test::ChamferScene scene = good;
     spoil(scene);
-    tested->combination_chamfer(scene.view(), scene.combination_count(), options);
+    tested->combination_chamfer(scene.view(), scene.combinations(), options);
   };
   EXPECT_NO_THROW(run([](auto&) {}));
   EXPECT_THROW(run([](auto& s) { s.words.pop_back(); }), LogicError);

@@ -56,7 +56,7 @@ class Drawn {
  public:
   Drawn(const Boxes& from, std::size_t combination)
       : depth_(width * height, 1e9), edge_(width * height, false) {
-    const CombinationBits combinations = from.scene.combination_count();
+    const CombinationBits combinations = from.scene.combinations();
     for (std::size_t c = 0; c < from.boxes.size(); ++c)
       if (combinations.has(combination, c))
         members_.push_back({from.boxes[c], double(from.scene.tolerance_m[c])});
@@ -110,7 +110,7 @@ class Drawn {
 // know less than a drawn map.
 bool nearest_is_hidden(const Boxes& from, std::size_t combination, double u, double v) {
   const test::ChamferScene& scene = from.scene;
-  const CombinationBits combinations = scene.combination_count();
+  const CombinationBits combinations = scene.combinations();
   const int x = int(std::lround(u)), y = int(std::lround(v));
   for (std::size_t c = 0; c < from.boxes.size(); ++c) {
     const CandidateMap& map = scene.maps[c];
@@ -134,7 +134,7 @@ TEST(CombinationChamfer, EveryPointAgreesWithTheDrawnRealization) {
   for (int round = 0; round < 5; ++round) {
     const Boxes made = box_scene(rng, 7, true);
     const auto cells = combination_chamfer_reference(
-        made.scene.view(), made.scene.combination_count(), chamfer_options);
+        made.scene.view(), made.scene.combinations(), chamfer_options);
     for (std::uint32_t j = 0; j < made.scene.combination_count; ++j) {
       const Drawn drawn(made, j);
       for (std::size_t i = 0; i < made.scene.points.size(); ++i) {
@@ -175,7 +175,7 @@ TEST(CombinationChamfer, MeansAgreeWithTheDrawnRealization) {
   for (int round = 0; round < 4; ++round) {
     const Boxes made = box_scene(rng, 6, false);
     const auto cells = combination_chamfer_reference(
-        made.scene.view(), made.scene.combination_count(), chamfer_options);
+        made.scene.view(), made.scene.combinations(), chamfer_options);
     for (std::uint32_t j = 0; j < made.scene.combination_count; ++j) {
       const Drawn drawn(made, j);
       for (std::size_t i = 0; i < made.boxes.size(); ++i) {
@@ -211,7 +211,7 @@ TEST(CombinationChamfer, NothingSeenOrNoMemberGivesTheCap) {
   made.scene.add_particle({});
   const ChamferOptions short_cap{4};
   const auto cells =
-      combination_chamfer_reference(made.scene.view(), made.scene.combination_count(), short_cap);
+      combination_chamfer_reference(made.scene.view(), made.scene.combinations(), short_cap);
   const std::uint32_t m = made.scene.combination_count;
   for (std::uint32_t j = 0; j < m; ++j)
     for (const std::size_t i : {std::size_t{3}, std::size_t{4}}) {

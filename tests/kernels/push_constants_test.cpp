@@ -31,9 +31,11 @@
 #include "kernels/edge_link.h"
 #include "kernels/information_push.h"
 #include "kernels/pose_push.h"
+#include "kernels/template_project.h"
 #include "kernels/template_score_push.h"
 #include "pose_normal_equations.spv.h"
 #include "pose_score.spv.h"
+#include "template_project.spv.h"
 #include "template_score.spv.h"
 
 namespace edgescout {
@@ -145,6 +147,13 @@ TEST(PushConstants, DcdSweep) {
   using Push = DcdSweepPush;
   expect_members<Push>(
       dcd_sweep_spv, {MEMBER(tile_count), MEMBER(bins), MEMBER(step), MEMBER(cap), MEMBER(reach)});
+}
+
+TEST(PushConstants, TemplateProject) {
+  using Push = TemplateProjectPush;
+  expect_members<Push>(template_project_spv,
+                       {MEMBER(fx), MEMBER(fy), MEMBER(cx), MEMBER(cy), MEMBER(nearest_m),
+                        MEMBER(bins), MEMBER(point_count), MEMBER(job_count)});
 }
 
 TEST(PushConstants, TemplateScore) {

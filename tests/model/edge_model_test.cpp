@@ -1,4 +1,4 @@
-// Which edges of a mesh can ever show.
+// The edges of a mesh that can be visible.
 #include "host/model/edge_model.h"
 
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ TEST(EdgeModel, AnEdgeOfThreeFacesIsDrawnOnce) {
   const EdgeModel fins = make_edge_model(
       make_mesh("fins", {{0, 0, 0}, {0, 0, 0.1}, {0.1, 0, 0}, {-0.1, 0.1, 0}, {-0.1, -0.1, 0}},
                 {{0, 1, 2}, {0, 1, 3}, {0, 1, 4}}));
-  EXPECT_EQ(fins.creases.size(), 7u);  // the spine and two free edges a fin
+  EXPECT_EQ(fins.creases.size(), 7u);  // the spine and two free edges per fin
 }
 
 TEST(EdgeModel, SphereHasNoCreasesAndRadialNormals) {

@@ -10,7 +10,7 @@
 
 namespace edgescout::test {
 
-// Twenty triangles, every one cut in four `levels` times, corners on the sphere.
+// Twenty triangles, each divided into four `levels` times, with corners on the sphere.
 inline Mesh icosphere(double radius_m, int levels) {
   const double g = (1 + std::sqrt(5.0)) / 2;
   std::vector<Eigen::Vector3d> v{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0},

@@ -1,4 +1,4 @@
-// What a template set holds, and template files whole and damaged.
+// The content of template sets, and intact and damaged template files.
 #include "host/model/template_set.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Directions on the sphere, and how symmetry thins them out without leaving a gap.
+// Directions on the sphere, and their reduction by symmetry without gaps.
 #include "host/model/viewpoints.h"
 
 #include <gtest/gtest.h>
@@ -101,7 +101,7 @@ TEST(Viewpoints, ASolidOfRevolutionKeepsOneMeridian) {
   expect_no_gap(symmetric({"z"}), 5, 0, 0.15);
 }
 
-// What is asked for is there, also where the fundamental domain lies outside the range.
+// The wanted directions are there, also where the fundamental domain lies outside the range.
 TEST(Viewpoints, OfARangeHaveNoGapModuloSymmetry) {
   Random random = test_random();
   constexpr int frequency = 5;

@@ -1,4 +1,4 @@
-// What a camera sees of solids whose contours are known in closed form.
+// Visible edge points of solids whose contours are known in closed form.
 #include "host/model/visible_edges.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ class VisibleEdges : public ::testing::Test {
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
 };
 
-// The camera at `eye_m` of the object frame, its axis through the origin.
+// A camera at `eye_m` of the object frame that looks at the origin.
 Se3 looking_from(const Eigen::Vector3d& eye_m) {
   const Eigen::Vector3d z = -eye_m.normalized(), x = z.unitOrthogonal(), y = z.cross(x);
   Eigen::Matrix3d camera_from_object;
@@ -49,7 +49,7 @@ int cube_edge(const ModelPoint& point, double half_m) {
   return 4 * axis + 2 * (x[a] > 0) + (x[b] > 0);
 }
 
-// Share of every edge's raster points that are seen.
+// Fraction of visible raster points per edge.
 std::array<double, 12> seen_share(const std::vector<ModelPoint>& points, double half_m,
                                   double step_m) {
   std::array<double, 12> share{};
@@ -223,9 +223,9 @@ TEST_F(VisibleEdges, ReferenceBackendSeesTheSame) {
   Random random = test_random();
   for (int i = 0; i < 5; ++i) {
     const Se3 pose{random.rotation(), {0.02, -0.01, 0.3}};
-    const std::size_t judged = visible_edges(model, std::span(&pose, 1), *reference)[0].size();
+    const std::size_t expected = visible_edges(model, std::span(&pose, 1), *reference)[0].size();
     // The depth maps may differ in a few border pixels.
-    EXPECT_NEAR(double(seen(model, pose).size()), double(judged), 0.01 * double(judged));
+    EXPECT_NEAR(double(seen(model, pose).size()), double(expected), 0.01 * double(expected));
   }
 }
 

@@ -1,4 +1,4 @@
-// Two solvers, one minimum.
+// Both solvers reach the same minimum.
 #include "host/register/d2co_ceres.h"
 
 #include <gtest/gtest.h>
@@ -12,18 +12,19 @@ namespace {
 using namespace test;
 
 struct Pair {
-  Registration batched, ceres;
+  PoseEstimate batched, ceres;
 };
 
 Pair solve_both(const PartScene& scene, Backend& backend, const D2coOptions& options) {
-  const std::span models(&scene.model, 1);
+  D2coOptions with_ceres = options;
+  with_ceres.solver = Solver::Ceres;
   const std::span starts(&scene.start, 1);
-  return {register_poses(models, starts, scene.views, backend, options)[0],
-          register_poses_ceres(models, starts, scene.views, backend, options)[0]};
+  return {register_poses(scene.on(backend), starts, options)[0],
+          register_poses(scene.on(backend), starts, with_ceres)[0]};
 }
 
-// Points of the last round may differ where the rounds before ended a hair apart: cost is compared
-// a point.
+// Compares the cost per point: points of the last round differ where the rounds before ended at
+// slightly different poses.
 double cost_ratio(const Pair& pair) {
   return pair.batched.cost_px2 / pair.batched.points * pair.ceres.points / pair.ceres.cost_px2;
 }
@@ -46,8 +47,8 @@ TEST(D2coCeres, ReachesTheBatchedMinimumInThreeViews) {
   }
 }
 
-// In one view the kinks of the distance transform hold either solver at slightly different depths;
-// one round with Huber's loss on an unsmoothed tensor has fewer of them.
+// In one view the kinks of the distance transform stop the solvers at slightly different depths.
+// One round with Huber's loss on an unsmoothed tensor has fewer kinks.
 TEST(D2coCeres, ReachesTheBatchedMinimumInOneView) {
   Random random = test_random();
   const std::unique_ptr<Backend> backend = make_cpu_backend(2);
@@ -67,9 +68,9 @@ TEST(D2coCeres, ReachesTheBatchedMinimumInOneView) {
   }
 }
 
-// Without a step taken both solvers hold the same system: cost, residuals and covariance agree to
-// the kernel's precision.
-TEST(D2coCeres, DescribesTheSamePoseAlike) {
+// Without a step both solvers have the same system: cost, residuals and covariance agree to the
+// kernel's precision.
+TEST(D2coCeres, DescribesAPoseLikeTheBatchedSolver) {
   Random random = test_random();
   const std::unique_ptr<Backend> backend = make_cpu_backend(2);
   for (const std::uint32_t loss : {LOSS_HUBER, LOSS_GEMAN_MCCLURE})
@@ -78,9 +79,9 @@ TEST(D2coCeres, DescribesTheSamePoseAlike) {
       D2coOptions stay = one_round(loss, 8, 1);
       stay.rounds[0].max_points = most;
       stay.min_step_m = stay.min_step_rad = 1e6;  // any step is small
-      const Registration ceres = register_poses_ceres(
-          std::span(&scene.model, 1), std::span(&scene.start, 1), scene.views, *backend, stay)[0];
-      EXPECT_EQ(ceres.reason, Convergence::SmallStep);
+      const PoseEstimate ceres =
+          register_poses_ceres(scene.on(*backend), std::span(&scene.start, 1), stay)[0];
+      EXPECT_EQ(ceres.convergence, Convergence::SmallStep);
       EXPECT_LT(distance_between_m(ceres.world_from_object, scene.start.world_from_object), 1e-12);
       const WorldSystem system =
           system_at(scene, scene.start.world_from_object, {loss, 8}, std::size_t(most), *backend);

@@ -1,4 +1,4 @@
-// Errors made up edge by edge: does the covariance tell them?
+// Simulated errors of edges, compared with the covariance.
 #include "host/register/edge_covariance.h"
 
 #include <gtest/gtest.h>
@@ -44,12 +44,12 @@ Drawn draw(int edges, int points, double edge_px, double point_px, Random& rando
   return drawn;
 }
 
-struct Judged {
+struct Fit {
   Vector6d error;
   Matrix6d clustered, independent;
 };
 
-Judged least_squares(const Drawn& drawn) {
+Fit least_squares(const Drawn& drawn) {
   Matrix6d hessian = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
   for (std::size_t e = 0; e < drawn.jacobians.size(); ++e)
@@ -57,20 +57,20 @@ Judged least_squares(const Drawn& drawn) {
       hessian += drawn.jacobians[e][i] * drawn.jacobians[e][i].transpose();
       gradient += drawn.distances_px[e][i] * drawn.jacobians[e][i];
     }
-  Judged judged;
-  judged.error = -hessian.ldlt().solve(gradient);
+  Fit fit;
+  fit.error = -hessian.ldlt().solve(gradient);
   EdgeCovariance sum;
   double squares = 0;
   int count = 0;
   for (std::size_t e = 0; e < drawn.jacobians.size(); ++e)
     for (std::size_t i = 0; i < drawn.jacobians[e].size(); ++i, ++count) {
-      const double left = drawn.distances_px[e][i] + drawn.jacobians[e][i].dot(judged.error);
+      const double left = drawn.distances_px[e][i] + drawn.jacobians[e][i].dot(fit.error);
       sum.add(100 - e, left, 1, drawn.jacobians[e][i]);
       squares += left * left;
     }
-  judged.clustered = sum.covariance() / COMMON_TO_EDGES;
-  judged.independent = pose_covariance(hessian, squares / (count - 6));
-  return judged;
+  fit.clustered = sum.covariance() / COMMON_TO_EDGES;
+  fit.independent = pose_covariance(hessian, squares / (count - 6));
+  return fit;
 }
 
 double squared(const Vector6d& error, const Matrix6d& covariance) {
@@ -87,9 +87,9 @@ Mean mean_squared(int edges, int points, double edge_px, double point_px) {
   constexpr int draws = 400;
   Mean mean;
   for (int i = 0; i < draws; ++i) {
-    const Judged judged = least_squares(draw(edges, points, edge_px, point_px, random));
-    mean.clustered += squared(judged.error, judged.clustered) / draws;
-    mean.independent += squared(judged.error, judged.independent) / draws;
+    const Fit fit = least_squares(draw(edges, points, edge_px, point_px, random));
+    mean.clustered += squared(fit.error, fit.clustered) / draws;
+    mean.independent += squared(fit.error, fit.independent) / draws;
   }
   return mean;
 }
@@ -115,15 +115,15 @@ TEST(EdgeCovariance, TellsErrorsOfFewEdges) {
 
 TEST(EdgeCovariance, IsThatOfIndependentPointsWhereEveryPointIsAnEdge) {
   Random random = test_random();
-  const Judged judged = least_squares(draw(500, 1, 0, 0.3, random));
-  EXPECT_LT((judged.clustered - judged.independent).norm(), 0.1 * judged.independent.norm());
+  const Fit fit = least_squares(draw(500, 1, 0, 0.3, random));
+  EXPECT_LT((fit.clustered - fit.independent).norm(), 0.1 * fit.independent.norm());
 }
 
 TEST(EdgeCovariance, IsPositiveWithSevenPointsOnAnEdgeEach) {
   Random random = test_random();
-  const Judged judged = least_squares(draw(7, 1, 0.1, 0.1, random));
-  ASSERT_TRUE(judged.clustered.allFinite());
-  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6d>(judged.clustered).eigenvalues().minCoeff(), 0);
+  const Fit fit = least_squares(draw(7, 1, 0.1, 0.1, random));
+  ASSERT_TRUE(fit.clustered.allFinite());
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6d>(fit.clustered).eigenvalues().minCoeff(), 0);
 }
 
 TEST(EdgeCovariance, IsInfiniteWhereNothingHoldsThePose) {

@@ -1,4 +1,4 @@
-// Polished poses in rendered images: how far from the truth, and does the covariance say so?
+// Errors of poses after edge ICP in rendered images, compared with their covariance.
 #include "host/register/edge_icp.h"
 
 #include <gtest/gtest.h>
@@ -25,12 +25,11 @@ constexpr int VIEWS = 3;
 struct Rendered {
   KnownScene scene;
   std::vector<EdgeModel> models;
-  std::vector<RegisterView> views;
+  std::vector<ObjectView> views;
 };
 
-// Parts that no turn about an axis maps onto themselves: of others no covariance is finite for a
-// reason.
-std::vector<Object> held_types() {
+// Parts that are no surface of revolution: the edges of others do not determine the pose.
+std::vector<Object> determined_types() {
   std::vector<Object> types = rendered_types();
   std::erase_if(types, [](const Object& type) { return type.symmetries.discrete.size() > 8; });
   return types;
@@ -45,7 +44,7 @@ Rendered rendered(unsigned seed, Backend& backend) {
   options.objects = 8;
   options.pile = 0.2;
   options.views = VIEWS;
-  Rendered result{rendered_scene("polish", held_types(), options, backend.threads()), {}, {}};
+  Rendered result{rendered_scene("polish", determined_types(), options, backend.threads()), {}, {}};
   for (const Object& object : result.scene.objects)
     result.models.push_back(make_edge_model(object.mesh));
   result.views =
@@ -53,14 +52,14 @@ Rendered rendered(unsigned seed, Backend& backend) {
   return result;
 }
 
-Se3 nearest_twin(const Se3& truth, const Se3& found, const Symmetries& symmetries) {
+Se3 nearest_equal_pose(const Se3& truth, const Se3& found, const Symmetries& symmetries) {
   return truth * *std::ranges::min_element(symmetries.discrete, {}, [&](const Se3& symmetry) {
            return angle_between_rad(truth * symmetry, found);
          });
 }
 
-// Of every instance, from a start 2 mm and 0.03 rad off: e' C^-1 e of the error e; a pose that
-// ended elsewhere is left out.
+// e' C^-1 e of the error e of every instance, from a start 2 mm and 0.03 rad off. Poses that end
+// elsewhere are left out.
 std::vector<double> squared_errors(const Rendered& known, std::size_t views, Random& random,
                                    Backend& backend) {
   std::vector<ObjectPose> starts;
@@ -70,17 +69,17 @@ std::vector<double> squared_errors(const Rendered& known, std::size_t views, Ran
     starts.push_back({instance.object, retract(instance.world_from_object, off)});
   }
   const RefineOptions defaults;
-  const std::vector<Refined> found =
-      refine_poses(known.models, starts, std::span(known.views).first(views), backend, defaults);
+  const std::vector<PoseEstimate> found =
+      refine_poses({known.models, std::span(known.views).first(views), backend}, starts, defaults);
   std::vector<double> squared;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const KnownInstance& instance = known.scene.instances[i];
-    const Registration& registration = found[i].registration;
-    const Se3 truth = nearest_twin(instance.world_from_object, registration.world_from_object,
-                                   known.scene.objects[instance.object].symmetries);
-    const Vector6d error = local_coordinates(registration.world_from_object, truth);
+    const PoseEstimate& estimate = found[i];
+    const Se3 truth = nearest_equal_pose(instance.world_from_object, estimate.world_from_object,
+                                         known.scene.objects[instance.object].symmetries);
+    const Vector6d error = local_coordinates(estimate.world_from_object, truth);
     if (error.tail<3>().norm() < 0.05)
-      squared.push_back(error.dot(registration.covariance.ldlt().solve(error)));
+      squared.push_back(error.dot(estimate.covariance.ldlt().solve(error)));
   }
   return squared;
 }
@@ -90,9 +89,9 @@ double quantile(std::vector<double> values, double part) {
   return values[std::size_t(part * double(values.size() - 1))];
 }
 
-// Of six unknowns the median is 5.3 and a tenth lies above 10.6. Taken for independent, points
-// would make it some 100.
-TEST(Polish, CovarianceTellsErrorsOfRenderedParts) {
+// For six unknowns the median is 5.3, and a tenth lies above 10.6. If the points counted as
+// independent, the median would be some 100.
+TEST(EdgeIcp, CovarianceMatchesErrorsOfRenderedParts) {
   const std::unique_ptr<Backend> backend = make_cpu_backend(2);
   Random random = test_random();
   std::vector<double> one, several;
@@ -108,7 +107,7 @@ TEST(Polish, CovarianceTellsErrorsOfRenderedParts) {
     ASSERT_GE(squared.size(), 20u);
     EXPECT_GT(quantile(squared, 0.5), 5.3 / 3) << "standard deviations 1.7 times too large";
     EXPECT_LT(quantile(squared, 0.5), 5.3 * 3) << "standard deviations 1.7 times too small";
-    EXPECT_LT(quantile(squared, 0.9), 10.6 * 5) << "some parts' edges mislead all together";
+    EXPECT_LT(quantile(squared, 0.9), 10.6 * 5) << "common errors of some parts' edges";
   }
 }
 

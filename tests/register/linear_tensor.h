@@ -1,5 +1,5 @@
-// A tensor whose interpolant is known in closed form: linear in x, y and orientation, so that costs
-// can be differentiated in double without asking the code under test.
+// A tensor with an interpolant in closed form: linear in x, y and orientation. Costs can be
+// differentiated in double without the code under test.
 #pragma once
 
 #include <cmath>
@@ -17,7 +17,7 @@ struct Landing {
   double u, v, theta, foreshortening, z;
 };
 
-// By projecting two points of the edge that lie close together.
+// Projects two near points of the edge.
 inline Landing land(const Intrinsics& k, const Se3& camera_from_object, const ModelPoint& m) {
   constexpr double apart = 1e-6;
   const Eigen::Vector3d x(m.x_m, m.y_m, m.z_m), t(m.tx, m.ty, m.tz);

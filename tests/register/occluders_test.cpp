@@ -1,5 +1,5 @@
-// What known objects hide: against rays through every triangle, and what it is worth to a pose they
-// cover.
+// What known objects hide, compared with rays through all triangles, and its effect on the features
+// and registration of a covered pose.
 #include "host/register/occluders.h"
 
 #include <gtest/gtest.h>
@@ -41,15 +41,15 @@ Eigen::Vector3d middle_of_largest_triangle(const Mesh& mesh) {
   return middle;
 }
 
-TEST(Occluders, HideWhatRaysMeetLater) {
+TEST(Occluders, HideWhatLiesBehindThemAlongRays) {
   Random random = test_random();
   const auto backend = make_reference_backend();
   const EdgeModel model = part_model("l_bracket");
   const Se3 known{random.rotation(), {0.01, -0.01, 0.4}};
-  RegisterView view;
+  ObjectView view;
   view.camera = scene_camera();
-  const ObjectPose hypothesis{0, known};
-  const auto occluders = make_occluders({&model, 1}, {&hypothesis, 1}, view, *backend);
+  const ObjectPose pose{0, known};
+  const auto occluders = make_occluders({&model, 1}, {&pose, 1}, view, *backend);
   ASSERT_NE(occluders, nullptr);
   const double tolerance_m = 0.004;
   int hidden = 0, shown = 0, may = 0;
@@ -63,8 +63,9 @@ TEST(Occluders, HideWhatRaysMeetLater) {
       for (int x = -1; x <= 1; ++x) {
         const Eigen::Vector3d ray = ray_through(occluders->camera, pixel + Eigen::Vector2d(x, y));
         const double z = first_hit_m(model.mesh, known, ray),
-                     beside = first_hit_m(model.mesh, known, ray + Eigen::Vector3d(1e-6, 1e-6, 0));
-        edge_on |= std::abs(z - beside) > 1e-4 || std::isinf(z) != std::isinf(beside);
+                     neighbour =
+                         first_hit_m(model.mesh, known, ray + Eigen::Vector3d(1e-6, 1e-6, 0));
+        edge_on |= std::abs(z - neighbour) > 1e-4 || std::isinf(z) != std::isinf(neighbour);
         farthest = std::max(farthest, z);
       }
     if (edge_on || std::abs(farthest + tolerance_m - point.z()) < 1e-5) continue;
@@ -82,7 +83,7 @@ TEST(Occluders, HideWhatRaysMeetLater) {
 TEST(Occluders, HideNothingOutsideTheImageOrBehindTheCamera) {
   const auto backend = make_reference_backend();
   const EdgeModel model = part_model("l_bracket");
-  RegisterView view;
+  ObjectView view;
   view.camera = scene_camera();
   const ObjectPose near{0, {Eigen::Quaterniond::Identity(), {0, 0, 0.2}}};
   const auto occluders = make_occluders({&model, 1}, {&near, 1}, view, *backend);
@@ -95,13 +96,12 @@ TEST(Occluders, HideNothingOutsideTheImageOrBehindTheCamera) {
   EXPECT_EQ(make_occluders({&model, 1}, {}, view, *backend), nullptr);
 }
 
-// A bracket, half of which a block covers that stands before it: the edges an ideal detector would
-// find of both.
+// A bracket half covered by a block in front of it: the edges of both by an ideal detector.
 struct CoveredPart {
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
   std::vector<EdgeModel> models{part_model("l_bracket"), part_model("bearing_block")};
   ObjectPose covered, cover;
-  RegisterView view;
+  ObjectView view;
   double share = 0;  // of the bracket's edge that is hidden
 
   explicit CoveredPart(Random& random) {
@@ -127,18 +127,18 @@ struct CoveredPart {
     }
     share = double(hidden) / double(own.size());
     view.camera = camera;
-    view.view = backend->make_view(edges, camera.width, camera.height, {}, k, {});
+    view.tensor = backend->make_view(edges, camera.width, camera.height, {}, k, {});
   }
-  void know_the_cover() { view.occluders = make_occluders(models, {&cover, 1}, view, *backend); }
+  void set_occluders() { view.occluders = make_occluders(models, {&cover, 1}, view, *backend); }
   PoseFeatures features_of(const ObjectPose& pose) const {
-    return pose_features(models, {&pose, 1}, {&view, 1}, *backend, {})[0];
+    return pooled_features({models, {&view, 1}, *backend}, {&pose, 1}, {{}, {}})[0];
   }
-  Registration registered() const {
-    return register_poses(models, {&covered, 1}, {&view, 1}, *backend)[0];
+  PoseEstimate registered() const {
+    return register_poses({models, {&view, 1}, *backend}, {&covered, 1})[0];
   }
 };
 
-// At least two of which a quarter to seven tenths are hidden.
+// At least two parts, each with a quarter to seven tenths hidden.
 std::vector<CoveredPart> half_covered_parts(Random& random) {
   std::vector<CoveredPart> parts;
   for (int i = 0; i < 6; ++i) {
@@ -153,7 +153,7 @@ TEST(Occluders, WhatTheyHideCountsNeitherForNorAgainstAPose) {
   Random random = test_random();
   for (CoveredPart& t : half_covered_parts(random)) {
     const PoseFeatures blind = t.features_of(t.covered);
-    t.know_the_cover();
+    t.set_occluders();
     const PoseFeatures knowing = t.features_of(t.covered);
     EXPECT_EQ(knowing.visible, blind.visible);
     EXPECT_NEAR(knowing.points / blind.points, 1 - t.share, 0.08);
@@ -167,22 +167,22 @@ TEST(Occluders, WhatTheyHideCountsNeitherForNorAgainstAPose) {
 TEST(Occluders, RegistrationLeavesOutWhatTheyHide) {
   Random random = test_random();
   for (CoveredPart& t : half_covered_parts(random)) {
-    const Registration blind = t.registered();
-    t.know_the_cover();
-    const Registration knowing = t.registered();
+    const PoseEstimate blind = t.registered();
+    t.set_occluders();
+    const PoseEstimate knowing = t.registered();
     EXPECT_LT(knowing.points, 0.85 * blind.points);
     EXPECT_LT(knowing.mean_px, blind.mean_px);
   }
 }
 
-// The judge of the batched solver judges with the same points.
+// The reference of the batched solver uses the same points.
 TEST(Occluders, CeresLeavesOutTheSame) {
   Random random = test_random();
   for (CoveredPart& t : half_covered_parts(random)) {
-    t.know_the_cover();
-    const Registration batched = t.registered(),
-                       ceres = register_poses_ceres(t.models, {&t.covered, 1}, {&t.view, 1},
-                                                    *t.backend)[0];
+    t.set_occluders();
+    const PoseEstimate batched = t.registered(),
+                       ceres = register_poses_ceres({t.models, {&t.view, 1}, *t.backend},
+                                                    {&t.covered, 1})[0];
     EXPECT_NEAR(ceres.points, batched.points, 0.02 * batched.points);
     EXPECT_NEAR(ceres.mean_px, batched.mean_px, 0.05);
   }
@@ -192,11 +192,10 @@ TEST(Occluders, AKnownObjectDoesNotHideItself) {
   Random random = test_random();
   CoveredPart t(random);
   const PoseFeatures alone = t.features_of(t.cover);
-  t.know_the_cover();
+  t.set_occluders();
   const PoseFeatures known = t.features_of(t.cover);
-  EXPECT_GT(known.points,
-            0.99 * alone.points);  // but for a few that it does hide, which visible_edges lets pass
-                                   // near contours
+  // It does hide a few points near contours, which visible_edges keeps.
+  EXPECT_GT(known.points, 0.99 * alone.points);
   EXPECT_NEAR(known.mean_px, alone.mean_px, 0.01);
 }
 

@@ -1,10 +1,11 @@
-// Features of several views at once are those of each, weighted by the points it sees.
+// Features of several views are those of each view, weighted by its visible points.
 #include "host/register/pose_features.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/register/scene.h"
 #include "tests/test_random.h"
+#include "host/register/pose_classifier.h"
 
 namespace edgescout::test {
 namespace {
@@ -16,18 +17,16 @@ TEST(PoseFeatures, OfAllViewsAreTheMeansOverTheirPoints) {
   const std::vector<ObjectPose> poses{
       {0, scene.truth}, scene.start, {0, {Eigen::Quaterniond::Identity(), {50, 0, 0}}}};
   const std::vector<EdgeModel> models{scene.model};
-  const PoseScoreOptions options;
-  const std::vector<PoseFeatures> all =
-      pose_features(models, poses, scene.views, *backend, options);
-  const std::vector<PoseFeatures> by_view =
-      pose_features_by_view(models, poses, scene.views, *backend, options);
-  ASSERT_EQ(by_view.size(), 9u);
+  const FeatureOptions options{{}, {}};
+  const std::vector<PoseFeatures> all = pooled_features(scene.on(*backend), poses, options);
+  const Grid<PoseFeatures> by_view = features_by_view(scene.on(*backend), poses, options);
+  ASSERT_EQ(by_view.rows(), 3u);
+  ASSERT_EQ(by_view.columns(), 3u);
   for (std::size_t p = 0; p < 2; ++p) {
     double points = 0, mean = 0, matched = 0, visible = 0, length = 0;
     for (std::size_t v = 0; v < 3; ++v) {
-      const PoseFeatures alone = pose_features(models, poses, std::span(scene.views).subspan(v, 1),
-                                               *backend, options)[p],
-                         &f = by_view[3 * p + v];
+      const Scene one{models, std::span(scene.views).subspan(v, 1), *backend};
+      const PoseFeatures alone = pooled_features(one, poses, options)[p], &f = by_view(p, v);
       EXPECT_EQ(f.points, alone.points);
       EXPECT_DOUBLE_EQ(f.mean_px, alone.mean_px);
       points += f.points, mean += f.points * f.mean_px, matched += f.points * f.matched,
@@ -41,10 +40,10 @@ TEST(PoseFeatures, OfAllViewsAreTheMeansOverTheirPoints) {
     EXPECT_NEAR(all[p].length_px, length, 1e-9);
   }
   EXPECT_EQ(all[2].points, 0);
-  EXPECT_EQ(all[2].mean_px, options.cap_px);
+  EXPECT_EQ(all[2].mean_px, options.score.cap_px);
 }
 
-// An image cut in two: each half shows its part of the points and of the length, and no more.
+// An image cut in two: each half has its own part of the points and of the length.
 TEST(PoseFeatures, CountWhatLiesInTheImage) {
   Random random = test_random();
   const auto backend = make_cpu_backend(2);
@@ -56,10 +55,10 @@ TEST(PoseFeatures, CountWhatLiesInTheImage) {
     Camera cut = camera;
     cut.width = width;
     cut.cx -= x0;
-    RegisterView view = scene.views[0];
+    ObjectView view = scene.views[0];
     view.camera = cut;
-    view.view = backend->make_view({}, cut.width, cut.height, {}, intrinsics_of(cut), {});
-    return pose_features(models, {&truth, 1}, {&view, 1}, *backend, {})[0];
+    view.tensor = backend->make_view({}, cut.width, cut.height, {}, intrinsics_of(cut), {});
+    return pooled_features({models, {&view, 1}, *backend}, {&truth, 1}, {{}, {}})[0];
   };
   const int middle = camera.width / 2;
   const PoseFeatures whole = features_in(0, camera.width), left = features_in(0, middle),
@@ -71,9 +70,9 @@ TEST(PoseFeatures, CountWhatLiesInTheImage) {
   EXPECT_NEAR(left.in_image + right.in_image, 1, 1e-9);
 }
 
-// An image of stripes that all run one way agrees with a pose as well beside it as at it; one of
-// the part's own edges does not.
-TEST(PoseFeatures, TellEvidenceFromSurroundingsThatAgreeAnywhere) {
+// Parallel stripes agree with a pose as well as with the pose moved aside. An image of the part
+// itself agrees with the pose only.
+TEST(PoseFeatures, ComparePsiWithItsSurroundings) {
   const auto backend = make_cpu_backend(2);
   const Camera camera{320, 240, 400, 400, 159.5, 119.5, {}};
   const std::vector<EdgeModel> models{make_edge_model(make_part("u_channel").mesh)};
@@ -87,12 +86,13 @@ TEST(PoseFeatures, TellEvidenceFromSurroundingsThatAgreeAnywhere) {
   for (std::size_t i = 0; i < depth.size(); ++i)
     if (depth[i] != DEPTH_EMPTY) filled.pixels[i] = 180;
   const auto features_on = [&](const Image& image) {
-    RegisterView view;
+    ObjectView view;
     view.camera = camera;
-    view.view = backend->make_view({}, camera.width, camera.height,
-                                   {image.width, image.height, image.pixels.data()},
-                                   intrinsics_of(camera), {});
-    return pose_features_by_view(models, {&pose, 1}, std::vector{view, view}, *backend, {})[0];
+    view.tensor = backend->make_view({}, camera.width, camera.height,
+                                     {image.width, image.height, image.pixels.data()},
+                                     intrinsics_of(camera), {});
+    const std::vector<ObjectView> views{view, view};
+    return features_by_view({models, views, *backend}, {&pose, 1}, {{}, {}})(0, 0);
   };
   const PoseFeatures on_stripes = features_on(stripes), on_itself = features_on(filled);
   EXPECT_GT(on_stripes.psi, 0.3);

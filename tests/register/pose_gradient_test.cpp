@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "host/model/visible_edges.h"
-#include "host/register/world_system.h"
+#include "host/register/lm_state.h"
 #include "kernels/thread_pool.h"
 #include "tests/register/linear_tensor.h"
 #include "tests/test_random.h"

@@ -1,11 +1,11 @@
-// Refinement of many starts: each by itself, whatever the others are, and from as far as the search
-// reaches.
+// Refinement of many starts: independent of each other, and from as far as the search reaches.
 #include "host/register/refine.h"
 
 #include <gtest/gtest.h>
 
 #include "host/eval/metrics.h"
 #include "host/io/mesh.h"
+#include "host/register/pose_classifier.h"
 #include "kernels/error.h"
 #include "tests/register/scene.h"
 #include "tests/test_random.h"
@@ -24,38 +24,35 @@ std::vector<ObjectPose> starts_around(const Se3& truth, int count, double offset
   return starts;
 }
 
-TEST(Refine, DoesNotDependOnHowManyAreRefinedTogether) {
+TEST(Refine, DoesNotDependOnTheBatchSize) {
   Random random = test_random();
   const auto backend = make_cpu_backend(2);
   const PartScene scene("l_bracket", 2, random, *backend);
-  const std::vector<EdgeModel> models{scene.model};
   const std::vector<ObjectPose> starts = starts_around(scene.truth, 5, 0.01, 0.2, random);
   for (const double search_rad : {0.0, 0.25}) {
     RefineOptions options;
     options.use_edge_icp = false;  // these views have no edge index
     options.search.rotation_rad = search_rad;
-    const std::vector<Refined> together =
-        refine_poses(models, starts, scene.views, *backend, options);
-    ASSERT_EQ(together.size(), starts.size());
-    for (const int at_once : {1, 4}) {  // one start of two views a time, two
-      options.at_once = at_once;
-      const std::vector<Refined> apart =
-          refine_poses(models, starts, scene.views, *backend, options);
+    const std::vector<PoseEstimate> at_once = refine_poses(scene.on(*backend), starts, options);
+    ASSERT_EQ(at_once.size(), starts.size());
+    for (const int batch_size : {1, 4}) {  // one start and two starts of two views
+      options.batch_size = batch_size;
+      const std::vector<PoseEstimate> apart = refine_poses(scene.on(*backend), starts, options);
       ASSERT_EQ(apart.size(), starts.size());
       for (std::size_t i = 0; i < starts.size(); ++i) {
-        const Se3 &a = apart[i].registration.world_from_object,
-                  &b = together[i].registration.world_from_object;
+        const Se3 &a = apart[i].world_from_object, &b = at_once[i].world_from_object;
         EXPECT_EQ(a.translation_m, b.translation_m) << i;
         EXPECT_EQ(a.rotation.coeffs(), b.rotation.coeffs()) << i;
-        EXPECT_EQ(apart[i].registration.cost_px2, together[i].registration.cost_px2);
-        EXPECT_EQ(log_odds(apart[i].features), log_odds(together[i].features));
-        EXPECT_EQ(apart[i].by_view.size(), 2u);
+        EXPECT_EQ(apart[i].cost_px2, at_once[i].cost_px2);
+        EXPECT_EQ(PoseClassifier::rank(pool_over_views(apart[i].features)),
+                  PoseClassifier::rank(pool_over_views(at_once[i].features)));
+        EXPECT_EQ(apart[i].features.size(), 2u);
       }
     }
   }
 }
 
-// CAD files have their origin anywhere. A part told from an origin some diameters off is found from
+// CAD files have their origin anywhere. A part whose origin lies some diameters off is found from
 // the same far starts.
 TEST(Refine, FindsAPartWhereverItsOriginLies) {
   Random random = test_random();
@@ -76,9 +73,9 @@ TEST(Refine, FindsAPartWhereverItsOriginLies) {
   const auto right = [&](const EdgeModel& model, const std::vector<ObjectPose>& from,
                          const Se3& back) {
     int count = 0;
-    for (const Refined& refined : refine_poses({&model, 1}, from, scene.views, *backend, options))
-      count += pose_error(refined.registration.world_from_object * back, scene.truth, {})
-                   .passes(0.02, 0.001);
+    for (const PoseEstimate& refined :
+         refine_poses({{&model, 1}, scene.views, *backend}, from, options))
+      count += pose_error(refined.world_from_object * back, scene.truth, {}).passes(0.02, 0.001);
     return count;
   };
   const int here = right(scene.model, starts, Se3{});
@@ -86,9 +83,9 @@ TEST(Refine, FindsAPartWhereverItsOriginLies) {
   EXPECT_GE(right(elsewhere, starts_elsewhere, shifted_from_part), here - 1);
 }
 
-TEST(Refine, RefusesBlocksOfNothing) {
+TEST(Refine, RefusesEmptyBatches) {
   RefineOptions options;
-  options.at_once = 0;
+  options.batch_size = 0;
   EXPECT_THROW(options.validate(), InputError);
 }
 

@@ -1,5 +1,4 @@
-// Parts at known poses in front of known cameras, given as the edge points an ideal detector would
-// find.
+// Parts at known poses in front of known cameras, given as the edge points of an ideal detector.
 #pragma once
 
 #include <vector>
@@ -7,7 +6,7 @@
 #include "host/core/random.h"
 #include "host/edge/edge_index.h"
 #include "host/register/d2co.h"
-#include "host/register/world_system.h"
+#include "host/register/lm_state.h"
 #include "host/render/parts.h"
 #include "tests/register/linear_tensor.h"
 
@@ -35,16 +34,16 @@ inline std::vector<EdgePoint> ideal_edges(const EdgeModel& dense, const Camera& 
   return edges;
 }
 
-inline RegisterView view_of(const EdgeModel& dense, const Se3& world_from_object,
-                            const Se3& camera_from_world, Backend& backend,
-                            const TensorOptions& options = {}) {
+inline ObjectView view_of(const EdgeModel& dense, const Se3& world_from_object,
+                          const Se3& camera_from_world, Backend& backend,
+                          const TensorOptions& options = {}) {
   const Camera camera = scene_camera();
   const std::vector<EdgePoint> edges =
       ideal_edges(dense, camera, camera_from_world * world_from_object, backend);
-  RegisterView view;
+  ObjectView view;
   view.camera = camera;
   view.camera_from_world = camera_from_world;
-  view.view =
+  view.tensor =
       backend.make_view(edges, camera.width, camera.height, {}, intrinsics_of(camera), options);
   return view;
 }
@@ -63,12 +62,12 @@ inline Se3 camera_looking_at(const Eigen::Vector3d& eye_m, const Eigen::Vector3d
   return se3_from_matrix(camera_from_world, -camera_from_world * eye_m);
 }
 
-// One part, seen from `view_count` random sides 0.35 m away, and a start 4 mm and 0.05 rad off the
-// truth.
+// One part seen from `view_count` random directions 0.35 m away, and a start 4 mm and 0.05 rad off
+// the truth.
 struct PartScene {
   EdgeModel model;
   Se3 truth;
-  std::vector<RegisterView> views;
+  std::vector<ObjectView> views;
   ObjectPose start;
 
   PartScene(const std::string& part, int view_count, Random& random, Backend& backend,
@@ -84,14 +83,16 @@ struct PartScene {
     off << 0.004 * random.direction(), 0.05 * random.direction();
     start = {0, retract(truth, off)};
   }
+
+  Scene on(Backend& backend) const { return {{&model, 1}, views, backend}; }
 };
 
-// The scene's system at a pose, put together here from visible points (`most` a view, evenly
-// thinned; 0: all) and kernel.
+// The scene's system at a pose, summed here from visible points (at most `most` per view, evenly
+// thinned; 0: all) and the kernel.
 inline WorldSystem system_at(const PartScene& scene, const Se3& world_from_object,
                              const PoseLoss& loss, std::size_t most, Backend& backend) {
   WorldSystem system;
-  for (const RegisterView& view : scene.views) {
+  for (const ObjectView& view : scene.views) {
     const Se3 pose = view.camera_from_world * world_from_object;
     std::vector<ModelPoint> points = visible_edges(scene.model, std::span(&pose, 1), backend)[0];
     if (most > 0) {
@@ -101,7 +102,7 @@ inline WorldSystem system_at(const PartScene& scene, const Se3& world_from_objec
     }
     const PoseProblem problem{to_pose(pose), 0, std::uint32_t(points.size()), 0};
     NormalEquations out;
-    backend.pose_normal_equations(std::span(&view.view, 1), points, std::span(&problem, 1), loss,
+    backend.pose_normal_equations(std::span(&view.tensor, 1), points, std::span(&problem, 1), loss,
                                   std::span(&out, 1));
     add_view(system, out, view.camera_from_world);
   }

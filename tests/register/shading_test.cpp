@@ -1,5 +1,5 @@
-// Images whose grey is a known function of the surface: a right pose explains them, a wrong one
-// does not.
+// Images whose grey values are a known function of the surface: a right pose explains them, a wrong
+// pose does not.
 #include "host/register/shading.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +10,7 @@
 #include "host/render/parts.h"
 #include "tests/register/scene.h"
 #include "tests/test_random.h"
+#include "host/register/pose_classifier.h"
 
 namespace edgescout::test {
 namespace {
@@ -17,8 +18,8 @@ namespace {
 constexpr int width = 320, height = 240;
 const Camera camera{width, height, 500, 500, 159.5, 119.5, {}};
 
-// Grey of a matte surface under one light and the sky, from the normal of the triangle each pixel's
-// ray meets first; elsewhere `background`.
+// Grey of a matte surface under one light and the sky, from the normal of the first triangle along
+// the ray of each pixel. `background` elsewhere.
 Image shaded(const Mesh& mesh, const Se3& camera_from_object, const auto& background) {
   Image image{width, height, std::vector<std::uint8_t>(std::size_t(width) * height)};
   const Eigen::Vector3d light = Eigen::Vector3d(0.5, -0.7, -0.6).normalized();
@@ -49,18 +50,18 @@ struct ShadedPart {
   EdgeModel model;
   Se3 truth;
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
-  RegisterView view;
+  ObjectView view;
 
   explicit ShadedPart(const std::string& name) : model(make_edge_model(make_part(name).mesh)) {
     truth.rotation = Eigen::AngleAxisd(0.8, Eigen::Vector3d(1, 0.4, 0.2).normalized());
     truth.translation_m = {0.004, -0.003, 0.32};
     view.camera = camera;
-    view.view = backend->make_view({}, width, height, {}, {500, 500, 159.5f, 119.5f}, {});
+    view.tensor = backend->make_view({}, width, height, {}, {500, 500, 159.5f, 119.5f}, {});
   }
   void show(const Image& image) { view.image = std::make_shared<Image>(image); }
   Shading at(const Se3& pose) const {
-    const ObjectPose hypothesis{0, pose};
-    return shading({&model, 1}, {&hypothesis, 1}, {&view, 1}, *backend)[0];
+    const ObjectPose start{0, pose};
+    return shading({{&model, 1}, {&view, 1}, *backend}, {&start, 1})(0, 0);
   }
 };
 
@@ -113,8 +114,7 @@ TEST(Shading, AddsUpOverViews) {
   EXPECT_NEAR(unexplained_grey(both), unexplained_grey(one), 1e-12);
 }
 
-// Noise where another, known part stands before it: without knowing of it the surface explains
-// little.
+// Noise where another, known part hides the part. Without the occluder the surface explains little.
 TEST(Shading, LeavesOutWhatKnownPartsHide) {
   ShadedPart part("l_bracket");
   Se3 nearer = part.truth;
@@ -136,21 +136,22 @@ TEST(Shading, LeavesOutWhatKnownPartsHide) {
   EXPECT_GT(knowing.pixels, 60);
 }
 
-// Poses of several objects in several views keep their places in the answer.
-TEST(Shading, IsAnsweredInTheOrderOfPosesAndViews) {
+// The cells of several objects' poses in several views.
+TEST(Shading, HasARowPerPoseAndAColumnPerView) {
   ShadedPart part("l_bracket");
   part.show(shaded(part.model.mesh, part.truth, [](int, int) { return 10.0; }));
   const std::vector<EdgeModel> models{make_edge_model(make_part("hex_nut").mesh), part.model};
-  RegisterView blind = part.view;
+  ObjectView blind = part.view;
   blind.image = nullptr;
-  const std::vector<RegisterView> views{blind, part.view};
+  const std::vector<ObjectView> views{blind, part.view};
   const std::vector<ObjectPose> poses{{1, part.truth}, {0, part.truth}, {1, part.truth}};
-  const std::vector<Shading> all = shading(models, poses, views, *part.backend);
-  ASSERT_EQ(all.size(), 6u);
-  for (int i : {0, 2, 4}) EXPECT_EQ(all[i].pixels, 0);
+  const Grid<Shading> all = shading({models, views, *part.backend}, poses);
+  ASSERT_EQ(all.rows(), 3u);
+  ASSERT_EQ(all.columns(), 2u);
+  for (std::size_t p : {0, 1, 2}) EXPECT_EQ(all(p, 0).pixels, 0);
   const Shading alone = part.at(part.truth);
-  for (int i : {1, 5}) EXPECT_EQ(all[i].unexplained, alone.unexplained);
-  EXPECT_NE(all[3].pixels, alone.pixels);
+  for (std::size_t p : {0, 2}) EXPECT_EQ(all(p, 1).unexplained, alone.unexplained);
+  EXPECT_NE(all(1, 1).pixels, alone.pixels);
 }
 
 }  // namespace

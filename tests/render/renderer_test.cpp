@@ -30,11 +30,11 @@ RenderOptions small_options() {
 }
 
 // One object, seen alone, from straight above, with nothing random.
-Scene plain_scene(const Mesh& mesh, const Se3& world_from_object, double camera_height_m) {
+SimulatedScene plain_scene(const Mesh& mesh, const Se3& world_from_object, double camera_height_m) {
   RenderOptions options = small_options();
   options.noise_grey = 0;
   options.blur_px = 0;
-  Scene scene;
+  SimulatedScene scene;
   scene.options = options;
   Object object;
   object.mesh = mesh;
@@ -57,7 +57,8 @@ Scene plain_scene(const Mesh& mesh, const Se3& world_from_object, double camera_
 
 // Nearest triangle along a ray by brute force (Moeller and Trumbore): depth (the ray's z is 1) and
 // owner.
-std::pair<double, int> cast(const Scene& scene, const SceneView& view, const Eigen::Vector3d& ray) {
+std::pair<double, int> cast(const SimulatedScene& scene, const SceneView& view,
+                            const Eigen::Vector3d& ray) {
   double nearest = std::numeric_limits<double>::infinity();
   int owner = -1;
   for (std::size_t p = 0; p < scene.placed.size(); ++p) {
@@ -80,7 +81,7 @@ std::pair<double, int> cast(const Scene& scene, const SceneView& view, const Eig
 }
 
 TEST(Render, DepthAndOwnersAreThoseOfRays) {
-  const Scene scene = make_scene(objects(), small_options());
+  const SimulatedScene scene = make_scene(objects(), small_options());
   ThreadPool pool(2);
   const std::vector<Rendering> renderings = render(scene, pool);
   ASSERT_EQ(renderings.size(), 2u);
@@ -111,7 +112,7 @@ TEST(Render, DepthAndOwnersAreThoseOfRays) {
 TEST(Render, VerticesOfTheTruthFallOnTheirMask) {
   const Object part = make_part("hex_nut");
   const Se3 pose{so3_exp({0.4, -0.3, 0.2}), {0.01, -0.005, 0.03}};
-  const Scene scene = plain_scene(part.mesh, pose, 0.3);
+  const SimulatedScene scene = plain_scene(part.mesh, pose, 0.3);
   ThreadPool pool(1);
   const Rendering rendering = render(scene, pool).front();
   const auto covered = [&](int x, int y) {
@@ -139,8 +140,8 @@ TEST(Render, VerticesOfTheTruthFallOnTheirMask) {
 
 TEST(Render, VisibleFractionIsThatOfAKnownOverlap) {
   // A square of 40 mm, half covered by another at 0.1 m above it that seems just as large.
-  Scene scene = plain_scene(make_box({0.04, 0.04, 0.002}),
-                            {Eigen::Quaterniond::Identity(), {0, 0, 0.001}}, 0.4);
+  SimulatedScene scene = plain_scene(make_box({0.04, 0.04, 0.002}),
+                                     {Eigen::Quaterniond::Identity(), {0, 0, 0.001}}, 0.4);
   const double scale = (0.4 - 0.101) / (0.4 - 0.002);
   Object cover;
   cover.mesh = make_box({0.04 * scale, 0.04 * scale, 0.002});
@@ -154,7 +155,7 @@ TEST(Render, VisibleFractionIsThatOfAKnownOverlap) {
 
 // Its silhouette is 170,000 px wide: no memory holds it.
 TEST(Render, APartThatTouchesTheCameraIsHardlyVisible) {
-  const Scene scene =
+  const SimulatedScene scene =
       plain_scene(make_box({1, 1, 0.002}),
                   {Eigen::Quaterniond::Identity(), {0, 0, 0.4 - 0.00105 - 0.001}}, 0.4);
   ThreadPool pool(1);
@@ -165,19 +166,19 @@ TEST(Render, APartThatTouchesTheCameraIsHardlyVisible) {
 }
 
 TEST(Render, WhatLeavesTheImageIsNotVisible) {
-  const Scene half =
+  const SimulatedScene half =
       plain_scene(make_box({0.04, 0.04, 0.002}),
                   {Eigen::Quaterniond::Identity(), {80.5 / 180 * 0.398, 0, 0.001}}, 0.4);
   ThreadPool pool(1);
   EXPECT_NEAR(render(half, pool).front().visible_fraction[0], 0.5, 0.06);
-  const Scene outside = plain_scene(make_box({0.04, 0.04, 0.002}),
-                                    {Eigen::Quaterniond::Identity(), {1, 0, 0.001}}, 0.4);
+  const SimulatedScene outside = plain_scene(make_box({0.04, 0.04, 0.002}),
+                                             {Eigen::Quaterniond::Identity(), {1, 0, 0.001}}, 0.4);
   EXPECT_DOUBLE_EQ(render(outside, pool).front().visible_fraction[0], 0);
 }
 
 TEST(Render, CastsShadowsOnlyWhereAsked) {
-  Scene scene = plain_scene(make_box({0.02, 0.02, 0.02}),
-                            {Eigen::Quaterniond::Identity(), {0, 0, 0.05}}, 0.4);
+  SimulatedScene scene = plain_scene(make_box({0.02, 0.02, 0.02}),
+                                     {Eigen::Quaterniond::Identity(), {0, 0, 0.05}}, 0.4);
   scene.lights = {{{1, 0, 1}, 0.8}};
   scene.desk_albedo = 100 / 255.0;
   ThreadPool pool(1);
@@ -210,8 +211,8 @@ TEST(Render, IsTheSameForTheSameSeedOnAnyNumberOfThreads) {
 }
 
 TEST(Render, NoiseAndBlurDoWhatTheySay) {
-  Scene scene = plain_scene(make_box({0.001, 0.001, 0.001}),
-                            {Eigen::Quaterniond::Identity(), {0.5, 0.5, 0}}, 0.4);
+  SimulatedScene scene = plain_scene(make_box({0.001, 0.001, 0.001}),
+                                     {Eigen::Quaterniond::Identity(), {0.5, 0.5, 0}}, 0.4);
   scene.board_side_m = 5;
   scene.options.shadows = false;
   ThreadPool pool(1);
@@ -224,11 +225,11 @@ TEST(Render, NoiseAndBlurDoWhatTheySay) {
   EXPECT_NEAR(std::sqrt(squares / static_cast<double>(clean.size())), 5, 0.2);
 }
 
-TEST(Scene, ClutterAddsForeignPartsAndPrint) {
+TEST(SimulatedScene, ClutterAddsForeignPartsAndPrint) {
   for (const auto& [clutter, foreign] : {std::pair{0, 0}, {1, 3}, {2, 8}}) {
     RenderOptions options = small_options();
     options.clutter = clutter;
-    const Scene scene = make_scene(objects(), options);
+    const SimulatedScene scene = make_scene(objects(), options);
     int targets = 0;
     for (const PlacedObject& part : scene.placed) targets += part.target;
     EXPECT_EQ(targets, 5);
@@ -236,7 +237,7 @@ TEST(Scene, ClutterAddsForeignPartsAndPrint) {
   }
 }
 
-TEST(Scene, DealsInstancesEvenly) {
+TEST(SimulatedScene, DealsInstancesEvenly) {
   RenderOptions options = small_options();
   options.objects = 7;
   int counts[3] = {};
@@ -246,7 +247,7 @@ TEST(Scene, DealsInstancesEvenly) {
 }
 
 // CAD files have their origin anywhere: parts lie in the same heap, before the same cameras.
-TEST(Scene, LaysPartsTheSameWhereverTheirOriginLies) {
+TEST(SimulatedScene, LaysPartsTheSameWhereverTheirOriginLies) {
   RenderOptions options = small_options();
   options.objects = 6;
   options.pile = 0.7;
@@ -257,7 +258,7 @@ TEST(Scene, LaysPartsTheSameWhereverTheirOriginLies) {
     for (Eigen::Vector3d& vertex_m : object.mesh.vertices_m) vertex_m += shift_m;
     object.mesh.box_min_m += shift_m, object.mesh.box_max_m += shift_m;
   }
-  const Scene a = make_scene(here, options), b = make_scene(elsewhere, options);
+  const SimulatedScene a = make_scene(here, options), b = make_scene(elsewhere, options);
   ASSERT_EQ(a.placed.size(), b.placed.size());
   for (std::size_t i = 0; i < a.placed.size(); ++i) {
     if (!a.placed[i].target) continue;
@@ -273,7 +274,7 @@ TEST(Scene, LaysPartsTheSameWhereverTheirOriginLies) {
               0.1 * a.views[0].camera_from_world.translation_m.norm());
 }
 
-TEST(Scene, KeepsCamerasWhereAsked) {
+TEST(SimulatedScene, KeepsCamerasWhereAsked) {
   RenderOptions options = small_options();
   options.views = 12;
   options.min_distance_m = 0.3;

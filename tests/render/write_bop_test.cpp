@@ -34,7 +34,7 @@ TEST_F(WriteBop, SceneReadsBack) {
   options.objects = 4;
   options.views = 3;
   ThreadPool pool(2);
-  const Scene scene = make_scene(objects, options);
+  const SimulatedScene scene = make_scene(objects, options);
   const std::vector<Rendering> renderings = render(scene, pool);
   write_bop_scene(scene, renderings, folder_ / "000007");
 

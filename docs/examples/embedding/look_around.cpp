@@ -1,9 +1,12 @@
-// A robot's control thread looks for a part until it is sure: look_around BOP_SCENE MESH_MM. The
-// recorded scene stands for the robot: moving to a view and taking an image is reading a file here.
-// The scout starts no thread of its own (the backend has its workers) and keeps nothing global, and
-// any call may be left by an exception without harm.
+// A robot's control thread takes images of a part from one view after the other, until the result
+// is certain: look_around BOP_SCENE MESH_MM.
+//
+// A recorded scene replaces the robot: to move to a view and take an image is to read a file here.
+// The scout starts no thread of its own (the backend has worker threads) and has no global state. A
+// call that throws leaves the scout as it was.
 #include <iostream>
 
+#include "host/active/recorded_views.h"
 #include "host/active/scout.h"
 #include "host/io/mesh.h"
 #include "kernels/error.h"
@@ -29,19 +32,18 @@ int main(int argc, char** argv) {
   ScoutOptions options;
   options.max_views = 2;
   options.detections.min_probability = 0.1;
-  options.cancelled = [] {
-    return false;
-  };  // ask the emergency stop here: Cancelled is thrown between two stages
+  // Read the emergency stop here. If it returns true, Cancelled is thrown between two stages.
+  options.cancelled = [] { return false; };
   Scout scout(sets, robot.camera(), robot.views(), options, *backend);
 
   while (const auto next = scout.propose()) {
     try {
-      const Shot shot = robot.acquire(
-          next->view);  // move there, take an image; and where the arm knows better: its true pose
+      // Moves to the view and takes an image. If the arm measures its pose, give that pose.
+      const Shot shot = robot.acquire(next->view);
       scout.give(next->view, shot.image, shot.camera_from_world);
     } catch (const AcquisitionError& error) {
       scout.unreachable(next->view, error.what());  // another view is proposed in its place
-    } catch (const InputError& error) {             // an image of another size, a pose that is none
+    } catch (const InputError& error) {  // an image of another size, a pose that is not rigid
       scout.unreachable(next->view, error.what());
     }
     std::cout << "view " << next->view << ": " << scout.state().entropy_nats << " nats undecided\n";

@@ -1,5 +1,5 @@
-// Finds a part in a picture, as a robot's program would: consumer BOP_SCENE MESH_MM OBJECT_ID.
-// Succeeds where the best detection lies within 5 mm of the scene's truth.
+// Finds a part in an image, as a robot's program would: consumer BOP_SCENE MESH_MM OBJECT_ID.
+// Succeeds if the best detection is within 5 mm of the scene's ground truth.
 #include <iostream>
 
 #include "host/io/bop.h"
@@ -27,8 +27,9 @@ int main(int, char** argv) {
   Camera camera = input.camera;
   camera.width = image.width;
   camera.height = image.height;
-  const PreparedImage prepared = prepare_image(image, camera, Se3{}, *backend, options);
-  const Detections found = detect_objects(prepared, sets, *backend, options);
+  std::vector<StageSeconds> stages;
+  const ObjectView view = prepare_view(image, camera, Se3{}, *backend, options, &stages);
+  const Detections found = detect_objects(view, sets, *backend, options);
   if (found.detections.empty()) return 1;
   const Detection& best = found.detections[0];
   std::cout << "object " << part.id << " at " << best.world_from_object.translation_m.transpose()

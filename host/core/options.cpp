@@ -1,0 +1,33 @@
+#include "host/core/options.h"
+
+#include <algorithm>
+
+#include "kernels/error.h"
+
+namespace edgescout {
+
+void BoundsCheck::require(const OptionInfo& option, double found, double low, double high) const {
+  if (found >= low && found <= high) return;
+  std::string field = prefix_ + "." + option.name;
+  std::ranges::replace(field, '-', '_');
+  throw InputError("options", field, std::to_string(found),
+                   std::to_string(low) + " to " + std::to_string(high));
+}
+
+void BoundsCheck::number(const OptionInfo& option, int& field, int low, int high) {
+  require(option, field, low, high);
+}
+
+void BoundsCheck::number(const OptionInfo& option, float& field, float low, float high) {
+  require(option, field, low, high);
+}
+
+void BoundsCheck::number(const OptionInfo& option, double& field, double low, double high) {
+  require(option, field, low, high);
+}
+
+void BoundsCheck::choice(const OptionInfo& option, int& field, std::span<const char* const> names) {
+  require(option, field, 0, double(names.size()) - 1);
+}
+
+}  // namespace edgescout

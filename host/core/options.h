@@ -1,0 +1,65 @@
+// Options of the product, each declared once: name, level, bounds and help.
+//
+// Every options struct has a function `describe(Options&, OptionVisitor&)` that names its fields in
+// order. validate() checks the bounds with it, and the command line, the YAML file and the help are
+// made from it.
+//
+// Public header.
+#pragma once
+
+#include <span>
+#include <string>
+
+namespace edgescout {
+
+enum class OptionLevel {
+  Basic,   // what a first user needs: in --help
+  Expert,  // the rest: in --help-all
+};
+
+struct OptionInfo {
+  const char* name;  // as on the command line and in YAML: "coarse-poses"
+  const char* help;  // one sentence, with the unit and what a special value means
+  OptionLevel level = OptionLevel::Expert;
+};
+
+class OptionVisitor {
+ public:
+  virtual ~OptionVisitor() = default;
+  // Heads what follows: "Detection".
+  virtual void group(const char* name) = 0;
+  // Bounds are inclusive.
+  virtual void number(const OptionInfo& option, int& field, int low, int high) = 0;
+  virtual void number(const OptionInfo& option, float& field, float low, float high) = 0;
+  virtual void number(const OptionInfo& option, double& field, double low, double high) = 0;
+  virtual void flag(const OptionInfo& option, bool& field) = 0;
+  // One of the names; `field` is the index.
+  virtual void choice(const OptionInfo& option, int& field, std::span<const char* const> names) = 0;
+};
+
+// InputError "options: PREFIX.NAME: found FOUND, expected LOW to HIGH" for a number out of bounds,
+// NaN included. PREFIX is the struct's ("detect"); the name's dashes become underscores.
+class BoundsCheck : public OptionVisitor {
+ public:
+  explicit BoundsCheck(std::string prefix) : prefix_(std::move(prefix)) {}
+  void group(const char*) override {}
+  void number(const OptionInfo& option, int& field, int low, int high) override;
+  void number(const OptionInfo& option, float& field, float low, float high) override;
+  void number(const OptionInfo& option, double& field, double low, double high) override;
+  void flag(const OptionInfo&, bool&) override {}
+  void choice(const OptionInfo& option, int& field, std::span<const char* const> names) override;
+
+ private:
+  void require(const OptionInfo& option, double found, double low, double high) const;
+  std::string prefix_;
+};
+
+// validate() of an options struct that has a `describe`.
+template <typename Options>
+void check_bounds(const Options& options, const char* prefix) {
+  Options copy = options;  // describe binds fields that may be written
+  BoundsCheck check(prefix);
+  describe(copy, check);
+}
+
+}  // namespace edgescout

@@ -1,0 +1,28 @@
+// Builds the DCD tensors of a view (paper, Sec. 3.3): one of full resolution and two reduced ones.
+//
+// The reduced tensors have a wider basin: the scan and the coarse alignment work on them. Their
+// orientation weight is lambda / reduction, so that both resolutions weigh direction against image
+// distance alike.
+#pragma once
+
+#include <span>
+
+#include "host/model/template_set.h"
+#include "host/register/object_view.h"
+
+namespace edgescout {
+
+// The view's image and edges are set (pipeline.h: prepare_view). Reduces by what suits the smallest
+// of the objects. LogicError: no templates, a camera pose that is not finite.
+void add_tensors(ObjectView& view, std::span<const TemplateSet> sets, Backend& backend,
+                 const TensorOptions& options);
+
+// The same with a given reduction, image px per px of the reduced tensors.
+void add_tensors(ObjectView& view, double reduction, Backend& backend,
+                 const TensorOptions& options);
+
+// Reduction at which something of `size_px` in the image spans some 48 reduced px: a whole number
+// in [1, 8].
+double reduction_for(double size_px);
+
+}  // namespace edgescout

@@ -1,0 +1,29 @@
+// Options of edge_icp (edge_icp.h).
+//
+// Public header.
+#pragma once
+
+#include <vector>
+
+#include "host/model/visible_edges.h"
+
+namespace edgescout {
+
+struct EdgeIcpRound {
+  float radius_px = 3;  // of association
+  float scale_px = 1;   // of the loss
+  int iterations = 4;
+};
+
+struct EdgeIcpOptions {
+  std::vector<EdgeIcpRound> rounds{{5, 2.5f, 4}, {3, 1.2f, 5}, {2, 0.8f, 5}};
+  float max_turn_rad = 0.3f;
+  double min_matched = 0.1;  // of the visible points in all views: with fewer a pose stays as it is
+  int max_points = 0;        // per view, evenly thinned; 0: all
+  double min_step_m = 2e-6;  // a smaller step ends the round
+  double min_step_rad = 2e-5;
+  VisibilityOptions visibility;
+  void validate() const;  // InputError naming the field and the violated bound
+};
+
+}  // namespace edgescout

@@ -1,0 +1,21 @@
+#include "host/register/pose_estimate.h"
+
+#include "kernels/error.h"
+
+namespace edgescout {
+
+std::string to_string(Convergence convergence) {
+  switch (convergence) {
+    case Convergence::SmallStep:
+      return "small step";
+    case Convergence::NoDecrease:
+      return "no decrease";
+    case Convergence::IterationLimit:
+      return "iteration limit";
+    case Convergence::NoPoints:
+      return "no visible points";
+  }
+  throw LogicError("unknown convergence");
+}
+
+}  // namespace edgescout

@@ -1,0 +1,57 @@
+// A registered pose with its covariance, cost and features.
+//
+// Public header.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/core/types.h"
+
+namespace edgescout {
+
+// Grey values inside a silhouette against a smooth function of the surface normal (shading.h).
+struct Shading {
+  double pixels = 0;       // number compared: inside the image, away from edges of the depth map
+  double squares = 0;      // sum of squared deviations of their grey values from the mean
+  double unexplained = 0;  // the same from the best function of the normal
+};
+
+// What was measured of a pose in one view, or pooled over views (pose_features.h).
+struct PoseFeatures {
+  double psi = 0;             // Eq. 10, mean over the visible points
+  double background_psi = 0;  // psi of the same points with the pose moved a little aside; measured
+                              // where there are several views
+  double mean_px = 0;         // mean tensor value
+  double matched = 0;         // fraction of points with a tensor value below the match limit
+  double points = 0;          // number of visible points inside the image, not behind known objects
+  double length_px = 0;       // of the visible edges inside the image
+  double in_image = 0;        // points / visible
+  double visible = 0;  // number of points inside the image or not, behind known objects or not
+  Shading shading;     // zero where the view has no image
+};
+
+// Why a registration stopped.
+enum class Convergence { SmallStep, NoDecrease, IterationLimit, NoPoints };
+std::string to_string(Convergence convergence);
+
+struct PoseEstimate : ObjectPose {
+  // Tangent of core/se3.h. Inverse of the final J'WJ times the residual variance (points count as
+  // independent); after edge_icp that of edge_covariance.h; infinite where singular.
+  Matrix6d covariance = Matrix6d::Zero();
+  double cost_px2 = 0;  // final sum of rho over all points and views (Eq. 11)
+  double mean_px = 0;   // mean residual
+  int points = 0;       // in all views
+  int iterations = 0;   // of Levenberg-Marquardt
+  Convergence convergence = Convergence::NoPoints;
+  std::vector<PoseFeatures> features;  // one per view; empty until measured (measure_features)
+};
+
+// The poses alone: starts for what comes next. Takes a range of ObjectPose or of what derives from
+// it.
+template <typename Poses>
+std::vector<ObjectPose> object_poses(const Poses& poses) {
+  return std::vector<ObjectPose>(poses.begin(), poses.end());
+}
+
+}  // namespace edgescout

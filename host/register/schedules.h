@@ -1,0 +1,25 @@
+// All schedules of registration in one table: from a wide loss to a narrow one, with as many points
+// and iterations as the stage needs. docs/research/ has the experiments behind them.
+#pragma once
+
+#include "host/register/d2co_options.h"
+#include "host/register/edge_icp_options.h"
+
+namespace edgescout::schedules {
+
+// Detection, one view (detect/detect.h): search -> medium -> fine. Several views begin with
+// coarse_joint in place of search.
+D2coOptions search();        // coarse tensors, from templates some 0.2 rad apart
+D2coOptions coarse_joint();  // coarse tensors of several views; a loss so sharp that a hidden point
+                             // costs no more than one a little off: poses are compared by the cost
+D2coOptions medium();        // full tensors: features mean nothing 3 px off
+D2coOptions fine();          // full tensors, all points in the last round
+D2coRound unsearched();      // precedes `fine` where no search brought the start near
+
+// Active detection.
+D2coOptions particles();  // active/particles.h, on all real views
+EdgeIcpOptions particles_edge_icp();
+D2coOptions extrinsics_joint();   // active/extrinsics_check.h, on all views
+D2coOptions extrinsics_single();  // the same on one view
+
+}  // namespace edgescout::schedules

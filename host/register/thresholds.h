@@ -1,0 +1,24 @@
+// Thresholds that several stages share, each with its reason.
+//
+// "Same pose" is a distance between corresponding corners of the bounding box, modulo symmetry
+// (detect/suppression.h), as a fraction of the object's diameter.
+#pragma once
+
+namespace edgescout::thresholds {
+
+// Poses of one start after its search (refine.h), between centres; angle in rad. Tight: the search
+// exists to keep poses apart that differ by little.
+inline constexpr double SAME_AFTER_SEARCH = 0.03, SAME_AFTER_SEARCH_RAD = 0.06;
+// Candidates that several views bring for joint refinement: one registered pose from two views lies
+// this near itself.
+inline constexpr double SAME_ACROSS_VIEWS = 0.05;
+// Candidates of one view: registration brings starts this near to one optimum.
+inline constexpr double SAME_POSE = 0.1;
+// A hit this near to a known instance is aligned to that instance.
+inline constexpr double NEAR_KNOWN = 0.2;
+
+// A pose with fewer visible points is not evaluated: fewer points fit the edges of any image
+// somewhere. Twice the six unknowns of a pose.
+inline constexpr int MIN_POINTS = 12;
+
+}  // namespace edgescout::thresholds
