@@ -1,6 +1,6 @@
 #!/bin/bash
 # Installs what is missing, builds, and runs what every change must pass.
-#   scripts/test.sh             formatting; the whole suite in the release preset; the guard on
+#   scripts/test.sh             formatting; links; the whole suite in the release preset; the guard on
 #                               recall and false poses; pages of the C++ API; clang-tidy on
 #                               recently changed files; the tests of kernels, core and io under the
 #                               address and undefined-behaviour sanitizers; the kernels alone
@@ -56,6 +56,7 @@ api_pages() { cmake --build --preset release --target docs; }
 
 every_change() {
   step "formatting" scripts/format.sh --check
+  step "links of the documents" python3 scripts/check_links.py
   step "release: build and tests" build_and_test release
   step "recall and false poses" scripts/guard.sh
   step "pages of the C++ API" api_pages

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "host/core/thinned.h"
 #include "host/register/d2co.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
-#include "host/core/thinned.h"
 
 namespace edgescout {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/error.h"
 #include "host/register/pose_classifier.h"
+#include "kernels/error.h"
 
 namespace edgescout {
 

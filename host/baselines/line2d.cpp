@@ -7,11 +7,11 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/rgbd/linemod.hpp>
 
+#include "host/core/thinned.h"
 #include "host/register/d2co.h"
 #include "host/register/visible_in_views.h"
 #include "kernels/error.h"
 #include "kernels/pose_geometry.h"
-#include "host/core/thinned.h"
 
 namespace edgescout {
 

@@ -1,8 +1,8 @@
 #include "host/detect/template_points.h"
 
+#include "host/core/thinned.h"
 #include "host/register/occluders.h"
 #include "kernels/thread_pool.h"
-#include "host/core/thinned.h"
 
 namespace edgescout {
 

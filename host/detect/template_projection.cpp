@@ -5,8 +5,7 @@
 
 namespace edgescout {
 
-ThinnedView::ThinnedView(const TemplateView& view, int most)
-    : points_(thinned(view.points, most)) {
+ThinnedView::ThinnedView(const TemplateView& view, int most) : points_(thinned(view.points, most)) {
   check(most >= 1 && most <= int(TEMPLATE_SCORE_MAX_POINTS), "ThinnedView: number of points");
 }
 

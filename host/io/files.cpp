@@ -1,10 +1,12 @@
 #include "host/io/files.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -30,6 +32,7 @@ fs::path temporary_beside(const fs::path& file) {
 }
 
 // An open temporary file in the folder of `file`. It is deleted unless it is renamed to its target.
+// A lock marks it as in use; the system drops the lock when the process ends, however it ends.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const fs::path& file) {
@@ -38,6 +41,7 @@ class TemporaryFile {
       descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     } while (descriptor_ < 0 && errno == EEXIST);
     created_ = descriptor_ >= 0;
+    if (created_) ::flock(descriptor_, LOCK_EX | LOCK_NB);
     error_ = created_ ? 0 : errno;
   }
   TemporaryFile(const TemporaryFile&) = delete;
@@ -73,6 +77,27 @@ class TemporaryFile {
   bool created_ = false;
   bool renamed_ = false;
 };
+
+bool is_locked(const fs::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return true;  // not to be touched
+  const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0;
+  ::close(descriptor);
+  return locked;
+}
+
+// Temporary files of runs that were killed. A file of the last seconds may be about to be locked.
+void remove_abandoned_files(const fs::path& folder) {
+  constexpr std::chrono::seconds young{10};
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with('.') || !name.ends_with(".part") || !entry.is_regular_file(ignored))
+      continue;
+    const auto age = fs::file_time_type::clock::now() - entry.last_write_time(ignored);
+    if (age > young && !is_locked(entry.path())) fs::remove(entry.path(), ignored);
+  }
+}
 
 // Writes in `where`. InputError about `folder`: that fails.
 void require_writable(const fs::path& where, const fs::path& folder) {
@@ -133,6 +158,7 @@ void require_writable_folder(const fs::path& folder) {
     throw InputError(folder.string(), "output folder", failure.message(),
                      "a folder that can be created");
   require_writable(folder, folder);
+  remove_abandoned_files(folder);
 }
 
 }  // namespace edgescout

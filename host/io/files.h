@@ -24,8 +24,9 @@ void remove_earlier_files(std::span<const std::filesystem::path> files);
 // Leaves no file behind. InputError: it cannot be written.
 void require_writable_place(const std::filesystem::path& folder);
 
-// Creates the folder (and parents) and checks that a file can be written in it. InputError: it
-// cannot be created or written.
+// Creates the folder (and parents), checks that a file can be written in it, and removes temporary
+// files (.NAME.part) that killed runs have left there. InputError: the folder cannot be created or
+// written.
 void require_writable_folder(const std::filesystem::path& folder);
 
 }  // namespace edgescout

@@ -7,10 +7,10 @@
 
 #include "host/active/modes.h"
 #include "host/eval/metrics.h"
+#include "host/register/pose_classifier.h"
 #include "tests/active/rendered_scene.h"
 #include "tests/register/scene.h"
 #include "tests/test_random.h"
-#include "host/register/pose_classifier.h"
 
 namespace edgescout::test {
 namespace {

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <limits>
 
+#include "host/core/thinned.h"
 #include "kernels/error.h"
 #include "tests/active/rendered_scene.h"
 #include "tests/register/scene.h"
 #include "tests/test_random.h"
-#include "host/core/thinned.h"
 
 namespace edgescout {
 namespace {

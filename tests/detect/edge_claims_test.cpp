@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/detect/part_image.h"
 #include "host/register/pose_classifier.h"
+#include "tests/detect/part_image.h"
 
 namespace edgescout::test {
 namespace {

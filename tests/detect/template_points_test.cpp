@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "host/core/thinned.h"
 #include "host/register/occluders.h"
 #include "host/register/visible_in_views.h"
 #include "tests/detect/part_image.h"
 #include "tests/test_random.h"
-#include "host/core/thinned.h"
 
 namespace edgescout::test {
 namespace {

@@ -4,11 +4,11 @@
 
 #include <numbers>
 
+#include "host/core/thinned.h"
 #include "host/detect/coarse_scan.h"
 #include "kernels/pose_geometry.h"
 #include "tests/detect/part_image.h"
 #include "tests/test_random.h"
-#include "host/core/thinned.h"
 
 namespace edgescout::test {
 namespace {

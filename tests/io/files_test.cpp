@@ -1,10 +1,14 @@
 #include "host/io/files.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
+#include <fstream>
 #include <sstream>
 
 #include "tests/io/expect_input_error.h"
@@ -103,6 +107,28 @@ TEST(RequireWritableFolder, CreatesItAndLeavesItEmpty) {
   const TemporaryFolder folder;
   require_writable_folder(folder.path() / "a" / "b");
   EXPECT_TRUE(std::filesystem::is_empty(folder.path() / "a" / "b"));
+}
+
+TEST(RequireWritableFolder, RemovesTemporaryFilesOfKilledRunsAndNoOthers) {
+  const TemporaryFolder folder;
+  const auto old = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
+  const auto make = [&](const char* name) {
+    const std::filesystem::path file = folder.path() / name;
+    std::ofstream(file) << "half";
+    std::filesystem::last_write_time(file, old);
+    return file;
+  };
+  const std::filesystem::path abandoned = make(".a.json.7-0.part"),
+                              in_use = make(".b.json.7-1.part"), of_the_user = make("notes.part"),
+                              result = make("a.json");
+  const std::filesystem::path fresh = folder.path() / ".c.json.7-2.part";
+  std::ofstream(fresh) << "half";
+  const int descriptor = ::open(in_use.c_str(), O_RDONLY);
+  ASSERT_EQ(::flock(descriptor, LOCK_EX), 0);
+  require_writable_folder(folder.path());
+  ::close(descriptor);
+  EXPECT_FALSE(exists(abandoned));
+  for (const auto& kept : {in_use, of_the_user, result, fresh}) EXPECT_TRUE(exists(kept)) << kept;
 }
 
 TEST(RequireWritableFolder, FailsUnderAFileAndWhereNothingMayBeWritten) {

@@ -133,8 +133,8 @@ TEST(CombinationChamfer, EveryPointAgreesWithTheDrawnRealization) {
   int compared = 0, hidden = 0, knows_less = 0, hidden_nearest = 0;
   for (int round = 0; round < 5; ++round) {
     const Boxes made = box_scene(rng, 7, true);
-    const auto cells = combination_chamfer_reference(
-        made.scene.view(), made.scene.combinations(), chamfer_options);
+    const auto cells = combination_chamfer_reference(made.scene.view(), made.scene.combinations(),
+                                                     chamfer_options);
     for (std::uint32_t j = 0; j < made.scene.combination_count; ++j) {
       const Drawn drawn(made, j);
       for (std::size_t i = 0; i < made.scene.points.size(); ++i) {
@@ -174,8 +174,8 @@ TEST(CombinationChamfer, MeansAgreeWithTheDrawnRealization) {
   int count = 0;
   for (int round = 0; round < 4; ++round) {
     const Boxes made = box_scene(rng, 6, false);
-    const auto cells = combination_chamfer_reference(
-        made.scene.view(), made.scene.combinations(), chamfer_options);
+    const auto cells = combination_chamfer_reference(made.scene.view(), made.scene.combinations(),
+                                                     chamfer_options);
     for (std::uint32_t j = 0; j < made.scene.combination_count; ++j) {
       const Drawn drawn(made, j);
       for (std::size_t i = 0; i < made.boxes.size(); ++i) {

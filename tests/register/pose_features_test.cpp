@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "host/register/pose_classifier.h"
 #include "tests/register/scene.h"
 #include "tests/test_random.h"
-#include "host/register/pose_classifier.h"
 
 namespace edgescout::test {
 namespace {

@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "host/register/occluders.h"
+#include "host/register/pose_classifier.h"
 #include "host/render/parts.h"
 #include "tests/register/scene.h"
 #include "tests/test_random.h"
-#include "host/register/pose_classifier.h"
 
 namespace edgescout::test {
 namespace {
