@@ -10,6 +10,14 @@ PipelineOptions ScoutOptions::scout_defaults() {
   return options;
 }
 
+void describe(ModeDetectionOptions& o, OptionVisitor& visit) {
+  visit.group("Detection");
+  visit.number(
+      {"min-probability", "Poses of a lower probability are not reported", OptionLevel::Basic},
+      o.min_probability, 0.0, 1.0);
+  describe(o.edge_claims, visit);
+}
+
 void describe_budget(ScoutOptions& o, OptionVisitor& visit) {
   visit.group("Budget");
   visit.number({"max-views", "Largest number of images", OptionLevel::Basic}, o.max_views, 1,

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "host/cli/config.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/inputs.h"
+#include "host/cli/option_table.h"
 #include "host/cli/verbs.h"
 #include "host/core/log.h"
 #include "host/eval/recall.h"
@@ -225,7 +225,7 @@ void run_eval(const EvalRequest& request) {
 
 void add_eval(CLI::App& app, int& exit_code) {
   CLI::App* verb =
-      app.add_subcommand("eval", "Judge a BOP results CSV against the ground truth of BOP scenes");
+      app.add_subcommand("eval", "Compare a BOP results CSV with the ground truth of BOP scenes");
   auto request = std::make_shared<EvalRequest>();
   verb->add_option("results", request->results, "BOP results CSV")->required()->type_name("FILE");
   verb->add_option("scenes", request->scenes, "BOP scenes with scene_gt.json, or folders of them")
@@ -233,31 +233,31 @@ void add_eval(CLI::App& app, int& exit_code) {
       ->type_name("DIR");
   verb->add_option(
           "--model", request->models.models,
-          "STL, PLY, OBJ or CAO files of the objects to judge; the scenes' others are left out")
+          "STL, PLY, OBJ or CAO files of the objects to evaluate; the scenes' others are left out")
       ->required()
       ->type_name("FILE");
   verb->add_option("--unit", request->models.unit,
                    "Length unit of the model files: mm, cm, m or in")
       ->required();
-  verb->add_option("--models-info", request->models.models_info,
-                   "BOP models_info.json with symmetries; without it a pose that looks the same as "
-                   "the truth "
-                   "is a miss")
+  verb->add_option(
+          "--models-info", request->models.models_info,
+          "BOP models_info.json with symmetries. Without it, a pose that looks the same as "
+          "the truth counts as a miss")
       ->type_name("FILE");
   verb->add_option("--object-id", request->models.object_ids,
                    "BOP ids of the models; default: the number their names end in");
   verb->add_option("--json", request->json_file, "Also write the figures here")->type_name("FILE");
   RecallOptions& o = request->recall;
-  OptionTable(*verb, "Evaluation")
+  OptionTable(*verb, "Evaluation", OptionLevel::Expert)
       .bounded("min-visible", o.min_visible_fraction, 0.0, 1.0,
-               "Truths of which a smaller fraction is seen are ignored")
+               "Truths with a smaller visible fraction are ignored")
       .bounded("min-score", o.min_score, -std::numeric_limits<double>::infinity(), 1e6,
-               "Estimates of a lower score are dropped")
+               "Estimates with a lower score are dropped")
       .bounded("max-angle", o.max_angle_rad, 1e-6, 3.2,
                "Largest angle of a right pose to the truth, rad")
       .bounded("max-distance", o.max_distance_m, 1e-9, 100.0,
                "Largest distance of a right pose from the truth, m")
-      .bounded("max-mspd", o.max_mspd_px, 0.01, 10000.0, "Largest MSPD of a true find, px");
+      .bounded("max-mspd", o.max_mspd_px, 0.01, 10000.0, "Largest MSPD of a right pose, px");
   verb->callback([request, &exit_code] {
     run_eval(*request);
     exit_code = exit_done;

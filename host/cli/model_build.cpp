@@ -6,7 +6,7 @@
 #include "host/cli/exit_codes.h"
 #include "host/cli/inputs.h"
 #include "host/cli/model_verbs.h"
-#include "host/cli/pipeline_options.h"
+#include "host/cli/option_table.h"
 #include "host/cli/progress.h"
 #include "host/io/camera_file.h"
 #include "host/io/files.h"
@@ -89,18 +89,18 @@ void add_model_build(CLI::App& model, int& exit_code) {
       ->type_name("FILE");
   verb->add_option("--symmetry", request->symmetry,
                    "In place of --models-info: z2 for a half turn about z, x4 for quarter turns "
-                   "about x, z alone for a "
-                   "surface of revolution; several for all their products");
+                   "about x, z for a surface of revolution. Several give all their products");
   verb->add_option("--camera", request->camera,
-                   "Calibration from which a range of distances is chosen")
+                   "Calibration from which the range of distances is computed")
       ->type_name("FILE");
   verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
       ->capture_default_str();
   verb->add_option("--out", request->out, "Template file")->required()->type_name("FILE");
   OptionTable(*verb, "Model")
       .bounded("object-id", request->object_id, 0, 1000000,
-               "BOP id; 0: the number the file's name ends in, else 1");
-  add_template_options(*verb, request->templates);
+               "BOP id. 0: the number at the end of the file's name, else 1");
+  CommandLineOptions add(*verb);
+  describe(request->templates, add);
   verb->callback([request, &exit_code] {
     build(*request);
     exit_code = exit_done;
