@@ -11,6 +11,8 @@
 #include "host/io/camera_file.h"
 #include "host/io/files.h"
 #include "host/model/axis_symmetry.h"
+#include "host/model/template_set.h"
+#include "kernels/backend.h"
 #include "kernels/error.h"
 
 namespace edgescout {

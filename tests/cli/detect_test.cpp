@@ -165,12 +165,12 @@ TEST(Detect, ATemplateFileAndAConfigurationSayTheSame) {
                 .exit_code,
             0);
   expect_same(t.detect(t.scene, {"--templates", set}));
-  const std::string config =
-      t.folder.write("detect.yaml",
-                     "device: cpu\ndetect:\n  unit: mm\n  viewpoints: 3\n  in-plane-steps: 12\n  "
-                     "distance-min: 0.27\n  distance-max: 0.33\n  aligned: 600\n  min-probability: "
-                     "0.1\n  model: [" +
-                         part_file(1) + "]\n");
+  const std::string config = t.folder.write(
+      "detect.yaml",
+      "device: cpu\ndetect:\n  unit: mm\n  viewpoints: 3\n  in-plane-steps: 12\n  "
+      "distance-min: 0.27\n  distance-max: 0.33\n  coarse-poses: 600\n  min-probability: "
+      "0.1\n  model: [" +
+          part_file(1) + "]\n");
   expect_same({"detect", t.scene, "--out", t.out, "--config", config});
 }
 
