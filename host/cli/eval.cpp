@@ -119,7 +119,7 @@ std::set<int> leave_out_others(std::vector<EvaluationImage>& images,
         left_out.insert(truth.object_id);
   if (evaluated == 0 && !left_out.empty())
     throw InputError("command line", "--model", "none of the scenes' objects",
-                     fmt::format("one of obj_id {} (--object-id says which a file is)",
+                     fmt::format("one of obj_id {} (--object-id gives the id of a file)",
                                  fmt::join(left_out, ", ")));
   for (EvaluationImage& image : images) {
     for (const BopResult& estimate : image.estimates)
@@ -188,8 +188,7 @@ void print_limits(const Evaluation& evaluation, const EvalRequest& request) {
         fmt::join(evaluation.left_out, ", "));
   if (request.models.models_info.empty())
     std::cout << "no symmetries without --models-info: a pose that looks the same as the truth "
-                 "counts as a "
-                 "miss\n";
+                 "counts as a miss\n";
 }
 
 void print_table(const std::vector<Row>& rows, const RecallOptions& o) {
@@ -199,8 +198,7 @@ void print_table(const std::vector<Row>& rows, const RecallOptions& o) {
   std::cout << fmt::format(
       "{} images; truths seen by at least {:.0f} %; {}\n"
       "AR(MSSD,MSPD): mean of BOP's average recalls MSSD and MSPD; BOP's own AR has VSD in it, "
-      "which needs "
-      "depth\n"
+      "which needs depth\n"
       "pose: below {} rad and {} mm; mspd: below {} px; fp: estimates that match no truth so, an "
       "image\n\n"
       "{:>6} {:>7} {:>9} {:>13} {:>7} {:>7} {:>9} {:>9} {:>7} {:>7}\n",
@@ -245,7 +243,7 @@ void add_eval(CLI::App& app, int& exit_code) {
           "the truth counts as a miss")
       ->type_name("FILE");
   verb->add_option("--object-id", request->models.object_ids,
-                   "BOP ids of the models; default: the number their names end in");
+                   "BOP ids of the models; default: the number at the end of their names");
   verb->add_option("--json", request->json_file, "Also write the figures here")->type_name("FILE");
   RecallOptions& o = request->recall;
   OptionTable(*verb, "Evaluation", OptionLevel::Expert)

@@ -67,10 +67,7 @@ void build(const BuildRequest& request) {
   for (const TemplateView& view : set.views) points += view.points.size();
   std::cout << fmt::format(
       "{}: object {}, diameter {:.1f} mm, {} viewpoints of {} edge points on average, {} in-plane "
-      "rotations, "
-      "{} distances from "
-      "{:.3f} to "
-      "{:.3f} m, {} symmetries\n",
+      "rotations, {} distances from {:.3f} to {:.3f} m, {} symmetries\n",
       request.out, set.object_id, 1000 * set.model.mesh.diameter_m, set.views.size(),
       points / set.views.size(), options.in_plane_steps, template_distances_m(options).size(),
       options.distance_min_m, options.distance_max_m, set.symmetries.discrete.size() - 1);

@@ -92,7 +92,7 @@ void add_files(CLI::App& verb, RegisterRequest& request) {
       ->type_name("FILE");
   verb.add_option("--unit", request.models.unit, "Length unit of the model files: mm, cm, m or in");
   verb.add_option("--object-id", request.models.object_ids,
-                  "BOP ids of the models; default: the number their names end in");
+                  "BOP ids of the models; default: the number at the end of their names");
   verb.add_option("--templates", request.template_files,
                   "Template files of `edgescout model build`, in place of --model")
       ->type_name("FILE");

@@ -121,8 +121,7 @@ void add_render(CLI::App& app, int& exit_code) {
       ->type_name("FILE");
   verb->add_option("--part", request->parts,
                    "The project's own parts, in place of --model: l_bracket, bearing_block, "
-                   "stepped_shaft, hex_nut, "
-                   "u_channel, gear_plate");
+                   "stepped_shaft, hex_nut, u_channel, gear_plate");
   verb->add_option("--out", request->out, "Folder of the dataset")->required()->type_name("DIR");
   OptionTable(*verb, "Scene")
       .bounded("scenes", request->scenes, 1, 100000, "Number of scenes, in folders from 000000");
