@@ -24,12 +24,11 @@ class LevelledHelp : public CLI::Formatter {
                         CLI::AppFormatMode mode) const override {
     shows_basic_ = mode == CLI::AppFormatMode::Normal;
     std::string text = CLI::Formatter::make_help(app, name, mode);
-    if (mode != CLI::AppFormatMode::Normal) return text;
-    while (text.find("\n\n\n") != std::string::npos)  // left by groups without basic options
+    while (text.find("\n\n\n") != std::string::npos)  // also left by groups without basic options
       text.erase(text.find("\n\n\n"), 1);
     const std::size_t hidden =
         app->get_options([&](const CLI::Option* option) { return is_expert(option); }).size();
-    if (hidden == 0) return text;
+    if (mode != CLI::AppFormatMode::Normal || hidden == 0) return text;
     return text + "--help-all shows " + std::to_string(hidden) +
            (hidden == 1 ? " more option\n" : " more options\n");
   }

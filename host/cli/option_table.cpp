@@ -42,30 +42,30 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
 }
 
 // What is said of an option besides its name and field.
-struct Row {
+struct Heading {
   std::string help, group;
   OptionLevel level;
 };
 
-void finish(CLI::App& verb, CLI::Option* option, const Row& row) {
-  option->group(row.group);
-  if (row.level == OptionLevel::Expert) mark_expert(verb, option);
+void finish(CLI::App& verb, CLI::Option* option, const Heading& heading) {
+  option->group(heading.group);
+  if (heading.level == OptionLevel::Expert) mark_expert(verb, option);
 }
 
 template <typename T>
 void add_number(CLI::App& verb, const std::string& name, T& field, std::pair<T, T> bounds,
-                const Row& row) {
+                const Heading& heading) {
   finish(verb,
-         verb.add_option("--" + name, field, row.help)
+         verb.add_option("--" + name, field, heading.help)
              ->check(within(bounds.first, bounds.second))
              ->capture_default_str(),
-         row);
+         heading);
 }
 
-void add_flag(CLI::App& verb, const std::string& name, bool& field, const Row& row) {
-  CLI::Option* option = verb.add_flag("--" + name, field, row.help);
+void add_flag(CLI::App& verb, const std::string& name, bool& field, const Heading& heading) {
+  CLI::Option* option = verb.add_flag("--" + name, field, heading.help);
   option->default_function([&field] { return std::string(field ? "true" : "false"); });
-  finish(verb, option, row);
+  finish(verb, option, heading);
 }
 
 }  // namespace

@@ -171,8 +171,8 @@ void describe_hits(DetectOptions& o, OptionVisitor& visit) {
                 "tensor"},
                o.coarse_poses, 1, 1000000);
   visit.number({"coarse-poses-joint",
-                "The same number where other images support the search, in place of "
-                "--coarse-poses"},
+                "Number of the best hits that enter the coarse stage where other images support "
+                "the search, in place of --coarse-poses"},
                o.coarse_poses_joint, 1, 1000000);
   visit.number({"medium-poses-joint",
                 "Number of the best coarse poses that enter the medium stage: registration in full "
