@@ -53,7 +53,7 @@ Detections detect_objects(const ObjectView& prepared, std::span<const TemplateSe
   watch.lap("candidates");
   const std::vector<EdgeModel> models = models_of(sets);
   result.detections = select_detections({models, {&view, 1}, backend}, candidates, options.detect);
-  watch.lap("settle");
+  watch.lap("selection");
   return result;
 }
 

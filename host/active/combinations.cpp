@@ -58,13 +58,24 @@ void check_input(std::size_t candidates, const BitMatrix& plausible,
 
 }  // namespace
 
+void describe(CombinationOptions& o, OptionVisitor& visit) {
+  visit.group("Information");
+  visit.number({"combinations", "Number of combinations that are sampled for each decision"},
+               o.count, 1, 1000000);
+}
+
+void describe_ablations(CombinationOptions& o, OptionVisitor& visit) {
+  visit.number({"sharpness",
+                "Preference for candidates of high psi where combinations are sampled by psi, "
+                "without unit. 1: as in the paper"},
+               o.sharpness, 0.0, 500.0);
+}
+
 void CombinationOptions::validate() const {
-  if (count < 1 || count > 1000000)
-    throw InputError("options", "combinations.count", std::to_string(count),
-                     "a number in [1, 1000000]");
-  if (!(sharpness >= 0 && sharpness <= 500))
-    throw InputError("options", "combinations.sharpness", std::to_string(sharpness),
-                     "a number in [0, 500]");
+  CombinationOptions copy = *this;
+  BoundsCheck in("scout");
+  describe(copy, in);
+  describe_ablations(copy, in);
 }
 
 BitMatrix sample_combinations(std::span<const double> psi, const BitMatrix& plausible,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/core/bit_matrix.h"
+#include "host/core/options.h"
 #include "host/core/types.h"
 #include "host/model/edge_model.h"
 
@@ -22,6 +23,9 @@ struct CombinationOptions {
   double sharpness = 1;
   void validate() const;  // InputError naming the field and the violated bound
 };
+
+void describe(CombinationOptions& options, OptionVisitor& visit);
+void describe_ablations(CombinationOptions& options, OptionVisitor& visit);
 
 // Algorithm 1. Each combination has K ~ Bin(N, 0.5) draws without replacement. A drawn candidate
 // that collides with one drawn before is left out, and its draw is used up. Rows are combinations;

@@ -59,6 +59,8 @@ struct ModeDetectionOptions {
   EdgeClaimOptions edge_claims;  // of modes that compete for the same edges the likeliest stays
 };
 
+void describe(ModeDetectionOptions& options, OptionVisitor& visit);
+
 // Most probable first. `particles` must have been weighed with the scene's views and not been
 // resampled since, because roughening is no uncertainty. LogicError: weighed with another number of
 // views.

@@ -69,6 +69,13 @@ struct NextViewOptions {
   void validate() const;                    // InputError naming the field and the violated bound
 };
 
+// How the next view is chosen, for the verb that moves a camera.
+void describe_strategy(NextViewOptions& options, OptionVisitor& visit);
+// What the expected information is computed with.
+void describe(NextViewOptions& options, OptionVisitor& visit);
+// Variants that the experiments compare with the defaults.
+void describe_ablations(NextViewOptions& options, OptionVisitor& visit);
+
 // Everything that a decision depends on. Refers to data of the caller.
 struct NextViewProblem {
   Scene scene;  // the views are the images so far, in order; their tensors are not used

@@ -7,7 +7,6 @@
 
 #include "host/active/weigh_particles.h"
 #include "host/core/log.h"
-#include "host/core/option_bounds.h"
 #include "host/core/order.h"
 #include "host/register/d2co.h"
 #include "host/register/edge_icp.h"
@@ -28,21 +27,31 @@ std::vector<std::size_t> best_candidates(std::span<const Detection> candidates, 
 
 }  // namespace
 
+void describe(ParticleOptions& o, OptionVisitor& visit) {
+  visit.group("Belief");
+  visit.number({"penetration",
+                "Largest depth to which parts may overlap, m. Parts that overlap further are in no "
+                "combination together, and the less probable one loses probability"},
+               o.penetration_m, 0.0, 1.0);
+  visit.number(
+      {"particles", "Number of pose particles. New candidates add to it until the next resampling"},
+      o.count, 1, int(INFORMATION_MAX_PARTICLES));
+}
+
 void ParticleOptions::validate() const {
-  const OptionBounds in("particles");
-  in("count", count, 1, INFORMATION_MAX_PARTICLES);
-  in("sigma", sigma_px, 1e-3, 1e3);
-  in("drawn_max", drawn.max, 0, 1);
-  in("drawn_min", drawn.min, 0, drawn.max);
-  in("roughened_max", roughened.max, 0, 1);
-  in("roughened_min", roughened.min, 0, roughened.max);
-  in("min_effective", min_effective, 0, 1);
-  in("min_per_mode", min_per_mode, 0, 1e5);
-  in("min_mode_probability", min_mode_probability, 0, 1);
-  in("mode_radius", mode_radius, 1e-6, 10);
-  in("penetration", penetration_m, 0, 1);
-  in("dead", dead_px, 1e-3, 1e3);
-  in("min_points", min_points, 1, 1e5);
+  check_bounds(*this, "scout");
+  const BoundsCheck in("particles");
+  in.require("sigma", sigma_px, 1e-3, 1e3);
+  in.require("drawn_max", drawn.max, 0, 1);
+  in.require("drawn_min", drawn.min, 0, drawn.max);
+  in.require("roughened_max", roughened.max, 0, 1);
+  in.require("roughened_min", roughened.min, 0, roughened.max);
+  in.require("min_effective", min_effective, 0, 1);
+  in.require("min_per_mode", min_per_mode, 0, 1e5);
+  in.require("min_mode_probability", min_mode_probability, 0, 1);
+  in.require("mode_radius", mode_radius, 1e-6, 10);
+  in.require("dead", dead_px, 1e-3, 1e3);
+  in.require("min_points", min_points, 1, 1e5);
   d2co.validate();
   edge_icp.validate();
   visibility.validate();

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "host/core/options.h"
 #include "host/core/random.h"
 #include "host/core/types.h"
 #include "host/detect/plausible_pairs.h"
@@ -66,6 +67,8 @@ struct ParticleOptions {
   double scale_px2() const { return 2 * sigma_px * sigma_px; }
   void validate() const;  // InputError naming the field and the violated bound
 };
+
+void describe(ParticleOptions& options, OptionVisitor& visit);
 
 // Transforms a candidate of one view from its camera frame to the world, with its covariance.
 Detection candidate_in_world(const Detection& in_camera, const Se3& camera_from_world);

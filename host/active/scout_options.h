@@ -77,4 +77,11 @@ struct ScoutOptions {
   void validate() const;  // InputError naming the field and the violated bound
 };
 
+// When the scout ends, and its first view.
+void describe_budget(ScoutOptions& options, OptionVisitor& visit);
+// The expected information and the belief. The pipeline and the detections have their own describe.
+void describe(ScoutOptions& options, OptionVisitor& visit);
+// Variants that the experiments compare with the defaults, of all parts.
+void describe_ablations(ScoutOptions& options, OptionVisitor& visit);
+
 }  // namespace edgescout

@@ -5,9 +5,8 @@
 
 #include "commit.h"
 #include "host/cli/bench_verbs.h"
-#include "host/cli/config.h"
 #include "host/cli/exit_codes.h"
-#include "host/cli/pipeline_options.h"
+#include "host/cli/option_table.h"
 #include "host/cli/progress.h"
 #include "host/core/log.h"
 #include "host/experiments/devices.h"
@@ -18,12 +17,11 @@ namespace edgescout {
 namespace {
 
 struct DevicesRequest {
-  std::string out, edge_method = "gradient";
+  std::string out;
   DevicesOptions options;
 };
 
 void run(DevicesRequest& request, CLI::App& verb) {
-  request.options.pipeline.edges.method = edge_method_from_name(request.edge_method);
   request.options.validate();
   for (const std::string& device : request.options.devices) make_backend(device);  // it exists
   require_writable_folder(request.out);
@@ -56,16 +54,20 @@ void add_bench_devices(CLI::App& bench, int& exit_code) {
       ->type_name("DIR");
   verb->add_option(
       "--device", o.devices,
-      "cpu-reference, vulkan or vulkan:INDEX, beside cpu; default: every Vulkan device");
+      "Devices to compare with cpu: cpu-reference, vulkan or vulkan:INDEX; default: every "
+      "Vulkan device");
   OptionTable(*verb, "Measurement")
-      .bounded("repetitions", o.repetitions, 3, 1000, "Of every stage")
-      .bounded("image-scale", o.image_scale, 0.1, 4.0, "Of 1024 x 768")
-      .bounded("seed", o.seed, 0u, 4000000000u, "Of the image")
+      .bounded("repetitions", o.repetitions, 3, 1000, "Number of measurements of every stage")
+      .bounded("image-scale", o.image_scale, 0.1, 4.0, "Scale of the image, of 1024 x 768 px")
+      .bounded("seed", o.seed, 0u, 4000000000u, "Seed of the image")
       .flag("kernels,!--no-kernels", o.kernels,
-            "Also every kernel, against the device's copying speed (default)");
-  add_template_options(*verb, o.templates);
-  add_edge_and_tensor_options(*verb, o.pipeline, request->edge_method);
-  add_detection_options(*verb, o.pipeline);
+            "Also time every kernel, against the device's copying speed (default)");
+  CommandLineOptions add(*verb);
+  describe(o.templates, add);
+  describe(o.pipeline.edges, add);
+  describe(o.pipeline.tensor, add);
+  describe(o.pipeline.detect, add);
+  describe(o.pipeline.detect.edge_claims, add);
   verb->callback([request, verb, &exit_code] {
     run(*request, *verb);
     exit_code = exit_done;

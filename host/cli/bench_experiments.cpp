@@ -6,9 +6,9 @@
 
 #include "commit.h"
 #include "host/cli/bench_verbs.h"
-#include "host/cli/config.h"
 #include "host/cli/exit_codes.h"
-#include "host/cli/pipeline_options.h"
+#include "host/cli/help.h"
+#include "host/cli/option_table.h"
 #include "host/cli/progress.h"
 #include "host/experiments/experiment.h"
 #include "kernels/error.h"
@@ -99,100 +99,114 @@ std::string names_text() {
 }
 
 void add_bin_options(CLI::App& verb, ScoutOptions& o) {
-  OptionTable(verb, "Bins").bounded("max-views", o.max_views, 1, 32, "Images");
-  add_hit_options(verb, "Bins", o.pipeline.detect);
-  OptionTable(verb, "Bins")
+  OptionTable(verb, "Bins", OptionLevel::Expert)
+      .bounded("max-views", o.max_views, 1, 32, "Number of images of a bin")
       .bounded("registered", o.pipeline.detect.candidates, 1, 100000,
-               "Candidates of an image and type that are registered");
-  add_belief_options(verb, o);
+               "Number of candidates of each image and type that are registered in full");
+  CommandLineOptions add(verb, "Bins");
+  describe_hits(o.pipeline.detect, add);
+  describe(o, add);
+  describe_ablations(o, add);
 }
 
 void add_sizes(CLI::App& verb, ExperimentsRequest& r) {
   ExperimentSettings& s = r.settings;
   OptionTable(verb, "Sizes (default: those of the form)")
-      .flag("short", r.is_short, "Minutes (default)")
+      .flag("short", r.is_short, "Form that takes minutes (default)")
       .flag("full", r.is_full,
-            "The paper's numbers of images, and a few bins: about an hour on two cores")
-      .bounded("scenes", s.scenes, 1, 10000, "Images with up to five parts")
-      .bounded("groups", s.groups, 1, 10000, "Groups of three images with up to twenty parts")
+            "Form with the paper's numbers of images and a few bins: about an hour on two cores")
+      .level(OptionLevel::Expert)
+      .bounded("scenes", s.scenes, 1, 10000, "Number of images with up to five parts")
+      .bounded("groups", s.groups, 1, 10000,
+               "Number of groups of three images with up to twenty parts")
       .bounded("starts", s.starts, 1, 1000,
-               "Registrations around every instance; the paper has 100")
-      .bounded("group-starts", s.group_starts, 1, 1000, "The same in the groups")
-      .bounded("every", s.every, 1, 10000, "Of the recorded starts those whose number this divides")
+               "Number of registrations around every instance; the paper has 100")
+      .bounded("group-starts", s.group_starts, 1, 1000,
+               "Number of registrations around every instance of the groups")
+      .bounded("every", s.every, 1, 10000,
+               "Only recorded starts whose number this divides are used")
       .bounded("frames-every", s.frames_every, 1, 100,
-               "Of the cat's photographs one in so many, and of a pile's as the first view")
+               "Only photographs of the cat, and first views of a pile, whose number this divides "
+               "are used")
       .bounded("candidates", s.candidates, 1, 100000,
-               "Of the detection, in every image and for every type")
-      .bounded("bins", s.bins, 0, 10000, "Of piled parts, for the next best view")
+               "Number of the detection's candidates in every image and for every type")
+      .bounded("bins", s.bins, 0, 10000, "Number of bins of piled parts, for the next best view")
       .bounded("cad-bins", s.cad_bins, 0, 10000,
-               "The same with parts of DIR/cad, where there is --data")
-      .bounded("image-scale", s.image_scale, 0.1, 2.0, "Of the paper's image sizes")
+               "Number of bins with parts of DIR/cad, where --data is given")
+      .bounded("image-scale", s.image_scale, 0.1, 2.0, "Scale of the paper's image sizes")
       .bounded("supersampling", s.supersampling, 1, 7,
-               "Samples a pixel and axis of rendered images; odd");
+               "Samples of a pixel along each axis of rendered images; odd");
 }
 
 void add_method_options(CLI::App& verb, ExperimentsRequest& r) {
   BaselineOptions& m = r.settings.methods;
   const std::string group = "Methods of registration, and FDCM";
-  OptionTable(verb, group)
-      .choice("edges", r.edge_method, {"gradient", "lsd"}, "Edges that are registered to");
-  add_tensor_value_options(verb, group, r.settings.tensor);
-  OptionTable(verb, group)
-      .bounded("associations", m.outer_iterations, 1, 1000, "Of the ICPs, at most")
+  OptionTable(verb, group, OptionLevel::Expert)
+      .choice("edges", r.edge_method, {"gradient", "lsd"},
+              "Edge detector whose edges are registered to: gradient or lsd");
+  CommandLineOptions add(verb, group);
+  describe_values(r.settings.tensor, add);
+  OptionTable(verb, group, OptionLevel::Expert)
+      .bounded("associations", m.outer_iterations, 1, 1000,
+               "Largest number of associations of the ICPs")
       .bounded("solve-steps", m.inner_iterations, 1, 1000,
-               "Of one least-squares solve of a method, at most")
+               "Largest number of steps of one least-squares solve of a method")
       .bounded("loss-scale", m.loss_scale_px, 0.01, 1000.0,
-               "Of the Huber loss of all but edgescout, px");
+               "Scale of the Huber loss of all methods but edgescout, px");
 }
 
 void add_run_options(CLI::App& verb, ExperimentsRequest& r) {
-  verb.add_option("names", r.names, "Of the experiments: " + names_text() + "; default: all")
+  verb.add_option("names", r.names, "Names of the experiments: " + names_text() + "; default: all")
       ->type_name("NAME");
   verb.add_option("--out", r.out, "Folder of the results")->required()->type_name("DIR");
   verb.add_option("--data", r.data,
-                  "Folder with d2co-starts, brackets, cat, triangle and cad; without it rendered "
-                  "images alone")
+                  "Folder with d2co-starts, brackets, cat, triangle and cad. Without it, only "
+                  "rendered images are used")
       ->type_name("DIR");
-  verb.add_option("--device", r.device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
+  verb.add_option("--device", r.device,
+                  "Device to compute on: auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
       ->capture_default_str();
   OptionTable(verb, "Run")
-      .flag("resume", r.resume, "Go on where DIR has finished cells of the same settings")
-      .flag("any-commit", r.any_commit,
-            "With --resume: also where these are of another commit; the report lists all of them")
+      .flag("resume", r.resume, "Continue with the finished cells of the same settings in DIR")
       .bounded("jobs", r.jobs, 0, 1024,
-               "Cells side by side on a CPU, each with up to 2 GB; 0: as many as it has threads")
-      .bounded("seed", r.settings.seed, 0u, 4000000000u, "Of scenes, starts and candidates")
+               "Number of cells side by side on a CPU, each with up to 2 GB. 0: as many as it has "
+               "threads")
+      .level(OptionLevel::Expert)
+      .flag("any-commit", r.any_commit,
+            "With --resume, accept cells of another commit too; the report lists all commits")
+      .bounded("seed", r.settings.seed, 0u, 4000000000u, "Seed of scenes, starts and candidates")
       .flag("times,!--no-times", r.settings.times,
-            "Measured times among the rows (default); without, two runs give the same bytes");
+            "Write measured times among the rows (default). Without them, two runs give the same "
+            "bytes");
 }
 
 // An option of the group Bins with a list of values, separated by commas.
 template <typename T>
-void add_bin_list(CLI::App& verb, const std::string& name, std::vector<T>& list,
-                  const std::string& type_name, const std::string& help) {
-  verb.add_option(name, list, help)
-      ->type_name(type_name)
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->group("Bins");
+CLI::Option* add_bin_list(CLI::App& verb, const std::string& name, std::vector<T>& list,
+                          const std::string& help) {
+  CLI::Option* option = verb.add_option(name, list, help);
+  option->delimiter(',')->allow_extra_args(false)->group("Bins");
+  mark_expert(verb, option);
+  return option;
 }
 
 void add_bin_choices(CLI::App& verb, ExperimentSettings& s) {
-  add_bin_list(
-      verb, "--only-bins", s.only_bins, "NUMBER,..",
-      "These, in place of the first --bins and --cad-bins; of a kind that is given as 0 none");
-  add_bin_list(verb, "--searches", s.searches, "NAME,..",
-               "In the bins: of one (type, another from bin to bin), each (type by itself) and "
-               "all (together); "
-               "default: one,all");
-  add_bin_list(verb, "--strategies", s.strategies, "NAME,..",
-               "In the bins: of mi-max, random, dis, fixed (default: these) and clairvoyant, "
-               "which knows "
-               "the scene");
-  OptionTable(verb, "Bins")
+  add_bin_list(verb, "--only-bins", s.only_bins,
+               "Numbers of the bins, in place of the first --bins and --cad-bins. A kind that is "
+               "given as 0 has none")
+      ->type_name("NUMBER,..");
+  add_bin_list(verb, "--searches", s.searches,
+               "What is searched in the bins: one (a type, another from bin to bin), each (every "
+               "type by itself), all (all types together); default: one,all")
+      ->type_name("NAME,..");
+  add_bin_list(verb, "--strategies", s.strategies,
+               "Strategies in the bins: mi-max, random, dis, fixed (default: these) and "
+               "clairvoyant, which knows the scene")
+      ->type_name("NAME,..");
+  OptionTable(verb, "Bins", OptionLevel::Expert)
       .bounded("random-draws", s.random_draws, 1, 100,
-               "Of random in a bin: those after the first look once more each, for the mean at two "
-               "views");
+               "Number of runs of random in a bin. Those after the first take one more view each, "
+               "for the mean at two views");
 }
 
 }  // namespace

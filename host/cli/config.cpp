@@ -2,35 +2,12 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <cmath>
-#include <sstream>
-
+#include "host/cli/renamed_options.h"
 #include "kernels/error.h"
 
 namespace edgescout {
 
 namespace {
-
-template <typename T>
-std::string text_of(T value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
-template <typename T>
-CLI::Validator within(T low, T high) {
-  const std::string bounds = text_of(low) + " to " + text_of(high);
-  return CLI::Validator(
-      [=](const std::string& found) {
-        T value{};
-        const bool is_number = CLI::detail::lexical_cast(found, value);
-        return is_number && value >= low && value <= high
-                   ? ""
-                   : "found " + found + ", expected " + bounds;
-      },
-      "in " + bounds);
-}
 
 // The app of the verb that runs, and the names that lead to it.
 struct RunningVerb {
@@ -79,13 +56,21 @@ class YamlReader {
     if (depth < running_.names.size() && running_.names[depth] == verb) read(section, depth + 1);
   }
 
-  // Keys above the verb's own section also apply to the verb: the nearest app that has the option
-  // takes it.
-  void add_item(const std::string& key, const YAML::Node& value, std::size_t depth) {
+  // The nearest app that has the option takes it: its place among the running apps, counted from 1.
+  // 0: none.
+  std::size_t level_of(const std::string& key) const {
     std::size_t level = running_.apps.size();
     while (level > 0 && !has_option(*running_.apps[level - 1], key)) --level;
+    return level;
+  }
+
+  // Keys above the verb's own section also apply to the verb.
+  void add_item(std::string key, const YAML::Node& value, std::size_t depth) {
+    if (level_of(key) == 0)
+      key = present_name(key, source_, [&](const std::string& name) { return level_of(name) > 0; });
+    const std::size_t level = level_of(key);
     if (level == 0 || level < depth + 1)
-      throw InputError(source_, key, "an unknown option", "one that --help lists");
+      throw InputError(source_, key, "an unknown option", "one that --help-all lists");
     CLI::ConfigItem item;
     item.parents.assign(running_.names.begin(),
                         running_.names.begin() + static_cast<std::ptrdiff_t>(level - 1));
@@ -124,57 +109,6 @@ void emit_options(YAML::Emitter& out, const CLI::App& app, bool default_also) {
 }
 
 }  // namespace
-
-template <typename T>
-OptionTable& OptionTable::bounded(const std::string& name, T& field, T low, T high,
-                                  const std::string& help) {
-  verb_.add_option("--" + name, field, help)
-      ->check(within(low, high))
-      ->capture_default_str()
-      ->group(group_);
-  return *this;
-}
-template OptionTable& OptionTable::bounded(const std::string&, int&, int, int, const std::string&);
-template OptionTable& OptionTable::bounded(const std::string&, unsigned&, unsigned, unsigned,
-                                           const std::string&);
-template OptionTable& OptionTable::bounded(const std::string&, float&, float, float,
-                                           const std::string&);
-template OptionTable& OptionTable::bounded(const std::string&, double&, double, double,
-                                           const std::string&);
-
-OptionTable& OptionTable::flag(const std::string& name, bool& field, const std::string& help) {
-  verb_.add_flag("--" + name, field, help)->group(group_)->default_function([&field] {
-    return std::string(field ? "true" : "false");
-  });
-  return *this;
-}
-
-OptionTable& OptionTable::choice(const std::string& name, std::string& field,
-                                 const std::vector<std::string>& words, const std::string& help) {
-  const std::string list = CLI::detail::join(words, ", ");
-  const CLI::Validator known(
-      [=](const std::string& found) {
-        return std::find(words.begin(), words.end(), found) != words.end()
-                   ? ""
-                   : "found " + found + ", expected one of " + list;
-      },
-      "one of " + list);
-  verb_.add_option("--" + name, field, help)->check(known)->capture_default_str()->group(group_);
-  return *this;
-}
-
-std::vector<std::pair<std::string, std::string>> settings_of(CLI::App& verb,
-                                                             const std::set<std::string>& groups) {
-  std::vector<std::pair<std::string, std::string>> settings{{"verb", verb.get_name()}};
-  const auto is_row = [&](const CLI::Option* option) {
-    return groups.contains(option->get_group());
-  };
-  for (CLI::Option* option : verb.get_options(is_row)) {
-    option->capture_default_str();  // the present value of the field
-    settings.emplace_back(option->get_lnames().front(), option->get_default_str());
-  }
-  return settings;
-}
 
 std::vector<CLI::ConfigItem> YamlConfig::from_config(std::istream& input) const {
   const std::vector<std::string> files = program_.get_config_ptr()->results();

@@ -1,45 +1,17 @@
-// Binds options to fields, for the command line and the configuration file alike.
-//
-// A verb lists each field of its options structs once, with name, bounds and help. The same names
-// are read from the command line (`--lambda 100`) and from a YAML file given with `--config`
-// (`lambda: 100`). The command line has priority.
+// Reads options from a YAML file given with `--config`, by the names of the command line
+// (`--lambda 100` is `lambda: 100`). The command line has priority.
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace edgescout {
 
-// Each row binds an option to a field that holds its default. An invalid value ends the parse with
-// "--NAME: found X, expected LOW to HIGH".
-class OptionTable {
- public:
-  // `group` is the heading of the rows in the help.
-  OptionTable(CLI::App& verb, std::string group) : verb_(verb), group_(std::move(group)) {}
-
-  // T: int, unsigned, float, double. Bounds are inclusive. NaN violates every bound.
-  template <typename T>
-  OptionTable& bounded(const std::string& name, T& field, T low, T high, const std::string& help);
-  OptionTable& flag(const std::string& name, bool& field, const std::string& help);
-  OptionTable& choice(const std::string& name, std::string& field,
-                      const std::vector<std::string>& words, const std::string& help);
-
- private:
-  CLI::App& verb_;
-  std::string group_;
-};
-
-// Returns the settings to be written with a result: the verb and the rows of these groups, with the
-// present values of their fields.
-std::vector<std::pair<std::string, std::string>> settings_of(CLI::App& verb,
-                                                             const std::set<std::string>& groups);
-
 // Reads YAML for CLI11. Keys are names of options of the running verb or of the program. A map
 // under the name of a verb has the options of that verb and is ignored when another verb runs. A
-// sequence gives an option several values.
+// sequence gives an option several values. Former names of options are taken with a warning
+// (renamed_options.h).
 //   device: vulkan
 //   detect: {lambda: 100, min-probability: 0.1}
 // InputError naming file and key: the file is no YAML, an option does not exist.

@@ -4,9 +4,8 @@
 #include <iostream>
 
 #include "host/cli/batch.h"
-#include "host/cli/config.h"
 #include "host/cli/exit_codes.h"
-#include "host/cli/pipeline_options.h"
+#include "host/cli/option_table.h"
 #include "host/cli/template_sets.h"
 #include "host/cli/verbs.h"
 #include "host/core/log.h"
@@ -23,7 +22,7 @@ struct DetectRequest {
   std::vector<std::string> inputs;
   ModelArguments models;
   TemplateOptions templates;
-  std::string device = "auto", edge_method = "gradient", out;
+  std::string device = "auto", out;
   bool no_overlays = false;
   BatchOptions batch;
 };
@@ -60,7 +59,6 @@ std::vector<TemplateSet> template_sets(const DetectRequest& request,
 int detect(DetectRequest& request) {
   request.batch.out = request.out;
   request.batch.overlays = !request.no_overlays;
-  request.batch.pipeline.edges.method = edge_method_from_name(request.edge_method);
   request.batch.pipeline.validate();
   request.templates.validate();
   const std::unique_ptr<Backend> backend = make_backend(request.device);
@@ -71,12 +69,45 @@ int detect(DetectRequest& request) {
   const BatchSummary summary = run_batch(images, sets, *backend, request.batch);
   std::cout << fmt::format(
       "{} images: {} done, {} skipped, {} failed in {:.1f} s ({:.2f} images/s); {} poses in {} "
-      "images; "
-      "results in {}\n",
+      "images; results in {}\n",
       summary.images, summary.done, summary.skipped, summary.failures.size(), summary.seconds,
       summary.done / std::max(1e-9, summary.seconds), summary.poses, summary.done + summary.skipped,
       request.out);
   return summary.failures.empty() ? exit_done : exit_some_failed;
+}
+
+void add_files(CLI::App& verb, DetectRequest& request) {
+  verb.add_option("inputs", request.inputs,
+                  "Images, folders of images, BOP scenes or folders of them")
+      ->required();
+  add_model_arguments(verb, request.models);
+  verb.add_option("--camera", request.batch.camera_file,
+                  "Calibration of the images: ROS or OpenCV YAML, or BOP camera JSON. BOP scenes "
+                  "have their own")
+      ->type_name("FILE");
+  verb.add_option("--out", request.out, "Folder of the results")->required()->type_name("DIR");
+  verb.add_option("--device", request.device,
+                  "Device to compute on: auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
+      ->capture_default_str();
+}
+
+void add_options(CLI::App& verb, DetectRequest& request) {
+  OptionTable(verb, "Batch")
+      .flag("resume", request.batch.resume,
+            "Skip images that have a result of the same models and options")
+      .flag("joint", request.batch.joint,
+            "Detect in all views of a BOP scene at once. The scene must have world poses")
+      .flag("no-overlays", request.no_overlays, "Write no overlay pictures")
+      .level(OptionLevel::Expert)
+      .flag("scale-camera", request.batch.scale_camera,
+            "Accept images of another size than the calibration's, with the same aspect ratio");
+  PipelineOptions& pipeline = request.batch.pipeline;
+  CommandLineOptions add(verb);
+  describe(request.templates, add);
+  describe(pipeline.edges, add);
+  describe(pipeline.tensor, add);
+  describe(pipeline.detect, add);
+  describe(pipeline.detect.edge_claims, add);
 }
 
 }  // namespace
@@ -85,29 +116,8 @@ void add_detect(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand(
       "detect", "Find objects of known CAD models and their 6-DoF poses in images");
   auto request = std::make_shared<DetectRequest>();
-  verb->add_option("inputs", request->inputs,
-                   "Images, folders of images, BOP scenes or folders of them")
-      ->required();
-  add_model_arguments(*verb, request->models);
-  verb->add_option("--camera", request->batch.camera_file,
-                   "Calibration of the images: ROS or OpenCV YAML, or BOP camera JSON; BOP scenes "
-                   "bring their own")
-      ->type_name("FILE");
-  verb->add_option("--out", request->out, "Folder of the results")->required()->type_name("DIR");
-  verb->add_option("--device", request->device,
-                   "Device to compute on: auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
-      ->capture_default_str();
-  OptionTable(*verb, "Batch")
-      .flag("scale-camera", request->batch.scale_camera,
-            "Accept images whose size is a pure scale of the calibration's")
-      .flag("resume", request->batch.resume,
-            "Skip images whose result is there, made with the same models and options")
-      .flag("joint", request->batch.joint,
-            "Detect in all views of a BOP scene at once (needs world poses)")
-      .flag("no-overlays", request->no_overlays, "Write no overlay pictures");
-  add_template_options(*verb, request->templates);
-  add_edge_and_tensor_options(*verb, request->batch.pipeline, request->edge_method);
-  add_detection_options(*verb, request->batch.pipeline);
+  add_files(*verb, *request);
+  add_options(*verb, *request);
   verb->callback([request, &exit_code, verb] {
     refuse_beside_templates(*verb);
     request->batch.settings = settings_of(*verb, {"Edges", "Tensor", "Detection"});

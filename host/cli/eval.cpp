@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "host/cli/config.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/inputs.h"
+#include "host/cli/option_table.h"
 #include "host/cli/verbs.h"
 #include "host/core/log.h"
 #include "host/eval/recall.h"
@@ -119,7 +119,7 @@ std::set<int> leave_out_others(std::vector<EvaluationImage>& images,
         left_out.insert(truth.object_id);
   if (evaluated == 0 && !left_out.empty())
     throw InputError("command line", "--model", "none of the scenes' objects",
-                     fmt::format("one of obj_id {} (--object-id says which a file is)",
+                     fmt::format("one of obj_id {} (--object-id gives the id of a file)",
                                  fmt::join(left_out, ", ")));
   for (EvaluationImage& image : images) {
     for (const BopResult& estimate : image.estimates)
@@ -188,8 +188,7 @@ void print_limits(const Evaluation& evaluation, const EvalRequest& request) {
         fmt::join(evaluation.left_out, ", "));
   if (request.models.models_info.empty())
     std::cout << "no symmetries without --models-info: a pose that looks the same as the truth "
-                 "counts as a "
-                 "miss\n";
+                 "counts as a miss\n";
 }
 
 void print_table(const std::vector<Row>& rows, const RecallOptions& o) {
@@ -199,8 +198,7 @@ void print_table(const std::vector<Row>& rows, const RecallOptions& o) {
   std::cout << fmt::format(
       "{} images; truths seen by at least {:.0f} %; {}\n"
       "AR(MSSD,MSPD): mean of BOP's average recalls MSSD and MSPD; BOP's own AR has VSD in it, "
-      "which needs "
-      "depth\n"
+      "which needs depth\n"
       "pose: below {} rad and {} mm; mspd: below {} px; fp: estimates that match no truth so, an "
       "image\n\n"
       "{:>6} {:>7} {:>9} {:>13} {:>7} {:>7} {:>9} {:>9} {:>7} {:>7}\n",
@@ -225,7 +223,7 @@ void run_eval(const EvalRequest& request) {
 
 void add_eval(CLI::App& app, int& exit_code) {
   CLI::App* verb =
-      app.add_subcommand("eval", "Judge a BOP results CSV against the ground truth of BOP scenes");
+      app.add_subcommand("eval", "Compare a BOP results CSV with the ground truth of BOP scenes");
   auto request = std::make_shared<EvalRequest>();
   verb->add_option("results", request->results, "BOP results CSV")->required()->type_name("FILE");
   verb->add_option("scenes", request->scenes, "BOP scenes with scene_gt.json, or folders of them")
@@ -233,31 +231,31 @@ void add_eval(CLI::App& app, int& exit_code) {
       ->type_name("DIR");
   verb->add_option(
           "--model", request->models.models,
-          "STL, PLY, OBJ or CAO files of the objects to judge; the scenes' others are left out")
+          "STL, PLY, OBJ or CAO files of the objects to evaluate; the scenes' others are left out")
       ->required()
       ->type_name("FILE");
   verb->add_option("--unit", request->models.unit,
                    "Length unit of the model files: mm, cm, m or in")
       ->required();
-  verb->add_option("--models-info", request->models.models_info,
-                   "BOP models_info.json with symmetries; without it a pose that looks the same as "
-                   "the truth "
-                   "is a miss")
+  verb->add_option(
+          "--models-info", request->models.models_info,
+          "BOP models_info.json with symmetries. Without it, a pose that looks the same as "
+          "the truth counts as a miss")
       ->type_name("FILE");
   verb->add_option("--object-id", request->models.object_ids,
-                   "BOP ids of the models; default: the number their names end in");
+                   "BOP ids of the models; default: the number at the end of their names");
   verb->add_option("--json", request->json_file, "Also write the figures here")->type_name("FILE");
   RecallOptions& o = request->recall;
-  OptionTable(*verb, "Evaluation")
+  OptionTable(*verb, "Evaluation", OptionLevel::Expert)
       .bounded("min-visible", o.min_visible_fraction, 0.0, 1.0,
-               "Truths of which a smaller fraction is seen are ignored")
+               "Truths with a smaller visible fraction are ignored")
       .bounded("min-score", o.min_score, -std::numeric_limits<double>::infinity(), 1e6,
-               "Estimates of a lower score are dropped")
+               "Estimates with a lower score are dropped")
       .bounded("max-angle", o.max_angle_rad, 1e-6, 3.2,
                "Largest angle of a right pose to the truth, rad")
       .bounded("max-distance", o.max_distance_m, 1e-9, 100.0,
                "Largest distance of a right pose from the truth, m")
-      .bounded("max-mspd", o.max_mspd_px, 0.01, 10000.0, "Largest MSPD of a true find, px");
+      .bounded("max-mspd", o.max_mspd_px, 0.01, 10000.0, "Largest MSPD of a right pose, px");
   verb->callback([request, &exit_code] {
     run_eval(*request);
     exit_code = exit_done;

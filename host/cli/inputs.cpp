@@ -133,8 +133,7 @@ void require_other_folder(std::span<const InputImage> images, const fs::path& ou
 void warn_of_unknown_size(const GivenCamera& given) {
   if (given.camera && given.camera->width == 0)
     log(LogLevel::Warning, fmt::format("{}: width, height: found none, expected the size of the "
-                                       "calibration's images: taken to be "
-                                       "that of every image",
+                                       "calibration's images: taken to be that of every image",
                                        given.file));
 }
 

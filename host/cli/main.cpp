@@ -3,6 +3,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
@@ -10,6 +11,8 @@
 
 #include "host/cli/config.h"
 #include "host/cli/exit_codes.h"
+#include "host/cli/help.h"
+#include "host/cli/renamed_options.h"
 #include "host/cli/verbs.h"
 #include "host/core/log.h"
 #include "kernels/error.h"
@@ -35,7 +38,7 @@ void add_log_level(CLI::App& app) {
                                                                 {"error", spdlog::level::err}};
   app.add_option_function<std::string>(
          "--log-level", [levels](const std::string& word) { spdlog::set_level(levels.at(word)); },
-         "What is said on standard error: debug, info, warning or error")
+         "Lowest level of messages on standard error: debug, info, warning or error")
       ->check(CLI::IsMember(levels))
       ->default_str("info");
 }
@@ -62,8 +65,11 @@ int run(int argc, char** argv) {
   app.set_version_flag("--version", "edgescout " EDGESCOUT_VERSION);
   app.require_subcommand(1);
   app.fallthrough();  // the program's own options may also follow the verb
+  add_help(app);
   add_yaml_config(app);
   add_log_level(app);
+  std::vector<std::string> arguments = with_present_names({argv + 1, argv + argc});
+  std::ranges::reverse(arguments);  // what CLI11 asks for
   int exit_code = exit_internal_error;
   add_bench(app, exit_code);
   add_detect(app, exit_code);
@@ -74,7 +80,7 @@ int run(int argc, char** argv) {
   add_render(app, exit_code);
   add_scout(app, exit_code);
   try {
-    app.parse(argc, argv);
+    app.parse(std::move(arguments));
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {

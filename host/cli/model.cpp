@@ -53,10 +53,12 @@ void print_inspection(const std::string& file, const Mesh& mesh, const EdgeCount
   const Eigen::Vector3d low = 1000 * mesh.box_min_m, high = 1000 * mesh.box_max_m,
                         size = high - low;
   std::cout << fmt::format(
-      "{}\n  box       {:.3f} x {:.3f} x {:.3f} mm, from ({:.3f}, {:.3f}, {:.3f}) to ({:.3f}, "
-      "{:.3f}, "
+      "{}\n"
+      "  box       {:.3f} x {:.3f} x {:.3f} mm, from ({:.3f}, {:.3f}, {:.3f}) to ({:.3f}, {:.3f}, "
       "{:.3f})\n"
-      "  diameter  {:.3f} mm\n  vertices  {} (welded)\n  triangles {}\n"
+      "  diameter  {:.3f} mm\n"
+      "  vertices  {} (welded)\n"
+      "  triangles {}\n"
       "  edges     {}, of which {} on open borders and {} shared by more than two triangles\n",
       file, size.x(), size.y(), size.z(), low.x(), low.y(), low.z(), high.x(), high.y(), high.z(),
       1000 * mesh.diameter_m, mesh.vertices_m.size(), mesh.triangles.size(), edges.all, edges.open,

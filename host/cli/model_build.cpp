@@ -6,11 +6,13 @@
 #include "host/cli/exit_codes.h"
 #include "host/cli/inputs.h"
 #include "host/cli/model_verbs.h"
-#include "host/cli/pipeline_options.h"
+#include "host/cli/option_table.h"
 #include "host/cli/progress.h"
 #include "host/io/camera_file.h"
 #include "host/io/files.h"
 #include "host/model/axis_symmetry.h"
+#include "host/model/template_set.h"
+#include "kernels/backend.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -65,10 +67,7 @@ void build(const BuildRequest& request) {
   for (const TemplateView& view : set.views) points += view.points.size();
   std::cout << fmt::format(
       "{}: object {}, diameter {:.1f} mm, {} viewpoints of {} edge points on average, {} in-plane "
-      "rotations, "
-      "{} distances from "
-      "{:.3f} to "
-      "{:.3f} m, {} symmetries\n",
+      "rotations, {} distances from {:.3f} to {:.3f} m, {} symmetries\n",
       request.out, set.object_id, 1000 * set.model.mesh.diameter_m, set.views.size(),
       points / set.views.size(), options.in_plane_steps, template_distances_m(options).size(),
       options.distance_min_m, options.distance_max_m, set.symmetries.discrete.size() - 1);
@@ -89,18 +88,18 @@ void add_model_build(CLI::App& model, int& exit_code) {
       ->type_name("FILE");
   verb->add_option("--symmetry", request->symmetry,
                    "In place of --models-info: z2 for a half turn about z, x4 for quarter turns "
-                   "about x, z alone for a "
-                   "surface of revolution; several for all their products");
+                   "about x, z for a surface of revolution. Several give all their products");
   verb->add_option("--camera", request->camera,
-                   "Calibration from which a range of distances is chosen")
+                   "Calibration from which the range of distances is computed")
       ->type_name("FILE");
   verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
       ->capture_default_str();
   verb->add_option("--out", request->out, "Template file")->required()->type_name("FILE");
   OptionTable(*verb, "Model")
       .bounded("object-id", request->object_id, 0, 1000000,
-               "BOP id; 0: the number the file's name ends in, else 1");
-  add_template_options(*verb, request->templates);
+               "BOP id. 0: the number at the end of the file's name, else 1");
+  CommandLineOptions add(*verb);
+  describe(request->templates, add);
   verb->callback([request, &exit_code] {
     build(*request);
     exit_code = exit_done;

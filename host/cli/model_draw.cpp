@@ -6,9 +6,9 @@
 #include <iostream>
 #include <numbers>
 
-#include "host/cli/config.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/model_verbs.h"
+#include "host/cli/option_table.h"
 #include "host/io/mesh.h"
 #include "host/model/template_set.h"
 #include "host/overlay.h"
@@ -120,8 +120,8 @@ void draw(const DrawRequest& request) {
 }  // namespace
 
 void add_model_draw(CLI::App& model, int& exit_code) {
-  CLI::App* verb =
-      model.add_subcommand("draw", "Draw the edges a detector looks for, from several viewpoints");
+  CLI::App* verb = model.add_subcommand(
+      "draw", "Draw the edges that detection searches for, from several viewpoints");
   auto request = std::make_shared<DrawRequest>();
   verb->add_option("file", request->file, "CAD file with --unit, or a template file without")
       ->required()
@@ -133,11 +133,9 @@ void add_model_draw(CLI::App& model, int& exit_code) {
   OptionTable(*verb, "Picture")
       .bounded("columns", request->columns, 1, 16, "Columns of pictures")
       .bounded("rows", request->rows, 1, 16, "Rows of pictures")
-      .bounded("tile", request->tile_px, 64, 1024, "Side of one viewpoint's picture, px")
-      .bounded("crease-angle", request->edges.crease_angle_deg, 1.0, 179.0,
-               "Mesh edges are drawn where the normals of their faces differ by more, degrees")
-      .bounded("raster-step", request->edges.raster_step_m, 0.0, 1.0,
-               "Distance between the points of drawn edges, m; 0: diameter / 80");
+      .bounded("tile", request->tile_px, 64, 1024, "Side of one viewpoint's picture, px");
+  CommandLineOptions add(*verb, "Picture");
+  describe(request->edges, add);
   verb->callback([request, &exit_code] {
     draw(*request);
     exit_code = exit_done;

@@ -3,9 +3,8 @@
 
 #include <iostream>
 
-#include "host/cli/config.h"
 #include "host/cli/exit_codes.h"
-#include "host/cli/pipeline_options.h"
+#include "host/cli/option_table.h"
 #include "host/cli/register_batch.h"
 #include "host/cli/template_sets.h"
 #include "host/cli/verbs.h"
@@ -18,9 +17,9 @@ namespace {
 
 struct RegisterRequest {
   std::vector<std::string> inputs, template_files;
-  std::string poses, out, device = "auto", edge_method = "gradient";
+  std::string poses, out, device = "auto";
   ModelArguments models;
-  bool multi_view = false, no_overlays = false, no_edge_icp = false;
+  bool multi_view = false, no_overlays = false;
   RegisterOptions options;
 };
 
@@ -57,8 +56,6 @@ int register_all(RegisterRequest& request) {
   RegisterOptions& options = request.options;
   options.out = request.out;
   options.overlays = !request.no_overlays;
-  options.refine.use_edge_icp = !request.no_edge_icp;
-  options.pipeline.edges.method = edge_method_from_name(request.edge_method);
   options.pipeline.validate();
   options.refine.validate();
   const std::unique_ptr<Backend> backend = make_backend(request.device);
@@ -73,8 +70,7 @@ int register_all(RegisterRequest& request) {
   const RegisterSummary summary = run_register(jobs, models, *backend, options);
   std::cout << fmt::format(
       "{} poses in {} images refined on {}, {} out of sight, {} images skipped, {} failed in "
-      "{:.1f} s; "
-      "results in {}\n",
+      "{:.1f} s; results in {}\n",
       summary.refined, summary.done, backend->name(), summary.out_of_sight, summary.skipped,
       summary.images - summary.done - summary.skipped, summary.seconds, request.out);
   return summary.failures.empty() && summary.out_of_sight == 0 ? exit_done : exit_some_failed;
@@ -87,8 +83,8 @@ void add_files(CLI::App& verb, RegisterRequest& request) {
   verb.add_option(
           "--poses", request.poses,
           "Poses to start from: a BOP results CSV (t in mm), a result of this program, or a JSON "
-          "list of "
-          "{image, object, R, t} (t in m); R and t map the object frame to the camera frame")
+          "list of {image, object, R, t} (t in m); R and t map the object frame to the camera "
+          "frame")
       ->required()
       ->type_name("FILE");
   verb.add_option("--model", request.models.models,
@@ -96,18 +92,36 @@ void add_files(CLI::App& verb, RegisterRequest& request) {
       ->type_name("FILE");
   verb.add_option("--unit", request.models.unit, "Length unit of the model files: mm, cm, m or in");
   verb.add_option("--object-id", request.models.object_ids,
-                  "BOP ids of the models; default: the number their names end in");
+                  "BOP ids of the models; default: the number at the end of their names");
   verb.add_option("--templates", request.template_files,
                   "Template files of `edgescout model build`, in place of --model")
       ->type_name("FILE");
   verb.add_option("--camera", request.options.camera_file,
-                  "Calibration of the images: ROS or OpenCV YAML, or BOP camera JSON; BOP scenes "
-                  "bring their own")
+                  "Calibration of the images: ROS or OpenCV YAML, or BOP camera JSON. BOP scenes "
+                  "have their own")
       ->type_name("FILE");
   verb.add_option("--out", request.out, "Folder of the results")->required()->type_name("DIR");
   verb.add_option("--device", request.device,
                   "Device to compute on: auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
       ->capture_default_str();
+}
+
+void add_options(CLI::App& verb, RegisterRequest& request) {
+  OptionTable(verb, "Registration")
+      .flag("multi-view", request.multi_view,
+            "Refine each pose in all views of its BOP scene at once. The scene must have world "
+            "poses");
+  OptionTable(verb, "Batch")
+      .flag("resume", request.options.resume,
+            "Skip images that have a result of the same models and options")
+      .flag("no-overlays", request.no_overlays, "Write no overlay pictures")
+      .level(OptionLevel::Expert)
+      .flag("scale-camera", request.options.scale_camera,
+            "Accept images of another size than the calibration's, with the same aspect ratio");
+  CommandLineOptions add(verb);
+  describe(request.options.refine, add);
+  describe(request.options.pipeline.edges, add);
+  describe(request.options.pipeline.tensor, add);
 }
 
 }  // namespace
@@ -117,25 +131,7 @@ void add_register(CLI::App& app, int& exit_code) {
       app.add_subcommand("register", "Refine given poses, of this program or of any other method");
   auto request = std::make_shared<RegisterRequest>();
   add_files(*verb, *request);
-  RefineOptions& refine = request->options.refine;
-  OptionTable(*verb, "Registration")
-      .flag("multi-view", request->multi_view,
-            "Refine each pose over all views of its BOP scene at once (needs world poses)")
-      .bounded(
-          "search-rotation", refine.search.rotation_rad, 0.0, 1.0,
-          "Angle by which starts are also turned, about 14 axes, rad; 0: from the given pose alone")
-      .bounded("num_kept", refine.search.num_kept, 1, 15,
-               "Starts of each pose that are registered in full: the best, of the given one and "
-               "those turned")
-      .flag("no-edge-icp", request->no_edge_icp,
-            "Leave out the last step of the refinement, on sub-pixel edge points");
-  OptionTable(*verb, "Batch")
-      .flag("scale-camera", request->options.scale_camera,
-            "Accept images whose size is a pure scale of the calibration's")
-      .flag("resume", request->options.resume,
-            "Skip images whose result is there, made with the same models and options")
-      .flag("no-overlays", request->no_overlays, "Write no overlay pictures");
-  add_edge_and_tensor_options(*verb, request->options.pipeline, request->edge_method);
+  add_options(*verb, *request);
   verb->callback([request, &exit_code, verb] {
     refuse_beside_templates(*verb);
     request->options.settings = settings_of(*verb, {"Registration", "Edges", "Tensor"});

@@ -68,8 +68,8 @@ bool is_out_of_sight(std::span<const ObjectView> views, const ObjectPose& start,
 void warn_of_out_of_sight(const ReadyJob& ready, std::size_t start, const RegisterModel& model) {
   const InputImage& input = ready.job->views[ready.job->starts[start].view];
   log(LogLevel::Warning, fmt::format("{}: object {}: found a start that no image shows, expected "
-                                     "one in sight (lengths are in mm "
-                                     "in a BOP results CSV, in m in JSON)",
+                                     "one in sight (lengths are in mm in a BOP results CSV, in m "
+                                     "in JSON)",
                                      input.file.string(), model.object_id));
 }
 

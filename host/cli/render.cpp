@@ -95,15 +95,16 @@ void render_scenes(const RenderRequest& request) {
 
 void add_camera_options(CLI::App& verb, RenderOptions& o) {
   OptionTable(verb, "Cameras")
-      .bounded("views", o.views, 1, 50, "Images of a scene, from around it")
+      .bounded("views", o.views, 1, 50, "Number of images of a scene, from around it")
+      .level(OptionLevel::Expert)
       .bounded("min-elevation", o.min_elevation_deg, 10.0, 90.0,
                "Lowest elevation of the cameras over the board, degrees")
       .bounded("max-elevation", o.max_elevation_deg, 10.0, 90.0,
                "Highest elevation of the cameras over the board, degrees")
       .bounded("min-distance", o.min_distance_m, 0.0, 100.0,
-               "Smallest distance from the cameras to the parts, m; 0: so that they fill the image")
+               "Smallest distance from the cameras to the parts, m. 0: so that they fill the image")
       .bounded("max-distance", o.max_distance_m, 0.0, 100.0,
-               "Largest distance from the cameras to the parts, m; 0: so that they fill the image");
+               "Largest distance from the cameras to the parts, m. 0: so that they fill the image");
 }
 
 }  // namespace
@@ -116,16 +117,15 @@ void add_render(CLI::App& app, int& exit_code) {
       ->type_name("FILE");
   verb->add_option("--unit", request->unit, "Length unit of the files: mm, cm, m or in");
   verb->add_option("--models-info", request->models_info,
-                   "BOP models_info.json with symmetries; id 1 is the first --model")
+                   "BOP models_info.json with symmetries. Id 1 is the first --model")
       ->type_name("FILE");
   verb->add_option("--part", request->parts,
                    "The project's own parts, in place of --model: l_bracket, bearing_block, "
-                   "stepped_shaft, hex_nut, "
-                   "u_channel, gear_plate");
+                   "stepped_shaft, hex_nut, u_channel, gear_plate");
   verb->add_option("--out", request->out, "Folder of the dataset")->required()->type_name("DIR");
   OptionTable(*verb, "Scene")
-      .bounded("scenes", request->scenes, 1, 100000, "Scenes to render, in folders 000000 and on");
-  add_scene_options(*verb, request->options);
+      .bounded("scenes", request->scenes, 1, 100000, "Number of scenes, in folders from 000000");
+  add_scene_options(*verb, request->options, OptionLevel::Basic);
   add_camera_options(*verb, request->options);
   verb->callback([request, &exit_code] {
     render_scenes(*request);

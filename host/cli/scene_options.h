@@ -1,11 +1,12 @@
 // Adds the options of a rendered scene and its images, for the verbs `render` and `scout`.
 #pragma once
 
-#include "host/cli/config.h"
+#include "host/cli/option_table.h"
 #include "host/render/scene.h"
 
 namespace edgescout {
 
-void add_scene_options(CLI::App& verb, RenderOptions& options);
+// `level`: of the most important ones; the rest is expert.
+void add_scene_options(CLI::App& verb, RenderOptions& options, OptionLevel level);
 
 }  // namespace edgescout

@@ -5,7 +5,8 @@
 
 #include "host/cli/batch_settings.h"
 #include "host/cli/exit_codes.h"
-#include "host/cli/pipeline_options.h"
+#include "host/cli/help.h"
+#include "host/cli/option_table.h"
 #include "host/cli/scout_report.h"
 #include "host/cli/scout_source.h"
 #include "host/cli/stage_times.h"
@@ -26,8 +27,7 @@ struct ScoutRequest {
   ModelArguments models;
   TemplateOptions templates;
   ScoutOptions options;
-  std::string strategy = to_string(Strategy::Information), device = "auto",
-              edge_method = "gradient", out;
+  std::string device = "auto", out;
   std::vector<int> sequence;
   unsigned draws_seed = 1;
   bool resume = false, watch = false;
@@ -49,9 +49,8 @@ TemplateOptions with_distances_of(TemplateOptions options, const std::vector<Se3
   const std::optional<Eigen::Vector3d> center_m = looked_at_m(views);
   if (!center_m) {
     log(LogLevel::Warning,
-        "the views look at no point in common: distances are guessed from the objects' sizes; "
-        "--distance-min "
-        "and --distance-max say them");
+        "the views look at no point in common: distances are guessed from the objects' sizes. "
+        "Give --distance-min and --distance-max");
     return options;
   }
   double near_m = INFINITY, far_m = 0;
@@ -67,32 +66,21 @@ TemplateOptions with_distances_of(TemplateOptions options, const std::vector<Se3
 
 // Refuses options that would have no effect, or that would compare nats with points or ranks.
 void refuse_unused_options(const ScoutRequest& request, const CLI::App& verb) {
-  const ScoutOptions& o = request.options;
-  const auto refuse = [&](const std::string& option, const std::string& beside,
-                          const char* expected) {
+  const Strategy strategy = request.options.next_view.strategy;
+  const auto refuse = [&](const std::string& option, const char* expected) {
     if (verb.count(option) > 0)
-      throw InputError("command line", option, "beside " + beside, expected);
+      throw InputError("command line", option, "beside --strategy " + to_string(strategy),
+                       expected);
   };
-  if (o.next_view.strategy != Strategy::Fixed)
-    refuse("--sequence", "--strategy " + request.strategy, "fixed");
-  const char* const in_nats[] = {"--min-information", "--metre-cost", "--radian-cost"};
-  if (o.next_view.strategy != Strategy::Information)
-    for (const char* option : in_nats) refuse(option, "--strategy " + request.strategy, "mi-max");
-  if (o.probable_combinations) refuse("--sharpness", "--scenes-by-probability", "--scenes-by-psi");
-  if (o.next_view.use_paper_formula) {
-    for (const char* option : in_nats)
-      refuse(option, "--use_paper_formula", "the information by default");
-    for (const char* option :
-         {"--free-sight", "--repeat-angle", "--seen", "--unknown", "--unknown-angle"})
-      refuse(option, "--use_paper_formula", "the information by default");
-  }
+  if (strategy != Strategy::Fixed) refuse("--sequence", "fixed");
+  if (strategy != Strategy::Information)
+    for (const char* option : {"--min-information", "--metre-cost", "--radian-cost"})
+      refuse(option, "mi-max");
 }
 
 // Options in a YAML file count as given.
 void resolve_options(ScoutRequest& request, const CLI::App& verb) {
   ScoutOptions& o = request.options;
-  o.pipeline.edges.method = edge_method_from_name(request.edge_method);
-  o.next_view.strategy = strategy_from(request.strategy);
   o.next_view.sequence = request.sequence;
   refuse_unused_options(request, verb);
   o.next_view.seed = o.combinations.seed = o.particles.seed = request.draws_seed;
@@ -146,7 +134,7 @@ ScoutReport report_of(const ScoutRequest& request, const ScoutSource& source,
           request.options.pipeline.edges,
           backend.name(),
           source.name,
-          request.strategy,
+          to_string(request.options.next_view.strategy),
           source.settings,
           request.planning,
           source.truth,
@@ -211,49 +199,36 @@ int scout(ScoutRequest& request, const CLI::App& verb) {
   return state.steps.empty() || !state.failed.empty() ? exit_some_failed : exit_done;
 }
 
-void add_loop_options(CLI::App& verb, ScoutRequest& r) {
-  ScoutOptions& o = r.options;
-  OptionTable(verb, "Budget")
-      .bounded("max-views", o.max_views, 1, 1000000, "Largest number of images")
-      .bounded("min-entropy", o.min_entropy_nats, 0.0, 1e6,
-               "End where the modes are as certain as that and the last image showed no new "
-               "candidate, nats; "
-               "0: never")
-      .bounded("min-information", o.min_information_nats, 0.0, 1e6,
-               "End where every view is expected to tell less about the candidates, its way's cost "
-               "taken "
-               "off, nats; what is expected of the unknown (--unknown) does not count; 0: never")
-      .bounded("min-gained", o.min_gained_nats, 0.0, 1e6,
-               "End where the last image told less and showed no new candidate, nats; 0: never")
-      .bounded("max-seconds", o.max_seconds, 0.0, 1e9,
-               "End after so much time of computing, s; asked between images only: an image that "
-               "is begun is "
-               "finished; 0: no limit");
-  OptionTable(verb, "Next view")
-      .choice("strategy", r.strategy, {"mi-max", "dis", "random", "fixed"},
-              "What the next view is chosen by, mi-max: most information; dis: most disoccluded "
-              "points; "
-              "random: any; fixed: the order of --sequence")
-      .bounded("first-view", o.first_view, 0, 1000000,
-               "Number of the view that the first image is taken from")
-      .bounded("metre-cost", o.next_view.motion_cost_per_m, 0.0, 1e6,
-               "Information taken off a view for each metre of the camera's way to it, nats")
-      .bounded("radian-cost", o.next_view.motion_cost_per_rad, 0.0, 1e6,
-               "Information taken off a view for each radian of the camera's turn to it, nats");
-  OptionTable(verb, "Belief")
+void add_options(CLI::App& verb, ScoutRequest& r) {
+  OptionTable(verb, "Run")
+      .flag("watch", r.watch, "Write the page after every step, so that a browser follows it")
+      .flag("resume", r.resume,
+            "Continue from DIR/scout.state, if it exists, with the same source and detection. "
+            "Budget, next view and information may differ");
+  CommandLineOptions add(verb);
+  describe_budget(r.options, add);
+  describe_strategy(r.options.next_view, add);
+  CLI::Option* sequence =
+      verb.add_option("--sequence", r.sequence,
+                      "Numbers of the views that strategy fixed takes, in order; default: all");
+  sequence->group("Next view");
+  mark_expert(verb, sequence);
+  describe(r.options, add);
+  OptionTable(verb, "Belief", OptionLevel::Expert)
       .bounded("draws-seed", r.draws_seed, 0u, 4000000000u,
-               "Seed of particles, imagined scenes and the views of strategy random");
-  verb.add_option("--sequence", r.sequence,
-                  "Numbers of the views that strategy fixed takes, in order; default: all")
-      ->group("Next view");
-  add_belief_options(verb, o);
+               "Seed of particles, combinations and the views of strategy random");
+  describe(r.templates, add);
+  describe(r.options.pipeline.edges, add);
+  describe(r.options.pipeline.tensor, add);
+  describe_search(r.options.pipeline.detect, add);
+  describe(r.options.detections, add);
 }
 
 }  // namespace
 
 void add_scout(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand(
-      "scout", "Look again from the best place: detection with a next best view");
+      "scout", "Take images from the next best view until the objects are found");
   auto request = std::make_shared<ScoutRequest>();
   add_source_options(*verb, request->source);
   add_model_arguments(*verb, request->models);
@@ -261,20 +236,7 @@ void add_scout(CLI::App& app, int& exit_code) {
   verb->add_option("--device", request->device,
                    "Device to compute on: auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
       ->capture_default_str();
-  OptionTable(*verb, "Run")
-      .flag("watch", request->watch,
-            "Write the page after every step, so that a browser follows it")
-      .flag("resume", request->resume,
-            "Go on from DIR/scout.state where there is one, of the same source and detection; "
-            "budget, next "
-            "view and information may be others");
-  add_loop_options(*verb, *request);
-  add_template_options(*verb, request->templates);
-  add_edge_and_tensor_options(*verb, request->options.pipeline, request->edge_method);
-  add_search_options(*verb, request->options.pipeline.detect);
-  // They choose among the instances of the belief over all views.
-  add_choice_options(*verb, request->options.detections.min_probability,
-                     request->options.detections.edge_claims);
+  add_options(*verb, *request);
   verb->callback([request, verb, &exit_code] {
     // A resumed run may have another budget, another strategy and other options of the expected
     // information: they do not change earlier detections or the belief.

@@ -18,6 +18,9 @@ using json = nlohmann::ordered_json;
 
 namespace {
 
+// 2: the field extrinsics_checks of a step had another name in 1.
+constexpr int SCOUT_LOG_VERSION = 2;
+
 json pose_json(const Se3& pose) {
   return {{"R", rotation_numbers(pose)}, {"t", translation_numbers(pose, 1.0)}};
 }
@@ -149,7 +152,7 @@ std::optional<DistanceToTruth> distance_to_truth(const Detection& detection,
 
 void save_scout_log(const ScoutState& state, const ScoutReport& report,
                     const std::filesystem::path& folder) {
-  json log{{"edgescout_scout", 1},
+  json log{{"edgescout_scout", SCOUT_LOG_VERSION},
            {"device", report.device},
            {"source", report.source},
            {"strategy", report.strategy},
@@ -199,7 +202,11 @@ void remove_scout_results(const std::filesystem::path& folder) {
 void require_same_source(const Settings& settings, const std::filesystem::path& folder) {
   const std::string file = (folder / "scout.json").string();
   const nlohmann::json log = read_json(file);
-  const JsonField saved = JsonField{log, file, ""}.at("settings");
+  const JsonField fields{log, file, ""};
+  if (const int version = int(fields.at("edgescout_scout").integer()); version != SCOUT_LOG_VERSION)
+    throw InputError(file, "edgescout_scout", "version " + std::to_string(version),
+                     fmt::format("{}: no --resume, or another --out", SCOUT_LOG_VERSION));
+  const JsonField saved = fields.at("settings");
   Settings found;
   for (const auto& item : saved.value.items())
     found.emplace_back(item.key(), saved.at(item.key()).text());

@@ -104,8 +104,7 @@ class Page {
   std::string found_table() const {
     std::string html =
         "<table><tr><th>object<th>probability<th>ψ<th>edges<th>σ place<th>σ direction<th>images "
-        "that support "
-        "it";
+        "that support it";
     if (!report_.truth.empty()) html += "<th>off the truth";
     for (const ModeDetection& mode : state_.detections) {
       const Detection& d = mode.detection;
@@ -240,7 +239,7 @@ class Page {
       view.camera = report_.camera;
       view.camera_from_world = state_.views[why.view];
       const RgbImage map = edge_map(models_, objects, view, 560, backend_);
-      return png_figure(map, fmt::format("{} scene imagined from this view: {} of {} candidates",
+      return png_figure(map, fmt::format("{} combination seen from this view: {} of {} candidates",
                                          caption, members.size(), why.candidates.size()));
     };
     return drawn(why.likeliest, "Likeliest") + drawn(why.unlikeliest, "Unlikeliest");
@@ -256,8 +255,7 @@ class Page {
     };
     return fmt::format(
         "<p class=numbers>entropy <b>{:.3f} nats</b> · {} new candidates in {} · decision {} {}· "
-        "image {} "
-        "{}</p>",
+        "image {} {}</p>",
         s.entropy_nats, s.new_candidates,
         s.searches == 1 ? "one search" : fmt::format("{} searches", s.searches),
         seconds_of(s.decision.stages), row(s.decision.stages), seconds_of(s.stages), row(s.stages));

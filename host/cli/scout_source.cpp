@@ -6,6 +6,7 @@
 
 #include "host/active/recorded_views.h"
 #include "host/cli/batch_settings.h"
+#include "host/cli/help.h"
 #include "host/cli/scene_options.h"
 #include "host/io/bop.h"
 #include "host/io/camera_file.h"
@@ -98,38 +99,47 @@ ScoutSource make_recorded(const SourceRequest& request) {
 
 }  // namespace
 
-void add_source_options(CLI::App& verb, SourceRequest& r) {
-  verb.add_option("source", r.source,
-                  "\"cell\": a rendered scene of the models; or a folder of recorded views: a BOP "
-                  "scene, or "
-                  "one with CameraPose and Images")
-      ->required();
-  verb.add_option("--camera", r.camera_file,
-                  "Camera of recorded views: ROS or OpenCV YAML, or BOP camera JSON; BOP scenes "
-                  "bring their own")
-      ->type_name("FILE");
+namespace {
+
+void add_hemisphere_options(CLI::App& verb, SourceRequest& r) {
   verb.add_option("--views", r.views_file,
                   "Views of a cell, in place of the hemisphere: [{camera_from_world: {R, t}} ..]")
       ->type_name("FILE")
       ->group("Views");
   OptionTable(verb, "Views")
+      .bounded("view-count", r.hemisphere.count, 1, 10000, "Number of views on the hemisphere")
+      .level(OptionLevel::Expert)
       .bounded("radius", r.hemisphere.radius_m, 0.0, 100.0,
-               "Radius of the hemisphere of views, m; 0: so that the parts fill the image")
-      .bounded("view-count", r.hemisphere.count, 1, 10000, "Views on the hemisphere");
-  verb.add_option("--elevations", r.hemisphere.elevations_deg,
-                  "Elevations of the hemisphere's rings of views, degrees above the board")
-      ->capture_default_str()
-      ->group("Views");
-  verb.add_option("--center", r.center_m, "Middle of the hemisphere of views, m: x y z")
-      ->expected(3)
-      ->group("Views");
-  add_scene_options(verb, r.scene);
-  OptionTable(verb, "Arm")
+               "Radius of the hemisphere of views, m. 0: so that the parts fill the image");
+  CLI::Option* elevations =
+      verb.add_option("--elevations", r.hemisphere.elevations_deg,
+                      "Elevations of the hemisphere's rings of views above the board, degrees");
+  elevations->capture_default_str()->group("Views");
+  CLI::Option* center =
+      verb.add_option("--center", r.center_m, "Middle of the hemisphere of views, m: x y z");
+  center->expected(3)->group("Views");
+  for (CLI::Option* option : {elevations, center}) mark_expert(verb, option);
+}
+
+}  // namespace
+
+void add_source_options(CLI::App& verb, SourceRequest& r) {
+  verb.add_option("source", r.source,
+                  "\"cell\": a rendered scene of the models. Else a folder of recorded views: a "
+                  "BOP scene, or a folder with CameraPose and Images")
+      ->required();
+  verb.add_option("--camera", r.camera_file,
+                  "Camera of recorded views: ROS or OpenCV YAML, or BOP camera JSON. BOP scenes "
+                  "have their own")
+      ->type_name("FILE");
+  add_hemisphere_options(verb, r);
+  add_scene_options(verb, r.scene, OptionLevel::Expert);
+  OptionTable(verb, "Arm", OptionLevel::Expert)
       .bounded("arm-shift", r.arm.translation_m, 0.0, 1.0,
-               "How far a cell's arm misses its place, standard deviation of each axis, m")
+               "Error of a cell's arm in position, standard deviation along each axis, m")
       .bounded("arm-turn", r.arm.rotation_rad, 0.0, 1.0,
-               "How far a cell's arm misses its direction, standard deviation of each axis, rad")
-      .flag("arm-tells", r.arm.known, "The encoders of a cell's arm tell where it really is");
+               "Error of a cell's arm in rotation, standard deviation about each axis, rad")
+      .flag("arm-tells", r.arm.known, "The encoders of a cell's arm report its real pose");
 }
 
 void refuse_unused(const CLI::App& verb) {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/active/views.h"
-#include "host/cli/config.h"
+#include "host/cli/option_table.h"
 #include "host/cli/scout_report.h"
 #include "host/render/simulated_cell.h"
 

@@ -13,13 +13,13 @@ namespace edgescout {
 
 void add_model_arguments(CLI::App& verb, ModelArguments& arguments) {
   verb.add_option("--model", arguments.models,
-                  "CAD files of the objects to look for: STL, PLY, OBJ or CAO")
+                  "CAD files of the objects to detect: STL, PLY, OBJ or CAO")
       ->type_name("FILE");
   verb.add_option("--unit", arguments.unit, "Length unit of the model files: mm, cm, m or in");
   verb.add_option("--models-info", arguments.models_info, "BOP models_info.json with symmetries")
       ->type_name("FILE");
   verb.add_option("--object-id", arguments.object_ids,
-                  "BOP ids of the models; default: the number their names end in");
+                  "BOP ids of the models; default: the number at the end of their names");
   verb.add_option("--templates", arguments.templates,
                   "Template files of `edgescout model build`, in place of --model")
       ->type_name("FILE");
@@ -32,7 +32,7 @@ void refuse_beside_templates(const CLI::App& verb) {
     const bool is_of_models = name == "--unit" || name == "--models-info" || name == "--object-id";
     if (option->count() > 0 && (is_of_models || option->get_group() == "Templates"))
       throw InputError("command line", name, "beside --templates",
-                       "it with --model: a template file says it itself");
+                       "it with --model: a template file has its own");
   }
 }
 
@@ -57,10 +57,9 @@ namespace {
 // A wrong unit or distance shows in these numbers: they do not fit each other.
 void log_sizes(const TemplateSet& set) {
   log(LogLevel::Info,
-      fmt::format(
-          "object {} ({}): diameter {:.1f} mm, looked for {:.3f} to {:.3f} m from the camera",
-          set.object_id, set.model.mesh.name, 1000 * set.model.mesh.diameter_m,
-          set.options.distance_min_m, set.options.distance_max_m));
+      fmt::format("object {} ({}): diameter {:.1f} mm, searched {:.3f} to {:.3f} m from the camera",
+                  set.object_id, set.model.mesh.name, 1000 * set.model.mesh.diameter_m,
+                  set.options.distance_min_m, set.options.distance_max_m));
 }
 
 }  // namespace

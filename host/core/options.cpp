@@ -6,28 +6,29 @@
 
 namespace edgescout {
 
-void BoundsCheck::require(const OptionInfo& option, double found, double low, double high) const {
+void BoundsCheck::require(const char* name, double found, double low, double high) const {
   if (found >= low && found <= high) return;
-  std::string field = prefix_ + "." + option.name;
+  std::string field = prefix_ + "." + name;
   std::ranges::replace(field, '-', '_');
   throw InputError("options", field, std::to_string(found),
                    std::to_string(low) + " to " + std::to_string(high));
 }
 
 void BoundsCheck::number(const OptionInfo& option, int& field, int low, int high) {
-  require(option, field, low, high);
+  require(option.name, field, low, high);
 }
 
 void BoundsCheck::number(const OptionInfo& option, float& field, float low, float high) {
-  require(option, field, low, high);
+  require(option.name, field, low, high);
 }
 
 void BoundsCheck::number(const OptionInfo& option, double& field, double low, double high) {
-  require(option, field, low, high);
+  require(option.name, field, low, high);
 }
 
-void BoundsCheck::choice(const OptionInfo& option, int& field, std::span<const char* const> names) {
-  require(option, field, 0, double(names.size()) - 1);
+void BoundsCheck::index(const OptionInfo& option, const Index& field,
+                        std::span<const char* const> names) {
+  require(option.name, field.get(), 0, double(names.size()) - 1);
 }
 
 }  // namespace edgescout

@@ -7,8 +7,10 @@
 // Public header.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
+#include <utility>
 
 namespace edgescout {
 
@@ -33,8 +35,21 @@ class OptionVisitor {
   virtual void number(const OptionInfo& option, float& field, float low, float high) = 0;
   virtual void number(const OptionInfo& option, double& field, double low, double high) = 0;
   virtual void flag(const OptionInfo& option, bool& field) = 0;
-  // One of the names; `field` is the index.
-  virtual void choice(const OptionInfo& option, int& field, std::span<const char* const> names) = 0;
+  // Given without a value, it sets the field to false: "search-alone" for detect_jointly.
+  virtual void off_flag(const OptionInfo& option, bool& field) = 0;
+  // One of the names, in the order of the enumerators. They must outlive the visitor.
+  template <typename Enum>
+  void choice(const OptionInfo& option, Enum& field, std::span<const char* const> names) {
+    index(option, {[&field] { return int(field); }, [&field](int i) { field = Enum(i); }}, names);
+  }
+
+ protected:
+  struct Index {
+    std::function<int()> get;
+    std::function<void(int)> set;
+  };
+  virtual void index(const OptionInfo& option, const Index& field,
+                     std::span<const char* const> names) = 0;
 };
 
 // InputError "options: PREFIX.NAME: found FOUND, expected LOW to HIGH" for a number out of bounds,
@@ -47,10 +62,13 @@ class BoundsCheck : public OptionVisitor {
   void number(const OptionInfo& option, float& field, float low, float high) override;
   void number(const OptionInfo& option, double& field, double low, double high) override;
   void flag(const OptionInfo&, bool&) override {}
-  void choice(const OptionInfo& option, int& field, std::span<const char* const> names) override;
+  void off_flag(const OptionInfo&, bool&) override {}
+  // The same error for a field that is no option, or for a bound that depends on another field.
+  void require(const char* name, double found, double low, double high) const;
 
  private:
-  void require(const OptionInfo& option, double found, double low, double high) const;
+  void index(const OptionInfo& option, const Index& field,
+             std::span<const char* const> names) override;
   std::string prefix_;
 };
 

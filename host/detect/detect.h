@@ -11,6 +11,7 @@
 
 #include <vector>
 
+#include "host/core/options.h"
 #include "host/detect/edge_claims.h"
 #include "host/detect/plausible_pairs.h"
 #include "host/detect/rescore_in_views.h"
@@ -38,6 +39,13 @@ struct DetectOptions {
   static RefineOptions refine_defaults();
   void validate() const;  // InputError naming the field and the violated bound
 };
+
+// Every option of detection in single images but those of edge_claims and refine, which have their
+// own describe.
+void describe(DetectOptions& options, OptionVisitor& visit);
+// Parts of them that other verbs also have: the search, and of it the numbers of hits and poses.
+void describe_search(DetectOptions& options, OptionVisitor& visit);
+void describe_hits(DetectOptions& options, OptionVisitor& visit);
 
 // Of an estimate with features: they are pooled over its views.
 Detection to_detection(const PoseEstimate& estimate);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <unordered_set>
 
-#include "host/core/option_bounds.h"
 #include "host/register/pose_classifier.h"
 #include "host/register/visible_in_views.h"
 #include "kernels/pose_geometry.h"
@@ -128,11 +127,19 @@ auto best_of(std::vector<Competitor>& competitors) {
 
 }  // namespace
 
+void describe(EdgeClaimOptions& o, OptionVisitor& visit) {
+  visit.group("Detection");
+  visit.number({"max-claimed",
+                "A pose is dropped where better poses claim more than this fraction of the edges "
+                "that it explains"},
+               o.max_claimed, 0.0, 1.0);
+}
+
 void EdgeClaimOptions::validate() const {
-  const OptionBounds in("edge_claims");
-  in("match", match_px, 0.01, EdgeIndex::CELL_PX);
-  in("max_turn", max_turn_rad, 0, 3.15);
-  in("max_claimed", max_claimed, 0, 1);
+  check_bounds(*this, "edge_claims");
+  const BoundsCheck in("edge_claims");
+  in.require("match", match_px, 0.01, EdgeIndex::CELL_PX);
+  in.require("max_turn", max_turn_rad, 0, 3.15);
 }
 
 std::vector<EdgeClaim> claim_edges(const Scene& scene, std::span<const PoseEstimate> poses,

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "host/core/options.h"
 #include "host/register/pose_features.h"
 
 namespace edgescout {
@@ -18,6 +19,8 @@ struct EdgeClaimOptions {
   double max_claimed = 0.5;
   void validate() const;  // InputError naming the field and the violated bound
 };
+
+void describe(EdgeClaimOptions& options, OptionVisitor& visit);
 
 // A pose that was chosen.
 struct EdgeClaim {

@@ -8,6 +8,23 @@
 
 namespace edgescout {
 
+void describe_values(TensorOptions& o, OptionVisitor& visit) {
+  visit.number(
+      {"smoothing-variance", "Variance of the smoothing over orientation, bins^2. 0: no smoothing"},
+      o.smoothing_variance, 0.0f, 16.0f);
+  visit.number({"cap", "Largest distance to an edge; larger ones count as this, px"}, o.cap_px,
+               1.0f, float(DCD_MAX_CAP_PX));
+}
+
+void describe(TensorOptions& o, OptionVisitor& visit) {
+  visit.group("Tensor");
+  visit.number({"bins", "Number of orientation bins over half a turn; even"}, o.bins, 4,
+               int(DCD_MAX_BINS));
+  visit.number({"lambda", "Weight of an orientation error against a distance, px/rad"},
+               o.lambda_px_per_rad, 0.0f, 10000.0f);
+  describe_values(o, visit);
+}
+
 namespace {
 
 // Typical size of an object in the image: at the geometric mean of its distances.

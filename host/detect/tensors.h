@@ -7,10 +7,16 @@
 
 #include <span>
 
+#include "host/core/options.h"
 #include "host/model/template_set.h"
 #include "host/register/object_view.h"
 
 namespace edgescout {
+
+// The kernel's own validate() (kernels/tensor_layout.h) checks the same bounds.
+void describe(TensorOptions& options, OptionVisitor& visit);
+// The part of them that other verbs also have: without bins and lambda, and without a group.
+void describe_values(TensorOptions& options, OptionVisitor& visit);
 
 // The view's image and edges are set (pipeline.h: prepare_view). Reduces by what suits the smallest
 // of the objects. LogicError: no templates, a camera pose that is not finite.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "host/core/options.h"
 #include "host/core/types.h"
 #include "host/edge/lsd_edges.h"
 #include "kernels/edge_detect.h"
@@ -32,6 +33,8 @@ struct EdgesOptions {
   LsdOptions lsd;
   void validate() const;  // InputError naming the field and the violated bound
 };
+
+void describe(EdgesOptions& options, OptionVisitor& visit);
 
 // "gradient" or "lsd"; InputError on another word.
 EdgeMethod edge_method_from_name(const std::string& name);

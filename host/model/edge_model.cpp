@@ -84,14 +84,16 @@ bool is_curved(const std::array<Eigen::Vector3d, 3>& normals) {
 
 }  // namespace
 
-void EdgeModelOptions::validate() const {
-  if (!(crease_angle_deg > 0 && crease_angle_deg < 180))
-    throw InputError("options", "model.crease_angle", std::to_string(crease_angle_deg),
-                     "an angle in (0, 180) degrees");
-  if (!(raster_step_m >= 0 && raster_step_m < 1))
-    throw InputError("options", "model.raster_step", std::to_string(raster_step_m),
-                     "a length in [0, 1) m, 0 for automatic");
+void describe(EdgeModelOptions& o, OptionVisitor& visit) {
+  visit.number({"crease-angle",
+                "Mesh edges are drawn where the normals of their faces differ by more than this, "
+                "degrees"},
+               o.crease_angle_deg, 1.0, 179.0);
+  visit.number({"raster-step", "Distance between the points of drawn edges, m. 0: diameter / 80"},
+               o.raster_step_m, 0.0, 0.99);
 }
+
+void EdgeModelOptions::validate() const { check_bounds(*this, "model"); }
 
 EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options) {
   options.validate();

@@ -8,17 +8,20 @@
 
 #include <vector>
 
+#include "host/core/options.h"
 #include "host/core/types.h"
 #include "kernels/depth_raster.h"
 
 namespace edgescout {
 
 struct EdgeModelOptions {
-  // Between face normals. A sharper edge is drawn, a flatter one is smooth surface; (0, 180).
+  // Between face normals. A sharper edge is drawn, a flatter one is smooth surface; [1, 179].
   double crease_angle_deg = 25;
   double raster_step_m = 0;  // between raster points along an edge; 0: diameter / 80
   void validate() const;     // InputError naming the field and the violated bound
 };
+
+void describe(EdgeModelOptions& options, OptionVisitor& visit);
 
 // A point of the paper's raster template with the edge's unit direction there; object frame.
 struct RasterPoint {

@@ -7,25 +7,62 @@
 
 namespace edgescout {
 
+namespace {
+
+void describe_range(SphereRange& range, OptionVisitor& visit) {
+  visit.number(
+      {"latitude-min", "Lowest latitude of viewpoints over the object's x-y plane, degrees"},
+      range.latitude_min_deg, -90.0, 90.0);
+  visit.number(
+      {"latitude-max", "Highest latitude of viewpoints over the object's x-y plane, degrees"},
+      range.latitude_max_deg, -90.0, 90.0);
+  visit.number(
+      {"longitude-min", "First longitude of viewpoints about the object's z axis, degrees"},
+      range.longitude_min_deg, -360.0, 360.0);
+  visit.number({"longitude-max", "Last longitude of viewpoints about the object's z axis, degrees"},
+               range.longitude_max_deg, -360.0, 720.0);
+}
+
+}  // namespace
+
+void describe(TemplateOptions& o, OptionVisitor& visit) {
+  visit.group("Templates");
+  visit.number({"distance-min",
+                "Smallest distance from the camera to an object's centre, m. 0, with "
+                "--distance-max 0: from the object's size and the camera; scout takes it from the "
+                "views",
+                OptionLevel::Basic},
+               o.distance_min_m, 0.0, 1000.0);
+  visit.number({"distance-max",
+                "Largest distance from the camera to an object's centre, m. 0, with "
+                "--distance-min 0: from the object's size and the camera; scout takes it from the "
+                "views",
+                OptionLevel::Basic},
+               o.distance_max_m, 0.0, 1000.0);
+  visit.number({"distance-ratio", "Ratio of neighbouring distances that templates are made for"},
+               o.distance_ratio, 1.001, 2.0);
+  visit.number({"viewpoints",
+                "Frequency f of the icosphere of viewpoints around an object, which has "
+                "10 f^2 + 2 of them"},
+               o.frequency, 1, 16);
+  visit.number({"in-plane-steps", "Number of rotations of each template about the line of sight"},
+               o.in_plane_steps, 1, 360);
+  describe_range(o.range, visit);
+  describe(o.edges, visit);
+}
+
 void TemplateOptions::validate() const {
   const auto fail = [](const char* field, double found, const char* bound) {
     throw InputError("options", std::string("templates.") + field, std::to_string(found), bound);
   };
-  if (frequency < 1 || frequency > 16) fail("frequency", frequency, "a number in [1, 16]");
-  if (in_plane_steps < 1 || in_plane_steps > 360)
-    fail("in_plane_steps", in_plane_steps, "a number in [1, 360]");
+  edges.validate();
+  check_bounds(*this, "templates");
   const char *min = "distance_min (--distance-min)", *max = "distance_max (--distance-max)";
-  if (!(distance_min_m >= 0 && distance_min_m <= 1000))
-    fail(min, distance_min_m, "a length in [0, 1000] m, 0 for automatic");
   if ((distance_min_m == 0) != (distance_max_m == 0))
     fail(distance_min_m == 0 ? min : max, 0, "both --distance-min and --distance-max, or neither");
-  if (!(distance_max_m >= distance_min_m && distance_max_m <= 1000))
-    fail(max, distance_max_m, "at least --distance-min, at most 1000 m");
-  if (!(distance_ratio > 1 && distance_ratio <= 2))
-    fail("distance_ratio", distance_ratio, "a ratio in (1, 2]");
-  if (!(range.latitude_min_deg <= range.latitude_max_deg))
+  if (distance_max_m < distance_min_m) fail(max, distance_max_m, "at least --distance-min");
+  if (range.latitude_min_deg > range.latitude_max_deg)
     fail("latitude_min", range.latitude_min_deg, "at most latitude_max");
-  edges.validate();
 }
 
 TemplateOptions with_default_distances(TemplateOptions options, double diameter_m,

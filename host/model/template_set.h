@@ -29,6 +29,8 @@ struct TemplateOptions {
   void validate() const;  // InputError naming the field and the violated bound
 };
 
+void describe(TemplateOptions& options, OptionVisitor& visit);
+
 // Sets distances that are 0: the object's diameter then spans a sixth to a third of the image's
 // smaller side (a range of 2 : 1).
 TemplateOptions with_default_distances(TemplateOptions options, double diameter_m,

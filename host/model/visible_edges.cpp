@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/core/option_bounds.h"
+#include "host/core/options.h"
 #include "kernels/thread_pool.h"
 
 namespace edgescout {
@@ -109,9 +109,9 @@ Pose to_pose(const Se3& b_from_a) {
 }
 
 void VisibilityOptions::validate() const {
-  const OptionBounds in("visibility");
-  in("depth_map_size", depth_map_size_px, 8, 4096);
-  in("tolerance", tolerance, 0, 10);
+  const BoundsCheck in("visibility");
+  in.require("depth_map_size", depth_map_size_px, 8, 4096);
+  in.require("tolerance", tolerance, 0, 10);
 }
 
 std::vector<std::vector<ModelPoint>> visible_edges(const EdgeModel& model,

@@ -1,11 +1,16 @@
 #include "host/register/d2co_options.h"
 
-#include "host/core/option_bounds.h"
 #include "kernels/error.h"
 
 namespace edgescout {
 
-std::string to_string(Solver solver) { return solver == Solver::Ceres ? "ceres" : "batched"; }
+namespace {
+
+constexpr const char* SOLVERS[] = {"batched", "ceres"};  // in the order of Solver
+
+}  // namespace
+
+std::string to_string(Solver solver) { return SOLVERS[int(solver)]; }
 
 Solver solver_from_name(const std::string& name) {
   for (const Solver solver : {Solver::Batched, Solver::Ceres})
@@ -13,19 +18,26 @@ Solver solver_from_name(const std::string& name) {
   throw InputError("options", "register.solver", "\"" + name + "\"", "batched or ceres");
 }
 
+void describe_solver(D2coOptions& o, OptionVisitor& visit) {
+  visit.choice({"solver",
+                "Solver of the registration. batched: all poses side by side, on the device; "
+                "ceres: one pose after the other by Ceres, on the host"},
+               o.solver, SOLVERS);
+}
+
 void D2coOptions::validate() const {
-  const OptionBounds in("register");
+  const BoundsCheck in("register");
   if (rounds.empty()) throw InputError("options", "register.rounds", "none", "at least one round");
   for (const D2coRound& round : rounds) {
     if (round.loss != LOSS_HUBER && round.loss != LOSS_GEMAN_MCCLURE)
       throw InputError("options", "register.loss", std::to_string(round.loss),
                        "Huber's or Geman and McClure's");
-    in("scale", round.scale_px, 1e-3, 1000);
-    in("iterations", round.iterations, 1, 1000);
-    in("max_points", round.max_points, 0, 1e6);
+    in.require("scale", round.scale_px, 1e-3, 1000);
+    in.require("iterations", round.iterations, 1, 1000);
+    in.require("max_points", round.max_points, 0, 1e6);
   }
-  in("min_step_m", min_step_m, 0, 1e9);
-  in("min_step_rad", min_step_rad, 0, 1e9);
+  in.require("min_step_m", min_step_m, 0, 1e9);
+  in.require("min_step_rad", min_step_rad, 0, 1e9);
   visibility.validate();
 }
 

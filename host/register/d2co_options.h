@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "host/core/options.h"
 #include "host/model/visible_edges.h"
 #include "kernels/pose_normal_equations.h"
 
@@ -38,5 +39,8 @@ struct D2coOptions {
   static std::vector<D2coRound> default_rounds();  // in schedules.cpp
   void validate() const;  // InputError naming the field and the violated bound
 };
+
+// Of the options of a registration only the solver is the user's.
+void describe_solver(D2coOptions& options, OptionVisitor& visit);
 
 }  // namespace edgescout

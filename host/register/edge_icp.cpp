@@ -4,7 +4,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "host/core/option_bounds.h"
+#include "host/core/options.h"
 #include "host/core/thinned.h"
 #include "host/register/d2co.h"
 #include "host/register/edge_covariance.h"
@@ -164,19 +164,19 @@ void edge_icp_of_one(PoseEstimate& estimate, std::span<const ObjectView> views,
 }  // namespace
 
 void EdgeIcpOptions::validate() const {
-  const OptionBounds in("polish");
-  if (rounds.empty()) throw InputError("options", "polish.rounds", "none", "at least one");
+  const BoundsCheck in("edge_icp");
+  if (rounds.empty()) throw InputError("options", "edge_icp.rounds", "none", "at least one");
   for (const EdgeIcpRound& round : rounds) {
-    in("radius", round.radius_px, 0.01, EdgeIndex::CELL_PX);
-    in("scale", round.scale_px, 1e-3, 1000);
-    in("iterations", round.iterations, 1, 1000);
+    in.require("radius", round.radius_px, 0.01, EdgeIndex::CELL_PX);
+    in.require("scale", round.scale_px, 1e-3, 1000);
+    in.require("iterations", round.iterations, 1, 1000);
   }
   visibility.validate();
-  in("max_turn", max_turn_rad, 0, 3.15);
-  in("min_matched", min_matched, 0, 1);
-  in("max_points", max_points, 0, 1e6);
-  in("min_step_m", min_step_m, 0, 1e9);
-  in("min_step_rad", min_step_rad, 0, 1e9);
+  in.require("max_turn", max_turn_rad, 0, 3.15);
+  in.require("min_matched", min_matched, 0, 1);
+  in.require("max_points", max_points, 0, 1e6);
+  in.require("min_step_m", min_step_m, 0, 1e9);
+  in.require("min_step_rad", min_step_rad, 0, 1e9);
 }
 
 void edge_icp(const Scene& scene, std::span<PoseEstimate> poses, const EdgeIcpOptions& options) {

@@ -143,18 +143,28 @@ std::vector<PoseEstimate> refine_batch(const Scene& scene, std::span<const Objec
 
 }  // namespace
 
+void describe(RefineOptions& o, OptionVisitor& visit) {
+  visit.group("Registration");
+  visit.number({"search-rotation",
+                "Angle by which turned copies of each start are rotated, about 14 axes, rad. 0: "
+                "only the given start"},
+               o.search.rotation_rad, 0.0, 1.0);
+  visit.number({"search-kept",
+                "Number of the best starts of each pose, the given and the turned ones, that are "
+                "registered in full"},
+               o.search.num_kept, 1, 15);
+  describe_solver(o.d2co, visit);
+  visit.flag({"edge-icp", "Refine the registered poses on sub-pixel edge points (default)"},
+             o.use_edge_icp);
+}
+
 void RefineOptions::validate() const {
+  check_bounds(*this, "register");
   search.coarse.validate();
   d2co.validate();
   edge_icp.validate();
-  if (!(search.rotation_rad >= 0 && search.rotation_rad <= 1))
-    throw InputError("options", "register.search_rotation", std::to_string(search.rotation_rad),
-                     "an angle in [0, 1] rad");
   if (batch_size < 1)
     throw InputError("options", "register.batch_size", std::to_string(batch_size), "at least 1");
-  if (search.num_kept < 1 || search.num_kept > 15)
-    throw InputError("options", "register.num_kept", std::to_string(search.num_kept),
-                     "a number in [1, 15]");
 }
 
 std::vector<PoseEstimate> refine_poses(const Scene& scene, std::span<const ObjectPose> starts,

@@ -41,6 +41,8 @@ struct RefineOptions {
   void validate() const;  // InputError naming the field and the violated bound
 };
 
+void describe(RefineOptions& options, OptionVisitor& visit);
+
 // In the order of the starts, with features. The first view's camera frame turns the starts of the
 // search. InputError: options out of bounds; LogicError: no view.
 std::vector<PoseEstimate> refine_poses(const Scene& scene, std::span<const ObjectPose> starts,

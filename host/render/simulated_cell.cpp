@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "host/core/option_bounds.h"
+#include "host/core/options.h"
 #include "host/core/random.h"
 #include "host/render/renderer.h"
 #include "kernels/error.h"
@@ -24,9 +24,9 @@ Se3 reached_pose(const Se3& camera_from_world, const ArmNoise& noise, Random ran
 }  // namespace
 
 void ArmNoise::validate() const {
-  const OptionBounds in("arm_noise");
-  in("translation_m", translation_m, 0, 1);
-  in("rotation_rad", rotation_rad, 0, 1);
+  const BoundsCheck in("arm_noise");
+  in.require("translation_m", translation_m, 0, 1);
+  in.require("rotation_rad", rotation_rad, 0, 1);
 }
 
 SimulatedCell::SimulatedCell(SimulatedScene scene, const Camera& camera,

@@ -196,12 +196,12 @@ TEST(SampleCombinations, NeedsACandidate) {
       [] {
         sample_combinations(std::vector<double>{1}, all_compatible(1), {0, 1, 1});
       },
-      {"combinations.count"});
+      {"scout.combinations"});
   expect_input_error(
       [] {
         sample_combinations(std::vector<double>{1}, all_compatible(1), {1, 1, -1});
       },
-      {"combinations.sharpness"});
+      {"scout.sharpness"});
 }
 
 // Probabilities of all eight combinations of three candidates, multiplied out: 0.9 or 0.1, 0.3 or

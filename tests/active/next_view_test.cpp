@@ -348,7 +348,7 @@ TEST(NextViewOptions, AllowsNoMotionCostWhereInformationIsNotInNats) {
   options.motion_cost_per_rad = 1;
   EXPECT_NO_THROW(options.validate());
   options.strategy = Strategy::Disocclusion;
-  expect_input_error([&] { options.validate(); }, {"next_view.motion_cost_per_rad"});
+  expect_input_error([&] { options.validate(); }, {"next_view.radian_cost"});
 }
 
 TEST(ViewInformation, CountsMotionAndSkipsUnreachableViews) {

@@ -292,7 +292,7 @@ TEST(ParticleOptions, NamesWhatIsOutOfBounds) {
       options.validate();
     };
   };
-  expect_input_error(with([](ParticleOptions& o) { o.count = 0; }), {"particles.count"});
+  expect_input_error(with([](ParticleOptions& o) { o.count = 0; }), {"scout.particles"});
   expect_input_error(with([](ParticleOptions& o) { o.sigma_px = 0; }), {"particles.sigma"});
   expect_input_error(with([](ParticleOptions& o) {
                        o.drawn = {0.2, 0.1};

@@ -232,8 +232,8 @@ TEST(Scout, RefusesWhatItCannotUse) {
                  [](ScoutOptions& o) { o.next_view.visibility.tolerance = NAN; });
   expect_refused("visibility.tolerance",
                  [](ScoutOptions& o) { o.particles.d2co.visibility.tolerance = -1; });
-  expect_refused("polish.rounds", [](ScoutOptions& o) { o.particles.edge_icp.rounds.clear(); });
-  expect_refused("polish.radius", [](ScoutOptions& o) {
+  expect_refused("edge_icp.rounds", [](ScoutOptions& o) { o.particles.edge_icp.rounds.clear(); });
+  expect_refused("edge_icp.radius", [](ScoutOptions& o) {
     o.pipeline.detect.refine.edge_icp.rounds[0].radius_px = 8.5f;
   });
   expect_refused("edge_claims.match",
@@ -246,17 +246,17 @@ TEST(Scout, RefusesWhatItCannotUse) {
                  [](ScoutOptions& o) { o.extrinsics.max_residual_px = NAN; });
   expect_refused("detections.min_probability",
                  [](ScoutOptions& o) { o.detections.min_probability = -1; });
-  expect_refused("min_information_nats", [](ScoutOptions& o) {
+  expect_refused("min_information", [](ScoutOptions& o) {
     o.next_view.use_paper_formula = true;
     o.min_information_nats = 0.1;
   });
-  expect_refused("motion_cost_per_m", [](ScoutOptions& o) {
+  expect_refused("metre_cost", [](ScoutOptions& o) {
     o.next_view.use_paper_formula = true;
     o.next_view.motion_cost_per_m = 0.1;
   });
   options = t.options();
   options.particles.count = 16385;
-  expect_input_error([&] { t.scout(options); }, {"particles.count", "16385"});
+  expect_input_error([&] { t.scout(options); }, {"scout.particles", "16385"});
   t.views.push_back(t.views[2]);
   expect_input_error([&] { t.scout(); }, {"scout: views"});
   expect_input_error([&] { Scout({}, t.camera(), {Se3{}}, {}, *t.backend); }, {"no object"});

@@ -59,10 +59,10 @@ TEST(Strategies, HaveNames) {
   expect_input_error([] { strategy_from("best"); }, {"next_view.strategy", "best", "mi-max"});
   NextViewOptions options;
   options.cap_px = 100;
-  expect_input_error([&] { options.validate(); }, {"next_view.cap"});
+  expect_input_error([&] { options.validate(); }, {"next_view.chamfer_cap"});
   options = {};
   options.reduction = 0.5;
-  expect_input_error([&] { options.validate(); }, {"next_view.reduction"});
+  expect_input_error([&] { options.validate(); }, {"next_view.map_reduction"});
   options = {};
   options.sigma_px = 0.2;  // sharper than float tells apart at this cap
   expect_input_error([&] { options.validate(); }, {"next_view.sigma"});

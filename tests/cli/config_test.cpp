@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "host/cli/help.h"
+#include "host/cli/option_table.h"
+#include "host/cli/renamed_options.h"
 #include "kernels/error.h"
 #include "tests/io/temporary_folder.h"
 
@@ -178,6 +183,116 @@ TEST(YamlConfig, WritesWhatItReads) {
   EXPECT_EQ(again.first.bins, 60) << yaml;
   EXPECT_EQ(again.app.config_to_str(true), yaml);
   EXPECT_EQ(program.app.config_to_str(false).find("bins"), std::string::npos);
+}
+
+enum class Mode { One, Two };
+struct Described {
+  double lambda = 100;
+  bool on = true, off = false, inverse = true;
+  Mode mode = Mode::One;
+};
+constexpr const char* MODES[] = {"one", "two"};
+
+void describe(Described& o, OptionVisitor& visit) {
+  visit.group("Test");
+  visit.number({"the-lambda", "weight"}, o.lambda, 0.5, 1000.0);
+  visit.flag({"on", "on at first"}, o.on);
+  visit.flag({"off", "off at first"}, o.off);
+  visit.off_flag({"not-inverse", "switches off"}, o.inverse);
+  visit.choice({"mode", "mode", OptionLevel::Basic}, o.mode, MODES);
+}
+
+struct DescribedProgram {
+  CLI::App app{"test"};
+  CLI::App* verb = nullptr;
+  Described options;
+
+  DescribedProgram() {
+    app.fallthrough();
+    add_help(app);
+    add_yaml_config(app);
+    verb = app.add_subcommand("verb");
+    CommandLineOptions add(*verb);
+    describe(options, add);
+  }
+};
+
+TEST(CommandLineOptions, FillTheDescribedFields) {
+  DescribedProgram p;
+  p.app.parse("verb --the-lambda 6 --no-on --off --not-inverse --mode two");
+  EXPECT_EQ(p.options.lambda, 6);
+  EXPECT_FALSE(p.options.on);
+  EXPECT_TRUE(p.options.off);
+  EXPECT_FALSE(p.options.inverse);
+  EXPECT_EQ(p.options.mode, Mode::Two);
+  const std::vector<std::pair<std::string, std::string>> expected{
+      {"verb", "verb"}, {"the-lambda", "6"},     {"on", "false"},
+      {"off", "true"},  {"not-inverse", "true"}, {"mode", "two"}};
+  EXPECT_EQ(settings_of(*p.verb, {"Test"}), expected);
+}
+
+TEST(CommandLineOptions, TakeTheSameNamesFromYaml) {
+  const TemporaryFolder folder;
+  DescribedProgram p;
+  p.app.parse("verb --config " +
+              folder.write("c.yaml", "on: false\nnot-inverse: true\nmode: two\n").string());
+  EXPECT_FALSE(p.options.on);
+  EXPECT_FALSE(p.options.inverse);
+  EXPECT_EQ(p.options.mode, Mode::Two);
+  DescribedProgram off;
+  off.app.parse("verb --config " + folder.write("d.yaml", "not-inverse: false\n").string());
+  EXPECT_TRUE(off.options.inverse);
+}
+
+TEST(CommandLineOptions, KeepDefaultsAndNameBounds) {
+  DescribedProgram p;
+  p.app.parse("verb");
+  EXPECT_EQ(p.options.lambda, 100);
+  EXPECT_TRUE(p.options.inverse);
+  EXPECT_EQ(p.options.mode, Mode::One);
+  const auto error_of = [](const std::string& line) -> std::string {
+    try {
+      DescribedProgram().app.parse(line);
+    } catch (const CLI::ParseError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(error_of("verb --the-lambda 0.4"), "--the-lambda: found 0.4, expected 0.5 to 1000");
+  EXPECT_EQ(error_of("verb --mode three"), "--mode: found three, expected one of one, two");
+}
+
+TEST(BoundsCheck, NamesTheOptionWithUnderscores) {
+  Described options;
+  EXPECT_NO_THROW(check_bounds(options, "test"));
+  options.lambda = std::nan("");
+  try {
+    check_bounds(options, "test");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find("options: test.the_lambda: found nan, expected 0.5"),
+              0u)
+        << error.what();
+  }
+}
+
+TEST(Help, ShowsExpertOptionsOnlyWhenAllAreAskedFor) {
+  const DescribedProgram p;
+  const std::string basic = p.verb->help(), all = p.verb->help("", CLI::AppFormatMode::All);
+  EXPECT_NE(basic.find("--mode"), std::string::npos) << basic;
+  EXPECT_EQ(basic.find("--the-lambda"), std::string::npos) << basic;
+  EXPECT_TRUE(basic.ends_with("--help-all shows 4 more options\n")) << basic;
+  for (const char* name : {"--mode", "--the-lambda", "--not-inverse", "--on,--no-on"})
+    EXPECT_NE(all.find(name), std::string::npos) << name << " not in " << all;
+}
+
+TEST(RenamedOptions, AreReplacedOnTheCommandLine) {
+  const std::vector<std::string> given{"detect", "--aligned=5", "--helping-views",
+                                       "3",      "--",          "--aligned"},
+      expected{"detect", "--coarse-poses=5", "--support-views", "3", "--", "--aligned"};
+  EXPECT_EQ(with_present_names(given), expected);
+  EXPECT_EQ(with_present_names({"bench", "experiments", "--literal"}).back(), "--paper-formula");
+  EXPECT_THROW(with_present_names({"scout", "cell", "--literal"}), InputError);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ void expect_sound(const ImageResult& result, const fs::path& image) {
     EXPECT_GE(stage.seconds, 0) << stage.name;
   }
   EXPECT_EQ(stages, (std::vector<std::string>{"decode", "undistort", "edges", "tensors",
-                                              "candidates", "settle"}));
+                                              "candidates", "selection"}));
   ASSERT_FALSE(result.detections.empty());
   for (std::size_t i = 0; i < result.detections.size(); ++i) {
     const Detection& d = result.detections[i];
@@ -59,9 +59,8 @@ TEST(Detect, FindsThePartInOneImage) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("1 images: 1 done, 0 skipped, 0 failed"), std::string::npos)
       << outcome.out;
-  EXPECT_NE(
-      outcome.err.find("object 1 (obj_000001): diameter 74.9 mm, looked for 0.270 to 0.330 m"),
-      std::string::npos)
+  EXPECT_NE(outcome.err.find("object 1 (obj_000001): diameter 74.9 mm, searched 0.270 to 0.330 m"),
+            std::string::npos)
       << outcome.err;
   const ImageResult result = load_image_result(t.out / "000000.json");
   expect_sound(result, t.image());
@@ -165,12 +164,12 @@ TEST(Detect, ATemplateFileAndAConfigurationSayTheSame) {
                 .exit_code,
             0);
   expect_same(t.detect(t.scene, {"--templates", set}));
-  const std::string config =
-      t.folder.write("detect.yaml",
-                     "device: cpu\ndetect:\n  unit: mm\n  viewpoints: 3\n  in-plane-steps: 12\n  "
-                     "distance-min: 0.27\n  distance-max: 0.33\n  aligned: 600\n  min-probability: "
-                     "0.1\n  model: [" +
-                         part_file(1) + "]\n");
+  const std::string config = t.folder.write(
+      "detect.yaml",
+      "device: cpu\ndetect:\n  unit: mm\n  viewpoints: 3\n  in-plane-steps: 12\n  "
+      "distance-min: 0.27\n  distance-max: 0.33\n  coarse-poses: 600\n  min-probability: "
+      "0.1\n  model: [" +
+          part_file(1) + "]\n");
   expect_same({"detect", t.scene, "--out", t.out, "--config", config});
 }
 

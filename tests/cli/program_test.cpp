@@ -43,31 +43,118 @@ std::vector<std::string> descriptions(const std::string& help) {
   return texts;
 }
 
+const std::vector<std::vector<std::string>>& all_verbs() {
+  static const std::vector<std::vector<std::string>> verbs{{"bench", "devices"},
+                                                           {"bench", "experiments"},
+                                                           {"detect"},
+                                                           {"devices"},
+                                                           {"eval"},
+                                                           {"model", "build"},
+                                                           {"model", "draw"},
+                                                           {"model", "inspect"},
+                                                           {"register"},
+                                                           {"render"},
+                                                           {"scout"}};
+  return verbs;
+}
+
+std::string help_of(std::vector<std::string> verb, const char* which) {
+  verb.push_back(which);
+  const Outcome outcome = run_program(verb);
+  EXPECT_EQ(outcome.exit_code, 0) << verb.front() << ": " << outcome.err;
+  return outcome.out;
+}
+
 // A reader comes to one option, not to the one above it.
 TEST(Program, ExplainsEveryOptionByItself) {
-  for (const std::vector<std::string>& verb :
-       std::vector<std::vector<std::string>>{{"detect"},
-                                             {"eval"},
-                                             {"model", "build"},
-                                             {"model", "draw"},
-                                             {"register"},
-                                             {"render"},
-                                             {"scout"}}) {
-    std::vector<std::string> arguments = verb;
-    arguments.push_back("--help");
-    const std::vector<std::string> texts = descriptions(run_program(arguments).out);
-    EXPECT_GE(texts.size(), 8u) << verb.back();
-    for (const std::string& text : texts) {
-      for (const char* fragment :
-           {"Of ", "And ", "On it", "As ", "By which", "The same", "px", "m;"})
+  for (const std::vector<std::string>& verb : all_verbs())
+    for (const std::string& text : descriptions(help_of(verb, "--help-all"))) {
+      for (const char* fragment : {"Of ", "And ", "On it", "As ", "By which", "The same", "m;"})
         EXPECT_FALSE(text.starts_with(fragment)) << verb.back() << ": " << text;
       EXPECT_TRUE(text != "m" && text != "degrees") << verb.back();
     }
+}
+
+// The lines of options: "  --name ...". A long name has its text in the next line.
+TEST(Program, ExplainsEveryOption) {
+  for (const std::vector<std::string>& verb : all_verbs()) {
+    std::istringstream help(help_of(verb, "--help-all"));
+    std::string line;
+    while (std::getline(help, line)) {
+      if (!line.starts_with("  -")) continue;
+      const std::size_t text = line.find("  ", 4);
+      const bool here =
+          text != std::string::npos && line.find_first_not_of(' ', text) != std::string::npos;
+      if (here || (line.size() > 30 && line[29] == ' ')) continue;
+      std::string next;
+      std::getline(help, next);
+      EXPECT_TRUE(next.starts_with(std::string(30, ' '))) << verb.back() << ": " << line;
+    }
   }
-  const std::string scout = run_program({"scout", "--help"}).out;
-  for (const char* words :
-       {"asked between images only", "what is expected of the unknown (--unknown) does not"})
-    EXPECT_NE(scout.find(words), std::string::npos) << words;
+}
+
+TEST(Program, ListsExpertOptionsOnlyInHelpAll) {
+  const auto expect_expert = [](const std::vector<std::string>& verb, const std::string& option) {
+    const std::string basic = help_of(verb, "--help"), all = help_of(verb, "--help-all");
+    EXPECT_EQ(basic.find(option), std::string::npos) << option << " in " << basic;
+    EXPECT_NE(all.find(option), std::string::npos) << option << " not in " << all;
+    EXPECT_NE(basic.find("--help-all shows "), std::string::npos) << basic;
+    EXPECT_EQ(all.find("--help-all shows "), std::string::npos) << all;
+  };
+  expect_expert({"detect"}, "--coarse-poses");
+  expect_expert({"register"}, "--solver");
+  expect_expert({"scout"}, "--particles");
+  expect_expert({"bench", "experiments"}, "--paper-formula");
+  expect_expert({"model", "build"}, "--crease-angle");
+  const std::string detect = help_of({"detect"}, "--help"), scout = help_of({"scout"}, "--help");
+  for (const char* option :
+       {"--model", "--unit", "--camera", "--out", "--device", "--joint", "--distance-min",
+        "--region-x", "--min-probability", "--resume", "--max-detections", "--no-overlays"})
+    EXPECT_NE(detect.find(option), std::string::npos) << option << " not in " << detect;
+  for (const char* option : {"--max-views", "--strategy", "--max-seconds", "--resume"})
+    EXPECT_NE(scout.find(option), std::string::npos) << option << " not in " << scout;
+  for (const char* option : {"--paper-formula", "--sharpness", "--search-alone"})
+    EXPECT_EQ(help_of({"scout"}, "--help-all").find(option), std::string::npos) << option;
+}
+
+TEST(Program, WarnsOfRenamedOptions) {
+  const TemporaryFolder folder;
+  // The file of models is missing: the run ends after its options are read.
+  const std::vector<std::string> detect{"detect",  folder.path(), "--out",  folder.path() / "out",
+                                        "--model", "none.ply",    "--unit", "mm"};
+  const auto expect_warned = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = detect;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const std::string err = run_program(arguments).err;
+    EXPECT_NE(err.find("warning: --aligned is now --coarse-poses"), std::string::npos) << err;
+    // The bound is that of the new option.
+    EXPECT_NE(err.find("--coarse-poses: found 0, expected 1 to 1000000"), std::string::npos) << err;
+  };
+  expect_warned({"--aligned", "0"});
+  expect_warned({"--aligned=0"});
+  expect_warned({"--config", folder.write("a.yaml", "aligned: 0\n")});
+  expect_warned({"--config", folder.write("b.yaml", "detect: {aligned: 0}\n")});
+  for (const std::vector<std::string>& verb : all_verbs())
+    EXPECT_EQ(help_of(verb, "--help-all").find("--aligned"), std::string::npos) << verb.back();
+}
+
+TEST(Program, SendsAblationsToTheExperiments) {
+  const TemporaryFolder folder;
+  for (const char* verb : {"scout", "detect"}) {
+    expect_bad_request({verb, "cell", "--literal"},
+                       {"--literal is now --paper-formula of edgescout bench experiments"});
+    expect_bad_request({verb, "cell", "--free-sight=1"}, {"--free-sight is now"});
+    expect_bad_request({verb, "cell", "--sharpness", "2"},
+                       {"--sharpness is an option of edgescout bench experiments"});
+  }
+  expect_bad_request({"scout", "cell", "--out", folder.path() / "out", "--config",
+                      folder.write("a.yaml", "literal: true\n")},
+                     {"a.yaml", "--literal is now --paper-formula of edgescout bench"});
+  const Outcome bench = run_program(
+      {"bench", "experiments", "--out", folder.path() / "out", "--literal", "--sharpness", "501"});
+  EXPECT_EQ(bench.exit_code, 2);
+  EXPECT_NE(bench.err.find("--literal is now --paper-formula"), std::string::npos) << bench.err;
+  EXPECT_NE(bench.err.find("--sharpness: found 501, expected 0 to 500"), std::string::npos);
 }
 
 TEST(Program, RejectsACommandLineItDoesNotUnderstand) {

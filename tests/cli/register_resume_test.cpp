@@ -114,7 +114,7 @@ TEST(Register, RefusesResultsMadeWithOtherSettingsWhenResumed) {
   expect_refused(t.call("a", start, {"--resume", "--lambda", "50"}),
                  {"000000.json: lambda: found 30, expected 50"});
   expect_refused(t.call("a", start, {"--resume", "--no-edge-icp"}),
-                 {"no-edge-icp: found false, expected true"});
+                 {"edge-icp: found true, expected false"});
   expect_refused(t.call("a", other, {"--resume"}), {"starts: found 1, checksum"});
   std::vector<std::string> fewer_models = t.call("a", start, {"--resume"});
   fewer_models.erase(std::ranges::find(fewer_models, part_file(start.object_id == 6 ? 5 : 6)));

@@ -48,6 +48,16 @@ TEST(Scout, DoesNotGoOnInAnotherCell) {
   EXPECT_EQ(t.log().at("steps").size(), 4u);
 }
 
+TEST(Scout, DoesNotGoOnFromALogOfTheFormerVersion) {
+  const SmallScout t;
+  ASSERT_EQ(run_program(t.arguments()).exit_code, 0);
+  nlohmann::json log = t.log();
+  EXPECT_EQ(log.at("edgescout_scout"), 2);
+  log["edgescout_scout"] = 1;
+  std::ofstream(t.out / "scout.json") << log.dump();
+  expect_refused(t.arguments({"--resume"}), {"scout.json", "found version 1, expected 2"});
+}
+
 // Nor with what was built to look for another way: what was not found then might be now.
 TEST(Scout, DoesNotGoOnWithOtherTemplates) {
   const TemporaryFolder folder;

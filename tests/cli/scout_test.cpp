@@ -268,15 +268,9 @@ TEST(Scout, RefusesWhatItCannotUse) {
           {"--min-information", "--strategy dis"});
   refused(t.arguments({"--strategy", "random", "--metre-cost", "0.1"}),
           {"--metre-cost", "--strategy random"});
-  refused(t.arguments({"--sharpness", "2"}), {"--sharpness", "--scenes-by-psi"});
-  refused(t.arguments({"--literal", "--free-sight", "1"}), {"--free-sight", "--literal"});
-  refused(t.arguments({"--literal", "--seen", "0"}), {"--seen", "--literal"});
-  refused(t.arguments({"--literal", "--min-information", "0.1"}),
-          {"--min-information", "--literal"});
-  refused(t.arguments({"--literal", "--metre-cost", "0.1"}), {"--metre-cost", "--literal"});
   refused(t.arguments({"--elevations", "120"}), {"elevation"});
   refused(t.arguments({"--arm-shift", "nan"}), {"--arm-shift", "nan"});
-  refused(t.arguments({"--sharpness", "501"}), {"--sharpness", "501", "0 to 500"});
+  refused(t.arguments({"--metre-cost", "-1"}), {"--metre-cost", "-1", "0 to 1e+06"});
   refused({"scout", "cell", "--out", t.out, "--view-count", "10001"},
           {"--view-count", "10001", "1 to 10000"});
   refused(t.arguments({"--max-detections", "1"}), {"--max-detections"});

@@ -48,7 +48,7 @@ struct PosesInViews {
 };
 
 // One of the parts looks the same after a half turn; its set has viewpoints on one side only.
-TEST(TemplatePoints, AreTheVisibleOnes) {
+TEST(TemplatePoints, AreThoseThatShow) {
   Random random = test_random();
   bool symmetric = false;
   for (const char* part : {"l_bracket", "bearing_block", "u_channel"}) {

@@ -75,7 +75,7 @@ TEST(DevicesReport, AsMarkdownHasARowAStageADeviceAndAKernel) {
         "| image to poses | 500.0 (400.0 to 800.0) | 1.00 | 50.0 (40.0 to 100.0) | 0.10 |",
         "| cpu |  | 2.00 | 300 | 0 |  |", "| vulkan:0 card | driver 1 | 20.00 | 0 | 64 | 2.0 |",
         "| dcd_tensor | 64x48 | 5.000 | 4.000 | 2.000 | 2.0 |", "**Warning:** something is odd",
-        "Options: aligned 600, lambda 30, on ",
+        "Options: coarse-poses 600, lambda 30, on ",
         "97 % of the processors to be had before, 50 % at the end."})
     EXPECT_NE(text.find(row), std::string::npos) << row << " not in\n" << text;
 }
