@@ -212,7 +212,7 @@ TEST(Scout, RefusesWhatItCannotUse) {
   expect_input_error([&] { t.scout(options); }, {"first_view", "8 views"});
   options = t.options();
   options.min_entropy_nats = NAN;
-  expect_input_error([&] { t.scout(options); }, {"min_entropy_nats"});
+  expect_input_error([&] { t.scout(options); }, {"min_entropy"});
   for (const int view : {-1, 8}) {
     options = t.options();
     options.next_view.sequence = {0, view, 3};
