@@ -59,10 +59,24 @@ class Page {
       html += first_image() + "<section><h2>Found</h2>" + found_table() + "<div class=row>" +
               final_overlays() + "</div></section>";
     for (std::size_t i = 0; i < state_.steps.size(); ++i) html += failures_after(i) + step(i);
-    return html + failures_after(state_.steps.size());
+    return html + failures_after(state_.steps.size()) + legend();
   }
 
  private:
+  static std::string legend() {
+    return "<section class=legend><h2>Legend</h2><dl>"
+           "<dt>green, orange<dd>Edges of the model that have an edge of the image near, or none."
+           "<dt>red, green, blue axes<dd>x, y, z of the CAD frame, drawn at the centre of its box."
+           "<dt>edges<dd>Share of the visible model edges that have an edge of the image near."
+           "<dt>σ place, σ direction<dd>Standard deviation of the pose, mean over the axes."
+           "<dt>none alone<dd>No single image supports the object; all images together do."
+           "<dt>combination<dd>A scene that may be there: a choice of candidates. The pictures "
+           "show "
+           "the likeliest and the unlikeliest of those that were sampled for the decision."
+           "<dt>entropy<dd>How undecided the belief is, nats; 0: every object is certain."
+           "</dl></section>";
+  }
+
   std::string header() const {
     const std::vector<ScoutStep>& steps = state_.steps;
     std::string html = fmt::format(

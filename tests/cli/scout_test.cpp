@@ -68,8 +68,10 @@ TEST(Scout, FindsThePartAndShowsHow) {
   EXPECT_EQ(count_of(page, "particles before"), 3u);
   EXPECT_EQ(count_of(page, "nats gained"), 3u);
   EXPECT_EQ(count_of(page, "objects after this image"), 3u);
-  EXPECT_EQ(count_of(page, "Likeliest scene"), 2u);
-  EXPECT_EQ(count_of(page, "nlikeliest"), 2u);
+  EXPECT_EQ(count_of(page, "Likeliest combination"), 2u);
+  EXPECT_EQ(count_of(page, "Unlikeliest combination"), 2u);
+  for (const char* word : {"green, orange", "none alone", "combination", "CAD frame"})
+    EXPECT_NE(page.find(word, page.find("<h2>Legend")), std::string::npos) << word;
   EXPECT_EQ(page.find("http-equiv=refresh"), std::string::npos) << "it is finished";
 }
 
