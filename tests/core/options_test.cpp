@@ -1,0 +1,60 @@
+// Bounds of options: inclusive, and an error that names the field and both bounds.
+#include "host/core/options.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "kernels/error.h"
+
+namespace edgescout {
+namespace {
+
+enum class Colour { Red, Green };
+
+struct Options {
+  int count = 3;
+  double angle_rad = 0.5;
+  float scale_px = 1;
+  Colour colour = Colour::Red;
+};
+
+void describe(Options& o, OptionVisitor& visit) {
+  static constexpr std::array names{"red", "green"};
+  visit.number({"max-count", "Count."}, o.count, 1, 5);
+  visit.number({"angle", "Angle, rad."}, o.angle_rad, 0.0, 1.0);
+  visit.number({"scale", "Scale, px."}, o.scale_px, 0.5f, 2.0f);
+  visit.choice({"colour", "Colour."}, o.colour, names);
+}
+
+std::string message_of(const Options& options) {
+  try {
+    check_bounds(options, "group");
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(CheckBounds, TakesBothBounds) {
+  EXPECT_EQ(message_of({}), "");
+  EXPECT_EQ(message_of({1, 0, 0.5f, Colour::Red}), "");
+  EXPECT_EQ(message_of({5, 1, 2, Colour::Green}), "");
+}
+
+TEST(CheckBounds, NamesTheFieldTheValueAndTheBounds) {
+  const std::string message = message_of({6, 0.5, 1, Colour::Red});
+  for (const char* part : {"group.max_count", "6.0", "1.0", "to 5.0"})
+    EXPECT_NE(message.find(part), std::string::npos) << part << " not in " << message;
+}
+
+TEST(CheckBounds, RefusesEachKindOfFieldAndNaN) {
+  EXPECT_NE(message_of({0, 0.5, 1, Colour::Red}).find("max_count"), std::string::npos);
+  EXPECT_NE(message_of({3, NAN, 1, Colour::Red}).find("angle"), std::string::npos);
+  EXPECT_NE(message_of({3, 0.5, 2.1f, Colour::Red}).find("scale"), std::string::npos);
+  EXPECT_NE(message_of({3, 0.5, 1, Colour(2)}).find("colour"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace edgescout
