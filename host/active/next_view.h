@@ -68,6 +68,9 @@ struct NextViewOptions {
   std::uint64_t seed = 1;                   // of Strategy::Random
   void validate() const;                    // InputError naming the field and the violated bound
 };
+// Whether views are valued in nats: by information, and not by the paper's own formula. Only then
+// do shares, exploration bonus and motion costs apply.
+bool is_in_nats(const NextViewOptions& options);
 
 // How the next view is chosen, for the verb that moves a camera.
 void describe_strategy(NextViewOptions& options, OptionVisitor& visit);
