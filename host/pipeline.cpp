@@ -1,5 +1,6 @@
 #include "host/pipeline.h"
 
+#include "host/detect/detect.h"
 #include "host/detect/joint.h"
 #include "host/detect/support_views.h"
 #include "host/io/image.h"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "host/core/stopwatch.h"
-#include "host/detect/detect.h"
+#include "host/detect/detect_options.h"
 #include "host/detect/tensors.h"
 #include "host/edge/edges.h"
 #include "host/model/template_set.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/core/order.h"
+#include "host/detect/detect.h"
 #include "host/detect/rescore_in_views.h"
 #include "host/detect/suppression.h"
 #include "host/register/pose_classifier.h"

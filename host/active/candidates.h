@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host/active/particles.h"
-#include "host/detect/detect.h"
+#include "host/detect/detect_options.h"
 #include "host/detect/scanned_view.h"
 
 namespace edgescout {

@@ -6,6 +6,7 @@
 
 #include "host/core/log.h"
 #include "host/core/stopwatch.h"
+#include "host/detect/detect.h"
 #include "host/io/image.h"
 #include "host/register/pose_classifier.h"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "host/detect/detect.h"
 #include "host/register/pose_classifier.h"
 
 namespace edgescout {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "host/detect/detect.h"
+#include "host/detect/detect_options.h"
 
 namespace edgescout {
 

@@ -9,14 +9,12 @@
 #include "host/io/bop.h"
 #include "host/io/mesh.h"
 #include "tests/cli/program.h"
+#include "tests/examples.h"
 
 namespace edgescout::test {
 
 namespace fs = std::filesystem;
 
-inline fs::path examples() {
-  return (fs::path(__FILE__).parent_path() / "../../docs/examples").lexically_normal();
-}
 inline fs::path one_view() { return examples() / "scenes/000000"; }
 inline fs::path two_views() { return examples() / "scenes/000001"; }
 inline std::string part_file(int id) {

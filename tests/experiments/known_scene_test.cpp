@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "tests/examples.h"
 #include "tests/io/expect_input_error.h"
 #include "tests/io/temporary_folder.h"
 
@@ -13,10 +14,6 @@ namespace edgescout::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-fs::path examples() {
-  return (fs::path(__FILE__).parent_path() / "../../docs/examples").lexically_normal();
-}
 
 TEST(BopSceneOfExperiments, HasItsImagesInOneWorld) {
   const KnownScene scene =

@@ -68,7 +68,7 @@ TEST(TemplateSet, OptionsOutOfBoundsAreNamed) {
     change(options);
     expect_input_error([&] { options.validate(); }, {field});
   };
-  refused([](auto& o) { o.frequency = 0; }, "frequency");
+  refused([](auto& o) { o.frequency = 0; }, "viewpoints");
   refused([](auto& o) { o.in_plane_steps = 361; }, "in_plane_steps");
   refused([](auto& o) { o.distance_min_m = std::nan(""); }, "distance_min");
   refused([](auto& o) { o.distance_min_m = 2, o.distance_max_m = 1; }, "distance_max");

@@ -9,13 +9,14 @@
 #include "host/render/parts.h"
 #include "host/render/raster.h"
 #include "kernels/thread_pool.h"
+#include "tests/examples.h"
 
 namespace edgescout {
 namespace {
 
 namespace fs = std::filesystem;
 
-fs::path examples() { return fs::path(__FILE__).parent_path() / "../../docs/examples"; }
+using test::examples;
 
 TEST(Examples, PartsAreThoseOfTheCode) {
   const std::map<int, Symmetries> symmetries =
