@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "host/detect/detect.h"
 #include "kernels/error.h"
 #include "tests/active/small_cell.h"
 
