@@ -68,7 +68,7 @@ every_change() {
   step "release: build and tests" build_and_test release
   step "recall and false poses" scripts/guard.sh
   step "pages of the C++ API" api_pages
-  report "clang-tidy, changed files" env TIDY_SECONDS="${TIDY_SECONDS:-240}" scripts/tidy.sh
+  report "clang-tidy, changed files" env TIDY_SECONDS="${TIDY_SECONDS:-100}" scripts/tidy.sh
   step "address sanitizer: kernels, core, io" checked_parts
   step "kernels alone, without Vulkan" kernels_alone
 }

@@ -104,7 +104,8 @@ void draw(const DrawRequest& request) {
   TemplateSet set;
   const bool holds_templates = is_template_file(request.file);
   if (holds_templates && !request.unit.empty())
-    throw InputError("command line", "--unit", "beside " + request.file, "it with a CAD file");
+    throw InputError("command line", "--unit", "together with " + request.file,
+                     "it with a CAD file");
   if (!holds_templates && request.unit.empty() && std::filesystem::exists(request.file))
     throw InputError(request.file, "--unit", "none",
                      "mm, cm, m or in: no template file, which needs none");

@@ -69,7 +69,7 @@ void refuse_unused_options(const ScoutRequest& request, const CLI::App& verb) {
   const Strategy strategy = request.options.next_view.strategy;
   const auto refuse = [&](const std::string& option, const char* expected) {
     if (verb.count(option) > 0)
-      throw InputError("command line", option, "beside --strategy " + to_string(strategy),
+      throw InputError("command line", option, "together with --strategy " + to_string(strategy),
                        expected);
   };
   if (strategy != Strategy::Fixed) refuse("--sequence", "fixed");

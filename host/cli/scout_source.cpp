@@ -149,9 +149,9 @@ void refuse_unused(const CLI::App& verb) {
     const std::string &name = option->get_name(), &group = option->get_group();
     if (option->count() == 0 || name == "--views") continue;
     if (!is_cell && (group == "Scene" || group == "Image" || group == "Arm" || group == "Views"))
-      throw InputError("command line", name, "beside recorded views", "it with a cell");
+      throw InputError("command line", name, "together with recorded views", "it with a cell");
     if (has_list && group == "Views" && name != "--radius")  // which sizes the board as well
-      throw InputError("command line", name, "beside --views", "one of the two");
+      throw InputError("command line", name, "together with --views", "one of the two");
   }
 }
 

@@ -31,7 +31,7 @@ void refuse_beside_templates(const CLI::App& verb) {
     const std::string name = option->get_name();
     const bool is_of_models = name == "--unit" || name == "--models-info" || name == "--object-id";
     if (option->count() > 0 && (is_of_models || option->get_group() == "Templates"))
-      throw InputError("command line", name, "beside --templates",
+      throw InputError("command line", name, "together with --templates",
                        "it with --model: a template file has its own");
   }
 }

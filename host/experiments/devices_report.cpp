@@ -104,7 +104,7 @@ std::string kernel_table(const DeviceTimes& device) {
       "write at least; it is held against the kernel's own time (on a device by its clock, the "
       "mean; a call "
       "has "
-      "uploads, submission and downloads beside it).\n\n"
+      "uploads, submission and downloads in addition to it).\n\n"
       "| kernel | size | a call, median ms | kernel, ms | floor, ms | times floor "
       "|\n|---|---|---|---|---|---|\n",
       device.name);

@@ -329,7 +329,7 @@ TEST(Detect, RefusesOptionsDevicesAndFolders) {
                                              {"--object-id", "1"},
                                              {"--distance-min", "0.2"},
                                              {"--viewpoints", "4"}})
-    refused(joined({{"--templates", "part.est"}, more}), {more[0], "beside --templates"});
+    refused(joined({{"--templates", "part.est"}, more}), {more[0], "together with --templates"});
   const fs::path below = t.folder.write("file", "content") / "out";
   expect_refused(joined({{"detect", t.scene, "--out", below, "--device", "cpu"}, bracket()}),
                  {below, "output folder"});

@@ -256,7 +256,7 @@ TEST(Scout, RefusesWhatItCannotUse) {
   refused(t.arguments({"--strategy", "fixed", "--sequence", "1", "-1"}),
           {"--sequence", "-1", "8 views"});
   refused(t.arguments({"--views", t.folder.write("views.json", "[]")}),
-          {"--view-count", "beside --views"});
+          {"--view-count", "together with --views"});
   const std::vector<std::string> model{"--out",   t.out,        "--device", "cpu",
                                        "--model", part_file(1), "--unit",   "mm"};
   refused(joined({{"scout", "cell", "--views", t.folder.path() / "views.json"}, model}),
