@@ -46,24 +46,12 @@ double pose_distance_m(const Se3& a, const Se3& b, const Mesh& mesh, const Symme
 std::vector<std::size_t> suppress_duplicates(std::span<const Se3> poses_best_first,
                                              const Mesh& mesh, const Symmetries& symmetries,
                                              double radius_m, std::size_t most) {
-  const std::array<Eigen::Vector3d, 8> corners = box_corners(mesh);
-  const Eigen::Vector3d center = 0.5 * (mesh.box_min_m + mesh.box_max_m);
   std::vector<std::size_t> kept;
-  std::vector<Eigen::Vector3d> centers;
+  KnownPoses known({}, mesh, symmetries);
   for (std::size_t i = 0; i < poses_best_first.size() && kept.size() < most; ++i) {
-    const Eigen::Vector3d here = poses_best_first[i] * center;
-    bool known = false;
-    for (std::size_t k = 0; !known && k < kept.size(); ++k) {
-      if ((centers[k] - here).squaredNorm() > radius_m * radius_m &&
-          symmetries.discrete.size() == 1)
-        continue;
-      for (const Se3& symmetry : symmetries.discrete)
-        known |= corner_distance_m(poses_best_first[i], poses_best_first[kept[k]] * symmetry,
-                                   corners, radius_m) < radius_m;
-    }
-    if (known) continue;
+    if (known.any_within(radius_m, poses_best_first[i])) continue;
     kept.push_back(i);
-    centers.push_back(here);
+    known.add(poses_best_first[i]);
   }
   return kept;
 }
@@ -84,18 +72,29 @@ std::vector<std::size_t> best_distinct(std::span<const Se3> poses, std::span<con
 }
 
 KnownPoses::KnownPoses(std::span<const Se3> poses, const Mesh& mesh, const Symmetries& symmetries)
-    : corners_(box_corners(mesh)), center_m_(0.5 * (mesh.box_min_m + mesh.box_max_m)) {
-  for (const Se3& pose : poses)
-    for (const Se3& symmetry : symmetries.discrete) poses_.push_back(pose * symmetry);
+    : symmetries_(symmetries.discrete),
+      corners_(box_corners(mesh)),
+      center_m_(0.5 * (mesh.box_min_m + mesh.box_max_m)) {
+  for (const Se3& symmetry : symmetries_)
+    center_motion_m_ = std::max(center_motion_m_, (symmetry * center_m_ - center_m_).norm());
+  for (const Se3& pose : poses) add(pose);
+}
+
+void KnownPoses::add(const Se3& pose) {
+  poses_.push_back(pose);
+  centers_m_.push_back(pose * center_m_);
 }
 
 bool KnownPoses::any_within(double radius_m, const Se3& pose) const {
   const Eigen::Vector3d here = pose * center_m_;
-  return std::ranges::any_of(poses_, [&](const Se3& known) {
-    // Some corner moves at least as far as the centre.
-    return (known * center_m_ - here).squaredNorm() < radius_m * radius_m &&
-           corner_distance_m(pose, known, corners_, radius_m) < radius_m;
-  });
+  // Some corner moves at least as far as the centre.
+  const double reach_m = radius_m + center_motion_m_;
+  for (std::size_t k = 0; k < poses_.size(); ++k) {
+    if ((centers_m_[k] - here).squaredNorm() > reach_m * reach_m) continue;
+    for (const Se3& symmetry : symmetries_)
+      if (corner_distance_m(pose, poses_[k] * symmetry, corners_, radius_m) < radius_m) return true;
+  }
+  return false;
 }
 
 }  // namespace edgescout

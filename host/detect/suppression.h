@@ -30,13 +30,16 @@ std::vector<std::size_t> best_distinct(std::span<const Se3> poses, std::span<con
 class KnownPoses {
  public:
   KnownPoses(std::span<const Se3> poses, const Mesh& mesh, const Symmetries& symmetries);
+  void add(const Se3& pose);
   // Whether a known pose lies within `radius_m` (pose_distance_m) of this one.
   bool any_within(double radius_m, const Se3& pose) const;
 
  private:
-  std::vector<Se3> poses_;  // each in all its symmetric forms
+  std::vector<Se3> poses_, symmetries_;
+  std::vector<Eigen::Vector3d> centers_m_;  // of the poses
   std::array<Eigen::Vector3d, 8> corners_;
   Eigen::Vector3d center_m_;
+  double center_motion_m_ = 0;  // how far a symmetry moves the centre at most
 };
 
 }  // namespace edgescout
