@@ -22,7 +22,8 @@ th{text-align:left;font-weight:600;color:var(--soft);border-bottom:1px solid var
 td{border-bottom:1px solid #eef1f5;padding:4px 12px 4px 0}td.right{color:#157347}td.wrong{color:#c92a2a}
 .warning{background:#fff4e6;border-left:4px solid #f08c00;padding:8px 14px;border-radius:6px;margin:0 0 14px}
 .numbers{font-size:13px;color:var(--soft);margin:14px 0 0}.numbers b{color:var(--ink)}.stage{white-space:nowrap;background:var(--paper);border-radius:6px;padding:1px 7px;margin:0 2px}
-.legend dl{display:grid;grid-template-columns:max-content 1fr;gap:4px 18px;margin:0;font-size:14px}.legend dt{font-weight:600}.legend dd{margin:0;color:var(--soft)}
+.legend dl{display:grid;grid-template-columns:max-content 1fr;gap:4px 18px;margin:0;font-size:14px}
+.legend dt{font-weight:600}.legend dd{margin:0;color:var(--soft)}
 .hemisphere{display:block;width:100%;height:auto}
 .ring{fill:none;stroke:#dfe5ec}.tick{font-size:10px;fill:#98a2b0;text-anchor:middle}.label{font-size:12px;fill:var(--soft)}
 .way{fill:none;stroke:#1c2430;stroke-width:1.5;stroke-dasharray:4 4;opacity:.55}

@@ -70,9 +70,9 @@ class Page {
            "<dt>edges<dd>Share of the visible model edges that have an edge of the image near."
            "<dt>σ place, σ direction<dd>Standard deviation of the pose, mean over the axes."
            "<dt>none alone<dd>No single image supports the object; all images together do."
-           "<dt>combination<dd>A scene that may be there: a choice of candidates. The pictures "
-           "show "
-           "the likeliest and the unlikeliest of those that were sampled for the decision."
+           "<dt>combination<dd>A scene that may be there: a choice of candidates. "
+           "The pictures show the likeliest and the unlikeliest of those that were sampled for "
+           "the decision."
            "<dt>entropy<dd>How undecided the belief is, nats; 0: every object is certain."
            "</dl></section>";
   }
