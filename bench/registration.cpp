@@ -15,8 +15,8 @@
 #include <map>
 
 #include "bench/arguments.h"
+#include "host/core/pose_error.h"
 #include "host/core/stopwatch.h"
-#include "host/eval/metrics.h"
 #include "host/experiments/recorded_starts.h"
 #include "host/register/refine.h"
 #include "kernels/error.h"

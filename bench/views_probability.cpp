@@ -18,9 +18,9 @@
 
 #include "host/active/candidates.h"
 #include "host/active/scout.h"
+#include "host/core/pose_error.h"
 #include "host/detect/plausible_pairs.h"
 #include "host/detect/suppression.h"
-#include "host/eval/metrics.h"
 #include "host/experiments/bin.h"
 #include "host/experiments/bin_types.h"
 #include "host/register/occluders.h"

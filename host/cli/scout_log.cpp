@@ -5,7 +5,7 @@
 
 #include "host/cli/batch_settings.h"
 #include "host/cli/scout_report.h"
-#include "host/eval/metrics.h"
+#include "host/core/pose_error.h"
 #include "host/io/bop.h"
 #include "host/io/files.h"
 #include "host/io/json_fields.h"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "host/core/pose_error.h"
 #include "host/eval/matching.h"
-#include "host/eval/metrics.h"
 #include "kernels/error.h"
 
 namespace edgescout {

@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
+#include "host/core/pose_error.h"
 #include "host/core/types.h"
-#include "host/eval/metrics.h"
 #include "host/io/bop.h"
 
 namespace edgescout {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host/eval/metrics.h"
+#include "host/core/pose_error.h"
 #include "host/experiments/known_scene.h"
 
 namespace edgescout {

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <set>
 
-#include "host/eval/metrics.h"
+#include "host/core/pose_error.h"
 
 namespace edgescout {
 

@@ -10,8 +10,8 @@
 #include <set>
 
 #include "host/baselines/baseline.h"
+#include "host/core/pose_error.h"
 #include "host/core/random.h"
-#include "host/eval/metrics.h"
 #include "host/experiments/rates.h"
 #include "host/register/refine.h"
 

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "host/active/modes.h"
-#include "host/eval/metrics.h"
+#include "host/core/pose_error.h"
 #include "tests/active/rendered_scene.h"
 #include "tests/io/collected_log.h"
 #include "tests/io/expect_input_error.h"

@@ -3,7 +3,7 @@
 
 #include "host/active/scout.h"
 #include "host/active/views.h"
-#include "host/eval/metrics.h"
+#include "host/core/pose_error.h"
 #include "host/render/parts.h"
 #include "host/render/simulated_cell.h"
 #include "kernels/thread_pool.h"

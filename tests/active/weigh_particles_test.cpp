@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "host/active/modes.h"
-#include "host/eval/metrics.h"
+#include "host/core/pose_error.h"
 #include "host/register/pose_classifier.h"
 #include "tests/active/rendered_scene.h"
 #include "tests/register/scene.h"

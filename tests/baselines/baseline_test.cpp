@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "host/baselines/candidate_scores.h"
-#include "host/eval/metrics.h"
+#include "host/core/pose_error.h"
 #include "host/register/occluders.h"
 #include "kernels/error.h"
 #include "tests/active/rendered_scene.h"

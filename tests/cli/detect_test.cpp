@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/eval/metrics.h"
+#include "host/core/pose_error.h"
 #include "host/io/results.h"
 #include "host/render/renderer.h"
 #include "tests/cli/small_scene.h"

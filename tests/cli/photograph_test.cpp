@@ -1,7 +1,7 @@
 // The main job on a photograph, with the CAD model that came with it: a cube on a desk.
 #include <gtest/gtest.h>
 
-#include "host/eval/metrics.h"
+#include "host/core/pose_error.h"
 #include "host/io/bop.h"
 #include "tests/cli/example_scene.h"
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host/eval/metrics.h"
+#include "host/core/pose_error.h"
 #include "host/io/image.h"
 #include "host/io/results.h"
 #include "tests/cli/register_call.h"

@@ -2,9 +2,9 @@
 // views than by one, and the same on every device.
 #include <gtest/gtest.h>
 
+#include "host/core/pose_error.h"
 #include "host/detect/detect.h"
 #include "host/detect/suppression.h"
-#include "host/eval/metrics.h"
 #include "host/pipeline.h"
 #include "host/render/parts.h"
 #include "host/render/renderer.h"

@@ -6,7 +6,7 @@
 
 #include <cstdlib>
 
-#include "host/eval/metrics.h"
+#include "host/core/pose_error.h"
 #include "host/io/image.h"
 #include "tests/io/expect_input_error.h"
 #include "tests/io/temporary_folder.h"

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "host/eval/metrics.h"
+#include "host/core/pose_error.h"
 #include "host/experiments/pose_candidates.h"
 #include "host/experiments/rates.h"
 

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host/eval/metrics.h"
+#include "host/core/pose_error.h"
 #include "host/io/mesh.h"
 #include "host/register/pose_classifier.h"
 #include "kernels/error.h"

@@ -1,4 +1,6 @@
-// Pose-error metrics of BOP and of the paper.
+// Errors of a pose against the true one: those of BOP and of the paper.
+//
+// Public header.
 #pragma once
 
 #include <algorithm>

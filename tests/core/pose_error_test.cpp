@@ -1,4 +1,4 @@
-#include "host/eval/metrics.h"
+#include "host/core/pose_error.h"
 
 #include <gtest/gtest.h>
 
