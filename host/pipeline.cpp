@@ -36,24 +36,28 @@ std::vector<EdgeModel> models_of(std::span<const TemplateSet> sets) {
 }
 
 Detections detect_objects(const ObjectView& prepared, std::span<const TemplateSet> sets,
-                          Backend& backend, const PipelineOptions& options) {
+                          Backend& backend, const PipelineOptions& options, DetectTrace* trace) {
   options.validate();
+  if (trace) *trace = {};
   Detections result;
   Stopwatch watch(result.stages);
   ObjectView view = prepared;
   add_tensors(view, sets, backend, options.tensor);
   view.camera_from_world = Se3{};  // one view: its camera frame is the world
   watch.lap("tensors");
+  if (trace) trace->view = view;
   std::vector<PoseEstimate> candidates;
   for (std::size_t object = 0; object < sets.size(); ++object)
     for (PoseEstimate& candidate :
-         find_candidates({sets[object], view, {}, backend}, {}, options.detect)) {
+         find_candidates({sets[object], view, {}, backend}, {}, options.detect,
+                         trace ? &trace->searches.emplace_back() : nullptr)) {
       candidate.object = int(object);
       candidates.push_back(std::move(candidate));
     }
   watch.lap("candidates");
   const std::vector<EdgeModel> models = models_of(sets);
-  result.detections = select_detections({models, {&view, 1}, backend}, candidates, options.detect);
+  result.detections = select_detections({models, {&view, 1}, backend}, candidates, options.detect,
+                                        trace ? &trace->selection : nullptr);
   watch.lap("selection");
   return result;
 }

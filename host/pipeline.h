@@ -13,6 +13,7 @@
 
 #include "host/core/stopwatch.h"
 #include "host/detect/detect_options.h"
+#include "host/detect/detect_trace.h"
 #include "host/detect/tensors.h"
 #include "host/edge/edges.h"
 #include "host/model/template_set.h"
@@ -41,9 +42,11 @@ struct Detections {
   std::vector<StageSeconds> stages;  // in the order they ran, without those of prepare_view
 };
 
-// All objects in one prepared view.
+// All objects in one prepared view. `trace`, where given, receives what every stage held
+// (detect/explain.h).
 Detections detect_objects(const ObjectView& prepared, std::span<const TemplateSet> sets,
-                          Backend& backend, const PipelineOptions& options);
+                          Backend& backend, const PipelineOptions& options,
+                          DetectTrace* trace = nullptr);
 
 // All objects in several prepared, calibrated views of one static scene. Finds candidates in every
 // view and refines each over all views (Eq. 11).

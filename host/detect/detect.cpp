@@ -82,14 +82,17 @@ class Cascade {
         is_known_(within_known(known_in_world, set_, search.view.camera_from_world,
                                thresholds::SAME_POSE)) {}
 
-  // Aligns the best distinct hits on the coarse tensors.
-  std::vector<PoseEstimate> coarse(std::span<const ScanHit> hits) const {
+  // The best distinct hits.
+  std::vector<ObjectPose> starts(std::span<const ScanHit> hits) const {
     std::vector<ObjectPose> poses;
     std::vector<double> ranks;
     for (const ScanHit& hit : hits) poses.push_back(hit.pose), ranks.push_back(hit.rank);
     const int most = is_joint() ? options_.coarse_poses_joint : options_.coarse_poses;
-    const std::vector<ObjectPose> starts =
-        best_distinct_poses(poses, ranks, set_, std::size_t(most));
+    return best_distinct_poses(poses, ranks, set_, std::size_t(most));
+  }
+
+  // Aligns the starts on the coarse tensors.
+  std::vector<PoseEstimate> coarse(std::span<const ObjectPose> starts) const {
     const std::vector<ObjectView> views = on_coarse_tensors(views_);
     if (!is_joint()) return register_poses(scene_of(views), starts, options_.refine.search.coarse);
     return register_points(scene_of(views), starts,
@@ -108,16 +111,18 @@ class Cascade {
     return poses;
   }
 
-  // Refines the candidates: the highest ranks among distinct poses.
-  std::vector<PoseEstimate> fine(const std::vector<PoseEstimate>& aligned) const {
-    const std::vector<PoseEstimate> candidates =
-        best_ranked(aligned, set_, std::size_t(options_.candidates));
+  // The highest ranks among distinct poses.
+  std::vector<PoseEstimate> candidates(const std::vector<PoseEstimate>& aligned) const {
+    return best_ranked(aligned, set_, std::size_t(options_.candidates));
+  }
+
+  std::vector<PoseEstimate> fine(const std::vector<PoseEstimate>& candidates) const {
     RefineOptions refine = options_.refine;
     if (is_joint()) refine.search.rotation_rad = 0;  // several views bring starts near enough
     std::vector<PoseEstimate> refined =
         refine_poses(scene_of(views_), object_poses(candidates), refine);
     drop_known(refined);
-    return best_ranked(refined, set_, refined.size());
+    return refined;
   }
 
  private:
@@ -148,9 +153,20 @@ class Cascade {
 // From hits that are rescored in the supporting views of `search`.
 std::vector<PoseEstimate> run_cascade(const ObjectSearch& search, std::span<const ScanHit> hits,
                                       std::span<const Se3> known_in_world,
-                                      const DetectOptions& options) {
+                                      const DetectOptions& options, SearchTrace* trace = nullptr) {
   const Cascade cascade(search, known_in_world, options);
-  return cascade.fine(cascade.medium(cascade.coarse(hits)));
+  SearchTrace stages;
+  stages.starts = cascade.starts(hits);
+  stages.coarse = cascade.coarse(stages.starts);
+  stages.medium = cascade.medium(stages.coarse);
+  stages.candidates = cascade.candidates(stages.medium);
+  stages.fine = cascade.fine(stages.candidates);
+  std::vector<PoseEstimate> found = best_ranked(stages.fine, search.set, stages.fine.size());
+  if (trace) {
+    stages.hits.assign(hits.begin(), hits.end());
+    *trace = std::move(stages);
+  }
+  return found;
 }
 
 }  // namespace
@@ -178,7 +194,7 @@ PoseFilter near_known(std::span<const Se3> known_in_world, const TemplateSet& se
 
 std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
                                           std::span<const Se3> known_in_world,
-                                          const DetectOptions& options) {
+                                          const DetectOptions& options, SearchTrace* trace) {
   const std::vector<ObjectView> support =
       support_views(search.view, search.support, std::size_t(options.support_views));
   const ObjectSearch supported{search.set, search.view, support, search.backend};
@@ -187,7 +203,7 @@ std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
   std::erase_if(hits,
                 [is_near = near_known(known_in_world, search.set, search.view.camera_from_world)](
                     const ScanHit& hit) { return is_near(hit.pose.world_from_object); });
-  return run_cascade(supported, hits, known_in_world, options);
+  return run_cascade(supported, hits, known_in_world, options, trace);
 }
 
 std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,

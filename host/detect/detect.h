@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/detect/detect_options.h"
+#include "host/detect/detect_trace.h"
 #include "host/detect/rescore_in_views.h"
 #include "host/register/refine.h"
 
@@ -29,10 +30,12 @@ PoseFilter near_known(std::span<const Se3> known_in_world, const TemplateSet& se
 // At most options.support_views of search.support are chosen (support_views.h). They take part in
 // all stages: hits are rescored in them and poses are registered in them. Features hold search.view
 // first, then the chosen views. `known_in_world` are instances that need not be found again: hits
-// near them are not aligned, and poses that end within SAME_POSE of one are dropped.
+// near them are not aligned, and poses that end within SAME_POSE of one are dropped. `trace`, where
+// given, receives what every stage held.
 std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
                                           std::span<const Se3> known_in_world,
-                                          const DetectOptions& options);
+                                          const DetectOptions& options,
+                                          SearchTrace* trace = nullptr);
 
 // The same from hits of any images that are in the camera frame of search.view, already rescored,
 // and near no known instance (pooled_hits).

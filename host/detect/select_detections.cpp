@@ -39,9 +39,10 @@ std::vector<Detection> select(const Scene& scene, std::span<const PoseEstimate> 
 
 std::vector<Detection> select_detections(const Scene& scene,
                                          std::span<const PoseEstimate> candidates,
-                                         const DetectOptions& options) {
+                                         const DetectOptions& options, SelectionTrace* trace) {
   std::vector<PoseEstimate> probable;
   append_probable(probable, candidates, options.min_probability);
+  const std::size_t first_restarted = probable.size();
   std::vector<Detection> detections = select(scene, probable, options);
   if (options.restart_rotation_rad > 0 && !detections.empty()) {
     RefineOptions refine = options.refine;
@@ -53,6 +54,7 @@ std::vector<Detection> select_detections(const Scene& scene,
   std::ranges::stable_sort(detections, [](const Detection& a, const Detection& b) {
     return a.probability > b.probability;
   });
+  if (trace) *trace = {std::move(probable), first_restarted, detections};
   if (int(detections.size()) > options.max_detections) detections.resize(options.max_detections);
   return detections;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/detect/detect_options.h"
+#include "host/detect/detect_trace.h"
 
 namespace edgescout {
 
@@ -16,8 +17,11 @@ namespace edgescout {
 // 4. Refines the winners again from turned starts: a wrong local optimum loses to a right one near
 // it.
 // 5. Repeats 2 and 3 with all poses.
+//
+// `trace`, where given, receives the poses that competed and those that were selected.
 std::vector<Detection> select_detections(const Scene& scene,
                                          std::span<const PoseEstimate> candidates,
-                                         const DetectOptions& options);
+                                         const DetectOptions& options,
+                                         SelectionTrace* trace = nullptr);
 
 }  // namespace edgescout

@@ -1,0 +1,39 @@
+// What the stages of a detection in one image held, for the question where a pose was lost
+// (explain.h). Detection fills it where a caller gives one.
+#pragma once
+
+#include <vector>
+
+#include "host/detect/coarse_scan.h"
+#include "host/register/pose_estimate.h"
+
+namespace edgescout {
+
+// The search for one object. Poses are in the camera frame of the searched image; their object
+// is 0. In one image without known instances, entry i of `coarse` and of `medium` is what became of
+// start i, and entry i of `fine` what became of candidate i.
+struct SearchTrace {
+  std::vector<ScanHit> hits;
+  std::vector<ObjectPose> starts;        // distinct hits that enter the coarse stage, best first
+  std::vector<PoseEstimate> coarse;      // poses after the coarse stage
+  std::vector<PoseEstimate> medium;      // poses after the medium stage, with features
+  std::vector<PoseEstimate> candidates;  // distinct poses that enter the fine stage, best first
+  std::vector<PoseEstimate> fine;        // poses after the fine stage, with features
+};
+
+// The selection among the candidates of all objects, in the world of the views.
+struct SelectionTrace {
+  // Poses of DetectOptions::min_probability or more: candidates, and from `first_restarted` on
+  // poses refined from turned starts around those selected first.
+  std::vector<PoseEstimate> competing;
+  std::size_t first_restarted = 0;
+  std::vector<Detection> selected;  // most probable first; max_detections of them are reported
+};
+
+struct DetectTrace {
+  ObjectView view;                    // with tensors; its camera frame is the world
+  std::vector<SearchTrace> searches;  // by object
+  SelectionTrace selection;
+};
+
+}  // namespace edgescout
