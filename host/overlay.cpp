@@ -128,8 +128,9 @@ RgbImage draw_overlay(const Image& image, const Camera& camera, std::span<const 
     const EdgeModel& model = models[static_cast<std::size_t>(pose.object)];
     if ((pose.camera_from_object * model.center_m).z() <= 0) continue;
     draw_edges(canvas, camera, pose, model,
-               visible_edges(model, {&pose.camera_from_object, 1}, backend)[0], edges);
-    draw_axes(canvas, camera, pose, model);
+               visible_edges(model, {&pose.camera_from_object, 1}, backend)[0],
+               pose.compare ? edges : nullptr);
+    if (pose.axes) draw_axes(canvas, camera, pose, model);
   }
   return canvas.take();
 }

@@ -21,11 +21,13 @@ struct OverlayPose {
   Se3 camera_from_object;
   std::optional<double> score;  // written next to the object's centre
   std::string label;            // written before the score
+  bool compare = true;          // false: the edges are cyan, whether the image has them or not
+  bool axes = true;             // false: neither axes nor label and score
 };
 
 // Returns the image in grey at half its contrast. Over it, for every pose:
 //   - the visible edges of the model: green if an image edge of similar direction (0.35 rad) lies
-//     within 3 px, orange if not, cyan if `edges` is null;
+//     within 3 px, orange if not; cyan if `edges` is null or the pose is not compared;
 //   - the object's axes from the centre of its box, a quarter of the diameter long: x red, y green,
 //     z blue;
 //   - label and score.
