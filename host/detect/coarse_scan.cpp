@@ -14,6 +14,9 @@ namespace edgescout {
 
 namespace {
 
+// Points nearer to the camera are not drawn.
+float nearest_m(const TemplateSet& set) { return float(0.1 * set.model.radius_m); }
+
 // The parameters of a template by its number. Numbers run over viewpoints, in-plane turns and
 // distances; the distance changes fastest.
 struct TemplateNumbering {
@@ -115,13 +118,12 @@ class RegionScan {
 
   void draw_template(std::size_t t, const Region& region) {
     const ThinnedView& view = views_[numbering_.viewpoint(t)];
-    const float nearest_m = float(0.1 * set_.model.radius_m);
     TemplatePoint* points = points_.data() + t * options_.points;
     int count = view.count();
     is_drawn_[t] = count > 0 && view.project(to_pose(camera_from_object(t, region.middle)),
                                              view_.salient->intrinsics, float(region.middle.x()),
                                              float(region.middle.y()), view_.salient->shape.bins,
-                                             nearest_m, points);
+                                             nearest_m(set_), points);
     if (!is_drawn_[t]) points[0] = {}, count = 1;  // a job needs a point; its answer is not read
     jobs_[t] = {static_cast<std::uint32_t>(t * options_.points),
                 static_cast<std::uint32_t>(count),
@@ -198,6 +200,25 @@ std::vector<ScanHit> coarse_scan(const TemplateSet& set, const ObjectView& view,
   std::vector<ScanHit> hits;
   for (const Region& region : regions) scan.append_best(region, most, hits);
   return hits;
+}
+
+double scan_mean_px(const TemplateSet& set, const ObjectView& view, const Se3& camera_from_object,
+                    Backend& backend, const ScanOptions& options) {
+  const ThinnedView visible(
+      {camera_from_object.rotation, visible_edges(set.model, {&camera_from_object, 1}, backend)[0]},
+      options.points);
+  const Eigen::Vector2d anchor_px =
+      project(view.coarse_camera, camera_from_object * set.model.center_m).array().round();
+  std::vector<TemplatePoint> points(std::size_t(visible.count()));
+  const bool is_drawn = visible.project(to_pose(camera_from_object), view.salient->intrinsics,
+                                        float(anchor_px.x()), float(anchor_px.y()),
+                                        view.salient->shape.bins, nearest_m(set), points.data());
+  if (!is_drawn || points.empty()) return TEMPLATE_SCORE_CAP / 4.0;
+  const TemplateJob job{0, std::uint32_t(points.size()), int(anchor_px.x()), int(anchor_px.y()), 1,
+                        1};
+  TemplateHit hit;
+  backend.template_score(*view.salient, points, {&job, 1}, options.anchor_step, {&hit, 1});
+  return double(hit.sum) / (4.0 * job.point_count);
 }
 
 }  // namespace edgescout

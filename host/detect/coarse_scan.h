@@ -56,4 +56,9 @@ Se3 place_template(const TemplateSet& set, const TemplateView& view, double in_p
 std::vector<ScanHit> coarse_scan(const TemplateSet& set, const ObjectView& view, Backend& backend,
                                  const ScanOptions& options);
 
+// The mean_px that a hit at exactly this pose would have; 4, the cap, where the object shows no
+// edges. Templates stand beside the poses between them, so the best hit of an object is worse.
+double scan_mean_px(const TemplateSet& set, const ObjectView& view, const Se3& camera_from_object,
+                    Backend& backend, const ScanOptions& options);
+
 }  // namespace edgescout

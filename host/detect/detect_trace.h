@@ -1,5 +1,7 @@
 // What the stages of a detection in one image held, for the question where a pose was lost
 // (explain.h). Detection fills it where a caller gives one.
+//
+// Public header.
 #pragma once
 
 #include <vector>

@@ -161,4 +161,19 @@ std::vector<EdgeClaim> claim_edges(const Scene& scene, std::span<const PoseEstim
   }
 }
 
+std::size_t supported_points(const Scene& scene, const ObjectPose& pose,
+                             const EdgeClaimOptions& options) {
+  return explained_edges(scene, pose, options).size();
+}
+
+double claimed_fraction(const Scene& scene, const ObjectPose& pose,
+                        std::span<const ObjectPose> claimants, const EdgeClaimOptions& options) {
+  const std::vector<ExplainedEdge> explained = explained_edges(scene, pose, options);
+  if (explained.empty()) return 0;
+  ClaimedEdges claimed(scene.views, options.match_px);
+  for (const ObjectPose& claimant : claimants)
+    claimed.claim(explained_edges(scene, claimant, options));
+  return 1 - claimed.unclaimed_fraction(explained);
+}
+
 }  // namespace edgescout

@@ -26,14 +26,13 @@ ViewpointIndex::ViewpointIndex(const TemplateSet& set)
     : ViewpointIndex(directions_of(set), set.model.center_m, set.symmetries) {}
 
 ViewpointIndex::Nearest ViewpointIndex::nearest(const Se3& camera_from_object) const {
-  Nearest best{};
-  double largest = -2;
+  Nearest best{0, 0, -2};
   for (std::size_t s = 0; s < symmetries_.size(); ++s) {
     const Se3 equal = camera_from_object * symmetries_[s];
     const Eigen::Vector3d to_camera = (inverse(equal).translation_m - center_m_).normalized();
     Eigen::Index nearest = 0;
     const double cosine = (towards_camera_ * to_camera).maxCoeff(&nearest);
-    if (cosine > largest) largest = cosine, best = {std::size_t(nearest), s};
+    if (cosine > best.cosine) best = {std::size_t(nearest), s, cosine};
   }
   return best;
 }

@@ -28,6 +28,7 @@ class ViewpointIndex {
   struct Nearest {
     std::size_t viewpoint;
     std::size_t symmetry;
+    double cosine;  // of the angle between the directions to the viewpoint and to the camera
   };
   Nearest nearest(const Se3& camera_from_object) const;
   const Se3& symmetry(std::size_t index) const { return symmetries_[index]; }
