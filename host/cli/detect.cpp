@@ -9,9 +9,7 @@
 #include "host/cli/template_sets.h"
 #include "host/cli/verbs.h"
 #include "host/core/log.h"
-#include "host/io/camera_file.h"
 #include "host/io/files.h"
-#include "host/io/image.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -27,28 +25,12 @@ struct DetectRequest {
   BatchOptions batch;
 };
 
-// Returns the camera from which default distances are computed: that of the first usable image. If
-// no image is usable, throws the error of the last one.
-Camera first_camera(const DetectRequest& request, std::span<const InputImage> images) {
-  GivenCamera given{{}, request.batch.camera_file, request.batch.scale_camera};
-  if (!given.file.empty()) given.camera = load_camera(given.file);
-  for (const InputImage& input : images) {
-    try {
-      const Image image = load_image(input.file);
-      return camera_of(input, image.width, image.height, given);
-    } catch (const InputError&) {
-      if (&input == &images.back()) throw;
-    }
-  }
-  throw InputError("command line", "inputs", "no image", "at least one");
-}
-
 // Makes all cheap checks before it builds templates, so that nothing is written for an invalid
 // request.
 std::vector<TemplateSet> template_sets(const DetectRequest& request,
                                        std::span<const InputImage> images, Backend& backend) {
   const KnownModels known = load_models(request.models);
-  const Camera camera = first_camera(request, images);
+  const Camera camera = first_camera(images, request.batch.camera_file, request.batch.scale_camera);
   if (request.batch.joint) require_joinable(images);
   require_other_folder(images, request.batch.out);
   require_writable_place(request.batch.out);

@@ -8,6 +8,7 @@
 
 #include "host/core/log.h"
 #include "host/io/camera_file.h"
+#include "host/io/image.h"
 #include "host/io/mesh.h"
 #include "host/model/template_set.h"
 #include "kernels/error.h"
@@ -146,6 +147,21 @@ Camera camera_of(const InputImage& image, int width, int height, const GivenCame
     return camera_for_image(given.camera ? *given.camera : *image.camera, width, height,
                             given.may_scale, source);
   });
+}
+
+Camera first_camera(std::span<const InputImage> images, const std::string& camera_file,
+                    bool may_scale) {
+  GivenCamera given{{}, camera_file, may_scale};
+  if (!camera_file.empty()) given.camera = load_camera(camera_file);
+  for (const InputImage& input : images) {
+    try {
+      const Image image = load_image(input.file);
+      return camera_of(input, image.width, image.height, given);
+    } catch (const InputError&) {
+      if (&input == &images.back()) throw;
+    }
+  }
+  throw InputError("command line", "inputs", "no image", "at least one");
 }
 
 std::vector<Object> load_objects(const ModelArguments& arguments, int continuous_steps) {

@@ -63,6 +63,12 @@ void warn_of_unknown_size(const GivenCamera& given);
 // there is none, or it does not fit.
 Camera camera_of(const InputImage& image, int width, int height, const GivenCamera& given);
 
+// Returns the camera from which default distances are computed: that of the first usable image.
+// `camera_file` is the calibration of all images; empty: BOP scenes have their own. InputError: if
+// no image is usable, that of the last one.
+Camera first_camera(std::span<const InputImage> images, const std::string& camera_file,
+                    bool may_scale);
+
 struct ModelArguments {
   std::vector<std::string> models;  // mesh files
   std::string unit;

@@ -1,0 +1,310 @@
+#include "host/cli/explain_report.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "host/io/json_fields.h"
+#include "host/register/pose_classifier.h"
+
+namespace edgescout {
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+constexpr int format_version = 1;
+constexpr std::size_t stage_count = std::size_t(LossStage::Reported);  // that may lose a pose
+
+int percent(double part, double whole) {
+  return whole > 0 ? int(std::lround(100 * part / whole)) : 0;
+}
+
+std::string off(const FoundPose& pose) {
+  return fmt::format("{:.3f} rad, {:.1f} mm, {:.1f} px off", pose.error.angle_rad,
+                     1000 * pose.error.distance_m, pose.mspd_px);
+}
+
+std::string features_text(const FoundPose& pose) {
+  return fmt::format("{:.2f} (psi {:.2f}, z-score {:.1f}, mean {:.2f} px, unexplained grey {:.2f})",
+                     pose.probability, pose.features.psi, psi_z_score(pose.features),
+                     pose.features.mean_px, unexplained_grey(pose.features.shading));
+}
+
+std::string range_text(const RangeReport& r) {
+  return fmt::format("{:.3f} m away, searched {:.3f} to {:.3f} m; {:.2f} rad from a viewpoint{}{}",
+                     r.distance_m, r.distance_min_m, r.distance_max_m, r.viewpoint_angle_rad,
+                     r.in_viewpoints ? "" : ", not searched from there",
+                     r.in_region ? "" : "; its centre is outside the searched region");
+}
+
+std::string edges_text(const EdgeSupport& e) {
+  return fmt::format("{} of {:.0f} points have an edge, {} %; of the best copy beside it {} %{}",
+                     e.supported, e.in_image, percent(double(e.supported), e.in_image),
+                     percent(double(e.supported_beside), e.in_image),
+                     e.in_image < e.visible
+                         ? fmt::format("; {} % are in the image", percent(e.in_image, e.visible))
+                         : "");
+}
+
+std::string scan_text(const ScanReport& s) {
+  const std::string best = s.rank
+                               ? fmt::format("the best of {} hits near it has rank {}, {:.2f} px",
+                                             s.hits, *s.rank, s.mean_px)
+                               : fmt::format("none of {} hits is near it", s.hits);
+  return fmt::format("{}; itself {:.2f} px; {} are aligned, {} of them near it", best,
+                     s.own_mean_px, s.aligned, s.aligned_near);
+}
+
+std::string alignment_text(const AlignmentReport& a) {
+  std::string text = fmt::format("{} aligned poses are the same", a.same);
+  if (a.nearest) text += "; the nearest is " + off(*a.nearest);
+  if (a.same == 0 && a.best_hit_became) text += "; the best hit went " + off(*a.best_hit_became);
+  return text;
+}
+
+std::string ranking_text(const RankingReport& r) {
+  const std::string best = r.rank ? fmt::format("rank {}, log-odds {:.2f}", *r.rank, r.log_odds)
+                                  : "no aligned pose is the same";
+  return fmt::format("{}; itself {:.2f}; the last of {} candidates {:.2f}", best, r.own_log_odds,
+                     r.candidates, r.last_log_odds);
+}
+
+std::string refinement_text(const RefinementReport& r) {
+  const std::optional<FoundPose>& best = r.same ? r.same : r.nearest;
+  return fmt::format("{}; itself {}",
+                     best ? (r.same ? "" : "the nearest is ") + off(*best) : "no candidate",
+                     off(r.own));
+}
+
+std::string probability_text(const RefinementReport& r) {
+  return fmt::format("{}; itself {}", r.same ? features_text(*r.same) : "no pose",
+                     features_text(r.own));
+}
+
+std::string selection_text(const SelectionReport& s, LossStage lost_at) {
+  if (!s.competes)
+    return lost_at == LossStage::Selection ? "a duplicate of a better pose" : "does not compete";
+  const std::string claimed =
+      fmt::format("others claim {} % of its edges", int(std::lround(100 * s.claimed)));
+  if (s.selected)
+    return fmt::format("detection {}{}: {}, probability {:.2f}; {}", s.rank,
+                       s.is_reported ? "" : ", more than are reported", off(*s.selected),
+                       s.selected->probability, claimed);
+  return claimed + (s.above_chance ? "" : "; its psi does not exceed chance");
+}
+
+// The numbers of a stage that may lose a pose.
+std::string text_of(LossStage stage, const LossReport& report) {
+  switch (stage) {
+    case LossStage::Range:
+      return range_text(report.range);
+    case LossStage::Edges:
+      return edges_text(report.edges);
+    case LossStage::Scan:
+      return scan_text(report.scan);
+    case LossStage::Alignment:
+      return alignment_text(report.alignment);
+    case LossStage::Ranking:
+      return ranking_text(report.ranking);
+    case LossStage::Refinement:
+      return refinement_text(report.refinement);
+    case LossStage::Probability:
+      return probability_text(report.refinement);
+    default:
+      return selection_text(report.selection, report.lost_at);
+  }
+}
+
+std::string rival_text(const ExplainedPose& pose) {
+  const Rival& rival = *pose.report.rival;
+  std::string text = rival.object == pose.given.object ? off(rival) : "another object";
+  text += "; probability " + features_text(rival);
+  if (rival.claimed > 0)
+    text += fmt::format("; claims {} % of the edges", int(std::lround(100 * rival.claimed)));
+  if (rival.is_restarted) text += "; from a turned start";
+  return text;
+}
+
+std::string place_of(const ExplainedPose& pose) {
+  return fmt::format("{}, object {}", pose.image.string(), pose.object_id);
+}
+
+std::string fate_of(const LossReport& report) {
+  return report.lost_at == LossStage::Reported ? "reported"
+                                               : "lost at " + to_string(report.lost_at);
+}
+
+// How many poses had each fate, by LossStage.
+using Fates = std::array<int, stage_count + 1>;
+
+std::map<std::string, Fates> count_fates(std::span<const ExplainedPose> poses) {
+  std::map<std::string, Fates> fates;
+  for (const ExplainedPose& pose : poses)
+    for (const std::string& object : {std::to_string(pose.object_id), std::string("all")})
+      ++fates[object][std::size_t(pose.report.lost_at)];
+  return fates;
+}
+
+int count_of(const Fates& fates) {
+  int count = 0;
+  for (const int of_stage : fates) count += of_stage;
+  return count;
+}
+
+json pose_json(const Se3& pose) {
+  return {{"R", rotation_numbers(pose)}, {"t", translation_numbers(pose, 1.0)}};
+}
+
+json found_json(const FoundPose& pose, int object) {
+  json fields{{"camera_from_object", pose_json(pose.world_from_object)}};
+  if (pose.object == object) {
+    fields["angle_rad"] = pose.error.angle_rad;
+    fields["distance_m"] = pose.error.distance_m;
+    fields["mspd_px"] = pose.mspd_px;
+  }
+  fields["probability"] = pose.probability;
+  fields["psi"] = pose.features.psi;
+  fields["psi_z_score"] = psi_z_score(pose.features);
+  fields["mean_px"] = pose.features.mean_px;
+  fields["unexplained_grey"] = unexplained_grey(pose.features.shading);
+  fields["in_image"] = pose.features.in_image;
+  return fields;
+}
+
+json found_json(const std::optional<FoundPose>& pose, int object) {
+  return pose ? found_json(*pose, object) : json();
+}
+
+template <typename T>
+json or_null(const std::optional<T>& value) {
+  return value ? json(*value) : json();
+}
+
+json range_json(const RangeReport& r) {
+  return {{"distance_m", r.distance_m},
+          {"distance_min_m", r.distance_min_m},
+          {"distance_max_m", r.distance_max_m},
+          {"viewpoint_angle_rad", r.viewpoint_angle_rad},
+          {"in_distances", r.in_distances},
+          {"in_viewpoints", r.in_viewpoints},
+          {"in_region", r.in_region}};
+}
+
+json stages_json(const LossReport& r, int object) {
+  const ScanReport& scan = r.scan;
+  const RankingReport& ranking = r.ranking;
+  const SelectionReport& selection = r.selection;
+  return {{"range", range_json(r.range)},
+          {"edges",
+           {{"visible", r.edges.visible},
+            {"in_image", r.edges.in_image},
+            {"supported", r.edges.supported},
+            {"supported_beside", r.edges.supported_beside}}},
+          {"scan",
+           {{"hits", scan.hits},
+            {"aligned", scan.aligned},
+            {"aligned_near", scan.aligned_near},
+            {"rank", or_null(scan.rank)},
+            {"mean_px", scan.rank ? json(scan.mean_px) : json()},
+            {"own_mean_px", scan.own_mean_px}}},
+          {"alignment",
+           {{"same", r.alignment.same},
+            {"nearest", found_json(r.alignment.nearest, object)},
+            {"best_hit_became", found_json(r.alignment.best_hit_became, object)}}},
+          {"ranking",
+           {{"rank", or_null(ranking.rank)},
+            {"candidates", ranking.candidates},
+            {"is_candidate", ranking.is_candidate},
+            {"log_odds", ranking.rank ? json(ranking.log_odds) : json()},
+            {"own_log_odds", ranking.own_log_odds},
+            {"last_log_odds", ranking.last_log_odds}}},
+          {"refinement",
+           {{"same", found_json(r.refinement.same, object)},
+            {"nearest", found_json(r.refinement.nearest, object)},
+            {"own", found_json(r.refinement.own, object)}}},
+          {"selection",
+           {{"competes", selection.competes},
+            {"above_chance", selection.above_chance},
+            {"claimed", selection.claimed},
+            {"selected", found_json(selection.selected, object)},
+            {"rank", selection.selected ? json(selection.rank) : json()},
+            {"is_reported", selection.is_reported}}}};
+}
+
+json explained_json(const ExplainedPose& pose) {
+  const int object = pose.given.object;
+  json fields{{"image", pose.image.string()},
+              {"scene_id", pose.scene_id},
+              {"image_id", pose.image_id},
+              {"object_id", pose.object_id},
+              {"camera_from_object", pose_json(pose.given.world_from_object)},
+              {"lost_at", to_string(pose.report.lost_at)}};
+  fields.update(stages_json(pose.report, object));
+  fields["rival"] = nullptr;
+  if (const std::optional<Rival>& rival = pose.report.rival) {
+    fields["rival"] = found_json(*rival, object);
+    fields["rival"]["claimed"] = rival->claimed;
+    fields["rival"]["is_restarted"] = rival->is_restarted;
+  }
+  fields["picture"] = pose.picture.empty() ? json() : json(pose.picture);
+  return fields;
+}
+
+json summary_json(std::span<const ExplainedPose> poses) {
+  json summary = json::object();
+  for (const auto& [object, fates] : count_fates(poses)) {
+    summary[object]["given"] = count_of(fates);
+    for (std::size_t s = 0; s <= stage_count; ++s)
+      summary[object][to_string(LossStage(s))] = fates[s];
+  }
+  return summary;
+}
+
+}  // namespace
+
+std::string stage_table(const ExplainedPose& pose) {
+  const LossReport& report = pose.report;
+  std::string table = fmt::format("{}: {}\n", place_of(pose), fate_of(report));
+  for (std::size_t s = 0; s < stage_count; ++s) {
+    const auto stage = LossStage(s);
+    const char* state = stage < report.lost_at ? "passed" : stage == report.lost_at ? "LOST" : "-";
+    table += fmt::format("  {:<12} {:<7} {}\n", to_string(stage), state, text_of(stage, report));
+  }
+  if (report.rival) table += fmt::format("  {:<20} {}\n", "its place took", rival_text(pose));
+  return table;
+}
+
+std::string one_line(const ExplainedPose& pose) {
+  return fmt::format("{}: {}: {}\n", place_of(pose), fate_of(pose.report),
+                     text_of(pose.report.lost_at, pose.report));
+}
+
+std::string summary_table(std::span<const ExplainedPose> poses) {
+  std::string table = fmt::format("{:>6} {:>6} {:>8}", "object", "given", "reported");
+  for (std::size_t s = 0; s < stage_count; ++s)
+    table += fmt::format(" {:>11}", to_string(LossStage(s)));
+  table += "\n";
+  for (const auto& [object, fates] : count_fates(poses)) {
+    table += fmt::format("{:>6} {:>6} {:>8}", object, count_of(fates), fates[stage_count]);
+    for (std::size_t s = 0; s < stage_count; ++s) table += fmt::format(" {:>11}", fates[s]);
+    table += "\n";
+  }
+  return table;
+}
+
+json json_of(std::span<const ExplainedPose> poses, const SamePoseOptions& same) {
+  json root{{"edgescout_explain", format_version},
+            {"same_pose",
+             {{"max_angle_rad", same.max_angle_rad},
+              {"max_distance_m", same.max_distance_m},
+              {"max_mspd_px", same.max_mspd_px}}},
+            {"summary", summary_json(poses)},
+            {"poses", json::array()}};
+  for (const ExplainedPose& pose : poses) root["poses"].push_back(explained_json(pose));
+  return root;
+}
+
+}  // namespace edgescout
