@@ -53,11 +53,17 @@ TEST(Overlay, DistinguishesMatchedEdgesFromUnmatched) {
 }
 
 TEST(Overlay, ClaimsNothingWithoutEdges) {
+  const EdgeIndex none({}, camera.width, camera.height);
   const RgbImage picture = draw({0, in_front, std::nullopt, ""}, nullptr);
   for (int y = 35; y <= 45; ++y) {
     EXPECT_EQ(colour_at(picture, 70, y), Colour::Cyan) << y;
     EXPECT_EQ(colour_at(picture, 130, y), Colour::Cyan) << y;
   }
+  EXPECT_EQ(draw({0, in_front, std::nullopt, "", false}, &none).pixels, picture.pixels)
+      << "a pose that is not compared";
+  const RgbImage bare = draw({0, in_front, 0.5, "box", true, false}, nullptr);
+  EXPECT_EQ(colour_at(bare, 110, 50), Colour::Ground) << "no axis";
+  EXPECT_EQ(colour_at(bare, 70, 40), Colour::Cyan);
 }
 
 TEST(Overlay, WritesLabelAndScore) {

@@ -83,10 +83,13 @@ std::vector<StartPose> true_poses(std::span<const InputImage> images,
   return poses;
 }
 
+// Before templates are built, so that poses that cannot be used are refused at once.
 std::vector<RegisterJob> jobs_of(const ExplainRequest& request, std::span<const InputImage> images,
-                                 std::span<const TemplateSet> sets) {
+                                 const KnownModels& known) {
   std::vector<RegisterModel> models;
-  for (const TemplateSet& set : sets) models.push_back({set.object_id, set.model});
+  for (const TemplateSet& set : known.sets) models.push_back({set.object_id, set.model});
+  for (const Object& object : known.objects)
+    models.push_back({object.id, make_edge_model(object.mesh)});
   const std::string source = source_of_poses(request);
   const std::vector<StartPose> poses =
       request.truth           ? true_poses(images, models, request.min_visible)
@@ -166,17 +169,10 @@ class Explainer {
   std::vector<std::string> failures_;
 };
 
-std::vector<TemplateSet> template_sets(ExplainRequest& request, std::span<const InputImage> images,
-                                       Backend& backend) {
-  const KnownModels known = load_models(request.models);
-  RegisterOptions& options = request.images;
-  if (!options.camera_file.empty()) options.camera = load_camera(options.camera_file);
-  const Camera camera = first_camera(images, options.camera_file, options.scale_camera);
-  if (!request.out.empty()) {
-    require_other_folder(images, request.out);
-    require_writable_folder(request.out);
-  }
-  return template_sets_of(known, request.templates, camera, backend);
+void require_safe_out(const ExplainRequest& request, std::span<const InputImage> images) {
+  if (request.out.empty()) return;
+  require_other_folder(images, request.out);
+  require_writable_folder(request.out);
 }
 
 ExitCode explain(ExplainRequest& request) {
@@ -186,8 +182,14 @@ ExitCode explain(ExplainRequest& request) {
   source_of_poses(request);
   const std::unique_ptr<Backend> backend = make_backend(request.device);
   const std::vector<InputImage> images = list_images(request.inputs);
-  const std::vector<TemplateSet> sets = template_sets(request, images, *backend);
-  const std::vector<RegisterJob> jobs = jobs_of(request, images, sets);
+  const KnownModels known = load_models(request.models);
+  RegisterOptions& options = request.images;
+  if (!options.camera_file.empty()) options.camera = load_camera(options.camera_file);
+  const Camera camera = first_camera(images, options.camera_file, options.scale_camera);
+  const std::vector<RegisterJob> jobs = jobs_of(request, images, known);
+  require_safe_out(request, images);
+  const std::vector<TemplateSet> sets =
+      template_sets_of(known, request.templates, camera, *backend);
   Explainer explainer(request, sets, *backend);
   Progress progress("explain", jobs.size(), std::cerr, stderr_is_terminal());
   for (const RegisterJob& job : jobs) {

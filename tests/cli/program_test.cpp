@@ -49,6 +49,7 @@ const std::vector<std::vector<std::string>>& all_verbs() {
                                                            {"detect"},
                                                            {"devices"},
                                                            {"eval"},
+                                                           {"explain"},
                                                            {"model", "build"},
                                                            {"model", "draw"},
                                                            {"model", "inspect"},

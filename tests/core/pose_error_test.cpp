@@ -23,7 +23,7 @@ Object bar() {
 
 Se3 turn_z(double angle_rad) { return {so3_exp({0, 0, angle_rad}), {0, 0, 0}}; }
 
-Camera camera() {
+Camera pinhole() {
   Camera c;
   c.width = 640;
   c.height = 480;
@@ -60,20 +60,20 @@ TEST(Mspd, OfASidewaysShiftIsItsProjectionAtTheNearestVertex) {
   const Se3 truth{Eigen::Quaterniond::Identity(), {0, 0, 0.505}};
   Se3 estimate = truth;
   estimate.translation_m.x() += 0.002;
-  EXPECT_NEAR(mspd_px(estimate, truth, bar(), camera()), 500 * 0.002 / 0.5, 1e-9);
+  EXPECT_NEAR(mspd_px(estimate, truth, bar(), pinhole()), 500 * 0.002 / 0.5, 1e-9);
 }
 
 TEST(Mspd, OfADepthErrorIsSeenAtTheRimOnly) {
   const Se3 truth{Eigen::Quaterniond::Identity(), {0, 0, 0.505}},
       estimate{Eigen::Quaterniond::Identity(), {0, 0, 0.525}};
   const double rim = std::hypot(0.02, 0.01);
-  EXPECT_NEAR(mspd_px(estimate, truth, bar(), camera()), 500 * rim * (1 / 0.5 - 1 / 0.52), 1e-9);
+  EXPECT_NEAR(mspd_px(estimate, truth, bar(), pinhole()), 500 * rim * (1 / 0.5 - 1 / 0.52), 1e-9);
 }
 
 TEST(Mspd, IsInfiniteBehindTheCamera) {
   const Se3 truth{Eigen::Quaterniond::Identity(), {0, 0, 0.5}},
       behind{Eigen::Quaterniond::Identity(), {0, 0, -0.5}};
-  EXPECT_TRUE(std::isinf(mspd_px(behind, truth, bar(), camera())));
+  EXPECT_TRUE(std::isinf(mspd_px(behind, truth, bar(), pinhole())));
 }
 
 TEST(PoseError, IsRawWithoutSymmetries) {

@@ -265,5 +265,29 @@ TEST(CoarseScan, EqualsBruteForceOverAllPlaces) {
     }
 }
 
+// Where the template of a hit was drawn for the very anchor, the hit's pose has the hit's value.
+TEST(ScanMeanPx, IsThatOfAHit) {
+  const auto backend = make_cpu_backend(2);
+  const TemplateSet set = part_templates("l_bracket", 3, 0.34, 0.36, *backend);
+  const Se3 truth{so3_exp({0.6, 0.3, 0.2}), {0, 0, 0.35}};
+  const ObjectView view =
+      view_of_edges(ideal_edges(part_model("l_bracket", 2e-4), small_camera(), truth, *backend),
+                    small_camera(), 2, *backend);
+  ScanOptions options;
+  options.region_columns = options.region_rows = 1;
+  options.anchor_step = 4;
+  options.num_kept = 1;
+  double worst = 0;
+  for (const ScanHit& hit : coarse_scan(set, view, *backend, options))
+    worst =
+        std::max(worst, std::abs(hit.mean_px - scan_mean_px(set, view, hit.pose.world_from_object,
+                                                            *backend, options)));
+  // The points of a template are those visible from its viewpoint far away.
+  EXPECT_LT(worst, 0.2);
+  EXPECT_LT(scan_mean_px(set, view, truth, *backend, options), 0.7);
+  EXPECT_GT(scan_mean_px(set, view, {truth.rotation, {0, 0.04, 0.35}}, *backend, options), 1);
+  EXPECT_EQ(scan_mean_px(set, view, {truth.rotation, {0, 0, -1}}, *backend, options), 4);
+}
+
 }  // namespace
 }  // namespace edgescout::test

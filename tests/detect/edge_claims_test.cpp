@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "host/register/pose_classifier.h"
+#include "host/register/visible_in_views.h"
 #include "tests/detect/part_image.h"
 
 namespace edgescout::test {
@@ -132,6 +133,35 @@ TEST(ClaimEdges, KeepsPosesThatSomeViewsShow) {
   EXPECT_EQ(claims(shown).size(), 1u);
   for (const std::vector<PoseFeatures>& features : {never, once})
     EXPECT_TRUE(claims(features).empty());
+}
+
+TEST(SupportedPoints, AreThoseWithAnEdgeNear) {
+  const TwoParts t;
+  const Scene scene{t.models, t.views, *t.backend};
+  const ObjectPose right{0, t.right}, beside{0, t.shifted(t.right, 0.03)};
+  const std::size_t visible = visible_points(scene, {&right, 1})(0, 0).size();
+  ASSERT_GT(visible, 50u);
+  EXPECT_EQ(supported_points(scene, right), visible);
+  EXPECT_LT(supported_points(scene, beside), visible / 2);
+  EXPECT_EQ(supported_points(scene, {0, {t.left.rotation, {0, 0.07, 0.35}}}), 0u);
+}
+
+TEST(ClaimedFraction, IsThatOfTheEdgesThatAPoseExplains) {
+  const TwoParts t;
+  const Scene scene{t.models, t.views, *t.backend};
+  const auto claimed = [&](const Se3& pose, std::vector<Se3> claimants) {
+    std::vector<ObjectPose> poses;
+    for (const Se3& claimant : claimants) poses.push_back({0, claimant});
+    return claimed_fraction(scene, {0, pose}, poses);
+  };
+  EXPECT_EQ(claimed(t.left, {}), 0);
+  EXPECT_EQ(claimed(t.left, {t.right}), 0);
+  EXPECT_EQ(claimed(t.left, {t.left}), 1);
+  EXPECT_EQ(claimed(t.left, {t.right, t.shifted(t.left, 0.0005)}), 1);
+  const double by_shifted = claimed(t.left, {t.shifted(t.left, 0.01)});
+  EXPECT_GT(by_shifted, 0);
+  EXPECT_LT(by_shifted, 0.8);
+  EXPECT_EQ(claimed({t.left.rotation, {0, 0.07, 0.35}}, {t.left}), 0) << "it explains nothing";
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ TEST(ViewpointIndex, FindsTheNearestViewpoint) {
     const double cosine =
         cosine_of(viewpoints[found.viewpoint], pose * index.symmetry(found.symmetry));
     EXPECT_NEAR(cosine, largest, 1e-12);
+    EXPECT_NEAR(found.cosine, largest, 1e-12);
     EXPECT_GT(cosine, std::cos(ICOSPHERE_GAP_RAD / 4));
   }
 }

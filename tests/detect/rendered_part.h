@@ -1,0 +1,61 @@
+// Rendered parts of known pose on a bare board, with their templates.
+#pragma once
+
+#include "host/core/pose_error.h"
+#include "host/pipeline.h"
+#include "host/render/parts.h"
+#include "host/render/renderer.h"
+#include "kernels/thread_pool.h"
+#include "tests/bare_board.h"
+
+namespace edgescout::test {
+
+// `count` parts on a bare board, from `views` places 0.3 m away.
+struct RenderedPart {
+  Object part;
+  SimulatedScene scene;
+  std::vector<Rendering> renderings;
+  std::vector<TemplateSet> sets;
+
+  explicit RenderedPart(const std::string& name, int views = 1, int count = 1)
+      : part(make_part(name)) {
+    scene = make_scene(std::span(&part, 1), bare_board(count, views));
+    ThreadPool pool(2);
+    renderings = render(scene, pool);
+    sets.push_back(build_templates(part, near_templates(0.03), *make_cpu_backend(2)));
+  }
+  // The threshold of reported poses is fitted elsewhere; here the best one counts.
+  static PipelineOptions options() {
+    PipelineOptions all;
+    all.detect.min_probability = 0.02;
+    return all;
+  }
+  Se3 world_truth() const { return scene.placed[0].world_from_object; }
+  Se3 truth_in(std::size_t view, std::size_t placed = 0) const {
+    return scene.views[view].camera_from_world * scene.placed[placed].world_from_object;
+  }
+  ObjectView prepared(std::size_t view, const Se3& camera_from_world, Backend& backend) const {
+    std::vector<StageSeconds> stages;
+    return prepare_view(renderings[view].image, scene.views[view].camera, camera_from_world,
+                        backend, options(), &stages);
+  }
+  ObjectView with_tensors(std::size_t view, Backend& backend) const {
+    ObjectView built = prepared(view, scene.views[view].camera_from_world, backend);
+    add_tensors(built, sets, backend, options().tensor);
+    return built;
+  }
+  Detections detect(std::size_t view, Backend& backend) const {
+    return detect_objects(prepared(view, Se3{}, backend), sets, backend, options());
+  }
+  Detections detect_in_all(Backend& backend) const {
+    std::vector<ObjectView> views;
+    for (std::size_t v = 0; v < scene.views.size(); ++v)
+      views.push_back(prepared(v, scene.views[v].camera_from_world, backend));
+    return detect_jointly(views, sets, backend, options());
+  }
+  PoseError error(const Se3& found, const Se3& truth) const {
+    return pose_error(found, truth, part.symmetries);
+  }
+};
+
+}  // namespace edgescout::test
