@@ -6,6 +6,7 @@
 
 #include "commit.h"
 #include "host/cli/bench_verbs.h"
+#include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/help.h"
 #include "host/cli/option_table.h"
@@ -158,14 +159,12 @@ void add_method_options(CLI::App& verb, ExperimentsRequest& r) {
 void add_run_options(CLI::App& verb, ExperimentsRequest& r) {
   verb.add_option("names", r.names, "Names of the experiments: " + names_text() + "; default: all")
       ->type_name("NAME");
-  verb.add_option("--out", r.out, "Folder of the results")->required()->type_name("DIR");
+  add_results_folder(verb, r.out);
   verb.add_option("--data", r.data,
                   "Folder with d2co-starts, brackets, cat, triangle and cad. Without it, only "
                   "rendered images are used")
       ->type_name("DIR");
-  verb.add_option("--device", r.device,
-                  "Device to compute on: auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
-      ->capture_default_str();
+  add_device(verb, r.device);
   OptionTable(verb, "Run")
       .flag("resume", r.resume, "Continue with the finished cells of the same settings in DIR")
       .bounded("jobs", r.jobs, 0, 1024,

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "host/cli/batch.h"
+#include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/option_table.h"
 #include "host/cli/template_sets.h"
@@ -59,18 +60,11 @@ int detect(DetectRequest& request) {
 }
 
 void add_files(CLI::App& verb, DetectRequest& request) {
-  verb.add_option("inputs", request.inputs,
-                  "Images, folders of images, BOP scenes or folders of them")
-      ->required();
+  add_images(verb, request.inputs);
   add_model_arguments(verb, request.models);
-  verb.add_option("--camera", request.batch.camera_file,
-                  "Calibration of the images: ROS or OpenCV YAML, or BOP camera JSON. BOP scenes "
-                  "have their own")
-      ->type_name("FILE");
-  verb.add_option("--out", request.out, "Folder of the results")->required()->type_name("DIR");
-  verb.add_option("--device", request.device,
-                  "Device to compute on: auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
-      ->capture_default_str();
+  add_camera_file(verb, request.batch.camera_file);
+  add_results_folder(verb, request.out);
+  add_device(verb, request.device);
 }
 
 void add_options(CLI::App& verb, DetectRequest& request) {

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/verbs.h"
 #include "host/io/json_text.h"
@@ -54,8 +55,7 @@ void add_devices(CLI::App& app, int& exit_code) {
   CLI::App* verb =
       app.add_subcommand("devices", "List the Vulkan devices and the one that --device takes");
   auto options = std::make_shared<DevicesOptions>();
-  verb->add_option("--device", options->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
-      ->capture_default_str();
+  add_device(*verb, options->device);
   verb->add_flag("--json", options->as_json, "Print JSON");
   verb->callback([options, &exit_code] {
     list_devices(*options);

@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/explain_picture.h"
 #include "host/cli/explain_report.h"
@@ -220,22 +221,15 @@ void add_poses(CLI::App& verb, ExplainRequest& request) {
 }
 
 void add_files(CLI::App& verb, ExplainRequest& request) {
-  verb.add_option("inputs", request.inputs,
-                  "Images, folders of images, BOP scenes or folders of them")
-      ->required();
+  add_images(verb, request.inputs);
   add_poses(verb, request);
   add_model_arguments(verb, request.models);
-  verb.add_option("--camera", request.images.camera_file,
-                  "Calibration of the images: ROS or OpenCV YAML, or BOP camera JSON. BOP scenes "
-                  "have their own")
-      ->type_name("FILE");
+  add_camera_file(verb, request.images.camera_file);
   verb.add_option("--out", request.out,
                   "Folder for explain.json and a picture of each given pose. Without it nothing is "
                   "written")
       ->type_name("DIR");
-  verb.add_option("--device", request.device,
-                  "Device to compute on: auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
-      ->capture_default_str();
+  add_device(verb, request.device);
 }
 
 void add_options(CLI::App& verb, ExplainRequest& request) {

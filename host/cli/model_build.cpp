@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/inputs.h"
 #include "host/cli/model_verbs.h"
@@ -92,8 +93,7 @@ void add_model_build(CLI::App& model, int& exit_code) {
   verb->add_option("--camera", request->camera,
                    "Calibration from which the range of distances is computed")
       ->type_name("FILE");
-  verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
-      ->capture_default_str();
+  add_device(*verb, request->device);
   verb->add_option("--out", request->out, "Template file")->required()->type_name("FILE");
   OptionTable(*verb, "Model")
       .bounded("object-id", request->object_id, 0, 1000000,

@@ -6,6 +6,7 @@
 #include <iostream>
 #include <numbers>
 
+#include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/model_verbs.h"
 #include "host/cli/option_table.h"
@@ -128,8 +129,7 @@ void add_model_draw(CLI::App& model, int& exit_code) {
       ->required()
       ->type_name("FILE");
   verb->add_option("--unit", request->unit, "Length unit of a CAD file: mm, cm, m or in");
-  verb->add_option("--device", request->device, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
-      ->capture_default_str();
+  add_device(*verb, request->device);
   verb->add_option("--out", request->out, "PNG file")->required()->type_name("FILE");
   OptionTable(*verb, "Picture")
       .bounded("columns", request->columns, 1, 16, "Columns of pictures")

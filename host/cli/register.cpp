@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/option_table.h"
 #include "host/cli/register_batch.h"
@@ -77,9 +78,7 @@ int register_all(RegisterRequest& request) {
 }
 
 void add_files(CLI::App& verb, RegisterRequest& request) {
-  verb.add_option("inputs", request.inputs,
-                  "Images, folders of images, BOP scenes or folders of them")
-      ->required();
+  add_images(verb, request.inputs);
   verb.add_option(
           "--poses", request.poses,
           "Poses to start from: a BOP results CSV (t in mm), a result of this program, or a JSON "
@@ -96,14 +95,9 @@ void add_files(CLI::App& verb, RegisterRequest& request) {
   verb.add_option("--templates", request.template_files,
                   "Template files of `edgescout model build`, in place of --model")
       ->type_name("FILE");
-  verb.add_option("--camera", request.options.camera_file,
-                  "Calibration of the images: ROS or OpenCV YAML, or BOP camera JSON. BOP scenes "
-                  "have their own")
-      ->type_name("FILE");
-  verb.add_option("--out", request.out, "Folder of the results")->required()->type_name("DIR");
-  verb.add_option("--device", request.device,
-                  "Device to compute on: auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
-      ->capture_default_str();
+  add_camera_file(verb, request.options.camera_file);
+  add_results_folder(verb, request.out);
+  add_device(verb, request.device);
 }
 
 void add_options(CLI::App& verb, RegisterRequest& request) {

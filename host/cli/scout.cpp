@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "host/cli/batch_settings.h"
+#include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/help.h"
 #include "host/cli/option_table.h"
@@ -232,10 +233,8 @@ void add_scout(CLI::App& app, int& exit_code) {
   auto request = std::make_shared<ScoutRequest>();
   add_source_options(*verb, request->source);
   add_model_arguments(*verb, request->models);
-  verb->add_option("--out", request->out, "Folder of the results")->required()->type_name("DIR");
-  verb->add_option("--device", request->device,
-                   "Device to compute on: auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
-      ->capture_default_str();
+  add_results_folder(*verb, request->out);
+  add_device(*verb, request->device);
   add_options(*verb, *request);
   verb->callback([request, verb, &exit_code] {
     // A resumed run may have another budget, another strategy and other options of the expected

@@ -1,0 +1,27 @@
+#include "host/cli/common_arguments.h"
+
+namespace edgescout {
+
+void add_images(CLI::App& verb, std::vector<std::string>& inputs) {
+  verb.add_option("inputs", inputs, "Images, folders of images, BOP scenes or folders of them")
+      ->required();
+}
+
+void add_camera_file(CLI::App& verb, std::string& file) {
+  verb.add_option("--camera", file,
+                  "Calibration of the images: ROS or OpenCV YAML, or BOP camera JSON. BOP scenes "
+                  "have their own")
+      ->type_name("FILE");
+}
+
+void add_results_folder(CLI::App& verb, std::string& out) {
+  verb.add_option("--out", out, "Folder of the results")->required()->type_name("DIR");
+}
+
+void add_device(CLI::App& verb, std::string& device) {
+  verb.add_option("--device", device,
+                  "Device to compute on: auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
+      ->capture_default_str();
+}
+
+}  // namespace edgescout

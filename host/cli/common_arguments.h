@@ -1,0 +1,15 @@
+// Arguments that several verbs have, declared once.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace edgescout {
+
+void add_images(CLI::App& verb, std::vector<std::string>& inputs);  // required
+void add_camera_file(CLI::App& verb, std::string& file);            // --camera
+void add_results_folder(CLI::App& verb, std::string& out);          // --out, required
+void add_device(CLI::App& verb, std::string& device);               // --device; shows its default
+
+}  // namespace edgescout
