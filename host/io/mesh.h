@@ -17,17 +17,27 @@ enum class LengthUnit { Millimetre, Centimetre, Metre, Inch };
 LengthUnit length_unit(const std::string& word);
 double metres_per(LengthUnit unit);
 
-// Reads a mesh and converts it to metres. Welds vertices closer than 1e-6 of the diameter, drops
-// degenerate and duplicate triangles, and computes normals, box and diameter. A diameter outside
-// 5 mm..5 m is logged as a warning. InputError: the file is missing, unreadable, truncated or of
-// unknown type; the count in an STL's header disagrees with the file's size; there is no triangle;
-// a vertex is not finite or beyond 1e9 m; an index is out of range.
+// Reads a mesh, converts it to metres and repairs it as make_mesh does. A diameter outside 5 mm..5
+// m is logged as a warning. InputError: the file is missing, unreadable, truncated or of unknown
+// type; the count in an STL's header disagrees with the file's size; there is no triangle; a vertex
+// is not finite or beyond 1e9 m; an index is out of range.
 Mesh load_mesh(const std::filesystem::path& file, LengthUnit unit);
 
-// Welds, cleans and completes a mesh of raw triangles, as load_mesh does after reading. `name`
-// appears in errors. Vertices that no triangle uses are dropped.
+// Makes a mesh of raw triangles. `name` appears in errors. Computes normals, box and diameter. A
+// mesh without defects keeps its triangles and vertices; otherwise, with lengths as shares of the
+// diameter:
+//   vertices within 1e-5                          are welded
+//   duplicates and triangles at most 1e-5 high    are dropped; what was beside them is joined
+//   open borders that face each other within 3e-3 are joined: loose triangles, T-junctions, seams
+//   neighbours with opposite windings             are made consistent; closed parts turn outwards
+// Vertices that no triangle uses are dropped. InputError: as load_mesh, or nothing is left.
 Mesh make_mesh(std::string name, std::vector<Eigen::Vector3d> vertices_m,
                std::vector<std::array<int, 3>> triangles);
+
+// The mesh of make_mesh from its vertices and triangles, which stay as they are. InputError: as
+// make_mesh.
+Mesh restore_mesh(std::string name, std::vector<Eigen::Vector3d> vertices_m,
+                  std::vector<std::array<int, 3>> triangles);
 
 // Writes BOP's model format, atomically: binary little-endian PLY in millimetres, float vertices.
 void save_ply_mm(const Mesh& mesh, const std::filesystem::path& file);

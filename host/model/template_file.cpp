@@ -69,7 +69,7 @@ TemplateSet set_from(std::string_view payload, const std::string& source) {
   std::vector<Eigen::Vector3d> vertices;
   for (const auto& v : in.get_list<std::array<double, 3>>())
     vertices.emplace_back(v[0], v[1], v[2]);
-  const Mesh mesh = make_mesh(name, std::move(vertices), in.get_list<std::array<int, 3>>());
+  const Mesh mesh = restore_mesh(name, std::move(vertices), in.get_list<std::array<int, 3>>());
   set.model = make_edge_model(mesh, set.options.edges);
   for (std::size_t i = in.count(4 * sizeof(double)); i > 0; --i) {
     TemplateView view{in.get_rotation(), {}};

@@ -61,16 +61,36 @@ TEST(MakeMesh, IsIdempotent) {
   EXPECT_EQ(once.triangles, twice.triangles);
 }
 
-TEST(MakeMesh, WeldsWithinAMillionthOfTheDiameterOnly) {
+// A roof on a square of 1 x 1; without a ridge it is a pyramid. The diameter is near sqrt(2).
+Mesh roof(double ridge) {
+  const std::vector<Vector3d> x{{0, 0, 0}, {1, 0, 0},       {1, 1, 0},
+                                {0, 1, 0}, {0.5, 0.5, 0.5}, {0.5 + ridge, 0.5, 0.5}};
+  return make_mesh(
+      "roof", x,
+      {{0, 2, 1}, {0, 3, 2}, {0, 1, 5}, {0, 5, 4}, {1, 2, 5}, {2, 3, 4}, {2, 4, 5}, {3, 0, 4}});
+}
+
+TEST(MakeMesh, WeldsWithinAHundredThousandthOfTheDiameterOnly) {
+  EXPECT_EQ(roof(1.4e-5).vertices_m.size(), 5u);
+  EXPECT_EQ(roof(1.4e-5).triangles.size(), 6u) << "the needles are gone";
+  EXPECT_EQ(roof(2.2e-5).vertices_m.size(), 6u);
+  EXPECT_EQ(roof(2.2e-5).triangles.size(), 8u);
+}
+
+TEST(MakeMesh, JoinsBordersWithinThreeThousandthsOfTheDiameterOnly) {
   const auto vertices_of = [](double gap) {
-    // Two triangles that share the side (1, 0, 0)-(0, 1, 0) but for the gap; the diameter is near
-    // sqrt(2).
+    // Two triangles that share the side (1, 0, 0)-(0, 1, 0) but for the gap.
     const std::vector<Vector3d> x{{0, 0, 0},   {1, 0, 0}, {0, 1, 0},
                                   {1, 0, gap}, {1, 1, 0}, {0, 1, gap}};
     return make_mesh("gap", x, {{0, 1, 2}, {3, 4, 5}}).vertices_m.size();
   };
-  EXPECT_EQ(vertices_of(1.0e-6), 4u);
-  EXPECT_EQ(vertices_of(2.0e-6), 6u);
+  EXPECT_EQ(vertices_of(1e-5), 4u);
+  EXPECT_EQ(vertices_of(3e-3), 4u);
+  EXPECT_EQ(vertices_of(5e-3), 6u);
+}
+
+TEST(MakeMesh, JoinsNoVerticesOfAClosedSurface) {
+  EXPECT_EQ(roof(1e-3).vertices_m.size(), 6u) << "a ridge is no gap";
 }
 
 TEST(MakeMesh, WeldsARandomSoupAsBruteForceDoes) {
@@ -90,7 +110,7 @@ TEST(MakeMesh, WeldsARandomSoupAsBruteForceDoes) {
   EXPECT_EQ(mesh.vertices_m.size(), sites.size());
   for (std::size_t i = 0; i < mesh.vertices_m.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      EXPECT_GT((mesh.vertices_m[i] - mesh.vertices_m[j]).norm(), 1e-6 * mesh.diameter_m);
+      EXPECT_GT((mesh.vertices_m[i] - mesh.vertices_m[j]).norm(), 1e-5 * mesh.diameter_m);
 }
 
 TEST(MakeMesh, DropsDegenerateAndDuplicateTrianglesAndStrayVertices) {
