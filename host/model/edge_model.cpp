@@ -2,65 +2,33 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
-#include <numeric>
 
 #include "host/io/binary_file.h"
+#include "host/io/mesh_edges.h"
+#include "host/model/mesh_edge_kind.h"
+#include "host/model/union_find.h"
 #include "kernels/error.h"
 
 namespace edgescout {
 
 namespace {
 
-using VertexPair = std::pair<int, int>;
-using FacesByEdge = std::map<VertexPair, std::vector<int>>;
-
-FacesByEdge faces_by_edge(const Mesh& mesh) {
-  FacesByEdge faces;
-  for (int t = 0; t < int(mesh.triangles.size()); ++t)
-    for (int c = 0; c < 3; ++c) {
-      const int a = mesh.triangles[t][c], b = mesh.triangles[t][(c + 1) % 3];
-      faces[std::minmax(a, b)].push_back(t);
-    }
-  return faces;
-}
-
-bool is_smooth(const Mesh& mesh, const std::vector<int>& faces, double cos_crease) {
-  return faces.size() == 2 &&
-         mesh.face_normals[faces[0]].dot(mesh.face_normals[faces[1]]) > cos_crease;
-}
-
-// Groups corners (3 * triangle + corner) that share a vertex and a smooth edge at it: union-find. A
-// group is one piece of surface.
-class CornerGroups {
- public:
-  explicit CornerGroups(std::size_t corners) : parent_(corners) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int root(int corner) {
-    while (parent_[corner] != corner) corner = parent_[corner] = parent_[parent_[corner]];
-    return corner;
-  }
-  void join(int a, int b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<int> parent_;
-};
-
-int corner_at(const Mesh& mesh, int triangle, int vertex) {
-  const auto& corners = mesh.triangles[triangle];
-  return 3 * triangle + int(std::find(corners.begin(), corners.end(), vertex) - corners.begin());
-}
-
+// Averages over the corners that share a vertex and are connected by smooth edges: one piece of
+// surface. Where the windings of two triangles disagree, a mean has no side.
 std::vector<std::array<Eigen::Vector3d, 3>> average_normals(const Mesh& mesh,
-                                                            const FacesByEdge& faces,
-                                                            double cos_crease) {
-  CornerGroups groups(3 * mesh.triangles.size());
-  for (const auto& [edge, sides] : faces)
-    if (is_smooth(mesh, sides, cos_crease))
-      for (int vertex : {edge.first, edge.second})
-        groups.join(corner_at(mesh, sides[0], vertex), corner_at(mesh, sides[1], vertex));
+                                                            std::span<const MeshEdge> edges) {
+  UnionFind groups(3 * mesh.triangles.size());  // of corners 3 * triangle + corner
+  const auto join_at = [&](const HalfEdge& a, const HalfEdge& b) {
+    const auto corner = [](const HalfEdge& h, int place) {
+      return 3 * h.triangle + (h.side + place) % 3;
+    };
+    groups.join(corner(a, 0), corner(b, 1));
+    groups.join(corner(a, 1), corner(b, 0));
+  };
+  for (const auto& [sides, kind] : edges)
+    if (kind == MeshEdge::Kind::Smooth && sides.size() == 2 && winding_agrees(sides[0], sides[1]))
+      join_at(sides[0], sides[1]);
   std::vector<Eigen::Vector3d> sum(3 * mesh.triangles.size(), Eigen::Vector3d::Zero());
   for (int t = 0; t < int(mesh.triangles.size()); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
@@ -75,6 +43,15 @@ std::vector<std::array<Eigen::Vector3d, 3>> average_normals(const Mesh& mesh,
       normals[t][corner] = total.norm() > 0 ? total.normalized() : mesh.face_normals[t];
     }
   return normals;
+}
+
+std::vector<EdgeModel::Segment> drawn_edges(const Mesh& mesh, std::span<const MeshEdge> edges) {
+  std::vector<EdgeModel::Segment> drawn;
+  for (const auto& [sides, kind] : edges)
+    if (kind != MeshEdge::Kind::Smooth)
+      drawn.push_back({mesh.vertices_m[sides[0].low], mesh.vertices_m[sides[0].high],
+                       kind == MeshEdge::Kind::OpenBorder});
+  return drawn;
 }
 
 bool is_curved(const std::array<Eigen::Vector3d, 3>& normals) {
@@ -98,19 +75,18 @@ void EdgeModelOptions::validate() const { check_bounds(*this, "model"); }
 EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options) {
   options.validate();
   const double cos_crease = std::cos(options.crease_angle_deg * std::numbers::pi / 180);
-  const FacesByEdge faces = faces_by_edge(mesh);
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh.triangles);
+  const std::vector<MeshEdge> edges = mesh_edges(mesh, sides, cos_crease);
   EdgeModel model;
   model.mesh = mesh;
   model.raster_step_m = options.raster_step_m > 0 ? options.raster_step_m : mesh.diameter_m / 80;
   model.center_m = 0.5 * (mesh.box_min_m + mesh.box_max_m);
   for (const Eigen::Vector3d& vertex : mesh.vertices_m)
     model.radius_m = std::max(model.radius_m, (vertex - model.center_m).norm());
-  for (const auto& [edge, sides] : faces)
-    if (!is_smooth(mesh, sides, cos_crease))
-      model.creases.push_back({mesh.vertices_m[edge.first], mesh.vertices_m[edge.second]});
+  model.creases = drawn_edges(mesh, edges);
   for (const EdgeModel::Segment& crease : model.creases)
     add_raster_points(crease.from_m, crease.to_m, model.raster_step_m, model.crease_points);
-  model.corner_normals = average_normals(mesh, faces, cos_crease);
+  model.corner_normals = average_normals(mesh, edges);
   for (int t = 0; t < int(mesh.triangles.size()); ++t)
     if (is_curved(model.corner_normals[t])) model.curved.push_back(t);
   for (const Eigen::Vector3d& vertex : mesh.vertices_m)

@@ -32,6 +32,7 @@ struct EdgeModel {
   // A sharp or open edge of the mesh. Each is listed once, however many faces share it.
   struct Segment {
     Eigen::Vector3d from_m, to_m;
+    bool is_open_border = false;
   };
   std::vector<Segment> creases;
   std::vector<RasterPoint> crease_points;  // along them
