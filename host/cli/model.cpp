@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "host/cli/exit_codes.h"
@@ -10,6 +9,8 @@
 #include "host/cli/verbs.h"
 #include "host/io/json_text.h"
 #include "host/io/mesh.h"
+#include "host/io/mesh_edges.h"
+#include "host/model/mesh_quality.h"
 
 namespace edgescout {
 
@@ -22,47 +23,74 @@ struct EdgeCounts {
 };
 
 EdgeCounts count_edges(const Mesh& mesh) {
-  std::map<std::pair<int, int>, int> triangles_at;
-  for (const auto& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k) ++triangles_at[std::minmax({t[k], t[(k + 1) % 3]})];
   EdgeCounts counts;
-  for (const auto& [edge, triangles] : triangles_at) {
+  const std::vector<HalfEdge> sides = sorted_half_edges(mesh.triangles);
+  for_each_edge(sides, [&](std::span<const HalfEdge> edge) {
     ++counts.all;
-    counts.open += triangles == 1;
-    counts.non_manifold += triangles > 2;
-  }
+    counts.open += edge.size() == 1;
+    counts.non_manifold += edge.size() > 2;
+  });
   return counts;
 }
 
-nlohmann::json inspection_json(const std::string& file, const Mesh& mesh, const EdgeCounts& edges) {
+struct Inspection {
+  std::string file;
+  EdgeModel model;
+  EdgeCounts edges;
+  MeshQuality quality;
+};
+
+Inspection inspect_file(const std::string& file, LengthUnit unit) {
+  Inspection found{file, make_edge_model(load_mesh(file, unit)), {}, {}};
+  found.edges = count_edges(found.model.mesh);
+  found.quality = mesh_quality(found.model);
+  return found;
+}
+
+nlohmann::json to_json(const Inspection& found) {
   const auto mm = [](const Eigen::Vector3d& x) {
     return std::vector<double>{1000 * x.x(), 1000 * x.y(), 1000 * x.z()};
   };
-  return {{"file", file},
+  const Mesh& mesh = found.model.mesh;
+  return {{"file", found.file},
           {"box_min_mm", mm(mesh.box_min_m)},
           {"box_max_mm", mm(mesh.box_max_m)},
           {"diameter_mm", 1000 * mesh.diameter_m},
           {"vertices", mesh.vertices_m.size()},
           {"triangles", mesh.triangles.size()},
-          {"edges", edges.all},
-          {"open_border_edges", edges.open},
-          {"non_manifold_edges", edges.non_manifold}};
+          {"edges", found.edges.all},
+          {"open_border_edges", found.edges.open},
+          {"non_manifold_edges", found.edges.non_manifold},
+          {"inconsistent_edges", found.quality.inconsistent_edges},
+          {"drawn_length_mm", 1000 * found.quality.drawn_m},
+          {"drawn_open_border_share", found.quality.open_border_share},
+          {"drawn_short_edge_share", found.quality.short_edge_share},
+          {"warning", mesh_warning(found.model)}};
 }
 
-void print_inspection(const std::string& file, const Mesh& mesh, const EdgeCounts& edges) {
+std::string to_text(const Inspection& found) {
+  const Mesh& mesh = found.model.mesh;
   const Eigen::Vector3d low = 1000 * mesh.box_min_m, high = 1000 * mesh.box_max_m,
                         size = high - low;
-  std::cout << fmt::format(
-      "{}\n"
-      "  box       {:.3f} x {:.3f} x {:.3f} mm, from ({:.3f}, {:.3f}, {:.3f}) to ({:.3f}, {:.3f}, "
-      "{:.3f})\n"
-      "  diameter  {:.3f} mm\n"
-      "  vertices  {} (welded)\n"
-      "  triangles {}\n"
-      "  edges     {}, of which {} on open borders and {} shared by more than two triangles\n",
-      file, size.x(), size.y(), size.z(), low.x(), low.y(), low.z(), high.x(), high.y(), high.z(),
-      1000 * mesh.diameter_m, mesh.vertices_m.size(), mesh.triangles.size(), edges.all, edges.open,
-      edges.non_manifold);
+  const MeshQuality& quality = found.quality;
+  return fmt::format(
+             "{}\n"
+             "  box       {:.3f} x {:.3f} x {:.3f} mm, from ({:.3f}, {:.3f}, {:.3f}) to ({:.3f}, "
+             "{:.3f}, {:.3f})\n"
+             "  diameter  {:.3f} mm\n"
+             "  vertices  {} (welded)\n"
+             "  triangles {}\n",
+             found.file, size.x(), size.y(), size.z(), low.x(), low.y(), low.z(), high.x(),
+             high.y(), high.z(), 1000 * mesh.diameter_m, mesh.vertices_m.size(),
+             mesh.triangles.size()) +
+         fmt::format(
+             "  edges     {}, of which {} on open borders and {} shared by more than two "
+             "triangles; winding inconsistent at {}\n"
+             "  drawn     {:.1f} mm of edges, of which {:.1f} % open border and {:.1f} % in edges "
+             "shorter than the raster step of {:.3f} mm\n",
+             found.edges.all, found.edges.open, found.edges.non_manifold,
+             quality.inconsistent_edges, 1000 * quality.drawn_m, 100 * quality.open_border_share,
+             100 * quality.short_edge_share, 1000 * found.model.raster_step_m);
 }
 
 struct InspectOptions {
@@ -74,22 +102,22 @@ struct InspectOptions {
 // Reads every file before it prints, so that a bad file gives no partial output.
 void inspect(const InspectOptions& options) {
   const LengthUnit unit = length_unit(options.unit);
-  std::vector<Mesh> meshes;
-  for (const std::string& file : options.files) meshes.push_back(load_mesh(file, unit));
+  std::vector<Inspection> inspections;
+  for (const std::string& file : options.files) inspections.push_back(inspect_file(file, unit));
   nlohmann::json list = nlohmann::json::array();
-  for (std::size_t i = 0; i < meshes.size(); ++i) {
-    const EdgeCounts edges = count_edges(meshes[i]);
+  for (const Inspection& found : inspections) {
+    warn_of_mesh(found.model);
     if (options.as_json)
-      list.push_back(inspection_json(options.files[i], meshes[i], edges));
+      list.push_back(to_json(found));
     else
-      print_inspection(options.files[i], meshes[i], edges);
+      std::cout << to_text(found);
   }
   if (options.as_json) std::cout << json_text(list);
 }
 
 void add_inspect(CLI::App& model, int& exit_code) {
   CLI::App* verb =
-      model.add_subcommand("inspect", "Print box, diameter, counts and open borders of CAD files");
+      model.add_subcommand("inspect", "Print box, diameter, counts and defects of CAD files");
   auto options = std::make_shared<InspectOptions>();
   verb->add_option("files", options->files, "STL, PLY, OBJ or CAO files")
       ->required()

@@ -12,6 +12,7 @@
 #include "host/io/camera_file.h"
 #include "host/io/files.h"
 #include "host/model/axis_symmetry.h"
+#include "host/model/mesh_quality.h"
 #include "host/model/template_set.h"
 #include "kernels/backend.h"
 #include "kernels/error.h"
@@ -63,6 +64,7 @@ void build(const BuildRequest& request) {
       progress.move_to(static_cast<std::size_t>(100 * done / all));
     });
   }
+  warn_of_mesh(set.model);
   save_templates(set, out);
   std::size_t points = 0;
   for (const TemplateView& view : set.views) points += view.points.size();

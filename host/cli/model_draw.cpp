@@ -11,6 +11,7 @@
 #include "host/cli/model_verbs.h"
 #include "host/cli/option_table.h"
 #include "host/io/mesh.h"
+#include "host/model/mesh_quality.h"
 #include "host/model/template_set.h"
 #include "host/overlay.h"
 #include "kernels/backend.h"
@@ -114,6 +115,7 @@ void draw(const DrawRequest& request) {
     set = load_templates(request.file);
   else
     set.model = make_edge_model(load_mesh(request.file, length_unit(request.unit)), request.edges);
+  warn_of_mesh(set.model);
   const Viewpoints viewpoints = set.views.empty() ? of_model(set.model) : of_templates(set);
   save_png(contact_sheet(set.model, viewpoints, request, *backend), request.out);
   std::cout << "wrote " << request.out << "\n";

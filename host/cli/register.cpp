@@ -10,6 +10,7 @@
 #include "host/cli/template_sets.h"
 #include "host/cli/verbs.h"
 #include "host/io/camera_file.h"
+#include "host/model/mesh_quality.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -62,6 +63,7 @@ int register_all(RegisterRequest& request) {
   const std::unique_ptr<Backend> backend = make_backend(request.device);
   if (!options.camera_file.empty()) options.camera = load_camera(options.camera_file);
   const std::vector<RegisterModel> models = load_models(request);
+  for (const RegisterModel& model : models) warn_of_mesh(model.edges);
   require_safe_starts(request);
   const std::vector<StartPose> poses = load_start_poses(request.poses);
   const std::vector<InputImage> images = list_images(request.inputs);

@@ -6,6 +6,7 @@
 
 #include "host/cli/progress.h"
 #include "host/core/log.h"
+#include "host/model/mesh_quality.h"
 #include "kernels/backend.h"
 #include "kernels/error.h"
 
@@ -73,7 +74,10 @@ std::vector<TemplateSet> template_sets_of(const KnownModels& known, const Templa
         build_templates(object, with_default_distances(options, object.mesh.diameter_m, camera),
                         backend, [&](int done, int all) { progress.move_to(100 * done / all); }));
   }
-  for (const TemplateSet& set : sets) log_sizes(set);
+  for (const TemplateSet& set : sets) {
+    log_sizes(set);
+    warn_of_mesh(set.model);
+  }
   return sets;
 }
 

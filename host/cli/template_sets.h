@@ -26,7 +26,8 @@ struct KnownModels {
 KnownModels load_models(const ModelArguments& arguments);
 
 // Builds the missing templates and shows the progress on standard error. Logs the size of every
-// object and the range of its distances. Distances left at 0: with_default_distances for `camera`.
+// object and the range of its distances, and warns of meshes with defects. Distances left at 0:
+// with_default_distances for `camera`.
 std::vector<TemplateSet> template_sets_of(const KnownModels& known, const TemplateOptions& options,
                                           const Camera& camera, Backend& backend);
 

@@ -217,6 +217,10 @@ TEST(ModelInspect, MeasuresABox) {
   EXPECT_EQ(list.at(0).at("vertices"), 8);
   EXPECT_EQ(list.at(0).at("edges"), 18);
   EXPECT_EQ(list.at(0).at("open_border_edges"), 0);
+  EXPECT_EQ(list.at(0).at("drawn_open_border_share"), 0);
+  EXPECT_EQ(list.at(0).at("inconsistent_edges"), 0);
+  EXPECT_NEAR(list.at(0).at("drawn_length_mm").get<double>(), 40 * (30 + 40 + 120), 1e-2);
+  EXPECT_EQ(list.at(0).at("warning"), "");
 }
 
 TEST(ModelInspect, TakesFileNamesThatAreNoUtf8) {
@@ -238,6 +242,8 @@ TEST(ModelInspect, CountsOpenBordersAndWarnsOfTheUnit) {
   EXPECT_EQ(nlohmann::json::parse(outcome.out).at(0).at("open_border_edges"), 4);
   EXPECT_NE(outcome.err.find("edgescout: warning: "), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("is the unit right?"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("of the drawn edge length is open border"), std::string::npos)
+      << outcome.err;
   EXPECT_EQ(run_program({"model", "inspect", file, "--unit", "m", "--log-level", "error"}).err, "");
 }
 
