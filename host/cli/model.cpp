@@ -58,6 +58,7 @@ nlohmann::json to_json(const Inspection& found) {
           {"diameter_mm", 1000 * mesh.diameter_m},
           {"vertices", mesh.vertices_m.size()},
           {"triangles", mesh.triangles.size()},
+          {"depth_map_triangles", found.model.occluding.triangles.size() / 3},
           {"edges", found.edges.all},
           {"open_border_edges", found.edges.open},
           {"non_manifold_edges", found.edges.non_manifold},
@@ -79,10 +80,10 @@ std::string to_text(const Inspection& found) {
              "{:.3f}, {:.3f})\n"
              "  diameter  {:.3f} mm\n"
              "  vertices  {} (welded)\n"
-             "  triangles {}\n",
+             "  triangles {}, drawn in depth maps as {}\n",
              found.file, size.x(), size.y(), size.z(), low.x(), low.y(), low.z(), high.x(),
              high.y(), high.z(), 1000 * mesh.diameter_m, mesh.vertices_m.size(),
-             mesh.triangles.size()) +
+             mesh.triangles.size(), found.model.occluding.triangles.size() / 3) +
          fmt::format(
              "  edges     {}, of which {} on open borders and {} shared by more than two "
              "triangles; winding inconsistent at {}\n"

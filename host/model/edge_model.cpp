@@ -89,10 +89,7 @@ EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options) {
   model.corner_normals = average_normals(mesh, edges);
   for (int t = 0; t < int(mesh.triangles.size()); ++t)
     if (is_curved(model.corner_normals[t])) model.curved.push_back(t);
-  for (const Eigen::Vector3d& vertex : mesh.vertices_m)
-    for (int i = 0; i < 3; ++i) model.vertices.push_back(float(vertex[i]));
-  for (const auto& triangle : mesh.triangles)
-    for (int corner : triangle) model.triangles.push_back(static_cast<std::uint32_t>(corner));
+  model.occluding = occluding_surface(mesh);
   return model;
 }
 

@@ -10,6 +10,7 @@
 
 #include "host/core/options.h"
 #include "host/core/types.h"
+#include "host/model/occluding_surface.h"
 #include "kernels/depth_raster.h"
 
 namespace edgescout {
@@ -47,10 +48,8 @@ struct EdgeModel {
   Eigen::Vector3d center_m = Eigen::Vector3d::Zero();  // of the bounding box
   double radius_m = 0;  // of the smallest sphere about the centre that holds the mesh
 
-  // The mesh in the kernels' format.
-  std::vector<float> vertices;
-  std::vector<std::uint32_t> triangles;
-  TriangleMesh triangle_mesh() const { return {vertices, triangles}; }
+  OccludingSurface occluding;  // what depth maps draw in place of the mesh
+  TriangleMesh triangle_mesh() const { return {occluding.vertices_m, occluding.triangles}; }
 };
 
 EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options = {});

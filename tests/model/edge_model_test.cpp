@@ -30,15 +30,11 @@ TEST(EdgeModel, CubeHasItsTwelveEdgesAndNoDiagonal) {
       EXPECT_NEAR((normal - model.mesh.face_normals[t]).norm(), 0, 1e-12);
 }
 
-TEST(EdgeModel, FramesTheMeshForTheKernels) {
+TEST(EdgeModel, FramesTheMesh) {
   const EdgeModel model = make_edge_model(make_box({0.1, 0.2, 0.3}));
   EXPECT_NEAR(model.center_m.norm(), 0, 1e-12);
   EXPECT_NEAR(model.radius_m, 0.5 * std::sqrt(0.01 + 0.04 + 0.09), 1e-12);
   EXPECT_NEAR(model.raster_step_m, model.mesh.diameter_m / 80, 1e-12);
-  ASSERT_EQ(model.vertices.size(), 3 * model.mesh.vertices_m.size());
-  ASSERT_EQ(model.triangles.size(), 3 * model.mesh.triangles.size());
-  EXPECT_EQ(model.vertices[4], float(model.mesh.vertices_m[1].y()));
-  EXPECT_EQ(model.triangles[5], std::uint32_t(model.mesh.triangles[1][2]));
 }
 
 TEST(EdgeModel, IsToldFromOthersByItsFingerprint) {
