@@ -86,7 +86,8 @@ Mesh make_mesh(std::string name, std::vector<Vector3d> vertices_m,
   const double size_m = largest_distance(mesh.vertices);
   if (size_m > 0) repair_mesh(mesh, size_m);
   if (mesh.triangles.empty() || !(size_m > 0))
-    throw InputError(name, "triangles", "only triangles without area", "at least one with an area");
+    throw InputError(name, "triangles", "only triangles without area, slivers or duplicates",
+                     "at least one higher than 1e-5 of the diameter");
   return complete(std::move(name), std::move(mesh));
 }
 

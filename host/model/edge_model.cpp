@@ -89,6 +89,9 @@ EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options) {
   model.corner_normals = average_normals(mesh, edges);
   for (int t = 0; t < int(mesh.triangles.size()); ++t)
     if (is_curved(model.corner_normals[t])) model.curved.push_back(t);
+  if (model.crease_points.empty() && model.curved.empty())
+    throw InputError(mesh.name, "edges", "none to draw",
+                     "a mesh with creases, open borders or curved faces, a smaller raster step");
   model.occluding = occluding_surface(mesh);
   return model;
 }

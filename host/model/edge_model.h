@@ -52,6 +52,7 @@ struct EdgeModel {
   TriangleMesh triangle_mesh() const { return {occluding.vertices_m, occluding.triangles}; }
 };
 
+// InputError: options out of their bounds; the mesh shows no edge from anywhere.
 EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options = {});
 
 // Appends the samples of an edge between two points. A segment shorter than the step (of a finely

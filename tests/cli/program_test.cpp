@@ -267,6 +267,14 @@ TEST(ModelInspect, RejectsBadMeshesAndAMissingUnit) {
   expect_bad_request(inspect(folder.write("zero.stl", binary_stl({}))), {"zero.stl", "triangles"});
   expect_bad_request(inspect(folder.write("nan.stl", binary_stl(bad))),
                      {"nan.stl", "vertex", "not finite"});
+  Triangles slivers;
+  for (const double z : {0.0, 20.0, 40.0}) {
+    const int first = int(slivers.vertices.size());
+    slivers.vertices.insert(slivers.vertices.end(), {{0, 0, z}, {50, 1e-4, z}, {100, 0, z}});
+    slivers.triangles.push_back({first, first + 1, first + 2});
+  }
+  expect_bad_request(inspect(folder.write("slivers.stl", binary_stl(slivers))),
+                     {"slivers.stl: triangles", "slivers"});
   // A good file before a bad one is not half reported.
   expect_bad_request({"model", "inspect", good, folder.path() / "none.stl", "--unit", "mm"},
                      {"none.stl"});

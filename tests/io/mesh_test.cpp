@@ -138,6 +138,11 @@ TEST(MakeMesh, RejectsWhatIsNoSurface) {
         make_mesh("m", {x[1], x[1], x[1]}, {{0, 1, 2}});
       },
       {"m: triangles", "without area"});
+  expect_input_error(
+      [&] {
+        make_mesh("m", {x[0], {1, 1e-5, 0}, x[2]}, {{0, 1, 2}});
+      },
+      {"m: triangles", "slivers"});
 }
 
 TEST(MakeMesh, RejectsVerticesThatAreNotFiniteAndIndicesOutOfRange) {

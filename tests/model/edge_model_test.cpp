@@ -8,6 +8,7 @@
 
 #include "host/render/parts.h"
 #include "kernels/error.h"
+#include "tests/io/expect_input_error.h"
 #include "tests/model/solids.h"
 
 namespace edgescout {
@@ -118,6 +119,15 @@ TEST(EdgeModel, RefusesOptionsOutOfRange) {
     options.raster_step_m = step;
     EXPECT_THROW(make_edge_model(box, options), InputError) << step;
   }
+}
+
+TEST(EdgeModel, RejectsAMeshThatShowsNoEdge) {
+  // So long a step puts no point on any of the box's edges.
+  test::expect_input_error(
+      [] {
+        test::model_of(make_box({0.01, 0.01, 0.01}), 0.9);
+      },
+      {"box: edges", "none", "raster step"});
 }
 
 }  // namespace
