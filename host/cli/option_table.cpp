@@ -82,6 +82,24 @@ void CommandLineOptions::number(const OptionInfo& option, double& field, double 
   add_number(verb_, option.name, field, {low, high}, {option.help, group_, option.level});
 }
 
+void CommandLineOptions::range(const OptionInfo& option, Range& field, double low, double high) {
+  const std::string name = std::string("--") + option.name;
+  CLI::Option* added = verb_.add_option_function<std::vector<double>>(
+      name,
+      [&field, name](const std::vector<double>& ends) {
+        if (ends.back() < ends.front())
+          throw CLI::ValidationError(name, "found " + text_of(ends.front()) + " before " +
+                                               text_of(ends.back()) + ", expected MIN MAX");
+        field = {ends.front(), ends.back()};
+      },
+      option.help);
+  added->expected(1, 2)->type_name("MIN [MAX]")->check(within(low, high));
+  added->default_function(
+      [&field] { return "[" + text_of(field.low) + ", " + text_of(field.high) + "]"; });
+  added->capture_default_str();
+  finish(verb_, added, {option.help, group_, option.level});
+}
+
 void CommandLineOptions::flag(const OptionInfo& option, bool& field) {
   const std::string name = option.name;
   add_flag(verb_, field ? name + ",!--no-" + name : name, field,

@@ -26,6 +26,11 @@ void BoundsCheck::number(const OptionInfo& option, double& field, double low, do
   require(option.name, field, low, high);
 }
 
+void BoundsCheck::range(const OptionInfo& option, Range& field, double low, double high) {
+  require(option.name, field.low, low, high);
+  require(option.name, field.high, field.low, high);
+}
+
 void BoundsCheck::index(const OptionInfo& option, const Index& field,
                         std::span<const char* const> names) {
   require(option.name, field.get(), 0, double(names.size()) - 1);

@@ -25,6 +25,11 @@ struct OptionInfo {
   OptionLevel level = OptionLevel::Expert;
 };
 
+// The interval from which a value is drawn. Both ends belong to it.
+struct Range {
+  double low = 0, high = 0;
+};
+
 class OptionVisitor {
  public:
   virtual ~OptionVisitor() = default;
@@ -34,6 +39,8 @@ class OptionVisitor {
   virtual void number(const OptionInfo& option, int& field, int low, int high) = 0;
   virtual void number(const OptionInfo& option, float& field, float low, float high) = 0;
   virtual void number(const OptionInfo& option, double& field, double low, double high) = 0;
+  // Two numbers, the smaller one first. A single number is both ends.
+  virtual void range(const OptionInfo& option, Range& field, double low, double high) = 0;
   virtual void flag(const OptionInfo& option, bool& field) = 0;
   // Given without a value, it sets the field to false: "search-alone" for detect_jointly.
   virtual void off_flag(const OptionInfo& option, bool& field) = 0;
@@ -53,7 +60,8 @@ class OptionVisitor {
 };
 
 // InputError "options: PREFIX.NAME: found FOUND, expected LOW to HIGH" for a number out of bounds,
-// NaN included. PREFIX is the struct's ("detect"); the name's dashes become underscores.
+// NaN included, and for a range whose ends are out of bounds or in the wrong order. PREFIX is the
+// struct's ("detect"); the name's dashes become underscores.
 class BoundsCheck : public OptionVisitor {
  public:
   explicit BoundsCheck(std::string prefix) : prefix_(std::move(prefix)) {}
@@ -61,6 +69,7 @@ class BoundsCheck : public OptionVisitor {
   void number(const OptionInfo& option, int& field, int low, int high) override;
   void number(const OptionInfo& option, float& field, float low, float high) override;
   void number(const OptionInfo& option, double& field, double low, double high) override;
+  void range(const OptionInfo& option, Range& field, double low, double high) override;
   void flag(const OptionInfo&, bool&) override {}
   void off_flag(const OptionInfo&, bool&) override {}
   // The same error for a field that is no option, or for a bound that depends on another field.

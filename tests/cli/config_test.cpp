@@ -190,6 +190,7 @@ struct Described {
   double lambda = 100;
   bool on = true, off = false, inverse = true;
   Mode mode = Mode::One;
+  Range width_px{2, 3};
 };
 constexpr const char* MODES[] = {"one", "two"};
 
@@ -200,6 +201,7 @@ void describe(Described& o, OptionVisitor& visit) {
   visit.flag({"off", "off at first"}, o.off);
   visit.off_flag({"not-inverse", "switches off"}, o.inverse);
   visit.choice({"mode", "mode", OptionLevel::Basic}, o.mode, MODES);
+  visit.range({"width", "range"}, o.width_px, 0, 9);
 }
 
 struct DescribedProgram {
@@ -217,28 +219,42 @@ struct DescribedProgram {
   }
 };
 
+std::string error_of(const std::string& line) {
+  try {
+    DescribedProgram().app.parse(line);
+  } catch (const CLI::ParseError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 TEST(CommandLineOptions, FillTheDescribedFields) {
   DescribedProgram p;
-  p.app.parse("verb --the-lambda 6 --no-on --off --not-inverse --mode two");
+  p.app.parse("verb --the-lambda 6 --no-on --off --not-inverse --mode two --width 1 4.5");
   EXPECT_EQ(p.options.lambda, 6);
   EXPECT_FALSE(p.options.on);
   EXPECT_TRUE(p.options.off);
   EXPECT_FALSE(p.options.inverse);
   EXPECT_EQ(p.options.mode, Mode::Two);
+  EXPECT_EQ(p.options.width_px.low, 1);
+  EXPECT_EQ(p.options.width_px.high, 4.5);
   const std::vector<std::pair<std::string, std::string>> expected{
-      {"verb", "verb"}, {"the-lambda", "6"},     {"on", "false"},
-      {"off", "true"},  {"not-inverse", "true"}, {"mode", "two"}};
+      {"verb", "verb"},        {"the-lambda", "6"}, {"on", "false"},      {"off", "true"},
+      {"not-inverse", "true"}, {"mode", "two"},     {"width", "[1, 4.5]"}};
   EXPECT_EQ(settings_of(*p.verb, {"Test"}), expected);
 }
 
 TEST(CommandLineOptions, TakeTheSameNamesFromYaml) {
   const TemporaryFolder folder;
   DescribedProgram p;
-  p.app.parse("verb --config " +
-              folder.write("c.yaml", "on: false\nnot-inverse: true\nmode: two\n").string());
+  p.app.parse(
+      "verb --config " +
+      folder.write("c.yaml", "on: false\nnot-inverse: true\nmode: two\nwidth: [1, 4]\n").string());
   EXPECT_FALSE(p.options.on);
   EXPECT_FALSE(p.options.inverse);
   EXPECT_EQ(p.options.mode, Mode::Two);
+  EXPECT_EQ(p.options.width_px.low, 1);
+  EXPECT_EQ(p.options.width_px.high, 4);
   DescribedProgram off;
   off.app.parse("verb --config " + folder.write("d.yaml", "not-inverse: false\n").string());
   EXPECT_TRUE(off.options.inverse);
@@ -250,16 +266,22 @@ TEST(CommandLineOptions, KeepDefaultsAndNameBounds) {
   EXPECT_EQ(p.options.lambda, 100);
   EXPECT_TRUE(p.options.inverse);
   EXPECT_EQ(p.options.mode, Mode::One);
-  const auto error_of = [](const std::string& line) -> std::string {
-    try {
-      DescribedProgram().app.parse(line);
-    } catch (const CLI::ParseError& error) {
-      return error.what();
-    }
-    return "";
-  };
   EXPECT_EQ(error_of("verb --the-lambda 0.4"), "--the-lambda: found 0.4, expected 0.5 to 1000");
   EXPECT_EQ(error_of("verb --mode three"), "--mode: found three, expected one of one, two");
+}
+
+TEST(CommandLineOptions, ASingleNumberIsBothEndsOfARange) {
+  DescribedProgram p;
+  p.app.parse("verb --width 4");
+  EXPECT_EQ(p.options.width_px.low, 4);
+  EXPECT_EQ(p.options.width_px.high, 4);
+}
+
+TEST(CommandLineOptions, RefuseARangeByName) {
+  EXPECT_EQ(error_of("verb --width 5 3"), "--width: found 5 before 3, expected MIN MAX");
+  EXPECT_EQ(error_of("verb --width 5 12"), "--width: found 12, expected 0 to 9");
+  EXPECT_EQ(error_of("verb --width 5 wide"), "--width: found wide, expected 0 to 9");
+  EXPECT_NE(error_of("verb --width 5 6 7").find("--width"), std::string::npos);
 }
 
 TEST(BoundsCheck, NamesTheOptionWithUnderscores) {
@@ -281,7 +303,7 @@ TEST(Help, ShowsExpertOptionsOnlyWhenAllAreAskedFor) {
   const std::string basic = p.verb->help(), all = p.verb->help("", CLI::AppFormatMode::All);
   EXPECT_NE(basic.find("--mode"), std::string::npos) << basic;
   EXPECT_EQ(basic.find("--the-lambda"), std::string::npos) << basic;
-  EXPECT_TRUE(basic.ends_with("--help-all shows 4 more options\n")) << basic;
+  EXPECT_TRUE(basic.ends_with("--help-all shows 5 more options\n")) << basic;
   for (const char* name : {"--mode", "--the-lambda", "--not-inverse", "--on,--no-on"})
     EXPECT_NE(all.find(name), std::string::npos) << name << " not in " << all;
 }

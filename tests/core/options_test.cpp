@@ -18,6 +18,7 @@ struct Options {
   double angle_rad = 0.5;
   float scale_px = 1;
   Colour colour = Colour::Red;
+  Range width_px{1, 2};
 };
 
 void describe(Options& o, OptionVisitor& visit) {
@@ -26,6 +27,7 @@ void describe(Options& o, OptionVisitor& visit) {
   visit.number({"angle", "Angle, rad."}, o.angle_rad, 0.0, 1.0);
   visit.number({"scale", "Scale, px."}, o.scale_px, 0.5f, 2.0f);
   visit.choice({"colour", "Colour."}, o.colour, names);
+  visit.range({"width", "Width, px."}, o.width_px, 0.5, 4.0);
 }
 
 std::string message_of(const Options& options) {
@@ -54,6 +56,20 @@ TEST(CheckBounds, RefusesEachKindOfFieldAndNaN) {
   EXPECT_NE(message_of({3, NAN, 1, Colour::Red}).find("angle"), std::string::npos);
   EXPECT_NE(message_of({3, 0.5, 2.1f, Colour::Red}).find("scale"), std::string::npos);
   EXPECT_NE(message_of({3, 0.5, 1, Colour(2)}).find("colour"), std::string::npos);
+}
+
+TEST(CheckBounds, RefusesRangesOutOfBoundsOrWithTheirEndsExchanged) {
+  const auto message_of_range = [](double low, double high) {
+    Options options;
+    options.width_px = {low, high};
+    return message_of(options);
+  };
+  for (const auto& [low, high] : {std::pair{0.5, 4.0}, {3.0, 3.0}})
+    EXPECT_EQ(message_of_range(low, high), "");
+  for (const auto& [low, high] :
+       {std::pair{0.4, 2.0}, {1.0, 4.1}, {3.0, 2.0}, {1.0, double(NAN)}, {double(NAN), 1.0}})
+    EXPECT_NE(message_of_range(low, high).find("group.width"), std::string::npos)
+        << low << " " << high;
 }
 
 }  // namespace
