@@ -101,15 +101,9 @@ std::string colour_bar_svg(double low, double high, const std::string& unit) {
 std::vector<float> surface_of(std::span<const EdgeModel> models,
                               std::span<const DrawnObject> objects, const Camera& camera,
                               const Se3& camera_from_world, ThreadPool& pool) {
-  std::vector<TriangleCorners> triangles;
-  for (const ObjectPose& object : objects) {
-    const Mesh& mesh = models[static_cast<std::size_t>(object.object)].mesh;
-    for (const auto& corners : mesh.triangles) {
-      TriangleCorners t;
-      for (int i = 0; i < 3; ++i) t[i] = object.world_from_object * mesh.vertices_m[corners[i]];
-      triangles.push_back(t);
-    }
-  }
+  Triangles triangles;
+  for (const ObjectPose& object : objects)
+    triangles.add(models[static_cast<std::size_t>(object.object)].mesh, object.world_from_object);
   return rasterize(triangles, camera, camera_from_world, pool).depth_m;
 }
 

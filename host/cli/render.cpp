@@ -3,12 +3,14 @@
 #include <iostream>
 
 #include "host/cli/exit_codes.h"
+#include "host/cli/help.h"
 #include "host/cli/progress.h"
 #include "host/cli/scene_options.h"
 #include "host/cli/verbs.h"
 #include "host/io/bop.h"
 #include "host/io/mesh.h"
 #include "host/render/parts.h"
+#include "host/render/photographs.h"
 #include "host/render/write_bop.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
@@ -24,6 +26,8 @@ struct RenderRequest {
   std::vector<std::string> parts;
   std::string out;
   int scenes = 1;
+  std::vector<std::string> clutter_models;
+  std::string backgrounds, board_textures, environments;  // folders of photographs
   RenderOptions options;
 };
 
@@ -51,6 +55,31 @@ std::vector<Object> load_objects(const RenderRequest& request) {
   return objects;
 }
 
+// Puts the option's name before the error of a file that it gave.
+template <typename Load>
+auto load_for(const char* option, Load load) {
+  try {
+    return load();
+  } catch (const InputError& error) {
+    throw InputError(std::string(option) + ": " + error.what());
+  }
+}
+
+SceneFiles load_files(const RenderRequest& request) {
+  const auto photographs = [](const char* option, const std::string& folder) {
+    if (folder.empty()) return PhotographFolders();
+    return load_for(option, [&] { return list_photographs(folder); });
+  };
+  SceneFiles files;
+  for (const std::string& file : request.clutter_models)
+    files.clutter.push_back(
+        load_for("--clutter-model", [&] { return load_mesh(file, LengthUnit::Millimetre); }));
+  files.backgrounds = photographs("--backgrounds", request.backgrounds);
+  files.board_textures = photographs("--board-texture", request.board_textures);
+  files.environments = photographs("--environments", request.environments);
+  return files;
+}
+
 std::string scene_folder(int scene) {
   const std::string digits = std::to_string(scene);
   return std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits;
@@ -76,6 +105,7 @@ void require_no_other_scenes(const RenderRequest& request) {
 void render_scenes(const RenderRequest& request) {
   request.options.validate();
   const std::vector<Object> objects = load_objects(request);
+  const SceneFiles files = load_files(request);
   require_no_other_scenes(request);
   const std::filesystem::path out = request.out;
   write_bop_models(objects, turning_axes(objects), out / "models");
@@ -85,7 +115,7 @@ void render_scenes(const RenderRequest& request) {
   for (int i = 0; i < request.scenes; ++i) {
     RenderOptions options = request.options;
     options.seed += static_cast<unsigned>(i);
-    const SimulatedScene scene = make_scene(objects, options);
+    const SimulatedScene scene = make_scene(objects, options, files);
     write_bop_scene(scene, render(scene, pool), out / scene_folder(i));
     progress.step();
   }
@@ -105,6 +135,23 @@ void add_camera_options(CLI::App& verb, RenderOptions& o) {
                "Smallest distance from the cameras to the parts, m. 0: so that they fill the image")
       .bounded("max-distance", o.max_distance_m, 0.0, 100.0,
                "Largest distance from the cameras to the parts, m. 0: so that they fill the image");
+}
+
+// Files and folders that scenes take things from.
+void add_file_options(CLI::App& verb, RenderRequest& request) {
+  const auto add = [&](const char* name, auto& field, const char* type, const char* help) {
+    CLI::Option* option = verb.add_option(name, field, help)->type_name(type);
+    option->group("Files of scenes");
+    mark_expert(verb, option);
+  };
+  add("--clutter-model", request.clutter_models, "FILE",
+      "CAD files of foreign parts, in place of boxes, bars and rings. Their unit does not matter");
+  add("--backgrounds", request.backgrounds, "DIR",
+      "Folder of photographs that stand behind board and parts");
+  add("--board-texture", request.board_textures, "DIR",
+      "Folder of photographs that are printed on the board");
+  add("--environments", request.environments, "DIR",
+      "Folder of photographs that metal and gloss reflect. Without it: a room with lamps");
 }
 
 }  // namespace
@@ -127,6 +174,12 @@ void add_render(CLI::App& app, int& exit_code) {
       .bounded("scenes", request->scenes, 1, 100000, "Number of scenes, in folders from 000000");
   add_scene_options(*verb, request->options, OptionLevel::Basic);
   add_camera_options(*verb, request->options);
+  add_file_options(*verb, *request);
+  CommandLineOptions ranges(*verb);
+  describe(request->options.clutter_ranges, ranges);
+  describe(request->options.surfaces, ranges);
+  describe(request->options.light, ranges);
+  describe(request->options.camera, ranges);
   verb->callback([request, &exit_code] {
     render_scenes(*request);
     exit_code = exit_done;

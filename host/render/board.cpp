@@ -6,6 +6,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "host/render/photographs.h"
+
 namespace edgescout {
 namespace {
 
@@ -162,19 +164,32 @@ void add_grain(cv::Mat& board, Random& random) {
   }
 }
 
+// Plain paper, or the albedo * 255 that a photograph shows.
+cv::Mat paper_of(const PrintOptions& options, double plain_albedo) {
+  cv::Mat paper(options.side_px, options.side_px, CV_8U, cv::Scalar::all(255 * plain_albedo));
+  if (options.texture.pixels.empty()) return paper;
+  constexpr double WHITEST = 0.9;
+  for (int y = 0; y < paper.rows; ++y)
+    for (int x = 0; x < paper.cols; ++x)
+      paper.at<std::uint8_t>(y, x) =
+          static_cast<std::uint8_t>(255 * WHITEST * light_of_grey(options.texture.at(x, y)));
+  return paper;
+}
+
 }  // namespace
 
-Image print_board(int side_px, int clutter, double smallest_px, double largest_px, Random random) {
-  const double paper = std::pow(random.uniform(0.45, 0.85), 2);
-  cv::Mat board(side_px, side_px, CV_8U, cv::Scalar::all(255 * paper));
+Image print_board(const PrintOptions& options, Random random) {
+  const double plain_albedo = std::pow(random.uniform(0.45, 0.85), 2);
+  cv::Mat board = paper_of(options, plain_albedo);
   // As many shapes of middle size as together have the given share of the board's area.
-  const double middle = std::sqrt(smallest_px * largest_px);
-  const double cover = clutter == 0 ? 0.0 : clutter == 1 ? 0.45 : 1.2;
-  const int shapes = static_cast<int>(cover * side_px * side_px / (middle * middle));
-  Printer printer(board, smallest_px, largest_px, random);
+  const double middle = std::sqrt(options.smallest_px * options.largest_px);
+  const double cover = options.clutter == 0 ? 0.0 : options.clutter == 1 ? 0.45 : 1.2;
+  const int shapes =
+      static_cast<int>(cover * options.side_px * options.side_px / (middle * middle));
+  Printer printer(board, options.smallest_px, options.largest_px, random);
   for (int i = 0; i < shapes; ++i) printer.draw_one();
   add_grain(board, random);
-  return {side_px, side_px, std::vector<std::uint8_t>(board.datastart, board.dataend)};
+  return {board.cols, board.rows, std::vector<std::uint8_t>(board.datastart, board.dataend)};
 }
 
 }  // namespace edgescout

@@ -6,8 +6,14 @@
 
 namespace edgescout {
 
-// Returns albedo * 255 of a square board, `side_px` wide. `clutter` 0: paper grain only; 1 and 2:
-// increasing amounts of print. `smallest_px` and `largest_px` bound the size of the printed shapes.
-Image print_board(int side_px, int clutter, double smallest_px, double largest_px, Random random);
+struct PrintOptions {
+  int side_px = 64;
+  int clutter = 0;  // 0: paper grain only; 1 and 2: increasing amounts of print
+  double smallest_px = 0, largest_px = 0;  // size of the printed shapes
+  Image texture;  // a photograph of the board's size in place of plain paper; may be empty
+};
+
+// Returns albedo * 255 of a square board.
+Image print_board(const PrintOptions& options, Random random);
 
 }  // namespace edgescout

@@ -2,40 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace edgescout {
 namespace {
 
-// Computes the corner normals of one mesh in its own frame: the mean, weighted by corner angle, of
-// the faces that meet at the corner without a crease.
-std::vector<TriangleCorners> smooth_normals(const Mesh& mesh) {
-  const double crease_cosine = std::cos(35 * std::numbers::pi / 180);
-  std::vector<std::vector<std::pair<int, double>>> faces(mesh.vertices_m.size());  // face, angle
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      const auto& corners = mesh.triangles[t];
-      const Eigen::Vector3d at = mesh.vertices_m[corners[i]];
-      const Eigen::Vector3d a = mesh.vertices_m[corners[(i + 1) % 3]] - at,
-                            b = mesh.vertices_m[corners[(i + 2) % 3]] - at;
-      faces[corners[i]].emplace_back(static_cast<int>(t), std::atan2(a.cross(b).norm(), a.dot(b)));
-    }
-  std::vector<TriangleCorners> normals(mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (const auto& [face, angle] : faces[mesh.triangles[t][i]])
-        if (mesh.face_normals[face].dot(mesh.face_normals[t]) > crease_cosine)
-          sum += angle * mesh.face_normals[face];
-      normals[t][i] = sum.normalized();
-    }
-  return normals;
-}
-
-double scene_reach_m(const WorldTriangles& triangles) {
+// What hangs before the cameras may be far away; shadow maps are for what lies on the board.
+double scene_reach_m(const SimulatedScene& scene, const WorldTriangles& triangles) {
   double reach = 0;
-  for (const TriangleCorners& t : triangles.corners_m)
-    for (const Eigen::Vector3d& x : t) reach = std::max(reach, x.norm());
+  for (std::size_t t = 0; t < triangles.corners.size(); ++t)
+    if (!scene.placed[triangles.placed[t]].hangs)
+      for (const int vertex : triangles.corners[t])
+        reach = std::max(reach, triangles.vertices_m[vertex].norm());
   return reach;
 }
 
@@ -60,37 +37,25 @@ Eigen::Matrix<double, 3, 4> pixel_from_world(const SceneView& view) {
   return calibration * pose;
 }
 
-}  // namespace
-
-WorldTriangles world_triangles(const SimulatedScene& scene) {
-  std::vector<std::vector<TriangleCorners>> normals;
-  for (const Object& object : scene.objects) normals.push_back(smooth_normals(object.mesh));
-  WorldTriangles world;
-  for (std::size_t p = 0; p < scene.placed.size(); ++p) {
-    const PlacedObject& part = scene.placed[p];
-    const Mesh& mesh = scene.objects[part.object].mesh;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      TriangleCorners corners, turned;
-      for (int i = 0; i < 3; ++i) {
-        corners[i] = part.world_from_object * mesh.vertices_m[mesh.triangles[t][i]];
-        turned[i] = part.world_from_object.rotation * normals[part.object][t][i];
-      }
-      world.corners_m.push_back(corners);
-      world.normals.push_back(turned);
-      world.placed.push_back(static_cast<int>(p));
-    }
-  }
-  return world;
+// Light towards the viewer.
+double blinn_phong(const SurfacePoint& surface, const Material& material,
+                   const Eigen::Vector3d& to_light, double irradiance) {
+  const double half =
+      std::max(0.0, surface.normal.dot((to_light + surface.to_viewer).normalized()));
+  return material.specular * irradiance * (material.shininess + 8) / 8 *
+         std::pow(half, material.shininess);
 }
+
+}  // namespace
 
 Lighting::Lighting(const SimulatedScene& scene, const WorldTriangles& triangles, ThreadPool& pool)
     : scene_(scene) {
   if (!scene.options.shadows) return;
-  const double reach = 1.02 * scene_reach_m(triangles);
+  const double reach = 1.02 * scene_reach_m(scene, triangles);
   for (const Light& light : scene.lights) {
     const SceneView view = light_view(
         light.position_m, std::min(reach, 0.9 * light.position_m.norm()), light.shadow_px);
-    Raster raster = rasterize(triangles.corners_m, view.camera, view.camera_from_world, pool);
+    Raster raster = rasterize(triangles, view.camera, view.camera_from_world, pool);
     maps_.push_back({light.shadow_px, pixel_from_world(view), std::move(raster.depth_m),
                      light.position_m.norm() / view.camera.fx});
   }
@@ -120,25 +85,60 @@ double Lighting::lit_fraction(const ShadowMap& map, const Eigen::Vector3d& point
   return lit / 2.25;
 }
 
-ReceivedLight Lighting::at(const Eigen::Vector3d& point_m, const Eigen::Vector3d& normal,
-                           const Eigen::Vector3d& to_viewer, const Material& material) const {
+Lighting::Beam Lighting::beam_of(const Light& light, const Eigen::Vector3d& point_m,
+                                 const Eigen::Vector3d& normal) {
+  const Eigen::Vector3d to_light = light.position_m - point_m;
+  const double distance = to_light.norm(), cosine = normal.dot(to_light) / distance;
+  if (cosine <= 0) return {};
+  return {to_light / distance,
+          light.irradiance * cosine * light.position_m.squaredNorm() / (distance * distance)};
+}
+
+Lighting::Beam Lighting::shadowed_beam(std::size_t light, const Eigen::Vector3d& point_m,
+                                       const Eigen::Vector3d& normal) const {
+  Beam beam = beam_of(scene_.lights[light], point_m, normal);
+  if (beam.irradiance > 0 && !maps_.empty())
+    beam.irradiance *= lit_fraction(maps_[light], point_m, normal);
+  return beam;
+}
+
+ReceivedLight Lighting::at(const SurfacePoint& surface, const Material& material) const {
   ReceivedLight received;
   received.diffuse = scene_.ambient;
+  const Microfacets facets(surface, material);
+  const bool has_highlights = material.reflectance > 0 && !material.mirrors_lamps();
   for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
-    const Light& light = scene_.lights[i];
-    const Eigen::Vector3d to_light = light.position_m - point_m;
-    const double distance = to_light.norm(), cosine = normal.dot(to_light) / distance;
-    if (cosine <= 0) continue;
-    double irradiance =
-        light.irradiance * cosine * light.position_m.squaredNorm() / (distance * distance);
-    if (!maps_.empty()) irradiance *= lit_fraction(maps_[i], point_m, normal);
-    if (irradiance <= 0) continue;
-    received.diffuse += irradiance;
-    const double half = std::max(0.0, normal.dot((to_light / distance + to_viewer).normalized()));
-    received.specular += material.specular * irradiance * (material.shininess + 8) / 8 *
-                         std::pow(half, material.shininess);
+    const Beam beam = shadowed_beam(i, surface.point_m, surface.normal);
+    if (beam.irradiance <= 0) continue;
+    received.diffuse += beam.irradiance;
+    if (material.specular > 0)
+      received.specular += blinn_phong(surface, material, beam.to_light, beam.irradiance);
+    if (has_highlights && !scene_.lights[i].is_sky)
+      received.specular += beam.irradiance * facets.highlight(beam.to_light);
   }
   return received;
+}
+
+double Lighting::diffuse(const Eigen::Vector3d& point_m, const Eigen::Vector3d& normal) const {
+  double sum = scene_.ambient;
+  for (std::size_t i = 0; i < scene_.lights.size(); ++i)
+    sum += shadowed_beam(i, point_m, normal).irradiance;
+  return sum;
+}
+
+double Lighting::diffuse_by_eighth(const Eigen::Vector3d& point_m, const Eigen::Vector3d& normal,
+                                   int eighth) const {
+  double sum = 0;
+  for (std::size_t i = eighth; i < scene_.lights.size(); i += 8)
+    sum += shadowed_beam(i, point_m, normal).irradiance;
+  return scene_.ambient + 8 * sum;
+}
+
+double Lighting::lit_share(const Eigen::Vector3d& point_m, const Eigen::Vector3d& normal) const {
+  double without_shadows = scene_.ambient;
+  for (const Light& light : scene_.lights)
+    without_shadows += beam_of(light, point_m, normal).irradiance;
+  return without_shadows > 0 ? diffuse(point_m, normal) / without_shadows : 1;
 }
 
 }  // namespace edgescout

@@ -37,6 +37,12 @@ void RenderOptions::validate() const {
   if (supersampling % 2 == 0)
     throw InputError("render options", "supersampling", std::to_string(supersampling),
                      "an odd number");
+  check_bounds(clutter_ranges, "render.clutter");
+  if (const Range& span_px = clutter_ranges.span_px; span_px.high > 0)
+    require(span_px.low, 5.0, span_px.high, "clutter.span_px");
+  check_bounds(surfaces, "render.surfaces");
+  check_bounds(light, "render.light");
+  check_bounds(camera, "render.camera");
 }
 
 }  // namespace edgescout

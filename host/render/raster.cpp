@@ -20,14 +20,39 @@ struct ScreenTriangle {
   int y_low, y_high;
 };
 
-bool project_triangle(const TriangleCorners& corners, const Camera& camera,
-                      const Se3& camera_from_world, ScreenTriangle& out) {
-  Eigen::Vector3d p[3];  // x, y in px, 1/z
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d x = camera_from_world * corners[i];
-    if (x.z() < NEAR_M) return false;
-    p[i] << project(camera, x), 1 / x.z();
-  }
+// x, y in px and 1/z; 1/z is 0 for a vertex that is too near.
+std::vector<Eigen::Vector3d> project_vertices(const std::vector<Eigen::Vector3d>& vertices_m,
+                                              const Camera& camera, const Se3& camera_from_world,
+                                              ThreadPool& pool) {
+  constexpr std::size_t CHUNK = 4096;
+  std::vector<Eigen::Vector3d> projected(vertices_m.size());
+  pool.for_each((vertices_m.size() + CHUNK - 1) / CHUNK, [&](std::size_t chunk) {
+    const std::size_t last = std::min(vertices_m.size(), (chunk + 1) * CHUNK);
+    for (std::size_t i = chunk * CHUNK; i < last; ++i) {
+      const Eigen::Vector3d x = camera_from_world * vertices_m[i];
+      if (x.z() < NEAR_M)
+        projected[i].setZero();
+      else
+        projected[i] << project(camera, x), 1 / x.z();
+    }
+  });
+  return projected;
+}
+
+// False: the triangle covers no pixel's centre.
+bool set_up(std::array<Eigen::Vector3d, 3> p, const Camera& camera, ScreenTriangle& out) {
+  if (p[0].z() == 0 || p[1].z() == 0 || p[2].z() == 0) return false;
+  out.x_low = std::min({p[0].x(), p[1].x(), p[2].x()});
+  out.x_high = std::max({p[0].x(), p[1].x(), p[2].x()});
+  const double y_low = std::min({p[0].y(), p[1].y(), p[2].y()}),
+               y_high = std::max({p[0].y(), p[1].y(), p[2].y()});
+  if (!(out.x_high >= 0 && out.x_low <= camera.width - 1 && y_high >= 0 &&
+        y_low <= camera.height - 1))
+    return false;
+  // Most triangles of a dense mesh end here.
+  if (std::ceil(out.x_low) > out.x_high || std::ceil(y_low) > y_high) return false;
+  out.y_low = static_cast<int>(std::max(0.0, std::ceil(y_low)));
+  out.y_high = static_cast<int>(std::min(camera.height - 1.0, std::floor(y_high)));
   double area =
       (p[1] - p[0]).head<2>().x() * (p[2] - p[0]).y() - (p[1] - p[0]).y() * (p[2] - p[0]).x();
   if (area < 0) {
@@ -43,15 +68,6 @@ bool project_triangle(const TriangleCorners& corners, const Camera& camera,
     out.edge[i][2] = -(out.edge[i][0] * from.x() + out.edge[i][1] * from.y());
     for (int k = 0; k < 3; ++k) out.inverse_depth[k] += out.edge[i][k] / area * p[i].z();
   }
-  out.x_low = std::min({p[0].x(), p[1].x(), p[2].x()});
-  out.x_high = std::max({p[0].x(), p[1].x(), p[2].x()});
-  const double y_low = std::min({p[0].y(), p[1].y(), p[2].y()}),
-               y_high = std::max({p[0].y(), p[1].y(), p[2].y()});
-  if (!(out.x_high >= 0 && out.x_low <= camera.width - 1 && y_high >= 0 &&
-        y_low <= camera.height - 1))
-    return false;
-  out.y_low = static_cast<int>(std::max(0.0, std::ceil(y_low)));
-  out.y_high = static_cast<int>(std::min(camera.height - 1.0, std::floor(y_high)));
   return true;
 }
 
@@ -79,13 +95,23 @@ void draw_row(const ScreenTriangle& t, int y, Raster& raster) {
 
 }  // namespace
 
-Raster rasterize(std::span<const TriangleCorners> x_in_world, const Camera& camera,
-                 const Se3& camera_from_world, ThreadPool& pool) {
+void Triangles::add(const Mesh& mesh, const Se3& frame_from_mesh) {
+  const int first = static_cast<int>(vertices_m.size());
+  for (const Eigen::Vector3d& vertex_m : mesh.vertices_m)
+    vertices_m.push_back(frame_from_mesh * vertex_m);
+  for (const auto& [a, b, c] : mesh.triangles) corners.push_back({first + a, first + b, first + c});
+}
+
+Raster rasterize(const Triangles& in_world, const Camera& camera, const Se3& camera_from_world,
+                 ThreadPool& pool) {
+  const std::vector<Eigen::Vector3d> projected =
+      project_vertices(in_world.vertices_m, camera, camera_from_world, pool);
   std::vector<ScreenTriangle> triangles;
-  for (std::size_t i = 0; i < x_in_world.size(); ++i) {
+  for (std::size_t i = 0; i < in_world.corners.size(); ++i) {
+    const auto& [a, b, c] = in_world.corners[i];
     ScreenTriangle t{};
     t.index = static_cast<int>(i);
-    if (project_triangle(x_in_world[i], camera, camera_from_world, t)) triangles.push_back(t);
+    if (set_up({projected[a], projected[b], projected[c]}, camera, t)) triangles.push_back(t);
   }
   Raster raster{camera.width, camera.height, {}, {}};
   const std::size_t size = static_cast<std::size_t>(camera.width) * camera.height;

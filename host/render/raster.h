@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <span>
 #include <vector>
 
 #include "host/core/types.h"
@@ -11,7 +10,13 @@ namespace edgescout {
 
 class ThreadPool;
 
-using TriangleCorners = std::array<Eigen::Vector3d, 3>;
+// Triangles that share their corners.
+struct Triangles {
+  std::vector<Eigen::Vector3d> vertices_m;
+  std::vector<std::array<int, 3>> corners;  // indices into vertices_m
+  // Appends those of a mesh.
+  void add(const Mesh& mesh, const Se3& frame_from_mesh);
+};
 
 struct Raster {
   int width = 0;
@@ -22,7 +27,7 @@ struct Raster {
 
 // Draws triangles of both orientations. A triangle with a corner nearer than 1 mm is dropped.
 // Samples are at integer pixels.
-Raster rasterize(std::span<const TriangleCorners> x_in_world, const Camera& camera,
-                 const Se3& camera_from_world, ThreadPool& pool);
+Raster rasterize(const Triangles& in_world, const Camera& camera, const Se3& camera_from_world,
+                 ThreadPool& pool);
 
 }  // namespace edgescout

@@ -61,14 +61,9 @@ TEST(Examples, TruthLiesOnTheImages) {
       camera.width = image.width;
       camera.height = image.height;
       EXPECT_TRUE(bop.camera_from_world.has_value());
-      std::vector<TriangleCorners> triangles;
-      for (const BopTruth& truth : scene.truth.at(bop.image_id)) {
-        const Mesh& mesh = parts.at(truth.object_id).mesh;
-        for (const auto& [a, b, c] : mesh.triangles)
-          triangles.push_back({truth.camera_from_object * mesh.vertices_m[a],
-                               truth.camera_from_object * mesh.vertices_m[b],
-                               truth.camera_from_object * mesh.vertices_m[c]});
-      }
+      Triangles triangles;
+      for (const BopTruth& truth : scene.truth.at(bop.image_id))
+        triangles.add(parts.at(truth.object_id).mesh, truth.camera_from_object);
       EXPECT_EQ(scene.truth.at(bop.image_id).size(), 8u);
       const Raster raster = rasterize(triangles, camera, Se3{}, pool);
       const double there = mean_step(image, raster.triangle, 0);
