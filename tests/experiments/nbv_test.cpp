@@ -1,112 +1,13 @@
+// The report of the experiment. The bins have tests of their own.
 #include "host/experiments/nbv.h"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <set>
 #include <tuple>
-
-#include "host/experiments/bin.h"
-#include "host/experiments/bin_types.h"
-#include "host/experiments/known_scene.h"
-#include "host/render/parts.h"
-#include "kernels/thread_pool.h"
+#include <utility>
 
 namespace edgescout::test {
 namespace {
-
-ExperimentSettings small() {
-  ExperimentSettings settings;
-  settings.image_scale = 0.25;
-  settings.supersampling = 1;
-  return settings;
-}
-
-TEST(MakeBin, IsTheSameBinEveryTimeAndAnotherForEveryNumber) {
-  ThreadPool pool(2);
-  const std::vector<Object> types{make_part("l_bracket"), make_part("bearing_block"),
-                                  make_part("u_channel")};
-  Bin a = make_bin(types, small(), 3, pool), b = make_bin(types, small(), 3, pool),
-      c = make_bin(types, small(), 4, pool);
-  EXPECT_EQ(a.first_view, b.first_view);
-  ASSERT_EQ(a.instances.size(), b.instances.size());
-  for (std::size_t i = 0; i < a.instances.size(); ++i) {
-    EXPECT_EQ(a.instances[i].object, b.instances[i].object);
-    EXPECT_EQ(
-        distance_between_m(a.instances[i].world_from_object, b.instances[i].world_from_object), 0);
-    EXPECT_EQ(a.instances[i].visible, b.instances[i].visible);
-  }
-  EXPECT_EQ(a.cell->acquire(7).image.pixels, b.cell->acquire(7).image.pixels);
-  EXPECT_NE(a.cell->acquire(7).image.pixels, c.cell->acquire(7).image.pixels);
-}
-
-// Five to twenty parts, each of a type, in front of every view at the distances the templates are
-// made for.
-TEST(MakeBin, HoldsItsPromises) {
-  ThreadPool pool(2);
-  const std::vector<Object> types{make_part("l_bracket"), make_part("bearing_block"),
-                                  make_part("u_channel")};
-  for (int number = 0; number < 6; ++number) {
-    const Bin bin = make_bin(types, small(), number, pool);
-    EXPECT_GE(bin.parts, FEWEST_PARTS_OF_BIN);
-    EXPECT_LE(bin.parts, MOST_PARTS_OF_BIN);
-    EXPECT_EQ(static_cast<int>(bin.instances.size()), bin.parts);
-    EXPECT_EQ(static_cast<int>(bin.cell->views().size()), bin_views().count);
-    double most_visible = 0;
-    for (const BinInstance& instance : bin.instances) {
-      most_visible = std::max(most_visible, instance.visible);
-      EXPECT_GE(instance.visible, 0);
-      EXPECT_LE(instance.visible, 1);
-      const Eigen::Vector3d center =
-          types[static_cast<std::size_t>(instance.object)].mesh.box_min_m / 2 +
-          types[static_cast<std::size_t>(instance.object)].mesh.box_max_m / 2;
-      for (const Se3& view : bin.cell->views())
-        EXPECT_NEAR((view * (instance.world_from_object * center)).norm(), bin_views().radius_m,
-                    BIN_DEPTH_MARGIN_M);
-    }
-    EXPECT_GT(most_visible, LIGHTLY_OCCLUDED);
-  }
-}
-
-// The visible fraction of an instance is what its own images show: more or less behind another.
-TEST(BinCell, GivesTheVisibleFractionInEveryView) {
-  ThreadPool pool(2);
-  const std::vector<Object> types{make_part("l_bracket"), make_part("bearing_block"),
-                                  make_part("u_channel")};
-  const Bin bin = make_bin(types, small(), 1, pool);
-  double most = 0, least = 1;
-  for (const BinInstance& instance : bin.instances) {
-    EXPECT_EQ(bin.cell->visible(bin.first_view)[instance.placed], instance.visible);
-    EXPECT_EQ(instance.most_visible, instance.visible) << "of the first image so far";
-    for (int view = 0; view < 3; ++view) {
-      most = std::max(most, bin.cell->visible(view)[instance.placed]);
-      least = std::min(least, bin.cell->visible(view)[instance.placed]);
-    }
-  }
-  EXPECT_GT(most, 0.95);
-  EXPECT_LT(least, 0.6);
-}
-
-// Against every second view there is.
-TEST(ClairvoyantSequence, TakesTheViewThatShowsMost) {
-  ThreadPool pool(2);
-  const std::vector<Object> types{make_part("l_bracket"), make_part("bearing_block"),
-                                  make_part("u_channel")};
-  const Bin bin = make_bin(types, small(), 1, pool);
-  const auto shown = [&](int second) {
-    double sum = 0;
-    for (const BinInstance& instance : bin.instances)
-      sum += std::min(1.0, std::max(0.0, instance.visible - 0.3) +
-                               std::max(0.0, bin.cell->visible(second)[instance.placed] - 0.3));
-    return sum;
-  };
-  const std::vector<int> sequence = clairvoyant_sequence(bin, bin.instances, 5);
-  ASSERT_EQ(sequence.size(), 5u);
-  EXPECT_EQ(sequence[0], bin.first_view);
-  EXPECT_EQ(std::set(sequence.begin(), sequence.end()).size(), 5u) << "no view twice";
-  for (int view = 0; view < bin_views().count; ++view)
-    EXPECT_TRUE(view == bin.first_view || shown(view) <= shown(sequence[1])) << view;
-}
 
 // The columns that the report reads.
 Table no_rows() {
@@ -336,37 +237,6 @@ TEST(NbvReport, PoolsTheSearchesOfOneBin) {
   EXPECT_NE(report.markdown.find("| MI-MAX | 62.5 % [14, 94] |"), std::string::npos)
       << report.markdown;
   EXPECT_NE(report.markdown.find("| MI-MAX | 1.50 |"), std::string::npos) << report.markdown;
-}
-
-// Meshes of other authors, if present: centred on their boxes, and as symmetric as stated: a turned
-// vertex is near another one, as far as the tessellation has one there.
-TEST(CadBinTypes, AreCentredAndHaveTheirStatedSymmetry) {
-  const char* data = std::getenv("EDGESCOUT_DATA");
-  if (!data || !std::filesystem::exists(std::filesystem::path(data) / "cad"))
-    GTEST_SKIP() << "EDGESCOUT_DATA names no folder with cad";
-  const std::vector<Object> types = cad_bin_types(data);
-  ASSERT_EQ(types.size(), 3u);
-  for (const Object& type : types) {
-    EXPECT_LT((type.mesh.box_min_m + type.mesh.box_max_m).norm(), 1e-9) << type.mesh.name;
-    EXPECT_GT(type.mesh.diameter_m, 0.04) << type.mesh.name << ": the unit";
-    EXPECT_LT(type.mesh.diameter_m, 0.15) << type.mesh.name << ": the unit";
-    for (const Eigen::Vector3d axis :
-         {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()}) {
-      const Eigen::Quaterniond turn(Eigen::AngleAxisd(std::acos(-1.0), axis));
-      double worst_m = 0;
-      for (const Eigen::Vector3d& vertex_m : type.mesh.vertices_m) {
-        double nearest_m = 1;
-        for (const Eigen::Vector3d& other_m : type.mesh.vertices_m)
-          nearest_m = std::min(nearest_m, (turn * vertex_m - other_m).norm());
-        worst_m = std::max(worst_m, nearest_m);
-      }
-      bool is_said = false;
-      for (const Se3& symmetry : type.symmetries.discrete)
-        is_said |= std::abs(symmetry.rotation.dot(turn)) > 0.999;
-      EXPECT_EQ(worst_m < 0.004, is_said)
-          << type.mesh.name << " about " << axis.transpose() << ": " << worst_m;
-    }
-  }
 }
 
 // Two bins of two views, counted by hand.
