@@ -10,7 +10,7 @@ namespace edgescout::test {
 namespace {
 
 std::vector<std::string> explain(const fs::path& input, const std::vector<std::string>& more) {
-  return joined({{"explain", input, "--device", "cpu", "--coarse-poses", "400"}, bracket(), more});
+  return joined({{"explain", input, "--device", "cpu", "--coarse-poses", "200"}, bracket(), more});
 }
 
 // R by row and t of the true pose in an image, as --pose takes them.
@@ -127,9 +127,6 @@ TEST(Explain, RefusesWhatIsNoPose) {
   refused(with(0, "3"), {"no rotation"});
   refused(with(3, "nan"), {"not finite"});
   refused(with(11, "-0.3"), {"behind the camera"});
-  const Outcome outside = run_program(explain(small.scene, with(9, "2")));
-  EXPECT_EQ(outside.exit_code, 2);
-  expect_words(outside.err, {"the image shows no edge"});
   refused({"--truth", "--min-visible", "1.5"}, {"--min-visible"});
   refused({"--truth", "--max-angle", "0"}, {"--max-angle"});
   expect_refused(
