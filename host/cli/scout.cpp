@@ -3,6 +3,7 @@
 
 #include <iostream>
 
+#include "host/active/camera_pose_check.h"
 #include "host/cli/batch_settings.h"
 #include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
@@ -63,6 +64,13 @@ TemplateOptions with_distances_of(TemplateOptions options, const std::vector<Se3
   options.distance_min_m = 0.85 * near_m;
   options.distance_max_m = 1.15 * far_m;
   return options;
+}
+
+void check_views(const std::vector<Se3>& views, const DistanceRange& searched,
+                 const ScoutSource& source) {
+  std::vector<PosedCamera> cameras;
+  for (const Se3& view : views) cameras.push_back({source.source->camera(), view});
+  check_camera_poses(cameras, searched, source.name);
 }
 
 // Refuses options that would have no effect, or that would compare nats with points or ranks.
@@ -182,8 +190,9 @@ int scout(ScoutRequest& request, const CLI::App& verb) {
   const std::vector<Se3> views = source.source->views();
   const TemplateOptions templates =
       known.objects.empty() ? request.templates : with_distances_of(request.templates, views);
-  const std::vector<TemplateSet> sets =
-      template_sets_of(known, templates, source.source->camera(), *backend);
+  const Camera camera = source.source->camera();
+  check_views(views, searched_distances(known, templates, camera), source);
+  const std::vector<TemplateSet> sets = template_sets_of(known, templates, camera, *backend);
   Scout scout(sets, source.source->camera(), views, request.options, *backend);
   if (saved)
     scout.resume(std::move(*saved), file.string());

@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include "host/cli/progress.h"
 #include "host/core/log.h"
+#include "host/detect/searched_sizes.h"
 #include "host/model/mesh_quality.h"
 #include "kernels/backend.h"
 #include "kernels/error.h"
@@ -56,18 +59,46 @@ KnownModels load_models(const ModelArguments& arguments) {
 namespace {
 
 // A wrong unit or distance shows in these numbers: they do not fit each other.
-void log_sizes(const TemplateSet& set) {
+void log_sizes(const TemplateSet& set, const Camera& camera) {
+  const SearchedSizes sizes = searched_sizes(set.model.mesh.diameter_m, set.options, camera);
   log(LogLevel::Info,
-      fmt::format("object {} ({}): diameter {:.1f} mm, searched {:.3f} to {:.3f} m from the camera",
-                  set.object_id, set.model.mesh.name, 1000 * set.model.mesh.diameter_m,
-                  set.options.distance_min_m, set.options.distance_max_m));
+      fmt::format(
+          "object {} ({}): diameter {:.1f} mm, searched {:.3f} to {:.3f} m from the camera, "
+          "{:.0f} to {:.0f} px in the image",
+          set.object_id, set.model.mesh.name, 1000 * set.model.mesh.diameter_m,
+          set.options.distance_min_m, set.options.distance_max_m, sizes.largest_px,
+          sizes.smallest_px));
+}
+
+void check_size(const Mesh& mesh, const TemplateOptions& options, const Camera& camera) {
+  require_searchable_size(mesh.name, mesh.diameter_m, options, camera);
+  if (const std::string warning = size_warning(mesh.name, mesh.diameter_m, options, camera);
+      !warning.empty())
+    log(LogLevel::Warning, warning);
 }
 
 }  // namespace
 
+DistanceRange searched_distances(const KnownModels& known, const TemplateOptions& options,
+                                 const Camera& camera) {
+  DistanceRange range{INFINITY, 0};
+  const auto include = [&range](const TemplateOptions& of_object) {
+    range.min_m = std::min(range.min_m, of_object.distance_min_m);
+    range.max_m = std::max(range.max_m, of_object.distance_max_m);
+  };
+  for (const TemplateSet& set : known.sets) include(set.options);
+  for (const Object& object : known.objects)
+    include(with_default_distances(options, object.mesh.diameter_m, camera));
+  return range;
+}
+
 std::vector<TemplateSet> template_sets_of(const KnownModels& known, const TemplateOptions& options,
                                           const Camera& camera, Backend& backend) {
   std::vector<TemplateSet> sets = known.sets;
+  for (const TemplateSet& set : sets) check_size(set.model.mesh, set.options, camera);
+  for (const Object& object : known.objects)
+    check_size(object.mesh, with_default_distances(options, object.mesh.diameter_m, camera),
+               camera);
   for (const Object& object : known.objects) {
     Progress progress("templates of " + object.mesh.name, 100, std::cerr, stderr_is_terminal());
     sets.push_back(
@@ -75,7 +106,7 @@ std::vector<TemplateSet> template_sets_of(const KnownModels& known, const Templa
                         backend, [&](int done, int all) { progress.move_to(100 * done / all); }));
   }
   for (const TemplateSet& set : sets) {
-    log_sizes(set);
+    log_sizes(set, camera);
     warn_of_mesh(set.model);
   }
   return sets;

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "host/active/camera_pose_check.h"
 #include "host/cli/inputs.h"
 #include "host/model/template_set.h"
 
@@ -24,6 +25,11 @@ struct KnownModels {
 
 // InputError: neither meshes nor templates, or both; a file that cannot be read; an id given twice.
 KnownModels load_models(const ModelArguments& arguments);
+
+// From the nearest to the farthest distance at which an object is searched. Distances left at 0:
+// with_default_distances for `camera`.
+DistanceRange searched_distances(const KnownModels& known, const TemplateOptions& options,
+                                 const Camera& camera);
 
 // Builds the missing templates and shows the progress on standard error. Logs the size of every
 // object and the range of its distances, and warns of meshes with defects. Distances left at 0:

@@ -1,6 +1,7 @@
 // edgescout detect on images, folders and scenes: what it writes, and what it refuses.
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "host/core/pose_error.h"
@@ -256,6 +257,31 @@ TEST(Detect, RefusesViewsThatAreJoinedTwice) {
                          bracket()}),
                  {"000000.png", "view", "twice"});
   EXPECT_FALSE(fs::exists(t.out));
+}
+
+TEST(Detect, RefusesCameraPosesThatShareNothing) {
+  const SmallScene t(2);
+  const fs::path file = t.scene / "scene_camera.json";
+  nlohmann::json cameras = nlohmann::json::parse(content_of(file));
+  for (auto& camera : cameras)
+    for (auto& number : camera["cam_t_w2c"]) number = 1000 * number.get<double>();
+  std::ofstream(file) << cameras;
+  expect_refused(t.detect(t.scene, joined({bracket(), {"--joint"}})),
+                 {"000003", "camera poses", "lengths in mm where m are expected"});
+  EXPECT_FALSE(fs::exists(t.out));
+}
+
+TEST(Detect, RefusesAPartThatCannotBeSeen) {
+  const SmallScene t;
+  expect_refused(
+      t.detect(t.scene, joined({{"--model", part_file(1), "--unit", "in"}, few_templates()})),
+      {"obj_000001", "size", "--unit"});
+  EXPECT_FALSE(fs::exists(t.out));
+  const Outcome warned = run_program(t.detect(
+      t.scene,
+      joined({{"--model", part_file(1), "--unit", "mm", "--viewpoints", "3"},
+              {"--in-plane-steps", "12", "--distance-min", "2.8", "--distance-max", "3"}})));
+  EXPECT_NE(warned.err.find("expected 12 to 320 px"), std::string::npos) << warned.err;
 }
 
 TEST(Detect, RefusesCamerasThatDoNotFit) {
