@@ -145,21 +145,23 @@ std::optional<CameraPoseProblem> camera_pose_problem(std::span<const PosedCamera
   if (one_place && stand_apart(cameras, searched)) return {};
   std::vector<Mistake> mistakes = likely_mistakes();
   if (one_place)
-    return CameraPoseProblem{false,
-                           fmt::format("cameras at most {:.3f} mm from each other, which gives no "
-                                       "depth",
-                                       1000 * largest_baseline_m(cameras)),
-                           cause_among(mistakes, cameras, searched)};
+    return CameraPoseProblem{
+        false,
+        fmt::format("cameras at most {:.3f} mm from each other, which gives no "
+                    "depth",
+                    1000 * largest_baseline_m(cameras)),
+        cause_among(mistakes, cameras, searched)};
   const bool nothing_shared = std::ranges::none_of(
       shared_sight(cameras, with_slack(searched)).values(), [](char shared) { return shared; });
   if (nothing_shared) std::ranges::move(mistakes_of_large_lengths(), std::back_inserter(mistakes));
   const std::string cause = cause_among(mistakes, cameras, searched);
   if (!nothing_shared && cause.empty()) return {};
-  return CameraPoseProblem{nothing_shared,
-                         fmt::format("cameras that see {} {:.3f} to {:.3f} m away",
-                                     nothing_shared ? "nothing in common" : "no place all together",
-                                     searched.min_m, searched.max_m),
-                         cause};
+  return CameraPoseProblem{
+      nothing_shared,
+      fmt::format("cameras that see {} {:.3f} to {:.3f} m away",
+                  nothing_shared ? "nothing in common" : "no place all together", searched.min_m,
+                  searched.max_m),
+      cause};
 }
 
 std::vector<std::size_t> cameras_alone(std::span<const PosedCamera> cameras,

@@ -40,8 +40,8 @@ void require_searchable_size(const std::string& name, double diameter_m,
     throw InputError(name, "size", text_of(sizes, diameter_m, options), ADVICE);
 }
 
-std::string size_warning(const std::string& name, double diameter_m,
-                          const TemplateOptions& options, const Camera& camera) {
+std::string size_warning(const std::string& name, double diameter_m, const TemplateOptions& options,
+                         const Camera& camera) {
   const SearchedSizes sizes = searched_sizes(diameter_m, options, camera);
   const double least_px = std::min(camera.width, camera.height) / 20.0,
                most_px = std::max(camera.width, camera.height);

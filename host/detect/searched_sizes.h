@@ -25,9 +25,9 @@ inline constexpr double LEAST_SIZE_PX = 8;
 void require_searchable_size(const std::string& name, double diameter_m,
                              const TemplateOptions& options, const Camera& camera);
 
-// A sentence for a warning where the object spans less than a twentieth of the image's smaller side,
-// or more than its larger side, at every searched distance. Else empty.
-std::string size_warning(const std::string& name, double diameter_m,
-                          const TemplateOptions& options, const Camera& camera);
+// A sentence for a warning where the object spans less than a twentieth of the image's smaller
+// side, or more than its larger side, at every searched distance. Else empty.
+std::string size_warning(const std::string& name, double diameter_m, const TemplateOptions& options,
+                         const Camera& camera);
 
 }  // namespace edgescout
