@@ -1,5 +1,7 @@
 #include "host/cli/common_arguments.h"
 
+#include "host/cli/option_table.h"
+
 namespace edgescout {
 
 void add_images(CLI::App& verb, std::vector<std::string>& inputs) {
@@ -22,6 +24,21 @@ void add_device(CLI::App& verb, std::string& device) {
   verb.add_option("--device", device,
                   "Device to compute on: auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
       ->capture_default_str();
+}
+
+void add_scale_camera(CLI::App& verb, bool& scale_camera) {
+  OptionTable(verb, "Batch", OptionLevel::Expert)
+      .flag("scale-camera", scale_camera,
+            "Accept images of another size than the calibration's, with the same aspect ratio");
+}
+
+void add_detection_options(CLI::App& verb, TemplateOptions& templates, PipelineOptions& pipeline) {
+  CommandLineOptions add(verb);
+  describe(templates, add);
+  describe(pipeline.edges, add);
+  describe(pipeline.tensor, add);
+  describe(pipeline.detect, add);
+  describe(pipeline.detect.edge_claims, add);
 }
 
 }  // namespace edgescout

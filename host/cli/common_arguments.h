@@ -5,11 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "host/pipeline.h"
+
 namespace edgescout {
 
 void add_images(CLI::App& verb, std::vector<std::string>& inputs);  // required
 void add_camera_file(CLI::App& verb, std::string& file);            // --camera
 void add_results_folder(CLI::App& verb, std::string& out);          // --out, required
 void add_device(CLI::App& verb, std::string& device);               // --device; shows its default
+void add_scale_camera(CLI::App& verb, bool& scale_camera);          // --scale-camera
+
+// Templates, edges, tensor and detection of single images.
+void add_detection_options(CLI::App& verb, TemplateOptions& templates, PipelineOptions& pipeline);
 
 }  // namespace edgescout

@@ -86,17 +86,9 @@ void add_options(CLI::App& verb, DetectRequest& request) {
             "Skip images that have a result of the same models and options")
       .flag("joint", request.batch.joint,
             "Detect in all views of a BOP scene at once. The scene must have world poses")
-      .flag("no-overlays", request.no_overlays, "Write no overlay pictures")
-      .level(OptionLevel::Expert)
-      .flag("scale-camera", request.batch.scale_camera,
-            "Accept images of another size than the calibration's, with the same aspect ratio");
-  PipelineOptions& pipeline = request.batch.pipeline;
-  CommandLineOptions add(verb);
-  describe(request.templates, add);
-  describe(pipeline.edges, add);
-  describe(pipeline.tensor, add);
-  describe(pipeline.detect, add);
-  describe(pipeline.detect.edge_claims, add);
+      .flag("no-overlays", request.no_overlays, "Write no overlay pictures");
+  add_scale_camera(verb, request.batch.scale_camera);
+  add_detection_options(verb, request.templates, request.batch.pipeline);
 }
 
 }  // namespace

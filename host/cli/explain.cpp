@@ -233,17 +233,10 @@ void add_files(CLI::App& verb, ExplainRequest& request) {
 }
 
 void add_options(CLI::App& verb, ExplainRequest& request) {
-  OptionTable(verb, "Batch", OptionLevel::Expert)
-      .flag("scale-camera", request.images.scale_camera,
-            "Accept images of another size than the calibration's, with the same aspect ratio");
-  PipelineOptions& pipeline = request.images.pipeline;
+  add_scale_camera(verb, request.images.scale_camera);
   CommandLineOptions add(verb);
   describe(request.same, add);
-  describe(request.templates, add);
-  describe(pipeline.edges, add);
-  describe(pipeline.tensor, add);
-  describe(pipeline.detect, add);
-  describe(pipeline.detect.edge_claims, add);
+  add_detection_options(verb, request.templates, request.images.pipeline);
 }
 
 }  // namespace

@@ -110,10 +110,8 @@ void add_options(CLI::App& verb, RegisterRequest& request) {
   OptionTable(verb, "Batch")
       .flag("resume", request.options.resume,
             "Skip images that have a result of the same models and options")
-      .flag("no-overlays", request.no_overlays, "Write no overlay pictures")
-      .level(OptionLevel::Expert)
-      .flag("scale-camera", request.options.scale_camera,
-            "Accept images of another size than the calibration's, with the same aspect ratio");
+      .flag("no-overlays", request.no_overlays, "Write no overlay pictures");
+  add_scale_camera(verb, request.options.scale_camera);
   CommandLineOptions add(verb);
   describe(request.options.refine, add);
   describe(request.options.pipeline.edges, add);
