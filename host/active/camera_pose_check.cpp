@@ -96,23 +96,25 @@ Se3 with_lengths(const Se3& pose, double factor) {
   return {pose.rotation, factor * pose.translation_m};
 }
 
-std::vector<Mistake> likely_mistakes() {
-  const std::string inverted = "poses that are inverted (camera to world, not world to camera)",
-                    in_m = "lengths in m where mm are expected";
-  return {{inverted, [](const Se3& pose) { return inverse(pose); }},
-          {in_m, [](const Se3& pose) { return with_lengths(pose, 1000); }},
-          {inverted + " and have " + in_m,
-           [](const Se3& pose) { return inverse(with_lengths(pose, 1000)); }}};
+constexpr const char* INVERTED = "poses that are inverted (camera to world, not world to camera)";
+
+// Lengths times `factor` are right, of poses as they are and of inverted ones.
+std::vector<Mistake> mistakes_of_lengths(const std::string& name, double factor) {
+  return {{name, [factor](const Se3& pose) { return with_lengths(pose, factor); }},
+          {INVERTED + (" and have " + name),
+           [factor](const Se3& pose) { return inverse(with_lengths(pose, factor)); }}};
 }
 
-// These are only likely where nothing at all is shared: a camera that is moved along a row of parts
-// sees them all at once if its path is shortened.
-std::vector<Mistake> mistakes_of_large_lengths() {
-  const std::string inverted = "poses that are inverted (camera to world, not world to camera)",
-                    in_mm = "lengths in mm where m are expected";
-  return {{in_mm, [](const Se3& pose) { return with_lengths(pose, 1e-3); }},
-          {inverted + " and have " + in_mm,
-           [](const Se3& pose) { return inverse(with_lengths(pose, 1e-3)); }}};
+// Lengths that are too large are only likely where nothing at all is shared: a camera that is moved
+// along a row of parts sees them all at once if its path is shortened.
+std::vector<Mistake> likely_mistakes(bool nothing_shared) {
+  std::vector<Mistake> mistakes{{INVERTED, [](const Se3& pose) { return inverse(pose); }}};
+  std::ranges::move(mistakes_of_lengths("lengths in m where mm are expected", 1000),
+                    std::back_inserter(mistakes));
+  if (nothing_shared)
+    std::ranges::move(mistakes_of_lengths("lengths in mm where m are expected", 1e-3),
+                      std::back_inserter(mistakes));
+  return mistakes;
 }
 
 bool stand_apart(std::span<const PosedCamera> cameras, const DistanceRange& searched) {
@@ -143,18 +145,15 @@ std::optional<CameraPoseProblem> camera_pose_problem(std::span<const PosedCamera
   if (cameras.size() < 2) return {};
   const bool one_place = all_see_one_place(cameras, with_slack(searched));
   if (one_place && stand_apart(cameras, searched)) return {};
-  std::vector<Mistake> mistakes = likely_mistakes();
   if (one_place)
     return CameraPoseProblem{
         false,
-        fmt::format("cameras at most {:.3f} mm from each other, which gives no "
-                    "depth",
+        fmt::format("cameras at most {:.3f} mm from each other, which gives no depth",
                     1000 * largest_baseline_m(cameras)),
-        cause_among(mistakes, cameras, searched)};
+        cause_among(likely_mistakes(false), cameras, searched)};
   const bool nothing_shared = std::ranges::none_of(
       shared_sight(cameras, with_slack(searched)).values(), [](char shared) { return shared; });
-  if (nothing_shared) std::ranges::move(mistakes_of_large_lengths(), std::back_inserter(mistakes));
-  const std::string cause = cause_among(mistakes, cameras, searched);
+  const std::string cause = cause_among(likely_mistakes(nothing_shared), cameras, searched);
   if (!nothing_shared && cause.empty()) return {};
   return CameraPoseProblem{
       nothing_shared,
