@@ -19,15 +19,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool has_image_extension(const fs::path& file) {
-  std::string extension = file.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return char(std::tolower(c)); });
-  static const std::set<std::string> known{".png", ".jpg", ".jpeg", ".pgm",
-                                           ".ppm", ".bmp", ".tif",  ".tiff"};
-  return known.contains(extension);
-}
-
 // A path that cannot be examined is no folder.
 bool is_folder(const fs::path& path) {
   std::error_code unknown;

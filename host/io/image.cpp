@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <climits>
 #include <new>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <set>
 
 #include "host/core/log.h"
 #include "host/io/files.h"
@@ -102,6 +104,15 @@ std::string png_of(const cv::Mat& image) {
 }
 
 }  // namespace
+
+bool has_image_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return char(std::tolower(c)); });
+  static const std::set<std::string> known{".png", ".jpg", ".jpeg", ".pgm",
+                                           ".ppm", ".bmp", ".tif",  ".tiff"};
+  return known.contains(extension);
+}
 
 Image load_image(const std::filesystem::path& file) {
   const std::string source = file.string();

@@ -10,6 +10,10 @@
 
 namespace edgescout {
 
+// Whether a file's name ends as those of images that folders are searched for: png, jpg, jpeg, pgm,
+// ppm, bmp, tif or tiff, in any case.
+bool has_image_extension(const std::filesystem::path& file);
+
 // Reads a grey image of 8 bit. A colour image is converted; the first one is logged as Info.
 // InputError: the file is missing, is not an image, has 16 bit or is smaller than 16 x 16 px.
 Image load_image(const std::filesystem::path& file);

@@ -1,26 +1,16 @@
 #include "host/render/photographs.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <opencv2/imgproc.hpp>
 #include <set>
-#include <string>
 
 #include "host/io/image.h"
 #include "kernels/error.h"
 
 namespace edgescout {
 namespace {
-
-bool is_image_name(const std::filesystem::path& file) {
-  static const std::set<std::string> endings{".png", ".jpg", ".jpeg", ".pgm",
-                                             ".ppm", ".bmp", ".tif",  ".tiff"};
-  std::string ending = file.extension().string();
-  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return endings.contains(ending);
-}
 
 // The largest window of the wanted shape, times a factor that leaves at least half as many pixels
 // as are wanted.
@@ -39,7 +29,7 @@ PhotographFolders list_photographs(const std::filesystem::path& folder) {
   std::map<std::filesystem::path, std::set<std::filesystem::path>> by_folder;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(
            folder, std::filesystem::directory_options::skip_permission_denied, failed))
-    if (entry.is_regular_file() && is_image_name(entry.path()))
+    if (entry.is_regular_file() && has_image_extension(entry.path()))
       by_folder[entry.path().parent_path()].insert(entry.path());
   if (failed) throw InputError(folder.string(), "photographs", failed.message(), "a folder");
   if (by_folder.empty())

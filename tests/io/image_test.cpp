@@ -25,6 +25,14 @@ Image gradient_image(int width, int height) {
   return image;
 }
 
+TEST(HasImageExtension, IsOfTheNameInAnyCase) {
+  for (const char* name :
+       {"a.png", "a.JPG", "b/a.jpeg", "a.x.Tiff", "a.tif", "a.pgm", "a.ppm", "a.bmp"})
+    EXPECT_TRUE(has_image_extension(name)) << name;
+  for (const char* name : {"png", "a.png.txt", "a", "a.json", ".png/a", "a.pn"})
+    EXPECT_FALSE(has_image_extension(name)) << name;
+}
+
 TEST(LoadImage, ReadsWhatSavePngWrote) {
   const TemporaryFolder folder;
   for (auto [width, height] : {std::pair{16, 16}, {17, 33}, {640, 480}}) {
