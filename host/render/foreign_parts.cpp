@@ -79,11 +79,9 @@ void add_file_parts(SimulatedScene& scene, std::span<const Mesh> files, double d
 Eigen::Vector3d place_before(const SimulatedScene& scene, double nearness, double diameter_m,
                              Random& random) {
   const SceneView& view = scene.views[random.below(static_cast<int>(scene.views.size()))];
-  const PlacedObject* target = nullptr;
-  while (!target || !target->target)
-    target = &scene.placed[random.below(static_cast<int>(scene.placed.size()))];
+  const PlacedObject& target = random_target(scene, random);
   const Eigen::Vector3d aim_m =
-      target->world_from_object * middle_m(scene.objects[target->object].mesh) +
+      target.world_from_object * middle_m(scene.objects[target.object].mesh) +
       0.5 * diameter_m * random.direction();
   const Eigen::Vector3d eye_m = inverse(view.camera_from_world).translation_m;
   return eye_m + nearness * (aim_m - eye_m);

@@ -21,6 +21,13 @@ double reach_m(const SimulatedScene& scene) {
   return reach;
 }
 
+const PlacedObject& random_target(const SimulatedScene& scene, Random& random) {
+  const PlacedObject* target = nullptr;
+  while (!target || !target->target)
+    target = &scene.placed[random.below(static_cast<int>(scene.placed.size()))];
+  return *target;
+}
+
 double mean_diameter_m(std::span<const Object> objects) {
   double sum = 0;
   for (const Object& object : objects) sum += object.mesh.diameter_m;

@@ -1,6 +1,7 @@
 // Sizes and directions that the makers of a scene share.
 #pragma once
 
+#include "host/core/random.h"
 #include "host/render/scene.h"
 
 namespace edgescout {
@@ -10,6 +11,9 @@ Eigen::Vector3d middle_m(const Mesh& mesh);
 
 // Radius about the world's z axis that contains the middles of all targets and half their size.
 double reach_m(const SimulatedScene& scene);
+
+// One of the targets, each as likely. The scene must have one.
+const PlacedObject& random_target(const SimulatedScene& scene, Random& random);
 
 double mean_diameter_m(std::span<const Object> objects);
 

@@ -53,11 +53,9 @@ void aim_at_target(Viewpoint& from, const SimulatedScene& scene, double diameter
   const Range& span_px = o.clutter_ranges.span_px;
   const double octaves = std::log2(span_px.high / span_px.low);
   from.distance_m = o.focal_px * diameter_m / (span_px.low * std::exp2(octaves * random.uniform()));
-  const PlacedObject* target = nullptr;
-  while (!target || !target->target)
-    target = &scene.placed[random.below(static_cast<int>(scene.placed.size()))];
+  const PlacedObject& target = random_target(scene, random);
   const double beside_m = 0.3 * std::min(o.width, o.height) * from.distance_m / o.focal_px;
-  from.aim_m = target->world_from_object * middle_m(scene.objects[target->object].mesh);
+  from.aim_m = target.world_from_object * middle_m(scene.objects[target.object].mesh);
   for (int axis = 0; axis < 2; ++axis) from.aim_m[axis] += beside_m * random.uniform(-1, 1);
 }
 
