@@ -1,7 +1,6 @@
-// edgescout detect on images, folders and scenes: what it writes, and what it refuses.
+// edgescout detect on images, folders and scenes: what it writes.
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "host/core/pose_error.h"
@@ -221,102 +220,6 @@ TEST(Detect, GoesOnPastBadImages) {
     EXPECT_TRUE(row.image_id == 3 || row.image_id == 5) << row.image_id;
 }
 
-TEST(Detect, RefusesWhereEveryImageIsBad) {
-  const SmallScene t;
-  t.folder.write("bad/a.png", "no image");
-  t.folder.write("bad/b.png", "");
-  expect_refused(t.detect(t.folder.path() / "bad", joined({bracket(), {"--camera", t.camera()}})),
-                 {"b.png", "empty"});
-  EXPECT_FALSE(fs::exists(t.out));
-}
-
-// Only the detection finds out.
-TEST(Detect, RefusesTheOnlyImageWhereItIsTooLarge) {
-  const SmallScene t;
-  const fs::path wide = t.folder.path() / "wide.png";
-  save_png(Image{32767, 120, std::vector<std::uint8_t>(32767 * 120, 128)}, wide);
-  const std::string lens =
-      t.folder.write("lens.yaml",
-                     "image_width: 32767\nimage_height: 120\nK: [400, 0, 159.5, 0, 400, "
-                     "59.5, 0, 0, 1]\nD: [0.1, 0, 0, 0, 0]\n");
-  const Outcome outcome = run_program(t.detect(wide, joined({bracket(), {"--camera", lens}})));
-  EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
-  const std::size_t error = outcome.err.find("edgescout: error: ");
-  ASSERT_NE(error, std::string::npos) << outcome.err;
-  EXPECT_TRUE(is_one_line_error(outcome.err.substr(error))) << outcome.err;
-  EXPECT_NE(outcome.err.find("wide.png: image: size: found 32767x120", error), std::string::npos)
-      << outcome.err;
-  EXPECT_EQ(outcome.err.find("edgescout: warning: "), std::string::npos)
-      << "logged twice: " << outcome.err;
-  EXPECT_FALSE(fs::exists(t.out)) << "something was written";
-}
-
-TEST(Detect, RefusesViewsThatAreJoinedTwice) {
-  const SmallScene t;
-  expect_refused(joined({{"detect", t.scene, t.scene, "--joint", "--out", t.out, "--device", "cpu"},
-                         bracket()}),
-                 {"000000.png", "view", "twice"});
-  EXPECT_FALSE(fs::exists(t.out));
-}
-
-TEST(Detect, RefusesCameraPosesThatShareNothing) {
-  const SmallScene t(2);
-  const fs::path file = t.scene / "scene_camera.json";
-  nlohmann::json cameras = nlohmann::json::parse(content_of(file));
-  for (auto& camera : cameras)
-    for (auto& number : camera["cam_t_w2c"]) number = 1000 * number.get<double>();
-  std::ofstream(file) << cameras;
-  expect_refused(t.detect(t.scene, joined({bracket(), {"--joint"}})),
-                 {"000003", "camera poses", "lengths in mm where m are expected"});
-  EXPECT_FALSE(fs::exists(t.out));
-}
-
-TEST(Detect, RefusesAPartThatCannotBeSeen) {
-  const SmallScene t;
-  expect_refused(
-      t.detect(t.scene, joined({{"--model", part_file(1), "--unit", "in"}, few_templates()})),
-      {"obj_000001", "size", "--unit"});
-  EXPECT_FALSE(fs::exists(t.out));
-  const Outcome warned = run_program(t.detect(
-      t.scene,
-      joined({{"--model", part_file(1), "--unit", "mm", "--viewpoints", "3"},
-              {"--in-plane-steps", "12", "--distance-min", "2.8", "--distance-max", "3"}})));
-  EXPECT_NE(warned.err.find("expected 12 to 320 px"), std::string::npos) << warned.err;
-}
-
-TEST(Detect, RefusesCamerasThatDoNotFit) {
-  const SmallScene t;
-  const auto refused = [&](const std::vector<std::string>& more,
-                           std::initializer_list<std::string> words) {
-    expect_refused(t.detect(t.image(), joined({bracket(), more})), words);
-    EXPECT_FALSE(fs::exists(t.out)) << "something was written";
-  };
-  refused({}, {"000000.png", "camera", "--camera FILE"});
-  refused({"--camera", t.folder.path() / "none.yaml"}, {"none.yaml"});
-  refused({"--camera", t.camera("-400")}, {"camera.yaml", "fx", "-400"});
-  refused({"--camera", t.camera(".nan")}, {"camera.yaml", "camera_matrix", "not finite"});
-  refused({"--camera", t.camera("400", 640, 480)},
-          {"camera.yaml", "320x240", "640x480", "--scale-camera"});
-  refused({"--camera", t.camera("400", 640, 400), "--scale-camera"},
-          {"camera.yaml", "320x240", "640x400"});
-  refused({"--joint", "--camera", t.camera()}, {"000000.png", "world pose", "--joint"});
-}
-
-TEST(Detect, WarnsOfACalibrationOfUnknownSize) {
-  const SmallScene t;
-  const std::string sizeless =
-      t.folder.write("k.yaml", "K: [400, 0, 159.5, 0, 400, 119.5, 0, 0, 1]\n");
-  const auto warned = [&](const std::string& camera) {
-    const Outcome outcome =
-        run_program(t.detect(t.image(), joined({bracket(), {"--camera", camera}})));
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return outcome.err.find("edgescout: warning: " + camera + ": width, height: found none") !=
-           std::string::npos;
-  };
-  EXPECT_TRUE(warned(sizeless));
-  EXPECT_FALSE(warned(t.camera()));
-}
-
 TEST(Detect, ScalesTheCameraWhereAllowed) {
   const SmallScene t;
   const std::string doubled = t.folder.write("camera.yaml",
@@ -327,45 +230,6 @@ TEST(Detect, ScalesTheCameraWhereAllowed) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(load_image_result(t.out / "000000.json").camera.fx, 400);
   EXPECT_TRUE(has(load_bop_results(t.out / "results.csv"), 0, truth_in(t, 0)));
-}
-
-TEST(Detect, RefusesOptionsDevicesAndFolders) {
-  const SmallScene t;
-  const auto refused = [&](const std::vector<std::string>& more,
-                           std::initializer_list<std::string> words) {
-    expect_refused(joined({{"detect", t.scene, "--out", t.out}, more}), words);
-    EXPECT_FALSE(fs::exists(t.out)) << "something was written";
-  };
-  refused(joined({bracket(), {"--min-probability", "1.5"}}),
-          {"--min-probability", "1.5", "0 to 1"});
-  refused(joined({bracket(), {"--min-probability", "nan"}}),
-          {"--min-probability", "nan", "0 to 1"});
-  refused(joined({bracket(), {"--bins", "61"}}), {"bins", "61"});
-  refused(joined({bracket(), {"--distance-ratio", "1"}}), {"--distance-ratio"});
-  refused(joined({bracket(), {"--device", "vulkan:99"}}), {"device", "vulkan:99"});
-  refused({"--device", "cpu"}, {"--model", "neither"});
-  refused({"--device", "cpu", "--model", part_file(1)}, {"--unit"});
-  refused({"--device", "cpu", "--unit", "mm", "--model", part_file(1), part_file(1)},
-          {"obj_000001.ply", "object id", "twice"});
-  refused({"--device", "cpu", "--unit", "mm", "--model", t.folder.path() / "none.stl"},
-          {"none.stl"});
-  // What a template file says itself.
-  for (const std::vector<std::string>& more :
-       std::vector<std::vector<std::string>>{{"--unit", "mm"},
-                                             {"--object-id", "1"},
-                                             {"--distance-min", "0.2"},
-                                             {"--viewpoints", "4"}})
-    refused(joined({{"--templates", "part.est"}, more}), {more[0], "together with --templates"});
-  const fs::path below = t.folder.write("file", "content") / "out";
-  expect_refused(joined({{"detect", t.scene, "--out", below, "--device", "cpu"}, bracket()}),
-                 {below, "output folder"});
-  expect_refused(joined({{"detect", t.folder.path() / "nowhere", "--out", t.out, "--device", "cpu"},
-                         bracket()}),
-                 {"nowhere", "input"});
-  fs::create_directories(t.folder.path() / "empty");
-  expect_refused(
-      joined({{"detect", t.folder.path() / "empty", "--out", t.out, "--device", "cpu"}, bracket()}),
-      {"empty", "no image"});
 }
 
 TEST(Detect, KeepsOverlaysApartFromTheImages) {
@@ -380,22 +244,6 @@ TEST(Detect, KeepsOverlaysApartFromTheImages) {
               bracket()}),
       {"--out", "folder of the images"});
   EXPECT_EQ(std::distance(fs::directory_iterator(images), {}), 1);
-}
-
-TEST(Detect, RefusesTheSameObjectInTwoTemplateFiles) {
-  const SmallScene t;
-  const std::string set = t.folder.path() / "part.est";
-  ASSERT_EQ(run_program(joined({{"model", "build", part_file(1), "--unit", "mm", "--device", "cpu",
-                                 "--out", set},
-                                few_templates()}))
-                .exit_code,
-            0);
-  expect_refused(t.detect(t.scene, {"--templates", set, set}),
-                 {"part.est", "object id", "1 twice"});
-  expect_refused(t.detect(t.image(), {"--templates", set}), {"000000.png", "camera"});
-  expect_refused(t.detect(t.image(), {"--templates", set, "--camera", t.camera("-400")}),
-                 {"camera.yaml", "fx"});
-  EXPECT_FALSE(fs::exists(t.out));
 }
 
 }  // namespace
