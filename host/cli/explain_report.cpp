@@ -40,7 +40,7 @@ std::string range_text(const RangeReport& r) {
                      r.in_region ? "" : "; its centre is outside the searched region");
 }
 
-std::string edges_text(const EdgeSupport& e) {
+std::string edges_text(const SupportedPoints& e) {
   return fmt::format("{} of {:.0f} points have an edge, {} %; of the best copy beside it {} %{}",
                      e.supported, e.in_image, percent(double(e.supported), e.in_image),
                      percent(double(e.supported_beside), e.in_image),

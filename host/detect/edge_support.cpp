@@ -27,11 +27,11 @@ std::vector<ObjectPose> copies_beside(const Scene& scene, const ObjectPose& pose
 
 }  // namespace
 
-EdgeSupport edge_support(const Scene& scene, const ObjectPose& pose,
+SupportedPoints count_supported(const Scene& scene, const ObjectPose& pose,
                          const EdgeClaimOptions& options) {
   const Scene seen{scene.models, scene.views.first(1), scene.backend};
   const PoseFeatures features = features_by_view(seen, {&pose, 1})(0, 0);
-  EdgeSupport support;
+  SupportedPoints support;
   support.visible = features.visible;
   support.in_image = features.points;
   support.supported = supported_points(seen, pose, options);

@@ -8,7 +8,7 @@
 namespace edgescout {
 
 // Numbers of model points.
-struct EdgeSupport {
+struct SupportedPoints {
   double visible = 0;                // that the pose shows, inside the image or not
   double in_image = 0;               // of these: inside the image
   std::size_t supported = 0;         // that have an image edge near (supported_points)
@@ -18,7 +18,7 @@ struct EdgeSupport {
 };
 
 // In the first view. The 16 copies are moved across the line of sight by 7 and 14 px.
-EdgeSupport edge_support(const Scene& scene, const ObjectPose& pose,
+SupportedPoints count_supported(const Scene& scene, const ObjectPose& pose,
                          const EdgeClaimOptions& options = {});
 
 }  // namespace edgescout

@@ -176,8 +176,8 @@ class LostPose {
     return range;
   }
 
-  EdgeSupport edges() const {
-    const EdgeSupport edges = edge_support(scene_, given_, options_.edge_claims);
+  SupportedPoints edges() const {
+    const SupportedPoints edges = count_supported(scene_, given_, options_.edge_claims);
     if (!(edges.in_image > 0))
       throw InputError("given pose", "t", "an object of which the image shows no edge",
                        "one inside the image");

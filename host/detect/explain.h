@@ -120,7 +120,7 @@ struct Rival : FoundPose {
 struct LossReport {
   LossStage lost_at = LossStage::Reported;
   RangeReport range;
-  EdgeSupport edges;
+  SupportedPoints edges;
   ScanReport scan;
   AlignmentReport alignment;
   RankingReport ranking;
