@@ -19,6 +19,7 @@
 #include "kernels/dcd_tensor.h"
 #include "kernels/depth_raster.h"
 #include "kernels/edge_detect.h"
+#include "kernels/edge_support.h"
 #include "kernels/mutual_information.h"
 #include "kernels/pose_normal_equations.h"
 #include "kernels/pose_score.h"
@@ -27,7 +28,8 @@
 
 namespace edgescout {
 
-// A tensor and, where an image was given, the image's gradient, in the backend's own memory.
+// A tensor and, where an image was given, the image's gradient and support map, in the backend's
+// own memory.
 class BackendView {
  public:
   virtual ~BackendView() = default;
@@ -78,8 +80,8 @@ class Backend {
 
   virtual std::vector<EdgePoint> detect_edges(const ImageView& image,
                                               const EdgeOptions& options) = 0;
-  // `image` may be empty (width 0): then the view cannot be asked for Psi. InputError naming the
-  // size: a tensor too large for the memory or the device.
+  // `image` may be empty (width 0): then Psi and edge support are 0 in this view. InputError naming
+  // the size: a tensor or an image too large for the memory or the device.
   virtual ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height,
                                const ImageView& image, const Intrinsics& intrinsics,
                                const TensorOptions& options) = 0;
@@ -100,6 +102,9 @@ class Backend {
   virtual void pose_score(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
                           std::span<const PoseProblem> problems, const PoseScoreOptions& options,
                           std::span<PoseScore> out) = 0;
+  virtual void edge_support(std::span<const ViewHandle> views, std::span<const SupportPoint> points,
+                            std::span<const SupportProblem> problems,
+                            std::span<EdgeSupport> out) = 0;
   virtual void depth_raster(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width,
                             int height, std::span<float> depth) = 0;
   virtual void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps,

@@ -74,6 +74,7 @@ class CpuView : public BackendView {
   ~CpuView() override { memory_->give_back(values); }
   std::vector<std::uint16_t> tensor() const override { return {values.begin(), values.end()}; }
   TensorView tensor_view() const { return {values, shape, intrinsics}; }
+  SupportView support_view() const { return {support_map, shape.width, shape.height}; }
 
  private:
   std::shared_ptr<TensorMemory> memory_;
@@ -81,6 +82,7 @@ class CpuView : public BackendView {
  public:
   std::span<std::uint16_t> values;
   std::vector<std::int16_t> gradient_x2;
+  std::vector<std::uint32_t> support_map;
 };
 
 class CpuModelPoints : public BackendModelPoints {
@@ -117,19 +119,14 @@ class CpuBackend : public Backend {
     check(width > 0 && height > 0, "make_view: an image without pixels");
     check(image.width == 0 || (image.width == width && image.height == height),
           "make_view: image of another size");
-    const Timer timer(*this, "dcd_tensor");
     const TensorShape shape{width, height, options.bins};
     try {
       auto view = std::make_shared<CpuView>(memory_, shape.size());
       view->shape = shape;
       view->options = options;
       view->intrinsics = intrinsics;
-      if (fast_)
-        dcd_tensor_fast(edges, width, height, options, pool_, view->values);
-      else
-        std::ranges::copy(dcd_tensor_reference(edges, width, height, options),
-                          view->values.begin());
-      if (image.width > 0) view->gradient_x2 = image_gradient_x2(image);
+      fill_tensor(*view, edges);
+      if (image.width > 0) add_image(*view, image);
       return view;
     } catch (const std::bad_alloc&) {
       too_large(shape);
@@ -191,6 +188,17 @@ class CpuBackend : public Backend {
       pose_score_reference(scored, points, problems, options, out);
   }
 
+  void edge_support(std::span<const ViewHandle> views, std::span<const SupportPoint> points,
+                    std::span<const SupportProblem> problems, std::span<EdgeSupport> out) override {
+    const Timer timer(*this, "edge_support");
+    std::vector<SupportView> maps;
+    for (const ViewHandle& view : views) maps.push_back(own(*view).support_view());
+    if (fast_)
+      edge_support_fast(maps, points, problems, out, pool_);
+    else
+      edge_support_reference(maps, points, problems, out);
+  }
+
   void depth_raster(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
                     std::span<float> depth) override {
     const Timer timer(*this, "depth_raster");
@@ -243,6 +251,22 @@ class CpuBackend : public Backend {
     const char* name;
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   };
+
+  void fill_tensor(CpuView& view, std::span<const EdgePoint> edges) {
+    const Timer timer(*this, "dcd_tensor");
+    const int width = view.shape.width, height = view.shape.height;
+    if (fast_)
+      dcd_tensor_fast(edges, width, height, view.options, pool_, view.values);
+    else
+      std::ranges::copy(dcd_tensor_reference(edges, width, height, view.options),
+                        view.values.begin());
+  }
+
+  void add_image(CpuView& view, const ImageView& image) {
+    const Timer timer(*this, "support_map");
+    view.gradient_x2 = image_gradient_x2(image);
+    view.support_map = fast_ ? support_map_fast(image, pool_) : support_map_reference(image);
+  }
 
   static const CpuView& own(const BackendView& view) {
     const auto* mine = dynamic_cast<const CpuView*>(&view);

@@ -127,6 +127,30 @@ std::vector<Case> pose_cases(Backend& backend, const Scale& s) {
            }}};
 }
 
+// Points all over the image, as many a pose as pose_cases has.
+Case support_case(Backend& backend, const Scale& s) {
+  std::mt19937 rng(9);
+  const std::vector<std::uint8_t> pixels = disc_image(rng, s.width, s.height);
+  const std::vector<ViewHandle> views{backend.make_view(
+      {}, s.width, s.height, {s.width, s.height, pixels.data()}, camera_of(s), {})};
+  std::vector<SupportPoint> points;
+  std::vector<SupportProblem> problems;
+  for (int i = 0; i < s.problems; ++i) {
+    problems.push_back({std::uint32_t(points.size()), std::uint32_t(s.pose_points), 0});
+    for (int n = 0; n < s.pose_points; ++n)
+      points.push_back({std::uint16_t(rng() % std::uint32_t(s.width)),
+                        std::uint16_t(rng() % std::uint32_t(s.height)), SUPPORT_WEIGHT_ONE / 4,
+                        std::uint8_t(rng() % SUPPORT_BINS), std::uint8_t(rng() % SUPPORT_PARTS)});
+  }
+  constexpr std::size_t reads = sizeof(SupportPoint) + (1 + SUPPORT_COPIES) * sizeof(std::uint32_t);
+  const auto supports = std::make_shared<std::vector<EdgeSupport>>(problems.size());
+  return {"edge_support",
+          std::to_string(s.problems) + " poses of " + std::to_string(s.pose_points) + " points",
+          reads * points.size(), [&backend, views, points, problems, supports] {
+            backend.edge_support(views, points, problems, *supports);
+          }};
+}
+
 Case depth_case(Backend& backend, const Scale& s) {
   const Mesh mesh = bumpy_ball(s.rings, 2 * s.rings);
   const std::vector<DepthJob> jobs = views_around(s.maps, s.map_width, s.map_height);
@@ -214,6 +238,7 @@ std::vector<Case> make_cases(Backend& backend, Size size) {
                           projection_case(backend, s), template_case(backend, s, 1, 1),
                           template_case(backend, s, 16, 12)};
   for (Case& c : pose_cases(backend, s)) cases.push_back(std::move(c));
+  cases.push_back(support_case(backend, s));
   cases.push_back(depth_case(backend, s));
   for (Case& c : next_view_cases(backend, s.hypotheses)) cases.push_back(std::move(c));
   return cases;

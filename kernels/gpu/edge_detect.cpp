@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#include "edge_gradient.spv.h"
 #include "edge_link.spv.h"
-#include "edge_thin.spv.h"
 #include "kernels/edge_link.h"
 #include "kernels/edge_stages.h"
 #include "kernels/error.h"
@@ -16,22 +14,6 @@ namespace {
 constexpr std::size_t MOST_AT_FIRST = std::size_t{1}
                                       << 16;  // edge pixels; 1024x768 hardly ever has as many
 
-Kernel gradient_pass(const Device& device, std::uint32_t pass) {
-  return Kernel(device, {"edge_gradient", edge_gradient_spv, 4, sizeof(EdgeGradientPush), {pass}});
-}
-
-// A word a pixel is the most a plane takes.
-void check_size(const Device& device, const ImageView& image) {
-  check(image.width > 0 && image.height > 0 && image.pixels,
-        "detect_edges: an image without pixels");
-  const std::uint64_t most = device.limits().maxStorageBufferRange / sizeof(std::uint32_t) - 1;
-  const std::uint64_t pixels = std::uint64_t(image.width) * std::uint64_t(image.height);
-  if (pixels > most)
-    throw InputError("image", "size",
-                     std::to_string(image.width) + "x" + std::to_string(image.height),
-                     "at most " + std::to_string(most) + " pixels on " + device.info().name);
-}
-
 Kernel link_pass(const Device& device, std::uint32_t pass) {
   return Kernel(device, {"edge_link", edge_link_spv, 5, sizeof(EdgeLinkPush), {pass}});
 }
@@ -40,58 +22,33 @@ Kernel link_pass(const Device& device, std::uint32_t pass) {
 
 EdgeDetect::EdgeDetect(const Device& device)
     : device_(device),
-      gradient_passes_{gradient_pass(device, EDGE_ROWS), gradient_pass(device, EDGE_COLUMNS)},
-      thin_(device, {"edge_thin", edge_thin_spv, 2, sizeof(EdgeThinPush), {}}),
+      candidates_(device),
       link_passes_{link_pass(device, EDGE_LINK_MERGE), link_pass(device, EDGE_LINK_COUNT),
                    link_pass(device, EDGE_LINK_KEEP), link_pass(device, EDGE_LINK_POINT)} {}
-
-void EdgeDetect::record_gradient(Batch& batch, const ImageView& image, float sigma_px) {
-  const EdgeWeights weights = edge_weights(sigma_px);
-  std::vector<std::int32_t> both(weights.smooth.begin(), weights.smooth.end());
-  both.insert(both.end(), weights.derivative.begin(), weights.derivative.end());
-  weights_.reserve(device_, both.size(), "edge weights");
-  batch.upload<std::int32_t>(weights_, both);
-  batch.upload(image_, std::span(image.pixels, std::size_t(width_) * height_));
-  batch.barrier();
-  const EdgeGradientPush push{width_, height_, static_cast<std::uint32_t>(weights.radius)};
-  for (const Kernel& pass : gradient_passes_) {
-    batch.dispatch(pass, {groups_for(width_, EDGE_GROUP), height_},
-                   {image_, weights_, rows_, gradient_}, push);
-    batch.barrier();
-  }
-}
 
 void EdgeDetect::record_link(Batch& batch, std::uint32_t pass, std::uint32_t count) const {
   const EdgeLinkPush push{width_, height_, high2_, min_length_px_, count};
   batch.dispatch(link_passes_[pass], spread(groups_for(count, EDGE_GROUP)),
-                 {gradient_, labels_, components_, kept_, points_}, push);
+                 {gradient(), labels(), components_, kept_, points_}, push);
   batch.barrier();
 }
 
 void EdgeDetect::record_pixels(Batch& batch, const ImageView& image, const EdgeOptions& options) {
   options.validate();
-  check_size(device_, image);
+  check_image_size(device_, image);
+  const std::int32_t high = edge_threshold(options.high_threshold);
   width_ = static_cast<std::uint32_t>(image.width);
   height_ = static_cast<std::uint32_t>(image.height);
-  const std::int32_t low = edge_threshold(options.low_threshold),
-                     high = edge_threshold(options.high_threshold);
   high2_ = static_cast<std::uint32_t>(high * high);
   min_length_px_ = static_cast<std::uint32_t>(options.min_length_px);
   const std::size_t count = std::size_t(width_) * height_;
-  image_.reserve(device_, (count + 3) / 4, "edge image");
-  rows_.reserve(device_, count, "edge rows");
-  gradient_.reserve(device_, count, "edge gradient");
-  labels_.reserve(device_, count, "edge labels");
   components_.reserve(device_, count, "edge components");
   kept_.reserve(device_, count + 1, "edge pixels");
   points_.reserve(device_, 1, "edge points");
 
   batch.fill(components_, 0);
   batch.fill(kept_, 0);
-  record_gradient(batch, image, options.sigma_px);
-  const EdgeThinPush thin{width_, height_, static_cast<std::uint32_t>(low * low)};
-  batch.dispatch(thin_, {groups_for(width_, EDGE_GROUP), height_}, {gradient_, labels_}, thin);
-  batch.barrier();
+  candidates_.record(batch, image, options.sigma_px, edge_threshold(options.low_threshold));
   for (const std::uint32_t pass : {EDGE_LINK_MERGE, EDGE_LINK_COUNT, EDGE_LINK_KEEP})
     record_link(batch, pass, static_cast<std::uint32_t>(count));
   host_kept_.resize(1 + std::min(count, MOST_AT_FIRST));

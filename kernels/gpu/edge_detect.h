@@ -1,5 +1,5 @@
-// Records the edge detector: edge_gradient, edge_thin, edge_link (kernels/edge_stages.h and the
-// headers of that name).
+// Records the edge detector: edge_gradient and edge_thin (edge_candidates.h), then edge_link
+// (kernels/edge_stages.h and the header of that name).
 //
 // Two batches: the first finds the edge pixels, the host sorts their indices row-major, the second
 // computes their points. Of an image with uncommonly many edge pixels one between them fetches the
@@ -13,6 +13,7 @@
 
 #include "kernels/edge_detect.h"
 #include "kernels/gpu/batch.h"
+#include "kernels/gpu/edge_candidates.h"
 
 namespace edgescout::gpu {
 
@@ -32,20 +33,17 @@ class EdgeDetect {
                      std::span<EdgePoint> points);
 
   // The planes of the last image, a word a pixel (edge_gradient.h, edge_thin.h).
-  const RawBuffer& gradient() const { return gradient_; }
-  const RawBuffer& labels() const { return labels_; }
+  const RawBuffer& gradient() const { return candidates_.gradient(); }
+  const RawBuffer& labels() const { return candidates_.labels(); }
 
  private:
-  void record_gradient(Batch& batch, const ImageView& image, float sigma_px);
   void record_link(Batch& batch, std::uint32_t pass, std::uint32_t count) const;
 
   const Device& device_;
-  std::array<Kernel, 2> gradient_passes_;
-  Kernel thin_;
+  EdgeCandidates candidates_;
   std::array<Kernel, 4> link_passes_;
   std::uint32_t width_ = 0, height_ = 0, high2_ = 0, min_length_px_ = 0;
-  Buffer<std::uint32_t> image_, rows_, gradient_, labels_, components_, kept_;
-  Buffer<std::int32_t> weights_;
+  Buffer<std::uint32_t> components_, kept_;
   Buffer<EdgePoint> points_;
   std::vector<std::uint32_t> host_kept_;
 };

@@ -10,9 +10,11 @@
 #include "kernels/gpu/dcd_tensor.h"
 #include "kernels/gpu/depth_raster.h"
 #include "kernels/gpu/edge_detect.h"
+#include "kernels/gpu/edge_support.h"
 #include "kernels/gpu/mutual_information.h"
 #include "kernels/gpu/pose_normal_equations.h"
 #include "kernels/gpu/pose_score.h"
+#include "kernels/gpu/support_map.h"
 #include "kernels/gpu/template_project.h"
 #include "kernels/gpu/template_score.h"
 #include "kernels/thread_pool.h"
@@ -41,6 +43,9 @@ class VulkanView : public BackendView {
   PoseView pose_view() const {
     return {&values, intrinsics, gradient_x2.size() > 0 ? &gradient_x2 : nullptr};
   }
+  SupportMapView support_view() const {
+    return {support_map.size() > 0 ? &support_map : nullptr, shape.width, shape.height};
+  }
 
  private:
   std::shared_ptr<const Device> device_;
@@ -48,6 +53,7 @@ class VulkanView : public BackendView {
  public:
   DeviceTensor values;
   Buffer<std::int16_t> gradient_x2;
+  Buffer<std::uint32_t> support_map;
 };
 
 class VulkanModelPoints : public BackendModelPoints {
@@ -100,6 +106,8 @@ class VulkanBackend : public Backend {
         projector_(*device_),
         systems_(*device_),
         scorer_(*device_),
+        mapper_(*device_),
+        supporter_(*device_),
         raster_(*device_),
         candidates_(*device_),
         chamfer_(*device_),
@@ -144,6 +152,7 @@ class VulkanBackend : public Backend {
       const std::vector<std::int16_t> gradient = image_gradient_x2(image);
       view->gradient_x2.reserve(*device_, gradient.size(), "image gradient");
       batch.upload<std::int16_t>(view->gradient_x2, gradient);
+      mapper_.record(batch, image, view->support_map);
     }
     run(batch);
     return view;
@@ -202,6 +211,24 @@ class VulkanBackend : public Backend {
                   std::span<const PoseProblem> problems, const PoseScoreOptions& options,
                   std::span<PoseScore> out) override {
     run_poses("pose_score", scorer_, views, points, problems, options, out);
+  }
+
+  void edge_support(std::span<const ViewHandle> views, std::span<const SupportPoint> points,
+                    std::span<const SupportProblem> problems, std::span<EdgeSupport> out) override {
+    std::vector<SupportMapView> maps;
+    std::vector<SupportView> shapes;
+    for (const ViewHandle& view : views) {
+      maps.push_back(own(*view).support_view());
+      shapes.push_back({{}, view->shape.width, view->shape.height});
+    }
+    check_edge_support(shapes, points, problems, out.size());
+    for (std::size_t first = 0, count = 0; first < problems.size(); first += count) {
+      count = supporter_.that_fit(problems.subspan(first));
+      Batch batch(*device_, "edge_support");
+      supporter_.record(batch, maps, points, problems.subspan(first, count));
+      run(batch);
+      supporter_.collect(out.subspan(first, count));
+    }
   }
 
   void depth_raster(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
@@ -305,6 +332,8 @@ class VulkanBackend : public Backend {
   TemplateProject projector_;
   PoseNormalEquations systems_;
   PoseScorer scorer_;
+  SupportMapper mapper_;
+  SupportScorer supporter_;
   DepthRaster raster_;
   CandidateMaps candidates_;
   CombinationChamfer chamfer_;

@@ -53,6 +53,10 @@ class FailingBackend : public Backend {
                   std::span<PoseScore> out) override {
     cpu_->pose_score(views, points, problems, options, out);
   }
+  void edge_support(std::span<const ViewHandle> views, std::span<const SupportPoint> points,
+                    std::span<const SupportProblem> problems, std::span<EdgeSupport> out) override {
+    cpu_->edge_support(views, points, problems, out);
+  }
   void depth_raster(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
                     std::span<float> depth) override {
     cpu_->depth_raster(mesh, jobs, width, height, depth);

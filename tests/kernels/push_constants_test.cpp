@@ -19,6 +19,7 @@
 #include "distance_pass.spv.h"
 #include "edge_gradient.spv.h"
 #include "edge_link.spv.h"
+#include "edge_support.spv.h"
 #include "edge_thin.spv.h"
 #include "information_columns.spv.h"
 #include "information_rows.spv.h"
@@ -29,12 +30,15 @@
 #include "kernels/depth_raster_push.h"
 #include "kernels/distance_pass.h"
 #include "kernels/edge_link.h"
+#include "kernels/edge_support_push.h"
 #include "kernels/information_push.h"
 #include "kernels/pose_push.h"
+#include "kernels/support_map_push.h"
 #include "kernels/template_project.h"
 #include "kernels/template_score_push.h"
 #include "pose_normal_equations.spv.h"
 #include "pose_score.spv.h"
+#include "support_map.spv.h"
 #include "template_project.spv.h"
 #include "template_score.spv.h"
 
@@ -173,6 +177,17 @@ TEST(PushConstants, PoseScore) {
   expect_members<Push>(pose_score_spv,
                        {GRID_MEMBERS, CAMERA_MEMBERS, MEMBER(first_problem), MEMBER(parts),
                         MEMBER(has_gradient), MEMBER(min_gradient), MEMBER(match_px)});
+}
+
+TEST(PushConstants, EdgeSupport) {
+  using Push = EdgeSupportPush;
+  expect_members<Push>(edge_support_spv, {MEMBER(width), MEMBER(height), MEMBER(first_problem),
+                                          MEMBER(problem_count)});
+}
+
+TEST(PushConstants, SupportMap) {
+  using Push = SupportMapPush;
+  expect_members<Push>(support_map_spv, {MEMBER(width), MEMBER(height)});
 }
 
 TEST(PushConstants, DepthRaster) {
