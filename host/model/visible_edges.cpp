@@ -38,6 +38,16 @@ struct Window {
         if (row[x] >= nearest_m) return true;
     return false;
   }
+  // Whether one of the 3 x 3 pixels shows the background.
+  bool borders_background(const Eigen::Vector3d& p) const {
+    const double u = k.fx * p.x() / p.z() + k.cx + 0.5, v = k.fy * p.y() / p.z() + k.cy + 0.5;
+    if (!(u >= 1 && v >= 1 && u < size - 1 && v < size - 1)) return true;
+    const float* middle = depth + std::size_t(v) * std::size_t(size) + std::size_t(u);
+    for (const float* row : {middle - size, middle, middle + size})
+      for (int x = -1; x <= 1; ++x)
+        if (row[x] == DEPTH_EMPTY) return true;
+    return false;
+  }
 };
 
 // Collects the visible points of one pose.
@@ -46,13 +56,15 @@ struct VisiblePoints {
   Eigen::Vector3d shift_m;
   Window window;
   double tolerance_m;
+  SilhouetteMarks* marks;  // may be null
   std::vector<ModelPoint> points;
   void add_visible(std::span<const RasterPoint> from) {
     for (const auto& [point_m, tangent] : from) {
       const Eigen::Vector3d in_camera = turn * point_m + shift_m;
-      if (in_camera.z() > 0 && window.shows(in_camera, tolerance_m))
-        points.push_back({float(point_m.x()), float(point_m.y()), float(point_m.z()),
-                          float(tangent.x()), float(tangent.y()), float(tangent.z())});
+      if (in_camera.z() <= 0 || !window.shows(in_camera, tolerance_m)) continue;
+      points.push_back({float(point_m.x()), float(point_m.y()), float(point_m.z()),
+                        float(tangent.x()), float(tangent.y()), float(tangent.z())});
+      if (marks) marks->push_back(window.borders_background(in_camera));
     }
   }
 };
@@ -77,9 +89,10 @@ bool contour_in_triangle(const EdgeModel& model, int triangle, const Eigen::Vect
 }
 
 std::vector<ModelPoint> points_of_pose(const EdgeModel& model, const Se3& pose,
-                                       const Window& window, double tolerance_m) {
+                                       const Window& window, double tolerance_m,
+                                       SilhouetteMarks* marks) {
   VisiblePoints visible{
-      pose.rotation.toRotationMatrix(), pose.translation_m, window, tolerance_m, {}};
+      pose.rotation.toRotationMatrix(), pose.translation_m, window, tolerance_m, marks, {}};
   visible.add_visible(model.crease_points);
   const Eigen::Vector3d eye = inverse(pose).translation_m;
   std::vector<RasterPoint> contours;
@@ -117,7 +130,8 @@ void VisibilityOptions::validate() const {
 std::vector<std::vector<ModelPoint>> visible_edges(const EdgeModel& model,
                                                    std::span<const Se3> camera_from_object,
                                                    Backend& backend,
-                                                   const VisibilityOptions& options) {
+                                                   const VisibilityOptions& options,
+                                                   std::vector<SilhouetteMarks>* marks) {
   options.validate();
   const int size = options.depth_map_size_px;
   // Bounded memory however many poses there are.
@@ -125,6 +139,7 @@ std::vector<std::vector<ModelPoint>> visible_edges(const EdgeModel& model,
   std::vector<float> depth;
   std::vector<DepthJob> jobs;
   std::vector<std::vector<ModelPoint>> result(camera_from_object.size());
+  if (marks) marks->assign(camera_from_object.size(), {});
   for (std::size_t first = 0; first < camera_from_object.size(); first += chunk) {
     const std::size_t count = std::min(chunk, camera_from_object.size() - first);
     jobs.clear();
@@ -138,7 +153,8 @@ std::vector<std::vector<ModelPoint>> visible_edges(const EdgeModel& model,
       if ((pose * model.center_m).z() <= model.radius_m * 0.05) return;
       const Window window{depth.data() + i * size * size, size, jobs[i].intrinsics};
       result[first + i] =
-          points_of_pose(model, pose, window, options.tolerance * model.mesh.diameter_m);
+          points_of_pose(model, pose, window, options.tolerance * model.mesh.diameter_m,
+                         marks ? &(*marks)[first + i] : nullptr);
     });
   }
   return result;

@@ -2,6 +2,7 @@
 // 1e).
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -22,12 +23,16 @@ struct VisibilityOptions {
   void validate() const;    // InputError naming the field and the violated bound
 };
 
+// By point: 1 where one of the 3 x 3 pixels around it shows the background, else 0.
+using SilhouetteMarks = std::vector<std::uint8_t>;
+
 // Raster points in the object frame, one list per pose. The list is empty where the object is not
-// in front of the camera.
+// in front of the camera. `marks`, where given, receives the marks of each list.
 std::vector<std::vector<ModelPoint>> visible_edges(const EdgeModel& model,
                                                    std::span<const Se3> camera_from_object,
                                                    Backend& backend,
-                                                   const VisibilityOptions& options = {});
+                                                   const VisibilityOptions& options = {},
+                                                   std::vector<SilhouetteMarks>* marks = nullptr);
 
 // Conversions to the kernels' transform and camera.
 Pose to_pose(const Se3& b_from_a);

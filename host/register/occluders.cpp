@@ -53,10 +53,17 @@ bool Occluders::may_hide(const Eigen::Vector3d& in_camera, double tolerance_m) c
 }
 
 void remove_hidden(std::vector<ModelPoint>& points, const Occluders& occluders,
-                   const Se3& camera_from_object, double tolerance_m) {
-  std::erase_if(points, [&](const ModelPoint& p) {
-    return occluders.hide(camera_from_object * Eigen::Vector3d(p.x_m, p.y_m, p.z_m), tolerance_m);
-  });
+                   const Se3& camera_from_object, double tolerance_m, SilhouetteMarks* marks) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d point_m(points[i].x_m, points[i].y_m, points[i].z_m);
+    if (occluders.hide(camera_from_object * point_m, tolerance_m)) continue;
+    points[kept] = points[i];
+    if (marks) (*marks)[kept] = (*marks)[i];
+    ++kept;
+  }
+  points.resize(kept);
+  if (marks) marks->resize(kept);
 }
 
 std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> models,

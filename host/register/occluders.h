@@ -25,9 +25,10 @@ struct Occluders {
   bool may_hide(const Eigen::Vector3d& in_camera, double tolerance_m) const;
 };
 
-// Removes the points of an object that the occluders hide.
+// Removes the points of an object that the occluders hide, and their marks where given.
 void remove_hidden(std::vector<ModelPoint>& points, const Occluders& occluders,
-                   const Se3& camera_from_object, double tolerance_m);
+                   const Se3& camera_from_object, double tolerance_m,
+                   SilhouetteMarks* marks = nullptr);
 
 // Null where `known` is empty. Ignores the view's own occluders.
 std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> models,

@@ -13,10 +13,15 @@ struct PoseInView {
   std::size_t pose, view;
 };
 
+struct Visibility {
+  VisibilityOptions options;
+  bool with_marks;
+};
+
 // The cells of one object's poses.
 void fill_object(Grid<VisibleInView>& visible, const Scene& scene,
                  std::span<const ObjectPose> poses, std::size_t object,
-                 const VisibilityOptions& visibility) {
+                 const Visibility& visibility) {
   const EdgeModel& model = scene.models[object];
   std::vector<Se3> camera_from_object;
   std::vector<PoseInView> cells;
@@ -25,21 +30,23 @@ void fill_object(Grid<VisibleInView>& visible, const Scene& scene,
       camera_from_object.push_back(scene.views[v].camera_from_world * poses[p].world_from_object);
       cells.push_back({p, v});
     }
+  std::vector<SilhouetteMarks> marks;
   std::vector<std::vector<ModelPoint>> points =
-      visible_edges(model, camera_from_object, scene.backend, visibility);
+      visible_edges(model, camera_from_object, scene.backend, visibility.options,
+                    visibility.with_marks ? &marks : nullptr);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     VisibleInView& cell = visible(cells[i].pose, cells[i].view);
     cell.points = std::move(points[i]);
+    if (visibility.with_marks) cell.on_silhouette = std::move(marks[i]);
     cell.unoccluded = cell.points.size();
     if (const Occluders* occluders = scene.views[cells[i].view].occluders.get())
-      remove_hidden(cell.points, *occluders, camera_from_object[i], occlusion_tolerance_m(model));
+      remove_hidden(cell.points, *occluders, camera_from_object[i], occlusion_tolerance_m(model),
+                    visibility.with_marks ? &cell.on_silhouette : nullptr);
   }
 }
 
-}  // namespace
-
-Grid<VisibleInView> visible_in_views(const Scene& scene, std::span<const ObjectPose> poses,
-                                     const VisibilityOptions& visibility) {
+Grid<VisibleInView> fill_all(const Scene& scene, std::span<const ObjectPose> poses,
+                             const Visibility& visibility) {
   for (const ObjectPose& pose : poses)
     check(pose.object >= 0 && std::size_t(pose.object) < scene.models.size(),
           "visible_in_views: no such model");
@@ -47,6 +54,18 @@ Grid<VisibleInView> visible_in_views(const Scene& scene, std::span<const ObjectP
   for (std::size_t object = 0; object < scene.models.size(); ++object)
     fill_object(visible, scene, poses, object, visibility);
   return visible;
+}
+
+}  // namespace
+
+Grid<VisibleInView> visible_in_views(const Scene& scene, std::span<const ObjectPose> poses,
+                                     const VisibilityOptions& visibility) {
+  return fill_all(scene, poses, {visibility, false});
+}
+
+Grid<VisibleInView> marked_in_views(const Scene& scene, std::span<const ObjectPose> poses,
+                                    const VisibilityOptions& visibility) {
+  return fill_all(scene, poses, {visibility, true});
 }
 
 Grid<std::vector<ModelPoint>> visible_points(const Scene& scene, std::span<const ObjectPose> poses,

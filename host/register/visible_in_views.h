@@ -12,12 +12,17 @@ namespace edgescout {
 
 struct VisibleInView {
   std::vector<ModelPoint> points;  // neither the object itself nor the view's occluders hide them
+  SilhouetteMarks on_silhouette;   // of the points; empty where no marks were asked for
   std::size_t unoccluded = 0;      // how many there would be without occluders
 };
 
 // Rows are poses, columns views. Points project inside the image or not.
 Grid<VisibleInView> visible_in_views(const Scene& scene, std::span<const ObjectPose> poses,
                                      const VisibilityOptions& visibility = {});
+
+// The same with marks.
+Grid<VisibleInView> marked_in_views(const Scene& scene, std::span<const ObjectPose> poses,
+                                    const VisibilityOptions& visibility = {});
 
 // The points alone.
 Grid<std::vector<ModelPoint>> visible_points(const Scene& scene, std::span<const ObjectPose> poses,

@@ -98,6 +98,30 @@ TEST_F(VisibleEdges, CubeFromACornerShowsNineEdges) {
   }
 }
 
+// Six edges border the background. The three that meet at the near corner do so at their far ends
+// only, within two of the map's pixels. Of the hidden ones a pixel or two are seen.
+TEST_F(VisibleEdges, CubeFromACornerMarksItsSilhouette) {
+  const double half = 0.05;
+  const EdgeModel cube = model_of(make_box({2 * half, 2 * half, 2 * half}), 0.001);
+  const Se3 camera_from_object = looking_from({0.3, 0.32, 0.28});
+  std::vector<SilhouetteMarks> marks;
+  const std::vector<ModelPoint> points =
+      visible_edges(cube, {&camera_from_object, 1}, *backend, {}, &marks)[0];
+  ASSERT_EQ(marks.size(), 1u);
+  ASSERT_EQ(marks[0].size(), points.size());
+  int inside = 0, outside = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d x = position(points[i]);
+    const bool meets_near_corner = (x.array() > half - 1e-6).count() >= 2;
+    const bool meets_far_corner = (x.array() < -half + 1e-6).count() >= 2;
+    if (meets_far_corner || (meets_near_corner && x.minCoeff() < -half + 0.005)) continue;
+    (meets_near_corner ? inside : outside) += 1;
+    EXPECT_EQ(marks[0][i] != 0, !meets_near_corner) << x.transpose();
+  }
+  EXPECT_GT(inside, 250);
+  EXPECT_GT(outside, 550);
+}
+
 TEST_F(VisibleEdges, NoPointComesTwice) {
   const double step = 0.001;
   for (const Mesh& mesh : {make_box({0.1, 0.08, 0.06}), make_part("l_bracket").mesh}) {

@@ -20,40 +20,64 @@ void expect_same(const std::vector<ModelPoint>& found, const std::vector<ModelPo
   }
 }
 
+// Three poses of two parts in two views, in the second of which a known part hides some points.
+struct CoveredScene {
+  std::unique_ptr<Backend> backend = make_cpu_backend(2);
+  std::vector<EdgeModel> models{part_model("l_bracket"), part_model("bearing_block")};
+  std::vector<ObjectPose> poses;
+  std::vector<ObjectView> views{2};
+
+  explicit CoveredScene(Random& random) {
+    for (const int object : {1, 0, 1})
+      poses.push_back({object, {random.rotation(), 0.02 * random.direction()}});
+    for (ObjectView& view : views) {
+      view.camera = scene_camera();
+      view.camera_from_world = camera_looking_at(0.4 * random.direction(), Eigen::Vector3d::Zero());
+    }
+    const Se3 in_camera{random.rotation(), {0, 0, 0.2}};
+    const ObjectPose cover{0, inverse(views[1].camera_from_world) * in_camera};
+    views[1].occluders = make_occluders(models, {&cover, 1}, views[1], *backend);
+  }
+  Scene scene() const { return {models, views, *backend}; }
+  const EdgeModel& model_of(std::size_t pose) const {
+    return models[std::size_t(poses[pose].object)];
+  }
+  bool is_hidden(std::size_t pose, std::size_t view, const ModelPoint& p) const {
+    const Eigen::Vector3d point_m(p.x_m, p.y_m, p.z_m);
+    return view == 1 && views[1].occluders->hide(
+                            views[1].camera_from_world * poses[pose].world_from_object * point_m,
+                            occlusion_tolerance_m(model_of(pose)));
+  }
+};
+
 TEST(VisibleInViews, EqualSingleCalls) {
   Random random = test_random();
-  const auto backend = make_cpu_backend(2);
-  const std::vector<EdgeModel> models{part_model("l_bracket"), part_model("bearing_block")};
-  std::vector<ObjectPose> poses;
-  for (const int object : {1, 0, 1})
-    poses.push_back({object, {random.rotation(), 0.02 * random.direction()}});
-  std::vector<ObjectView> views(2);
-  for (ObjectView& view : views) {
-    view.camera = scene_camera();
-    view.camera_from_world = camera_looking_at(0.4 * random.direction(), Eigen::Vector3d::Zero());
-  }
-  const ObjectPose cover{0,
-                         inverse(views[1].camera_from_world) * Se3{random.rotation(), {0, 0, 0.2}}};
-  views[1].occluders = make_occluders(models, {&cover, 1}, views[1], *backend);
-
-  const Grid<VisibleInView> visible = visible_in_views({models, views, *backend}, poses);
+  const CoveredScene t(random);
+  const Grid<VisibleInView> visible = visible_in_views(t.scene(), t.poses),
+                            marked = marked_in_views(t.scene(), t.poses);
   ASSERT_EQ(visible.rows(), 3u);
   ASSERT_EQ(visible.columns(), 2u);
   std::size_t hidden = 0;
   for (std::size_t i = 0; i < 6; ++i) {
-    const VisibleInView& cell = visible(i / 2, i % 2);
-    const ObjectPose& pose = poses[i / 2];
-    const EdgeModel& model = models[std::size_t(pose.object)];
-    const Se3 camera_from_object = views[i % 2].camera_from_world * pose.world_from_object;
-    std::vector<ModelPoint> expected = visible_edges(model, {&camera_from_object, 1}, *backend)[0];
-    EXPECT_GT(expected.size(), 100u);
-    EXPECT_EQ(cell.unoccluded, expected.size());
-    if (i % 2 == 1)
-      hidden += std::erase_if(expected, [&](const ModelPoint& p) {
-        return views[1].occluders->hide(camera_from_object * Eigen::Vector3d(p.x_m, p.y_m, p.z_m),
-                                        occlusion_tolerance_m(model));
-      });
-    expect_same(cell.points, expected);
+    const Se3 camera_from_object =
+        t.views[i % 2].camera_from_world * t.poses[i / 2].world_from_object;
+    std::vector<SilhouetteMarks> marks;
+    const std::vector<ModelPoint> all =
+        visible_edges(t.model_of(i / 2), {&camera_from_object, 1}, *t.backend, {}, &marks)[0];
+    std::vector<ModelPoint> expected;
+    SilhouetteMarks expected_marks;
+    for (std::size_t n = 0; n < all.size(); ++n) {
+      if (t.is_hidden(i / 2, i % 2, all[n])) continue;
+      expected.push_back(all[n]);
+      expected_marks.push_back(marks[0][n]);
+    }
+    EXPECT_GT(all.size(), 100u);
+    hidden += all.size() - expected.size();
+    EXPECT_EQ(visible.values()[i].unoccluded, all.size());
+    expect_same(visible.values()[i].points, expected);
+    EXPECT_TRUE(visible.values()[i].on_silhouette.empty());
+    expect_same(marked.values()[i].points, expected);
+    EXPECT_EQ(marked.values()[i].on_silhouette, expected_marks);
   }
   EXPECT_GT(hidden, 100u);
 }
