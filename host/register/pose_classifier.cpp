@@ -23,6 +23,14 @@ double in_standard_errors(double psi_excess, const PoseFeatures& features) {
   return psi_excess / spread * std::sqrt(features.length_px / independent_px);
 }
 
+// Log ratios of views add up. Fractions are weighted by the points.
+void add(EdgeSupport& sum, const EdgeSupport& other, double points) {
+  sum.log_ratio += other.log_ratio;
+  sum.interior_log_ratio += other.interior_log_ratio;
+  sum.support += float(points) * other.support;
+  sum.best_displaced += float(points) * other.best_displaced;
+}
+
 double logistic(double log_odds) { return 1 / (1 + std::exp(-log_odds)); }
 
 bool is_informative(const PoseFeatures& f) {
@@ -79,10 +87,12 @@ PoseFeatures pool_over_views(std::span<const PoseFeatures> by_view) {
     sum.length_px += f.length_px;
     sum.visible += f.visible;
     add(sum.shading, f.shading);
+    add(sum.support, f.support, f.points);
   }
   if (sum.points > 0) {
     sum.psi /= sum.points, sum.background_psi /= sum.points, sum.mean_px /= sum.points,
         sum.matched /= sum.points;
+    sum.support.support /= float(sum.points), sum.support.best_displaced /= float(sum.points);
   } else {
     sum.mean_px = by_view[0].mean_px;
   }

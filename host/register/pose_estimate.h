@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/core/types.h"
+#include "kernels/edge_support.h"
 
 namespace edgescout {
 
@@ -27,8 +28,9 @@ struct PoseFeatures {
   double points = 0;          // number of visible points inside the image, not behind known objects
   double length_px = 0;       // of the visible edges inside the image
   double in_image = 0;        // points / visible
-  double visible = 0;  // number of points inside the image or not, behind known objects or not
-  Shading shading;     // zero where the view has no image
+  double visible = 0;   // number of points inside the image or not, behind known objects or not
+  Shading shading;      // zero where the view has no image
+  EdgeSupport support;  // the same (edge_support.h)
 };
 
 // Why a registration stopped.

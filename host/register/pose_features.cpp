@@ -6,6 +6,7 @@
 
 #include "host/core/thinned.h"
 #include "host/register/d2co.h"
+#include "host/register/edge_support.h"
 #include "host/register/pose_classifier.h"
 #include "host/register/shading.h"
 #include "host/register/visible_in_views.h"
@@ -110,8 +111,8 @@ Problems make_problems(const Scene& scene, std::span<const ObjectPose> poses,
 Grid<PoseFeatures> measure(const Scene& scene, std::span<const ObjectPose> poses,
                            const FeatureOptions& options, bool with_background) {
   Grid<PoseFeatures> features(poses.size(), scene.views.size());
-  const Problems problems = make_problems(
-      scene, poses, visible_in_views(scene, poses, options.visibility), with_background, features);
+  const Grid<VisibleInView> visible = marked_in_views(scene, poses, options.visibility);
+  const Problems problems = make_problems(scene, poses, visible, with_background, features);
   std::vector<ViewHandle> tensors;
   for (const ObjectView& view : scene.views) tensors.push_back(view.tensor);
   std::vector<PoseScore> scores(problems.list.size());
@@ -121,7 +122,11 @@ Grid<PoseFeatures> measure(const Scene& scene, std::span<const ObjectPose> poses
   for (std::size_t i = 0; i < cells.size(); ++i)
     add_scores(cells[i], std::span(scores).subspan(i * copies, copies), options.score.cap_px);
   const Grid<Shading> shadings = shading(scene, poses);
-  for (std::size_t i = 0; i < cells.size(); ++i) cells[i].shading = shadings.values()[i];
+  const Grid<EdgeSupport> supports = edge_support(scene, poses, visible);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    cells[i].shading = shadings.values()[i];
+    cells[i].support = supports.values()[i];
+  }
   return features;
 }
 

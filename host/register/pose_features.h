@@ -1,7 +1,8 @@
 // Measures features that separate right poses from wrong ones.
 //
-// They are Psi (Eq. 10), mean tensor value and matched fraction over the visible points, and
-// whether the grey inside the silhouette follows from the surface (shading.h).
+// They are Psi (Eq. 10), mean tensor value and matched fraction over the visible points, whether
+// the grey inside the silhouette follows from the surface (shading.h), and whether the image's
+// edges support the pose more than its surroundings (edge_support.h).
 //
 // Public header.
 #pragma once

@@ -54,7 +54,8 @@ TEST(PoseProbability, SeparatesTheBestFromTheWorst) {
                  .length_px = 500,
                  .in_image = 1,
                  .visible = 200,
-                 .shading = {1000, 1e6, 1e4}};
+                 .shading = {1000, 1e6, 1e4},
+                 .support = {200, 100, 0.9f, 0.3f}};
   EXPECT_GT(PoseClassifier::probability(f), 0.9);
   f.psi = 0.65;
   f.matched = 0.2;
