@@ -40,10 +40,10 @@ std::string range_text(const RangeReport& r) {
                      r.in_region ? "" : "; its centre is outside the searched region");
 }
 
-std::string edges_text(const SupportedPoints& e) {
-  return fmt::format("{} of {:.0f} points have an edge, {} %; of the best copy beside it {} %{}",
-                     e.supported, e.in_image, percent(double(e.supported), e.in_image),
-                     percent(double(e.supported_beside), e.in_image),
+std::string edges_text(const EdgesReport& e) {
+  return fmt::format("edges support {} % of {:.0f} points, {} % of the best copy beside it{}",
+                     percent(e.support.support, 1), e.in_image,
+                     percent(e.support.best_displaced, 1),
                      e.in_image < e.visible
                          ? fmt::format("; {} % are in the image", percent(e.in_image, e.visible))
                          : "");
@@ -201,8 +201,9 @@ json stages_json(const LossReport& r, int object) {
           {"edges",
            {{"visible", r.edges.visible},
             {"in_image", r.edges.in_image},
-            {"supported", r.edges.supported},
-            {"supported_beside", r.edges.supported_beside}}},
+            {"log_ratio", r.edges.support.log_ratio},
+            {"support", r.edges.support.support},
+            {"best_displaced", r.edges.support.best_displaced}}},
           {"scan",
            {{"hits", scan.hits},
             {"aligned", scan.aligned},

@@ -161,11 +161,6 @@ std::vector<EdgeClaim> claim_edges(const Scene& scene, std::span<const PoseEstim
   }
 }
 
-std::size_t supported_points(const Scene& scene, const ObjectPose& pose,
-                             const EdgeClaimOptions& options) {
-  return explained_edges(scene, pose, options).size();
-}
-
 double claimed_fraction(const Scene& scene, const ObjectPose& pose,
                         std::span<const ObjectPose> claimants, const EdgeClaimOptions& options) {
   const std::vector<ExplainedEdge> explained = explained_edges(scene, pose, options);

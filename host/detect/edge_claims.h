@@ -34,11 +34,6 @@ struct EdgeClaim {
 std::vector<EdgeClaim> claim_edges(const Scene& scene, std::span<const PoseEstimate> poses,
                                    const EdgeClaimOptions& options = {});
 
-// Number of visible model points of a pose that have an image edge within options.match_px and
-// options.max_turn_rad, in all views.
-std::size_t supported_points(const Scene& scene, const ObjectPose& pose,
-                             const EdgeClaimOptions& options = {});
-
 // Fraction of the edge length which `pose` explains that the claimants claim; 0 where it explains
 // none.
 double claimed_fraction(const Scene& scene, const ObjectPose& pose,

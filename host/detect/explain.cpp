@@ -176,12 +176,12 @@ class LostPose {
     return range;
   }
 
-  SupportedPoints edges() const {
-    const SupportedPoints edges = count_supported(scene_, given_, options_.edge_claims);
-    if (!(edges.in_image > 0))
+  EdgesReport edges() const {
+    const PoseFeatures features = features_by_view(scene_, {&given_, 1})(0, 0);
+    if (!(features.points > 0))
       throw InputError("given pose", "t", "an object of which the image shows no edge",
                        "one inside the image");
-    return edges;
+    return {features.visible, features.points, features.support};
   }
 
   Index best_near_start() const {

@@ -5,7 +5,7 @@
 //
 //   stage        holds the given pose if
 //   range        its centre lies in the searched distances, viewpoints and region
-//   edges        the image supports it more than copies of it beside it (edge_support.h)
+//   edges        the image supports it more than copies of it beside it (kernels/edge_support.h)
 //   scan         a hit that is aligned lies within a quarter of the object's size in the image
 //   alignment    a pose after the medium stage is the same
 //   ranking      a candidate, which enters the fine stage, is the same
@@ -27,7 +27,6 @@
 
 #include "host/detect/detect_options.h"
 #include "host/detect/detect_trace.h"
-#include "host/detect/edge_support.h"
 #include "host/detect/same_pose.h"
 #include "host/model/template_set.h"
 #include "host/register/scene.h"
@@ -63,6 +62,14 @@ struct RangeReport {
   bool in_viewpoints = false;                     // within half the distance between viewpoints
   bool in_region = false;                         // of the search, inside the image
   bool holds() const { return in_distances && in_viewpoints && in_region; }
+};
+
+struct EdgesReport {
+  double visible = 0;   // number of points that the pose shows, inside the image or not
+  double in_image = 0;  // of these: inside the image
+  EdgeSupport support;
+  // Whether the image tells the pose from its surroundings.
+  bool exceeds_copies() const { return support.support > support.best_displaced; }
 };
 
 struct ScanReport {
@@ -120,7 +127,7 @@ struct Rival : FoundPose {
 struct LossReport {
   LossStage lost_at = LossStage::Reported;
   RangeReport range;
-  SupportedPoints edges;
+  EdgesReport edges;
   ScanReport scan;
   AlignmentReport alignment;
   RankingReport ranking;

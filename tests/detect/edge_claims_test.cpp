@@ -135,17 +135,6 @@ TEST(ClaimEdges, KeepsPosesThatSomeViewsShow) {
     EXPECT_TRUE(claims(features).empty());
 }
 
-TEST(SupportedPoints, AreThoseWithAnEdgeNear) {
-  const TwoParts t;
-  const Scene scene{t.models, t.views, *t.backend};
-  const ObjectPose right{0, t.right}, beside{0, t.shifted(t.right, 0.03)};
-  const std::size_t visible = visible_points(scene, {&right, 1})(0, 0).size();
-  ASSERT_GT(visible, 50u);
-  EXPECT_EQ(supported_points(scene, right), visible);
-  EXPECT_LT(supported_points(scene, beside), visible / 2);
-  EXPECT_EQ(supported_points(scene, {0, {t.left.rotation, {0, 0.07, 0.35}}}), 0u);
-}
-
 TEST(ClaimedFraction, IsThatOfTheEdgesThatAPoseExplains) {
   const TwoParts t;
   const Scene scene{t.models, t.views, *t.backend};
