@@ -10,10 +10,11 @@
 // range is that of the true poses, a tenth wider at both ends.
 //
 // Every image is searched for every object that it shows. One row per pose:
-//   stage medium: the N (default: 200) best distinct poses after the medium stage (detect.h), and
-//                 all others near a true one
-//   stage fine:   all poses after the fine stage
-//   stage truth:  every true pose, registered from itself without a search
+//   stage medium:   the N (default: 200) best distinct poses after the medium stage (detect.h), and
+//                   all others near a true one
+//   stage fine:     all poses after the fine stage
+//   stage reported: what detection without a threshold of probability reports
+//   stage truth:    every true pose, registered from itself without a search
 // `truth` is the index of the nearest true pose of the object in scene_gt.json, -1 where none lies
 // within half a diameter; then `visible` is 0 and the errors are infinite.
 #include <algorithm>
@@ -181,10 +182,23 @@ std::vector<PoseEstimate> kept_of_medium(const std::vector<PoseEstimate>& medium
   return kept;
 }
 
+// The selected poses with their features.
+std::vector<PoseEstimate> reported(const SelectionTrace& selection) {
+  std::vector<PoseEstimate> poses;
+  for (const Detection& detection : selection.selected)
+    poses.push_back(*std::ranges::find_if(selection.competing, [&](const PoseEstimate& pose) {
+      return pose.world_from_object.translation_m == detection.world_from_object.translation_m &&
+             pose.world_from_object.rotation.coeffs() ==
+                 detection.world_from_object.rotation.coeffs();
+    }));
+  return poses;
+}
+
 class Collector {
  public:
   Collector(const Arguments& arguments, Backend& backend)
       : arguments_(arguments), backend_(backend), scenes_(load_scenes(arguments.scenes)) {
+    options_.detect.min_probability = 0;
     objects_ = load_searched(arguments, scenes_, backend);
   }
 
@@ -215,28 +229,28 @@ class Collector {
       for (std::size_t i = 0; i < truths.size(); ++i)
         if (truths[i].object_id == id) printer.own.push_back(i);
       if (printer.own.empty()) continue;
-      ObjectView view = prepared;
-      add_tensors(view, {&searched.set, 1}, backend_, options_.tensor);
-      print_object(searched, view, printer);
+      print_object(searched, prepared, printer);
     }
     std::fflush(stdout);
   }
 
-  void print_object(const SearchedObject& searched, const ObjectView& view,
+  void print_object(const SearchedObject& searched, const ObjectView& prepared,
                     const Printer& printer) const {
-    SearchTrace trace;
-    find_candidates({searched.set, view, {}, backend_}, {}, options_.detect, &trace);
+    DetectTrace trace;
+    detect_objects(prepared, {&searched.set, 1}, backend_, options_, &trace);
     for (const PoseEstimate& pose :
-         kept_of_medium(trace.medium, printer, searched.object, std::size_t(arguments_.medium)))
+         kept_of_medium(trace.searches[0].medium, printer, searched.object,
+                        std::size_t(arguments_.medium)))
       printer.print("medium", pose);
-    for (const PoseEstimate& pose : trace.fine) printer.print("fine", pose);
+    for (const PoseEstimate& pose : trace.searches[0].fine) printer.print("fine", pose);
+    for (const PoseEstimate& pose : reported(trace.selection)) printer.print("reported", pose);
     std::vector<ObjectPose> starts;
     for (const std::size_t i : printer.own)
       starts.push_back({0, printer.truths[i].camera_from_object});
     RefineOptions refine = options_.detect.refine;
     refine.search.rotation_rad = 0;
     for (const PoseEstimate& pose :
-         refine_poses({{&searched.set.model, 1}, {&view, 1}, backend_}, starts, refine))
+         refine_poses({{&searched.set.model, 1}, {&trace.view, 1}, backend_}, starts, refine))
       printer.print("truth", pose);
   }
 
