@@ -238,9 +238,8 @@ class Collector {
                     const Printer& printer) const {
     DetectTrace trace;
     detect_objects(prepared, {&searched.set, 1}, backend_, options_, &trace);
-    for (const PoseEstimate& pose :
-         kept_of_medium(trace.searches[0].medium, printer, searched.object,
-                        std::size_t(arguments_.medium)))
+    for (const PoseEstimate& pose : kept_of_medium(trace.searches[0].medium, printer,
+                                                   searched.object, std::size_t(arguments_.medium)))
       printer.print("medium", pose);
     for (const PoseEstimate& pose : trace.searches[0].fine) printer.print("fine", pose);
     for (const PoseEstimate& pose : reported(trace.selection)) printer.print("reported", pose);

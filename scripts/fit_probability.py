@@ -1,167 +1,188 @@
 #!/usr/bin/python3
-"""Fits a logistic function of a pose's features in one view and prints its reliability.
+"""Fits the two logistic functions of a pose's features in one view and prints how well they judge.
 
-PoseClassifier (host/register/pose_classifier.h) has two such functions. `probability` is fitted on reported poses,
-`rank` on these and all registered candidates.
+PoseClassifier (host/register/pose_classifier.h) has two such functions. `rank` is fitted on poses after the medium
+stage of detection, `probability` on the poses that detection without a threshold reports.
 
-    PARTS="l_bracket bearing_block u_channel"
-    edgescout render --part $PARTS --scenes 8 --objects 6 --clutter 1 --pile 0.4 --width 800 --height 600 --focal 950 \\
-        --min-distance 0.35 --max-distance 0.6 --seed 500 --out A
-    edgescout render --part $PARTS --scenes 8 --objects 5 --clutter 1 --pile 0.4 --width 640 --height 480 --focal 800 \\
-        --min-distance 0.4 --max-distance 0.7 --seed 900 --blur 1.4 --noise 3 --out B
-    ALL="--min-probability 0 --no-overlays"   # for rank, besides: --max-claimed 1 --restart-rotation 0
-    edgescout detect A --model A/models/*.ply --unit mm --models-info A/models/models_info.json \\
-        --distance-min 0.33 --distance-max 0.66 $ALL --out A_RESULTS
-    edgescout detect B --model B/models/*.ply --unit mm --models-info B/models/models_info.json \\
-        --distance-min 0.36 --distance-max 0.72 $ALL --out B_RESULTS
-    scripts/fit_probability.py A A_RESULTS B B_RESULTS
-    scripts/fit_probability.py --write host/register/pose_classifier_weights.h --as probability A A_RESULTS B B_RESULTS
+    bench/trust/make_sets.py PARTS SETS --sets fit
+    for part in SETS/fit/*; do edgescout_bench_pose_features $part > $(basename $part).csv; done
+    scripts/fit_probability.py *.csv
+    scripts/fit_probability.py --write host/register/pose_classifier_weights.h *.csv
 
-A candidate is right if the corners of its bounding box project within 10 px of those of a true instance, modulo
-symmetry. Features: the logarithm of psi_z_score, mean DCD (px) and unexplained grey, from the result files. Older
-result files call psi_z_score `evidence`.
+For the rank a pose is right if all vertices project within 10 px of their true places, modulo symmetry: the fine stage
+can still bring it to the truth. Poses that are up to half as far off again are left out: their label says little. For
+the probability a pose is right within 0.1 rad and 5 mm of a true one.
+
+Every weight has the sign that its feature must have: more edge support never lowers the probability. The printed
+figures are cross-validated: the poses of each part are judged by a fit to all other parts.
 """
 import argparse
-import json
+import csv
 from pathlib import Path
 
 import numpy as np
+from scipy.optimize import minimize
 
 from pose_classifier_weights import write_weights
 
-RIGHT_PX = 10
 MIN_PSI_Z_SCORE = 0.5
+RIGHT_PX = 10
+WRONG_PX = 15
+RIGHT_RAD = 0.1
+RIGHT_M = 0.005
 
 
-def rotation_about(axis, angle):
-    axis = axis / np.linalg.norm(axis)
-    cross = np.cross(np.eye(3), -axis)
-    return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+def signed_root(values):
+    """Evidence grows more slowly than the number of edge points: their errors depend on each other."""
+    return np.sign(values) * np.sqrt(np.abs(values))
 
 
-def symmetries(info):
-    """4x4 transforms in metres."""
-    result = [np.eye(4)]
-    for flat in info.get("symmetries_discrete", []):
-        transform = np.array(flat, float).reshape(4, 4)
-        transform[:3, 3] /= 1000
-        result.append(transform)
-    turns = []
-    for s in info.get("symmetries_continuous", []):
-        for k in range(64):
-            transform = np.eye(4)
-            transform[:3, :3] = rotation_about(np.array(s["axis"], float), 2 * np.pi * k / 64)
-            offset = np.array(s["offset"], float) / 1000
-            transform[:3, 3] = offset - transform[:3, :3] @ offset
-            turns.append(transform)
-    return [t @ d for d in result for t in turns] if turns else result
+# By field of pose_classifier_weights::OneView: the sign of the weight, and the feature from the columns of the file.
+FEATURES = {
+    "log_psi_z_score": (1, lambda c: np.log(np.maximum(c["psi_z_score"], MIN_PSI_Z_SCORE))),
+    "mean_px": (-1, lambda c: c["mean_px"]),
+    "root_log_ratio": (1, lambda c: signed_root(c["log_ratio"])),
+    "root_interior_log_ratio": (1, lambda c: signed_root(c["interior_log_ratio"])),
+    "unexplained_grey": (-1, lambda c: c["unexplained_grey"]),
+    "best_displaced": (-1, lambda c: c["best_displaced"]),
+}
+TEXTS = ("set", "part", "image", "stage")
 
 
-def box_corners(info):
-    low = np.array([info["min_x"], info["min_y"], info["min_z"]]) / 1000
-    size = np.array([info["size_x"], info["size_y"], info["size_z"]]) / 1000
-    return np.array([low + size * [i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)])
+def load(files):
+    """Columns by name."""
+    rows = [row for file in files for row in csv.DictReader(open(file))]
+    if not rows:
+        raise SystemExit("fit_probability: no poses")
+    return {name: np.array([row[name] if name in TEXTS else float(row[name]) for row in rows]) for name in rows[0]}
 
 
-def project(camera, rotation, translation, points):
-    x = points @ rotation.T + translation
-    return np.stack([camera[0] * x[:, 0] / x[:, 2] + camera[2], camera[1] * x[:, 1] / x[:, 2] + camera[3]], 1)
+def of_stage(columns, stage):
+    kept = columns["stage"] == stage
+    return {name: values[kept] for name, values in columns.items()}
 
 
-def load_candidates(scenes, results):
-    """Rows of features and labels."""
-    models = json.loads((scenes / "models" / "models_info.json").read_text())
-    features, labels = [], []
-    for file in sorted(results.glob("*.json")):
-        result = json.loads(file.read_text())
-        if "detections" not in result:
-            continue
-        folder = Path(result["image"]).parent.parent
-        truth = json.loads((folder / "scene_gt.json").read_text())[str(result["image_id"])]
-        k = json.loads((folder / "scene_camera.json").read_text())[str(result["image_id"])]["cam_K"]
-        camera = (k[0], k[4], k[2], k[5])
-        for d in result["detections"]:
-            info = models[str(d["object_id"])]
-            corners = box_corners(info)
-            pose = d["camera_from_object"]
-            seen = project(camera, np.array(pose["R"]).reshape(3, 3), np.array(pose["t"]), corners)
-            error = np.inf
-            for t in truth:
-                if t["obj_id"] != d["object_id"]:
-                    continue
-                rotation, translation = np.array(t["cam_R_m2c"]).reshape(3, 3), np.array(t["cam_t_m2c"]) / 1000
-                for s in symmetries(info):
-                    there = project(camera, rotation, translation, corners @ s[:3, :3].T + s[:3, 3])
-                    error = min(error, np.abs(np.linalg.norm(there - seen, axis=1)).max())
-            psi_z_score = d["psi_z_score"] if "psi_z_score" in d else d["evidence"]
-            features.append([1, np.log(max(psi_z_score, MIN_PSI_Z_SCORE)), d["cost_px"], d["unexplained_grey"]])
-            labels.append(error < RIGHT_PX)
-    return np.array(features), np.array(labels, float)
+def near_in_image(columns):
+    """1 where near, 0 where far, NaN between."""
+    error = columns["mspd_px"]
+    return np.where(error < RIGHT_PX, 1.0, np.where(error < WRONG_PX, np.nan, 0.0))
 
 
-def fit_logistic(x, y, ridge=5):
-    """Newton's method with a little ridge on standardised features (not on the bias)."""
+def right(columns):
+    return ((columns["angle_rad"] < RIGHT_RAD) & (columns["distance_m"] < RIGHT_M)).astype(float)
+
+
+# By function: the stage of its poses, and their labels.
+FUNCTIONS = {"rank": ("medium", near_in_image), "probability": ("reported", right)}
+
+
+def fit_logistic(x, y, signs=None, ridge=1):
+    """The bias and a weight of each column of x, by maximum likelihood with a little ridge on standardised features.
+    `signs` are those of the weights; where they are not given any sign will do."""
+    signs = np.zeros(x.shape[1]) if signs is None else signs
     mean, scale = x.mean(0), x.std(0)
-    mean[0], scale[0] = 0, 1
-    z = (x - mean) / scale
-    w = np.zeros(x.shape[1])
-    penalty = ridge * np.eye(len(w))
-    penalty[0, 0] = 0
-    for _ in range(50):
-        p = 1 / (1 + np.exp(-z @ w))
-        step = np.linalg.solve(z.T @ (z * (p * (1 - p))[:, None]) + penalty, z.T @ (y - p) - penalty @ w)
-        w += step
-        if np.abs(step).max() < 1e-9:
-            break
-    weights = w / scale
-    weights[0] = w[0] - (w[1:] * mean[1:] / scale[1:]).sum()
-    return weights
+    scale[scale == 0] = 1
+    z = np.column_stack([np.ones(len(x)), (x - mean) / scale])
+    penalty = np.r_[0, np.full(x.shape[1], ridge)]
+
+    def cost(w):
+        log_odds = z @ w
+        residual = 1 / (1 + np.exp(-log_odds)) - y
+        likelihood = (np.logaddexp(0, log_odds) - y * log_odds).sum()
+        return likelihood + (penalty * w * w).sum() / 2, z.T @ residual + penalty * w
+
+    bounds = [(None, None)] + [(0 if sign > 0 else None, 0 if sign < 0 else None) for sign in signs]
+    w = minimize(cost, np.zeros(z.shape[1]), jac=True, bounds=bounds, method="L-BFGS-B",
+                 options={"ftol": 1e-14, "gtol": 1e-9}).x
+    return np.r_[w[0] - (w[1:] * mean / scale).sum(), w[1:] / scale]
 
 
-def fit_monotone(x, y):
-    """A larger psi_z_score, closer edges and less unexplained grey must never lower the probability. The features are
-    correlated, so a weight may get the wrong sign: it is set to zero, and the others are fitted again."""
-    signs = np.array([0, 1, -1, -1])
-    used = np.ones(4, bool)
-    while True:
-        w = np.zeros(4)
-        w[used] = fit_logistic(x[:, used], y)
-        wrong = used & (w * signs < 0)
-        if not wrong.any():
-            return w
-        used &= ~wrong
+def fit(features, labels):
+    return fit_logistic(features, labels, [sign for sign, _ in FEATURES.values()])
 
 
-def parse_arguments():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--write", metavar="FILE", help="header whose section gets the weights")
-    parser.add_argument("--as", dest="function", choices=["rank", "probability"], default="probability")
-    parser.add_argument("folders", nargs="+", type=Path, metavar="SCENES RESULTS")
-    arguments = parser.parse_args()
-    if len(arguments.folders) % 2:
-        parser.error("pairs of a folder of scenes and a folder of results")
-    return arguments
+def cross_validated(features, labels, parts):
+    """Log-odds of each pose by a fit to all other parts."""
+    log_odds = np.empty(len(labels))
+    for part in np.unique(parts):
+        rest = parts != part
+        w = fit(features[rest], labels[rest])
+        log_odds[~rest] = w[0] + features[~rest] @ w[1:]
+    return log_odds
 
 
-def main():
-    arguments = parse_arguments()
-    folders = arguments.folders
-    sets = [load_candidates(scenes, results) for scenes, results in zip(folders[::2], folders[1::2])]
-    x, y = (np.concatenate(part) for part in zip(*sets))
-    w = fit_monotone(x, y)
-    p = 1 / (1 + np.exp(-x @ w))
-    print(f"{len(y)} candidates, {int(y.sum())} right")
-    print(f"log loss {-np.mean(np.where(y > 0, np.log(p), np.log(1 - p))):.3f}")
-    print("bias %.3f  log psi_z_score %.3f  mean_px %.4f  unexplained grey %.3f" % tuple(w))
-    print("predicted    candidates  right")
+def area_under_roc(values, labels):
+    """NaN where all labels are equal."""
+    _, index, counts = np.unique(values, return_inverse=True, return_counts=True)
+    ranks = (np.cumsum(counts) - (counts - 1) / 2)[index]
+    right, wrong = labels.sum(), (1 - labels).sum()
+    return (ranks[labels > 0].sum() - right * (right + 1) / 2) / (right * wrong) if right * wrong else np.nan
+
+
+def print_areas(columns, features, labels, log_odds):
+    """Areas under the ROC curve by part; the last row has their means."""
+    judged = {"today": columns["rank"], "fit": log_odds}
+    judged |= {name: sign * features[:, i] for i, (name, (sign, _)) in enumerate(FEATURES.items())}
+    print(f"{'area under the ROC curve':28s} poses right " + " ".join(f"{name:>23s}" for name in judged))
+    areas = []
+    for part in np.unique(columns["part"]):
+        of = columns["part"] == part
+        areas.append([area_under_roc(values[of], labels[of]) for values in judged.values()])
+        print(f"{part:28s} {of.sum():5d} {int(labels[of].sum()):5d} " + " ".join(f"{a:23.3f}" for a in areas[-1]))
+    print(f"{'mean':28s} {len(labels):5d} {int(labels.sum()):5d} "
+          + " ".join(f"{a:23.3f}" for a in np.nanmean(areas, axis=0)))
+
+
+def print_reliability(labels, log_odds):
+    p = 1 / (1 + np.exp(-log_odds))
+    print(f"log loss {np.mean(np.logaddexp(0, log_odds) - labels * log_odds):.3f}")
+    print("predicted    poses  mean p  right")
     for low in np.arange(0, 1, 0.1):
         inside = (p >= low) & (p < low + 0.1 + 1e-9)
         if inside.any():
-            print(f"{low:.1f} .. {low + 0.1:.1f}   {inside.sum():10d}  {y[inside].mean():.2f}")
-    if arguments.write:
-        weights = dict(zip(["bias", "log_psi_z_score", "mean_px", "unexplained_grey"], w))
-        data = f"{len(y)} candidates, {int(y.sum())} right, in " + ", ".join(f.name for f in folders[::2]) + "."
-        write_weights(arguments.write, f"{arguments.function.upper()}_ONE_VIEW", "OneView", weights, data)
+            print(f"{low:.1f} .. {low + 0.1:.1f} {inside.sum():7d}    {p[inside].mean():.2f}   {labels[inside].mean():.2f}")
+
+
+def print_recall(columns, labels, log_odds):
+    """True poses above the value that leaves this many wrong poses an image."""
+    image = np.char.add(columns["part"], columns["image"])
+    of_truth = np.char.add(image, columns["truth"].astype(str))
+    truths, images = len(np.unique(of_truth[labels > 0])), len(np.unique(image))
+    wrong = np.sort(log_odds[labels == 0])[::-1]
+    print(f"true poses among all: {truths}; by wrong poses an image: " + ", ".join(
+        f"{rate:g}: {len(np.unique(of_truth[(labels > 0) & (log_odds > wrong[min(int(rate * images), len(wrong) - 1)])]))}"
+        for rate in (0.25, 0.5, 1, 2)))
+
+
+def fit_and_print(name, columns):
+    stage, label = FUNCTIONS[name]
+    columns = of_stage(columns, stage)
+    labels = label(columns)
+    columns = {column: values[~np.isnan(labels)] for column, values in columns.items()}
+    labels = labels[~np.isnan(labels)]
+    features = np.column_stack([feature(columns) for _, feature in FEATURES.values()])
+    log_odds = cross_validated(features, labels, columns["part"])
+    weights = dict(zip(["bias", *FEATURES], fit(features, labels)))
+    print(f"\n{name}: " + ", ".join(f"{field} {weight:.4g}" for field, weight in weights.items()))
+    print_areas(columns, features, labels, log_odds)
+    print_recall(columns, labels, log_odds)
+    print_reliability(labels, log_odds)
+    data = f"{len(labels)} poses, {int(labels.sum())} right, of the {len(np.unique(columns['part']))} parts of set fit."
+    return weights, data
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--write", metavar="FILE", help="header whose sections get the weights")
+    parser.add_argument("files", nargs="+", type=Path, metavar="CSV")
+    arguments = parser.parse_args()
+    columns = load(arguments.files)
+    if len(np.unique(columns["part"])) < 2:
+        raise SystemExit("fit_probability: found one part, expected two or more to validate by part")
+    for name in FUNCTIONS:
+        weights, data = fit_and_print(name, columns)
+        if arguments.write:
+            write_weights(arguments.write, f"{name.upper()}_ONE_VIEW", "OneView", weights, data)
 
 
 if __name__ == "__main__":

@@ -25,13 +25,13 @@ def load(files):
 
 
 def features(rows):
-    """1, then sums over the n informative views divided by the square root of n: of 1 and of each feature."""
+    """Sums over the n informative views divided by the square root of n: of 1 and of each feature."""
     root = np.sqrt(rows[:, 3])
-    return np.column_stack([np.ones(len(rows)), root, *(rows[:, 4:7] / root[:, None]).T])
+    return np.column_stack([root, *(rows[:, 4:7] / root[:, None]).T])
 
 
 def probabilities(x, weights):
-    return 1 / (1 + np.exp(-np.clip(x @ weights, -50, 50)))
+    return 1 / (1 + np.exp(-np.clip(weights[0] + x @ weights[1:], -50, 50)))
 
 
 def parse_arguments():

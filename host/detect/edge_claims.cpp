@@ -100,8 +100,8 @@ class ClaimedEdges {
 struct Competitor {
   EdgeClaim claim;
   std::vector<ExplainedEdge> explained;
-  double rank;  // log-odds
-  double weighted_probability() const { return claim.unclaimed / (1 + std::exp(-rank)); }
+  double probability;
+  double weighted_probability() const { return claim.unclaimed * probability; }
 };
 
 std::vector<Competitor> competitors_of(const Scene& scene, std::span<const PoseEstimate> poses,
@@ -111,7 +111,7 @@ std::vector<Competitor> competitors_of(const Scene& scene, std::span<const PoseE
     std::vector<ExplainedEdge> explained = explained_edges(scene, poses[p], options);
     if (exceeds_chance(poses[p].features))
       competitors.push_back(
-          {{p, 1}, std::move(explained), PoseClassifier::rank(poses[p].features)});
+          {{p, 1}, std::move(explained), PoseClassifier::probability(poses[p].features)});
   }
   return competitors;
 }

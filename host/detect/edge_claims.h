@@ -1,7 +1,7 @@
 // Chooses poses so that every edge of the image is explained by one pose only.
 //
-// Poses that explain the same edges compete for them. The pose with the highest rank is chosen
-// first and claims the image edges that it explains.
+// Poses that explain the same edges compete for them. The most probable pose is chosen first and
+// claims the image edges that it explains.
 #pragma once
 
 #include <span>
@@ -28,7 +28,7 @@ struct EdgeClaim {
   double unclaimed = 1;   // fraction of its explained edge length no better pose had claimed
 };
 
-// Chooses greedily by logistic(PoseClassifier::rank) times the unclaimed fraction, highest first.
+// Chooses greedily by PoseClassifier::probability times the unclaimed fraction, highest first.
 // Never chooses a pose whose psi does not exceed chance. Lengths are summed over all views; views
 // without an edge index do not take part. The poses must have features.
 std::vector<EdgeClaim> claim_edges(const Scene& scene, std::span<const PoseEstimate> poses,

@@ -38,13 +38,25 @@ bool is_informative(const PoseFeatures& f) {
   return f.points >= thresholds::MIN_POINTS && f.in_image >= min_in_image;
 }
 
-double log_odds(const PoseFeatures& features, const weights::OneView& w) {
-  constexpr double min_psi_z_score = 0.5;  // all poses below are equally bad
-  return w.bias + w.log_psi_z_score * std::log(std::max(psi_z_score(features), min_psi_z_score)) +
-         w.mean_px * features.mean_px + w.unexplained_grey * unexplained_grey(features.shading);
+// Evidence grows more slowly than the number of edge points: their errors depend on each other.
+double signed_root(double value) { return std::copysign(std::sqrt(std::abs(value)), value); }
+
+// Whether the view has an image that shows the pose.
+bool has_image(const PoseFeatures& features) {
+  return features.support.log_ratio != 0 || features.shading.pixels > 0;
 }
 
-double log_odds(const ViewSums& sums) {
+double weighted(const PoseFeatures& features, const weights::OneView& w) {
+  const EdgeSupport& support = features.support;
+  constexpr double min_psi_z_score = 0.5;  // all poses below are equally bad
+  return w.bias + w.log_psi_z_score * std::log(std::max(psi_z_score(features), min_psi_z_score)) +
+         w.mean_px * features.mean_px + w.root_log_ratio * signed_root(support.log_ratio) +
+         w.root_interior_log_ratio * signed_root(support.interior_log_ratio) +
+         w.unexplained_grey * unexplained_grey(features.shading) +
+         w.best_displaced * support.best_displaced;
+}
+
+double weighted(const ViewSums& sums) {
   constexpr weights::SeveralViews w = weights::SEVERAL_VIEWS;
   constexpr int max_views = 5;  // no fit has more
   const double sum = w.views * sums.views + w.log_psi_z_score * sums.log_psi_z_score +
@@ -101,27 +113,32 @@ PoseFeatures pool_over_views(std::span<const PoseFeatures> by_view) {
 }
 
 double PoseClassifier::rank(const PoseFeatures& features) {
-  return log_odds(features, weights::RANK_ONE_VIEW);
+  return has_image(features) ? weighted(features, weights::RANK_ONE_VIEW) : -features.mean_px;
+}
+
+double PoseClassifier::log_odds(const PoseFeatures& features) {
+  return has_image(features) ? weighted(features, weights::PROBABILITY_ONE_VIEW)
+                             : -features.mean_px;
 }
 
 double PoseClassifier::rank(std::span<const PoseFeatures> by_view) {
   if (by_view.size() == 1) return rank(by_view[0]);
   const ViewSums sums = sum_informative_views(by_view);
-  if (sums.views > 1) return log_odds(sums);
+  if (sums.views > 1) return weighted(sums);
   const double p = probability(by_view);
   return std::log(p / (1 - p));
 }
 
 double PoseClassifier::probability(const PoseFeatures& features) {
   if (features.points < thresholds::MIN_POINTS) return 0;
-  return features.in_image / (1 + std::exp(-log_odds(features, weights::PROBABILITY_ONE_VIEW)));
+  return features.in_image * logistic(log_odds(features));
 }
 
 double PoseClassifier::probability(std::span<const PoseFeatures> by_view) {
   const ViewSums sums = sum_informative_views(by_view);
   if (sums.views == 0) return 0;
   return sums.views == 1 ? probability(*std::ranges::find_if(by_view, is_informative))
-                         : logistic(log_odds(sums));
+                         : logistic(weighted(sums));
 }
 
 ViewSums sum_informative_views(std::span<const PoseFeatures> by_view) {

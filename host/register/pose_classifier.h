@@ -2,8 +2,8 @@
 //
 // scripts/fit_probability.py and scripts/fit_probability_over_views.py fit the weights on rendered
 // scenes. pose_classifier_weights.h holds them and names data and commit. There are two fits for
-// one view: `rank` on all registered candidates, `probability` on reported ones, among which
-// unexplained grey matters less.
+// one view: `rank` on poses after the medium stage of detection, `probability` on those that
+// detection reports without a threshold.
 //
 // Public header.
 #pragma once
@@ -38,13 +38,17 @@ double unexplained_grey(const Shading& shading);
 PoseFeatures pool_over_views(std::span<const PoseFeatures> by_view);
 
 struct PoseClassifier {
-  // Log-odds that a pose is right, from features of one view or pooled ones. Poses are ordered by
-  // it.
+  // Log-odds that registration can bring an aligned pose to a true one, from features of one view
+  // or pooled ones. Without an image: minus the mean tensor value.
   static double rank(const PoseFeatures& features);
   // The same from all views of a pose. Minus infinity where no view of several is informative.
   static double rank(std::span<const PoseFeatures> by_view);
 
-  // Probability in [0, 1] that a reported pose is right, times the fraction of it that is in the
+  // Log-odds that a registered pose is right, from features of one view or pooled ones. Without an
+  // image: minus the mean tensor value.
+  static double log_odds(const PoseFeatures& features);
+
+  // Probability in [0, 1] that a registered pose is right, times the fraction of it that is in the
   // image and not behind known objects; 0 below 12 points.
   static double probability(const PoseFeatures& features);
   // The same from all views of a pose. Each informative view adds its log-odds; the sum of n views

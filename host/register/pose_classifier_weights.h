@@ -9,7 +9,8 @@ namespace edgescout::pose_classifier_weights {
 
 // A logistic function of one view's features, or of features pooled over views.
 struct OneView {
-  double bias, log_psi_z_score, mean_px, unexplained_grey;
+  double bias, log_psi_z_score, mean_px, root_log_ratio, root_interior_log_ratio, unexplained_grey,
+      best_displaced;
 };
 
 // A logistic function of sums over informative views. `views` is the weight of their number.
@@ -18,17 +19,27 @@ struct SeveralViews {
 };
 
 // begin RANK_ONE_VIEW
-// Data: all registered candidates of 16 rendered scenes (two sets of piles of three parts) and what
-// is reported of them. Date: 2026-11-21. Commit: f9fae37.
-inline constexpr OneView RANK_ONE_VIEW{
-    .bias = -5.036, .log_psi_z_score = 4.105, .mean_px = -0.382, .unexplained_grey = -6.012};
+// Data: 36388 poses, 1033 right, of the 36 parts of set fit.
+// Date: 2026-11-26. Commit: dca21ce.
+inline constexpr OneView RANK_ONE_VIEW{.bias = -0.1547,
+                                       .log_psi_z_score = 0.1783,
+                                       .mean_px = -0.4588,
+                                       .root_log_ratio = 0.3317,
+                                       .root_interior_log_ratio = 0.08879,
+                                       .unexplained_grey = -2.939,
+                                       .best_displaced = -0.8061};
 // end RANK_ONE_VIEW
 
 // begin PROBABILITY_ONE_VIEW
-// Data: what is reported of the same 16 rendered scenes, 303 poses, 57 of them right.
-// Date: 2026-11-21. Commit: 2713fb3.
-inline constexpr OneView PROBABILITY_ONE_VIEW{
-    .bias = -4.798, .log_psi_z_score = 3.716, .mean_px = -0.6305, .unexplained_grey = -3.028};
+// Data: 2089 poses, 334 right, of the 36 parts of set fit.
+// Date: 2026-11-26. Commit: dca21ce.
+inline constexpr OneView PROBABILITY_ONE_VIEW{.bias = -1.364,
+                                              .log_psi_z_score = 1.973,
+                                              .mean_px = -0.3807,
+                                              .root_log_ratio = 0.3009,
+                                              .root_interior_log_ratio = 0.3756,
+                                              .unexplained_grey = -2.276,
+                                              .best_displaced = -5.561};
 // end PROBABILITY_ONE_VIEW
 
 // begin SEVERAL_VIEWS

@@ -113,18 +113,18 @@ SearchResult without_search(std::span<const ObjectPose> starts) {
   return result;
 }
 
-double rank_of(const PoseEstimate& estimate) {
-  return PoseClassifier::rank(pool_over_views(estimate.features));
+double log_odds(const PoseEstimate& estimate) {
+  return PoseClassifier::log_odds(pool_over_views(estimate.features));
 }
 
-// The estimate of the highest rank per start; the first of equal ones.
+// The most probable estimate per start; the first of equal ones.
 std::vector<PoseEstimate> best_per_start(std::span<const PoseEstimate> estimates,
                                          std::span<const std::size_t> start, std::size_t starts) {
   std::vector<PoseEstimate> best(starts);
   for (std::size_t i = 0; i < estimates.size(); ++i) {
     PoseEstimate& known = best[start[i]];
     const bool is_first = known.features.empty();
-    if (is_first || !(rank_of(known) >= rank_of(estimates[i]))) known = estimates[i];
+    if (is_first || !(log_odds(known) >= log_odds(estimates[i]))) known = estimates[i];
   }
   return best;
 }

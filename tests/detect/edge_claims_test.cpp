@@ -34,7 +34,8 @@ struct TwoParts {
   static Se3 shifted(const Se3& pose, double x_m) {
     return {pose.rotation, pose.translation_m + Eigen::Vector3d(x_m, 0, 0)};
   }
-  // Poses whose edges agree fully and have these lengths, px; a negative length: no edge agrees.
+  // Poses whose edges agree fully and have these lengths, px; a negative length: no edge agrees. An
+  // image supports every px with one nat.
   std::vector<EdgeClaim> choose(const std::vector<Se3>& poses,
                                 const std::vector<double>& lengths_px,
                                 const EdgeClaimOptions& options = {}) const {
@@ -43,7 +44,9 @@ struct TwoParts {
       PoseFeatures f;
       f.psi = lengths_px[i] > 0 ? 1 : 0;
       f.points = 100;
+      f.in_image = 1;
       f.length_px = std::abs(lengths_px[i]);
+      f.support.log_ratio = float(lengths_px[i]);
       estimates.push_back(estimate_of(poses[i], {f}));
     }
     return claim_edges({models, views, *backend}, estimates, options);

@@ -18,6 +18,8 @@ PoseFeatures random_features(Random& random) {
   f.length_px = random.uniform(0, 1000);
   f.in_image = random.uniform();
   f.shading = {1000, 1e6, random.uniform(0, 1e6)};
+  f.support = {float(random.uniform(-20, 300)), float(random.uniform(-20, 100)),
+               float(random.uniform()), float(random.uniform())};
   return f;
 }
 
@@ -27,17 +29,22 @@ TEST(PoseProbability, IsInUnitRangeAndGrowsWithEveryFeature) {
     const PoseFeatures f = random_features(random);
     const double p = PoseClassifier::probability(f);
     EXPECT_TRUE(p >= 0 && p <= 1) << p;
-    const auto expect_grows = [&](double PoseFeatures::*feature, double to) {
-      PoseFeatures better = f;
-      better.*feature = to;
-      EXPECT_GE(PoseClassifier::probability(better), p);
-    };
-    expect_grows(&PoseFeatures::psi, random.uniform(f.psi, 1));
-    expect_grows(&PoseFeatures::length_px, random.uniform(f.length_px, 1000));
     if (p == 0) continue;  // too few points for other features to count
     PoseFeatures better = f;
+    better.support.log_ratio = float(random.uniform(f.support.log_ratio, 400));
+    EXPECT_GT(PoseClassifier::probability(better), p);
+    better = f;
+    better.support.interior_log_ratio = float(random.uniform(f.support.interior_log_ratio, 200));
+    EXPECT_GT(PoseClassifier::probability(better), p);
+    better = f;
+    better.support.best_displaced = float(random.uniform(-1, f.support.best_displaced));
+    EXPECT_GT(PoseClassifier::probability(better), p);
+    better = f;
     better.mean_px = random.uniform(0, f.mean_px);
     EXPECT_GT(PoseClassifier::probability(better), p);
+    better = f;
+    better.psi = random.uniform(f.psi, 1);
+    EXPECT_GE(PoseClassifier::probability(better), p) << "all below chance are equal";
     better = f;
     better.in_image = random.uniform(f.in_image, 1);
     EXPECT_GT(PoseClassifier::probability(better), p);
@@ -55,13 +62,29 @@ TEST(PoseProbability, SeparatesTheBestFromTheWorst) {
                  .in_image = 1,
                  .visible = 200,
                  .shading = {1000, 1e6, 1e4},
-                 .support = {200, 100, 0.9f, 0.3f}};
+                 .support = {200, 60, 0.9f, 0.3f}};
   EXPECT_GT(PoseClassifier::probability(f), 0.9);
-  f.psi = 0.65;
-  f.matched = 0.2;
-  f.mean_px = 20;
+  f.psi = 0.75, f.mean_px = 8;
+  f.support = {5, -5, 0.4f, 0.35f};
   EXPECT_LT(PoseClassifier::probability(f), 0.1);
   EXPECT_EQ(PoseClassifier::probability(PoseFeatures{}), 0);
+}
+
+TEST(PoseRank, WithoutAnImageIsByTheDistanceToEdges) {
+  PoseFeatures near, far;
+  near.mean_px = 2;
+  far.mean_px = 9;
+  EXPECT_GT(PoseClassifier::rank(near), PoseClassifier::rank(far));
+}
+
+TEST(PoseFeatures, PooledSumLogRatiosAndWeightFractions) {
+  PoseFeatures a, b;
+  a.points = 100, a.support = {40, 10, 0.8f, 0.2f};
+  b.points = 300, b.support = {-8, 2, 0.4f, 0.4f};
+  const EdgeSupport pooled = pool_over_views(std::vector{a, b}).support;
+  EXPECT_FLOAT_EQ(pooled.log_ratio, 32);
+  EXPECT_FLOAT_EQ(pooled.interior_log_ratio, 12);
+  EXPECT_FLOAT_EQ(pooled.support, 0.5f);
 }
 
 PoseFeatures with_psi(double psi) {
@@ -74,6 +97,7 @@ PoseFeatures with_psi(double psi) {
   f.length_px = 500;
   f.in_image = 1;
   f.shading = {1000, 1e6, 1e5};
+  f.support = {60, 20, 0.8f, 0.4f};
   return f;
 }
 
