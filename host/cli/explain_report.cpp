@@ -58,6 +58,13 @@ std::string scan_text(const ScanReport& s) {
                      s.own_mean_px, s.aligned, s.aligned_near);
 }
 
+std::string support_text(const SupportReport& s) {
+  return fmt::format(
+      "log-odds by edge support {:.2f}, itself {:.2f}, the last of {} {:.2f}; {} near "
+      "it go on",
+      s.best_near, s.own, s.medium, s.last, s.medium_near);
+}
+
 std::string alignment_text(const AlignmentReport& a) {
   std::string text = fmt::format("{} aligned poses are the same", a.same);
   if (a.nearest) text += "; the nearest is " + off(*a.nearest);
@@ -105,6 +112,8 @@ std::string text_of(LossStage stage, const LossReport& report) {
       return edges_text(report.edges);
     case LossStage::Scan:
       return scan_text(report.scan);
+    case LossStage::Support:
+      return support_text(report.support);
     case LossStage::Alignment:
       return alignment_text(report.alignment);
     case LossStage::Ranking:
@@ -211,6 +220,12 @@ json stages_json(const LossReport& r, int object) {
             {"rank", or_null(scan.rank)},
             {"mean_px", scan.rank ? json(scan.mean_px) : json()},
             {"own_mean_px", scan.own_mean_px}}},
+          {"support",
+           {{"medium", r.support.medium},
+            {"medium_near", r.support.medium_near},
+            {"best_near", r.scan.aligned_near > 0 ? json(r.support.best_near) : json()},
+            {"own", r.support.own},
+            {"last", r.support.last}}},
           {"alignment",
            {{"same", r.alignment.same},
             {"nearest", found_json(r.alignment.nearest, object)},

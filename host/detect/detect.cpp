@@ -1,10 +1,9 @@
 #include "host/detect/detect.h"
 
-#include <cmath>
-
 #include "host/detect/support_views.h"
 #include "host/detect/suppression.h"
 #include "host/detect/template_points.h"
+#include "host/detect/template_support.h"
 #include "host/register/pose_classifier.h"
 #include "host/register/shading.h"
 #include "host/register/thresholds.h"
@@ -14,30 +13,37 @@ namespace edgescout {
 namespace {
 
 // Of a template, before known objects hide some of them.
-constexpr int COARSE_JOINT_POINTS = 120;
+constexpr int COARSE_POINTS = 120;
 
-// Distinct poses of the set's object, lowest key first, at most `most`; `keys` has one entry per
-// pose.
+// Indices of distinct poses of the set's object, lowest key first, at most `most`; `keys` has one
+// entry per pose.
+template <typename PoseType>
+std::vector<std::size_t> best_distinct_indices(const std::vector<PoseType>& poses,
+                                               const std::vector<double>& keys,
+                                               const TemplateSet& set, std::size_t most) {
+  std::vector<Se3> world_from_object;
+  for (const PoseType& pose : poses) world_from_object.push_back(pose.world_from_object);
+  return best_distinct(world_from_object, keys, set.model.mesh, set.symmetries,
+                       thresholds::SAME_POSE * set.model.mesh.diameter_m, most);
+}
+
 template <typename PoseType>
 std::vector<PoseType> best_distinct_poses(const std::vector<PoseType>& poses,
                                           const std::vector<double>& keys, const TemplateSet& set,
                                           std::size_t most) {
-  std::vector<Se3> world_from_object;
-  for (const PoseType& pose : poses) world_from_object.push_back(pose.world_from_object);
-  const double radius_m = thresholds::SAME_POSE * set.model.mesh.diameter_m;
   std::vector<PoseType> best;
-  for (std::size_t i :
-       best_distinct(world_from_object, keys, set.model.mesh, set.symmetries, radius_m, most))
+  for (const std::size_t i : best_distinct_indices(poses, keys, set, most))
     best.push_back(poses[i]);
   return best;
 }
 
-// Most probable first.
-std::vector<PoseEstimate> best_ranked(const std::vector<PoseEstimate>& poses,
-                                      const TemplateSet& set, std::size_t most) {
+// Distinct ones, most probable first.
+std::vector<PoseEstimate> most_probable(const std::vector<PoseEstimate>& poses,
+                                        const TemplateSet& set) {
   std::vector<double> keys;
-  for (const PoseEstimate& pose : poses) keys.push_back(-PoseClassifier::rank(pose.features));
-  return best_distinct_poses(poses, keys, set, most);
+  for (const PoseEstimate& pose : poses)
+    keys.push_back(-PoseClassifier::probability(pose.features));
+  return best_distinct_poses(poses, keys, set, poses.size());
 }
 
 // Whether a pose in the frame of this camera lies within a fraction of the object's diameter of a
@@ -64,12 +70,6 @@ std::vector<ObjectView> views_around(const ObjectView& searched,
   return views;
 }
 
-// Mean cost of a point, px^2. Infinite where too few points are visible: they can be fitted to
-// any edges.
-double cost_per_point(const PoseEstimate& pose) {
-  return pose.points >= thresholds::MIN_POINTS ? pose.cost_px2 / pose.points : INFINITY;
-}
-
 // The stages of detect.h's table for one object. `search` has the supporting views that take part.
 class Cascade {
  public:
@@ -91,20 +91,27 @@ class Cascade {
     return best_distinct_poses(poses, ranks, set_, std::size_t(most));
   }
 
-  // Aligns the starts on the coarse tensors.
+  // Aligns the starts' templates on the coarse tensors.
   std::vector<PoseEstimate> coarse(std::span<const ObjectPose> starts) const {
     const std::vector<ObjectView> views = on_coarse_tensors(views_);
-    if (!is_joint()) return register_poses(scene_of(views), starts, options_.refine.search.coarse);
     return register_points(scene_of(views), starts,
-                           template_points(set_, views, COARSE_JOINT_POINTS, backend_),
-                           options_.coarse_joint);
+                           template_points(set_, views, COARSE_POINTS, backend_), options_.coarse);
   }
 
-  // Aligns poses on the full tensors, of several views those that cost least, and measures their
-  // features.
-  std::vector<PoseEstimate> medium(const std::vector<PoseEstimate>& aligned) const {
-    const std::vector<ObjectPose> starts =
-        object_poses(is_joint() ? least_costly(aligned) : aligned);
+  // Indices of the aligned poses that enter the medium stage, best first.
+  std::vector<std::size_t> medium_starts(const std::vector<PoseEstimate>& aligned) const {
+    std::vector<double> keys;
+    for (const PoseFeatures& features : template_support(set_, scene_of(views_), aligned))
+      keys.push_back(-PoseClassifier::rank(features));
+    const int most = is_joint() ? options_.medium_poses_joint : options_.medium_poses;
+    return best_distinct_indices(aligned, keys, set_, std::size_t(most));
+  }
+
+  // Aligns poses on the full tensors and measures their features.
+  std::vector<PoseEstimate> medium(std::span<const PoseEstimate> aligned,
+                                   std::span<const std::size_t> indices) const {
+    std::vector<ObjectPose> starts;
+    for (const std::size_t i : indices) starts.push_back(aligned[i]);
     std::vector<PoseEstimate> poses = register_poses(scene_of(views_), starts, options_.medium);
     drop_known(poses);
     measure_features(scene_of(views_), poses, {options_.refine.score, options_.medium.visibility});
@@ -113,7 +120,9 @@ class Cascade {
 
   // The highest ranks among distinct poses.
   std::vector<PoseEstimate> candidates(const std::vector<PoseEstimate>& aligned) const {
-    return best_ranked(aligned, set_, std::size_t(options_.candidates));
+    std::vector<double> keys;
+    for (const PoseEstimate& pose : aligned) keys.push_back(-PoseClassifier::rank(pose.features));
+    return best_distinct_poses(aligned, keys, set_, std::size_t(options_.candidates));
   }
 
   std::vector<PoseEstimate> fine(const std::vector<PoseEstimate>& candidates) const {
@@ -130,12 +139,6 @@ class Cascade {
 
   Scene scene_of(std::span<const ObjectView> views) const {
     return {{&set_.model, 1}, views, backend_};
-  }
-
-  std::vector<PoseEstimate> least_costly(const std::vector<PoseEstimate>& aligned) const {
-    std::vector<double> costs;
-    for (const PoseEstimate& pose : aligned) costs.push_back(cost_per_point(pose));
-    return best_distinct_poses(aligned, costs, set_, std::size_t(options_.medium_poses_joint));
   }
 
   void drop_known(std::vector<PoseEstimate>& poses) const {
@@ -158,10 +161,11 @@ std::vector<PoseEstimate> run_cascade(const ObjectSearch& search, std::span<cons
   SearchTrace stages;
   stages.starts = cascade.starts(hits);
   stages.coarse = cascade.coarse(stages.starts);
-  stages.medium = cascade.medium(stages.coarse);
+  stages.medium_starts = cascade.medium_starts(stages.coarse);
+  stages.medium = cascade.medium(stages.coarse, stages.medium_starts);
   stages.candidates = cascade.candidates(stages.medium);
   stages.fine = cascade.fine(stages.candidates);
-  std::vector<PoseEstimate> found = best_ranked(stages.fine, search.set, stages.fine.size());
+  std::vector<PoseEstimate> found = most_probable(stages.fine, search.set);
   if (trace) {
     stages.hits.assign(hits.begin(), hits.end());
     *trace = std::move(stages);

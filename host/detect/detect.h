@@ -1,10 +1,11 @@
 // Finds the registered, scored candidates of one object in one image by a cascade of three stages.
 //
-//   stage   views     tensor   poses that enter                      registered by
-//   coarse  one       reduced  scan hits, coarse_poses               refine.search.coarse
-//   coarse  several   reduced  rescored hits, coarse_poses_joint     coarse_joint
-//   medium  any       full     all aligned, medium_poses_joint       medium
-//   fine    any       full     candidates                            refine
+//   stage   tensor   poses that enter                                    registered by
+//   coarse  reduced  hits of lowest rank, coarse_poses(_joint)           coarse
+//   medium  full     those that edges support most, medium_poses(_joint) medium
+//   fine    full     those of the highest rank, candidates               refine
+//
+// The coarse stage aligns templates' points, the others those that depth maps show to be visible.
 #pragma once
 
 #include <vector>
@@ -24,8 +25,8 @@ Detection to_detection(const PoseEstimate& estimate);
 PoseFilter near_known(std::span<const Se3> known_in_world, const TemplateSet& set,
                       const Se3& camera_from_world);
 
-// The candidates of search.set in search.view with features, highest rank first, duplicates merged.
-// Poses are in the view's camera frame; their object is 0.
+// The candidates of search.set in search.view with features, most probable first, duplicates
+// merged. Poses are in the view's camera frame; their object is 0.
 //
 // At most options.support_views of search.support are chosen (support_views.h). They take part in
 // all stages: hits are rescored in them and poses are registered in them. Features hold search.view

@@ -17,13 +17,16 @@ void describe_hits(DetectOptions& o, OptionVisitor& visit) {
                 "Number of the best hits that enter the coarse stage: registration on the coarse "
                 "tensor"},
                o.coarse_poses, 1, 1000000);
+  visit.number({"medium-poses",
+                "Number of the coarse poses with the most edge support that enter the medium "
+                "stage: registration in full resolution"},
+               o.medium_poses, 1, 1000000);
   visit.number({"coarse-poses-joint",
                 "Number of the best hits that enter the coarse stage where other images support "
                 "the search, in place of --coarse-poses"},
                o.coarse_poses_joint, 1, 1000000);
   visit.number({"medium-poses-joint",
-                "Number of the best coarse poses that enter the medium stage: registration in full "
-                "resolution. Only where other images support the search"},
+                "Number of these that enter the medium stage, in place of --medium-poses"},
                o.medium_poses_joint, 1, 1000000);
 }
 
@@ -98,7 +101,7 @@ void DetectOptions::validate() const {
   in.require("region_rows", scan.region_rows, 1, 4096);
   in.require("region_columns * region_rows", double(scan.region_columns) * scan.region_rows, 1,
              TEMPLATE_SCORE_MAX_ANCHORS);
-  coarse_joint.validate();
+  coarse.validate();
   medium.validate();
   refine.validate();
   edge_claims.validate();

@@ -14,11 +14,12 @@ namespace edgescout {
 struct DetectOptions {
   ScanOptions scan;
   int support_views = 4;          // other images that support the search of one (support_views.h)
-  int coarse_poses = 2500;        // distinct scan hits that enter the coarse stage
+  int coarse_poses = 10000;       // distinct scan hits that enter the coarse stage
+  int medium_poses = 1000;        // of these, by edge support, that enter the medium stage
   int coarse_poses_joint = 3000;  // the same where other images support the search
-  int medium_poses_joint = 200;   // of these, by cost, that enter the medium stage
+  int medium_poses_joint = 200;
   int candidates = 60;  // distinct poses that enter the fine stage (the paper's object candidates)
-  D2coOptions coarse_joint = schedules::coarse_joint();
+  D2coOptions coarse = schedules::coarse();
   D2coOptions medium = schedules::medium();
   RefineOptions refine = refine_defaults();  // the fine stage
   EdgeClaimOptions edge_claims;

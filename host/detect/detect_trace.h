@@ -12,15 +12,17 @@
 namespace edgescout {
 
 // The search for one object. Poses are in the camera frame of the searched image; their object
-// is 0. In one image without known instances, entry i of `coarse` and of `medium` is what became of
-// start i, and entry i of `fine` what became of candidate i.
+// is 0. In one image without known instances, entry i of `coarse` is what became of start i, entry
+// i of `medium` what became of start medium_starts[i], and entry i of `fine` what became of
+// candidate i.
 struct SearchTrace {
   std::vector<ScanHit> hits;
-  std::vector<ObjectPose> starts;        // distinct hits that enter the coarse stage, best first
-  std::vector<PoseEstimate> coarse;      // poses after the coarse stage
-  std::vector<PoseEstimate> medium;      // poses after the medium stage, with features
-  std::vector<PoseEstimate> candidates;  // distinct poses that enter the fine stage, best first
-  std::vector<PoseEstimate> fine;        // poses after the fine stage, with features
+  std::vector<ObjectPose> starts;          // distinct hits that enter the coarse stage, best first
+  std::vector<PoseEstimate> coarse;        // poses after the coarse stage
+  std::vector<std::size_t> medium_starts;  // indices of those that enter the medium stage
+  std::vector<PoseEstimate> medium;        // poses after the medium stage, with features
+  std::vector<PoseEstimate> candidates;    // distinct poses that enter the fine stage, best first
+  std::vector<PoseEstimate> fine;          // poses after the fine stage, with features
 };
 
 // The selection among the candidates of all objects, in the world of the views.

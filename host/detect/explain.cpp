@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/detect/suppression.h"
+#include "host/detect/template_support.h"
 #include "host/model/viewpoint_index.h"
 #include "host/register/pose_classifier.h"
 #include "host/register/thresholds.h"
@@ -102,6 +103,7 @@ class LostPose {
     report.range = range();
     report.edges = edges();
     report.scan = scan();
+    report.support = support();
     report.alignment = alignment();
     report.ranking = ranking();
     report.refinement = refinement();
@@ -214,12 +216,47 @@ class LostPose {
     return scan;
   }
 
+  bool is_near_start(std::size_t start) const {
+    return is_near_(search_.starts[start].world_from_object);
+  }
+
+  // The best pose of the medium stage that a hit near the given pose became.
+  Index best_near_medium() const {
+    const std::vector<std::size_t>& starts = search_.medium_starts;
+    const auto best =
+        std::ranges::find_if(starts, [&](std::size_t start) { return is_near_start(start); });
+    if (best == starts.end()) return std::nullopt;
+    return std::size_t(best - starts.begin());
+  }
+
+  SupportReport support() const {
+    SupportReport support;
+    PoseEstimate given;
+    static_cast<ObjectPose&>(given) = given_;
+    given.object = 0;
+    const Scene scene{{&set_.model, 1}, scene_.views, scene_.backend};
+    const auto rank = [](const PoseFeatures& features) { return PoseClassifier::rank(features); };
+    support.own = rank(template_support(set_, scene, {given})[0]);
+    support.medium = search_.medium_starts.size();
+    support.medium_near = std::size_t(std::ranges::count_if(
+        search_.medium_starts, [&](std::size_t start) { return is_near_start(start); }));
+    std::vector<PoseEstimate> near;
+    for (std::size_t i = 0; i < search_.starts.size(); ++i)
+      if (is_near_start(i)) near.push_back(search_.coarse[i]);
+    const std::vector<PoseFeatures> features = template_support(set_, scene, near);
+    if (!near.empty()) support.best_near = rank(std::ranges::max(features, {}, rank));
+    if (support.medium > 0)
+      support.last =
+          rank(template_support(set_, scene, {search_.coarse[search_.medium_starts.back()]})[0]);
+    return support;
+  }
+
   AlignmentReport alignment() const {
     AlignmentReport alignment;
     alignment.same = std::size_t(
         std::ranges::count_if(medium_.of_bounds, [](double error) { return error < 1; }));
     alignment.nearest = found(medium_, nearest(medium_));
-    alignment.best_hit_became = found(medium_, best_near_start());
+    alignment.best_hit_became = found(medium_, best_near_medium());
     return alignment;
   }
 
@@ -298,7 +335,8 @@ class LostPose {
     // Hits lie near any pose by chance; what is not searched or not visible was not found by them.
     if (!report.range.holds()) return LossStage::Range;
     if (!report.edges.exceeds_copies()) return LossStage::Edges;
-    return report.scan.aligned_near > 0 ? LossStage::Alignment : LossStage::Scan;
+    if (report.scan.aligned_near == 0) return LossStage::Scan;
+    return report.support.medium_near > 0 ? LossStage::Alignment : LossStage::Support;
   }
 
   std::optional<Rival> rival(const LossReport& report) const {
@@ -347,7 +385,7 @@ class LostPose {
     const PoseEstimate& lost = fine_.poses[*best_same(fine_, probability)];
     const PoseEstimate* best = nullptr;
     for (const PoseEstimate& pose : fine_.poses)
-      if (log_odds(pose) >= log_odds(best ? *best : lost) &&
+      if (probability(pose) >= probability(best ? *best : lost) &&
           pose_distance_m(pose.world_from_object, lost.world_from_object, mesh, set_.symmetries) <
               thresholds::SAME_POSE * mesh.diameter_m)
         best = &pose;
@@ -369,8 +407,8 @@ class LostPose {
 }  // namespace
 
 std::string to_string(LossStage stage) {
-  constexpr std::array names{"range",      "edges",       "scan",      "alignment", "ranking",
-                             "refinement", "probability", "selection", "reported"};
+  constexpr std::array names{"range",   "edges",      "scan",        "support",   "alignment",
+                             "ranking", "refinement", "probability", "selection", "reported"};
   return names[std::size_t(stage)];
 }
 
@@ -381,7 +419,7 @@ LossReport explain_loss(const Scene& scene, const TemplateSet& set, const Detect
   check(given.object >= 0 && std::size_t(given.object) < trace.searches.size(),
         "explain_loss: an object that is not in the trace");
   const SearchTrace& search = trace.searches[std::size_t(given.object)];
-  check(scene.views.size() == 1 && search.medium.size() == search.starts.size() &&
+  check(scene.views.size() == 1 && search.medium.size() == search.medium_starts.size() &&
             search.fine.size() == search.candidates.size(),
         "explain_loss: one view, no known instances");
   require_rigid(given.world_from_object, "given pose", "R, t");

@@ -7,6 +7,7 @@
 //   range        its centre lies in the searched distances, viewpoints and region
 //   edges        the image supports it more than copies of it beside it (kernels/edge_support.h)
 //   scan         a hit that is aligned lies within a quarter of the object's size in the image
+//   support      such a hit, aligned on the coarse tensor, enters the medium stage
 //   alignment    a pose after the medium stage is the same
 //   ranking      a candidate, which enters the fine stage, is the same
 //   refinement   a pose after the fine stage is the same
@@ -37,6 +38,7 @@ enum class LossStage {
   Range,
   Edges,
   Scan,
+  Support,
   Alignment,
   Ranking,
   Refinement,
@@ -82,10 +84,20 @@ struct ScanReport {
   double own_mean_px = 0;  // what a hit at the given pose itself would have (scan_mean_px)
 };
 
+// The edge support of poses after the coarse stage, as PoseClassifier::rank (template_support.h).
+struct SupportReport {
+  std::size_t medium = 0;       // poses that enter the medium stage
+  std::size_t medium_near = 0;  // of these: from hits near the given pose
+  double best_near = 0;         // of all from hits near the given pose; 0 where there are none
+  double last = 0;              // the least of those that enter the medium stage
+  double own = 0;               // of the given pose itself
+};
+
 struct AlignmentReport {
-  std::size_t same = 0;                      // poses after the medium stage that are the same
-  std::optional<FoundPose> nearest;          // of all poses after the medium stage
-  std::optional<FoundPose> best_hit_became;  // the best hit near the given pose, aligned
+  std::size_t same = 0;              // poses after the medium stage that are the same
+  std::optional<FoundPose> nearest;  // of all poses after the medium stage
+  // The hit near the given pose with the most edge support, after the medium stage.
+  std::optional<FoundPose> best_hit_became;
 };
 
 // Log-odds are those of PoseClassifier::rank after the medium stage.
@@ -129,6 +141,7 @@ struct LossReport {
   RangeReport range;
   EdgesReport edges;
   ScanReport scan;
+  SupportReport support;
   AlignmentReport alignment;
   RankingReport ranking;
   RefinementReport refinement;

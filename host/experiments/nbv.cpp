@@ -247,6 +247,7 @@ Notes options(const ExperimentSettings& s) {
       {"jointly", o.detect_jointly ? "yes" : "no"},
       {"scan_hits", std::to_string(o.pipeline.detect.scan.num_kept)},
       {"coarse-poses", std::to_string(o.pipeline.detect.coarse_poses)},
+      {"medium-poses", std::to_string(o.pipeline.detect.medium_poses)},
       {"coarse_poses_joint", std::to_string(o.pipeline.detect.coarse_poses_joint)},
       {"medium_poses_joint", std::to_string(o.pipeline.detect.medium_poses_joint)},
       {"registered", std::to_string(o.pipeline.detect.candidates)},

@@ -35,8 +35,8 @@ D2coOptions search() {
       with_rounds({{LOSS_GEMAN_MCCLURE, 20, 8, 200}, {LOSS_GEMAN_MCCLURE, 6, 8, 250}}));
 }
 
-D2coOptions coarse_joint() {
-  return with_rounds({{LOSS_GEMAN_MCCLURE, 10, 8, 60}, {LOSS_GEMAN_MCCLURE, 1, 4, 60}});
+D2coOptions coarse() {
+  return with_rounds({{LOSS_GEMAN_MCCLURE, 12, 6, 120}, {LOSS_GEMAN_MCCLURE, 3, 6, 120}});
 }
 
 D2coOptions medium() {

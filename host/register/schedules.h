@@ -7,14 +7,12 @@
 
 namespace edgescout::schedules {
 
-// Detection, one view (detect/detect.h): search -> medium -> fine. Several views begin with
-// coarse_joint in place of search.
-D2coOptions search();        // coarse tensors, from templates some 0.2 rad apart
-D2coOptions coarse_joint();  // coarse tensors of several views; a loss so sharp that a hidden point
-                             // costs no more than one a little off: poses are compared by the cost
-D2coOptions medium();        // full tensors: features mean nothing 3 px off
-D2coOptions fine();          // full tensors, all points in the last round
-D2coRound unsearched();      // precedes `fine` where no search brought the start near
+// Detection (detect/detect.h): coarse -> medium -> fine.
+D2coOptions coarse();    // coarse tensors, from templates some 0.2 rad apart
+D2coOptions medium();    // full tensors: features mean nothing 3 px off
+D2coOptions search();    // coarse tensors, from starts turned by up to 0.3 rad; precedes `fine`
+D2coOptions fine();      // full tensors, all points in the last round
+D2coRound unsearched();  // precedes `fine` where no search brought the start near
 
 // Active detection.
 D2coOptions particles();  // active/particles.h, on all real views

@@ -39,6 +39,7 @@ struct Traced {
 PipelineOptions few_poses() {
   PipelineOptions options = RenderedPart::options();
   options.detect.coarse_poses = 400;
+  options.detect.medium_poses = 100;
   return options;
 }
 
@@ -56,6 +57,10 @@ TEST(ExplainLoss, FollowsAReportedPoseThroughAllStages) {
   ASSERT_TRUE(report.scan.rank.has_value());
   EXPECT_LE(*report.scan.rank, 400u);
   EXPECT_GT(report.scan.mean_px, report.scan.own_mean_px) << "templates stand beside the pose";
+  EXPECT_GT(report.support.medium_near, 0u);
+  EXPECT_EQ(report.support.medium, t.trace.searches[0].medium_starts.size());
+  EXPECT_GE(report.support.best_near, report.support.last);
+  EXPECT_GT(report.support.own, report.support.last);
   EXPECT_GT(report.alignment.same, 0u);
   EXPECT_TRUE(report.alignment.nearest->error.passes());
   EXPECT_TRUE(report.ranking.is_candidate);
@@ -66,9 +71,10 @@ TEST(ExplainLoss, FollowsAReportedPoseThroughAllStages) {
   EXPECT_TRUE(report.refinement.own.error.passes());
   EXPECT_NEAR(report.refinement.own.probability, report.refinement.same->probability, 0.1);
   EXPECT_TRUE(report.selection.competes);
-  EXPECT_EQ(report.selection.rank, 1u);
   ASSERT_TRUE(report.selection.selected.has_value());
-  EXPECT_EQ(report.selection.selected->probability, t.detections[0].probability);
+  ASSERT_LE(report.selection.rank, t.detections.size());
+  EXPECT_EQ(report.selection.selected->probability,
+            t.detections[report.selection.rank - 1].probability);
   EXPECT_TRUE(report.selection.selected->error.passes());
   EXPECT_FALSE(report.rival.has_value());
 }
@@ -87,7 +93,8 @@ TEST(DetectTrace, LeavesTheDetectionsAsTheyAre) {
   }
   const SearchTrace& search = t.trace.searches.at(0);
   EXPECT_EQ(search.coarse.size(), search.starts.size());
-  EXPECT_EQ(search.medium.size(), search.starts.size());
+  EXPECT_EQ(search.medium.size(), search.medium_starts.size());
+  EXPECT_LT(search.medium.size(), search.starts.size());
   EXPECT_EQ(search.fine.size(), search.candidates.size());
   EXPECT_EQ(t.trace.selection.selected.size(), t.detections.size());
 }
@@ -156,6 +163,22 @@ TEST(ExplainLoss, NamesTheScanAndTheRankThatWouldDo) {
     EXPECT_EQ(again.scan.aligned_near, more == 0 ? 1u : 0u);
     EXPECT_EQ(again.scan.rank, lost.scan.rank);
   }
+}
+
+// Of two parts one has the best hit after the coarse stage.
+TEST(ExplainLoss, NamesTheSupportThatOthersExceed) {
+  const RenderedPart parts("bearing_block", 1, 2);
+  PipelineOptions options = few_poses();
+  options.detect.medium_poses = 1;
+  const Traced t(parts, options);
+  const LossReport first = t.explain_placed(0), second = t.explain_placed(1);
+  const LossReport& lost = first.lost_at == LossStage::Support ? first : second;
+  ASSERT_EQ(lost.lost_at, LossStage::Support);
+  EXPECT_GT(lost.scan.aligned_near, 0u);
+  EXPECT_EQ(lost.support.medium, 1u);
+  EXPECT_EQ(lost.support.medium_near, 0u);
+  EXPECT_LT(lost.support.best_near, lost.support.last);
+  EXPECT_FALSE(lost.alignment.best_hit_became.has_value());
 }
 
 // No registration is exact to a micrometre.
