@@ -27,7 +27,7 @@ struct DetectOptions {
   // further, the less probable one loses probability (plausible_pairs.h).
   double penetration_m = DEFAULT_PENETRATION_M;
   double restart_rotation_rad = 0.3;  // of turned starts around the selected poses; 0: none
-  double min_probability = 0.05;      // of a reported pose; docs/calibration.md has the reliability
+  double min_probability = 0.4;       // of a reported pose; docs/calibration.md has the reliability
   int max_detections = 100;
   static RefineOptions refine_defaults();
   void validate() const;  // InputError naming the field and the violated bound

@@ -27,8 +27,8 @@ struct SearchTrace {
 
 // The selection among the candidates of all objects, in the world of the views.
 struct SelectionTrace {
-  // Poses of DetectOptions::min_probability or more: candidates, and from `first_restarted` on
-  // poses refined from turned starts around those selected first.
+  // Poses that are probable enough to compete: candidates, and from `first_restarted` on poses
+  // refined from turned starts around those selected first.
   std::vector<PoseEstimate> competing;
   std::size_t first_restarted = 0;
   std::vector<Detection> selected;  // most probable first; max_detections of them are reported

@@ -326,7 +326,10 @@ class LostPose {
   // The stage after the last one that held the pose.
   LossStage lost_at(const LossReport& report) const {
     if (report.selection.is_reported) return LossStage::Reported;
-    if (report.selection.competes) return LossStage::Selection;
+    if (const Index competing = best_same(competing_, probability))
+      return probability(competing_.poses[*competing]) < options_.min_probability
+                 ? LossStage::Probability
+                 : LossStage::Selection;
     if (const auto& same = report.refinement.same)
       return same->probability < options_.min_probability ? LossStage::Probability
                                                           : LossStage::Selection;

@@ -15,6 +15,13 @@ void append_probable(std::vector<PoseEstimate>& probable, std::span<const PoseEs
     if (PoseClassifier::probability(pose.features) >= min_probability) probable.push_back(pose);
 }
 
+// Poses of a lower probability do not compete. Those below the threshold of reported poses do: the
+// refinement from turned starts may raise them above it.
+double least_competing(const DetectOptions& options) {
+  constexpr double most = 0.05;
+  return std::min(most, options.min_probability);
+}
+
 // The poses that can exist together and explain edges of their own, in the order of their claims.
 std::vector<Detection> select(const Scene& scene, std::span<const PoseEstimate> poses,
                               const DetectOptions& options) {
@@ -23,7 +30,7 @@ std::vector<Detection> select(const Scene& scene, std::span<const PoseEstimate> 
   std::vector<PoseEstimate> apart;
   std::vector<double> probabilities_apart;
   for (std::size_t i = 0; i < poses.size(); ++i)
-    if (probabilities[i] >= options.min_probability) {
+    if (probabilities[i] >= least_competing(options)) {
       apart.push_back(poses[i]);
       probabilities_apart.push_back(probabilities[i]);
     }
@@ -41,16 +48,18 @@ std::vector<Detection> select_detections(const Scene& scene,
                                          std::span<const PoseEstimate> candidates,
                                          const DetectOptions& options, SelectionTrace* trace) {
   std::vector<PoseEstimate> probable;
-  append_probable(probable, candidates, options.min_probability);
+  append_probable(probable, candidates, least_competing(options));
   const std::size_t first_restarted = probable.size();
   std::vector<Detection> detections = select(scene, probable, options);
   if (options.restart_rotation_rad > 0 && !detections.empty()) {
     RefineOptions refine = options.refine;
     refine.search.rotation_rad = options.restart_rotation_rad;
     append_probable(probable, refine_poses(scene, object_poses(detections), refine),
-                    options.min_probability);
+                    least_competing(options));
     detections = select(scene, probable, options);
   }
+  std::erase_if(detections,
+                [&](const Detection& d) { return d.probability < options.min_probability; });
   std::ranges::stable_sort(detections, [](const Detection& a, const Detection& b) {
     return a.probability > b.probability;
   });

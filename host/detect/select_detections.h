@@ -11,12 +11,13 @@ namespace edgescout {
 
 // `candidates` are of all objects, in the world of scene.views, with features. Most probable first.
 //
-// 1. Keeps the probable candidates.
+// 1. Keeps the candidates of at least 0.05, or options.min_probability if that is less.
 // 2. Drops those that collide with more probable ones (plausible_pairs.h).
 // 3. Lets the rest compete for the image's edges (edge_claims.h).
 // 4. Refines the winners again from turned starts: a wrong local optimum loses to a right one near
 // it.
 // 5. Repeats 2 and 3 with all poses.
+// 6. Reports those of options.min_probability or more.
 //
 // `trace`, where given, receives the poses that competed and those that were selected.
 std::vector<Detection> select_detections(const Scene& scene,

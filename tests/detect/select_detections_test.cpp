@@ -32,6 +32,27 @@ TEST(SelectDetections, ViewsThatLookElsewhereDoNotCountAgainstAPose) {
   EXPECT_NEAR(among_others[0].probability, alone[0].probability, 0.02);
 }
 
+// A pose below the threshold competes: refined from turned starts it may pass.
+TEST(SelectDetections, PosesBelowTheThresholdCompeteAndAreNotReported) {
+  const RenderedScene scene({"l_bracket"}, 1, 1);
+  const auto backend = make_cpu_backend(2);
+  const std::vector<ObjectView> views{scene.view(0, *backend)};
+  const Scene seen{scene.models, views, *backend};
+  const ObjectPose truth{0, scene.scene.placed[0].world_from_object};
+  DetectOptions options;
+  const std::vector<PoseEstimate> refined = refine_poses(seen, {&truth, 1}, options.refine);
+  const double probability = select_detections(seen, refined, options)[0].probability;
+  ASSERT_GT(probability, 0.5);
+  for (const double margin : {-0.01, 0.01}) {
+    options.min_probability = probability + margin;
+    SelectionTrace trace;
+    const std::size_t reported = margin < 0 ? 1 : 0;
+    EXPECT_EQ(select_detections(seen, refined, options, &trace).size(), reported);
+    EXPECT_EQ(trace.selected.size(), reported);
+    EXPECT_FALSE(trace.competing.empty());
+  }
+}
+
 // Two views make two poses certain that reach into each other: one is kept. One view does not
 // determine their distances, and both are kept.
 TEST(SelectDetections, OfPosesInsideEachOtherTheBetterStays) {
