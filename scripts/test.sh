@@ -1,10 +1,10 @@
 #!/bin/bash
 # Installs what is missing, builds, and runs what every change must pass.
-#   scripts/test.sh             formatting; links; the whole suite in the release preset; the guard on
-#                               recall and false poses; pages of the C++ API; clang-tidy on
-#                               recently changed files; the tests of kernels, core and io under the
-#                               address and undefined-behaviour sanitizers; the kernels alone
-#                               without Vulkan
+#   scripts/test.sh             formatting; links; the suite in the release preset without its
+#                               longest tests; the guard on recall and false poses; pages of the
+#                               C++ API; clang-tidy on recently changed files; the tests of kernels,
+#                               core and io under the address and undefined-behaviour sanitizers;
+#                               the kernels alone without Vulkan
 #   scripts/test.sh --long      clang-tidy on all files; the whole suite built by clang 16, under
 #                               the address and undefined-behaviour sanitizers, and under the thread
 #                               sanitizer. Prints a line for docs/reliability.md
@@ -50,6 +50,13 @@ test_preset() {
 
 build_and_test() { build_preset "$1" && test_preset "$1"; }
 
+# What runs in the whole suites of --long alone. Each takes 20 s or more, and a shorter test runs
+# most of the same code.
+long_tests='^(cli\.BenchExperiments\.(LetRandom|RunChosen|KilledAndResumed)'
+long_tests+='|cli\.Scout\.DrawsRandomViews|active\.Scout\.FlagsAGrosslyWrong)'
+
+release_without_long_tests() { build_preset release && test_preset release -E "$long_tests"; }
+
 kernels_alone() {
   cmake --preset cpu-only -B build/kernels-only -DEDGESCOUT_HOST=OFF &&
     cmake --build build/kernels-only -j "$jobs"
@@ -65,10 +72,10 @@ api_pages() { cmake --build --preset release --target docs; }
 every_change() {
   step "formatting" scripts/format.sh --check
   step "links of the documents" python3 scripts/check_links.py
-  step "release: build and tests" build_and_test release
+  step "release: build and tests" release_without_long_tests
   step "recall and false poses" scripts/guard.sh
   step "pages of the C++ API" api_pages
-  report "clang-tidy, changed files" env TIDY_SECONDS="${TIDY_SECONDS:-100}" scripts/tidy.sh
+  report "clang-tidy, changed files" env TIDY_SECONDS="${TIDY_SECONDS:-60}" scripts/tidy.sh
   step "address sanitizer: kernels, core, io" checked_parts
   step "kernels alone, without Vulkan" kernels_alone
 }
