@@ -182,18 +182,6 @@ std::vector<PoseEstimate> kept_of_medium(const std::vector<PoseEstimate>& medium
   return kept;
 }
 
-// The selected poses with their features.
-std::vector<PoseEstimate> reported(const SelectionTrace& selection) {
-  std::vector<PoseEstimate> poses;
-  for (const Detection& detection : selection.selected)
-    poses.push_back(*std::ranges::find_if(selection.competing, [&](const PoseEstimate& pose) {
-      return pose.world_from_object.translation_m == detection.world_from_object.translation_m &&
-             pose.world_from_object.rotation.coeffs() ==
-                 detection.world_from_object.rotation.coeffs();
-    }));
-  return poses;
-}
-
 class Collector {
  public:
   Collector(const Arguments& arguments, Backend& backend)
@@ -242,7 +230,8 @@ class Collector {
                                                    searched.object, std::size_t(arguments_.medium)))
       printer.print("medium", pose);
     for (const PoseEstimate& pose : trace.searches[0].fine) printer.print("fine", pose);
-    for (const PoseEstimate& pose : reported(trace.selection)) printer.print("reported", pose);
+    for (const PoseEstimate& pose : selected_estimates(trace.selection))
+      printer.print("reported", pose);
     std::vector<ObjectPose> starts;
     for (const std::size_t i : printer.own)
       starts.push_back({0, printer.truths[i].camera_from_object});

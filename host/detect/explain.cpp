@@ -18,15 +18,8 @@ namespace {
 using Poses = std::vector<PoseEstimate>;
 using Index = std::optional<std::size_t>;
 
-double log_odds(const PoseEstimate& pose) { return PoseClassifier::rank(pose.features); }
+double rank_of(const PoseEstimate& pose) { return PoseClassifier::rank(pose.features); }
 double probability(const PoseEstimate& pose) { return PoseClassifier::probability(pose.features); }
-
-// Both are copies of one estimate.
-bool is_copy(const ObjectPose& a, const ObjectPose& b) {
-  return a.object == b.object &&
-         a.world_from_object.translation_m == b.world_from_object.translation_m &&
-         a.world_from_object.rotation.coeffs() == b.world_from_object.rotation.coeffs();
-}
 
 // `size_px` of 0 reaches to the image's border.
 bool is_between(double px, double from_px, double size_px, int image_px) {
@@ -186,9 +179,13 @@ class LostPose {
     return {features.visible, features.points, features.support};
   }
 
+  bool is_near_start(std::size_t start) const {
+    return is_near_(search_.starts[start].world_from_object);
+  }
+
   Index best_near_start() const {
     for (std::size_t i = 0; i < search_.starts.size(); ++i)
-      if (is_near_(search_.starts[i].world_from_object)) return i;
+      if (is_near_start(i)) return i;
     return std::nullopt;
   }
 
@@ -196,8 +193,8 @@ class LostPose {
     ScanReport scan;
     scan.hits = search_.hits.size();
     scan.aligned = search_.starts.size();
-    for (const ObjectPose& start : search_.starts)
-      if (is_near_(start.world_from_object)) ++scan.aligned_near;
+    for (std::size_t i = 0; i < search_.starts.size(); ++i)
+      if (is_near_start(i)) ++scan.aligned_near;
     scan.own_mean_px =
         scan_mean_px(set_, view_, given_.world_from_object, scene_.backend, options_.scan);
     std::vector<Se3> poses;
@@ -214,10 +211,6 @@ class LostPose {
     const Index start = best_near_start();
     scan.rank = start ? *start + 1 : rank_among_distinct(poses, keys, *best, set_);
     return scan;
-  }
-
-  bool is_near_start(std::size_t start) const {
-    return is_near_(search_.starts[start].world_from_object);
   }
 
   // The best pose of the medium stage that a hit near the given pose became.
@@ -263,15 +256,14 @@ class LostPose {
   RankingReport ranking() const {
     RankingReport ranking;
     ranking.candidates = candidates_.poses.size();
-    if (ranking.candidates > 0) ranking.last_log_odds = log_odds(candidates_.poses.back());
+    if (ranking.candidates > 0) ranking.last_log_odds = rank_of(candidates_.poses.back());
     Poses own = register_poses(scene_, {&given_, 1}, options_.medium);
     measure_features(scene_, own, {options_.refine.score, options_.medium.visibility});
-    ranking.own_log_odds = log_odds(own[0]);
-    const Index aligned = best_same(medium_, log_odds),
-                candidate = best_same(candidates_, log_odds);
+    ranking.own_log_odds = rank_of(own[0]);
+    const Index aligned = best_same(medium_, rank_of), candidate = best_same(candidates_, rank_of);
     if (!aligned) return ranking;
     ranking.is_candidate = candidate.has_value();
-    ranking.log_odds = log_odds(medium_.poses[*aligned]);
+    ranking.log_odds = rank_of(medium_.poses[*aligned]);
     ranking.rank = candidate ? *candidate + 1 : rank_of_aligned(*aligned);
     return ranking;
   }
@@ -281,7 +273,7 @@ class LostPose {
     std::vector<double> keys;
     for (const PoseEstimate& pose : medium_.poses) {
       poses.push_back(pose.world_from_object);
-      keys.push_back(-log_odds(pose));
+      keys.push_back(-rank_of(pose));
     }
     return rank_among_distinct(poses, keys, index, set_);
   }
@@ -298,7 +290,7 @@ class LostPose {
     const PoseEstimate& pose = competing_.poses[*competing];
     selection.competes = true;
     selection.above_chance = psi_z_score(pool_over_views(pose.features)) > 0;
-    const Poses selected = selected_poses();
+    const Poses selected = selected_estimates(selection_);
     std::vector<ObjectPose> others;
     for (std::size_t i = 0; i < selected.size(); ++i)
       if (of_bounds(selected[i]) >= 1)
@@ -309,18 +301,6 @@ class LostPose {
     selection.is_reported =
         selection.selected && selection.rank <= std::size_t(options_.max_detections);
     return selection;
-  }
-
-  // Most probable first, with features.
-  Poses selected_poses() const {
-    Poses selected;
-    for (const Detection& detection : selection_.selected) {
-      const auto pose = std::ranges::find_if(
-          selection_.competing, [&](const PoseEstimate& p) { return is_copy(p, detection); });
-      check(pose != selection_.competing.end(), "explain_loss: a selected pose did not compete");
-      selected.push_back(*pose);
-    }
-    return selected;
   }
 
   // The stage after the last one that held the pose.
@@ -347,7 +327,7 @@ class LostPose {
       case LossStage::Alignment:
         return Rival{*report.alignment.best_hit_became};
       case LossStage::Ranking:
-        return best_claimant(medium_.poses[*best_same(medium_, log_odds)], candidates_.poses);
+        return best_claimant(medium_.poses[*best_same(medium_, rank_of)], candidates_.poses);
       case LossStage::Refinement:
         return Rival{*report.refinement.nearest};
       case LossStage::Selection:
@@ -361,7 +341,7 @@ class LostPose {
     const Poses& competing = competing_.poses;
     const Index lost = best_same(competing_, probability);
     if (!lost) return better_duplicate();
-    std::optional<Rival> winner = best_claimant(competing[*lost], selected_poses());
+    std::optional<Rival> winner = best_claimant(competing[*lost], selected_estimates(selection_));
     if (winner)
       winner->is_restarted =
           std::any_of(competing.begin() + std::ptrdiff_t(selection_.first_restarted),
