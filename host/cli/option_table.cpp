@@ -100,6 +100,16 @@ void CommandLineOptions::range(const OptionInfo& option, Range& field, double lo
   finish(verb_, added, {option.help, group_, option.level});
 }
 
+void CommandLineOptions::numbers(const OptionInfo& option, std::vector<double>& field, int count,
+                                 double low, double high) {
+  finish(verb_,
+         verb_.add_option(std::string("--") + option.name, field, option.help)
+             ->expected(count)
+             ->check(within(low, high))
+             ->capture_default_str(),
+         {option.help, group_, option.level});
+}
+
 void CommandLineOptions::flag(const OptionInfo& option, bool& field) {
   const std::string name = option.name;
   add_flag(verb_, field ? name + ",!--no-" + name : name, field,

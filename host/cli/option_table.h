@@ -29,6 +29,8 @@ class CommandLineOptions : public OptionVisitor {
   void number(const OptionInfo& option, float& field, float low, float high) override;
   void number(const OptionInfo& option, double& field, double low, double high) override;
   void range(const OptionInfo& option, Range& field, double low, double high) override;
+  void numbers(const OptionInfo& option, std::vector<double>& field, int count, double low,
+               double high) override;
   void flag(const OptionInfo& option, bool& field) override;
   void off_flag(const OptionInfo& option, bool& field) override;
 

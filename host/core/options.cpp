@@ -7,11 +7,15 @@
 namespace edgescout {
 
 void BoundsCheck::require(const char* name, double found, double low, double high) const {
-  if (found >= low && found <= high) return;
+  if (!(found >= low && found <= high))
+    fail(name, std::to_string(found), std::to_string(low) + " to " + std::to_string(high));
+}
+
+void BoundsCheck::fail(const char* name, const std::string& found,
+                       const std::string& expected) const {
   std::string field = prefix_ + "." + name;
   std::ranges::replace(field, '-', '_');
-  throw InputError("options", field, std::to_string(found),
-                   std::to_string(low) + " to " + std::to_string(high));
+  throw InputError("options", field, found, expected);
 }
 
 void BoundsCheck::number(const OptionInfo& option, int& field, int low, int high) {
@@ -29,6 +33,14 @@ void BoundsCheck::number(const OptionInfo& option, double& field, double low, do
 void BoundsCheck::range(const OptionInfo& option, Range& field, double low, double high) {
   require(option.name, field.low, low, high);
   require(option.name, field.high, field.low, high);
+}
+
+void BoundsCheck::numbers(const OptionInfo& option, std::vector<double>& field, int count,
+                          double low, double high) {
+  if (field.empty()) return;
+  if (field.size() != std::size_t(count))
+    fail(option.name, std::to_string(field.size()) + " numbers", std::to_string(count));
+  for (const double number : field) require(option.name, number, low, high);
 }
 
 void BoundsCheck::index(const OptionInfo& option, const Index& field,

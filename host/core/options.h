@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace edgescout {
 
@@ -41,6 +42,9 @@ class OptionVisitor {
   virtual void number(const OptionInfo& option, double& field, double low, double high) = 0;
   // Two numbers, the smaller one first. A single number is both ends.
   virtual void range(const OptionInfo& option, Range& field, double low, double high) = 0;
+  // `count` numbers, or none: an empty field.
+  virtual void numbers(const OptionInfo& option, std::vector<double>& field, int count, double low,
+                       double high) = 0;
   virtual void flag(const OptionInfo& option, bool& field) = 0;
   // Given without a value, it sets the field to false: "search-alone" for detect_jointly.
   virtual void off_flag(const OptionInfo& option, bool& field) = 0;
@@ -60,8 +64,8 @@ class OptionVisitor {
 };
 
 // InputError "options: PREFIX.NAME: found FOUND, expected LOW to HIGH" for a number out of bounds,
-// NaN included, and for a range whose ends are out of bounds or in the wrong order. PREFIX is the
-// struct's ("detect"); the name's dashes become underscores.
+// NaN included, for a range whose ends are out of bounds or in the wrong order, and for a wrong
+// number of numbers. PREFIX is the struct's ("detect"); the name's dashes become underscores.
 class BoundsCheck : public OptionVisitor {
  public:
   explicit BoundsCheck(std::string prefix) : prefix_(std::move(prefix)) {}
@@ -70,10 +74,15 @@ class BoundsCheck : public OptionVisitor {
   void number(const OptionInfo& option, float& field, float low, float high) override;
   void number(const OptionInfo& option, double& field, double low, double high) override;
   void range(const OptionInfo& option, Range& field, double low, double high) override;
+  void numbers(const OptionInfo& option, std::vector<double>& field, int count, double low,
+               double high) override;
   void flag(const OptionInfo&, bool&) override {}
   void off_flag(const OptionInfo&, bool&) override {}
   // The same error for a field that is no option, or for a bound that depends on another field.
   void require(const char* name, double found, double low, double high) const;
+  // The same error in other words than those of bounds.
+  [[noreturn]] void fail(const char* name, const std::string& found,
+                         const std::string& expected) const;
 
  private:
   void index(const OptionInfo& option, const Index& field,

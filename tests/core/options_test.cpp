@@ -19,6 +19,7 @@ struct Options {
   float scale_px = 1;
   Colour colour = Colour::Red;
   Range width_px{1, 2};
+  std::vector<double> corner_m{};
 };
 
 void describe(Options& o, OptionVisitor& visit) {
@@ -28,6 +29,7 @@ void describe(Options& o, OptionVisitor& visit) {
   visit.number({"scale", "Scale, px."}, o.scale_px, 0.5f, 2.0f);
   visit.choice({"colour", "Colour."}, o.colour, names);
   visit.range({"width", "Width, px."}, o.width_px, 0.5, 4.0);
+  visit.numbers({"corner", "Corner, m."}, o.corner_m, 3, -1.0, 1.0);
 }
 
 std::string message_of(const Options& options) {
@@ -70,6 +72,20 @@ TEST(CheckBounds, RefusesRangesOutOfBoundsOrWithTheirEndsExchanged) {
        {std::pair{0.4, 2.0}, {1.0, 4.1}, {3.0, 2.0}, {1.0, double(NAN)}, {double(NAN), 1.0}})
     EXPECT_NE(message_of_range(low, high).find("group.width"), std::string::npos)
         << low << " " << high;
+}
+
+TEST(CheckBounds, TakesAllNumbersWithinBoundsOrNone) {
+  const auto message_of_corner = [](const std::vector<double>& corner_m) {
+    Options options;
+    options.corner_m = corner_m;
+    return message_of(options);
+  };
+  EXPECT_EQ(message_of_corner({}), "");
+  EXPECT_EQ(message_of_corner({-1, 0, 1}), "");
+  EXPECT_EQ(message_of_corner({0, 0}), "options: group.corner: found 2 numbers, expected 3");
+  for (const double outside : {1.1, -1.1, double(NAN)})
+    EXPECT_NE(message_of_corner({0, 0, outside}).find("group.corner"), std::string::npos)
+        << outside;
 }
 
 }  // namespace
