@@ -35,6 +35,17 @@ std::vector<EdgeModel> models_of(std::span<const TemplateSet> sets) {
   return models;
 }
 
+namespace {
+
+// The options for a view whose world becomes its camera frame.
+DetectOptions in_camera_frame(DetectOptions options, const Se3& camera_from_world) {
+  Se3& prior_from_world = options.scan.world.prior_from_world;
+  prior_from_world = prior_from_world * inverse(camera_from_world);
+  return options;
+}
+
+}  // namespace
+
 Detections detect_objects(const ObjectView& prepared, std::span<const TemplateSet> sets,
                           Backend& backend, const PipelineOptions& options, DetectTrace* trace) {
   options.validate();
@@ -44,19 +55,20 @@ Detections detect_objects(const ObjectView& prepared, std::span<const TemplateSe
   ObjectView view = prepared;
   add_tensors(view, sets, backend, options.tensor);
   view.camera_from_world = Se3{};  // one view: its camera frame is the world
+  const DetectOptions in_camera = in_camera_frame(options.detect, prepared.camera_from_world);
   watch.lap("tensors");
-  if (trace) trace->view = view;
+  if (trace) trace->view = view, trace->world = in_camera.scan.world;
   std::vector<PoseEstimate> candidates;
   for (std::size_t object = 0; object < sets.size(); ++object)
     for (PoseEstimate& candidate :
-         find_candidates({sets[object], view, {}, backend}, {}, options.detect,
+         find_candidates({sets[object], view, {}, backend}, {}, in_camera,
                          trace ? &trace->searches.emplace_back() : nullptr)) {
       candidate.object = int(object);
       candidates.push_back(std::move(candidate));
     }
   watch.lap("candidates");
   const std::vector<EdgeModel> models = models_of(sets);
-  result.detections = select_detections({models, {&view, 1}, backend}, candidates, options.detect,
+  result.detections = select_detections({models, {&view, 1}, backend}, candidates, in_camera,
                                         trace ? &trace->selection : nullptr);
   watch.lap("selection");
   return result;

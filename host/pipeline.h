@@ -42,7 +42,8 @@ struct Detections {
   std::vector<StageSeconds> stages;  // in the order they ran, without those of prepare_view
 };
 
-// All objects in one prepared view. `trace`, where given, receives what every stage held
+// All objects in one prepared view. Its camera_from_world matters only to a prior in the world
+// (DetectOptions::scan.world). `trace`, where given, receives what every stage held
 // (detect/explain.h).
 Detections detect_objects(const ObjectView& prepared, std::span<const TemplateSet> sets,
                           Backend& backend, const PipelineOptions& options,

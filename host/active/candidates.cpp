@@ -5,6 +5,7 @@
 #include "host/core/order.h"
 #include "host/detect/detect.h"
 #include "host/detect/rescore_in_views.h"
+#include "host/detect/search_space.h"
 #include "host/detect/suppression.h"
 #include "host/register/pose_classifier.h"
 #include "kernels/error.h"
@@ -114,9 +115,15 @@ std::vector<Detection> refined_candidates(const Scene& scene, std::span<const Te
                                           const DetectOptions& options) {
   RefineOptions refine = options.refine;
   refine.search.rotation_rad = 0;  // the search around them was made in their own images
+  const std::vector<SearchSpace> spaces = search_spaces(options.scan.world, scene.models);
   std::vector<Detection> detections;
   for (const PoseEstimate& estimate : refine_poses(scene, object_poses(candidates), refine)) {
-    if (pool_over_views(estimate.features).matched == 0) continue;
+    const auto object = std::size_t(estimate.object);
+    // Further images may move a pose from beside the prior into it.
+    const SearchSlack slack{thresholds::SAME_POSE * scene.models[object].mesh.diameter_m};
+    if (pool_over_views(estimate.features).matched == 0 ||
+        !spaces[object].admits(estimate.world_from_object, slack))
+      continue;
     detections.push_back(to_detection(estimate));
     detections.back().probability = PoseClassifier::probability(estimate.features);
   }

@@ -74,6 +74,7 @@ class Scout {
   void add_image(Update& next, const Image& image) const;
   void search_image(Update& next) const;
   std::vector<Mode> update_belief(Update& next) const;
+  std::vector<ModeDetection> within_prior(std::vector<ModeDetection> found) const;
   void resample_particles(Update& next, std::span<const Mode> modes) const;
   void check_extrinsics(Update& next) const;
   void commit(Update next);

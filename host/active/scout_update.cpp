@@ -2,6 +2,7 @@
 #include "host/active/candidates.h"
 #include "host/active/reference_objects.h"
 #include "host/active/scout.h"
+#include "host/detect/search_space.h"
 #include "host/register/occluders.h"
 #include "kernels/error.h"
 
@@ -101,9 +102,20 @@ std::vector<Mode> Scout::update_belief(Update& next) const {
   for (const Mode& mode : modes) step.mode_probabilities.push_back(mode.probability);
   state.entropy_nats = step.entropy_nats = belief_entropy(modes);
   state.detections = step.detections =
-      mode_detections(scene, sets_, state.particles, modes, options_.detections);
+      within_prior(mode_detections(scene, sets_, state.particles, modes, options_.detections));
   record_stage(watch, "modes");
   return modes;
+}
+
+// Without the poses that the prior in the world excludes.
+std::vector<ModeDetection> Scout::within_prior(std::vector<ModeDetection> found) const {
+  const std::vector<SearchSpace> spaces =
+      search_spaces(options_.pipeline.detect.scan.world, models_);
+  std::erase_if(found, [&](const ModeDetection& mode) {
+    const Detection& pose = mode.detection;
+    return !spaces[std::size_t(pose.object)].admits(pose.world_from_object);
+  });
+  return found;
 }
 
 // The first image: particles around all candidates. Later: a share of them around each candidate

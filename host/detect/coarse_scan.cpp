@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "host/detect/search_space.h"
 #include "host/detect/template_projection.h"
+#include "host/register/thresholds.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
 
@@ -90,6 +93,7 @@ class RegionScan {
         view_(view),
         backend_(backend),
         options_(options),
+        space_(options.world, set.model, view.camera_from_world),
         numbering_{set.views.size(), set.options.in_plane_steps, template_distances_m(set.options)},
         points_(numbering_.count() * options.points),
         jobs_(numbering_.count()),
@@ -101,12 +105,40 @@ class RegionScan {
   }
 
   void append_best(const Region& region, std::size_t most, std::vector<ScanHit>& hits) {
+    parts_.clear();
+    for (const double distance_m : numbering_.distances_m)
+      parts_.push_back(admitted_part(region, distance_m));
+    if (std::ranges::none_of(parts_, &std::optional<Region>::has_value)) return;
     draw_templates(region);
     backend_.template_score(*view_.salient, points_, jobs_, options_.anchor_step, best_anchors_);
     for (const std::size_t t : best_templates(most)) hits.push_back(hit_of(t));
   }
 
  private:
+  // The smallest part with all anchors where the prior admits the object's centre.
+  std::optional<Region> admitted_part(const Region& region, double distance_m) const {
+    if (space_.is_everywhere()) return region;
+    const int step = options_.anchor_step;
+    Eigen::AlignedBox2i part;  // column, row
+    for (int row = 0; row < region.rows; ++row)
+      for (int column = 0; column < region.columns; ++column) {
+        const Eigen::Vector2d anchor(region.x0 + step * column, region.y0 + step * row);
+        if (space_.meets(ray_through(view_.coarse_camera, anchor).normalized(), distance_m,
+                         slack_at(distance_m)))
+          part.extend(Eigen::Vector2i(column, row));
+      }
+    if (part.isEmpty()) return std::nullopt;
+    return Region{region.x0 + step * part.min().x(), region.y0 + step * part.min().y(),
+                  part.sizes().x() + 1, part.sizes().y() + 1, region.middle};
+  }
+
+  // How far beside the pose that it stands for a hit may lie.
+  SearchSlack slack_at(double distance_m) const {
+    return {options_.anchor_step * distance_m / view_.coarse_camera.fx +
+                thresholds::SAME_POSE * set_.model.mesh.diameter_m,
+            set_.options.distance_ratio};
+  }
+
   void draw_templates(const Region& region) {
     constexpr std::size_t chunk = 256;
     const std::size_t count = numbering_.count();
@@ -120,32 +152,42 @@ class RegionScan {
     const ThinnedView& view = views_[numbering_.viewpoint(t)];
     TemplatePoint* points = points_.data() + t * options_.points;
     int count = view.count();
-    is_drawn_[t] = count > 0 && view.project(to_pose(camera_from_object(t, region.middle)),
-                                             view_.salient->intrinsics, float(region.middle.x()),
-                                             float(region.middle.y()), view_.salient->shape.bins,
-                                             nearest_m(set_), points);
+    const std::optional<Region>& part = parts_[t % parts_.size()];
+    is_drawn_[t] =
+        part && count > 0 &&
+        view.project(to_pose(camera_from_object(t, region.middle)), view_.salient->intrinsics,
+                     float(region.middle.x()), float(region.middle.y()), view_.salient->shape.bins,
+                     nearest_m(set_), points);
     if (!is_drawn_[t]) points[0] = {}, count = 1;  // a job needs a point; its answer is not read
+    const Region anchors = part.value_or(Region{region.x0, region.y0, 1, 1, region.middle});
     jobs_[t] = {static_cast<std::uint32_t>(t * options_.points),
                 static_cast<std::uint32_t>(count),
-                region.x0,
-                region.y0,
-                static_cast<std::uint32_t>(region.columns),
-                static_cast<std::uint32_t>(region.rows)};
+                anchors.x0,
+                anchors.y0,
+                static_cast<std::uint32_t>(anchors.columns),
+                static_cast<std::uint32_t>(anchors.rows)};
   }
 
-  // Of the templates that were drawn, lowest rank first.
+  // Of the templates that were drawn, lowest rank first, those whose hits the prior admits.
   std::vector<std::size_t> best_templates(std::size_t most) const {
-    std::vector<std::size_t> order;
+    const auto is_worse = [&](std::size_t a, std::size_t b) {
+      const double rank_a = rank(a), rank_b = rank(b);
+      return rank_a != rank_b ? rank_a > rank_b : a > b;
+    };
+    std::vector<std::size_t> open;
     for (std::size_t t = 0; t < numbering_.count(); ++t)
-      if (is_drawn_[t]) order.push_back(t);
-    const std::size_t kept = std::min(most, order.size());
-    std::partial_sort(order.begin(), order.begin() + kept, order.end(),
-                      [&](std::size_t a, std::size_t b) {
-                        const double rank_a = rank(a), rank_b = rank(b);
-                        return rank_a != rank_b ? rank_a < rank_b : a < b;
-                      });
-    order.resize(kept);
-    return order;
+      if (is_drawn_[t]) open.push_back(t);
+    std::ranges::make_heap(open, is_worse);
+    std::vector<std::size_t> best;
+    for (; best.size() < most && !open.empty(); open.pop_back()) {
+      std::ranges::pop_heap(open, is_worse);
+      if (is_admitted(open.back())) best.push_back(open.back());
+    }
+    return best;
+  }
+
+  bool is_admitted(std::size_t t) const {
+    return space_.admits(hit_of(t).pose.world_from_object, slack_at(numbering_.distance_m(t)));
   }
 
   double mean_px(std::size_t t) const {
@@ -167,9 +209,11 @@ class RegionScan {
   const ObjectView& view_;
   Backend& backend_;
   const ScanOptions& options_;
+  SearchSpace space_;
   TemplateNumbering numbering_;
-  std::vector<ThinnedView> views_;    // by viewpoint
-  std::vector<double> size_weights_;  // by distance
+  std::vector<ThinnedView> views_;            // by viewpoint
+  std::vector<double> size_weights_;          // by distance
+  std::vector<std::optional<Region>> parts_;  // by distance: what is searched of the region
   // By template:
   std::vector<TemplatePoint> points_;  // ScanOptions::points of each
   std::vector<TemplateJob> jobs_;

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "host/detect/world_prior.h"
 #include "host/model/template_set.h"
 #include "host/register/object_view.h"
 
@@ -25,6 +26,7 @@ struct ScanOptions {
                          // not displace the hits of the others
   ImageRegion within;    // of the undistorted image: where the objects' centres are searched;
                          // registration may move a pose a pixel or two out of it
+  WorldPrior world;      // poses outside are not searched; its frame is the views' world
 };
 
 // Factor of ScanHit::rank: the fourth root of the distance. The square root finds one more of 54
@@ -52,7 +54,9 @@ Se3 place_template(const TemplateSet& set, const TemplateView& view, double in_p
 // other way round. `rank` lies between the two.
 //
 // In each region, templates are projected exactly at the region's middle and then shifted, so that
-// perspective changes across the image. InputError: options.within lies outside the image.
+// perspective changes across the image. Anchors and templates whose poses options.world excludes
+// are left out, but for those beside the prior that stand for poses inside; regions without any
+// give no hits. InputError: options.within lies outside the image.
 std::vector<ScanHit> coarse_scan(const TemplateSet& set, const ObjectView& view, Backend& backend,
                                  const ScanOptions& options);
 

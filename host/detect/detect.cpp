@@ -1,5 +1,6 @@
 #include "host/detect/detect.h"
 
+#include "host/detect/search_space.h"
 #include "host/detect/support_views.h"
 #include "host/detect/suppression.h"
 #include "host/detect/template_points.h"
@@ -28,22 +29,11 @@ std::vector<std::size_t> best_distinct_indices(const std::vector<PoseType>& pose
 }
 
 template <typename PoseType>
-std::vector<PoseType> best_distinct_poses(const std::vector<PoseType>& poses,
-                                          const std::vector<double>& keys, const TemplateSet& set,
-                                          std::size_t most) {
-  std::vector<PoseType> best;
-  for (const std::size_t i : best_distinct_indices(poses, keys, set, most))
-    best.push_back(poses[i]);
-  return best;
-}
-
-// Distinct ones, most probable first.
-std::vector<PoseEstimate> most_probable(const std::vector<PoseEstimate>& poses,
-                                        const TemplateSet& set) {
-  std::vector<double> keys;
-  for (const PoseEstimate& pose : poses)
-    keys.push_back(-PoseClassifier::probability(pose.features));
-  return best_distinct_poses(poses, keys, set, poses.size());
+std::vector<PoseType> poses_at(const std::vector<std::size_t>& indices,
+                               const std::vector<PoseType>& poses) {
+  std::vector<PoseType> chosen;
+  for (const std::size_t i : indices) chosen.push_back(poses[i]);
+  return chosen;
 }
 
 // Whether a pose in the frame of this camera lies within a fraction of the object's diameter of a
@@ -80,7 +70,8 @@ class Cascade {
         options_(options),
         views_(views_around(search.view, search.support)),
         is_known_(within_known(known_in_world, set_, search.view.camera_from_world,
-                               thresholds::SAME_POSE)) {}
+                               thresholds::SAME_POSE)),
+        space_(options.scan.world, set_.model, search.view.camera_from_world) {}
 
   // The best distinct hits.
   std::vector<ObjectPose> starts(std::span<const ScanHit> hits) const {
@@ -88,7 +79,7 @@ class Cascade {
     std::vector<double> ranks;
     for (const ScanHit& hit : hits) poses.push_back(hit.pose), ranks.push_back(hit.rank);
     const int most = is_joint() ? options_.coarse_poses_joint : options_.coarse_poses;
-    return best_distinct_poses(poses, ranks, set_, std::size_t(most));
+    return poses_at(best_distinct_indices(poses, ranks, set_, std::size_t(most)), poses);
   }
 
   // Aligns the starts' templates on the coarse tensors.
@@ -104,7 +95,7 @@ class Cascade {
     for (const PoseFeatures& features : template_support(set_, scene_of(views_), aligned))
       keys.push_back(-PoseClassifier::rank(features));
     const int most = is_joint() ? options_.medium_poses_joint : options_.medium_poses;
-    return best_distinct_indices(aligned, keys, set_, std::size_t(most));
+    return best_admitted(aligned, keys, set_.options.distance_ratio, std::size_t(most));
   }
 
   // Aligns poses on the full tensors and measures their features.
@@ -122,7 +113,7 @@ class Cascade {
   std::vector<PoseEstimate> candidates(const std::vector<PoseEstimate>& aligned) const {
     std::vector<double> keys;
     for (const PoseEstimate& pose : aligned) keys.push_back(-PoseClassifier::rank(pose.features));
-    return best_distinct_poses(aligned, keys, set_, std::size_t(options_.candidates));
+    return poses_at(best_admitted(aligned, keys, 1, std::size_t(options_.candidates)), aligned);
   }
 
   std::vector<PoseEstimate> fine(const std::vector<PoseEstimate>& candidates) const {
@@ -134,11 +125,35 @@ class Cascade {
     return refined;
   }
 
+  // Distinct poses, most probable first.
+  std::vector<PoseEstimate> most_probable(const std::vector<PoseEstimate>& refined) const {
+    std::vector<double> keys;
+    for (const PoseEstimate& pose : refined)
+      keys.push_back(-PoseClassifier::probability(pose.features));
+    return poses_at(best_admitted(refined, keys, 1, refined.size()), refined);
+  }
+
  private:
   bool is_joint() const { return views_.size() > 1; }
 
   Scene scene_of(std::span<const ObjectView> views) const {
     return {{&set_.model, 1}, views, backend_};
+  }
+
+  // The best distinct poses of those that the prior admits or that may still be moved there.
+  std::vector<std::size_t> best_admitted(const std::vector<PoseEstimate>& poses,
+                                         const std::vector<double>& keys, double distance_ratio,
+                                         std::size_t most) const {
+    const SearchSlack slack{thresholds::SAME_POSE * set_.model.mesh.diameter_m, distance_ratio};
+    std::vector<std::size_t> indices;
+    std::vector<double> admitted_keys;
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      if (space_.admits(poses[i].world_from_object, slack)) {
+        indices.push_back(i);
+        admitted_keys.push_back(keys[i]);
+      }
+    const std::vector<PoseEstimate> admitted = poses_at(indices, poses);
+    return poses_at(best_distinct_indices(admitted, admitted_keys, set_, most), indices);
   }
 
   void drop_known(std::vector<PoseEstimate>& poses) const {
@@ -151,6 +166,7 @@ class Cascade {
   const DetectOptions& options_;
   std::vector<ObjectView> views_;  // the searched view first; its camera frame is the world
   PoseFilter is_known_;
+  SearchSpace space_;
 };
 
 // From hits that are rescored in the supporting views of `search`.
@@ -165,7 +181,7 @@ std::vector<PoseEstimate> run_cascade(const ObjectSearch& search, std::span<cons
   stages.medium = cascade.medium(stages.coarse, stages.medium_starts);
   stages.candidates = cascade.candidates(stages.medium);
   stages.fine = cascade.fine(stages.candidates);
-  std::vector<PoseEstimate> found = most_probable(stages.fine, search.set);
+  std::vector<PoseEstimate> found = cascade.most_probable(stages.fine);
   if (trace) {
     stages.hits.assign(hits.begin(), hits.end());
     *trace = std::move(stages);

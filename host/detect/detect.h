@@ -31,8 +31,10 @@ PoseFilter near_known(std::span<const Se3> known_in_world, const TemplateSet& se
 // At most options.support_views of search.support are chosen (support_views.h). They take part in
 // all stages: hits are rescored in them and poses are registered in them. Features hold search.view
 // first, then the chosen views. `known_in_world` are instances that need not be found again: hits
-// near them are not aligned, and poses that end within SAME_POSE of one are dropped. `trace`, where
-// given, receives what every stage held.
+// near them are not aligned, and poses that end within SAME_POSE of one are dropped. Poses that
+// options.scan.world excludes are dropped between the stages; those within SAME_POSE of the prior
+// remain, since registration over more images may move them there. `trace`, where given, receives
+// what every stage held.
 std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
                                           std::span<const Se3> known_in_world,
                                           const DetectOptions& options,

@@ -96,6 +96,7 @@ void describe(DetectOptions& o, OptionVisitor& visit) {
 
 void DetectOptions::validate() const {
   check_bounds(*this, "detect");
+  scan.world.validate();
   const BoundsCheck in("detect");
   in.require("region_columns", scan.region_columns, 1, 4096);
   in.require("region_rows", scan.region_rows, 1, 4096);

@@ -33,8 +33,8 @@ struct DetectOptions {
   void validate() const;  // InputError naming the field and the violated bound
 };
 
-// Every option of detection in single images but those of edge_claims and refine, which have their
-// own describe.
+// Every option of detection in single images but those of scan.world, edge_claims and refine, which
+// have their own describe.
 void describe(DetectOptions& options, OptionVisitor& visit);
 // Parts of them that other verbs also have: the search, and of it the numbers of hits and poses.
 void describe_search(DetectOptions& options, OptionVisitor& visit);

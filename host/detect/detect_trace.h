@@ -42,6 +42,7 @@ std::vector<PoseEstimate> selected_estimates(const SelectionTrace& selection);
 
 struct DetectTrace {
   ObjectView view;                    // with tensors; its camera frame is the world
+  WorldPrior world;                   // as it was searched, for this camera frame
   std::vector<SearchTrace> searches;  // by object
   SelectionTrace selection;
 };

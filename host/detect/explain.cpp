@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "host/detect/search_space.h"
 #include "host/detect/suppression.h"
 #include "host/detect/template_support.h"
 #include "host/model/viewpoint_index.h"
@@ -84,6 +85,7 @@ class LostPose {
         options_(options),
         is_same_(object_of(set), view_.camera, given.world_from_object, same),
         is_near_(near_the(given, set, view_.camera)),
+        space_(trace.world, set.model, Se3{}),
         search_(trace.searches[std::size_t(given.object)]),
         medium_(of_search(search_.medium)),
         candidates_(of_search(search_.candidates)),
@@ -168,6 +170,7 @@ class LostPose {
     range.in_viewpoints = range.viewpoint_angle_rad <= ICOSPHERE_GAP_RAD / searched.frequency;
     range.in_region = is_between(center_px.x(), region.x, region.width, camera.width) &&
                       is_between(center_px.y(), region.y, region.height, camera.height);
+    range.in_prior = space_.admits(given_.world_from_object);
     return range;
   }
 
@@ -381,6 +384,7 @@ class LostPose {
   const ObjectPose given_;
   const DetectOptions& options_;
   SamePose is_same_, is_near_;
+  SearchSpace space_;
   const SearchTrace& search_;
   HeldPoses medium_, candidates_, fine_;
   const SelectionTrace& selection_;

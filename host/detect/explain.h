@@ -4,7 +4,8 @@
 // that held it lost it.
 //
 //   stage        holds the given pose if
-//   range        its centre lies in the searched distances, viewpoints and region
+//   range        its centre lies in the searched distances, viewpoints and region, and the prior in
+//                the world admits it
 //   edges        the image supports it more than copies of it beside it (kernels/edge_support.h)
 //   scan         a hit that is aligned lies within a quarter of the object's size in the image
 //   support      such a hit, aligned on the coarse tensor, enters the medium stage
@@ -63,7 +64,8 @@ struct RangeReport {
   bool in_distances = false;                      // of the templates
   bool in_viewpoints = false;                     // within half the distance between viewpoints
   bool in_region = false;                         // of the search, inside the image
-  bool holds() const { return in_distances && in_viewpoints && in_region; }
+  bool in_prior = false;                          // in the world (detect/world_prior.h)
+  bool holds() const { return in_distances && in_viewpoints && in_region && in_prior; }
 };
 
 struct EdgesReport {

@@ -3,17 +3,12 @@
 #include <algorithm>
 
 #include "host/detect/detect.h"
+#include "host/detect/search_space.h"
 #include "host/register/pose_classifier.h"
 
 namespace edgescout {
 
 namespace {
-
-void append_probable(std::vector<PoseEstimate>& probable, std::span<const PoseEstimate> poses,
-                     double min_probability) {
-  for (const PoseEstimate& pose : poses)
-    if (PoseClassifier::probability(pose.features) >= min_probability) probable.push_back(pose);
-}
 
 // Poses of a lower probability do not compete. Those below the threshold of reported poses do: the
 // refinement from turned starts may raise them above it.
@@ -21,6 +16,27 @@ double least_competing(const DetectOptions& options) {
   constexpr double most = 0.05;
   return std::min(most, options.min_probability);
 }
+
+// The poses that are probable enough to compete, and that the prior admits.
+class Competitors {
+ public:
+  Competitors(const Scene& scene, const DetectOptions& options)
+      : spaces_(search_spaces(options.scan.world, scene.models)),
+        least_probability_(least_competing(options)) {}
+
+  void append(std::span<const PoseEstimate> poses) {
+    for (const PoseEstimate& pose : poses)
+      if (PoseClassifier::probability(pose.features) >= least_probability_ &&
+          spaces_[std::size_t(pose.object)].admits(pose.world_from_object))
+        poses_.push_back(pose);
+  }
+  const std::vector<PoseEstimate>& poses() const { return poses_; }
+
+ private:
+  std::vector<SearchSpace> spaces_;  // by object
+  double least_probability_;
+  std::vector<PoseEstimate> poses_;
+};
 
 // The poses that can exist together and explain edges of their own, in the order of their claims.
 std::vector<Detection> select(const Scene& scene, std::span<const PoseEstimate> poses,
@@ -47,23 +63,22 @@ std::vector<Detection> select(const Scene& scene, std::span<const PoseEstimate> 
 std::vector<Detection> select_detections(const Scene& scene,
                                          std::span<const PoseEstimate> candidates,
                                          const DetectOptions& options, SelectionTrace* trace) {
-  std::vector<PoseEstimate> probable;
-  append_probable(probable, candidates, least_competing(options));
-  const std::size_t first_restarted = probable.size();
-  std::vector<Detection> detections = select(scene, probable, options);
+  Competitors competing(scene, options);
+  competing.append(candidates);
+  const std::size_t first_restarted = competing.poses().size();
+  std::vector<Detection> detections = select(scene, competing.poses(), options);
   if (options.restart_rotation_rad > 0 && !detections.empty()) {
     RefineOptions refine = options.refine;
     refine.search.rotation_rad = options.restart_rotation_rad;
-    append_probable(probable, refine_poses(scene, object_poses(detections), refine),
-                    least_competing(options));
-    detections = select(scene, probable, options);
+    competing.append(refine_poses(scene, object_poses(detections), refine));
+    detections = select(scene, competing.poses(), options);
   }
   std::erase_if(detections,
                 [&](const Detection& d) { return d.probability < options.min_probability; });
   std::ranges::stable_sort(detections, [](const Detection& a, const Detection& b) {
     return a.probability > b.probability;
   });
-  if (trace) *trace = {std::move(probable), first_restarted, detections};
+  if (trace) *trace = {competing.poses(), first_restarted, detections};
   if (int(detections.size()) > options.max_detections) detections.resize(options.max_detections);
   return detections;
 }

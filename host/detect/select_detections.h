@@ -11,7 +11,8 @@ namespace edgescout {
 
 // `candidates` are of all objects, in the world of scene.views, with features. Most probable first.
 //
-// 1. Keeps the candidates of at least 0.05, or options.min_probability if that is less.
+// 1. Keeps the candidates of at least 0.05, or options.min_probability if that is less, that
+//    options.scan.world admits.
 // 2. Drops those that collide with more probable ones (plausible_pairs.h).
 // 3. Lets the rest compete for the image's edges (edge_claims.h).
 // 4. Refines the winners again from turned starts: a wrong local optimum loses to a right one near

@@ -145,6 +145,50 @@ TEST(CoarseScan, LooksWhereItIsToldTo) {
   }
 }
 
+// Two parts of one kind: the scan looks only where the prior holds one of them.
+TEST(CoarseScan, LooksWhereThePriorMayHoldTheObject) {
+  const auto backend = make_cpu_backend(2);
+  const TemplateSet set = part_templates("l_bracket", 2, 0.27, 0.33, *backend);
+  const EdgeModel dense = part_model("l_bracket", 7.5e-4);
+  const double distance = template_distances_m(set.options)[1];
+  std::vector<EdgePoint> edges;
+  Se3 truth;  // of the second one
+  for (const Eigen::Vector2d& place : {Eigen::Vector2d(80, 120), {240, 120}}) {
+    truth = place_template(set, set.views[7], 0, distance, place, small_camera());
+    for (const EdgePoint& edge : ideal_edges(dense, small_camera(), truth, *backend))
+      edges.push_back(edge);
+  }
+  Random random = test_random();
+  ObjectView image = view_of_edges(edges, small_camera(), 1, *backend);
+  image.camera_from_world = inverse({random.rotation(), {1, 2, 0.5}});
+  const Eigen::Vector3d center = inverse(image.camera_from_world) * (truth * set.model.center_m);
+  ScanOptions options;
+  const auto hits_within = [&](double half_m) {
+    const Eigen::Vector3d least = center.array() - half_m, most = center.array() + half_m;
+    options.world.box_m = {least.x(), least.y(), least.z(), most.x(), most.y(), most.z()};
+    return coarse_scan(set, image, *backend, options);
+  };
+  const std::vector<ScanHit> all = coarse_scan(set, image, *backend, {}), far = hits_within(9),
+                             near = hits_within(0.01);
+  ASSERT_EQ(far.size(), all.size()) << "a box that holds everything";
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(far[i].pose.world_from_object.translation_m,
+              all[i].pose.world_from_object.translation_m);
+    EXPECT_EQ(far[i].rank, all[i].rank);
+  }
+  EXPECT_LT(near.size(), all.size() / 4);
+  EXPECT_LT(angle_between_rad(best_of(near).pose.world_from_object, truth), 1e-3);
+  EXPECT_LT(distance_between_m(best_of(near).pose.world_from_object, truth), 1e-6);
+  for (const ScanHit& hit : near) {
+    const Eigen::Vector3d off =
+        hit.pose.world_from_object * set.model.center_m - truth * set.model.center_m;
+    // To the box's corners, the slack, half of a step of the distance.
+    EXPECT_LT(off.norm(), 0.03 + 0.1 * set.model.mesh.diameter_m + 0.05 * distance);
+  }
+  options.world.box_m = {5, 5, 5, 6, 6, 6};
+  EXPECT_TRUE(coarse_scan(set, image, *backend, options).empty());
+}
+
 // Part of the object lies outside the image: another template elsewhere must not win.
 TEST(CoarseScan, FindsAnObjectThatReachesOverTheBorder) {
   const auto backend = make_cpu_backend(2);

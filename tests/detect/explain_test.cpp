@@ -108,6 +108,14 @@ TEST(ExplainLoss, NamesTheRange) {
   EXPECT_FALSE(outside.range.in_region);
   EXPECT_TRUE(outside.range.in_distances);
 
+  options.detect.scan.within = {};
+  options.detect.scan.world.box_m = {0, 0, 0, 0.1, 0.1, 0.1};  // in front of the camera
+  const LossReport beside = Traced(part, options).explain_placed(0);
+  EXPECT_EQ(beside.lost_at, LossStage::Range);
+  EXPECT_FALSE(beside.range.in_prior);
+  EXPECT_TRUE(beside.range.in_region);
+  EXPECT_TRUE(outside.range.in_prior);
+
   RenderedPart nearer = part;
   TemplateOptions templates = near_templates(0.03);
   templates.distance_min_m = 0.1, templates.distance_max_m = 0.12;
