@@ -139,7 +139,10 @@ class Detector {
   // Returns nothing if the device cannot detect, as in an image too large for it.
   std::optional<Detections> detect(const Group& group, std::span<const PreparedView> prepared) {
     std::vector<ObjectView> views;
-    for (const PreparedView& one : prepared) views.push_back(one.view);
+    for (std::size_t i = 0; i < prepared.size(); ++i) {
+      views.push_back(prepared[i].view);
+      views.back().camera_from_world = group.images[i]->camera_from_world.value_or(Se3{});
+    }
     try {
       Detections found = options_.joint
                              ? detect_jointly(views, sets_, backend_, options_.pipeline)

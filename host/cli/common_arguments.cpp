@@ -38,6 +38,7 @@ void add_detection_options(CLI::App& verb, TemplateOptions& templates, PipelineO
   describe(pipeline.edges, add);
   describe(pipeline.tensor, add);
   describe(pipeline.detect, add);
+  describe(pipeline.detect.scan.world, add);
   describe(pipeline.detect.edge_claims, add);
 }
 

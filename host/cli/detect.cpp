@@ -42,14 +42,16 @@ void check_scenes(std::span<const InputImage> images, const DistanceRange& searc
 std::vector<TemplateSet> template_sets(const DetectRequest& request,
                                        std::span<const InputImage> images, Backend& backend) {
   const KnownModels known = load_models(request.models);
-  const Camera camera = first_camera(images, request.batch.camera_file, request.batch.scale_camera);
+  const SearchedImages searched = searched_images(
+      images, first_camera(images, request.batch.camera_file, request.batch.scale_camera),
+      request.batch.pipeline.detect.scan.world);
   if (request.batch.joint) require_joinable(images);
   require_other_folder(images, request.batch.out);
   require_writable_place(request.batch.out);
   if (!request.batch.resume) require_no_other_results(request.batch.out, images);
   if (request.batch.joint)
-    check_scenes(images, searched_distances(known, request.templates, camera), camera);
-  return template_sets_of(known, request.templates, camera, backend);
+    check_scenes(images, searched_distances(known, request.templates, searched), searched.camera);
+  return template_sets_of(known, request.templates, searched, backend);
 }
 
 int detect(DetectRequest& request) {

@@ -108,8 +108,10 @@ class Explainer {
   // InputError: the image cannot be used.
   void explain(const RegisterJob& job) {
     const ReadyJob ready = prepare_job(job, backend_, request_.images);
+    ObjectView view = ready.views[0].view;
+    view.camera_from_world = job.views[0].camera_from_world.value_or(Se3{});
     DetectTrace trace;
-    detect_objects(ready.views[0].view, sets_, backend_, request_.images.pipeline, &trace);
+    detect_objects(view, sets_, backend_, request_.images.pipeline, &trace);
     for (std::size_t i = 0; i < ready.starts.size(); ++i) {
       try {
         explain(ready, i, trace);
@@ -186,11 +188,13 @@ ExitCode explain(ExplainRequest& request) {
   const KnownModels known = load_models(request.models);
   RegisterOptions& options = request.images;
   if (!options.camera_file.empty()) options.camera = load_camera(options.camera_file);
-  const Camera camera = first_camera(images, options.camera_file, options.scale_camera);
+  const SearchedImages searched =
+      searched_images(images, first_camera(images, options.camera_file, options.scale_camera),
+                      options.pipeline.detect.scan.world);
   const std::vector<RegisterJob> jobs = jobs_of(request, images, known);
   require_safe_out(request, images);
   const std::vector<TemplateSet> sets =
-      template_sets_of(known, request.templates, camera, *backend);
+      template_sets_of(known, request.templates, searched, *backend);
   Explainer explainer(request, sets, *backend);
   Progress progress("explain", jobs.size(), std::cerr, stderr_is_terminal());
   for (const RegisterJob& job : jobs) {

@@ -34,10 +34,12 @@ std::string features_text(const FoundPose& pose) {
 }
 
 std::string range_text(const RangeReport& r) {
-  return fmt::format("{:.3f} m away, searched {:.3f} to {:.3f} m; {:.2f} rad from a viewpoint{}{}",
-                     r.distance_m, r.distance_min_m, r.distance_max_m, r.viewpoint_angle_rad,
-                     r.in_viewpoints ? "" : ", not searched from there",
-                     r.in_region ? "" : "; its centre is outside the searched region");
+  return fmt::format(
+      "{:.3f} m away, searched {:.3f} to {:.3f} m; {:.2f} rad from a viewpoint{}{}{}", r.distance_m,
+      r.distance_min_m, r.distance_max_m, r.viewpoint_angle_rad,
+      r.in_viewpoints ? "" : ", not searched from there",
+      r.in_region ? "" : "; its centre is outside the searched region",
+      r.in_prior ? "" : "; outside --world-box or --world-plane");
 }
 
 std::string edges_text(const EdgesReport& e) {
@@ -193,13 +195,10 @@ json or_null(const std::optional<T>& value) {
 }
 
 json range_json(const RangeReport& r) {
-  return {{"distance_m", r.distance_m},
-          {"distance_min_m", r.distance_min_m},
-          {"distance_max_m", r.distance_max_m},
-          {"viewpoint_angle_rad", r.viewpoint_angle_rad},
-          {"in_distances", r.in_distances},
-          {"in_viewpoints", r.in_viewpoints},
-          {"in_region", r.in_region}};
+  return {{"distance_m", r.distance_m},         {"distance_min_m", r.distance_min_m},
+          {"distance_max_m", r.distance_max_m}, {"viewpoint_angle_rad", r.viewpoint_angle_rad},
+          {"in_distances", r.in_distances},     {"in_viewpoints", r.in_viewpoints},
+          {"in_region", r.in_region},           {"in_prior", r.in_prior}};
 }
 
 json stages_json(const LossReport& r, int object) {

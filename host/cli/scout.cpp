@@ -45,9 +45,11 @@ std::vector<Object> objects_of(const KnownModels& known) {
 
 // Distances that the user does not give: those of the views from the point that they look at, and
 // 15 % more at both ends. If there is no such point, the distances stay at 0 and come from the
-// objects' sizes.
-TemplateOptions with_distances_of(TemplateOptions options, const std::vector<Se3>& views) {
-  if (options.distance_min_m > 0 || options.distance_max_m > 0) return options;
+// objects' sizes. With a box they also stay at 0 and come from the box.
+TemplateOptions with_distances_of(TemplateOptions options, const WorldPrior& prior,
+                                  const std::vector<Se3>& views) {
+  if (options.distance_min_m > 0 || options.distance_max_m > 0 || !prior.box_m.empty())
+    return options;
   const std::optional<Eigen::Vector3d> center_m = looked_at_m(views);
   if (!center_m) {
     log(LogLevel::Warning,
@@ -188,12 +190,14 @@ int scout(ScoutRequest& request, const CLI::App& verb) {
   std::optional<ScoutState> saved = state_to_resume(request, file, source);
   require_writable_folder(request.out);
   const std::vector<Se3> views = source.source->views();
+  const SearchedImages searched{source.source->camera(), request.options.pipeline.detect.scan.world,
+                                views};
   const TemplateOptions templates =
-      known.objects.empty() ? request.templates : with_distances_of(request.templates, views);
-  const Camera camera = source.source->camera();
-  check_views(views, searched_distances(known, templates, camera), source);
-  const std::vector<TemplateSet> sets = template_sets_of(known, templates, camera, *backend);
-  Scout scout(sets, source.source->camera(), views, request.options, *backend);
+      known.objects.empty() ? request.templates
+                            : with_distances_of(request.templates, searched.prior, views);
+  check_views(views, searched_distances(known, templates, searched), source);
+  const std::vector<TemplateSet> sets = template_sets_of(known, templates, searched, *backend);
+  Scout scout(sets, searched.camera, views, request.options, *backend);
   if (saved)
     scout.resume(std::move(*saved), file.string());
   else
@@ -231,6 +235,7 @@ void add_options(CLI::App& verb, ScoutRequest& r) {
   describe(r.options.pipeline.edges, add);
   describe(r.options.pipeline.tensor, add);
   describe_search(r.options.pipeline.detect, add);
+  describe(r.options.pipeline.detect.scan.world, add);
   describe(r.options.detections, add);
 }
 

@@ -77,10 +77,30 @@ void check_size(const Mesh& mesh, const TemplateOptions& options, const Camera& 
     log(LogLevel::Warning, warning);
 }
 
+TemplateOptions with_distances(const TemplateOptions& options, double diameter_m,
+                               const SearchedImages& images) {
+  return with_default_distances(with_distances_to_box(options, diameter_m, images.camera,
+                                                      images.prior, images.camera_from_world),
+                                diameter_m, images.camera);
+}
+
 }  // namespace
 
+SearchedImages searched_images(std::span<const InputImage> images, const Camera& camera,
+                               const WorldPrior& prior) {
+  SearchedImages searched{camera, prior, {}};
+  if (!prior.is_given()) return searched;
+  for (const InputImage& image : images) {
+    if (!image.camera_from_world)
+      throw InputError(image.file.string(), "world pose", "none",
+                       "cam_R_w2c and cam_t_w2c of every image with --world-box or --world-plane");
+    searched.camera_from_world.push_back(*image.camera_from_world);
+  }
+  return searched;
+}
+
 DistanceRange searched_distances(const KnownModels& known, const TemplateOptions& options,
-                                 const Camera& camera) {
+                                 const SearchedImages& images) {
   DistanceRange range{INFINITY, 0};
   const auto include = [&range](const TemplateOptions& of_object) {
     range.min_m = std::min(range.min_m, of_object.distance_min_m);
@@ -88,22 +108,22 @@ DistanceRange searched_distances(const KnownModels& known, const TemplateOptions
   };
   for (const TemplateSet& set : known.sets) include(set.options);
   for (const Object& object : known.objects)
-    include(with_default_distances(options, object.mesh.diameter_m, camera));
+    include(with_distances(options, object.mesh.diameter_m, images));
   return range;
 }
 
 std::vector<TemplateSet> template_sets_of(const KnownModels& known, const TemplateOptions& options,
-                                          const Camera& camera, Backend& backend) {
+                                          const SearchedImages& images, Backend& backend) {
+  const Camera& camera = images.camera;
   std::vector<TemplateSet> sets = known.sets;
   for (const TemplateSet& set : sets) check_size(set.model.mesh, set.options, camera);
   for (const Object& object : known.objects)
-    check_size(object.mesh, with_default_distances(options, object.mesh.diameter_m, camera),
-               camera);
+    check_size(object.mesh, with_distances(options, object.mesh.diameter_m, images), camera);
   for (const Object& object : known.objects) {
     Progress progress("templates of " + object.mesh.name, 100, std::cerr, stderr_is_terminal());
-    sets.push_back(
-        build_templates(object, with_default_distances(options, object.mesh.diameter_m, camera),
-                        backend, [&](int done, int all) { progress.move_to(100 * done / all); }));
+    sets.push_back(build_templates(object, with_distances(options, object.mesh.diameter_m, images),
+                                   backend,
+                                   [&](int done, int all) { progress.move_to(100 * done / all); }));
   }
   for (const TemplateSet& set : sets) {
     log_sizes(set, camera);

@@ -5,6 +5,7 @@
 
 #include "host/active/camera_pose_check.h"
 #include "host/cli/inputs.h"
+#include "host/detect/world_prior.h"
 #include "host/model/template_set.h"
 
 namespace edgescout {
@@ -26,15 +27,26 @@ struct KnownModels {
 // InputError: neither meshes nor templates, or both; a file that cannot be read; an id given twice.
 KnownModels load_models(const ModelArguments& arguments);
 
+// The images that are searched, as far as the distances depend on them.
+struct SearchedImages {
+  Camera camera;
+  WorldPrior prior;
+  std::vector<Se3> camera_from_world;  // of all images; not read without a prior
+};
+
+// InputError naming the first image without a world pose, if a prior is given.
+SearchedImages searched_images(std::span<const InputImage> images, const Camera& camera,
+                               const WorldPrior& prior);
+
 // From the nearest to the farthest distance at which an object is searched. Distances left at 0:
-// with_default_distances for `camera`.
+// with_distances_to_box, without a box with_default_distances.
 DistanceRange searched_distances(const KnownModels& known, const TemplateOptions& options,
-                                 const Camera& camera);
+                                 const SearchedImages& images);
 
 // Builds the missing templates and shows the progress on standard error. Logs the size of every
-// object and the range of its distances, and warns of meshes with defects. Distances left at 0:
-// with_default_distances for `camera`.
+// object and the range of its distances, and warns of meshes with defects. Distances left at 0: as
+// searched_distances.
 std::vector<TemplateSet> template_sets_of(const KnownModels& known, const TemplateOptions& options,
-                                          const Camera& camera, Backend& backend);
+                                          const SearchedImages& images, Backend& backend);
 
 }  // namespace edgescout

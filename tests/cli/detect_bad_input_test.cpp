@@ -74,6 +74,30 @@ TEST(Detect, RefusesAPartThatCannotBeSeen) {
   EXPECT_NE(warned.err.find("expected 12 to 320 px"), std::string::npos) << warned.err;
 }
 
+TEST(Detect, RefusesPriorsThatAreNone) {
+  const SmallScene t;
+  const auto refused = [&](const fs::path& input, const std::vector<std::string>& more,
+                           std::initializer_list<std::string> words) {
+    expect_refused(t.detect(input, joined({bracket(), more})), words);
+    EXPECT_FALSE(fs::exists(t.out)) << "something was written";
+  };
+  refused(t.scene, {"--world-box", "0", "0", "0.1", "1", "1", "0.1"},
+          {"detect.world_box", "1 x 1 x 0 m", "corners"});
+  refused(t.scene, {"--world-box", "0", "0", "0", "1", "1"}, {"--world-box", "6"});
+  refused(t.scene, {"--world-box", "0", "0", "0", "1", "1", "x"}, {"--world-box", "x"});
+  refused(t.scene, {"--world-plane", "0", "0", "0", "1"}, {"detect.world_plane", "length 0"});
+  refused(t.scene, {"--world-plane", "0", "0", "1"}, {"--world-plane", "4"});
+  refused(t.scene, {"--plane-tolerance", "-1"}, {"--plane-tolerance", "-1"});
+  for (const std::vector<std::string>& prior : std::vector<std::vector<std::string>>{
+           {"--world-box", "0", "0", "0", "1", "1", "1"}, {"--world-plane", "0", "0", "1", "0"}})
+    refused(t.image(), joined({prior, {"--camera", t.camera()}}),
+            {"000000.png", "world pose", "found none", "--world-box"});
+  // Without distances they come from the box.
+  expect_refused(t.detect(t.scene, {"--model", part_file(1), "--unit", "mm", "--world-box", "40",
+                                    "0", "0", "41", "1", "1"}),
+                 {"detect.world_box", "from the cameras", "--distance-min"});
+}
+
 TEST(Detect, RefusesCamerasThatDoNotFit) {
   const SmallScene t;
   const auto refused = [&](const std::vector<std::string>& more,

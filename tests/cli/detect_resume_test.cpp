@@ -148,6 +148,23 @@ TEST(DetectResume, TakesUpTheSameSettings) {
   EXPECT_EQ(t.summary().at("skipped"), 1);
 }
 
+TEST(DetectResume, RefusesResultsOfAnotherPrior) {
+  const SmallScene t;
+  const auto call = [&](const std::string& top, const std::vector<std::string>& more) {
+    return t.detect(
+        t.scene,
+        joined({bracket(), {"--world-box", "-0.2", "-0.2", "-0.05", "0.2", "0.2", top}, more}));
+  };
+  ASSERT_EQ(run_program(call("0.1", {})).exit_code, 0);
+  EXPECT_EQ(run_program(call("0.1", {"--resume"})).exit_code, 0);
+  const Outcome other = run_program(call("0.11", {"--resume"}));
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_NE(other.err.find("world-box: found [-0.2,-0.2,-0.05,0.2,0.2,0.1], expected"),
+            std::string::npos)
+      << other.err;
+  EXPECT_EQ(run_program(t.detect(t.scene, joined({bracket(), {"--resume"}}))).exit_code, 2);
+}
+
 TEST(DetectResume, GoesOnAfterBeingKilled) {
   const Copies t(6);
   ASSERT_TRUE(run_program_until(t.arguments(), [&] { return fs::exists(t.json(0)); }));

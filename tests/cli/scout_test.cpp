@@ -143,6 +143,20 @@ TEST(Scout, LooksFromTheViewsOfAFile) {
   EXPECT_TRUE(log["detections"][0].at("off_truth").at("right"));
 }
 
+// The distances come from the box.
+TEST(Scout, KeepsToABoxInTheWorld) {
+  const SmallScout t;
+  const auto objects_in = [&](const std::string& x0, const std::string& x1) {
+    const Outcome outcome =
+        run_program(t.arguments({"--world-box", x0, "-0.1", "-0.01", x1, "0.1", "0.05"}));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return t.log().at("detections").size();
+  };
+  EXPECT_EQ(objects_in("-0.1", "0.1"), 1u);
+  EXPECT_TRUE(t.log()["detections"][0].at("off_truth").at("right"));
+  EXPECT_EQ(objects_in("0.15", "0.25"), 0u);
+}
+
 // A fixed sequence begins with its first view.
 TEST(Scout, FollowsTheSequence) {
   const SmallScout t;
