@@ -13,13 +13,9 @@
 #include <vector>
 
 #include "host/core/types.h"
+#include "host/model/template_set.h"
 
 namespace edgescout {
-
-// From cameras to objects.
-struct DistanceRange {
-  double min_m = 0, max_m = 0;
-};
 
 struct PosedCamera {
   Camera camera;

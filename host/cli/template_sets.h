@@ -3,7 +3,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include "host/active/camera_pose_check.h"
 #include "host/cli/inputs.h"
 #include "host/detect/world_prior.h"
 #include "host/model/template_set.h"

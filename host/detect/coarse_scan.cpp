@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "host/detect/search_space.h"
@@ -62,7 +63,8 @@ Region region_at(AnchorRange across, AnchorRange down, int step) {
   return region;
 }
 
-std::vector<Region> cut_into_regions(const ObjectView& view, const ScanOptions& options) {
+std::vector<Region> cut_into_regions(const ObjectView& view, const ReducedTensors& level,
+                                     const ScanOptions& options) {
   const ImageRegion& within = options.within;
   if (within.x >= view.camera.width || within.y >= view.camera.height)
     throw InputError(
@@ -73,9 +75,9 @@ std::vector<Region> cut_into_regions(const ObjectView& view, const ScanOptions& 
     return size_px > 0 ? from_px + size_px : INFINITY;
   };
   const AnchorRange across = anchors_between(within.x, end_px(within.x, within.width),
-                                             view.reduction, view.coarse_camera.width, step),
+                                             level.reduction, level.camera.width, step),
                     down = anchors_between(within.y, end_px(within.y, within.height),
-                                           view.reduction, view.coarse_camera.height, step);
+                                           level.reduction, level.camera.height, step);
   std::vector<Region> regions;
   for (int r = down.begin; r < down.end; r += options.region_rows)
     for (int c = across.begin; c < across.end; c += options.region_columns)
@@ -84,141 +86,210 @@ std::vector<Region> cut_into_regions(const ObjectView& view, const ScanOptions& 
   return regions;
 }
 
-// Scans one region after the other with the same buffers.
-class RegionScan {
- public:
-  RegionScan(const TemplateSet& set, const ObjectView& view, Backend& backend,
-             const ScanOptions& options)
-      : set_(set),
-        view_(view),
-        backend_(backend),
-        options_(options),
-        space_(options.world, set.model, view.camera_from_world),
-        numbering_{set.views.size(), set.options.in_plane_steps, template_distances_m(set.options)},
-        points_(numbering_.count() * options.points),
-        jobs_(numbering_.count()),
-        best_anchors_(numbering_.count()),
-        is_drawn_(numbering_.count()) {
-    for (const TemplateView& viewpoint : set.views) views_.emplace_back(viewpoint, options.points);
-    for (const double distance_m : numbering_.distances_m)
-      size_weights_.push_back(scan_size_weight(distance_m));
+// A template at its best anchor of a region.
+struct ScoredTemplate {
+  std::size_t number;
+  Eigen::Vector2d anchor_px;
+  double mean_px, rank;
+  auto key() const { return std::pair(rank, number); }
+};
+
+// One scale of a template set and the tensors on which it is scanned.
+struct SearchedScale {
+  const TemplateSet& set;
+  int index;  // of distance_scales
+  const ReducedTensors& level;
+  TemplateNumbering numbering;
+
+  SearchedScale(const TemplateSet& templates, int scale, const ObjectView& view)
+      : set(templates),
+        index(scale),
+        level(view.reduced[level_of_scale(templates, scale, view)]),
+        numbering{
+            set.views.size(), set.options.in_plane_steps,
+            template_distances_m(set.options, distance_scales(set.options)[std::size_t(scale)])} {}
+
+  Se3 camera_from_object(std::size_t number, const Eigen::Vector2d& anchor_px) const {
+    return place_template(set, set.views[std::size_t(numbering.viewpoint(number))],
+                          numbering.in_plane_rad(number), numbering.distance_m(number), anchor_px,
+                          level.camera);
   }
 
-  void append_best(const Region& region, std::size_t most, std::vector<ScanHit>& hits) {
-    parts_.clear();
-    for (const double distance_m : numbering_.distances_m)
-      parts_.push_back(admitted_part(region, distance_m));
-    if (std::ranges::none_of(parts_, &std::optional<Region>::has_value)) return;
-    draw_templates(region);
-    backend_.template_score(*view_.salient, points_, jobs_, options_.anchor_step, best_anchors_);
-    for (const std::size_t t : best_templates(most)) hits.push_back(hit_of(t));
+  ScanHit hit_of(const ScoredTemplate& scored) const {
+    return {{0, camera_from_object(scored.number, scored.anchor_px)},
+            numbering.viewpoint(scored.number),
+            index,
+            scored.mean_px,
+            scored.rank};
+  }
+};
+
+// What a prior in the world leaves of the search of one scale.
+class AdmittedSearch {
+ public:
+  AdmittedSearch(const SearchedScale& scale, const ObjectView& view, const ScanOptions& options)
+      : scale_(scale),
+        anchor_step_(options.anchor_step),
+        space_(options.world, scale.set.model, view.camera_from_world) {}
+
+  // By distance: the smallest part of a region with all anchors where the object's centre may be.
+  std::vector<std::optional<Region>> parts_of(const Region& region) const {
+    std::vector<std::optional<Region>> parts;
+    for (const double distance_m : scale_.numbering.distances_m)
+      parts.push_back(part_at(distance_m, region));
+    return parts;
+  }
+
+  bool admits(const ScoredTemplate& scored) const {
+    return space_.is_everywhere() ||
+           space_.admits(scale_.hit_of(scored).pose.world_from_object,
+                         slack_at(scale_.numbering.distance_m(scored.number)));
   }
 
  private:
-  // The smallest part with all anchors where the prior admits the object's centre.
-  std::optional<Region> admitted_part(const Region& region, double distance_m) const {
+  std::optional<Region> part_at(double distance_m, const Region& region) const {
     if (space_.is_everywhere()) return region;
-    const int step = options_.anchor_step;
     Eigen::AlignedBox2i part;  // column, row
     for (int row = 0; row < region.rows; ++row)
       for (int column = 0; column < region.columns; ++column) {
-        const Eigen::Vector2d anchor(region.x0 + step * column, region.y0 + step * row);
-        if (space_.meets(ray_through(view_.coarse_camera, anchor).normalized(), distance_m,
+        const Eigen::Vector2d anchor(region.x0 + anchor_step_ * column,
+                                     region.y0 + anchor_step_ * row);
+        if (space_.meets(ray_through(scale_.level.camera, anchor).normalized(), distance_m,
                          slack_at(distance_m)))
           part.extend(Eigen::Vector2i(column, row));
       }
     if (part.isEmpty()) return std::nullopt;
-    return Region{region.x0 + step * part.min().x(), region.y0 + step * part.min().y(),
-                  part.sizes().x() + 1, part.sizes().y() + 1, region.middle};
+    return Region{region.x0 + anchor_step_ * part.min().x(),
+                  region.y0 + anchor_step_ * part.min().y(), part.sizes().x() + 1,
+                  part.sizes().y() + 1, region.middle};
   }
 
   // How far beside the pose that it stands for a hit may lie.
   SearchSlack slack_at(double distance_m) const {
-    return {options_.anchor_step * distance_m / view_.coarse_camera.fx +
-                thresholds::SAME_POSE * set_.model.mesh.diameter_m,
-            set_.options.distance_ratio};
+    return {anchor_step_ * distance_m / scale_.level.camera.fx +
+                thresholds::SAME_POSE * scale_.set.model.mesh.diameter_m,
+            scale_.set.options.distance_ratio};
   }
 
-  void draw_templates(const Region& region) {
-    constexpr std::size_t chunk = 256;
-    const std::size_t count = numbering_.count();
-    backend_.threads().for_each((count + chunk - 1) / chunk, [&](std::size_t c) {
-      for (std::size_t t = c * chunk; t < std::min(count, (c + 1) * chunk); ++t)
-        draw_template(t, region);
-    });
+  const SearchedScale& scale_;
+  int anchor_step_;
+  SearchSpace space_;
+};
+
+// Scores templates in one region after the other with the same buffers.
+class TemplateScoring {
+ public:
+  // With at most `points` of each template.
+  TemplateScoring(const SearchedScale& scale, const AdmittedSearch& admitted, int points,
+                  Backend& backend, int anchor_step)
+      : scale_(scale),
+        admitted_(admitted),
+        points_of_one_(points),
+        anchor_step_(anchor_step),
+        backend_(backend) {
+    for (const TemplateView& viewpoint : scale.set.views) views_.emplace_back(viewpoint, points);
   }
 
-  void draw_template(std::size_t t, const Region& region) {
-    const ThinnedView& view = views_[numbering_.viewpoint(t)];
-    TemplatePoint* points = points_.data() + t * options_.points;
-    int count = view.count();
-    const std::optional<Region>& part = parts_[t % parts_.size()];
-    is_drawn_[t] =
-        part && count > 0 &&
-        view.project(to_pose(camera_from_object(t, region.middle)), view_.salient->intrinsics,
-                     float(region.middle.x()), float(region.middle.y()), view_.salient->shape.bins,
-                     nearest_m(set_), points);
-    if (!is_drawn_[t]) points[0] = {}, count = 1;  // a job needs a point; its answer is not read
-    const Region anchors = part.value_or(Region{region.x0, region.y0, 1, 1, region.middle});
-    jobs_[t] = {static_cast<std::uint32_t>(t * options_.points),
-                static_cast<std::uint32_t>(count),
-                anchors.x0,
-                anchors.y0,
-                static_cast<std::uint32_t>(anchors.columns),
-                static_cast<std::uint32_t>(anchors.rows)};
-  }
-
-  // Of the templates that were drawn, lowest rank first, those whose hits the prior admits.
-  std::vector<std::size_t> best_templates(std::size_t most) const {
-    const auto is_worse = [&](std::size_t a, std::size_t b) {
-      const double rank_a = rank(a), rank_b = rank(b);
-      return rank_a != rank_b ? rank_a > rank_b : a > b;
-    };
-    std::vector<std::size_t> open;
-    for (std::size_t t = 0; t < numbering_.count(); ++t)
-      if (is_drawn_[t]) open.push_back(t);
-    std::ranges::make_heap(open, is_worse);
-    std::vector<std::size_t> best;
+  // Of the templates of these numbers, at most `most` that are admitted, lowest rank first.
+  // `parts` is what is searched of the region, by distance.
+  std::vector<ScoredTemplate> best(const Region& region,
+                                   std::span<const std::optional<Region>> parts,
+                                   std::span<const std::size_t> numbers, std::size_t most) {
+    draw(region, parts, numbers);
+    best_anchors_.resize(numbers.size());
+    backend_.template_score(*scale_.level.salient, points_, jobs_, anchor_step_, best_anchors_);
+    std::vector<ScoredTemplate> open, best;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      if (is_drawn_[i]) open.push_back(scored_template(i, numbers[i]));
+    std::ranges::make_heap(open, std::ranges::greater{}, &ScoredTemplate::key);
     for (; best.size() < most && !open.empty(); open.pop_back()) {
-      std::ranges::pop_heap(open, is_worse);
-      if (is_admitted(open.back())) best.push_back(open.back());
+      std::ranges::pop_heap(open, std::ranges::greater{}, &ScoredTemplate::key);
+      if (admitted_.admits(open.back())) best.push_back(open.back());
     }
     return best;
   }
 
-  bool is_admitted(std::size_t t) const {
-    return space_.admits(hit_of(t).pose.world_from_object, slack_at(numbering_.distance_m(t)));
+ private:
+  void draw(const Region& region, std::span<const std::optional<Region>> parts,
+            std::span<const std::size_t> numbers) {
+    points_.resize(numbers.size() * points_of_one_);
+    jobs_.resize(numbers.size());
+    is_drawn_.resize(numbers.size());
+    constexpr std::size_t chunk = 256;
+    backend_.threads().for_each((numbers.size() + chunk - 1) / chunk, [&](std::size_t c) {
+      for (std::size_t i = c * chunk; i < std::min(numbers.size(), (c + 1) * chunk); ++i)
+        draw_template(i, numbers[i], region, parts[numbers[i] % parts.size()]);
+    });
   }
 
-  double mean_px(std::size_t t) const {
-    return double(best_anchors_[t].sum) / (4.0 * jobs_[t].point_count);
+  void draw_template(std::size_t i, std::size_t number, const Region& region,
+                     const std::optional<Region>& part) {
+    const ThinnedView& view = views_[scale_.numbering.viewpoint(number)];
+    const auto& salient = *scale_.level.salient;
+    const std::size_t first = i * points_of_one_;
+    int count = view.count();
+    is_drawn_[i] =
+        part && count > 0 &&
+        view.project(to_pose(scale_.camera_from_object(number, region.middle)), salient.intrinsics,
+                     float(region.middle.x()), float(region.middle.y()), salient.shape.bins,
+                     nearest_m(scale_.set), points_.data() + first);
+    if (!is_drawn_[i]) points_[first] = {}, count = 1;  // a job needs a point; nobody reads the sum
+    const Region anchors = part.value_or(Region{region.x0, region.y0, 1, 1, region.middle});
+    jobs_[i] = {std::uint32_t(first), std::uint32_t(count),           anchors.x0,
+                anchors.y0,           std::uint32_t(anchors.columns), std::uint32_t(anchors.rows)};
   }
-  double rank(std::size_t t) const { return mean_px(t) * size_weights_[t % size_weights_.size()]; }
 
-  ScanHit hit_of(std::size_t t) const {
-    const Eigen::Vector2d anchor(best_anchors_[t].x, best_anchors_[t].y);
-    return {{0, camera_from_object(t, anchor)}, numbering_.viewpoint(t), mean_px(t), rank(t)};
+  ScoredTemplate scored_template(std::size_t i, std::size_t number) const {
+    const TemplateHit& best = best_anchors_[i];
+    const double mean_px = double(best.sum) / (4.0 * jobs_[i].point_count);
+    return {number, Eigen::Vector2d(best.x, best.y), mean_px,
+            mean_px * scan_size_weight(scale_.numbering.distance_m(number))};
   }
 
-  Se3 camera_from_object(std::size_t t, const Eigen::Vector2d& coarse_px) const {
-    return place_template(set_, set_.views[numbering_.viewpoint(t)], numbering_.in_plane_rad(t),
-                          numbering_.distance_m(t), coarse_px, view_.coarse_camera);
-  }
-
-  const TemplateSet& set_;
-  const ObjectView& view_;
+  const SearchedScale& scale_;
+  const AdmittedSearch& admitted_;
+  std::size_t points_of_one_;
+  int anchor_step_;
   Backend& backend_;
-  const ScanOptions& options_;
-  SearchSpace space_;
-  TemplateNumbering numbering_;
-  std::vector<ThinnedView> views_;            // by viewpoint
-  std::vector<double> size_weights_;          // by distance
-  std::vector<std::optional<Region>> parts_;  // by distance: what is searched of the region
-  // By template:
-  std::vector<TemplatePoint> points_;  // ScanOptions::points of each
+  std::vector<ThinnedView> views_;  // by viewpoint
+  // By place in the numbers of the last call:
+  std::vector<TemplatePoint> points_;  // points_of_one_ of each
   std::vector<TemplateJob> jobs_;
   std::vector<TemplateHit> best_anchors_;
   std::vector<char> is_drawn_;  // false where a point would lie behind the camera
+};
+
+// Scans the regions of one scale: all templates with few points, the best of them with all.
+class RegionScan {
+ public:
+  RegionScan(const SearchedScale& scale, const AdmittedSearch& admitted, Backend& backend,
+             const ScanOptions& options)
+      : scale_(scale),
+        admitted_(admitted),
+        quick_(scale, admitted, std::min(options.quick_points, options.points), backend,
+               options.anchor_step),
+        full_(scale, admitted, options.points, backend, options.anchor_step),
+        quick_kept_(std::size_t(options.quick_kept)),
+        all_(scale.numbering.count()) {
+    std::iota(all_.begin(), all_.end(), 0);
+  }
+
+  void append_best(const Region& region, std::size_t most, std::vector<ScanHit>& hits) {
+    const std::vector<std::optional<Region>> parts = admitted_.parts_of(region);
+    if (std::ranges::none_of(parts, &std::optional<Region>::has_value)) return;
+    std::vector<std::size_t> numbers;
+    for (const ScoredTemplate& scored : quick_.best(region, parts, all_, quick_kept_ * most))
+      numbers.push_back(scored.number);
+    for (const ScoredTemplate& scored : full_.best(region, parts, numbers, most))
+      hits.push_back(scale_.hit_of(scored));
+  }
+
+ private:
+  const SearchedScale& scale_;
+  const AdmittedSearch& admitted_;
+  TemplateScoring quick_, full_;
+  std::size_t quick_kept_;  // for each hit that is kept
+  std::vector<std::size_t> all_;
 };
 
 }  // namespace
@@ -234,34 +305,53 @@ Se3 place_template(const TemplateSet& set, const TemplateView& view, double in_p
   return {rotation.normalized(), distance_m * ray - rotation * set.model.center_m};
 }
 
+std::size_t level_of_scale(const TemplateSet& set, int scale, const ObjectView& view) {
+  const double distance_m = distance_scales(set.options)[std::size_t(scale)].middle_m();
+  return level_for(size_px(set.model.mesh.diameter_m, distance_m, view.camera), view);
+}
+
+std::size_t share_of_scale(std::size_t of_one, const TemplateSet& set) {
+  const double scales = double(distance_scales(set.options).size());
+  return std::size_t(std::ceil(double(of_one) / std::sqrt(scales)));
+}
+
 std::vector<ScanHit> coarse_scan(const TemplateSet& set, const ObjectView& view, Backend& backend,
                                  const ScanOptions& options) {
   check(options.points >= 4 && options.points <= int(TEMPLATE_SCORE_MAX_POINTS),
         "coarse_scan: points of a template");
-  const std::vector<Region> regions = cut_into_regions(view, options);
-  const std::size_t most = (options.num_kept + regions.size() - 1) / regions.size();
-  RegionScan scan(set, view, backend, options);
+  check(options.quick_points >= 1 && options.quick_kept >= 1, "coarse_scan: first pass");
+  const int scales = int(distance_scales(set.options).size());
+  const std::size_t of_scale = share_of_scale(std::size_t(options.num_kept), set);
   std::vector<ScanHit> hits;
-  for (const Region& region : regions) scan.append_best(region, most, hits);
+  for (int scale = 0; scale < scales; ++scale) {
+    const SearchedScale searched(set, scale, view);
+    const std::vector<Region> regions = cut_into_regions(view, searched.level, options);
+    const std::size_t most = (of_scale + regions.size() - 1) / regions.size();
+    const AdmittedSearch admitted(searched, view, options);
+    RegionScan scan(searched, admitted, backend, options);
+    for (const Region& region : regions) scan.append_best(region, most, hits);
+  }
   return hits;
 }
 
 double scan_mean_px(const TemplateSet& set, const ObjectView& view, const Se3& camera_from_object,
                     Backend& backend, const ScanOptions& options) {
+  const Eigen::Vector3d center_m = camera_from_object * set.model.center_m;
+  const ReducedTensors& level = view.reduced[level_for(
+      size_px(set.model.mesh.diameter_m, center_m.norm(), view.camera), view)];
   const ThinnedView visible(
       {camera_from_object.rotation, visible_edges(set.model, {&camera_from_object, 1}, backend)[0]},
       options.points);
-  const Eigen::Vector2d anchor_px =
-      project(view.coarse_camera, camera_from_object * set.model.center_m).array().round();
+  const Eigen::Vector2d anchor_px = project(level.camera, center_m).array().round();
   std::vector<TemplatePoint> points(std::size_t(visible.count()));
-  const bool is_drawn = visible.project(to_pose(camera_from_object), view.salient->intrinsics,
+  const bool is_drawn = visible.project(to_pose(camera_from_object), level.salient->intrinsics,
                                         float(anchor_px.x()), float(anchor_px.y()),
-                                        view.salient->shape.bins, nearest_m(set), points.data());
+                                        level.salient->shape.bins, nearest_m(set), points.data());
   if (!is_drawn || points.empty()) return TEMPLATE_SCORE_CAP / 4.0;
   const TemplateJob job{0, std::uint32_t(points.size()), int(anchor_px.x()), int(anchor_px.y()), 1,
                         1};
   TemplateHit hit;
-  backend.template_score(*view.salient, points, {&job, 1}, options.anchor_step, {&hit, 1});
+  backend.template_score(*level.salient, points, {&job, 1}, options.anchor_step, {&hit, 1});
   return double(hit.sum) / (4.0 * job.point_count);
 }
 

@@ -5,6 +5,7 @@
 #include "host/detect/suppression.h"
 #include "host/detect/template_points.h"
 #include "host/detect/template_support.h"
+#include "host/register/coarse_registration.h"
 #include "host/register/pose_classifier.h"
 #include "host/register/shading.h"
 #include "host/register/thresholds.h"
@@ -73,20 +74,31 @@ class Cascade {
                                thresholds::SAME_POSE)),
         space_(options.scan.world, set_.model, search.view.camera_from_world) {}
 
-  // The best distinct hits.
+  // The best distinct hits of every scale.
   std::vector<ObjectPose> starts(std::span<const ScanHit> hits) const {
-    std::vector<ObjectPose> poses;
-    std::vector<double> ranks;
-    for (const ScanHit& hit : hits) poses.push_back(hit.pose), ranks.push_back(hit.rank);
-    const int most = is_joint() ? options_.coarse_poses_joint : options_.coarse_poses;
-    return poses_at(best_distinct_indices(poses, ranks, set_, std::size_t(most)), poses);
+    const std::size_t scales = distance_scales(set_.options).size(),
+                      most = share_of_scale(std::size_t(is_joint() ? options_.coarse_poses_joint
+                                                                   : options_.coarse_poses),
+                                            set_);
+    std::vector<ObjectPose> starts;
+    for (std::size_t scale = 0; scale < scales; ++scale) {
+      std::vector<ObjectPose> poses;
+      std::vector<double> ranks;
+      for (const ScanHit& hit : hits)
+        if (std::size_t(hit.scale) == scale) poses.push_back(hit.pose), ranks.push_back(hit.rank);
+      for (const std::size_t i : best_distinct_indices(poses, ranks, set_, most))
+        starts.push_back(poses[i]);
+    }
+    return starts;
   }
 
   // Aligns the starts' templates on the coarse tensors.
   std::vector<PoseEstimate> coarse(std::span<const ObjectPose> starts) const {
-    const std::vector<ObjectView> views = on_coarse_tensors(views_);
-    return register_points(scene_of(views), starts,
-                           template_points(set_, views, COARSE_POINTS, backend_), options_.coarse);
+    return register_coarsely(scene_of(views_), starts, [&](const Scene& on_level, auto poses) {
+      return register_points(on_level, poses,
+                             template_points(set_, on_level.views, COARSE_POINTS, backend_),
+                             options_.coarse);
+    });
   }
 
   // Indices of the aligned poses that enter the medium stage, best first.

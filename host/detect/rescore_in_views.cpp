@@ -15,7 +15,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr std::size_t HITS_PER_CALL = 4096;  // 10 MB of points
+constexpr std::ptrdiff_t HITS_PER_CALL = 4096;  // 10 MB of points
 constexpr double CHANCE_PX = TEMPLATE_SCORE_OUTSIDE / 4.0;
 
 // How much work a rescoring is: points of each template, and distances that are tried, evenly over
@@ -62,9 +62,9 @@ struct ViewVote {
 // where Occluders::hide tests nine: one point of sixty on the wrong side changes a rank little.
 class OccluderTest {
  public:
-  OccluderTest(const ObjectView& view, double tolerance_m)
-      : occluders_(view.occluders.get()), tolerance_m_(float(tolerance_m)) {
-    if (occluders_) scale_ = float(occluders_->camera.width) / float(view.salient->shape.width);
+  OccluderTest(const Occluders* occluders, const ReducedTensors& level, double tolerance_m)
+      : occluders_(occluders), tolerance_m_(float(tolerance_m)) {
+    if (occluders_) scale_ = float(occluders_->camera.width) / float(level.camera.width);
   }
 
   // Moves the visible points to the front; returns their number.
@@ -100,10 +100,11 @@ Pose with_translation(Pose pose, const Eigen::Vector3d& translation_m) {
 // Scores hits in one view: all distances of every hit side by side.
 class ViewScoring {
  public:
-  ViewScoring(const VisibleTemplates& templates, const ObjectView& view, std::size_t hits)
+  ViewScoring(const VisibleTemplates& templates, const ObjectView& view, std::size_t level,
+              std::size_t hits)
       : templates_(templates),
-        view_(view),
-        occluder_test_(view, occlusion_tolerance_m(templates.set.model)),
+        level_(view.reduced[level]),
+        occluder_test_(view.occluders.get(), level_, occlusion_tolerance_m(templates.set.model)),
         points_(hits * num_distances() * num_points()),
         jobs_(hits * num_distances()),
         visible_(jobs_.size()),
@@ -118,7 +119,7 @@ class ViewScoring {
         project_all_distances(hits[h], h);
     });
     std::vector<TemplateHit> scores(jobs_.size());
-    backend.template_score(*view_.salient, points_, jobs_, 1, scores);
+    backend.template_score(*level_.salient, points_, jobs_, 1, scores);
     for (std::size_t j = 0; j < jobs_.size(); ++j)
       votes_[j].rank *= visible_[j] > 0 ? scores[j].sum / (4.0 * jobs_[j].point_count) : CHANCE_PX;
     return votes_;
@@ -151,7 +152,7 @@ class ViewScoring {
   }
 
   void project(std::size_t j, const ThinnedView& view, const Pose& camera_from_template) {
-    const auto& salient = *view_.salient;
+    const auto& salient = *level_.salient;
     const float nearest_m = float(0.1 * templates_.set.model.radius_m);
     TemplatePoint* points = points_.data() + j * num_points();
     if (view.count() > 0 && view.project(camera_from_template, salient.intrinsics, 0, 0,
@@ -165,7 +166,7 @@ class ViewScoring {
   }
 
   const VisibleTemplates& templates_;
-  const ObjectView& view_;
+  const ReducedTensors& level_;
   OccluderTest occluder_test_;
   std::vector<TemplatePoint> points_;
   // By hit and distance:
@@ -182,7 +183,8 @@ struct RankSum {
 
 // The ranks of all hits at all distances in all views, in the order of ViewScoring::votes_of.
 std::vector<RankSum> sum_ranks(const ObjectSearch& search, const VisibleTemplates& templates,
-                               std::span<const ScanHit> hits, std::span<const MovableHit> movable) {
+                               std::size_t level, std::span<const ScanHit> hits,
+                               std::span<const MovableHit> movable) {
   const std::size_t distances = std::size_t(templates.effort.distances);
   std::vector<RankSum> ranks;
   for (std::size_t i = 0; i < hits.size() * distances; ++i)
@@ -195,22 +197,23 @@ std::vector<RankSum> sum_ranks(const ObjectSearch& search, const VisibleTemplate
                         other_from_own.rotation * hit.ray_m};
     });
     const std::vector<ViewVote> votes =
-        ViewScoring(templates, other, in_other.size()).votes_of(in_other, search.backend);
+        ViewScoring(templates, other, level, in_other.size()).votes_of(in_other, search.backend);
     for (std::size_t i = 0; i < ranks.size(); ++i)
       ranks[i].sum += votes[i].weight * votes[i].rank, ranks[i].weight += votes[i].weight;
   }
   return ranks;
 }
 
-// In place.
+// Hits of one scale, in place.
 void rescore(const ObjectSearch& search, const VisibleTemplates& templates,
              std::span<ScanHit> hits) {
+  const std::size_t level = level_of_scale(search.set, hits[0].scale, search.view);
   const std::size_t distances = std::size_t(templates.effort.distances);
   std::vector<MovableHit> movable;
   for (const ScanHit& hit : hits)
     movable.push_back(
         {hit.pose.world_from_object, hit.pose.world_from_object * search.set.model.center_m});
-  const std::vector<RankSum> ranks = sum_ranks(search, templates, hits, movable);
+  const std::vector<RankSum> ranks = sum_ranks(search, templates, level, hits, movable);
   for (std::size_t h = 0; h < hits.size(); ++h) {
     std::size_t best = h * distances + distances / 2;  // unmoved, unless another is better
     for (std::size_t i = h * distances; i < (h + 1) * distances; ++i)
@@ -226,9 +229,14 @@ std::vector<ScanHit> rescored(const ObjectSearch& search, std::span<const ScanHi
   std::vector<ScanHit> rescored(hits.begin(), hits.end());
   if (search.support.empty()) return rescored;
   const VisibleTemplates templates(search.set, effort);
-  for (std::size_t begin = 0; begin < rescored.size(); begin += HITS_PER_CALL)
-    rescore(search, templates,
-            std::span(rescored).subspan(begin, std::min(HITS_PER_CALL, rescored.size() - begin)));
+  for (auto begin = rescored.begin(); begin != rescored.end();) {
+    const auto limit = begin + std::min<std::ptrdiff_t>(HITS_PER_CALL, rescored.end() - begin),
+               end = std::find_if(begin, limit, [scale = begin->scale](const ScanHit&hit) {
+                 return hit.scale != scale;
+               });
+    rescore(search, templates, {begin, end});
+    begin = end;
+  }
   return rescored;
 }
 
@@ -258,30 +266,37 @@ bool is_excluded(const Se3& camera_from_object, const PoolOptions& options) {
   return options.is_excluded && options.is_excluded(camera_from_object);
 }
 
+// The highest of the `most` lowest ranks, which it reorders.
+double rank_limit(std::vector<double>& ranks, std::size_t most) {
+  if (ranks.size() <= most) return std::numeric_limits<double>::max();
+  std::ranges::nth_element(ranks, ranks.begin() + std::ptrdiff_t(most - 1));
+  return ranks[most - 1];
+}
+
 // The hits of each image, as they are, that are among the best `options.most` after a quick
-// rescoring.
+// rescoring. All scales keep the same number.
 std::vector<std::vector<ScanHit>> preselect(const TemplateSet& set,
                                             std::span<const PooledImage> images, Backend& backend,
                                             const PoolOptions& options) {
-  std::vector<std::vector<double>> ranks(images.size());
-  std::vector<double> all;
+  std::vector<std::vector<double>> ranks(images.size()),
+      by_scale(distance_scales(set.options).size());
   for (std::size_t i = 0; i < images.size(); ++i)
     for (const ScanHit& hit :
          rescored(images[i].search(set, backend), images[i].hits, quick(options.scan))) {
       const bool excluded =
           is_excluded(images[i].last_from_own * hit.pose.world_from_object, options);
       ranks[i].push_back(excluded ? INFINITY : hit.rank);
-      if (!excluded) all.push_back(hit.rank);
+      if (!excluded) by_scale[std::size_t(hit.scale)].push_back(hit.rank);
     }
-  double limit = std::numeric_limits<double>::max();
-  if (images.size() > 1 && all.size() > options.most) {
-    std::ranges::nth_element(all, all.begin() + std::ptrdiff_t(options.most - 1));
-    limit = all[options.most - 1];
-  }
+  std::vector<double> limits;
+  for (std::vector<double>& of_scale : by_scale)
+    limits.push_back(images.size() > 1 ? rank_limit(of_scale, share_of_scale(options.most, set))
+                                       : std::numeric_limits<double>::max());
   std::vector<std::vector<ScanHit>> selected(images.size());
   for (std::size_t i = 0; i < images.size(); ++i)
     for (std::size_t h = 0; h < images[i].hits.size(); ++h)
-      if (ranks[i][h] <= limit) selected[i].push_back(images[i].hits[h]);
+      if (ranks[i][h] <= limits[std::size_t(images[i].hits[h].scale)])
+        selected[i].push_back(images[i].hits[h]);
   return selected;
 }
 

@@ -39,7 +39,8 @@ using PoseFilter = std::function<bool(const Se3& camera_from_object)>;
 struct PoolOptions {
   ScanOptions scan;
   int support_views = 4;   // that rescore the hits of one image (support_views.h)
-  std::size_t most = 1;    // hits that a quick rescoring keeps, ties included; from 1 up
+  std::size_t most = 1;    // hits that a quick rescoring keeps, ties included; from 1 up. Each
+                           // scale gets its share_of_scale
   PoseFilter is_excluded;  // hits that are dropped; empty: none
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "host/register/object_view.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -13,10 +14,6 @@ namespace {
 constexpr const char* ADVICE =
     "another unit of the model (--unit), other distances (--distance-min, --distance-max), or "
     "camera poses with lengths in their right unit";
-
-double size_px(double diameter_m, double distance_m, const Camera& camera) {
-  return 0.5 * (camera.fx + camera.fy) * diameter_m / distance_m;
-}
 
 std::string text_of(const SearchedSizes& sizes, double diameter_m, const TemplateOptions& options) {
   return fmt::format(

@@ -1,7 +1,6 @@
 #include "host/detect/tensors.h"
 
-#include <algorithm>
-#include <cmath>
+#include <set>
 
 #include "host/edge/salient_edges.h"
 #include "kernels/error.h"
@@ -27,55 +26,64 @@ void describe(TensorOptions& o, OptionVisitor& visit) {
 
 namespace {
 
-// Typical size of an object in the image: at the geometric mean of its distances.
-double size_px(const TemplateSet& set, const Camera& camera) {
-  return set.model.mesh.diameter_m /
-         std::sqrt(set.options.distance_min_m * set.options.distance_max_m) * camera.fx;
+// The reductions that suit the objects at their scales.
+std::set<double> reductions_for(std::span<const TemplateSet> sets, const Camera& camera) {
+  check(!sets.empty(), "add_tensors: no templates");
+  std::set<double> reductions;
+  for (const TemplateSet& set : sets)
+    for (const DistanceRange& scale : distance_scales(set.options))
+      reductions.insert(
+          reduction_for(size_px(set.model.mesh.diameter_m, scale.middle_m(), camera)));
+  return reductions;
 }
 
-double smallest_size_px(std::span<const TemplateSet> sets, const Camera& camera) {
-  check(!sets.empty(), "pipeline: no templates");
-  double smallest = size_px(sets[0], camera);
-  for (const TemplateSet& set : sets) smallest = std::min(smallest, size_px(set, camera));
-  return smallest;
-}
-
-ViewHandle reduced_tensor(std::vector<EdgePoint> edges, const ObjectView& view, Backend& backend,
-                          const TensorOptions& options) {
+ViewHandle reduced_tensor(std::vector<EdgePoint> edges, const ReducedTensors& level,
+                          Backend& backend, const TensorOptions& options) {
   for (EdgePoint& edge : edges) {
-    edge.x_px = float((edge.x_px + 0.5) / view.reduction - 0.5);
-    edge.y_px = float((edge.y_px + 0.5) / view.reduction - 0.5);
+    edge.x_px = float((edge.x_px + 0.5) / level.reduction - 0.5);
+    edge.y_px = float((edge.y_px + 0.5) / level.reduction - 0.5);
   }
-  return backend.make_view(edges, view.coarse_camera.width, view.coarse_camera.height, {},
-                           intrinsics_of(view.coarse_camera), options);
+  return backend.make_view(edges, level.camera.width, level.camera.height, {},
+                           intrinsics_of(level.camera), options);
 }
 
-}  // namespace
+ReducedTensors reduced_tensors(const ObjectView& view, double reduction, Backend& backend,
+                               TensorOptions options) {
+  const std::span<const EdgePoint> edges = view.edges->points();
+  ReducedTensors level;
+  level.reduction = reduction;
+  level.camera = scaled(view.camera, 1 / reduction);
+  options.lambda_px_per_rad = float(options.lambda_px_per_rad / reduction);
+  level.coarse = reduced_tensor({edges.begin(), edges.end()}, level, backend, options);
+  level.salient = reduced_tensor(salient_edges(edges, view.camera.width, view.camera.height), level,
+                                 backend, options);
+  return level;
+}
 
-double reduction_for(double size_px) { return std::clamp(std::round(size_px / 48), 1.0, 8.0); }
-
-void add_tensors(ObjectView& view, double reduction, Backend& backend,
+void add_tensors(ObjectView& view, const std::set<double>& reductions, Backend& backend,
                  const TensorOptions& options) {
   check(is_finite(view.camera_from_world), "add_tensors: a camera pose that is not finite");
   check(view.image && view.edges, "add_tensors: a view without an image or without edges");
   const Camera& camera = view.camera;
   const Image& image = *view.image;
-  const std::span<const EdgePoint> edges = view.edges->points();
-  view.reduction = reduction;
-  view.coarse_camera = scaled(camera, 1 / reduction);
-  view.tensor = backend.make_view(edges, camera.width, camera.height,
+  view.tensor = backend.make_view(view.edges->points(), camera.width, camera.height,
                                   {image.width, image.height, image.pixels.data()},
                                   intrinsics_of(camera), options);
-  TensorOptions reduced = options;
-  reduced.lambda_px_per_rad = float(options.lambda_px_per_rad / reduction);
-  view.coarse = reduced_tensor({edges.begin(), edges.end()}, view, backend, reduced);
-  view.salient =
-      reduced_tensor(salient_edges(edges, camera.width, camera.height), view, backend, reduced);
+  view.reduced.clear();
+  for (const double reduction : reductions)
+    view.reduced.push_back(reduced_tensors(view, reduction, backend, options));
+}
+
+}  // namespace
+
+void add_tensors(ObjectView& view, double reduction, Backend& backend,
+                 const TensorOptions& options) {
+  add_tensors(view, std::set{reduction}, backend, options);
 }
 
 void add_tensors(ObjectView& view, std::span<const TemplateSet> sets, Backend& backend,
                  const TensorOptions& options) {
-  add_tensors(view, reduction_for(smallest_size_px(sets, view.camera)), backend, options);
+  add_tensors(view, reductions_for(sets, view.camera), backend, options);
 }
 
 }  // namespace edgescout

@@ -1,7 +1,8 @@
-// Builds the DCD tensors of a view (paper, Sec. 3.3): one of full resolution and two reduced ones.
+// Builds the DCD tensors of a view (paper, Sec. 3.3): one of full resolution and two at each of the
+// reductions that suit the objects' sizes in the image.
 //
 // The reduced tensors have a wider basin: the scan and the coarse alignment work on them. Their
-// orientation weight is lambda / reduction, so that both resolutions weigh direction against image
+// orientation weight is lambda / reduction, so that all resolutions weigh direction against image
 // distance alike.
 #pragma once
 
@@ -18,17 +19,14 @@ void describe(TensorOptions& options, OptionVisitor& visit);
 // The part of them that other verbs also have: without bins and lambda, and without a group.
 void describe_values(TensorOptions& options, OptionVisitor& visit);
 
-// The view's image and edges are set (pipeline.h: prepare_view). Reduces by what suits the smallest
-// of the objects. LogicError: no templates, a camera pose that is not finite.
+// The view's image and edges are set (pipeline.h: prepare_view). Reduces by what suits each object
+// at each of its scales (distance_scales). LogicError: no templates, a camera pose that is not
+// finite.
 void add_tensors(ObjectView& view, std::span<const TemplateSet> sets, Backend& backend,
                  const TensorOptions& options);
 
-// The same with a given reduction, image px per px of the reduced tensors.
+// The same with one given reduction, image px per px of the reduced tensors.
 void add_tensors(ObjectView& view, double reduction, Backend& backend,
                  const TensorOptions& options);
-
-// Reduction at which something of `size_px` in the image spans some 48 reduced px: a whole number
-// in [1, 8].
-double reduction_for(double size_px);
 
 }  // namespace edgescout

@@ -40,8 +40,7 @@ class Detector {
 
  private:
   ScanHits hits(int view, const ObjectView& image, std::size_t type) {
-    // The tensors are coarser if only large types are searched.
-    ScanHits& known = hits_[std::tuple(view, type, image.reduction)];
+    ScanHits& known = hits_[std::pair(view, type)];
     if (!known)
       known = std::make_shared<std::vector<ScanHit>>(
           coarse_scan(sets_[type], image, backend_, options_.scan));
@@ -51,7 +50,7 @@ class Detector {
   const std::vector<TemplateSet>& sets_;
   DetectOptions options_;
   Backend& backend_;
-  std::map<std::tuple<int, std::size_t, double>, ScanHits> hits_;
+  std::map<std::pair<int, std::size_t>, ScanHits> hits_;
 };
 
 // The types of a bin's parts and their name in the rows.

@@ -68,23 +68,57 @@ void TemplateOptions::validate() const {
 TemplateOptions with_default_distances(TemplateOptions options, double diameter_m,
                                        const Camera& camera) {
   if (options.distance_min_m > 0) return options;
-  const double pixels = std::min(camera.width, camera.height),
+  const double pixels = std::max(camera.width, camera.height),
                focal = 0.5 * (camera.fx + camera.fy);
-  options.distance_min_m = focal * diameter_m / (pixels / 3);
-  options.distance_max_m = 2 * options.distance_min_m;
+  options.distance_min_m = focal * diameter_m / pixels;
+  options.distance_max_m = 20 * options.distance_min_m;
   return options;
 }
 
-std::vector<double> template_distances_m(const TemplateOptions& options) {
-  check(options.distance_min_m > 0, "template_distances_m: distances not set");
+std::vector<DistanceRange> distance_scales(const TemplateOptions& options) {
+  check(options.distance_min_m > 0, "distance_scales: distances not set");
+  constexpr double largest_ratio = 2.5;
   const double span = std::log(options.distance_max_m / options.distance_min_m);
+  const int count = std::max(1, int(std::ceil(span / std::log(largest_ratio) - 1e-9)));
+  if (count == 1) return {{options.distance_min_m, options.distance_max_m}};
+  std::vector<DistanceRange> scales;
+  for (int i = 0; i < count; ++i)
+    scales.push_back({options.distance_min_m * std::exp(span * i / count),
+                      options.distance_min_m * std::exp(span * (i + 1) / count)});
+  return scales;
+}
+
+std::vector<double> template_distances_m(const TemplateOptions& options,
+                                         const DistanceRange& scale) {
+  const double span = std::log(scale.max_m / scale.min_m);
   const int steps =
       std::max(0, static_cast<int>(std::ceil(span / std::log(options.distance_ratio) - 1e-9)));
   std::vector<double> distances;
   for (int i = 0; i <= steps; ++i)
-    distances.push_back(options.distance_min_m * std::exp(steps ? span * i / steps : 0));
+    distances.push_back(scale.min_m * std::exp(steps ? span * i / steps : 0));
   return distances;
 }
+
+std::vector<double> template_distances_m(const TemplateOptions& options) {
+  std::vector<double> distances;
+  for (const DistanceRange& scale : distance_scales(options))
+    for (const double distance_m : template_distances_m(options, scale))
+      distances.push_back(distance_m);
+  return distances;
+}
+
+namespace {
+
+// Where the camera stands for the visible points of all distances. Within one scale they hardly
+// depend on it. Rays to the object's rim turn with the inverse of the distance, so over several
+// scales the harmonic mean errs least: by less than the viewpoints' spacing.
+double viewing_distance_m(const TemplateOptions& options) {
+  const DistanceRange range{options.distance_min_m, options.distance_max_m};
+  if (distance_scales(options).size() == 1) return range.middle_m();
+  return 2 / (1 / range.min_m + 1 / range.max_m);
+}
+
+}  // namespace
 
 TemplateSet build_templates(const Object& object, const TemplateOptions& options, Backend& backend,
                             const std::function<void(int, int)>& progress) {
@@ -97,9 +131,7 @@ TemplateSet build_templates(const Object& object, const TemplateOptions& options
   set.model = make_edge_model(object.mesh, options.edges);
   const std::vector<Eigen::Vector3d> directions =
       viewpoints_in(options.range, object.symmetries, options.frequency);
-  // The visible points hardly depend on the distance within 2 : 1. This is the geometric mean.
-  const double distance = std::max(std::sqrt(options.distance_min_m * options.distance_max_m),
-                                   1.2 * set.model.radius_m);
+  const double distance = std::max(viewing_distance_m(options), 1.2 * set.model.radius_m);
   constexpr std::size_t chunk = 32;
   for (std::size_t first = 0; first < directions.size(); first += chunk) {
     std::vector<Se3> poses;

@@ -7,6 +7,7 @@
 // Public header.
 #pragma once
 
+#include <cmath>
 #include <filesystem>
 #include <functional>
 #include <vector>
@@ -31,10 +32,25 @@ struct TemplateOptions {
 
 void describe(TemplateOptions& options, OptionVisitor& visit);
 
-// Sets distances that are 0: the object's diameter then spans a sixth to a third of the image's
-// smaller side (a range of 2 : 1).
+// Sets distances that are 0: the object's diameter then spans all to a twentieth of the image's
+// larger side, a range of 20 : 1 in four scales.
 TemplateOptions with_default_distances(TemplateOptions options, double diameter_m,
                                        const Camera& camera);
+
+// From a camera to an object's centre.
+struct DistanceRange {
+  double min_m = 0, max_m = 0;
+  double middle_m() const { return std::sqrt(min_m * max_m); }
+};
+
+// The scales of the options' distances, nearest first: parts of an equal ratio of at most 2.5 : 1.
+// Each is searched on a tensor that is reduced to suit the object's size there.
+std::vector<DistanceRange> distance_scales(const TemplateOptions& options);
+// Of the templates of one scale: both ends and, ascending, what lies at most options.distance_ratio
+// apart between them.
+std::vector<double> template_distances_m(const TemplateOptions& options,
+                                         const DistanceRange& scale);
+// The same of all scales, one after the other.
 std::vector<double> template_distances_m(const TemplateOptions& options);
 
 struct TemplateView {

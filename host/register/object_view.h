@@ -18,21 +18,35 @@ namespace edgescout {
 
 struct Occluders;  // occluders.h
 
+// The tensors of one level of a view's pyramid.
+struct ReducedTensors {
+  ViewHandle coarse;     // of all edges: a wider basin for the search
+  ViewHandle salient;    // of the salient edges (edge/salient_edges.h): for the scan
+  Camera camera;         // of both
+  double reduction = 1;  // image px per px of both
+};
+
 struct ObjectView {
   Camera camera;                           // ideal: without distortion
   Se3 camera_from_world;                   // identity where the world is the camera frame
   std::shared_ptr<const Image> image;      // undistorted; null: no shading
   std::shared_ptr<const EdgeIndex> edges;  // null: no edge ICP, no edge claims
   ViewHandle tensor;                       // of all edges, full resolution
-  ViewHandle coarse;                       // of all edges, reduced: a wider basin for the search
-  ViewHandle salient;    // of the salient edges (edge/salient_edges.h), reduced: for the scan
-  Camera coarse_camera;  // of `coarse` and `salient`
-  double reduction = 1;  // image px per px of the coarse tensors
+  std::vector<ReducedTensors> reduced;     // by ascending reduction; views of a scene: equal ones
   std::shared_ptr<const Occluders> occluders;  // null: no known objects here
 };
 
-// The same views with the coarse tensor in the place of the full one; a view without a coarse
-// tensor stays as it is.
-std::vector<ObjectView> on_coarse_tensors(std::span<const ObjectView> views);
+// How many pixels of the image a length at this distance spans, in its middle.
+double size_px(double length_m, double distance_m, const Camera& camera);
+
+// The reduction that makes `size_px` some 48 px: a whole number in [1, 8]. Fewer hold too little
+// shape, more cost more.
+double reduction_for(double size_px);
+// The index of the view's reduction that does so best; 0 where it has no reduced tensors.
+std::size_t level_for(double size_px, const ObjectView& view);
+
+// The same views with the coarse tensor of a level in the place of the full one; a view without
+// reduced tensors stays as it is.
+std::vector<ObjectView> on_coarse_tensors(std::span<const ObjectView> views, std::size_t level);
 
 }  // namespace edgescout

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "host/register/coarse_registration.h"
 #include "host/register/pose_classifier.h"
 #include "host/register/thresholds.h"
 #include "kernels/error.h"
@@ -82,9 +83,7 @@ std::vector<ObjectPose> search_poses(const Scene& scene, std::span<const ObjectP
          turned_starts(start, scene.models[std::size_t(start.object)],
                        scene.views[0].camera_from_world, options.rotation_rad))
       turned.push_back(pose);
-  const std::vector<ObjectView> coarse = on_coarse_tensors(scene.views);
-  std::vector<ObjectPose> poses =
-      object_poses(register_poses({scene.models, coarse, scene.backend}, turned, options.coarse));
+  std::vector<ObjectPose> poses = object_poses(register_coarsely(scene, turned, options.coarse));
   poses.insert(poses.end(), starts.begin(), starts.end());
   return poses;
 }

@@ -43,8 +43,8 @@ TEST(ModelBuild, ChoosesDistancesByTheCamera) {
                    R"({"fx": 800, "fy": 800, "cx": 320, "cy": 240, "width": 640, "height": 480})");
   ASSERT_EQ(run_program(build(file, {"--camera", camera})).exit_code, 0);
   const TemplateSet set = load_templates(file);
-  EXPECT_NEAR(set.options.distance_min_m, 800 * set.model.mesh.diameter_m / 160, 1e-9);
-  EXPECT_NEAR(set.options.distance_max_m, 2 * set.options.distance_min_m, 1e-9);
+  EXPECT_NEAR(set.options.distance_min_m, 800 * set.model.mesh.diameter_m / 640, 1e-9);
+  EXPECT_NEAR(set.options.distance_max_m, 20 * set.options.distance_min_m, 1e-9);
 }
 
 TEST(ModelBuild, RefusesAndWritesNothing) {

@@ -221,25 +221,25 @@ struct BruteForce {
   const TemplateSet& set;
   const ObjectView& image;
   const ScanOptions& options;
-  std::vector<std::uint16_t> tensor = image.coarse->tensor();
+  std::vector<std::uint16_t> tensor = image.reduced[0].coarse->tensor();
 
   double value(int x, int y, int bin) const {
-    const TensorShape& shape = image.coarse->shape;
+    const TensorShape& shape = image.reduced[0].coarse->shape;
     if (x < 0 || y < 0 || x >= shape.width || y >= shape.height) return 3.25;
     return std::min(16, (tensor[shape.index(x, y, bin)] + 32) / 64) / 4.0;
   }
   // Mean of a template drawn at `middle` and shifted to an anchor.
   double mean(const TemplateView& view, const Se3& at_middle, const Eigen::Vector2d& shift) const {
     const int count = std::min<int>(options.points, int(view.points.size()));
-    const int bins = image.coarse->shape.bins;
+    const int bins = image.reduced[0].coarse->shape.bins;
     double sum = 0;
     for (int i = 0; i < count; ++i) {
       const ModelPoint& p = view.points[std::size_t(i) * view.points.size() / count];
       const Eigen::Vector3d point = at_middle * Eigen::Vector3d(p.x_m, p.y_m, p.z_m);
       const Eigen::Vector3d ahead =
           point + 1e-6 * (at_middle.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz));
-      const Eigen::Vector2d pixel = project(image.coarse_camera, point),
-                            along = project(image.coarse_camera, ahead) - pixel;
+      const Eigen::Vector2d pixel = project(image.reduced[0].camera, point),
+                            along = project(image.reduced[0].camera, ahead) - pixel;
       const double theta = std::fmod(std::atan2(along.y(), along.x()) + 2 * pi, pi);
       sum += value(int(std::lround(pixel.x()) + shift.x()), int(std::lround(pixel.y()) + shift.y()),
                    int(std::lround(theta * bins / pi)) % bins);
@@ -252,7 +252,7 @@ struct BruteForce {
     const int step = options.anchor_step;
     const Eigen::Vector2d middle(std::round(x0 + 0.5 * step * (columns - 1)),
                                  std::round(y0 + 0.5 * step * (rows - 1)));
-    const Se3 pose = place_template(set, view, turn, distance, middle, image.coarse_camera);
+    const Se3 pose = place_template(set, view, turn, distance, middle, image.reduced[0].camera);
     double lowest = 1e9;
     for (int r = 0; r < rows; ++r)
       for (int c = 0; c < columns; ++c)
@@ -261,6 +261,47 @@ struct BruteForce {
     return lowest;
   }
 };
+
+TEST(CoarseScan, SearchesEveryScaleAsASetOfThatScaleAlone) {
+  const auto backend = make_cpu_backend(2);
+  const TemplateSet set = part_templates("l_bracket", 1, 0.12, 0.6, *backend);
+  const std::vector<DistanceRange> scales = distance_scales(set.options);
+  ASSERT_EQ(scales.size(), 2u);
+  Random random = test_random();
+  std::vector<EdgePoint> edges;
+  for (int i = 0; i < 2000; ++i)
+    edges.push_back({float(random.uniform(0, 319)), float(random.uniform(0, 239)),
+                     float(random.uniform(0, pi)), 1});
+  ObjectView image = view_of_edges(edges, small_camera(), 1, *backend);
+  add_tensors(image, {&set, 1}, *backend, {});
+  ASSERT_EQ(image.reduced.size(), 2u);
+  EXPECT_EQ(level_of_scale(set, 0, image), 1u);  // the near scale on the smaller tensor
+  EXPECT_EQ(level_of_scale(set, 1, image), 0u);
+  ScanOptions options;
+  options.num_kept = 300;
+  std::span<const ScanHit> hits;
+  const std::vector<ScanHit> all = coarse_scan(set, image, *backend, options);
+  hits = all;
+  ScanOptions of_one = options;
+  of_one.num_kept = int(share_of_scale(300, set));
+  for (int scale = 0; scale < 2; ++scale) {
+    TemplateSet alone = set;
+    alone.options.distance_min_m = scales[std::size_t(scale)].min_m;
+    alone.options.distance_max_m = scales[std::size_t(scale)].max_m;
+    ObjectView level = image;
+    level.reduced = {image.reduced[level_of_scale(set, scale, image)]};
+    const std::vector<ScanHit> expected = coarse_scan(alone, level, *backend, of_one);
+    ASSERT_GE(hits.size(), expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      EXPECT_EQ(hits[i].scale, scale);
+      EXPECT_EQ(hits[i].rank, expected[i].rank);
+      EXPECT_EQ(hits[i].pose.world_from_object.translation_m,
+                expected[i].pose.world_from_object.translation_m);
+    }
+    hits = hits.subspan(expected.size());
+  }
+  EXPECT_TRUE(hits.empty());
+}
 
 TEST(CoarseScan, EqualsBruteForceOverAllPlaces) {
   const auto backend = make_cpu_backend(2);
@@ -275,7 +316,7 @@ TEST(CoarseScan, EqualsBruteForceOverAllPlaces) {
                      float(random.uniform(0, pi)), 1});
   const ObjectView image = view_of_edges(edges, camera, 1, *backend);
   ScanOptions options;  // 21 x 15 anchors: two regions by two, of different sizes
-  options.points = 20;
+  options.points = options.quick_points = 20;  // so the first pass judges as the second
   options.anchor_step = 3;
   options.region_columns = 12;
   options.region_rows = 9;

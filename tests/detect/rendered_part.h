@@ -10,16 +10,19 @@
 
 namespace edgescout::test {
 
-// `count` parts on a bare board, from `views` places 0.3 m away.
+// `count` parts on a bare board, from `views` places, 0.3 m away unless another distance is given.
 struct RenderedPart {
   Object part;
   SimulatedScene scene;
   std::vector<Rendering> renderings;
   std::vector<TemplateSet> sets;
 
-  explicit RenderedPart(const std::string& name, int views = 1, int count = 1)
+  explicit RenderedPart(const std::string& name, int views = 1, int count = 1,
+                        double distance_m = 0.3)
       : part(make_part(name)) {
-    scene = make_scene(std::span(&part, 1), bare_board(count, views));
+    RenderOptions board = bare_board(count, views);
+    board.min_distance_m = board.max_distance_m = distance_m;
+    scene = make_scene(std::span(&part, 1), board);
     ThreadPool pool(2);
     renderings = render(scene, pool);
     sets.push_back(build_templates(part, near_templates(0.03), *make_cpu_backend(2)));

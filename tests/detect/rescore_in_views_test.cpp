@@ -79,8 +79,8 @@ struct SeenPart {
         if (cosine > largest) largest = cosine, nearest = &candidate, nearest_symmetry = symmetry;
       }
     pose = pose * nearest_symmetry;
-    const TensorShape& shape = view.salient->shape;
-    const std::vector<std::uint16_t> tensor = view.salient->tensor();
+    const TensorShape& shape = view.reduced[0].salient->shape;
+    const std::vector<std::uint16_t> tensor = view.reduced[0].salient->tensor();
     const int count = std::min<int>(ScanOptions{}.points, int(nearest->points.size()));
     double sum = 0;
     int shown = 0;
@@ -89,8 +89,8 @@ struct SeenPart {
           nearest->points[std::size_t(i) * nearest->points.size() / std::size_t(count)];
       const Eigen::Vector3d at = pose * Eigen::Vector3d(p.x_m, p.y_m, p.z_m);
       const Eigen::Vector3d ahead = at + 1e-6 * (pose.rotation * Eigen::Vector3d(p.tx, p.ty, p.tz));
-      const Eigen::Vector2d pixel = project(view.coarse_camera, at),
-                            along = project(view.coarse_camera, ahead) - pixel;
+      const Eigen::Vector2d pixel = project(view.reduced[0].camera, at),
+                            along = project(view.reduced[0].camera, ahead) - pixel;
       if (pixel.x() < first_column - 0.5) continue;
       ++shown;
       const int x = int(std::lround(pixel.x())), y = int(std::lround(pixel.y()));

@@ -48,6 +48,22 @@ INSTANTIATE_TEST_SUITE_P(Parts, DetectParts,
                          ::testing::Values("l_bracket", "bearing_block", "u_channel"),
                          [](const auto& parameter) { return parameter.param; });
 
+// At distances of two scales.
+TEST(DetectObjects, FindsNearAndFarPartsWithoutARange) {
+  const auto backend = make_cpu_backend(2);
+  for (const double distance_m : {0.15, 0.5}) {
+    RenderedPart t("u_channel", 1, 1, distance_m);
+    t.sets = {build_templates(
+        t.part, with_default_distances({}, t.part.mesh.diameter_m, t.scene.views[0].camera),
+        *backend)};
+    const Detections found = t.detect(0, *backend);
+    ASSERT_FALSE(found.detections.empty()) << distance_m;
+    const Se3 truth = t.truth_in(0), best = nearest(found, truth).world_from_object;
+    EXPECT_LT(t.error(best, truth).angle_rad, 0.1) << distance_m;
+    EXPECT_LT(distance_between_m(best, truth), 0.03 * distance_m) << distance_m;
+  }
+}
+
 TEST(DetectObjects, FindsNothingOnABareBoard) {
   RenderedPart t("l_bracket");
   ThreadPool pool(2);

@@ -89,14 +89,32 @@ TEST(TemplateSet, DistancesRunFromNearToFarInEqualRatios) {
     EXPECT_NEAR(distances[i] / distances[i - 1], std::pow(2, 1 / 8.0), 1e-12);
 }
 
-TEST(TemplateSet, DefaultDistancesShowTheObjectInAThirdToASixthOfTheImage) {
+TEST(TemplateSet, DefaultDistancesShowTheObjectInAllToATwentiethOfTheLargerSide) {
   Camera camera;
   camera.width = 640;
   camera.height = 480;
   camera.fx = camera.fy = 800;
   const TemplateOptions options = with_default_distances({}, 0.1, camera);
-  EXPECT_NEAR(800 * 0.1 / options.distance_min_m, 160, 1e-9);
-  EXPECT_NEAR(800 * 0.1 / options.distance_max_m, 80, 1e-9);
+  EXPECT_NEAR(800 * 0.1 / options.distance_min_m, 640, 1e-9);
+  EXPECT_NEAR(800 * 0.1 / options.distance_max_m, 32, 1e-9);
+}
+
+TEST(TemplateSet, ScalesDivideARangeIntoEqualRatios) {
+  TemplateOptions options;
+  options.distance_min_m = 0.4, options.distance_max_m = 1;
+  EXPECT_EQ(distance_scales(options).size(), 1u);  // 2.5 : 1
+  options.distance_min_m = 0.125, options.distance_max_m = 2.5;
+  const std::vector<DistanceRange> scales = distance_scales(options);
+  ASSERT_EQ(scales.size(), 4u);
+  EXPECT_DOUBLE_EQ(scales.front().min_m, 0.125);
+  EXPECT_NEAR(scales.back().max_m, 2.5, 1e-12);
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    EXPECT_NEAR(scales[i].max_m / scales[i].min_m, std::pow(20, 0.25), 1e-9);
+    if (i > 0) EXPECT_NEAR(scales[i].min_m, scales[i - 1].max_m, 1e-12);
+    const std::vector<double> distances = template_distances_m(options, scales[i]);
+    EXPECT_NEAR(distances.front(), scales[i].min_m, 1e-12);
+    EXPECT_NEAR(distances.back(), scales[i].max_m, 1e-9);
+  }
 }
 
 TEST(TemplateFile, ReadsBackWhatWasWritten) {

@@ -1,0 +1,25 @@
+// Registers poses on coarse tensors, each on the level that suits its object's size.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "host/register/d2co.h"
+
+namespace edgescout {
+
+// Registers poses in a scene whose views have the coarse tensors of one level.
+using RegisterOnLevel = std::function<std::vector<PoseEstimate>(
+    const Scene& scene, std::span<const ObjectPose> starts)>;
+
+// Calls `register_on_level` once for each level that suits starts. The size is that in the first
+// view. The order is that of the starts.
+std::vector<PoseEstimate> register_coarsely(const Scene& scene, std::span<const ObjectPose> starts,
+                                            const RegisterOnLevel& register_on_level);
+
+// The same by register_poses.
+std::vector<PoseEstimate> register_coarsely(const Scene& scene, std::span<const ObjectPose> starts,
+                                            const D2coOptions& options);
+
+}  // namespace edgescout
