@@ -1,22 +1,26 @@
-// Prints the training data of the probability and the rank of a pose in one view
+// Prints the training data of the probability and the rank of a pose
 // (host/register/pose_classifier.h).
 //
-//   edgescout_bench_pose_features SCENES [--models FOLDER] [--set NAME] [--medium N]
+//   edgescout_bench_pose_features SCENES [--joint] [--models FOLDER] [--set NAME] [--medium N]
 //   [--distance-min M --distance-max M] [--device D] > poses.csv
 //   scripts/fit_probability.py poses.csv...
+//   scripts/fit_probability_over_views.py poses.csv...   (with --joint)
 //
 // SCENES is a folder of BOP scenes; FOLDER (default: SCENES/models) has models_info.json and
 // obj_NNNNNN.ply in mm. NAME (default: the folder's) is the first column. Without distances the
 // range is that of the true poses, a tenth wider at both ends.
 //
-// Every image is searched for every object that it shows. One row per pose:
-//   stage medium:   the N (default: 200) best distinct poses after the medium stage (detect.h), and
-//                   all others near a true one
-//   stage fine:     all poses after the fine stage
+// Every image is searched for every object that it shows; with --joint all images of a scene
+// together. One row per pose and view in which its features are measured:
+//   stage medium:   the N (default: 200) best distinct poses after the medium stage (detect.h) of
+//                   the search in one image, and all others near a true one
+//   stage fine:     all poses after the fine stage; with --joint all that compete over all views
 //   stage reported: what detection without a threshold of probability reports
 //   stage truth:    every true pose, registered from itself without a search
-// `truth` is the index of the nearest true pose of the object in scene_gt.json, -1 where none lies
-// within half a diameter; then `visible` is 0 and the errors are infinite.
+// `image` is scene and searched image, or the scene alone; `pose` counts the poses of a stage in
+// it. `rank` and `probability` are of all views of the pose, the other features of the row's
+// `view`. `truth` is the index of the nearest true pose of the object in scene_gt.json, -1 where
+// none lies within half a diameter; then `visible` is 0 and the errors are infinite.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -29,6 +33,8 @@
 #include "bench/arguments.h"
 #include "host/core/pose_error.h"
 #include "host/detect/detect.h"
+#include "host/detect/joint.h"
+#include "host/detect/support_views.h"
 #include "host/detect/suppression.h"
 #include "host/io/bop.h"
 #include "host/io/image.h"
@@ -45,6 +51,7 @@ namespace fs = std::filesystem;
 struct Arguments {
   std::string scenes, models, set, device = "cpu";
   int medium = 200;
+  bool joint = false;
   double distance_min_m = 0, distance_max_m = 0;
 };
 
@@ -55,6 +62,7 @@ Arguments parse(int argc, char** argv) {
                          {"--models", &a.models},
                          {"--set", &a.set},
                          {"--medium", &a.medium},
+                         {"--joint", &a.joint},
                          {"--distance-min", &a.distance_min_m},
                          {"--distance-max", &a.distance_max_m},
                          {"--device", &a.device}});
@@ -122,51 +130,80 @@ std::map<int, SearchedObject> load_searched(const Arguments& a, std::span<const 
   return searched;
 }
 
-// What the rows of one object in one image have in common.
+// An image with its true poses of all objects.
+struct ImageTruths {
+  int image_id;
+  Camera camera;
+  Se3 camera_from_world;
+  std::span<const BopTruth> truths;
+};
+
+// What the rows of one object in one search have in common. Poses are in the world of the images.
 struct Printer {
-  std::string begin;  // set, part, image
+  std::string begin;  // set, part, image or scene
   const Object& object;
-  const Camera& camera;
-  std::span<const BopTruth> truths;  // of all objects
-  std::vector<std::size_t> own;      // indices of those of the object
+  std::vector<ImageTruths> images;  // those in which the features of a pose were measured
+
+  std::vector<std::size_t> own() const {
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < images[0].truths.size(); ++i)
+      if (images[0].truths[i].object_id == object.id) indices.push_back(i);
+    return indices;
+  }
 
   // The nearest true pose within half a diameter.
   int nearest_truth(const Se3& pose) const {
+    const ImageTruths& image = images[0];
     double nearest_m = 0.5 * object.mesh.diameter_m;
     int nearest = -1;
-    for (const std::size_t i : own) {
+    for (const std::size_t i : own()) {
       const double distance_m =
-          pose_distance_m(pose, truths[i].camera_from_object, object.mesh, object.symmetries);
+          pose_distance_m(image.camera_from_world * pose, image.truths[i].camera_from_object,
+                          object.mesh, object.symmetries);
       if (distance_m < nearest_m) nearest_m = distance_m, nearest = int(i);
     }
     return nearest;
   }
 
-  void print(const char* stage, const PoseEstimate& pose) const {
+  void print(const char* stage, std::span<const PoseEstimate> poses) const {
+    for (std::size_t p = 0; p < poses.size(); ++p) {
+      const int truth = nearest_truth(poses[p].world_from_object);
+      for (std::size_t v = 0; v < images.size(); ++v) {
+        std::printf("%s,%s,%zu,%d,%d,", begin.c_str(), stage, p, images[v].image_id, truth);
+        print_errors(poses[p], truth, images[v]);
+        std::printf("%.5f,%.5f,", PoseClassifier::rank(poses[p].features),
+                    PoseClassifier::probability(poses[p].features));
+        print_features(poses[p].features[v]);
+      }
+    }
+  }
+
+ private:
+  void print_errors(const PoseEstimate& pose, int truth, const ImageTruths& image) const {
     constexpr double inf = std::numeric_limits<double>::infinity();
-    const int truth = nearest_truth(pose.world_from_object);
     double visible = 0, mspd = inf;
     PoseError error{inf, inf};
     if (truth >= 0) {
-      const BopTruth& t = truths[std::size_t(truth)];
+      const BopTruth& t = image.truths[std::size_t(truth)];
+      const Se3 camera_from_object = image.camera_from_world * pose.world_from_object;
       visible = t.visible_fraction;
-      mspd = mspd_px(pose.world_from_object, t.camera_from_object, object, camera);
-      error = pose_error(pose.world_from_object, t.camera_from_object, object.symmetries);
+      mspd = mspd_px(camera_from_object, t.camera_from_object, object, image.camera);
+      error = pose_error(camera_from_object, t.camera_from_object, object.symmetries);
     }
-    const PoseFeatures& f = pose.features[0];
-    std::printf("%s,%s,%d,%.3f,%.3f,%.5f,%.5f,", begin.c_str(), stage, truth, visible, mspd,
-                error.angle_rad, error.distance_m);
-    std::printf("%.5f,%.5f,%.5f,%.5f,%.5f,%.5f,%.5f,%.5f,%.5f,%.0f,%.4f,%.2f\n",
-                PoseClassifier::rank(f), PoseClassifier::probability(f), psi_z_score(f), f.mean_px,
-                unexplained_grey(f.shading), f.support.log_ratio, f.support.interior_log_ratio,
-                f.support.support, f.support.best_displaced, f.points, f.in_image, f.length_px);
+    std::printf("%.3f,%.3f,%.5f,%.5f,", visible, mspd, error.angle_rad, error.distance_m);
+  }
+
+  static void print_features(const PoseFeatures& f) {
+    std::printf("%.5f,%.5f,%.5f,%.5f,%.5f,%.5f,%.5f,%.0f,%.4f,%.2f,%.5f,%d\n", psi_z_score(f),
+                f.mean_px, unexplained_grey(f.shading), f.support.log_ratio,
+                f.support.interior_log_ratio, f.support.support, f.support.best_displaced, f.points,
+                f.in_image, f.length_px, PoseClassifier::log_odds(f), int(is_informative(f)));
   }
 };
 
 // The best distinct poses by rank, and those near a true one.
 std::vector<PoseEstimate> kept_of_medium(const std::vector<PoseEstimate>& medium,
-                                         const Printer& printer, const Object& object,
-                                         std::size_t most) {
+                                         const Printer& printer, std::size_t most) {
   std::vector<Se3> poses;
   std::vector<double> keys;
   for (const PoseEstimate& pose : medium) {
@@ -174,12 +211,17 @@ std::vector<PoseEstimate> kept_of_medium(const std::vector<PoseEstimate>& medium
     keys.push_back(-PoseClassifier::rank(pose.features));
   }
   const std::vector<std::size_t> order =
-      best_distinct(poses, keys, object.mesh, object.symmetries,
-                    thresholds::SAME_POSE * object.mesh.diameter_m, poses.size());
+      best_distinct(poses, keys, printer.object.mesh, printer.object.symmetries,
+                    thresholds::SAME_POSE * printer.object.mesh.diameter_m, poses.size());
   std::vector<PoseEstimate> kept;
   for (std::size_t n = 0; n < order.size(); ++n)
     if (n < most || printer.nearest_truth(poses[order[n]]) >= 0) kept.push_back(medium[order[n]]);
   return kept;
+}
+
+// Copies of one view share its edges.
+std::size_t index_of(std::span<const ObjectView> views, const ObjectView& view) {
+  return std::size_t(std::ranges::find(views, view.edges, &ObjectView::edges) - views.begin());
 }
 
 class Collector {
@@ -192,32 +234,39 @@ class Collector {
 
   void print_all() const {
     std::puts(
-        "set,part,image,stage,truth,visible,mspd_px,angle_rad,distance_m,rank,probability,"
-        "psi_z_score,mean_px,unexplained_grey,log_ratio,interior_log_ratio,support,best_displaced,"
-        "points,in_image,length_px");
+        "set,part,image,stage,pose,view,truth,visible,mspd_px,angle_rad,distance_m,rank,"
+        "probability,psi_z_score,mean_px,unexplained_grey,log_ratio,interior_log_ratio,support,"
+        "best_displaced,points,in_image,length_px,log_odds,informative");
     for (const BopScene& scene : scenes_)
-      for (const BopImage& image : scene.images)
-        if (const auto truth = scene.truth.find(image.image_id); truth != scene.truth.end())
-          print_image(scene, image, truth->second);
+      if (arguments_.joint)
+        print_scene(scene);
+      else
+        for (const BopImage& image : scene.images)
+          if (scene.truth.contains(image.image_id)) print_image(scene, image);
   }
 
  private:
-  void print_image(const BopScene& scene, const BopImage& image,
-                   std::span<const BopTruth> truths) const {
+  ObjectView prepare(const BopImage& image, const Se3& camera_from_world) const {
     const Image pixels = load_image(image.file);
     Camera camera = image.camera;
     camera.width = pixels.width;
     camera.height = pixels.height;
-    const ObjectView prepared = prepare_view(pixels, camera, {}, backend_, options_);
+    return prepare_view(pixels, camera, camera_from_world, backend_, options_);
+  }
+
+  std::string begin_of_rows(int object_id, const std::string& image) const {
+    return arguments_.set + ',' + arguments_.set + '_' + std::to_string(object_id) + ',' + image;
+  }
+
+  void print_image(const BopScene& scene, const BopImage& image) const {
+    const ObjectView prepared = prepare(image, {});
+    const std::string name = std::to_string(scene.scene_id) + '/' + std::to_string(image.image_id);
     for (const auto& [id, searched] : objects_) {
-      char begin[256];
-      std::snprintf(begin, sizeof begin, "%s,%s_%d,%d/%d", arguments_.set.c_str(),
-                    arguments_.set.c_str(), id, scene.scene_id, image.image_id);
-      Printer printer{begin, searched.object, prepared.camera, truths, {}};
-      for (std::size_t i = 0; i < truths.size(); ++i)
-        if (truths[i].object_id == id) printer.own.push_back(i);
-      if (printer.own.empty()) continue;
-      print_object(searched, prepared, printer);
+      const Printer printer{
+          begin_of_rows(id, name),
+          searched.object,
+          {{image.image_id, prepared.camera, {}, scene.truth.at(image.image_id)}}};
+      if (!printer.own().empty()) print_object(searched, prepared, printer);
     }
     std::fflush(stdout);
   }
@@ -226,20 +275,78 @@ class Collector {
                     const Printer& printer) const {
     DetectTrace trace;
     detect_objects(prepared, {&searched.set, 1}, backend_, options_, &trace);
-    for (const PoseEstimate& pose : kept_of_medium(trace.searches[0].medium, printer,
-                                                   searched.object, std::size_t(arguments_.medium)))
-      printer.print("medium", pose);
-    for (const PoseEstimate& pose : trace.searches[0].fine) printer.print("fine", pose);
-    for (const PoseEstimate& pose : selected_estimates(trace.selection))
-      printer.print("reported", pose);
+    print_medium(trace.searches[0], printer);
+    printer.print("fine", trace.searches[0].fine);
+    printer.print("reported", selected_estimates(trace.selection));
+    print_truth(searched, {&trace.view, 1}, printer);
+  }
+
+  void print_medium(const SearchTrace& search, const Printer& printer) const {
+    printer.print("medium", kept_of_medium(search.medium, printer, std::size_t(arguments_.medium)));
+  }
+
+  void print_truth(const SearchedObject& searched, std::span<const ObjectView> views,
+                   const Printer& printer) const {
+    const ImageTruths& image = printer.images[0];
     std::vector<ObjectPose> starts;
-    for (const std::size_t i : printer.own)
-      starts.push_back({0, printer.truths[i].camera_from_object});
+    for (const std::size_t i : printer.own())
+      starts.push_back({0, inverse(image.camera_from_world) * image.truths[i].camera_from_object});
     RefineOptions refine = options_.detect.refine;
     refine.search.rotation_rad = 0;
-    for (const PoseEstimate& pose :
-         refine_poses({{&searched.set.model, 1}, {&trace.view, 1}, backend_}, starts, refine))
-      printer.print("truth", pose);
+    printer.print("truth",
+                  refine_poses({{&searched.set.model, 1}, views, backend_}, starts, refine));
+  }
+
+  void print_scene(const BopScene& scene) const {
+    std::vector<ObjectView> views;
+    std::vector<ImageTruths> images;
+    for (const BopImage& image : scene.images) {
+      if (!image.camera_from_world || !scene.truth.contains(image.image_id)) continue;
+      views.push_back(prepare(image, *image.camera_from_world));
+      images.push_back({image.image_id, views.back().camera, *image.camera_from_world,
+                        scene.truth.at(image.image_id)});
+    }
+    if (views.size() < 2) return;
+    for (const auto& [id, searched] : objects_) {
+      const Printer printer{begin_of_rows(id, std::to_string(scene.scene_id)), searched.object,
+                            images};
+      if (!printer.own().empty()) print_object_jointly(searched, views, printer);
+    }
+    std::fflush(stdout);
+  }
+
+  // The stages of detect_jointly.
+  void print_object_jointly(const SearchedObject& searched, std::vector<ObjectView> views,
+                            const Printer& printer) const {
+    const std::span<const TemplateSet> sets{&searched.set, 1};
+    Grid<std::vector<PoseEstimate>> candidates(views.size(), 1);
+    for (ObjectView& view : views) add_tensors(view, sets, backend_, options_.tensor);
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      SearchTrace search;
+      candidates(v, 0) = find_candidates({searched.set, views[v], all_but(views, v), backend_}, {},
+                                         options_.detect, &search);
+      print_medium(search, printer_from(printer, views, v));
+    }
+    const Scene scene{{&searched.set.model, 1}, views, backend_};
+    SelectionTrace selection;
+    join_views(scene, sets, candidates, options_.detect, &selection);
+    printer.print("fine", selection.competing);
+    printer.print("reported", selected_estimates(selection));
+    print_truth(searched, views, printer);
+  }
+
+  // For the features of the search in view `searched`: that view first, then those that support it;
+  // its camera frame is the world.
+  Printer printer_from(const Printer& of_scene, std::span<const ObjectView> views,
+                       std::size_t searched) const {
+    const ImageTruths& own = of_scene.images[searched];
+    Printer printer{of_scene.begin + '/' + std::to_string(own.image_id), of_scene.object, {own}};
+    for (const ObjectView& view : support_views(views[searched], all_but(views, searched),
+                                                std::size_t(options_.detect.support_views)))
+      printer.images.push_back(of_scene.images[index_of(views, view)]);
+    for (ImageTruths& image : printer.images)
+      image.camera_from_world = image.camera_from_world * inverse(own.camera_from_world);
+    return printer;
   }
 
   const Arguments& arguments_;

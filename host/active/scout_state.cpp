@@ -9,7 +9,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 15, "scout state"};
+constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 16, "scout state"};
 
 template <typename T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -81,9 +81,9 @@ void fields(auto& io, A<ExtrinsicsCheck> auto& x) {
   io(x.residual_px, x.objects, x.missing, x.disagrees);
 }
 void fields(auto& io, A<PoseFeatures> auto& x) {
-  io(x.psi, x.background_psi, x.mean_px, x.matched, x.points, x.length_px, x.in_image, x.visible,
-     x.shading.pixels, x.shading.squares, x.shading.unexplained, x.support.log_ratio,
-     x.support.interior_log_ratio, x.support.support, x.support.best_displaced);
+  io(x.psi, x.mean_px, x.matched, x.points, x.length_px, x.in_image, x.visible, x.shading.pixels,
+     x.shading.squares, x.shading.unexplained, x.support.log_ratio, x.support.interior_log_ratio,
+     x.support.support, x.support.best_displaced);
 }
 void fields(auto& io, A<ParticleUpdate> auto& x) { io(x.effective, x.reseeded, x.gained_nats); }
 void fields(auto& io, A<FailedView> auto& x) { io(x.view, x.reason, x.after_step, x.stages); }

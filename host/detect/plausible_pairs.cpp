@@ -226,7 +226,8 @@ std::vector<double> probabilities_without_collisions(std::span<const EdgeModel> 
   std::vector<std::size_t> placed_index;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     probabilities.push_back(PoseClassifier::probability(poses[i].features));
-    if (probabilities[i] < negligible || sum_informative_views(poses[i].features).views < 2)
+    if (probabilities[i] < negligible ||
+        std::ranges::count_if(poses[i].features, is_informative) < 2)
       continue;
     of_placed.push_back(probabilities[i]);
     placed.push_back(poses[i]);

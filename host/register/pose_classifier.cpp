@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "host/register/pose_classifier_weights.h"
 #include "host/register/pose_features.h"
@@ -16,12 +17,8 @@ namespace {
 namespace weights = pose_classifier_weights;
 
 constexpr double NOISE_GREY = 2;  // of an image, standard deviation
-
-double in_standard_errors(double psi_excess, const PoseFeatures& features) {
-  constexpr double spread = 0.308;      // standard deviation of |cos| of unrelated directions
-  constexpr double independent_px = 5;  // neighbouring edge points agree or disagree together
-  return psi_excess / spread * std::sqrt(features.length_px / independent_px);
-}
+// Of a pose in one of several views. Something unknown may hide it there.
+constexpr double MIN_LOG_PROBABILITY = -10;
 
 // Log ratios of views add up. Fractions are weighted by the points.
 void add(EdgeSupport& sum, const EdgeSupport& other, double points) {
@@ -32,11 +29,6 @@ void add(EdgeSupport& sum, const EdgeSupport& other, double points) {
 }
 
 double logistic(double log_odds) { return 1 / (1 + std::exp(-log_odds)); }
-
-bool is_informative(const PoseFeatures& f) {
-  constexpr double min_in_image = 0.2;
-  return f.points >= thresholds::MIN_POINTS && f.in_image >= min_in_image;
-}
 
 // Evidence grows more slowly than the number of edge points: their errors depend on each other.
 double signed_root(double value) { return std::copysign(std::sqrt(std::abs(value)), value); }
@@ -56,23 +48,30 @@ double weighted(const PoseFeatures& features, const weights::OneView& w) {
          w.best_displaced * support.best_displaced;
 }
 
-double weighted(const ViewSums& sums) {
-  constexpr weights::SeveralViews w = weights::SEVERAL_VIEWS;
-  constexpr int max_views = 5;  // no fit has more
-  const double sum = w.views * sums.views + w.log_psi_z_score * sums.log_psi_z_score +
-                     w.log_background_psi_z_score * sums.log_background_psi_z_score +
-                     w.unexplained_grey * sums.unexplained_grey;
-  return w.bias + sum / sums.views * std::sqrt(double(std::min(sums.views, max_views)));
+double log_logistic(double log_odds) {
+  return log_odds > 0 ? -std::log1p(std::exp(-log_odds))
+                      : log_odds - std::log1p(std::exp(log_odds));
+}
+
+double weighted(std::span<const PoseFeatures> informative_views, const weights::SeveralViews& w) {
+  double sum = 0;
+  for (const PoseFeatures& f : informative_views)
+    sum += std::max(log_logistic(PoseClassifier::log_odds(f)), MIN_LOG_PROBABILITY);
+  return w.bias + w.log_probability * sum / double(informative_views.size());
+}
+
+std::vector<PoseFeatures> informative(std::span<const PoseFeatures> by_view) {
+  std::vector<PoseFeatures> views;
+  std::ranges::copy_if(by_view, std::back_inserter(views), is_informative);
+  return views;
 }
 
 }  // namespace
 
 double psi_z_score(const PoseFeatures& features) {
-  return in_standard_errors(features.psi - CHANCE_PSI, features);
-}
-
-double background_psi_z_score(const PoseFeatures& features) {
-  return in_standard_errors(features.psi - features.background_psi, features);
+  constexpr double spread = 0.308;      // standard deviation of |cos| of unrelated directions
+  constexpr double independent_px = 5;  // neighbouring edge points agree or disagree together
+  return (features.psi - CHANCE_PSI) / spread * std::sqrt(features.length_px / independent_px);
 }
 
 void add(Shading& sum, const Shading& other) {
@@ -87,12 +86,16 @@ double unexplained_grey(const Shading& shading) {
                             : 1;
 }
 
+bool is_informative(const PoseFeatures& features) {
+  constexpr double min_in_image = 0.2;
+  return features.points >= thresholds::MIN_POINTS && features.in_image >= min_in_image;
+}
+
 PoseFeatures pool_over_views(std::span<const PoseFeatures> by_view) {
   check(!by_view.empty(), "pool_over_views: features of at least one view");
   PoseFeatures sum;
   for (const PoseFeatures& f : by_view) {
     sum.psi += f.psi * f.points;
-    sum.background_psi += f.background_psi * f.points;
     sum.mean_px += f.mean_px * f.points;
     sum.matched += f.matched * f.points;
     sum.points += f.points;
@@ -102,8 +105,7 @@ PoseFeatures pool_over_views(std::span<const PoseFeatures> by_view) {
     add(sum.support, f.support, f.points);
   }
   if (sum.points > 0) {
-    sum.psi /= sum.points, sum.background_psi /= sum.points, sum.mean_px /= sum.points,
-        sum.matched /= sum.points;
+    sum.psi /= sum.points, sum.mean_px /= sum.points, sum.matched /= sum.points;
     sum.support.support /= float(sum.points), sum.support.best_displaced /= float(sum.points);
   } else {
     sum.mean_px = by_view[0].mean_px;
@@ -123,8 +125,8 @@ double PoseClassifier::log_odds(const PoseFeatures& features) {
 
 double PoseClassifier::rank(std::span<const PoseFeatures> by_view) {
   if (by_view.size() == 1) return rank(by_view[0]);
-  const ViewSums sums = sum_informative_views(by_view);
-  if (sums.views > 1) return weighted(sums);
+  const std::vector<PoseFeatures> views = informative(by_view);
+  if (views.size() > 1) return weighted(views, weights::SEVERAL_VIEWS);
   const double p = probability(by_view);
   return std::log(p / (1 - p));
 }
@@ -135,24 +137,10 @@ double PoseClassifier::probability(const PoseFeatures& features) {
 }
 
 double PoseClassifier::probability(std::span<const PoseFeatures> by_view) {
-  const ViewSums sums = sum_informative_views(by_view);
-  if (sums.views == 0) return 0;
-  return sums.views == 1 ? probability(*std::ranges::find_if(by_view, is_informative))
-                         : logistic(weighted(sums));
-}
-
-ViewSums sum_informative_views(std::span<const PoseFeatures> by_view) {
-  // Standard errors. A view with less shows nothing of the object, which may be hidden there.
-  constexpr double min_z_score = 2;
-  ViewSums sums;
-  for (const PoseFeatures& f : by_view) {
-    if (!is_informative(f)) continue;
-    ++sums.views;
-    sums.log_psi_z_score += std::log(std::max(psi_z_score(f), min_z_score));
-    sums.log_background_psi_z_score += std::log(std::max(background_psi_z_score(f), min_z_score));
-    sums.unexplained_grey += unexplained_grey(f.shading);
-  }
-  return sums;
+  const std::vector<PoseFeatures> views = informative(by_view);
+  if (views.empty()) return 0;
+  return views.size() == 1 ? probability(views[0])
+                           : logistic(weighted(views, weights::SEVERAL_VIEWS));
 }
 
 }  // namespace edgescout

@@ -22,16 +22,15 @@ namespace edgescout {
 inline constexpr double CHANCE_PSI = 0.65;
 double psi_z_score(const PoseFeatures& features);
 
-// The same with background_psi in place of chance. The parallel lines of a barcode agree with an
-// object at any place; blank surroundings agree with none.
-double background_psi_z_score(const PoseFeatures& features);
-
 // Adds another view of the same pose.
 void add(Shading& sum, const Shading& other);
 
 // Root mean square of the unexplained deviations divided by that of all deviations, in [0, 1]. 1
 // where too few pixels were compared. Near 1 where the contrast is as weak as the image's noise.
 double unexplained_grey(const Shading& shading);
+
+// Whether a view counts among several: it has 12 points and a fifth of the pose inside the image.
+bool is_informative(const PoseFeatures& features);
 
 // Pools the features of one pose over its views (at least one): means weighted by the views'
 // numbers of points, sums of counts.
@@ -51,21 +50,11 @@ struct PoseClassifier {
   // Probability in [0, 1] that a registered pose is right, times the fraction of it that is in the
   // image and not behind known objects; 0 below 12 points.
   static double probability(const PoseFeatures& features);
-  // The same from all views of a pose. Each informative view adds its log-odds; the sum of n views
-  // counts a square root of n less, as for a mean of n dependent errors: views share neighbours,
-  // shadows and wrong edges. More than five views count as five. A view with less than 12 points or
-  // a fifth of the pose inside the image is not informative. One informative view: as above; none:
-  // 0.
+  // The same from all views of a pose. Its log-odds are linear in the mean over the informative
+  // views of the log-probability in one view, which lies in [-10, 0]. So they are bounded, a view
+  // that contradicts counts more than one that agrees, and the same views again add nothing. One
+  // informative view: as above; none: 0.
   static double probability(std::span<const PoseFeatures> by_view);
 };
-
-// Sums over the informative views. The probability over several views is a function of them.
-struct ViewSums {
-  int views = 0;
-  double log_psi_z_score = 0;  // logarithms, of two standard errors at least
-  double log_background_psi_z_score = 0;
-  double unexplained_grey = 0;
-};
-ViewSums sum_informative_views(std::span<const PoseFeatures> by_view);
 
 }  // namespace edgescout

@@ -20,17 +20,15 @@ struct Shading {
 
 // What was measured of a pose in one view, or pooled over views (pose_features.h).
 struct PoseFeatures {
-  double psi = 0;             // Eq. 10, mean over the visible points
-  double background_psi = 0;  // psi of the same points with the pose moved a little aside; measured
-                              // where there are several views
-  double mean_px = 0;         // mean tensor value
-  double matched = 0;         // fraction of points with a tensor value below the match limit
-  double points = 0;          // number of visible points inside the image, not behind known objects
-  double length_px = 0;       // of the visible edges inside the image
-  double in_image = 0;        // points / visible
-  double visible = 0;   // number of points inside the image or not, behind known objects or not
-  Shading shading;      // zero where the view has no image
-  EdgeSupport support;  // the same (edge_support.h)
+  double psi = 0;        // Eq. 10, mean over the visible points
+  double mean_px = 0;    // mean tensor value
+  double matched = 0;    // fraction of points with a tensor value below the match limit
+  double points = 0;     // number of visible points inside the image, not behind known objects
+  double length_px = 0;  // of the visible edges inside the image
+  double in_image = 0;   // points / visible
+  double visible = 0;    // number of points inside the image or not, behind known objects or not
+  Shading shading;       // zero where the view has no image
+  EdgeSupport support;   // the same (edge_support.h)
 };
 
 // Why a registration stopped.

@@ -23,7 +23,7 @@ struct FeatureOptions {
   VisibilityOptions visibility;
 };
 
-// Rows are poses, columns views. background_psi is measured where there are several views.
+// Rows are poses, columns views.
 Grid<PoseFeatures> features_by_view(const Scene& scene, std::span<const ObjectPose> poses,
                                     const FeatureOptions& options = {});
 
@@ -31,7 +31,7 @@ Grid<PoseFeatures> features_by_view(const Scene& scene, std::span<const ObjectPo
 void measure_features(const Scene& scene, std::span<PoseEstimate> poses,
                       const FeatureOptions& options = {});
 
-// Features of each pose pooled over all views, without background_psi.
+// Features of each pose pooled over all views.
 std::vector<PoseFeatures> pooled_features(const Scene& scene, std::span<const ObjectPose> poses,
                                           const FeatureOptions& options = {});
 

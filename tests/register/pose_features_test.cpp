@@ -70,37 +70,5 @@ TEST(PoseFeatures, CountWhatLiesInTheImage) {
   EXPECT_NEAR(left.in_image + right.in_image, 1, 1e-9);
 }
 
-// Parallel stripes agree with a pose as well as with the pose moved aside. An image of the part
-// itself agrees with the pose only.
-TEST(PoseFeatures, ComparePsiWithItsSurroundings) {
-  const auto backend = make_cpu_backend(2);
-  const Camera camera{320, 240, 400, 400, 159.5, 119.5, {}};
-  const std::vector<EdgeModel> models{make_edge_model(make_part("u_channel").mesh)};
-  const ObjectPose pose{0, {so3_exp({0.05, -0.04, 0.03}), {0, 0, 0.3}}};
-  Image stripes{camera.width, camera.height, std::vector<std::uint8_t>(320 * 240)};
-  for (int i = 0; i < 320 * 240; ++i) stripes.pixels[std::size_t(i)] = (i / 320) % 6 < 3 ? 40 : 200;
-  Image filled{camera.width, camera.height, std::vector<std::uint8_t>(320 * 240, 60)};
-  DepthJob job{to_pose(pose.world_from_object), intrinsics_of(camera)};
-  std::vector<float> depth(320 * 240);
-  backend->depth_raster(models[0].triangle_mesh(), {&job, 1}, 320, 240, depth);
-  for (std::size_t i = 0; i < depth.size(); ++i)
-    if (depth[i] != DEPTH_EMPTY) filled.pixels[i] = 180;
-  const auto features_on = [&](const Image& image) {
-    ObjectView view;
-    view.camera = camera;
-    view.tensor = backend->make_view({}, camera.width, camera.height,
-                                     {image.width, image.height, image.pixels.data()},
-                                     intrinsics_of(camera), {});
-    const std::vector<ObjectView> views{view, view};
-    return features_by_view({models, views, *backend}, {&pose, 1}, {{}, {}})(0, 0);
-  };
-  const PoseFeatures on_stripes = features_on(stripes), on_itself = features_on(filled);
-  EXPECT_GT(on_stripes.psi, 0.3);
-  EXPECT_NEAR(on_stripes.background_psi, on_stripes.psi, 0.1);
-  EXPECT_GT(on_itself.psi, 0.3);
-  EXPECT_LT(on_itself.background_psi, 0.5 * on_itself.psi);
-  EXPECT_GT(background_psi_z_score(on_itself), 3 * std::abs(background_psi_z_score(on_stripes)));
-}
-
 }  // namespace
 }  // namespace edgescout::test
