@@ -27,11 +27,14 @@ TEST(Scout, EndsByEachOfItsLimits) {
   Detection there;
   there.world_from_object = t.scene.placed[0].world_from_object;
   there.psi = 0.9;
-  const auto always_there = [&](ScoutOptions& o) {
-    o.min_entropy_nats = 1000;
+  const auto finds_the_same = [&](ScoutOptions& o) {
     o.detect = [&](std::span<const int>, std::span<const ObjectView>, std::span<const ObjectPose>) {
       return std::vector{there};
     };
+  };
+  const auto always_there = [&](ScoutOptions& o) {
+    o.min_entropy_nats = 1000;
+    finds_the_same(o);
   };
   EXPECT_EQ(ended(always_there), End(ScoutEnd::Certain, 2));
   EXPECT_EQ(ended([&](ScoutOptions& o) { always_there(o), o.detect_in_every_image = false; }),
@@ -52,7 +55,8 @@ TEST(Scout, EndsByEachOfItsLimits) {
             End(ScoutEnd::LittleToLearn, 1))
       << "what the way costs is taken off";
   // The first image's candidates are all new; the later ones find the same.
-  const auto found_once = [](ScoutOptions& o) {
+  const auto found_once = [&](ScoutOptions& o) {
+    finds_the_same(o);
     o.detect_in_every_image = false;
     o.next_view.strategy = Strategy::Fixed;
   };
