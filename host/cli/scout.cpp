@@ -53,8 +53,8 @@ TemplateOptions with_distances_of(TemplateOptions options, const WorldPrior& pri
   const std::optional<Eigen::Vector3d> center_m = looked_at_m(views);
   if (!center_m) {
     log(LogLevel::Warning,
-        "the views look at no point in common: distances are guessed from the objects' sizes. "
-        "Give --distance-min and --distance-max");
+        "the views look at no point in common: all distances are searched at which the objects "
+        "span a twentieth to all of the image. Give --distance-min and --distance-max");
     return options;
   }
   double near_m = INFINITY, far_m = 0;
