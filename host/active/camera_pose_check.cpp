@@ -48,8 +48,11 @@ std::vector<Eigen::Vector3d> places_in_view(const PosedCamera& posed,
       const Eigen::Vector2d pixel((column + 0.5) / 9 * camera.width,
                                   (row + 0.5) / 7 * camera.height);
       const Eigen::Vector3d ray = ray_through(camera, pixel).normalized();
-      for (double distance_m = searched.min_m; distance_m <= searched.max_m; distance_m *= 1.25)
+      double distance_m = searched.min_m;
+      while (distance_m <= searched.max_m) {
         places.push_back(world_from_camera * (distance_m * ray));
+        distance_m *= 1.25;
+      }
     }
   return places;
 }
