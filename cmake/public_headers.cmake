@@ -16,7 +16,7 @@ set(EDGESCOUT_PUBLIC_HEADERS
   host/register/pose_classifier.h host/register/pose_estimate.h host/register/pose_features.h
   host/register/refine.h host/register/scene.h
   host/detect/detect_options.h host/detect/detect_trace.h host/detect/explain.h
-  host/detect/same_pose.h host/detect/searched_sizes.h
+  host/detect/same_pose.h host/detect/searched_sizes.h host/detect/world_prior.h
   host/active/camera_pose_check.h host/active/next_view.h host/active/recorded_views.h
   host/active/scout.h host/active/scout_state.h host/active/source.h host/active/views.h
   kernels/backend.h kernels/error.h kernels/types.h)
