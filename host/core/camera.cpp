@@ -46,6 +46,14 @@ Eigen::Vector3d ray_through(const Camera& camera, const Eigen::Vector2d& pixel) 
   return {(pixel.x() - camera.cx) / camera.fx, (pixel.y() - camera.cy) / camera.fy, 1.0};
 }
 
+double size_px(double length_m, double distance_m, const Camera& camera) {
+  return 0.5 * (camera.fx + camera.fy) * length_m / distance_m;
+}
+
+double distance_at_size_m(double length_m, double size_px, const Camera& camera) {
+  return 0.5 * (camera.fx + camera.fy) * length_m / size_px;
+}
+
 Camera undistorted(const Camera& camera) {
   Camera ideal = camera;
   ideal.distortion.fill(0);

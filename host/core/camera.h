@@ -34,6 +34,10 @@ void validate(const Camera& camera, const std::string& source);
 Eigen::Vector2d project(const Camera& camera, const Eigen::Vector3d& x_in_camera);
 // Direction (z = 1) of the ray through an undistorted pixel.
 Eigen::Vector3d ray_through(const Camera& camera, const Eigen::Vector2d& pixel);
+// How many pixels a length across the line of sight spans, in the middle of the image.
+double size_px(double length_m, double distance_m, const Camera& camera);
+// How far away it spans that many.
+double distance_at_size_m(double length_m, double size_px, const Camera& camera);
 // The same camera without distortion.
 Camera undistorted(const Camera& camera);
 // The camera of an image resized by `factor`. The new size is rounded. With pixel centres at

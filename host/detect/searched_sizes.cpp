@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "host/register/object_view.h"
 #include "kernels/error.h"
 
 namespace edgescout {

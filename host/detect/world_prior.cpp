@@ -31,9 +31,10 @@ Range distances_to(const Eigen::AlignedBox3d& box, std::span<const Se3> box_from
 
 // At which an object spans a twentieth of the image's smaller side to all of its larger one.
 Range useful_distances(double diameter_m, const Camera& camera) {
-  const double px_m = 0.5 * (camera.fx + camera.fy) * diameter_m;
-  return {px_m / std::max(camera.width, camera.height),
-          px_m / (std::min(camera.width, camera.height) / 20.0)};
+  const double most_px = std::max(camera.width, camera.height),
+               least_px = std::min(camera.width, camera.height) / 20.0;
+  return {distance_at_size_m(diameter_m, most_px, camera),
+          distance_at_size_m(diameter_m, least_px, camera)};
 }
 
 }  // namespace

@@ -68,9 +68,8 @@ void TemplateOptions::validate() const {
 TemplateOptions with_default_distances(TemplateOptions options, double diameter_m,
                                        const Camera& camera) {
   if (options.distance_min_m > 0) return options;
-  const double pixels = std::max(camera.width, camera.height),
-               focal = 0.5 * (camera.fx + camera.fy);
-  options.distance_min_m = focal * diameter_m / pixels;
+  options.distance_min_m =
+      distance_at_size_m(diameter_m, std::max(camera.width, camera.height), camera);
   options.distance_max_m = 20 * options.distance_min_m;
   return options;
 }

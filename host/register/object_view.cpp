@@ -11,10 +11,6 @@ namespace {
 constexpr double REDUCED_SIZE_PX = 48;
 }
 
-double size_px(double length_m, double distance_m, const Camera& camera) {
-  return 0.5 * (camera.fx + camera.fy) * length_m / distance_m;
-}
-
 double reduction_for(double size_px) {
   return std::clamp(std::round(size_px / REDUCED_SIZE_PX), 1.0, 8.0);
 }

@@ -36,9 +36,6 @@ struct ObjectView {
   std::shared_ptr<const Occluders> occluders;  // null: no known objects here
 };
 
-// How many pixels of the image a length at this distance spans, in its middle.
-double size_px(double length_m, double distance_m, const Camera& camera);
-
 // The reduction that makes `size_px` some 48 px: a whole number in [1, 8]. Fewer hold too little
 // shape, more cost more.
 double reduction_for(double size_px);

@@ -54,6 +54,15 @@ TEST(Camera, ScalingThereAndBackChangesNothing) {
   EXPECT_NEAR(back.cy, 250.25, 1e-9);
 }
 
+// A length across the line of sight in the middle of the image, projected.
+TEST(Camera, SizeAndDistanceOfALengthBelongTogether) {
+  const Camera camera{640, 480, 800, 800, 319.5, 239.5, {}};
+  const Eigen::Vector3d left(-0.05, 0, 0.4), right(0.05, 0, 0.4);
+  const double px = (project(camera, right) - project(camera, left)).norm();
+  EXPECT_NEAR(size_px(0.1, 0.4, camera), px, 1e-9);
+  EXPECT_NEAR(distance_at_size_m(0.1, px, camera), 0.4, 1e-12);
+}
+
 TEST(Camera, UndistortedForgetsTheLensOnly) {
   Camera bent = camera();
   EXPECT_FALSE(bent.has_distortion());
