@@ -10,6 +10,7 @@
 
 #include "host/detect/search_space.h"
 #include "host/detect/template_projection.h"
+#include "host/register/coarse_registration.h"
 #include "host/register/thresholds.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
@@ -336,13 +337,12 @@ std::vector<ScanHit> coarse_scan(const TemplateSet& set, const ObjectView& view,
 
 double scan_mean_px(const TemplateSet& set, const ObjectView& view, const Se3& camera_from_object,
                     Backend& backend, const ScanOptions& options) {
-  const Eigen::Vector3d center_m = camera_from_object * set.model.center_m;
-  const ReducedTensors& level = view.reduced[level_for(
-      size_px(set.model.mesh.diameter_m, center_m.norm(), view.camera), view)];
+  const ReducedTensors& level = view.reduced[level_of_pose(view, set.model, camera_from_object)];
   const ThinnedView visible(
       {camera_from_object.rotation, visible_edges(set.model, {&camera_from_object, 1}, backend)[0]},
       options.points);
-  const Eigen::Vector2d anchor_px = project(level.camera, center_m).array().round();
+  const Eigen::Vector2d anchor_px =
+      project(level.camera, camera_from_object * set.model.center_m).array().round();
   std::vector<TemplatePoint> points(std::size_t(visible.count()));
   const bool is_drawn = visible.project(to_pose(camera_from_object), level.salient->intrinsics,
                                         float(anchor_px.x()), float(anchor_px.y()),

@@ -4,15 +4,11 @@
 
 namespace edgescout {
 
-namespace {
-
-std::size_t level_of_pose(const ObjectView& view, const ObjectPose& pose, const EdgeModel& model) {
-  const double distance_m =
-      (view.camera_from_world * (pose.world_from_object * model.center_m)).norm();
+std::size_t level_of_pose(const ObjectView& view, const EdgeModel& model,
+                          const Se3& camera_from_object) {
+  const double distance_m = (camera_from_object * model.center_m).norm();
   return level_for(size_px(model.mesh.diameter_m, distance_m, view.camera), view);
 }
-
-}  // namespace
 
 std::vector<PoseEstimate> register_coarsely(const Scene& scene, std::span<const ObjectPose> starts,
                                             const RegisterOnLevel& register_on_level) {
@@ -20,8 +16,9 @@ std::vector<PoseEstimate> register_coarsely(const Scene& scene, std::span<const 
   const ObjectView& view = scene.views[0];
   std::vector<std::vector<std::size_t>> by_level(std::max<std::size_t>(1, view.reduced.size()));
   for (std::size_t i = 0; i < starts.size(); ++i)
-    by_level[level_of_pose(view, starts[i], scene.models[std::size_t(starts[i].object)])].push_back(
-        i);
+    by_level[level_of_pose(view, scene.models[std::size_t(starts[i].object)],
+                           view.camera_from_world * starts[i].world_from_object)]
+        .push_back(i);
   std::vector<PoseEstimate> estimates(starts.size());
   for (std::size_t level = 0; level < by_level.size(); ++level) {
     const std::vector<std::size_t>& indices = by_level[level];

@@ -9,6 +9,10 @@
 
 namespace edgescout {
 
+// The index of the view's reduction that suits the size of a model at a pose.
+std::size_t level_of_pose(const ObjectView& view, const EdgeModel& model,
+                          const Se3& camera_from_object);
+
 // Registers poses in a scene whose views have the coarse tensors of one level.
 using RegisterOnLevel = std::function<std::vector<PoseEstimate>(
     const Scene& scene, std::span<const ObjectPose> starts)>;
