@@ -38,7 +38,8 @@ std::set<double> reductions_for(std::span<const TemplateSet> sets, const Camera&
 }
 
 ViewHandle reduced_tensor(std::vector<EdgePoint> edges, const ReducedTensors& level,
-                          Backend& backend, const TensorOptions& options) {
+                          Backend& backend, TensorOptions options) {
+  options.lambda_px_per_rad = float(options.lambda_px_per_rad / level.reduction);
   for (EdgePoint& edge : edges) {
     edge.x_px = float((edge.x_px + 0.5) / level.reduction - 0.5);
     edge.y_px = float((edge.y_px + 0.5) / level.reduction - 0.5);
@@ -47,31 +48,27 @@ ViewHandle reduced_tensor(std::vector<EdgePoint> edges, const ReducedTensors& le
                            intrinsics_of(level.camera), options);
 }
 
-ReducedTensors reduced_tensors(const ObjectView& view, double reduction, Backend& backend,
-                               TensorOptions options) {
-  const std::span<const EdgePoint> edges = view.edges->points();
-  ReducedTensors level;
-  level.reduction = reduction;
-  level.camera = scaled(view.camera, 1 / reduction);
-  options.lambda_px_per_rad = float(options.lambda_px_per_rad / reduction);
-  level.coarse = reduced_tensor({edges.begin(), edges.end()}, level, backend, options);
-  level.salient = reduced_tensor(salient_edges(edges, view.camera.width, view.camera.height), level,
-                                 backend, options);
-  return level;
-}
-
 void add_tensors(ObjectView& view, const std::set<double>& reductions, Backend& backend,
                  const TensorOptions& options) {
   check(is_finite(view.camera_from_world), "add_tensors: a camera pose that is not finite");
   check(view.image && view.edges, "add_tensors: a view without an image or without edges");
   const Camera& camera = view.camera;
   const Image& image = *view.image;
-  view.tensor = backend.make_view(view.edges->points(), camera.width, camera.height,
+  const std::span<const EdgePoint> edges = view.edges->points();
+  view.tensor = backend.make_view(edges, camera.width, camera.height,
                                   {image.width, image.height, image.pixels.data()},
                                   intrinsics_of(camera), options);
   view.reduced.clear();
-  for (const double reduction : reductions)
-    view.reduced.push_back(reduced_tensors(view, reduction, backend, options));
+  const std::vector<EdgePoint> salient = salient_edges(edges, camera.width, camera.height);
+  for (const double reduction : reductions) {
+    ReducedTensors& level = view.reduced.emplace_back();
+    level.reduction = reduction;
+    level.camera = scaled(camera, 1 / reduction);
+    level.coarse = reduction == 1
+                       ? view.tensor  // the same edges at the same size
+                       : reduced_tensor({edges.begin(), edges.end()}, level, backend, options);
+    level.salient = reduced_tensor(salient, level, backend, options);
+  }
 }
 
 }  // namespace
