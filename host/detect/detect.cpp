@@ -17,23 +17,25 @@ namespace {
 // Of a template, before known objects hide some of them.
 constexpr int COARSE_POINTS = 120;
 
-// Indices of distinct poses of the set's object, lowest key first, at most `most`; `keys` has one
-// entry per pose.
-template <typename PoseType>
-std::vector<std::size_t> best_distinct_indices(const std::vector<PoseType>& poses,
-                                               const std::vector<double>& keys,
-                                               const TemplateSet& set, std::size_t most) {
+// Poses of the set's object, each with a key.
+struct KeyedPoses {
   std::vector<Se3> world_from_object;
-  for (const PoseType& pose : poses) world_from_object.push_back(pose.world_from_object);
-  return best_distinct(world_from_object, keys, set.model.mesh, set.symmetries,
-                       thresholds::SAME_POSE * set.model.mesh.diameter_m, most);
-}
+  std::vector<double> keys;
+  void add(const ObjectPose& pose, double key) {
+    world_from_object.push_back(pose.world_from_object);
+    keys.push_back(key);
+  }
+  // Indices of distinct ones, lowest key first, at most `most`.
+  std::vector<std::size_t> best_distinct_of(const TemplateSet& set, std::size_t most) const {
+    return best_distinct(world_from_object, keys, set.model.mesh, set.symmetries,
+                         thresholds::SAME_POSE * set.model.mesh.diameter_m, most);
+  }
+};
 
-template <typename PoseType>
-std::vector<PoseType> poses_at(const std::vector<std::size_t>& indices,
-                               const std::vector<PoseType>& poses) {
-  std::vector<PoseType> chosen;
-  for (const std::size_t i : indices) chosen.push_back(poses[i]);
+template <typename T>
+std::vector<T> entries_at(const std::vector<std::size_t>& indices, const std::vector<T>& entries) {
+  std::vector<T> chosen;
+  for (const std::size_t i : indices) chosen.push_back(entries[i]);
   return chosen;
 }
 
@@ -82,12 +84,11 @@ class Cascade {
                                             set_);
     std::vector<ObjectPose> starts;
     for (std::size_t scale = 0; scale < scales; ++scale) {
-      std::vector<ObjectPose> poses;
-      std::vector<double> ranks;
+      KeyedPoses poses;
       for (const ScanHit& hit : hits)
-        if (std::size_t(hit.scale) == scale) poses.push_back(hit.pose), ranks.push_back(hit.rank);
-      for (const std::size_t i : best_distinct_indices(poses, ranks, set_, most))
-        starts.push_back(poses[i]);
+        if (std::size_t(hit.scale) == scale) poses.add(hit.pose, hit.rank);
+      for (const std::size_t i : poses.best_distinct_of(set_, most))
+        starts.push_back({0, poses.world_from_object[i]});
     }
     return starts;
   }
@@ -125,7 +126,7 @@ class Cascade {
   std::vector<PoseEstimate> candidates(const std::vector<PoseEstimate>& aligned) const {
     std::vector<double> keys;
     for (const PoseEstimate& pose : aligned) keys.push_back(-PoseClassifier::rank(pose.features));
-    return poses_at(best_admitted(aligned, keys, 1, std::size_t(options_.candidates)), aligned);
+    return entries_at(best_admitted(aligned, keys, 1, std::size_t(options_.candidates)), aligned);
   }
 
   std::vector<PoseEstimate> fine(const std::vector<PoseEstimate>& candidates) const {
@@ -142,7 +143,7 @@ class Cascade {
     std::vector<double> keys;
     for (const PoseEstimate& pose : refined)
       keys.push_back(-PoseClassifier::probability(pose.features));
-    return poses_at(best_admitted(refined, keys, 1, refined.size()), refined);
+    return entries_at(best_admitted(refined, keys, 1, refined.size()), refined);
   }
 
  private:
@@ -158,14 +159,13 @@ class Cascade {
                                          std::size_t most) const {
     const SearchSlack slack{thresholds::SAME_POSE * set_.model.mesh.diameter_m, distance_ratio};
     std::vector<std::size_t> indices;
-    std::vector<double> admitted_keys;
+    KeyedPoses admitted;
     for (std::size_t i = 0; i < poses.size(); ++i)
       if (space_.admits(poses[i].world_from_object, slack)) {
         indices.push_back(i);
-        admitted_keys.push_back(keys[i]);
+        admitted.add(poses[i], keys[i]);
       }
-    const std::vector<PoseEstimate> admitted = poses_at(indices, poses);
-    return poses_at(best_distinct_indices(admitted, admitted_keys, set_, most), indices);
+    return entries_at(admitted.best_distinct_of(set_, most), indices);
   }
 
   void drop_known(std::vector<PoseEstimate>& poses) const {
