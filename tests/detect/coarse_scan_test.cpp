@@ -94,18 +94,30 @@ TEST(CoarseScan, FindsTheTemplateThatMadeTheEdges) {
   }
 }
 
+const Eigen::Vector2d FIRST_PLACE_PX(80, 120), SECOND_PLACE_PX(240, 120);
+
+Se3 part_at(const Eigen::Vector2d& place_px, const TemplateSet& set, double distance_m) {
+  return place_template(set, set.views[7], 0, distance_m, place_px, small_camera());
+}
+
+// The edges of a part at either place.
+std::vector<EdgePoint> edges_of_two_brackets(const TemplateSet& set, double distance_m,
+                                             Backend& backend) {
+  const EdgeModel dense = part_model("l_bracket", 7.5e-4);
+  std::vector<EdgePoint> edges;
+  for (const Eigen::Vector2d& place_px : {FIRST_PLACE_PX, SECOND_PLACE_PX})
+    for (const EdgePoint& edge :
+         ideal_edges(dense, small_camera(), part_at(place_px, set, distance_m), backend))
+      edges.push_back(edge);
+  return edges;
+}
+
 // Two parts of one kind: the scan looks only where one of them is.
 TEST(CoarseScan, LooksWhereItIsToldTo) {
   const auto backend = make_cpu_backend(2);
   const TemplateSet set = part_templates("l_bracket", 2, 0.27, 0.33, *backend);
-  const EdgeModel dense = part_model("l_bracket", 7.5e-4);
-  const double distance = template_distances_m(set.options)[0];
-  std::vector<EdgePoint> edges;
-  for (const Eigen::Vector2d& place : {Eigen::Vector2d(80, 120), {240, 120}}) {
-    const Se3 truth = place_template(set, set.views[7], 0, distance, place, small_camera());
-    for (const EdgePoint& edge : ideal_edges(dense, small_camera(), truth, *backend))
-      edges.push_back(edge);
-  }
+  const std::vector<EdgePoint> edges =
+      edges_of_two_brackets(set, template_distances_m(set.options)[0], *backend);
   for (const double reduction : {1.0, 3.0}) {
     const ObjectView image = view_of_edges(edges, small_camera(), reduction, *backend);
     ScanOptions options;
@@ -126,7 +138,7 @@ TEST(CoarseScan, LooksWhereItIsToldTo) {
     EXPECT_GT(most_y, 235);
     const Eigen::Vector2d best =
         project(small_camera(), best_of(hits).pose.world_from_object * set.model.center_m);
-    EXPECT_LT((best - Eigen::Vector2d(240, 120)).norm(), 3 * reduction);
+    EXPECT_LT((best - SECOND_PLACE_PX).norm(), 3 * reduction);
     options.within = {101.2, 70.2, 0.1, 0.1};  // between two anchors: the next one
     for (const ScanHit& hit : coarse_scan(set, image, *backend, options))
       EXPECT_LT((project(small_camera(), hit.pose.world_from_object * set.model.center_m) -
@@ -149,15 +161,9 @@ TEST(CoarseScan, LooksWhereItIsToldTo) {
 TEST(CoarseScan, LooksWhereThePriorMayHoldTheObject) {
   const auto backend = make_cpu_backend(2);
   const TemplateSet set = part_templates("l_bracket", 2, 0.27, 0.33, *backend);
-  const EdgeModel dense = part_model("l_bracket", 7.5e-4);
   const double distance = template_distances_m(set.options)[1];
-  std::vector<EdgePoint> edges;
-  Se3 truth;  // of the second one
-  for (const Eigen::Vector2d& place : {Eigen::Vector2d(80, 120), {240, 120}}) {
-    truth = place_template(set, set.views[7], 0, distance, place, small_camera());
-    for (const EdgePoint& edge : ideal_edges(dense, small_camera(), truth, *backend))
-      edges.push_back(edge);
-  }
+  const std::vector<EdgePoint> edges = edges_of_two_brackets(set, distance, *backend);
+  const Se3 truth = part_at(SECOND_PLACE_PX, set, distance);
   Random random = test_random();
   ObjectView image = view_of_edges(edges, small_camera(), 1, *backend);
   image.camera_from_world = inverse({random.rotation(), {1, 2, 0.5}});
