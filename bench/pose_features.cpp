@@ -2,13 +2,14 @@
 // (host/register/pose_classifier.h).
 //
 //   edgescout_bench_pose_features SCENES [--joint] [--models FOLDER] [--set NAME] [--medium N]
-//   [--distance-min M --distance-max M] [--device D] > poses.csv
+//   [--all-distances | --distance-min M --distance-max M] [--device D] > poses.csv
 //   scripts/fit_probability.py poses.csv...
 //   scripts/fit_probability_over_views.py poses.csv...   (with --joint)
 //
 // SCENES is a folder of BOP scenes; FOLDER (default: SCENES/models) has models_info.json and
 // obj_NNNNNN.ply in mm. NAME (default: the folder's) is the first column. Without distances the
-// range is that of the true poses, a tenth wider at both ends.
+// range is that of the true poses, a tenth wider at both ends; with --all-distances it is detect's
+// default (with_default_distances).
 //
 // Every image is searched for every object that it shows; with --joint all images of a scene
 // together. One row per pose and view in which its features are measured:
@@ -51,7 +52,7 @@ namespace fs = std::filesystem;
 struct Arguments {
   std::string scenes, models, set, device = "cpu";
   int medium = 200;
-  bool joint = false;
+  bool joint = false, all_distances = false;
   double distance_min_m = 0, distance_max_m = 0;
 };
 
@@ -63,6 +64,7 @@ Arguments parse(int argc, char** argv) {
                          {"--set", &a.set},
                          {"--medium", &a.medium},
                          {"--joint", &a.joint},
+                         {"--all-distances", &a.all_distances},
                          {"--distance-min", &a.distance_min_m},
                          {"--distance-max", &a.distance_max_m},
                          {"--device", &a.device}});
@@ -94,10 +96,11 @@ std::vector<BopTruth> truths_of(std::span<const BopScene> scenes, int object_id)
 }
 
 TemplateOptions template_options(const Arguments& a, std::span<const BopTruth> truths,
-                                 const Mesh& mesh) {
+                                 const Mesh& mesh, const Camera& camera) {
   TemplateOptions options;
   options.distance_min_m = a.distance_min_m;
   options.distance_max_m = a.distance_max_m;
+  if (a.all_distances) return with_default_distances({}, mesh.diameter_m, camera);
   if (a.distance_min_m > 0) return options;
   const Eigen::Vector3d center_m = 0.5 * (mesh.box_min_m + mesh.box_max_m);
   const auto [nearest, farthest] = std::ranges::minmax(
@@ -105,6 +108,14 @@ TemplateOptions template_options(const Arguments& a, std::span<const BopTruth> t
   options.distance_min_m = 0.9 * (nearest.camera_from_object * center_m).norm();
   options.distance_max_m = 1.1 * (farthest.camera_from_object * center_m).norm();
   return options;
+}
+
+// A scene's files do not tell the size of its images.
+Camera camera_of(const BopImage& image, const Image& pixels) {
+  Camera camera = image.camera;
+  camera.width = pixels.width;
+  camera.height = pixels.height;
+  return camera;
 }
 
 struct SearchedObject {
@@ -115,6 +126,8 @@ struct SearchedObject {
 std::map<int, SearchedObject> load_searched(const Arguments& a, std::span<const BopScene> scenes,
                                             Backend& backend) {
   const std::map<int, Symmetries> symmetries = load_symmetries(a.models + "/models_info.json");
+  const BopImage& first = scenes.front().images.front();
+  const Camera camera = camera_of(first, load_image(first.file));
   std::map<int, SearchedObject> searched;
   for (const auto& [id, of_object] : symmetries) {
     const std::vector<BopTruth> truths = truths_of(scenes, id);
@@ -124,8 +137,9 @@ std::map<int, SearchedObject> load_searched(const Arguments& a, std::span<const 
     const Object object{id, load_mesh(fs::path(a.models) / name, LengthUnit::Millimetre),
                         of_object};
     searched.emplace(
-        id, SearchedObject{object, build_templates(object, template_options(a, truths, object.mesh),
-                                                   backend)});
+        id, SearchedObject{object,
+                           build_templates(object, template_options(a, truths, object.mesh, camera),
+                                           backend)});
   }
   return searched;
 }
@@ -248,10 +262,7 @@ class Collector {
  private:
   ObjectView prepare(const BopImage& image, const Se3& camera_from_world) const {
     const Image pixels = load_image(image.file);
-    Camera camera = image.camera;
-    camera.width = pixels.width;
-    camera.height = pixels.height;
-    return prepare_view(pixels, camera, camera_from_world, backend_, options_);
+    return prepare_view(pixels, camera_of(image, pixels), camera_from_world, backend_, options_);
   }
 
   std::string begin_of_rows(int object_id, const std::string& image) const {
