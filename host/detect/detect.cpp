@@ -153,7 +153,15 @@ class Cascade {
     return {{&set_.model, 1}, views, backend_};
   }
 
-  // The best distinct poses of those that the prior admits or that may still be moved there.
+  // A pose that registration has shrunk onto one edge of the image matches it well.
+  bool is_at_searched_distance(const Se3& camera_from_object) const {
+    const double distance_m = (camera_from_object * set_.model.center_m).norm();
+    return distance_m * thresholds::DISTANCE_SLACK > set_.options.distance_min_m &&
+           distance_m < set_.options.distance_max_m * thresholds::DISTANCE_SLACK;
+  }
+
+  // The best distinct poses of those at a searched distance that the prior admits or that may still
+  // be moved there.
   std::vector<std::size_t> best_admitted(const std::vector<PoseEstimate>& poses,
                                          const std::vector<double>& keys, double distance_ratio,
                                          std::size_t most) const {
@@ -161,7 +169,8 @@ class Cascade {
     std::vector<std::size_t> indices;
     KeyedPoses admitted;
     for (std::size_t i = 0; i < poses.size(); ++i)
-      if (space_.admits(poses[i].world_from_object, slack)) {
+      if (is_at_searched_distance(poses[i].world_from_object) &&
+          space_.admits(poses[i].world_from_object, slack)) {
         indices.push_back(i);
         admitted.add(poses[i], keys[i]);
       }

@@ -17,6 +17,10 @@ inline constexpr double SAME_POSE = 0.1;
 // A hit this near to a known instance is aligned to that instance.
 inline constexpr double NEAR_KNOWN = 0.2;
 
+// How far beyond the searched distances a pose may lie, as a factor: registration corrects the
+// distance of a template by less.
+inline constexpr double DISTANCE_SLACK = 1.25;
+
 // A pose with fewer visible points is not evaluated: fewer points fit the edges of any image
 // somewhere. Twice the six unknowns of a pose.
 inline constexpr int MIN_POINTS = 12;

@@ -64,6 +64,26 @@ TEST(DetectObjects, FindsNearAndFarPartsWithoutARange) {
   }
 }
 
+// Registration shrinks some poses onto one edge of the image, which they then match well.
+TEST(DetectObjects, LeavesOutPosesFarBeyondTheSearchedDistances) {
+  const RenderedPart t("bearing_block");
+  const std::unique_ptr<Backend> backend = make_cpu_backend(2);
+  const TemplateSet& set = t.sets[0];
+  const auto is_searched = [&](const ObjectPose& pose) {
+    const double distance_m = (pose.world_from_object * set.model.center_m).norm();
+    return 1.25 * distance_m > set.options.distance_min_m &&
+           distance_m < 1.25 * set.options.distance_max_m;
+  };
+  DetectTrace trace;
+  detect_objects(t.prepared(0, Se3{}, *backend), t.sets, *backend, t.options(), &trace);
+  const SearchTrace& search = trace.searches[0];
+  ASSERT_FALSE(std::ranges::all_of(search.coarse, is_searched));
+  for (const std::size_t i : search.medium_starts) EXPECT_TRUE(is_searched(search.coarse[i]));
+  EXPECT_FALSE(search.candidates.empty());
+  EXPECT_TRUE(std::ranges::all_of(search.candidates, is_searched));
+  EXPECT_TRUE(std::ranges::all_of(trace.selection.competing, is_searched));
+}
+
 TEST(DetectObjects, FindsNothingOnABareBoard) {
   RenderedPart t("l_bracket");
   ThreadPool pool(2);
