@@ -44,8 +44,10 @@ void ParticleOptions::validate() const {
   in.require("sigma", sigma_px, 1e-3, 1e3);
   in.require("drawn_max", drawn.max, 0, 1);
   in.require("drawn_min", drawn.min, 0, drawn.max);
+  in.require("drawn_of_deviation", drawn.of_deviation, 0, 10);
   in.require("roughened_max", roughened.max, 0, 1);
   in.require("roughened_min", roughened.min, 0, roughened.max);
+  in.require("roughened_of_deviation", roughened.of_deviation, 0, 10);
   in.require("min_effective", min_effective, 0, 1);
   in.require("min_per_mode", min_per_mode, 0, 1e5);
   in.require("min_mode_probability", min_mode_probability, 0, 1);
@@ -82,9 +84,7 @@ Se3 perturbed(const Se3& pose, const Matrix6d& covariance, const EdgeModel& mode
         metres.asDiagonal() * covariance_about(pose, model.center_m, covariance) *
         metres.asDiagonal());
     axes = solver.eigenvectors();
-    deviations = solver.eigenvalues()
-                     .cwiseMax(0)
-                     .cwiseSqrt()
+    deviations = (spread.of_deviation * solver.eigenvalues().cwiseMax(0).cwiseSqrt())
                      .cwiseMax(spread.min * diameter_m)
                      .cwiseMin(spread.max * diameter_m);
   }
@@ -146,7 +146,8 @@ ParticleUpdate update_particles(const Scene& scene, std::vector<Particle>& parti
     } else {
       log(LogLevel::Warning,
           all_died + "; drawn anew around " + std::to_string(candidates.size()) + " candidates");
-      const Spread wider{options.drawn.min, 2 * options.drawn.max};
+      Spread wider = options.drawn;
+      wider.max *= 2;
       particles =
           draw_particles(scene.models, candidates, options.count, wider, random.split("anew"));
       unseen_px2.clear();

@@ -32,13 +32,18 @@ struct Particle : ObjectPose {
 };
 
 // How far random poses lie from the pose they are drawn around: a Gaussian of the covariance. Its
-// standard deviations (rotations times half the diameter) are clamped to these fractions of the
-// diameter. The lower bound keeps particles of one place apart; the upper one keeps them near where
-// the covariance is unknown.
+// standard deviations (rotations times half the diameter), times `of_deviation`, are clamped to the
+// other two, fractions of the diameter. The lower bound keeps particles of one place apart; the
+// upper one keeps them near where the covariance is unknown.
 struct Spread {
   double min = 0.005;
   double max = 0.1;
+  double of_deviation = 1;
 };
+
+// A covariance covers the rare large errors (register/edge_covariance.h). Most poses lie much
+// nearer, and particles stand for these.
+inline constexpr double USUAL_DEVIATION = 0.2;
 
 struct ParticleOptions {
   // Drawn at first, and whenever they are resampled. In between, each search adds a share for the
@@ -46,9 +51,9 @@ struct ParticleOptions {
   // (kernels/mutual_information.h).
   int count = 200;
   std::uint64_t seed = 1;
-  double sigma_px = 4;            // of the mean DCD of a right pose, image px
-  Spread drawn{0.02, 0.1};        // around candidates
-  Spread roughened{0.003, 0.02};  // after resampling
+  double sigma_px = 4;                             // of the mean DCD of a right pose, image px
+  Spread drawn{0.02, 0.1, USUAL_DEVIATION};        // around candidates
+  Spread roughened{0.003, 0.02, USUAL_DEVIATION};  // after resampling
   // Fraction of the particles: with a lower effective sample size they are resampled.
   double min_effective = 0.5;
   int min_per_mode = 4;                // particles kept for every mode that may be an instance

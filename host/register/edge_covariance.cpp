@@ -1,10 +1,25 @@
 #include "host/register/edge_covariance.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "host/register/edge_covariance_weights.h"
 #include "host/register/lm_state.h"
 
 namespace edgescout {
+
+double common_to_edges(double explained) {
+  constexpr edge_covariance_weights::CommonToEdges fitted =
+      edge_covariance_weights::COMMON_TO_EDGES;
+  const double share = std::clamp(explained, fitted.least_explained, fitted.most_explained);
+  return fitted.of_all * std::pow(share, fitted.power);
+}
+
+double EdgeCovariance::weight() const {
+  double sum = 0;
+  for (const auto& [edge, sums] : edges_) sum += sums.weight;
+  return sum;
+}
 
 void EdgeCovariance::add(std::uint64_t edge, double distance_px, double weight,
                          const Vector6d& jacobian) {
@@ -45,7 +60,7 @@ Matrix6d EdgeCovariance::covariance() const {
       (expected_free * expected_px2 + std::max(0.0, between_px2 - own_between * own_px2)) /
       (expected_free + free_between);
   const Matrix6d covariance = own_px2 * inverse + shared_px2 * taken * inverse;
-  return COMMON_TO_EDGES * 0.5 * (covariance + covariance.transpose());
+  return 0.5 * (covariance + covariance.transpose());
 }
 
 }  // namespace edgescout

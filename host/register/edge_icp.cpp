@@ -1,5 +1,6 @@
 #include "host/register/edge_icp.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include <Eigen/Cholesky>
@@ -35,7 +36,7 @@ LineResidual residual_to(const EdgePoint& edge, const PosedPoint<double>& p,
 }
 
 struct Counts {
-  int points = 0, matched = 0;
+  int points = 0, in_image = 0, matched = 0;
 };
 
 // Calls visit(residual, weight, projected point) for every point that has an edge point near.
@@ -52,6 +53,7 @@ Counts match_points(const ObjectView& view, const Se3& world_from_object,
     if (!can_be_seen(posed.point)) continue;
     ++counts.points;
     const ProjectedEdge<double> projected = project_edge(posed, k);
+    counts.in_image += on_image(projected, view.camera.width, view.camera.height);
     const EdgePoint* edge = view.edges->nearest(float(projected.u), float(projected.v),
                                                 float(orientation(projected.dx, projected.dy)),
                                                 round.radius_px, max_turn_rad);
@@ -104,24 +106,27 @@ std::uint64_t line_number(std::size_t view, double theta_rad, double offset_px) 
   return std::uint64_t((std::int64_t(view) * arcs + arc) * offsets + offset + offsets / 2);
 }
 
-Matrix6d covariance_at(const Se3& pose, std::span<const ObjectView> views,
-                       std::span<const VisibleInView> visible, const EdgeIcpRound& round,
-                       float max_turn_rad) {
+void set_covariance(PoseEstimate& estimate, std::span<const ObjectView> views,
+                    std::span<const VisibleInView> visible, const EdgeIcpRound& round,
+                    float max_turn_rad) {
   EdgeCovariance sum;
+  double in_image = 0;
   for (std::size_t v = 0; v < views.size(); ++v) {
     if (!views[v].edges) continue;
     const Matrix6d to_camera = camera_tangent(views[v]);
-    match_points(views[v], pose, visible[v].points, round, max_turn_rad,
-                 [&](const LineResidual& r, double weight, const ProjectedEdge<double>& p) {
-                   const double theta = orientation(p.dx, p.dy), nx = -std::sin(theta),
-                                ny = std::cos(theta);
-                   // The edge's direction may have wrapped at pi where the point's has not.
-                   const double sign = r.nx * nx + r.ny * ny < 0 ? -1 : 1;
-                   sum.add(line_number(v, theta, nx * p.u + ny * p.v), sign * r.value, weight,
-                           sign * to_camera.transpose() * r.jacobian);
-                 });
+    const auto add = [&](const LineResidual& r, double weight, const ProjectedEdge<double>& p) {
+      const double theta = orientation(p.dx, p.dy), nx = -std::sin(theta), ny = std::cos(theta);
+      // The edge's direction may have wrapped at pi where the point's has not.
+      const double sign = r.nx * nx + r.ny * ny < 0 ? -1 : 1;
+      sum.add(line_number(v, theta, nx * p.u + ny * p.v), sign * r.value, weight,
+              sign * to_camera.transpose() * r.jacobian);
+    };
+    in_image += match_points(views[v], estimate.world_from_object, visible[v].points, round,
+                             max_turn_rad, add)
+                    .in_image;
   }
-  return sum.covariance();
+  estimate.explained = std::min(1.0, sum.weight() / std::max(1.0, in_image));
+  estimate.covariance = common_to_edges(estimate.explained) * sum.covariance();
 }
 
 LineSystem system_at(const Se3& pose, std::span<const ObjectView> views,
@@ -157,8 +162,7 @@ void edge_icp_of_one(PoseEstimate& estimate, std::span<const ObjectView> views,
       system_at(pose, views, visible, options.rounds.back(), options.max_turn_rad);
   if (!enough(final_system, options)) return;
   estimate.world_from_object = pose;
-  estimate.covariance =
-      covariance_at(pose, views, visible, options.rounds.back(), options.max_turn_rad);
+  set_covariance(estimate, views, visible, options.rounds.back(), options.max_turn_rad);
 }
 
 }  // namespace

@@ -39,10 +39,11 @@ struct PoseEstimate : ObjectPose {
   // Tangent of core/se3.h. Inverse of the final J'WJ times the residual variance (points count as
   // independent); after edge_icp that of edge_covariance.h; infinite where singular.
   Matrix6d covariance = Matrix6d::Zero();
-  double cost_px2 = 0;  // final sum of rho over all points and views (Eq. 11)
-  double mean_px = 0;   // mean residual
-  int points = 0;       // in all views
-  int iterations = 0;   // of Levenberg-Marquardt
+  double explained = 0;  // share that edges explain (edge_covariance.h); 0 without edge_icp
+  double cost_px2 = 0;   // final sum of rho over all points and views (Eq. 11)
+  double mean_px = 0;    // mean residual
+  int points = 0;        // in all views
+  int iterations = 0;    // of Levenberg-Marquardt
   Convergence convergence = Convergence::NoPoints;
   std::vector<PoseFeatures> features;  // one per view; empty until measured (measure_features)
 };

@@ -47,8 +47,9 @@ TEST(Perturbed, HasTheCovarianceWithinItsBounds) {
   model.mesh.diameter_m = 0.1;
   Matrix6d covariance = Matrix6d::Zero();
   covariance.diagonal() << 1e-4, 4e-6, 1e-12, 1e-3, 4e-4,
-      1.0;  // deviations: 10, 2, 0 mm; 1.6, 1, 50 mm at half the diameter
-  const Spread spread{0.005, 0.06};
+      1.0;          // deviations: 10, 2, 0 mm; 1.6, 1, 50 mm at half the diameter
+  covariance *= 4;  // twice these deviations, of which the spread takes half
+  const Spread spread{0.005, 0.06, 0.5};
   const double expected[] = {6e-3, 2e-3, 0.5e-3, std::sqrt(1e-3), 0.02, 6e-3 / 0.05};
   Matrix6d sum = Matrix6d::Zero();
   const int count = 20000;

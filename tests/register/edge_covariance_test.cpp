@@ -68,7 +68,7 @@ Fit least_squares(const Drawn& drawn) {
       sum.add(100 - e, left, 1, drawn.jacobians[e][i]);
       squares += left * left;
     }
-  fit.clustered = sum.covariance() / COMMON_TO_EDGES;
+  fit.clustered = sum.covariance();
   fit.independent = pose_covariance(hessian, squares / (count - 6));
   return fit;
 }
@@ -131,6 +131,19 @@ TEST(EdgeCovariance, IsInfiniteWhereNothingHoldsThePose) {
   EdgeCovariance sum;
   for (int i = 0; i < 20; ++i) sum.add(1, 0.1, 1, Vector6d::Unit(i % 5));
   EXPECT_EQ(sum.covariance()(5, 5), std::numeric_limits<double>::infinity());
+}
+
+// A robot that takes the covariance for a bound must not gain trust where edges explain less.
+TEST(CommonToEdges, FallsWithTheShareThatEdgesExplain) {
+  EXPECT_GT(common_to_edges(0.3), 2 * common_to_edges(0.6));
+  for (double share = 0; share < 1; share += 0.05)
+    EXPECT_GE(common_to_edges(share), common_to_edges(share + 0.05)) << share;
+}
+
+TEST(CommonToEdges, IsConstantBeyondTheSharesOfTheFit) {
+  EXPECT_EQ(common_to_edges(0), common_to_edges(0.1));
+  EXPECT_EQ(common_to_edges(0.95), common_to_edges(1));
+  EXPECT_GT(common_to_edges(1), 1) << "distances alone predict too small errors";
 }
 
 }  // namespace
