@@ -19,7 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <limits>
 #include <map>
 #include <string>
@@ -28,6 +27,7 @@
 #include <Eigen/Cholesky>
 
 #include "bench/arguments.h"
+#include "bench/bop_set.h"
 #include "host/core/pose_error.h"
 #include "host/core/random.h"
 #include "host/detect/detect_options.h"
@@ -43,56 +43,44 @@
 namespace {
 
 using namespace edgescout;
-namespace fs = std::filesystem;
 
 constexpr double MIN_VISIBLE = 0.4;
 constexpr double START_M = 0.002, START_RAD = 0.03;
 
 struct Arguments {
-  std::string scenes, models, set, device = "cpu";
+  bench::BopSet set;
+  std::string device = "cpu";
 };
 
 Arguments parse(int argc, char** argv) {
   Arguments a;
-  bench::read_arguments(
-      argc, argv,
-      {{"SCENES", &a.scenes}, {"--models", &a.models}, {"--set", &a.set}, {"--device", &a.device}});
-  if (a.scenes.empty())
-    throw InputError("command line", "SCENES", "nothing", "a folder of BOP scenes");
-  if (a.models.empty()) a.models = a.scenes + "/models";
-  if (a.set.empty()) a.set = (fs::path(a.scenes) / "").parent_path().filename().string();
+  bench::read_arguments(argc, argv,
+                        {{"SCENES", &a.set.scenes},
+                         {"--models", &a.set.models},
+                         {"--set", &a.set.name},
+                         {"--device", &a.device}});
+  a.set.set_defaults();
   return a;
-}
-
-std::vector<BopScene> load_scenes(const std::string& folder) {
-  std::vector<fs::path> folders;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (is_bop_scene(entry.path())) folders.push_back(entry.path());
-  std::ranges::sort(folders);
-  std::vector<BopScene> scenes;
-  for (const fs::path& scene : folders) scenes.push_back(load_bop_scene(scene));
-  return scenes;
 }
 
 struct SearchedObject {
   Object object;
   EdgeModel model;
+
+  double size_px(const Se3& camera_from_object, const Camera& camera) const {
+    const double depth_m = (camera_from_object * model.center_m).z();
+    return edgescout::size_px(model.mesh.diameter_m, depth_m, camera);
+  }
 };
 
-std::vector<SearchedObject> load_objects(const std::string& folder) {
+std::vector<SearchedObject> load_objects(const bench::BopSet& set) {
   std::vector<SearchedObject> objects;
   for (const auto& [id, symmetries] :
-       load_symmetries(folder + "/models_info.json", EVALUATION_SYMMETRY_STEPS)) {
-    char name[32];
-    std::snprintf(name, sizeof name, "obj_%06d.ply", id);
-    const Object object{id, load_mesh(fs::path(folder) / name, LengthUnit::Millimetre), symmetries};
+       load_symmetries(set.models + "/models_info.json", EVALUATION_SYMMETRY_STEPS)) {
+    const Object object = bench::load_object(set, id, symmetries);
     objects.push_back({object, make_edge_model(object.mesh)});
   }
   return objects;
-}
-
-double size_px(const EdgeModel& model, const Se3& camera_from_object, const Camera& camera) {
-  return model.mesh.diameter_m * camera.fx / (camera_from_object * model.center_m).z();
 }
 
 // An instance as several images of a scene show it.
@@ -121,7 +109,7 @@ std::vector<Instance> instances_in(const Images& images, const SearchedObject& s
       const double share = 1 / double(images.views.size());
       instance.visible += share * truth.visible_fraction;
       instance.size_px +=
-          share * size_px(searched.model, truth.camera_from_object, images.views[v].camera);
+          share * searched.size_px(truth.camera_from_object, images.views[v].camera);
     }
     if (instance.visible >= MIN_VISIBLE) instances.push_back(instance);
   }
@@ -149,13 +137,13 @@ Error error_of(const PoseEstimate& estimate, const Se3& truth, const Symmetries&
 class Collector {
  public:
   Collector(const Arguments& arguments, Backend& backend)
-      : arguments_(arguments), backend_(backend), objects_(load_objects(arguments.models)) {}
+      : arguments_(arguments), backend_(backend), objects_(load_objects(arguments.set)) {}
 
   void print_all() const {
     std::puts(
         "set,part,scene,first,views,size_px,visible,unknowns,angle_rad,distance_m,probability,"
         "explained,common,squared,dx_m,dy_m,dz_m,rx_rad,ry_rad,rz_rad");
-    for (const BopScene& scene : load_scenes(arguments_.scenes))
+    for (const BopScene& scene : bench::load_scenes(arguments_.set))
       for (const SearchedObject& searched : objects_) print_object(scene, searched);
   }
 
@@ -174,16 +162,14 @@ class Collector {
   ObjectView view_of(const BopScene& scene, const BopImage& image,
                      const SearchedObject& searched) const {
     const Image pixels = load_image(image.file);
-    Camera camera = image.camera;
-    camera.width = pixels.width;
-    camera.height = pixels.height;
-    ObjectView view = prepare_view(pixels, camera, image.camera_from_world.value_or(Se3{}),
-                                   backend_, PipelineOptions{});
+    ObjectView view =
+        prepare_view(pixels, bench::camera_of(image, pixels),
+                     image.camera_from_world.value_or(Se3{}), backend_, PipelineOptions{});
     double smallest_px = std::numeric_limits<double>::infinity();
     for (const BopTruth& truth : scene.truth.at(image.image_id))
       if (truth.object_id == searched.object.id)
         smallest_px =
-            std::min(smallest_px, size_px(searched.model, truth.camera_from_object, view.camera));
+            std::min(smallest_px, searched.size_px(truth.camera_from_object, view.camera));
     add_tensors(view, reduction_for(smallest_px), backend_, TensorOptions{});
     return view;
   }
@@ -209,8 +195,8 @@ class Collector {
         pose_error(estimate.world_from_object, instance.world_from_object, object.symmetries);
     const Error normalised = error_of(estimate, instance.world_from_object, object.symmetries);
     const bool has_axis = object.symmetries.discrete.size() >= EVALUATION_SYMMETRY_STEPS;
-    std::printf("%s,%s_%d,%d,%zu,%zu,", arguments_.set.c_str(), arguments_.set.c_str(), object.id,
-                images.scene.scene_id, images.first, images.views.size());
+    std::printf("%s,%s_%d,%d,%zu,%zu,", arguments_.set.name.c_str(), arguments_.set.name.c_str(),
+                object.id, images.scene.scene_id, images.first, images.views.size());
     std::printf("%.1f,%.3f,%d,%.5f,%.6f,%.4f,%.4f,%.4f,%.4f", instance.size_px, instance.visible,
                 has_axis ? 5 : 6, error.angle_rad, error.distance_m,
                 PoseClassifier::probability(estimate.features), estimate.explained,

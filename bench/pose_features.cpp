@@ -25,13 +25,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <limits>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "bench/arguments.h"
+#include "bench/bop_set.h"
 #include "host/core/pose_error.h"
 #include "host/detect/detect.h"
 #include "host/detect/joint.h"
@@ -47,10 +47,10 @@
 namespace {
 
 using namespace edgescout;
-namespace fs = std::filesystem;
 
 struct Arguments {
-  std::string scenes, models, set, device = "cpu";
+  bench::BopSet set;
+  std::string device = "cpu";
   int medium = 200;
   bool joint = false, all_distances = false;
   double distance_min_m = 0, distance_max_m = 0;
@@ -59,30 +59,17 @@ struct Arguments {
 Arguments parse(int argc, char** argv) {
   Arguments a;
   bench::read_arguments(argc, argv,
-                        {{"SCENES", &a.scenes},
-                         {"--models", &a.models},
-                         {"--set", &a.set},
+                        {{"SCENES", &a.set.scenes},
+                         {"--models", &a.set.models},
+                         {"--set", &a.set.name},
                          {"--medium", &a.medium},
                          {"--joint", &a.joint},
                          {"--all-distances", &a.all_distances},
                          {"--distance-min", &a.distance_min_m},
                          {"--distance-max", &a.distance_max_m},
                          {"--device", &a.device}});
-  if (a.scenes.empty())
-    throw InputError("command line", "SCENES", "nothing", "a folder of BOP scenes");
-  if (a.models.empty()) a.models = a.scenes + "/models";
-  if (a.set.empty()) a.set = fs::path(a.scenes).lexically_normal().filename().string();
+  a.set.set_defaults();
   return a;
-}
-
-std::vector<BopScene> load_scenes(const std::string& folder) {
-  std::vector<fs::path> folders;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-    if (is_bop_scene(entry.path())) folders.push_back(entry.path());
-  std::ranges::sort(folders);
-  std::vector<BopScene> scenes;
-  for (const fs::path& scene : folders) scenes.push_back(load_bop_scene(scene));
-  return scenes;
 }
 
 // All true poses of one object.
@@ -110,14 +97,6 @@ TemplateOptions template_options(const Arguments& a, std::span<const BopTruth> t
   return options;
 }
 
-// A scene's files do not tell the size of its images.
-Camera camera_of(const BopImage& image, const Image& pixels) {
-  Camera camera = image.camera;
-  camera.width = pixels.width;
-  camera.height = pixels.height;
-  return camera;
-}
-
 struct SearchedObject {
   Object object;
   TemplateSet set;
@@ -125,17 +104,14 @@ struct SearchedObject {
 
 std::map<int, SearchedObject> load_searched(const Arguments& a, std::span<const BopScene> scenes,
                                             Backend& backend) {
-  const std::map<int, Symmetries> symmetries = load_symmetries(a.models + "/models_info.json");
+  const std::map<int, Symmetries> symmetries = load_symmetries(a.set.models + "/models_info.json");
   const BopImage& first = scenes.front().images.front();
-  const Camera camera = camera_of(first, load_image(first.file));
+  const Camera camera = bench::camera_of(first, load_image(first.file));
   std::map<int, SearchedObject> searched;
   for (const auto& [id, of_object] : symmetries) {
     const std::vector<BopTruth> truths = truths_of(scenes, id);
     if (truths.empty()) continue;
-    char name[32];
-    std::snprintf(name, sizeof name, "obj_%06d.ply", id);
-    const Object object{id, load_mesh(fs::path(a.models) / name, LengthUnit::Millimetre),
-                        of_object};
+    const Object object = bench::load_object(a.set, id, of_object);
     searched.emplace(
         id, SearchedObject{object,
                            build_templates(object, template_options(a, truths, object.mesh, camera),
@@ -241,7 +217,7 @@ std::size_t index_of(std::span<const ObjectView> views, const ObjectView& view) 
 class Collector {
  public:
   Collector(const Arguments& arguments, Backend& backend)
-      : arguments_(arguments), backend_(backend), scenes_(load_scenes(arguments.scenes)) {
+      : arguments_(arguments), backend_(backend), scenes_(bench::load_scenes(arguments.set)) {
     options_.detect.min_probability = 0;
     objects_ = load_searched(arguments, scenes_, backend);
   }
@@ -262,11 +238,13 @@ class Collector {
  private:
   ObjectView prepare(const BopImage& image, const Se3& camera_from_world) const {
     const Image pixels = load_image(image.file);
-    return prepare_view(pixels, camera_of(image, pixels), camera_from_world, backend_, options_);
+    return prepare_view(pixels, bench::camera_of(image, pixels), camera_from_world, backend_,
+                        options_);
   }
 
   std::string begin_of_rows(int object_id, const std::string& image) const {
-    return arguments_.set + ',' + arguments_.set + '_' + std::to_string(object_id) + ',' + image;
+    return arguments_.set.name + ',' + arguments_.set.name + '_' + std::to_string(object_id) + ',' +
+           image;
   }
 
   void print_image(const BopScene& scene, const BopImage& image) const {
