@@ -1,5 +1,6 @@
 #include "host/pipeline.h"
 
+#include "host/detect/alternatives.h"
 #include "host/detect/detect.h"
 #include "host/detect/joint.h"
 #include "host/detect/support_views.h"
@@ -68,8 +69,11 @@ Detections detect_objects(const ObjectView& prepared, std::span<const TemplateSe
     }
   watch.lap("candidates");
   const std::vector<EdgeModel> models = models_of(sets);
-  result.detections = select_detections({models, {&view, 1}, backend}, candidates, in_camera,
-                                        trace ? &trace->selection : nullptr);
+  SelectionTrace selection;
+  result.detections =
+      select_detections({models, {&view, 1}, backend}, candidates, in_camera, &selection);
+  set_alternatives(result.detections, selection.competing, sets);
+  if (trace) trace->selection = std::move(selection);
   watch.lap("selection");
   return result;
 }
@@ -91,7 +95,10 @@ Detections detect_jointly(std::span<const ObjectView> prepared, std::span<const 
   }
   watch.lap("candidates");
   const std::vector<EdgeModel> models = models_of(sets);
-  result.detections = join_views({models, views, backend}, sets, candidates, options.detect);
+  SelectionTrace selection;
+  result.detections =
+      join_views({models, views, backend}, sets, candidates, options.detect, &selection);
+  set_alternatives(result.detections, selection.competing, sets);
   watch.lap("joint refinement");
   return result;
 }

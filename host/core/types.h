@@ -51,6 +51,12 @@ struct ObjectPose {
   Se3 world_from_object;
 };
 
+// Another pose of a detected object that explains much of the same edges (detect/alternatives.h).
+struct AlternativePose {
+  Se3 world_from_object;
+  double probability = 0;  // calibrated, [0, 1]
+};
+
 // The report on one object that was found.
 struct Detection : ObjectPose {
   Matrix6d covariance = Matrix6d::Zero();  // tangent of core/se3.h
@@ -62,7 +68,8 @@ struct Detection : ObjectPose {
   // Fraction of the contrast inside the silhouette that the surface does not explain
   // (register/shading.h), [0, 1].
   double unexplained_grey = 1;
-  std::string convergence;  // why the refinement stopped
+  std::string convergence;                    // why the refinement stopped
+  std::vector<AlternativePose> alternatives;  // most probable first
 };
 
 }  // namespace edgescout

@@ -31,23 +31,33 @@ json camera_json(const Camera& c) {
           {"cy", c.cy},       {"distortion", c.distortion}};
 }
 
+json alternatives_json(const Detection& detection, const Se3& camera_from_world) {
+  json list = json::array();
+  for (const AlternativePose& pose : detection.alternatives)
+    list.push_back({{"probability", pose.probability},
+                    {"world_from_object", pose_json(pose.world_from_object)},
+                    {"camera_from_object", pose_json(camera_from_world * pose.world_from_object)}});
+  return list;
+}
+
 json detection_json(const Detection& detection, const ImageResult& result) {
   const ObjectName& object = result.objects.at(static_cast<std::size_t>(detection.object));
   const Se3 camera_from_world = result.camera_from_world.value_or(Se3{});
   const Matrix6d transposed = detection.covariance.transpose();  // Eigen stores by column
-  return {{"object_id", object.id},
-          {"object", object.name},
-          {"probability", detection.probability},
-          {"psi", detection.psi},
-          {"cost_px", detection.cost_px},
-          {"matched_fraction", detection.matched_fraction},
-          {psi_z_score_field, detection.psi_z_score},
-          {"unexplained_grey", detection.unexplained_grey},
-          {"convergence", detection.convergence},
-          {"world_from_object", pose_json(detection.world_from_object)},
-          {"camera_from_object", pose_json(camera_from_world * detection.world_from_object)},
-          {"covariance",
-           std::vector<double>(transposed.data(), transposed.data() + transposed.size())}};
+  return {
+      {"object_id", object.id},
+      {"object", object.name},
+      {"probability", detection.probability},
+      {"psi", detection.psi},
+      {"cost_px", detection.cost_px},
+      {"matched_fraction", detection.matched_fraction},
+      {psi_z_score_field, detection.psi_z_score},
+      {"unexplained_grey", detection.unexplained_grey},
+      {"convergence", detection.convergence},
+      {"world_from_object", pose_json(detection.world_from_object)},
+      {"camera_from_object", pose_json(camera_from_world * detection.world_from_object)},
+      {"covariance", std::vector<double>(transposed.data(), transposed.data() + transposed.size())},
+      {"alternatives", alternatives_json(detection, camera_from_world)}};
 }
 
 double number_or_nan(const JsonField& field) {
@@ -109,6 +119,10 @@ Detection read_detection(const JsonField& field, const std::vector<ObjectName>& 
       number_or_nan(field.at(version == 2 ? psi_z_score_field_of_version_2 : psi_z_score_field));
   detection.unexplained_grey = number_or_nan(field.at("unexplained_grey"));
   detection.convergence = field.at("convergence").text();
+  if (field.has("alternatives"))
+    for (const JsonField& pose : field.at("alternatives").elements())
+      detection.alternatives.push_back(
+          {read_pose(pose.at("world_from_object")), number_or_nan(pose.at("probability"))});
   return detection;
 }
 

@@ -27,6 +27,7 @@ Detection sample_detection(int object, double seed) {
   d.psi_z_score = 7.5;
   d.unexplained_grey = 0.25;
   d.convergence = "small step";
+  d.alternatives = {{{so3_exp(Vector3d(0, 0, seed)), Vector3d(seed, 0, 1)}, 0.4}, {Se3{}, 0.3}};
   return d;
 }
 
@@ -80,6 +81,13 @@ TEST(ImageResult, ReadsBackWhatWasWritten) {
     EXPECT_EQ(b.psi_z_score, a.psi_z_score);
     EXPECT_EQ(b.unexplained_grey, a.unexplained_grey);
     EXPECT_EQ(b.convergence, a.convergence);
+    ASSERT_EQ(b.alternatives.size(), 2u);
+    for (std::size_t n = 0; n < 2; ++n) {
+      const AlternativePose &c = a.alternatives[n], &d = b.alternatives[n];
+      EXPECT_LT(angle_between_rad(c.world_from_object, d.world_from_object), 1e-7);
+      EXPECT_EQ(d.world_from_object.translation_m, c.world_from_object.translation_m);
+      EXPECT_EQ(d.probability, c.probability);
+    }
   }
 }
 
@@ -167,6 +175,15 @@ TEST(ImageResult, ReadsThePsiZScoreOfVersions2And3) {
   EXPECT_EQ(back.detections[0].psi_z_score, 7.5);
   EXPECT_EQ(back.detections[1].psi_z_score, 7.5);
   EXPECT_EQ(back.detections[0].psi, 0.8);
+}
+
+TEST(ImageResult, ReadsDetectionsWithoutAlternatives) {
+  const TemporaryFolder folder;
+  save_image_result(sample_result(), folder.path() / "r.json");
+  const std::string older =
+      replaced(content_of(folder.path() / "r.json"), "\"alternatives\"", "\"unknown\"");
+  EXPECT_TRUE(
+      load_image_result(folder.write("old.json", older)).detections[0].alternatives.empty());
 }
 
 TEST(ImageResult, RefusesAFieldOfTheOtherVersion) {

@@ -1,0 +1,46 @@
+#include "host/detect/alternatives.h"
+
+#include <algorithm>
+
+#include "host/detect/suppression.h"
+#include "host/register/pose_classifier.h"
+
+namespace edgescout {
+
+namespace {
+
+std::vector<AlternativePose> alternatives_of(const Detection& detection,
+                                             std::span<const PoseEstimate> competing,
+                                             const TemplateSet& set) {
+  const Mesh& mesh = set.model.mesh;
+  const Eigen::Vector3d center_m = detection.world_from_object * set.model.center_m;
+  std::vector<AlternativePose> here;
+  for (const PoseEstimate& pose : competing) {
+    if (pose.object != detection.object) continue;
+    const double offset_m = (pose.world_from_object * set.model.center_m - center_m).norm(),
+                 probability = PoseClassifier::probability(pose.features);
+    if (offset_m < ALTERNATIVE_CENTER * mesh.diameter_m &&
+        probability >= ALTERNATIVE_PROBABILITY * detection.probability)
+      here.push_back({pose.world_from_object, probability});
+  }
+  std::ranges::stable_sort(here, std::ranges::greater{}, &AlternativePose::probability);
+  KnownPoses listed({&detection.world_from_object, 1}, mesh, set.symmetries);
+  std::vector<AlternativePose> alternatives;
+  for (const AlternativePose& pose : here) {
+    if (listed.any_within(ALTERNATIVE_APART * mesh.diameter_m, pose.world_from_object)) continue;
+    listed.add(pose.world_from_object);
+    alternatives.push_back(pose);
+  }
+  return alternatives;
+}
+
+}  // namespace
+
+void set_alternatives(std::span<Detection> detections, std::span<const PoseEstimate> competing,
+                      std::span<const TemplateSet> sets) {
+  for (Detection& detection : detections)
+    detection.alternatives =
+        alternatives_of(detection, competing, sets[std::size_t(detection.object)]);
+}
+
+}  // namespace edgescout
