@@ -68,6 +68,8 @@ Detection candidate_in_world(const Detection& in_camera, const Se3& camera_from_
   in_world.world_from_object = world_from_camera * in_camera.world_from_object;
   if (in_camera.covariance.allFinite())
     in_world.covariance = turn * in_camera.covariance * turn.transpose();
+  for (AlternativePose& pose : in_world.alternatives)
+    pose.world_from_object = world_from_camera * pose.world_from_object;
   return in_world;
 }
 

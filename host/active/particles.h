@@ -75,7 +75,8 @@ struct ParticleOptions {
 
 void describe(ParticleOptions& options, OptionVisitor& visit);
 
-// Transforms a candidate of one view from its camera frame to the world, with its covariance.
+// Transforms a candidate of one view from its camera frame to the world, with its covariance and
+// alternatives.
 Detection candidate_in_world(const Detection& in_camera, const Se3& camera_from_world);
 
 // `count` particles of equal weight, the same number around each candidate; the first of each is

@@ -41,6 +41,18 @@ TEST(CandidateInWorld, TurnsPoseAndCovariance) {
   }
 }
 
+TEST(CandidateInWorld, TakesItsAlternativesAlong) {
+  const Se3 camera_from_world{so3_exp({0.1, 0.7, -0.2}), {0.3, -0.1, 0.8}},
+      camera_from_object{so3_exp({0.4, 0, 0}), {0.05, 0, 0.6}};
+  Detection in_camera;
+  in_camera.alternatives = {{camera_from_object, 0.4}};
+  const Detection in_world = candidate_in_world(in_camera, camera_from_world);
+  ASSERT_EQ(in_world.alternatives.size(), 1u);
+  const Se3 back = camera_from_world * in_world.alternatives[0].world_from_object;
+  EXPECT_LT(distance_between_m(back, camera_from_object), 1e-12);
+  EXPECT_LT(angle_between_rad(back, camera_from_object), 1e-7);
+}
+
 TEST(Perturbed, HasTheCovarianceWithinItsBounds) {
   Random random = test_random();
   EdgeModel model;
