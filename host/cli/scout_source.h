@@ -14,7 +14,7 @@ struct SourceRequest {
   std::string views_file;   // of a cell, in place of the hemisphere
   RenderOptions scene;      // of a cell
   ArmNoise arm;
-  HemisphereOptions hemisphere;  // radius 0: such that the parts fill the image
+  HemisphereOptions hemisphere{.radius_m = 0};  // 0: such that the parts fill the image
   std::vector<double> center_m{0, 0, 0};
   // What the images of a cell and the belief depend on, apart from models and views.
   Settings settings;

@@ -143,6 +143,28 @@ TEST(Scout, LooksFromTheViewsOfAFile) {
   EXPECT_TRUE(log["detections"][0].at("off_truth").at("right"));
 }
 
+// Without --radius the parts fill the image: ten times larger ones are seen from ten times as far.
+TEST(Scout, LooksFromAsFarAsThePartsAreLarge) {
+  const auto radius_m = [](const std::string& unit) {
+    const SmallScout t;
+    std::vector<std::string> arguments = t.arguments({"--max-views", "1"});
+    for (const char* given : {"--radius", "--max-views"}) {
+      const auto at = std::ranges::find(arguments, given);
+      arguments.erase(at, at + 2);
+    }
+    *(std::ranges::find(arguments, "--unit") + 1) = unit;
+    const Outcome outcome = run_program(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const nlohmann::json log = t.log();
+    const JsonField pose{log.at("views").at(0), "scout.json", ""};
+    return inverse(pose_from(pose.at("R"), pose.at("t"), 1)).translation_m.norm();
+  };
+  const double small_m = radius_m("mm");
+  EXPECT_GT(small_m, 0.1);
+  EXPECT_LT(small_m, 0.4);
+  EXPECT_NEAR(radius_m("cm") / small_m, 10, 1e-3);
+}
+
 // The distances come from the box.
 TEST(Scout, KeepsToABoxInTheWorld) {
   const SmallScout t;
