@@ -3,7 +3,6 @@
 
 #include <iostream>
 
-#include "host/active/camera_pose_check.h"
 #include "host/cli/batch.h"
 #include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
@@ -27,16 +26,6 @@ struct DetectRequest {
   BatchOptions batch;
 };
 
-// Images of all scenes are taken to have the first one's camera: for the check that is near enough.
-void check_scenes(std::span<const InputImage> images, const DistanceRange& searched,
-                  const Camera& camera) {
-  for (const std::span<const InputImage> scene : groups_of(images, true)) {
-    std::vector<PosedCamera> cameras;
-    for (const InputImage& image : scene) cameras.push_back({camera, *image.camera_from_world});
-    check_camera_poses(cameras, searched, scene[0].scene_folder.string());
-  }
-}
-
 // Makes all cheap checks before it builds templates, so that nothing is written for an invalid
 // request.
 std::vector<TemplateSet> template_sets(const DetectRequest& request,
@@ -50,7 +39,8 @@ std::vector<TemplateSet> template_sets(const DetectRequest& request,
   require_writable_place(request.batch.out);
   if (!request.batch.resume) require_no_other_results(request.batch.out, images);
   if (request.batch.joint)
-    check_scenes(images, searched_distances(known, request.templates, searched), searched.camera);
+    for (const std::span<const InputImage> scene : groups_of(images, true))
+      check_scene(scene, searched_distances(known, request.templates, searched), searched.camera);
   return template_sets_of(known, request.templates, searched, backend);
 }
 

@@ -6,11 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "host/active/camera_pose_check.h"
 #include "host/core/log.h"
 #include "host/io/camera_file.h"
 #include "host/io/image.h"
 #include "host/io/mesh.h"
-#include "host/model/template_set.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -153,6 +153,13 @@ Camera first_camera(std::span<const InputImage> images, const std::string& camer
     }
   }
   throw InputError("command line", "inputs", "no image", "at least one");
+}
+
+void check_scene(std::span<const InputImage> images, const DistanceRange& searched,
+                 const Camera& camera) {
+  std::vector<PosedCamera> cameras;
+  for (const InputImage& image : images) cameras.push_back({camera, *image.camera_from_world});
+  check_camera_poses(cameras, searched, images[0].scene_folder.string());
 }
 
 std::vector<Object> load_objects(const ModelArguments& arguments, int continuous_steps) {

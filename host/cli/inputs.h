@@ -9,6 +9,7 @@
 
 #include "host/core/types.h"
 #include "host/io/bop.h"
+#include "host/model/template_set.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -68,6 +69,11 @@ Camera camera_of(const InputImage& image, int width, int height, const GivenCame
 // no image is usable, that of the last one.
 Camera first_camera(std::span<const InputImage> images, const std::string& camera_file,
                     bool may_scale);
+
+// As check_camera_poses, for images of one scene, which have world poses. They are taken to have
+// one camera: for the check that is near enough.
+void check_scene(std::span<const InputImage> images, const DistanceRange& searched,
+                 const Camera& camera);
 
 struct ModelArguments {
   std::vector<std::string> models;  // mesh files

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <limits>
 
 #include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
@@ -54,6 +55,17 @@ void require_safe_starts(const RegisterRequest& request) {
                      "another --out");
 }
 
+// The distances of the starts from the cameras of their views.
+DistanceRange distances_of(const RegisterJob& job, std::span<const RegisterModel> models) {
+  DistanceRange range{std::numeric_limits<double>::infinity(), 0};
+  for (const RegisterJob::Start& start : job.starts) {
+    const EdgeModel& model = models[std::size_t(start.model)].edges;
+    const double distance_m = (start.camera_from_object * model.center_m).norm();
+    range = {std::min(range.min_m, distance_m), std::max(range.max_m, distance_m)};
+  }
+  return range;
+}
+
 int register_all(RegisterRequest& request) {
   RegisterOptions& options = request.options;
   options.out = request.out;
@@ -70,6 +82,10 @@ int register_all(RegisterRequest& request) {
   require_other_folder(images, options.out);
   const std::vector<RegisterJob> jobs =
       make_jobs(images, models, poses, request.multi_view, request.poses);
+  if (request.multi_view)
+    for (const RegisterJob& job : jobs)
+      check_scene(job.views, distances_of(job, models),
+                  first_camera(images, options.camera_file, options.scale_camera));
   const RegisterSummary summary = run_register(jobs, models, *backend, options);
   std::cout << fmt::format(
       "{} poses in {} images refined on {}, {} out of sight, {} images skipped, {} failed in "

@@ -119,6 +119,20 @@ TEST(Register, RefinesOneWorldPoseOverAllViews) {
   EXPECT_FALSE(fs::exists(out / "000001_000000.json"));
 }
 
+TEST(Register, RefusesCameraPosesThatShareNothing) {
+  const TemporaryFolder folder;
+  const fs::path scene = folder.path() / "000001", out = folder.path() / "out";
+  fs::copy(two_views(), scene, fs::copy_options::recursive);
+  save_bop_results(true_results(load_bop_scene(scene), 1), folder.path() / "starts.csv");
+  nlohmann::json cameras = nlohmann::json::parse(content_of(scene / "scene_camera.json"));
+  for (auto& camera : cameras)
+    for (auto& number : camera["cam_t_w2c"]) number = 1000 * number.get<double>();
+  std::ofstream(scene / "scene_camera.json") << cameras;
+  expect_refused(register_in(scene, folder.path() / "starts.csv", out, {"--multi-view"}),
+                 {"000001", "camera poses", "lengths in mm where m are expected"});
+  EXPECT_FALSE(fs::exists(out));
+}
+
 // Ceres is the reference of the batched solver: both end in the same minima. Without the edge ICP
 // that follows, the kinks of the distance transform stop them up to a milliradian apart
 // (d2co_ceres_test.cpp).
