@@ -57,15 +57,33 @@ Bounds joined(const Bounds& a, const Bounds& b) {
 int reach_x(const TemplateJob& job, int step) { return step * (int(job.columns) + block_columns); }
 int reach_y(const TemplateJob& job, int step) { return step * (int(job.rows) + block_rows); }
 
-Bounds touched_by(const TemplateJob& job, const TemplatePoint* points, int step) {
-  int left = 32767, right = -32768, top = 32767, bottom = -32768, bin = 0;
-  for (std::uint32_t p = 0; p < job.point_count; ++p) {
-    left = std::min<int>(left, points[p].dx_px), right = std::max<int>(right, points[p].dx_px);
-    top = std::min<int>(top, points[p].dy_px), bottom = std::max<int>(bottom, points[p].dy_px);
-    bin = std::max<int>(bin, points[p].bin);
+// How far the points of a template reach from its anchor. Words of 16 bits become vectors.
+struct Extent {
+  std::int16_t left = 32767, right = -32768, top = 32767, bottom = -32768;
+  std::uint16_t bin = 0;
+};
+
+EDGESCOUT_SIMD_CLONES
+Extent extent_of(const TemplatePoint* points, std::uint32_t count) {
+  Extent e;
+  for (std::uint32_t p = 0; p < count; ++p) {
+    e.left = std::min(e.left, points[p].dx_px), e.right = std::max(e.right, points[p].dx_px);
+    e.top = std::min(e.top, points[p].dy_px), e.bottom = std::max(e.bottom, points[p].dy_px);
+    e.bin = std::max(e.bin, points[p].bin);
   }
+  return e;
+}
+
+Bounds touched_by(const TemplateJob& job, const TemplatePoint* points, int step) {
+  const Extent e = extent_of(points, job.point_count);
   const int x = reach_x(job, step), y = reach_y(job, step);
-  return {job.x0 + left, job.x0 + right + x, job.y0 + top, job.y0 + bottom + y, bin, x, y};
+  return {job.x0 + e.left,
+          job.x0 + e.right + x,
+          job.y0 + e.top,
+          job.y0 + e.bottom + y,
+          int(e.bin),
+          x,
+          y};
 }
 
 // What all jobs read. Points that never reach the image are not read: the bounds do not go beyond
@@ -103,19 +121,23 @@ Planes make_planes(std::span<const std::uint16_t> tensor, const TensorShape& sha
   std::fill_n(planes.values.begin() + static_cast<std::ptrdiff_t>(planes.zeros()), planes.plane(),
               std::uint8_t{0});
   const int tile = int(DCD_TILE), right = std::min(shape.width, b.x_max + 1),
-            left = std::clamp(b.x_min, 0, shape.width);
-  pool.for_each(shape.bins, [&](std::size_t bin) {
+            left = std::clamp(b.x_min, 0, shape.width), top = std::max(0, b.y_min),
+            bottom = std::min(shape.height, b.y_max + 1);
+  // In the order of the tensor, which is larger than the caches.
+  pool.for_each(std::max(0, bottom - top), [&](std::size_t row) {
+    const int y = top + int(row);
     std::uint8_t values[DCD_TILE];
-    for (int y = std::max(0, b.y_min); y < std::min(shape.height, b.y_max + 1); ++y)
-      for (int x0 = left / tile * tile; x0 < right; x0 += tile) {
-        const std::uint16_t* from = tensor.data() + shape.index(x0, y, int(bin));
+    for (int x0 = left / tile * tile; x0 < right; x0 += tile) {
+      const int begin = std::max(0, left - x0), end = std::min(tile, right - x0);
+      for (int bin = 0; bin < shape.bins; ++bin) {
+        const std::uint16_t* from = tensor.data() + shape.index(x0, y, bin);
         for (int i = 0; i < tile; ++i) values[i] = static_cast<std::uint8_t>(capped(from[i]));
-        const int begin = std::max(0, left - x0), end = std::min(tile, right - x0);
         for (int first = begin; first < std::min(begin + step, end); ++first) {
-          std::uint8_t* to = planes.values.data() + planes.at(x0 + first, y, int(bin));
+          std::uint8_t* to = planes.values.data() + planes.at(x0 + first, y, bin);
           for (int i = first; i < end; i += step) *to++ = values[i];
         }
       }
+    }
   });
   return planes;
 }
@@ -176,21 +198,24 @@ std::uint32_t sum_block(const std::uint8_t* planes, const std::size_t* sources, 
   return least;
 }
 
-bool holds(const Sums& even, const Sums& odd, std::uint16_t wanted) {
-  const auto same = (even == wanted) | (odd == wanted);
-  std::uint64_t words[sizeof same / sizeof(std::uint64_t)], any = 0;
-  std::memcpy(words, &same, sizeof same);
-  for (const std::uint64_t word : words) any |= word;
-  return any != 0;
+// The first row with such a sum; block_rows where there is none.
+EDGESCOUT_SIMD_CLONES
+int first_row_with(const BlockSums& sums, std::uint16_t wanted) {
+  for (int r = 0; r < block_rows; ++r) {
+    const auto same = (sums.even[r] == wanted) | (sums.odd[r] == wanted);
+    std::uint64_t words[sizeof same / sizeof(std::uint64_t)], any = 0;
+    std::memcpy(words, &same, sizeof same);
+    for (const std::uint64_t word : words) any |= word;
+    if (any != 0) return r;
+  }
+  return block_rows;
 }
 
 // Row and column of the first of these sums, row by row.
 std::pair<int, int> first_in_block(const BlockSums& sums, std::uint32_t wanted) {
-  for (int r = 0; r < block_rows; ++r) {
-    if (!holds(sums.even[r], sums.odd[r], static_cast<std::uint16_t>(wanted))) continue;
-    for (int c = 0; c < block_columns; ++c)
-      if (sums.at(r, c) == wanted) return {r, c};
-  }
+  const int r = first_row_with(sums, static_cast<std::uint16_t>(wanted));
+  for (int c = 0; r < block_rows && c < block_columns; ++c)
+    if (sums.at(r, c) == wanted) return {r, c};
   throw LogicError("template_score: a lowest sum that is nowhere");
 }
 
