@@ -177,6 +177,45 @@ class AdmittedSearch {
   SearchSpace space_;
 };
 
+// The templates of a scale at the middle of a region. Those of one viewpoint and turn share their
+// rotation at every distance.
+class TurnedTemplates {
+ public:
+  TurnedTemplates(const SearchedScale& scale, const Region& region, ThreadPool& pool)
+      : numbering_(scale.numbering),
+        ray_(ray_through(scale.level.camera, region.middle).normalized()),
+        turned_(numbering_.count() / numbering_.distances_m.size()) {
+    constexpr std::size_t chunk = 64;
+    pool.for_each((turned_.size() + chunk - 1) / chunk, [&](std::size_t c) {
+      for (std::size_t i = c * chunk; i < std::min(turned_.size(), (c + 1) * chunk); ++i) {
+        const std::size_t number = i * numbering_.distances_m.size();
+        const Se3 at_camera =
+            place_template(scale.set, scale.set.views[std::size_t(numbering_.viewpoint(number))],
+                           numbering_.in_plane_rad(number), 0, region.middle, scale.level.camera);
+        turned_[i] = {to_pose(at_camera), at_camera.translation_m};
+      }
+    });
+  }
+
+  Pose camera_from_object(std::size_t number) const {
+    const Turned& turned = turned_[number / numbering_.distances_m.size()];
+    const Eigen::Vector3d translation_m =
+        numbering_.distance_m(number) * ray_ + turned.translation_m;
+    Pose pose = turned.at_camera;
+    for (int i = 0; i < 3; ++i) pose.m[4 * i + 3] = float(translation_m[i]);
+    return pose;
+  }
+
+ private:
+  struct Turned {  // with the object's centre at the camera
+    Pose at_camera;
+    Eigen::Vector3d translation_m;
+  };
+  const TemplateNumbering& numbering_;
+  Eigen::Vector3d ray_;
+  std::vector<Turned> turned_;
+};
+
 // Scores templates in one region after the other with the same buffers.
 class TemplateScoring {
  public:
@@ -192,48 +231,54 @@ class TemplateScoring {
   }
 
   // Of the templates of these numbers, at most `most` that are admitted, lowest rank first.
-  // `parts` is what is searched of the region, by distance.
-  std::vector<ScoredTemplate> best(const Region& region,
+  // `turned` is of the region, `parts` is what is searched of it, by distance.
+  std::vector<ScoredTemplate> best(const Region& region, const TurnedTemplates& turned,
                                    std::span<const std::optional<Region>> parts,
                                    std::span<const std::size_t> numbers, std::size_t most) {
-    draw(region, parts, numbers);
+    draw(region, turned, parts, numbers);
     best_anchors_.resize(numbers.size());
     backend_.template_score(*scale_.level.salient, points_, jobs_, anchor_step_, best_anchors_);
-    std::vector<ScoredTemplate> open, best;
-    for (std::size_t i = 0; i < numbers.size(); ++i)
-      if (is_drawn_[i]) open.push_back(scored_template(i, numbers[i]));
-    std::ranges::make_heap(open, std::ranges::greater{}, &ScoredTemplate::key);
-    for (; best.size() < most && !open.empty(); open.pop_back()) {
-      std::ranges::pop_heap(open, std::ranges::greater{}, &ScoredTemplate::key);
-      if (admitted_.admits(open.back())) best.push_back(open.back());
+    std::vector<ScoredTemplate> best;  // a heap, the worst in front
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      if (!is_drawn_[i]) continue;
+      const ScoredTemplate scored = scored_template(i, numbers[i]);
+      if (best.size() == most && best.front().key() < scored.key()) continue;
+      if (!admitted_.admits(scored)) continue;
+      if (best.size() == most) {
+        std::ranges::pop_heap(best, {}, &ScoredTemplate::key);
+        best.pop_back();
+      }
+      best.push_back(scored);
+      std::ranges::push_heap(best, {}, &ScoredTemplate::key);
     }
+    std::ranges::sort_heap(best, {}, &ScoredTemplate::key);
     return best;
   }
 
  private:
-  void draw(const Region& region, std::span<const std::optional<Region>> parts,
-            std::span<const std::size_t> numbers) {
+  void draw(const Region& region, const TurnedTemplates& turned,
+            std::span<const std::optional<Region>> parts, std::span<const std::size_t> numbers) {
     points_.resize(numbers.size() * points_of_one_);
     jobs_.resize(numbers.size());
     is_drawn_.resize(numbers.size());
     constexpr std::size_t chunk = 256;
     backend_.threads().for_each((numbers.size() + chunk - 1) / chunk, [&](std::size_t c) {
       for (std::size_t i = c * chunk; i < std::min(numbers.size(), (c + 1) * chunk); ++i)
-        draw_template(i, numbers[i], region, parts[numbers[i] % parts.size()]);
+        draw_template(i, numbers[i], region, turned.camera_from_object(numbers[i]),
+                      parts[numbers[i] % parts.size()]);
     });
   }
 
   void draw_template(std::size_t i, std::size_t number, const Region& region,
-                     const std::optional<Region>& part) {
+                     const Pose& camera_from_object, const std::optional<Region>& part) {
     const ThinnedView& view = views_[scale_.numbering.viewpoint(number)];
     const auto& salient = *scale_.level.salient;
     const std::size_t first = i * points_of_one_;
     int count = view.count();
-    is_drawn_[i] =
-        part && count > 0 &&
-        view.project(to_pose(scale_.camera_from_object(number, region.middle)), salient.intrinsics,
-                     float(region.middle.x()), float(region.middle.y()), salient.shape.bins,
-                     nearest_m(scale_.set), points_.data() + first);
+    is_drawn_[i] = part && count > 0 &&
+                   view.project(camera_from_object, salient.intrinsics, float(region.middle.x()),
+                                float(region.middle.y()), salient.shape.bins, nearest_m(scale_.set),
+                                points_.data() + first);
     if (!is_drawn_[i]) points_[first] = {}, count = 1;  // a job needs a point; nobody reads the sum
     const Region anchors = part.value_or(Region{region.x0, region.y0, 1, 1, region.middle});
     jobs_[i] = {std::uint32_t(first), std::uint32_t(count),           anchors.x0,
@@ -271,6 +316,7 @@ class RegionScan {
                options.anchor_step),
         full_(scale, admitted, options.points, backend, options.anchor_step),
         quick_kept_(std::size_t(options.quick_kept)),
+        pool_(backend.threads()),
         all_(scale.numbering.count()) {
     std::iota(all_.begin(), all_.end(), 0);
   }
@@ -278,10 +324,12 @@ class RegionScan {
   void append_best(const Region& region, std::size_t most, std::vector<ScanHit>& hits) {
     const std::vector<std::optional<Region>> parts = admitted_.parts_of(region);
     if (std::ranges::none_of(parts, &std::optional<Region>::has_value)) return;
+    const TurnedTemplates turned(scale_, region, pool_);
     std::vector<std::size_t> numbers;
-    for (const ScoredTemplate& scored : quick_.best(region, parts, all_, quick_kept_ * most))
+    for (const ScoredTemplate& scored :
+         quick_.best(region, turned, parts, all_, quick_kept_ * most))
       numbers.push_back(scored.number);
-    for (const ScoredTemplate& scored : full_.best(region, parts, numbers, most))
+    for (const ScoredTemplate& scored : full_.best(region, turned, parts, numbers, most))
       hits.push_back(scale_.hit_of(scored));
   }
 
@@ -290,6 +338,7 @@ class RegionScan {
   const AdmittedSearch& admitted_;
   TemplateScoring quick_, full_;
   std::size_t quick_kept_;  // for each hit that is kept
+  ThreadPool& pool_;
   std::vector<std::size_t> all_;
 };
 
