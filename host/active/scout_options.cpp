@@ -4,7 +4,6 @@ namespace edgescout {
 
 PipelineOptions ScoutOptions::scout_defaults() {
   PipelineOptions options;
-  options.detect.scan.num_kept = 40000;
   options.detect.coarse_poses = 4000;
   options.detect.medium_poses = 400;
   options.detect.candidates = 25;

@@ -24,7 +24,7 @@ struct ScanOptions {
   int anchor_step = 2;      // coarse px between anchors, the places that are tried
   int region_columns = 32;  // anchors that share one projection of a template
   int region_rows = 16;
-  int num_kept = 10000;  // hits of a set of one scale (share_of_scale); every region keeps the same
+  int num_kept = 40000;  // hits of a set of one scale (share_of_scale); every region keeps the same
                          // number, so that texture in one does not displace the hits of the others
   ImageRegion within;    // of the undistorted image: where the objects' centres are searched;
                          // registration may move a pose a pixel or two out of it

@@ -87,7 +87,7 @@ class Cascade {
       KeyedPoses poses;
       for (const ScanHit& hit : hits)
         if (std::size_t(hit.scale) == scale) poses.add(hit.pose, hit.rank);
-      for (const std::size_t i : poses.best_distinct_of(set_, most))
+      for (const std::size_t i : distinct_starts(poses, most))
         starts.push_back({0, poses.world_from_object[i]});
     }
     return starts;
@@ -147,6 +147,14 @@ class Cascade {
   }
 
  private:
+  // Registration in one image brings starts to one optimum that differ in what the image hardly
+  // shows: the distance by a step of the templates. Other images show it.
+  std::vector<std::size_t> distinct_starts(const KeyedPoses& poses, std::size_t most) const {
+    if (is_joint()) return poses.best_distinct_of(set_, most);
+    return best_distinct_in_view(poses.world_from_object, poses.keys, set_.model.mesh,
+                                 set_.symmetries, thresholds::SAME_START, most);
+  }
+
   bool is_joint() const { return views_.size() > 1; }
 
   Scene scene_of(std::span<const ObjectView> views) const {

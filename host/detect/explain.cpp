@@ -29,21 +29,21 @@ bool is_between(double px, double from_px, double size_px, int image_px) {
   return px >= std::max(from_px, -0.5) && px < end_px;
 }
 
-// Rank of pose `index` among the distinct poses, from 1. A lower key is better.
-std::size_t rank_among_distinct(std::span<const Se3> poses, std::span<const double> keys,
-                                std::size_t index, const TemplateSet& set) {
-  std::vector<Se3> better;
-  std::vector<double> better_keys;
-  for (std::size_t i = 0; i < poses.size(); ++i)
-    if (keys[i] < keys[index]) {
-      better.push_back(poses[i]);
-      better_keys.push_back(keys[i]);
-    }
-  const Mesh& mesh = set.model.mesh;
-  return 1 + best_distinct(better, better_keys, mesh, set.symmetries,
-                           thresholds::SAME_POSE * mesh.diameter_m, better.size())
-                 .size();
-}
+// Poses and their keys: a lower key is better.
+struct RankedPoses {
+  std::vector<Se3> poses;
+  std::vector<double> keys;
+  // Those better than pose `index`.
+  RankedPoses before(std::size_t index) const {
+    RankedPoses better;
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      if (keys[i] < keys[index]) {
+        better.poses.push_back(poses[i]);
+        better.keys.push_back(keys[i]);
+      }
+    return better;
+  }
+};
 
 Object object_of(const TemplateSet& set) { return {set.object_id, set.model.mesh, set.symmetries}; }
 
@@ -200,20 +200,26 @@ class LostPose {
       if (is_near_start(i)) ++scan.aligned_near;
     scan.own_mean_px =
         scan_mean_px(set_, view_, given_.world_from_object, scene_.backend, options_.scan);
-    std::vector<Se3> poses;
-    std::vector<double> keys;
+    RankedPoses hits;
     Index best;
     for (const ScanHit& hit : search_.hits) {
-      if (is_near_(hit.pose.world_from_object) && (!best || hit.rank < keys[*best]))
-        best = poses.size();
-      poses.push_back(hit.pose.world_from_object);
-      keys.push_back(hit.rank);
+      if (is_near_(hit.pose.world_from_object) && (!best || hit.rank < hits.keys[*best]))
+        best = hits.poses.size();
+      hits.poses.push_back(hit.pose.world_from_object);
+      hits.keys.push_back(hit.rank);
     }
     if (!best) return scan;
     scan.mean_px = search_.hits[*best].mean_px;
     const Index start = best_near_start();
-    scan.rank = start ? *start + 1 : rank_among_distinct(poses, keys, *best, set_);
+    scan.rank = start ? *start + 1 : rank_of_hit(hits.before(*best));
     return scan;
+  }
+
+  // From 1, among distinct hits.
+  std::size_t rank_of_hit(const RankedPoses& better) const {
+    return 1 + best_distinct_in_view(better.poses, better.keys, set_.model.mesh, set_.symmetries,
+                                     thresholds::SAME_START, better.poses.size())
+                   .size();
   }
 
   // The best pose of the medium stage that a hit near the given pose became.
@@ -271,14 +277,18 @@ class LostPose {
     return ranking;
   }
 
+  // From 1, among distinct poses.
   std::size_t rank_of_aligned(std::size_t index) const {
-    std::vector<Se3> poses;
-    std::vector<double> keys;
+    RankedPoses aligned;
     for (const PoseEstimate& pose : medium_.poses) {
-      poses.push_back(pose.world_from_object);
-      keys.push_back(-rank_of(pose));
+      aligned.poses.push_back(pose.world_from_object);
+      aligned.keys.push_back(-rank_of(pose));
     }
-    return rank_among_distinct(poses, keys, index, set_);
+    const RankedPoses better = aligned.before(index);
+    const Mesh& mesh = set_.model.mesh;
+    return 1 + best_distinct(better.poses, better.keys, mesh, set_.symmetries,
+                             thresholds::SAME_POSE * mesh.diameter_m, better.poses.size())
+                   .size();
   }
 
   RefinementReport refinement() const {

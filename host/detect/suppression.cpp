@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include "kernels/error.h"
@@ -33,6 +34,63 @@ double corner_distance_m(const Se3& a, const Se3& b, const std::array<Eigen::Vec
   return std::sqrt(worst2);
 }
 
+std::vector<std::size_t> by_key(std::span<const double> keys) {
+  std::vector<std::size_t> order(keys.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return keys[i]; });
+  return order;
+}
+
+// The centre of an object's box and its corners, scaled about the camera until the centre is 1 m
+// away.
+struct ScaledBox {
+  Eigen::Vector3d center;
+  std::array<Eigen::Vector3d, 8> corners;
+
+  ScaledBox(const Se3& camera_from_object, const Eigen::Vector3d& center_m,
+            const std::array<Eigen::Vector3d, 8>& corners_m)
+      : center(camera_from_object * center_m) {
+    const double scale = 1 / center.norm();
+    const Eigen::Matrix3d rotation = camera_from_object.rotation.toRotationMatrix();
+    center *= scale;
+    for (int i = 0; i < 8; ++i)
+      corners[i] = scale * (rotation * corners_m[i] + camera_from_object.translation_m);
+  }
+  // No corner is further apart than this.
+  bool is_within(double radius, const ScaledBox& other) const {
+    if ((center - other.center).squaredNorm() > radius * radius) return false;
+    for (int i = 0; i < 8; ++i)
+      if ((corners[i] - other.corners[i]).squaredNorm() > radius * radius) return false;
+    return true;
+  }
+};
+
+// Boxes by the place of their centres in the image.
+class BoxesInView {
+ public:
+  explicit BoxesInView(double largest_radius) : cell_(largest_radius) {}
+  void add(const ScaledBox& box) { cells_[cell_of(box, 0, 0)].push_back(box); }
+  bool any_within(double radius, const ScaledBox& box) const {
+    for (int dx = -1; dx <= 1; ++dx)
+      for (int dy = -1; dy <= 1; ++dy) {
+        const auto cell = cells_.find(cell_of(box, dx, dy));
+        if (cell != cells_.end() && std::ranges::any_of(cell->second, [&](const ScaledBox& b) {
+              return box.is_within(radius, b);
+            }))
+          return true;
+      }
+    return false;
+  }
+
+ private:
+  std::pair<int, int> cell_of(const ScaledBox& box, int dx, int dy) const {
+    return {int(std::floor(box.center.x() / cell_)) + dx,
+            int(std::floor(box.center.y() / cell_)) + dy};
+  }
+  double cell_;
+  std::map<std::pair<int, int>, std::vector<ScaledBox>> cells_;
+};
+
 }  // namespace
 
 double pose_distance_m(const Se3& a, const Se3& b, const Mesh& mesh, const Symmetries& symmetries) {
@@ -60,14 +118,40 @@ std::vector<std::size_t> best_distinct(std::span<const Se3> poses, std::span<con
                                        const Mesh& mesh, const Symmetries& symmetries,
                                        double radius_m, std::size_t most) {
   check(poses.size() == keys.size(), "best_distinct: one key a pose");
-  std::vector<std::size_t> order(poses.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return keys[i]; });
+  const std::vector<std::size_t> order = by_key(keys);
   std::vector<Se3> ordered;
   for (std::size_t i : order) ordered.push_back(poses[i]);
   std::vector<std::size_t> best;
   for (std::size_t i : suppress_duplicates(ordered, mesh, symmetries, radius_m, most))
     best.push_back(order[i]);
+  return best;
+}
+
+std::vector<std::size_t> best_distinct_in_view(std::span<const Se3> camera_from_object,
+                                               std::span<const double> keys, const Mesh& mesh,
+                                               const Symmetries& symmetries, double fraction,
+                                               std::size_t most) {
+  check(camera_from_object.size() == keys.size(), "best_distinct_in_view: one key a pose");
+  const std::array<Eigen::Vector3d, 8> corners_m = box_corners(mesh);
+  const Eigen::Vector3d center_m = 0.5 * (mesh.box_min_m + mesh.box_max_m);
+  const auto radius_of = [&](const Se3& pose) {
+    return fraction * mesh.diameter_m / (pose * center_m).norm();
+  };
+  double largest_radius = 0;
+  for (const Se3& pose : camera_from_object)
+    largest_radius = std::max(largest_radius, radius_of(pose));
+  BoxesInView kept(largest_radius);
+  std::vector<std::size_t> best;
+  for (const std::size_t i : by_key(keys)) {
+    if (best.size() == most) break;
+    const Se3& pose = camera_from_object[i];
+    const auto is_kept = [&](const Se3& symmetry) {
+      return kept.any_within(radius_of(pose), {pose * symmetry, center_m, corners_m});
+    };
+    if (std::ranges::any_of(symmetries.discrete, is_kept)) continue;
+    kept.add({pose, center_m, corners_m});
+    best.push_back(i);
+  }
   return best;
 }
 

@@ -14,6 +14,9 @@ inline constexpr double SAME_AFTER_SEARCH = 0.03, SAME_AFTER_SEARCH_RAD = 0.06;
 inline constexpr double SAME_ACROSS_VIEWS = 0.05;
 // Candidates of one view: registration brings starts this near to one optimum.
 inline constexpr double SAME_POSE = 0.1;
+// Hits that are aligned in one image, as seen from the camera: the coarse stage brings starts this
+// near to one optimum.
+inline constexpr double SAME_START = 0.2;
 // A hit this near to a known instance is aligned to that instance.
 inline constexpr double NEAR_KNOWN = 0.2;
 
