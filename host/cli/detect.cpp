@@ -38,9 +38,11 @@ std::vector<TemplateSet> template_sets(const DetectRequest& request,
   require_other_folder(images, request.batch.out);
   require_writable_place(request.batch.out);
   if (!request.batch.resume) require_no_other_results(request.batch.out, images);
-  if (request.batch.joint)
+  if (request.batch.joint) {
+    const DistanceRange distances = searched_distances(known, request.templates, searched);
     for (const std::span<const InputImage> scene : groups_of(images, true))
-      check_scene(scene, searched_distances(known, request.templates, searched), searched.camera);
+      check_scene(scene, distances, searched.camera);
+  }
   return template_sets_of(known, request.templates, searched, backend);
 }
 

@@ -82,10 +82,10 @@ int register_all(RegisterRequest& request) {
   require_other_folder(images, options.out);
   const std::vector<RegisterJob> jobs =
       make_jobs(images, models, poses, request.multi_view, request.poses);
-  if (request.multi_view)
-    for (const RegisterJob& job : jobs)
-      check_scene(job.views, distances_of(job, models),
-                  first_camera(images, options.camera_file, options.scale_camera));
+  if (request.multi_view) {
+    const Camera camera = first_camera(images, options.camera_file, options.scale_camera);
+    for (const RegisterJob& job : jobs) check_scene(job.views, distances_of(job, models), camera);
+  }
   const RegisterSummary summary = run_register(jobs, models, *backend, options);
   std::cout << fmt::format(
       "{} poses in {} images refined on {}, {} out of sight, {} images skipped, {} failed in "

@@ -1,5 +1,6 @@
 #include "host/detect/detect.h"
 
+#include "host/detect/keyed_poses.h"
 #include "host/detect/search_space.h"
 #include "host/detect/support_views.h"
 #include "host/detect/suppression.h"
@@ -16,21 +17,6 @@ namespace {
 
 // Of a template, before known objects hide some of them.
 constexpr int COARSE_POINTS = 120;
-
-// Poses of the set's object, each with a key.
-struct KeyedPoses {
-  std::vector<Se3> world_from_object;
-  std::vector<double> keys;
-  void add(const ObjectPose& pose, double key) {
-    world_from_object.push_back(pose.world_from_object);
-    keys.push_back(key);
-  }
-  // Indices of distinct ones, lowest key first, at most `most`.
-  std::vector<std::size_t> best_distinct_of(const TemplateSet& set, std::size_t most) const {
-    return best_distinct(world_from_object, keys, set.model.mesh, set.symmetries,
-                         thresholds::SAME_POSE * set.model.mesh.diameter_m, most);
-  }
-};
 
 template <typename T>
 std::vector<T> entries_at(const std::vector<std::size_t>& indices, const std::vector<T>& entries) {
@@ -86,9 +72,11 @@ class Cascade {
     for (std::size_t scale = 0; scale < scales; ++scale) {
       KeyedPoses poses;
       for (const ScanHit& hit : hits)
-        if (std::size_t(hit.scale) == scale) poses.add(hit.pose, hit.rank);
-      for (const std::size_t i : distinct_starts(poses, most))
-        starts.push_back({0, poses.world_from_object[i]});
+        if (std::size_t(hit.scale) == scale) poses.add(hit.pose.world_from_object, hit.rank);
+      // Several images show the distance, in which starts of one image hardly differ.
+      for (const std::size_t i : is_joint() ? poses.best_distinct_of(set_, most)
+                                            : poses.best_distinct_starts_of(set_, most))
+        starts.push_back({0, poses.poses[i]});
     }
     return starts;
   }
@@ -147,14 +135,6 @@ class Cascade {
   }
 
  private:
-  // Registration in one image brings starts to one optimum that differ in what the image hardly
-  // shows: the distance by a step of the templates. Other images show it.
-  std::vector<std::size_t> distinct_starts(const KeyedPoses& poses, std::size_t most) const {
-    if (is_joint()) return poses.best_distinct_of(set_, most);
-    return best_distinct_in_view(poses.world_from_object, poses.keys, set_.model.mesh,
-                                 set_.symmetries, thresholds::SAME_START, most);
-  }
-
   bool is_joint() const { return views_.size() > 1; }
 
   Scene scene_of(std::span<const ObjectView> views) const {
@@ -180,7 +160,7 @@ class Cascade {
       if (is_at_searched_distance(poses[i].world_from_object) &&
           space_.admits(poses[i].world_from_object, slack)) {
         indices.push_back(i);
-        admitted.add(poses[i], keys[i]);
+        admitted.add(poses[i].world_from_object, keys[i]);
       }
     return entries_at(admitted.best_distinct_of(set_, most), indices);
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "host/detect/keyed_poses.h"
 #include "host/detect/search_space.h"
 #include "host/detect/suppression.h"
 #include "host/detect/template_support.h"
@@ -28,22 +29,6 @@ bool is_between(double px, double from_px, double size_px, int image_px) {
                end_px = size_px > 0 ? std::min(from_px + size_px, border_px) : border_px;
   return px >= std::max(from_px, -0.5) && px < end_px;
 }
-
-// Poses and their keys: a lower key is better.
-struct RankedPoses {
-  std::vector<Se3> poses;
-  std::vector<double> keys;
-  // Those better than pose `index`.
-  RankedPoses before(std::size_t index) const {
-    RankedPoses better;
-    for (std::size_t i = 0; i < poses.size(); ++i)
-      if (keys[i] < keys[index]) {
-        better.poses.push_back(poses[i]);
-        better.keys.push_back(keys[i]);
-      }
-    return better;
-  }
-};
 
 Object object_of(const TemplateSet& set) { return {set.object_id, set.model.mesh, set.symmetries}; }
 
@@ -200,26 +185,20 @@ class LostPose {
       if (is_near_start(i)) ++scan.aligned_near;
     scan.own_mean_px =
         scan_mean_px(set_, view_, given_.world_from_object, scene_.backend, options_.scan);
-    RankedPoses hits;
+    KeyedPoses hits;
     Index best;
     for (const ScanHit& hit : search_.hits) {
       if (is_near_(hit.pose.world_from_object) && (!best || hit.rank < hits.keys[*best]))
         best = hits.poses.size();
-      hits.poses.push_back(hit.pose.world_from_object);
-      hits.keys.push_back(hit.rank);
+      hits.add(hit.pose.world_from_object, hit.rank);
     }
     if (!best) return scan;
     scan.mean_px = search_.hits[*best].mean_px;
     const Index start = best_near_start();
-    scan.rank = start ? *start + 1 : rank_of_hit(hits.before(*best));
+    const KeyedPoses better = hits.better_than(*best);
+    scan.rank = start ? *start + 1
+                      : 1 + better.best_distinct_starts_of(set_, better.poses.size()).size();
     return scan;
-  }
-
-  // From 1, among distinct hits.
-  std::size_t rank_of_hit(const RankedPoses& better) const {
-    return 1 + best_distinct_in_view(better.poses, better.keys, set_.model.mesh, set_.symmetries,
-                                     thresholds::SAME_START, better.poses.size())
-                   .size();
   }
 
   // The best pose of the medium stage that a hit near the given pose became.
@@ -279,16 +258,11 @@ class LostPose {
 
   // From 1, among distinct poses.
   std::size_t rank_of_aligned(std::size_t index) const {
-    RankedPoses aligned;
-    for (const PoseEstimate& pose : medium_.poses) {
-      aligned.poses.push_back(pose.world_from_object);
-      aligned.keys.push_back(-rank_of(pose));
-    }
-    const RankedPoses better = aligned.before(index);
-    const Mesh& mesh = set_.model.mesh;
-    return 1 + best_distinct(better.poses, better.keys, mesh, set_.symmetries,
-                             thresholds::SAME_POSE * mesh.diameter_m, better.poses.size())
-                   .size();
+    KeyedPoses aligned;
+    for (const PoseEstimate& pose : medium_.poses)
+      aligned.add(pose.world_from_object, -rank_of(pose));
+    const KeyedPoses better = aligned.better_than(index);
+    return 1 + better.best_distinct_of(set_, better.poses.size()).size();
   }
 
   RefinementReport refinement() const {

@@ -145,8 +145,8 @@ std::vector<std::size_t> best_distinct_in_view(std::span<const Se3> camera_from_
   for (const std::size_t i : by_key(keys)) {
     if (best.size() == most) break;
     const Se3& pose = camera_from_object[i];
-    const auto is_kept = [&](const Se3& symmetry) {
-      return kept.any_within(radius_of(pose), {pose * symmetry, center_m, corners_m});
+    const auto is_kept = [&, radius = radius_of(pose)](const Se3& symmetry) {
+      return kept.any_within(radius, {pose * symmetry, center_m, corners_m});
     };
     if (std::ranges::any_of(symmetries.discrete, is_kept)) continue;
     kept.add({pose, center_m, corners_m});
