@@ -18,7 +18,7 @@ ObjectView prepare_view(const Image& image, const Camera& camera, const Se3& cam
                         Backend& backend, const PipelineOptions& options,
                         std::vector<StageSeconds>* stages) {
   std::vector<StageSeconds> unread;
-  Stopwatch watch(stages ? *stages : unread);
+  Stopwatch watch(stages ? *stages : unread, backend);
   ObjectView view;
   view.camera = undistorted(camera);
   view.camera_from_world = camera_from_world;
@@ -52,7 +52,7 @@ Detections detect_objects(const ObjectView& prepared, std::span<const TemplateSe
   options.validate();
   if (trace) *trace = {};
   Detections result;
-  Stopwatch watch(result.stages);
+  Stopwatch watch(result.stages, backend);
   ObjectView view = prepared;
   add_tensors(view, sets, backend, options.tensor);
   view.camera_from_world = Se3{};  // one view: its camera frame is the world
@@ -62,12 +62,11 @@ Detections detect_objects(const ObjectView& prepared, std::span<const TemplateSe
   std::vector<PoseEstimate> candidates;
   for (std::size_t object = 0; object < sets.size(); ++object)
     for (PoseEstimate& candidate :
-         find_candidates({sets[object], view, {}, backend}, {}, in_camera,
+         find_candidates({sets[object], view, {}, backend, &watch}, {}, in_camera,
                          trace ? &trace->searches.emplace_back() : nullptr)) {
       candidate.object = int(object);
       candidates.push_back(std::move(candidate));
     }
-  watch.lap("candidates");
   const std::vector<EdgeModel> models = models_of(sets);
   SelectionTrace selection;
   result.detections =
@@ -82,7 +81,7 @@ Detections detect_jointly(std::span<const ObjectView> prepared, std::span<const 
                           Backend& backend, const PipelineOptions& options) {
   options.validate();
   Detections result;
-  Stopwatch watch(result.stages);
+  Stopwatch watch(result.stages, backend);
   std::vector<ObjectView> views(prepared.begin(), prepared.end());
   for (ObjectView& view : views) add_tensors(view, sets, backend, options.tensor);
   watch.lap("tensors");
@@ -91,9 +90,8 @@ Detections detect_jointly(std::span<const ObjectView> prepared, std::span<const 
     const std::vector<ObjectView> others = all_but(views, v);
     for (std::size_t object = 0; object < sets.size(); ++object)
       candidates(v, object) =
-          find_candidates({sets[object], views[v], others, backend}, {}, options.detect);
+          find_candidates({sets[object], views[v], others, backend, &watch}, {}, options.detect);
   }
-  watch.lap("candidates");
   const std::vector<EdgeModel> models = models_of(sets);
   SelectionTrace selection;
   result.detections =

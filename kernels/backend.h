@@ -18,12 +18,15 @@
 #include "kernels/combination_chamfer.h"
 #include "kernels/dcd_tensor.h"
 #include "kernels/depth_raster.h"
+#include "kernels/device_work.h"
 #include "kernels/edge_detect.h"
 #include "kernels/edge_support.h"
 #include "kernels/mutual_information.h"
+#include "kernels/point_visibility.h"
 #include "kernels/pose_normal_equations.h"
 #include "kernels/pose_score.h"
 #include "kernels/template_project.h"
+#include "kernels/template_scan.h"
 #include "kernels/template_score.h"
 
 namespace edgescout {
@@ -48,6 +51,14 @@ class BackendModelPoints {
   std::uint32_t count = 0;
 };
 using ModelPointsHandle = std::shared_ptr<const BackendModelPoints>;
+
+// The points of many poses in the backend's own memory, so that the steps of a registration, which
+// differ in their poses alone, need them there once.
+class BackendPosePoints {
+ public:
+  virtual ~BackendPosePoints() = default;
+};
+using PosePointsHandle = std::shared_ptr<const BackendPosePoints>;
 
 // The cells of one view's combination_chamfer, in the backend's own memory: particles *
 // combinations of them, too many to keep those of all views.
@@ -95,8 +106,16 @@ class Backend {
                                 const TemplateProjectOptions& options,
                                 std::span<TemplatePoint> projected,
                                 std::span<std::uint32_t> too_near) = 0;
+  // `hits`: [region][place of the template].
+  virtual void template_scan(const BackendView& view, const BackendModelPoints& points,
+                             const TemplateScan& scan, std::span<TemplateHit> hits) = 0;
   virtual void pose_normal_equations(std::span<const ViewHandle> views,
                                      std::span<const ModelPoint> points,
+                                     std::span<const PoseProblem> problems, const PoseLoss& loss,
+                                     std::span<NormalEquations> out) = 0;
+  virtual PosePointsHandle make_pose_points(std::vector<ModelPoint> points) = 0;
+  virtual void pose_normal_equations(std::span<const ViewHandle> views,
+                                     const BackendPosePoints& points,
                                      std::span<const PoseProblem> problems, const PoseLoss& loss,
                                      std::span<NormalEquations> out) = 0;
   virtual void pose_score(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
@@ -107,6 +126,9 @@ class Backend {
                             std::span<EdgeSupport> out) = 0;
   virtual void depth_raster(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width,
                             int height, std::span<float> depth) = 0;
+  virtual void point_visibility(const TriangleMesh& mesh, const VisibilityPoints& points,
+                                std::span<const VisibilityJob> jobs, int size,
+                                std::span<std::uint8_t> flags) = 0;
   virtual void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps,
                              int width, int height, std::span<std::uint32_t> nearest) = 0;
   virtual ChamferHandle combination_chamfer(const ChamferView& view,
@@ -118,6 +140,8 @@ class Backend {
                                     const InformationOptions& options) = 0;
   // The threads host code may use beside the kernels.
   virtual ThreadPool& threads() = 0;
+  // Since the backend was made. All 0 on the CPU.
+  virtual DeviceWork device_work() const { return {}; }
 
   std::vector<StageTime> take_timings();
 

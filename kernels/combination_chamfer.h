@@ -23,6 +23,7 @@
 // counts say, what candidate_map throws for, more than CHAMFER_MAX_POINTS points in a particle.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -70,7 +71,7 @@ struct ChamferOptions {
   // px of the map, 1/16 to 255/16; rounded to 1/16
   float cap_px = float(CHAMFER_CAP) / float(CHAMFER_STEPS_PER_PX);
   std::uint32_t cap_steps() const {
-    return std::uint32_t(cap_px * float(CHAMFER_STEPS_PER_PX) + 0.5f);
+    return std::uint32_t(std::lround(cap_px * float(CHAMFER_STEPS_PER_PX)));
   }
   void validate() const;  // throws InputError
 };

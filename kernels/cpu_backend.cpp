@@ -85,6 +85,12 @@ class CpuView : public BackendView {
   std::vector<std::uint32_t> support_map;
 };
 
+class CpuPosePoints : public BackendPosePoints {
+ public:
+  explicit CpuPosePoints(std::vector<ModelPoint> points) : points(std::move(points)) {}
+  std::vector<ModelPoint> points;
+};
+
 class CpuModelPoints : public BackendModelPoints {
  public:
   explicit CpuModelPoints(std::span<const ModelPoint> points) : planes(points) {
@@ -161,6 +167,18 @@ class CpuBackend : public Backend {
       template_project_reference(mine->planes, jobs, options, projected, too_near);
   }
 
+  void template_scan(const BackendView& view, const BackendModelPoints& points,
+                     const TemplateScan& scan, std::span<TemplateHit> hits) override {
+    const auto* mine = dynamic_cast<const CpuModelPoints*>(&points);
+    check(mine != nullptr, "model points of another backend");
+    const Timer timer(*this, "template_scan");
+    const CpuView& on = own(view);
+    if (fast_)
+      template_scan_fast(on.values, on.shape, mine->planes, scan, hits, pool_);
+    else
+      template_scan_reference(on.values, on.shape, mine->planes, scan, hits);
+  }
+
   void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
                              std::span<const PoseProblem> problems, const PoseLoss& loss,
                              std::span<NormalEquations> out) override {
@@ -172,6 +190,18 @@ class CpuBackend : public Backend {
       pose_normal_equations_fast(tensors, points, problems, loss, out, pool_);
     else
       pose_normal_equations_reference(tensors, points, problems, loss, out);
+  }
+
+  PosePointsHandle make_pose_points(std::vector<ModelPoint> points) override {
+    return std::make_shared<CpuPosePoints>(std::move(points));
+  }
+
+  void pose_normal_equations(std::span<const ViewHandle> views, const BackendPosePoints& points,
+                             std::span<const PoseProblem> problems, const PoseLoss& loss,
+                             std::span<NormalEquations> out) override {
+    const auto* mine = dynamic_cast<const CpuPosePoints*>(&points);
+    check(mine != nullptr, "points of another backend");
+    pose_normal_equations(views, mine->points, problems, loss, out);
   }
 
   void pose_score(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
@@ -206,6 +236,16 @@ class CpuBackend : public Backend {
       depth_raster_fast(mesh, jobs, width, height, depth, pool_);
     else
       depth_raster_reference(mesh, jobs, width, height, depth);
+  }
+
+  void point_visibility(const TriangleMesh& mesh, const VisibilityPoints& points,
+                        std::span<const VisibilityJob> jobs, int size,
+                        std::span<std::uint8_t> flags) override {
+    const Timer timer(*this, "point_visibility");
+    if (fast_)
+      point_visibility_fast(mesh, points, jobs, size, flags, pool_);
+    else
+      point_visibility_reference(mesh, points, jobs, size, flags);
   }
 
   void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width,

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "template_project.h"
-#include "angle.glsl"
+#include "template_point.glsl"
 
 layout(local_size_x = TEMPLATE_PROJECT_GROUP) in;
 layout(push_constant) uniform Push { TemplateProjectPush push; };
@@ -37,17 +37,6 @@ vec3 read_planes(uint first, uint point) {
   return vec3(planes[at], planes[at + push.point_count], planes[at + 2u * push.point_count]);
 }
 
-// Half away from zero.
-ivec2 rounded_offset(vec2 px) {
-  const vec2 far = vec2(float(TEMPLATE_PROJECT_FAR_PX)), near = clamp(px, -far, far);
-  return ivec2(near + mix(vec2(0.5), vec2(-0.5), lessThan(near, vec2(0.0))));
-}
-
-uint bin_of(vec2 direction) {
-  const uint turn = uint(undirected_angle(direction) * (float(push.bins) / PI) + 0.5);
-  return turn >= push.bins ? 0u : turn;
-}
-
 // A TemplatePoint: dx and dy in the halves of the first word, the bin in the second.
 uvec2 pack(ivec2 offset, uint bin) {
   return uvec2((uint(offset.x) & 0xffffu) | (uint(offset.y) << 16), bin);
@@ -63,13 +52,11 @@ void main() {
   const vec2 focal = vec2(push.fx, push.fy), centre = vec2(push.cx, push.cy);
   uint nearer = 0;
   [[dont_unroll]] for (uint i = lane; i < job.point_count; i += TEMPLATE_PROJECT_GROUP) {
-    vec3 p = job.rotation * read_planes(0u, job.first_point + i) + job.translation_m;
+    const vec3 p = job.rotation * read_planes(0u, job.first_point + i) + job.translation_m;
     const vec3 q = job.rotation * read_planes(3u, job.first_point + i);
-    if (p.z < push.nearest_m) ++nearer;
-    p.z = max(p.z, push.nearest_m);
-    const ivec2 offset = rounded_offset(focal * p.xy / p.z + centre - job.anchor);
-    const uint bin = bin_of(focal * (p.z * q.xy - p.xy * q.z));
-    projected[job.first_projected + i] = pack(offset, bin);
+    const ImagePoint point = image_point(p, q, focal, centre, job.anchor, push.nearest_m, push.bins);
+    if (point.is_near) ++nearer;
+    projected[job.first_projected + i] = pack(point.offset, point.bin);
   }
   if (nearer > 0u) atomicAdd(near_count, nearer);
   barrier();

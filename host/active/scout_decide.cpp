@@ -41,7 +41,7 @@ ScoutDecision Scout::decide() const {
   if (state_.steps.empty() && (state_.failed.empty() || needs_candidates))
     return decision_without_expectations(first_open_view());
   ScoutDecision decision = decision_without_expectations(-1);
-  Stopwatch watch(decision.stages);
+  Stopwatch watch(decision.stages, backend_);
   decision.candidates = state_.candidates;
   BitMatrix combinations;
   if (strategy == Strategy::Information && !state_.candidates.empty()) {

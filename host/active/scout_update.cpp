@@ -23,7 +23,7 @@ void Scout::add_image(Update& next, const Image& image) const {
   ObjectView view = prepare_view(image, camera_, step.camera_from_world, backend_,
                                  options_.pipeline, &step.stages);
   step.image = *view.image;
-  Stopwatch watch(step.stages);
+  Stopwatch watch(step.stages, backend_);
   add_tensors(view, sets_, backend_, options_.pipeline.tensor);
   next.views.push_back({std::move(view), {}});
   record_stage(watch, "tensors");
@@ -31,7 +31,7 @@ void Scout::add_image(Update& next, const Image& image) const {
 
 // Candidates next to and behind the known instances, refined over all images.
 void Scout::search_image(Update& next) const {
-  Stopwatch watch(next.step.stages);
+  Stopwatch watch(next.step.stages, backend_);
   std::vector<Detection>& candidates = next.state.candidates;
   const std::vector<ObjectPose> known_now = known(next.state);
   set_occluders(next, known_now);
@@ -87,7 +87,7 @@ std::vector<Detection> Scout::call_detector(const Update& next, std::span<const 
 std::vector<Mode> Scout::update_belief(Update& next) const {
   ScoutState& state = next.state;
   ScoutStep& step = next.step;
-  Stopwatch watch(step.stages);
+  Stopwatch watch(step.stages, backend_);
   const std::vector<ObjectView> views = views_of(next.views);
   const Scene scene{models_, views, backend_};
   add_particles(next);
@@ -144,7 +144,7 @@ void Scout::add_particles(Update& next) const {
 
 // The particles for the next image.
 void Scout::resample_particles(Update& next, std::span<const Mode> modes) const {
-  Stopwatch watch(next.step.stages);
+  Stopwatch watch(next.step.stages, backend_);
   next.step.resampled = resample_where_poor(next.state.particles, modes, models_, next.views.size(),
                                             options_.particles);
   next.step.after = next.state.particles;
@@ -152,7 +152,7 @@ void Scout::resample_particles(Update& next, std::span<const Mode> modes) const 
 }
 
 void Scout::check_extrinsics(Update& next) const {
-  Stopwatch watch(next.step.stages);
+  Stopwatch watch(next.step.stages, backend_);
   const std::vector<ScoutStep>& earlier = next.state.steps;
   const std::vector<ExtrinsicsCheck> before =
       earlier.empty() ? std::vector<ExtrinsicsCheck>{} : earlier.back().extrinsics_checks;

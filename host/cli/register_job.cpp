@@ -103,7 +103,7 @@ Detections refine_job(const ReadyJob& ready, std::span<const RegisterModel> mode
                       const RegisterOptions& options) {
   Detections result;
   result.stages = stages_of(ready.views);
-  Stopwatch watch(result.stages);
+  Stopwatch watch(result.stages, backend);
   const std::vector<ObjectView> views =
       views_with_tensors(ready, models, backend, options.pipeline.tensor);
   watch.lap("tensors");

@@ -1,4 +1,4 @@
-// Measures the seconds of named stages.
+// Measures named stages: their time, and what they asked of a device.
 //
 // Public header.
 #pragma once
@@ -8,21 +8,26 @@
 #include <string>
 #include <vector>
 
+#include "kernels/backend.h"
+
 namespace edgescout {
 
 struct StageSeconds {
   std::string name;
   double seconds = 0;
+  DeviceWork device{};  // all 0 on the CPU
+  double host_seconds() const { return seconds - device.kernel_seconds; }
 };
 
 inline double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Each call of lap() adds the time since the last call to the stage of that name.
+// Each call of lap() adds what was since the last call to the stage of that name.
 class Stopwatch {
  public:
-  explicit Stopwatch(std::vector<StageSeconds>& stages) : stages_(stages) {}
+  Stopwatch(std::vector<StageSeconds>& stages, const Backend& backend)
+      : stages_(stages), backend_(backend) {}
   void lap(const char* stage) {
     const auto now = std::chrono::steady_clock::now();
     const auto known = std::ranges::find(stages_, stage, &StageSeconds::name);
@@ -30,11 +35,16 @@ class Stopwatch {
         known == stages_.end() ? stages_.emplace_back(StageSeconds{stage}) : *known;
     lapped.seconds += std::chrono::duration<double>(now - last_).count();
     last_ = now;
+    const DeviceWork work = backend_.device_work();
+    lapped.device += work - last_work_;
+    last_work_ = work;
   }
 
  private:
   std::vector<StageSeconds>& stages_;
+  const Backend& backend_;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  DeviceWork last_work_ = backend_.device_work();
 };
 
 }  // namespace edgescout

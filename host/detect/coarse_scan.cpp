@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "host/core/thinned.h"
 #include "host/detect/search_space.h"
 #include "host/detect/template_projection.h"
 #include "host/register/coarse_registration.h"
@@ -177,71 +178,114 @@ class AdmittedSearch {
   SearchSpace space_;
 };
 
-// The templates of a scale at the middle of a region. Those of one viewpoint and turn share their
-// rotation at every distance.
-class TurnedTemplates {
+// The points of every viewpoint, evenly thinned, in the backend's memory.
+struct ScannedPoints {
+  std::vector<ViewpointPoints> of_viewpoint;
+  ModelPointsHandle points;
+
+  ScannedPoints(const TemplateSet& set, int most, Backend& backend) {
+    std::vector<ModelPoint> all;
+    for (const TemplateView& view : set.views) {
+      const std::vector<ModelPoint> kept = thinned(view.points, most);
+      of_viewpoint.push_back({std::uint32_t(all.size()), std::uint32_t(kept.size())});
+      all.insert(all.end(), kept.begin(), kept.end());
+    }
+    points = backend.make_model_points(all);
+  }
+};
+
+// Scans all regions of one scale: all templates with few points, the best of them with all.
+class RegionScan {
  public:
-  TurnedTemplates(const SearchedScale& scale, const Region& region, ThreadPool& pool)
-      : numbering_(scale.numbering),
-        ray_(ray_through(scale.level.camera, region.middle).normalized()),
-        turned_(numbering_.count() / numbering_.distances_m.size()) {
+  RegionScan(const SearchedScale& scale, const AdmittedSearch& admitted,
+             std::span<const Region> regions, Backend& backend, const ScanOptions& options)
+      : scale_(scale), admitted_(admitted), backend_(backend), options_(options) {
+    for (const double distance_m : scale.numbering.distances_m)
+      distances_m_.push_back(float(distance_m));
+    for (const Region& region : regions) add_region(region);
+    turn_templates();
+  }
+
+  // Of every region the hits of the lowest ranks, at most `most`, best first.
+  std::vector<ScanHit> best(std::size_t most) {
+    std::vector<std::uint32_t> all(scale_.numbering.count());
+    std::iota(all.begin(), all.end(), 0u);
+    const int quick_points = std::min(options_.quick_points, options_.points);
+    const Ranked promising =
+        best_in_regions(quick_points, all, true, std::size_t(options_.quick_kept) * most);
+    std::vector<ScanHit> hits;
+    for (const std::vector<ScoredTemplate>& in_region :
+         best_in_regions(options_.points, numbers_of(promising), false, most))
+      for (const ScoredTemplate& scored : in_region) hits.push_back(scale_.hit_of(scored));
+    return hits;
+  }
+
+ private:
+  using Ranked = std::vector<std::vector<ScoredTemplate>>;  // by region, best first
+
+  // One that the prior leaves anchors of.
+  void add_region(const Region& region) {
+    const std::vector<std::optional<Region>> parts = admitted_.parts_of(region);
+    if (std::ranges::none_of(parts, &std::optional<Region>::has_value)) return;
+    const Eigen::Vector3f ray =
+        ray_through(scale_.level.camera, region.middle).normalized().cast<float>();
+    middles_.push_back(region.middle);
+    regions_.push_back(
+        {float(region.middle.x()), float(region.middle.y()), ray.x(), ray.y(), ray.z()});
+    for (const std::optional<Region>& part : parts)
+      anchors_.push_back(part ? TemplateAnchors{part->x0, part->y0, std::uint32_t(part->columns),
+                                                std::uint32_t(part->rows)}
+                              : TemplateAnchors{});
+  }
+
+  // Templates of one viewpoint and turn share their rotation at every distance.
+  void turn_templates() {
+    const TemplateNumbering& numbering = scale_.numbering;
+    const std::size_t turns = numbering.count() / numbering.distances_m.size();
+    turned_.resize(regions_.size() * turns);
     constexpr std::size_t chunk = 64;
-    pool.for_each((turned_.size() + chunk - 1) / chunk, [&](std::size_t c) {
+    backend_.threads().for_each((turned_.size() + chunk - 1) / chunk, [&](std::size_t c) {
       for (std::size_t i = c * chunk; i < std::min(turned_.size(), (c + 1) * chunk); ++i) {
-        const std::size_t number = i * numbering_.distances_m.size();
-        const Se3 at_camera =
-            place_template(scale.set, scale.set.views[std::size_t(numbering_.viewpoint(number))],
-                           numbering_.in_plane_rad(number), 0, region.middle, scale.level.camera);
-        turned_[i] = {to_pose(at_camera), at_camera.translation_m};
+        const std::size_t number = i % turns * numbering.distances_m.size();
+        turned_[i] = to_pose(place_template(
+            scale_.set, scale_.set.views[std::size_t(numbering.viewpoint(number))],
+            numbering.in_plane_rad(number), 0, middles_[i / turns], scale_.level.camera));
       }
     });
   }
 
-  Pose camera_from_object(std::size_t number) const {
-    const Turned& turned = turned_[number / numbering_.distances_m.size()];
-    const Eigen::Vector3d translation_m =
-        numbering_.distance_m(number) * ray_ + turned.translation_m;
-    Pose pose = turned.at_camera;
-    for (int i = 0; i < 3; ++i) pose.m[4 * i + 3] = float(translation_m[i]);
-    return pose;
+  // Of the templates of these numbers, `points` of each, the best `most` of every region.
+  Ranked best_in_regions(int points, std::span<const std::uint32_t> numbers, bool same_numbers,
+                         std::size_t most) {
+    const ScannedPoints scanned(scale_.set, points, backend_);
+    const ReducedTensors& level = scale_.level;
+    const TemplateScan scan{
+        {level.salient->intrinsics, level.salient->shape.bins, nearest_m(scale_.set)},
+        options_.anchor_step,
+        std::uint32_t(scale_.numbering.in_plane_steps),
+        scanned.of_viewpoint,
+        distances_m_,
+        regions_,
+        anchors_,
+        turned_,
+        numbers,
+        same_numbers};
+    hits_.resize(scan.hits());
+    backend_.template_scan(*level.salient, *scanned.points, scan, hits_);
+    Ranked ranked(regions_.size());
+    backend_.threads().for_each(regions_.size(), [&](std::size_t region) {
+      ranked[region] = best_of_region(scan, region, most);
+    });
+    return ranked;
   }
 
- private:
-  struct Turned {  // with the object's centre at the camera
-    Pose at_camera;
-    Eigen::Vector3d translation_m;
-  };
-  const TemplateNumbering& numbering_;
-  Eigen::Vector3d ray_;
-  std::vector<Turned> turned_;
-};
-
-// Scores templates in one region after the other with the same buffers.
-class TemplateScoring {
- public:
-  // With at most `points` of each template.
-  TemplateScoring(const SearchedScale& scale, const AdmittedSearch& admitted, int points,
-                  Backend& backend, int anchor_step)
-      : scale_(scale),
-        admitted_(admitted),
-        points_of_one_(points),
-        anchor_step_(anchor_step),
-        backend_(backend) {
-    for (const TemplateView& viewpoint : scale.set.views) views_.emplace_back(viewpoint, points);
-  }
-
-  // Of the templates of these numbers, at most `most` that are admitted, lowest rank first.
-  // `turned` is of the region, `parts` is what is searched of it, by distance.
-  std::vector<ScoredTemplate> best(const Region& region, const TurnedTemplates& turned,
-                                   std::span<const std::optional<Region>> parts,
-                                   std::span<const std::size_t> numbers, std::size_t most) {
-    draw(region, turned, parts, numbers);
-    best_anchors_.resize(numbers.size());
-    backend_.template_score(*scale_.level.salient, points_, jobs_, anchor_step_, best_anchors_);
+  std::vector<ScoredTemplate> best_of_region(const TemplateScan& scan, std::size_t region,
+                                             std::size_t most) const {
     std::vector<ScoredTemplate> best;  // a heap, the worst in front
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-      if (!is_drawn_[i]) continue;
-      const ScoredTemplate scored = scored_template(i, numbers[i]);
+    for (std::size_t place = 0; place < scan.templates(); ++place) {
+      const TemplateHit& hit = hits_[region * scan.templates() + place];
+      if (hit.sum == TEMPLATE_SCAN_NONE) continue;
+      const ScoredTemplate scored = scored_template(scan, scan.number(region, place), hit);
       if (best.size() == most && best.front().key() < scored.key()) continue;
       if (!admitted_.admits(scored)) continue;
       if (best.size() == most) {
@@ -255,91 +299,35 @@ class TemplateScoring {
     return best;
   }
 
- private:
-  void draw(const Region& region, const TurnedTemplates& turned,
-            std::span<const std::optional<Region>> parts, std::span<const std::size_t> numbers) {
-    points_.resize(numbers.size() * points_of_one_);
-    jobs_.resize(numbers.size());
-    is_drawn_.resize(numbers.size());
-    constexpr std::size_t chunk = 256;
-    backend_.threads().for_each((numbers.size() + chunk - 1) / chunk, [&](std::size_t c) {
-      for (std::size_t i = c * chunk; i < std::min(numbers.size(), (c + 1) * chunk); ++i)
-        draw_template(i, numbers[i], region, turned.camera_from_object(numbers[i]),
-                      parts[numbers[i] % parts.size()]);
-    });
-  }
-
-  void draw_template(std::size_t i, std::size_t number, const Region& region,
-                     const Pose& camera_from_object, const std::optional<Region>& part) {
-    const ThinnedView& view = views_[scale_.numbering.viewpoint(number)];
-    const auto& salient = *scale_.level.salient;
-    const std::size_t first = i * points_of_one_;
-    int count = view.count();
-    is_drawn_[i] = part && count > 0 &&
-                   view.project(camera_from_object, salient.intrinsics, float(region.middle.x()),
-                                float(region.middle.y()), salient.shape.bins, nearest_m(scale_.set),
-                                points_.data() + first);
-    if (!is_drawn_[i]) points_[first] = {}, count = 1;  // a job needs a point; nobody reads the sum
-    const Region anchors = part.value_or(Region{region.x0, region.y0, 1, 1, region.middle});
-    jobs_[i] = {std::uint32_t(first), std::uint32_t(count),           anchors.x0,
-                anchors.y0,           std::uint32_t(anchors.columns), std::uint32_t(anchors.rows)};
-  }
-
-  ScoredTemplate scored_template(std::size_t i, std::size_t number) const {
-    const TemplateHit& best = best_anchors_[i];
-    const double mean_px = double(best.sum) / (4.0 * jobs_[i].point_count);
-    return {number, Eigen::Vector2d(best.x, best.y), mean_px,
+  ScoredTemplate scored_template(const TemplateScan& scan, std::uint32_t number,
+                                 const TemplateHit& hit) const {
+    const double mean_px = double(hit.sum) / (4.0 * scan.points_of(number).count);
+    return {number, Eigen::Vector2d(hit.x, hit.y), mean_px,
             mean_px * scan_size_weight(scale_.numbering.distance_m(number))};
   }
 
+  // By region; as many of each, filled up with none.
+  static std::vector<std::uint32_t> numbers_of(const Ranked& ranked) {
+    std::size_t most = 0;
+    for (const std::vector<ScoredTemplate>& in_region : ranked)
+      most = std::max(most, in_region.size());
+    std::vector<std::uint32_t> numbers(ranked.size() * most, TEMPLATE_SCAN_NONE);
+    for (std::size_t region = 0; region < ranked.size(); ++region)
+      for (std::size_t i = 0; i < ranked[region].size(); ++i)
+        numbers[region * most + i] = std::uint32_t(ranked[region][i].number);
+    return numbers;
+  }
+
   const SearchedScale& scale_;
   const AdmittedSearch& admitted_;
-  std::size_t points_of_one_;
-  int anchor_step_;
   Backend& backend_;
-  std::vector<ThinnedView> views_;  // by viewpoint
-  // By place in the numbers of the last call:
-  std::vector<TemplatePoint> points_;  // points_of_one_ of each
-  std::vector<TemplateJob> jobs_;
-  std::vector<TemplateHit> best_anchors_;
-  std::vector<char> is_drawn_;  // false where a point would lie behind the camera
-};
-
-// Scans the regions of one scale: all templates with few points, the best of them with all.
-class RegionScan {
- public:
-  RegionScan(const SearchedScale& scale, const AdmittedSearch& admitted, Backend& backend,
-             const ScanOptions& options)
-      : scale_(scale),
-        admitted_(admitted),
-        quick_(scale, admitted, std::min(options.quick_points, options.points), backend,
-               options.anchor_step),
-        full_(scale, admitted, options.points, backend, options.anchor_step),
-        quick_kept_(std::size_t(options.quick_kept)),
-        pool_(backend.threads()),
-        all_(scale.numbering.count()) {
-    std::iota(all_.begin(), all_.end(), 0);
-  }
-
-  void append_best(const Region& region, std::size_t most, std::vector<ScanHit>& hits) {
-    const std::vector<std::optional<Region>> parts = admitted_.parts_of(region);
-    if (std::ranges::none_of(parts, &std::optional<Region>::has_value)) return;
-    const TurnedTemplates turned(scale_, region, pool_);
-    std::vector<std::size_t> numbers;
-    for (const ScoredTemplate& scored :
-         quick_.best(region, turned, parts, all_, quick_kept_ * most))
-      numbers.push_back(scored.number);
-    for (const ScoredTemplate& scored : full_.best(region, turned, parts, numbers, most))
-      hits.push_back(scale_.hit_of(scored));
-  }
-
- private:
-  const SearchedScale& scale_;
-  const AdmittedSearch& admitted_;
-  TemplateScoring quick_, full_;
-  std::size_t quick_kept_;  // for each hit that is kept
-  ThreadPool& pool_;
-  std::vector<std::size_t> all_;
+  const ScanOptions& options_;
+  std::vector<float> distances_m_;
+  std::vector<Eigen::Vector2d> middles_;  // of the regions, coarse px
+  std::vector<TemplateRegion> regions_;
+  std::vector<TemplateAnchors> anchors_;  // [region][distance]
+  std::vector<Pose> turned_;              // [region][turn]
+  std::vector<TemplateHit> hits_;         // of the last scan
 };
 
 }  // namespace
@@ -378,8 +366,9 @@ std::vector<ScanHit> coarse_scan(const TemplateSet& set, const ObjectView& view,
     const std::vector<Region> regions = cut_into_regions(view, searched.level, options);
     const std::size_t most = (of_scale + regions.size() - 1) / regions.size();
     const AdmittedSearch admitted(searched, view, options);
-    RegionScan scan(searched, admitted, backend, options);
-    for (const Region& region : regions) scan.append_best(region, most, hits);
+    const std::vector<ScanHit> of_scale_hits =
+        RegionScan(searched, admitted, regions, backend, options).best(most);
+    hits.insert(hits.end(), of_scale_hits.begin(), of_scale_hits.end());
   }
   return hits;
 }

@@ -183,14 +183,21 @@ std::vector<PoseEstimate> run_cascade(const ObjectSearch& search, std::span<cons
                                       std::span<const Se3> known_in_world,
                                       const DetectOptions& options, SearchTrace* trace = nullptr) {
   const Cascade cascade(search, known_in_world, options);
+  const auto lap = [&](const char* stage) {
+    if (search.watch) search.watch->lap(stage);
+  };
+  lap("scan");
   SearchTrace stages;
   stages.starts = cascade.starts(hits);
   stages.coarse = cascade.coarse(stages.starts);
+  lap("coarse");
   stages.medium_starts = cascade.medium_starts(stages.coarse);
   stages.medium = cascade.medium(stages.coarse, stages.medium_starts);
+  lap("medium");
   stages.candidates = cascade.candidates(stages.medium);
   stages.fine = cascade.fine(stages.candidates);
   std::vector<PoseEstimate> found = cascade.most_probable(stages.fine);
+  lap("fine");
   if (trace) {
     stages.hits.assign(hits.begin(), hits.end());
     *trace = std::move(stages);
@@ -226,7 +233,7 @@ std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
                                           const DetectOptions& options, SearchTrace* trace) {
   const std::vector<ObjectView> support =
       support_views(search.view, search.support, std::size_t(options.support_views));
-  const ObjectSearch supported{search.set, search.view, support, search.backend};
+  const ObjectSearch supported{search.set, search.view, support, search.backend, search.watch};
   std::vector<ScanHit> hits = rescore_in_views(
       supported, coarse_scan(search.set, search.view, search.backend, options.scan), options.scan);
   std::erase_if(hits,
@@ -241,8 +248,8 @@ std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
                                           const DetectOptions& options) {
   const std::vector<ObjectView> support =
       support_views(search.view, search.support, std::size_t(options.support_views));
-  return run_cascade({search.set, search.view, support, search.backend}, rescored, known_in_world,
-                     options);
+  return run_cascade({search.set, search.view, support, search.backend, search.watch}, rescored,
+                     known_in_world, options);
 }
 
 }  // namespace edgescout

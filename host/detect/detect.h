@@ -34,7 +34,7 @@ PoseFilter near_known(std::span<const Se3> known_in_world, const TemplateSet& se
 // near them are not aligned, and poses that end within SAME_POSE of one are dropped. Poses that
 // options.scan.world excludes are dropped between the stages; those within SAME_POSE of the prior
 // remain, since registration over more images may move them there. `trace`, where given, receives
-// what every stage held.
+// what every stage held. `search.watch`, where given, laps "scan", "coarse", "medium" and "fine".
 std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
                                           std::span<const Se3> known_in_world,
                                           const DetectOptions& options,

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "host/core/stopwatch.h"
 #include "host/detect/coarse_scan.h"
 
 namespace edgescout {
@@ -20,6 +21,7 @@ struct ObjectSearch {
   const ObjectView& view;               // the image that is searched
   std::span<const ObjectView> support;  // other images of the same static scene
   Backend& backend;
+  Stopwatch* watch = nullptr;  // null: no stage is measured
 };
 
 // The hits of a scan of `search.view`, moved along their rays, in the order given. `rank` becomes

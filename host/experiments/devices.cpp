@@ -93,23 +93,30 @@ Work make_work(const DevicesOptions& o, Backend& cpu) {
 // Measures the stages, one after the other on one image.
 class Stages {
  public:
-  explicit Stages(std::vector<StageSamples>& samples) : samples_(samples) {}
+  Stages(std::vector<StageSamples>& samples, const Backend& backend)
+      : samples_(samples), backend_(backend) {}
   template <typename Stage>
   auto time(const char* name, const Stage& stage) {
+    const DeviceWork before = backend_.device_work();
     const Clock::time_point start = Clock::now();
     auto result = stage();
-    if (next_ == samples_.size()) samples_.push_back({name, {}});
-    samples_[next_++].ms.push_back(ms_since(start));
+    const double ms = ms_since(start);
+    if (next_ == samples_.size()) samples_.push_back({name, {}, {}, {}});
+    StageSamples& measured = samples_[next_++];
+    measured.device = backend_.device_work() - before;
+    measured.ms.push_back(ms);
+    measured.host_ms.push_back(ms - 1000 * measured.device.kernel_seconds);
     return result;
   }
 
  private:
   std::vector<StageSamples>& samples_;
+  const Backend& backend_;
   std::size_t next_ = 0;
 };
 
 void run_stages(const Work& work, Backend& backend, std::vector<StageSamples>& samples) {
-  Stages stages(samples);
+  Stages stages(samples, backend);
   const auto prepare = [&] {
     const KnownImage& image = work.scene.images[0];
     std::vector<StageSeconds> ignored;

@@ -6,6 +6,7 @@
 
 #include "host/experiments/decision.h"
 #include "host/experiments/devices.h"
+#include "host/experiments/rates.h"
 #include "host/io/json_text.h"
 
 namespace edgescout {
@@ -35,6 +36,18 @@ double times_floor(const bench::Row& kernel, const DeviceTimes& device) {
   return kernel_ms(kernel) / floor_ms(kernel, device);
 }
 
+constexpr double MB = 1e6;
+
+double megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) / MB; }
+
+nlohmann::ordered_json work_json(const StageSamples& stage) {
+  const DeviceWork& work = stage.device;
+  return {{"host_ms", median(stage.host_ms)}, {"submits", work.submits},
+          {"dispatches", work.dispatches},    {"bytes_up", work.bytes_up},
+          {"bytes_down", work.bytes_down},    {"bytes_filled", work.bytes_filled},
+          {"allocations", work.allocations}};
+}
+
 nlohmann::ordered_json device_json(const DeviceTimes& device, const DeviceTimes& cpu) {
   nlohmann::ordered_json json{{"device", device.name},
                               {"driver", device.driver},
@@ -50,6 +63,7 @@ nlohmann::ordered_json device_json(const DeviceTimes& device, const DeviceTimes&
                               {"max_ms", most(stage)},
                               {"repetitions", stage.ms.size()},
                               {"times_cpu", stage.median_ms() / cpu.stages[s].median_ms()}});
+    if (stage.device.submits > 0) json["stages"].back()["device"] = work_json(stage);
   }
   if (device.kernels.empty()) return json;
   json["copy_bytes_per_s"] = device.copy_bytes_per_s;
@@ -94,6 +108,25 @@ std::string device_table(const DevicesReport& report) {
         images_per_second(device), static_cast<double>(device.peak_host_bytes) / MIB,
         static_cast<double>(device.peak_device_bytes) / MIB,
         device.copy_bytes_per_s > 0 ? fmt::format("{:.1f}", 1e-9 * device.copy_bytes_per_s) : "");
+  return text;
+}
+
+bool works(const StageSamples& stage) { return stage.device.submits > 0; }
+
+// What each stage asked of the device; empty for the CPU.
+std::string work_table(const DeviceTimes& device) {
+  if (std::ranges::none_of(device.stages, works)) return "";
+  std::string text = fmt::format(
+      "\n## Work of {}\n\nOf one repetition after the first ones. Allocations are of device "
+      "memory.\n\n"
+      "| stage | ms beside the kernels | submits | dispatches | MB up | MB down | MB filled | "
+      "allocations |\n|---|---|---|---|---|---|---|---|\n",
+      device.name);
+  for (const StageSamples& stage : device.stages)
+    text += fmt::format("| {} | {:.1f} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {} |\n", stage.stage,
+                        median(stage.host_ms), stage.device.submits, stage.device.dispatches,
+                        megabytes(stage.device.bytes_up), megabytes(stage.device.bytes_down),
+                        megabytes(stage.device.bytes_filled), stage.device.allocations);
   return text;
 }
 
@@ -159,6 +192,7 @@ std::string devices_markdown(const DevicesReport& report) {
   text += "on " + machine_name() + ".\n\n";
   for (const std::string& warning : report.warnings) text += "**Warning:** " + warning + "\n\n";
   text += stage_table(report) + "\n" + device_table(report);
+  for (const DeviceTimes& device : report.devices) text += work_table(device);
   for (const DeviceTimes& device : report.devices)
     if (!device.kernels.empty()) text += kernel_table(device);
   return text;

@@ -21,54 +21,6 @@ Intrinsics frame_object(const EdgeModel& model, const Se3& camera_from_object, i
           float(0.5 * (size - 1) - focal * center.y() / center.z())};
 }
 
-struct Window {
-  const float* depth;
-  int size;
-  Intrinsics k;
-  // Whether one of the 3 x 3 pixels around the projection shows a surface as far as the point, or
-  // none.
-  bool shows(const Eigen::Vector3d& p, double tolerance_m) const {
-    const double u = k.fx * p.x() / p.z() + k.cx + 0.5, v = k.fy * p.y() / p.z() + k.cy + 0.5;
-    if (!(u >= 1 && v >= 1 && u < size - 1 && v < size - 1)) return true;
-    const float* middle = depth + std::size_t(v) * std::size_t(size) + std::size_t(u);
-    const double nearest_m = p.z() - tolerance_m;
-    if (*middle >= nearest_m) return true;
-    for (const float* row : {middle - size, middle, middle + size})
-      for (int x = -1; x <= 1; ++x)
-        if (row[x] >= nearest_m) return true;
-    return false;
-  }
-  // Whether one of the 3 x 3 pixels shows the background.
-  bool borders_background(const Eigen::Vector3d& p) const {
-    const double u = k.fx * p.x() / p.z() + k.cx + 0.5, v = k.fy * p.y() / p.z() + k.cy + 0.5;
-    if (!(u >= 1 && v >= 1 && u < size - 1 && v < size - 1)) return true;
-    const float* middle = depth + std::size_t(v) * std::size_t(size) + std::size_t(u);
-    for (const float* row : {middle - size, middle, middle + size})
-      for (int x = -1; x <= 1; ++x)
-        if (row[x] == DEPTH_EMPTY) return true;
-    return false;
-  }
-};
-
-// Collects the visible points of one pose.
-struct VisiblePoints {
-  Eigen::Matrix3d turn;
-  Eigen::Vector3d shift_m;
-  Window window;
-  double tolerance_m;
-  SilhouetteMarks* marks;  // may be null
-  std::vector<ModelPoint> points;
-  void add_visible(std::span<const RasterPoint> from) {
-    for (const auto& [point_m, tangent] : from) {
-      const Eigen::Vector3d in_camera = turn * point_m + shift_m;
-      if (in_camera.z() <= 0 || !window.shows(in_camera, tolerance_m)) continue;
-      points.push_back({float(point_m.x()), float(point_m.y()), float(point_m.z()),
-                        float(tangent.x()), float(tangent.y()), float(tangent.z())});
-      if (marks) marks->push_back(window.borders_background(in_camera));
-    }
-  }
-};
-
 // The contour of a curved surface inside one triangle: where the interpolated normal is
 // perpendicular to the line of sight.
 bool contour_in_triangle(const EdgeModel& model, int triangle, const Eigen::Vector3d& eye,
@@ -88,22 +40,74 @@ bool contour_in_triangle(const EdgeModel& model, int triangle, const Eigen::Vect
   return found == 2;
 }
 
-std::vector<ModelPoint> points_of_pose(const EdgeModel& model, const Se3& pose,
-                                       const Window& window, double tolerance_m,
-                                       SilhouetteMarks* marks) {
-  VisiblePoints visible{
-      pose.rotation.toRotationMatrix(), pose.translation_m, window, tolerance_m, marks, {}};
-  visible.add_visible(model.crease_points);
-  const Eigen::Vector3d eye = inverse(pose).translation_m;
-  std::vector<RasterPoint> contours;
-  for (int triangle : model.curved) {
+std::vector<RasterPoint> contour_points(const EdgeModel& model, const Se3& camera_from_object) {
+  const Eigen::Vector3d eye = inverse(camera_from_object).translation_m;
+  std::vector<RasterPoint> points;
+  for (const int triangle : model.curved) {
     Eigen::Vector3d ends[2];
     if (contour_in_triangle(model, triangle, eye, ends))
-      add_raster_points(ends[0], ends[1], model.raster_step_m, contours);
+      add_raster_points(ends[0], ends[1], model.raster_step_m, points);
   }
-  visible.add_visible(contours);
-  return std::move(visible.points);
+  return points;
 }
+
+void append_positions(std::span<const RasterPoint> points, std::vector<float>& positions_m) {
+  for (const RasterPoint& point : points)
+    for (const double coordinate_m : point.point_m) positions_m.push_back(float(coordinate_m));
+}
+
+// The poses of one call of point_visibility: a model's crease points, and of each pose the contour
+// points that it shows.
+class Candidates {
+ public:
+  Candidates(const EdgeModel& model, std::span<const Se3> camera_from_object, Backend& backend,
+             const VisibilityOptions& options)
+      : model_(model), contours_(camera_from_object.size()) {
+    backend.threads().for_each(contours_.size(), [&](std::size_t i) {
+      contours_[i] = contour_points(model, camera_from_object[i]);
+    });
+    std::vector<float> positions_m;
+    append_positions(model.crease_points, positions_m);
+    std::vector<VisibilityJob> jobs;
+    for (std::size_t i = 0; i < contours_.size(); ++i) {
+      jobs.push_back({to_pose(camera_from_object[i]),
+                      frame_object(model, camera_from_object[i], options.depth_map_size_px),
+                      float(options.tolerance * model.mesh.diameter_m),
+                      std::uint32_t(positions_m.size() / 3), std::uint32_t(contours_[i].size())});
+      append_positions(contours_[i], positions_m);
+    }
+    const VisibilityPoints points{positions_m, std::uint32_t(model.crease_points.size())};
+    flags_.resize(flag_count(points, jobs));
+    backend.point_visibility(model.triangle_mesh(), points, jobs, options.depth_map_size_px,
+                             flags_);
+    for (const VisibilityJob& job : jobs)
+      first_flags_.push_back(first_flags_.back() + points.shared + job.point_count);
+  }
+
+  // Of the i-th pose. `marks` may be null.
+  std::vector<ModelPoint> visible(std::size_t i, SilhouetteMarks* marks) const {
+    std::vector<ModelPoint> points;
+    const std::uint8_t* flags = flags_.data() + first_flags_[i];
+    const auto add = [&](std::span<const RasterPoint> from) {
+      for (const auto& [point_m, tangent] : from) {
+        const std::uint8_t flag = *flags++;
+        if (!(flag & POINT_VISIBLE)) continue;
+        points.push_back({float(point_m.x()), float(point_m.y()), float(point_m.z()),
+                          float(tangent.x()), float(tangent.y()), float(tangent.z())});
+        if (marks) marks->push_back(flag & POINT_BORDERS_BACKGROUND ? 1 : 0);
+      }
+    };
+    add(model_.crease_points);
+    add(contours_[i]);
+    return points;
+  }
+
+ private:
+  const EdgeModel& model_;
+  std::vector<std::vector<RasterPoint>> contours_;  // by pose
+  std::vector<std::uint8_t> flags_;
+  std::vector<std::size_t> first_flags_{0};
+};
 
 }  // namespace
 
@@ -133,28 +137,22 @@ std::vector<std::vector<ModelPoint>> visible_edges(const EdgeModel& model,
                                                    const VisibilityOptions& options,
                                                    std::vector<SilhouetteMarks>* marks) {
   options.validate();
-  const int size = options.depth_map_size_px;
-  // Bounded memory however many poses there are.
-  constexpr std::size_t chunk = 64;
-  std::vector<float> depth;
-  std::vector<DepthJob> jobs;
   std::vector<std::vector<ModelPoint>> result(camera_from_object.size());
   if (marks) marks->assign(camera_from_object.size(), {});
-  for (std::size_t first = 0; first < camera_from_object.size(); first += chunk) {
-    const std::size_t count = std::min(chunk, camera_from_object.size() - first);
-    jobs.clear();
-    for (std::size_t i = 0; i < count; ++i)
-      jobs.push_back({to_pose(camera_from_object[first + i]),
-                      frame_object(model, camera_from_object[first + i], size)});
-    depth.resize(count * size * size);
-    backend.depth_raster(model.triangle_mesh(), jobs, size, size, depth);
-    backend.threads().for_each(count, [&](std::size_t i) {
-      const Se3& pose = camera_from_object[first + i];
-      if ((pose * model.center_m).z() <= model.radius_m * 0.05) return;
-      const Window window{depth.data() + i * size * size, size, jobs[i].intrinsics};
-      result[first + i] =
-          points_of_pose(model, pose, window, options.tolerance * model.mesh.diameter_m,
-                         marks ? &(*marks)[first + i] : nullptr);
+  std::vector<std::size_t> in_front;
+  for (std::size_t i = 0; i < camera_from_object.size(); ++i)
+    if ((camera_from_object[i] * model.center_m).z() > model.radius_m * 0.05) in_front.push_back(i);
+  // Bounded memory however many poses there are.
+  constexpr std::size_t chunk = 512;
+  for (std::size_t first = 0; first < in_front.size(); first += chunk) {
+    const auto indices =
+        std::span(in_front).subspan(first, std::min(chunk, in_front.size() - first));
+    std::vector<Se3> poses;
+    for (const std::size_t i : indices) poses.push_back(camera_from_object[i]);
+    const Candidates candidates(model, poses, backend, options);
+    backend.threads().for_each(indices.size(), [&](std::size_t k) {
+      const std::size_t i = indices[k];
+      result[i] = candidates.visible(k, marks ? &(*marks)[i] : nullptr);
     });
   }
   return result;

@@ -40,8 +40,11 @@ PointSets collect_points(std::span<const ObjectPose> poses, std::size_t views,
 
 class Evaluator {
  public:
-  Evaluator(const PointSets& sets, const Scene& scene, const PoseLoss& loss)
-      : sets_(sets), scene_(scene), loss_(loss) {
+  Evaluator(PointSets sets, const Scene& scene, const PoseLoss& loss)
+      : ranges_(std::move(sets.ranges)),
+        points_(scene.backend.make_pose_points(std::move(sets.points))),
+        scene_(scene),
+        loss_(loss) {
     for (const ObjectView& view : scene.views) tensors_.push_back(view.tensor);
   }
 
@@ -52,12 +55,12 @@ class Evaluator {
     problems_.clear();
     for (std::size_t p = 0; p < states.size(); ++p)
       for (std::size_t v = 0; states[p].active && v < views.size(); ++v) {
-        const PointRange range = sets_.ranges(p, v);
+        const PointRange range = ranges_(p, v);
         problems_.push_back({to_pose(views[v].camera_from_world * states[p].trial), range.first,
                              range.count, static_cast<std::uint32_t>(v)});
       }
     results_.resize(problems_.size());
-    scene_.backend.pose_normal_equations(tensors_, sets_.points, problems_, loss_, results_);
+    scene_.backend.pose_normal_equations(tensors_, *points_, problems_, loss_, results_);
     std::vector<WorldSystem> systems(states.size());
     std::size_t next = 0;
     for (std::size_t p = 0; p < states.size(); ++p)
@@ -67,7 +70,8 @@ class Evaluator {
   }
 
  private:
-  const PointSets& sets_;
+  Grid<PointRange> ranges_;
+  PosePointsHandle points_;
   const Scene& scene_;
   PoseLoss loss_;
   std::vector<ViewHandle> tensors_;
@@ -124,8 +128,8 @@ std::vector<PoseEstimate> register_points(const Scene& scene, std::span<const Ob
   for (std::size_t p = 0; p < starts.size(); ++p) states[p].pose = starts[p].world_from_object;
   for (const D2coRound& round : options.rounds) {
     for (std::size_t p = 0; p < poses.size(); ++p) poses[p].world_from_object = states[p].pose;
-    const PointSets sets = collect_points(poses, scene.views.size(), points, round.max_points);
-    Evaluator evaluator(sets, scene, {round.loss, round.scale_px});
+    Evaluator evaluator(collect_points(poses, scene.views.size(), points, round.max_points), scene,
+                        {round.loss, round.scale_px});
     run_round(states, evaluator, round, options);
   }
   std::vector<PoseEstimate> estimates;

@@ -73,6 +73,63 @@ Case projection_case(Backend& backend, const Scale& s) {
           }};
 }
 
+// What a TemplateScan refers to: all templates of a set at two regions.
+struct ScanInput {
+  ViewHandle view;
+  ModelPointsHandle points;
+  std::vector<ViewpointPoints> viewpoints;
+  std::vector<float> distances_m{0.3f};
+  std::vector<TemplateRegion> regions;
+  std::vector<TemplateAnchors> anchors;
+  std::vector<Pose> turned;
+  std::vector<std::uint32_t> numbers;
+  std::vector<TemplateHit> hits;
+};
+
+Case scan_case(Backend& backend, const Scale& s) {
+  std::mt19937 rng(8);
+  constexpr std::uint32_t viewpoints = 20, points = 60;
+  const TensorOptions tensor;
+  const auto input = std::make_shared<ScanInput>();
+  input->view =
+      backend.make_view(random_segments(rng, s.coarse_width, s.coarse_height, s.edge_points / 10),
+                        s.coarse_width, s.coarse_height, {}, {}, tensor);
+  const int steps = s.templates / int(viewpoints);
+  const Poses poses = random_poses(rng, s.templates, viewpoints * points);
+  input->points = backend.make_model_points(poses.points);
+  for (std::uint32_t v = 0; v < viewpoints; ++v) input->viewpoints.push_back({v * points, points});
+  const float x = 0.5f * float(s.coarse_width), y = 0.5f * float(s.coarse_height);
+  for (int region = 0; region < 2; ++region) {
+    input->regions.push_back({x, y, 0, 0, 1});
+    input->anchors.push_back({region * s.coarse_width / 2, 0, 16, 12});
+    for (const PoseProblem& problem : poses.problems) {
+      input->turned.push_back(problem.camera_from_object);
+      input->turned.back().m[11] -= input->distances_m[0];
+    }
+  }
+  for (int t = 0; t < s.templates; ++t) input->numbers.push_back(static_cast<std::uint32_t>(t));
+  const float focal = 1.2f * float(s.coarse_width);
+  const TemplateScan scan{{{focal, focal, x, y}, tensor.bins, 0.01f},
+                          2,
+                          static_cast<std::uint32_t>(steps),
+                          input->viewpoints,
+                          input->distances_m,
+                          input->regions,
+                          input->anchors,
+                          input->turned,
+                          input->numbers,
+                          true};
+  input->hits.resize(scan.hits());
+  return {"template_scan",
+          std::to_string(s.templates) + " templates of " + std::to_string(points) +
+              " points in 2 regions of 192 anchors",
+          tensor_bytes(s.coarse_width, s.coarse_height, tensor.bins) +
+              input->turned.size() * sizeof(Pose) + input->hits.size() * sizeof(TemplateHit),
+          [&backend, input, scan] {
+            backend.template_scan(*input->view, *input->points, scan, input->hits);
+          }};
+}
+
 Case template_case(Backend& backend, const Scale& s, std::uint32_t columns, std::uint32_t rows) {
   std::mt19937 rng(2);
   const TensorOptions options;
@@ -164,6 +221,24 @@ Case depth_case(Backend& backend, const Scale& s) {
           }};
 }
 
+Case visibility_case(Backend& backend, const Scale& s) {
+  const Mesh mesh = bumpy_ball(s.rings, 2 * s.rings);
+  const std::uint32_t points = static_cast<std::uint32_t>(mesh.vertices_m.size() / 3);
+  std::vector<VisibilityJob> jobs;
+  for (const DepthJob& job : views_around(s.maps, s.map_height, s.map_height))
+    jobs.push_back({job.camera_from_object, job.intrinsics, 1e-3f, 0, 0});
+  const auto flags = std::make_shared<std::vector<std::uint8_t>>(jobs.size() * points);
+  return {"point_visibility",
+          std::to_string(points) + " points in " + std::to_string(s.maps) + " maps of " +
+              by(s.map_height, s.map_height),
+          jobs.size() * std::size_t(s.map_height) * std::size_t(s.map_height) * sizeof(float) +
+              flags->size(),
+          [&backend, mesh, jobs, flags, points, s] {
+            backend.point_visibility(mesh.view(), {mesh.vertices_m, points}, jobs, s.map_height,
+                                     *flags);
+          }};
+}
+
 Case edge_case(Backend& backend, const Scale& s) {
   std::mt19937 rng(5);
   const std::vector<std::uint8_t> pixels = disc_image(rng, s.width, s.height);
@@ -234,12 +309,16 @@ std::vector<Case> next_view_cases(Backend& backend, const HypothesesSize& size) 
 
 std::vector<Case> make_cases(Backend& backend, Size size) {
   const Scale s = scale_of(size);
-  std::vector<Case> cases{edge_case(backend, s), tensor_case(backend, s),
-                          projection_case(backend, s), template_case(backend, s, 1, 1),
-                          template_case(backend, s, 16, 12)};
+  std::vector<Case> cases{edge_case(backend, s),
+                          tensor_case(backend, s),
+                          projection_case(backend, s),
+                          template_case(backend, s, 1, 1),
+                          template_case(backend, s, 16, 12),
+                          scan_case(backend, s)};
   for (Case& c : pose_cases(backend, s)) cases.push_back(std::move(c));
   cases.push_back(support_case(backend, s));
   cases.push_back(depth_case(backend, s));
+  cases.push_back(visibility_case(backend, s));
   for (Case& c : next_view_cases(backend, s.hypotheses)) cases.push_back(std::move(c));
   return cases;
 }

@@ -65,6 +65,7 @@ void Batch::upload_bytes(const RawBuffer& to, std::span<const std::byte> bytes) 
     copy_bytes(staged.get(), to.get(), bytes.size());
   }
   std::memcpy(target, bytes.data(), bytes.size());
+  device_.work().bytes_up += bytes.size();
 }
 
 void Batch::download_bytes(const RawBuffer& from, std::span<std::byte> to) {
@@ -78,10 +79,14 @@ void Batch::download_bytes(const RawBuffer& from, std::span<std::byte> to) {
     copy_bytes(from.get(), staged.get(), to.size());
   }
   downloads_.push_back({source, to});
+  device_.work().bytes_down += to.size();
 }
 
-void Batch::fill(const RawBuffer& buffer, std::uint32_t word) {
-  vkCmdFillBuffer(set_.commands, buffer.get(), 0, VK_WHOLE_SIZE, word);
+void Batch::fill(const RawBuffer& buffer, VkDeviceSize bytes, std::uint32_t word) {
+  check(bytes <= buffer.bytes(), "fill larger than its buffer");
+  if (bytes == 0) return;
+  vkCmdFillBuffer(set_.commands, buffer.get(), 0, bytes, word);
+  device_.work().bytes_filled += bytes;
 }
 
 void Batch::copy(const RawBuffer& from, const RawBuffer& to) {
@@ -96,6 +101,8 @@ void Batch::check_dispatch(const Kernel& kernel, Groups groups,
   check(bound.size() == kernel.bindings(),
         "a dispatch binds as many buffers as its kernel declares");
   check(bound.size() <= BINDINGS_PER_SET, "more buffers than a descriptor pool is made for");
+  for (std::uint32_t i = 0; i < bound.size(); ++i)
+    check(!kernel.is_texel(i) || bound[i].texels != VK_NULL_HANDLE, "a buffer without texels");
   const std::uint32_t* most = device_.limits().maxComputeWorkGroupCount;
   if (groups.x > most[0] || groups.y > most[1] || groups.z > most[2])
     throw GpuError(described(kernel, groups) + ": more workgroups than " + device_.info().name +
@@ -107,7 +114,7 @@ void Batch::check_dispatch(const Kernel& kernel, Groups groups,
 VkDescriptorSet Batch::bind(const Kernel& kernel, std::span<const Bound> bound) {
   const std::size_t pool = sets_++ / SETS_PER_POOL;
   if (pool == set_.descriptors.size()) set_.descriptors.push_back(create_descriptors(device_));
-  const VkDescriptorSetLayout layout = kernel.set_layout();
+  VkDescriptorSetLayout layout = kernel.set_layout();
   VkDescriptorSetAllocateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
   info.descriptorPool = set_.descriptors[pool].get();
@@ -126,8 +133,13 @@ VkDescriptorSet Batch::bind(const Kernel& kernel, std::span<const Bound> bound) 
     writes[i].dstSet = set;
     writes[i].dstBinding = i;
     writes[i].descriptorCount = 1;
-    writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    writes[i].pBufferInfo = &ranges[i];
+    if (kernel.is_texel(i)) {
+      writes[i].descriptorType = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+      writes[i].pTexelBufferView = &bound[i].texels;
+    } else {
+      writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+      writes[i].pBufferInfo = &ranges[i];
+    }
   }
   vkUpdateDescriptorSets(device_.get(), static_cast<std::uint32_t>(bound.size()), writes, 0,
                          nullptr);
@@ -140,7 +152,7 @@ void Batch::dispatch_bytes(const Kernel& kernel, Groups groups, std::span<const 
   check(push.size() == kernel.push_bytes(), "push constants of another kernel");
   check_dispatch(kernel, groups, bound);
   story_ += (story_.empty() ? "" : ", ") + described(kernel, groups);
-  const VkDescriptorSet set = bind(kernel, bound);
+  VkDescriptorSet set = bind(kernel, bound);
   vkCmdBindPipeline(set_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.pipeline());
   vkCmdBindDescriptorSets(set_.commands, VK_PIPELINE_BIND_POINT_COMPUTE, kernel.layout(), 0, 1,
                           &set, 0, nullptr);
@@ -149,6 +161,7 @@ void Batch::dispatch_bytes(const Kernel& kernel, Groups groups, std::span<const 
   write_timestamp(0);
   vkCmdDispatch(set_.commands, groups.x, groups.y, groups.z);
   write_timestamp(1);
+  ++device_.work().dispatches;
   dispatched_.push_back(kernel.name());
 }
 
@@ -158,7 +171,7 @@ void Batch::write_timestamp(std::uint32_t which) {
   const std::size_t pool = dispatched_.size() / TIMED_PER_POOL;
   const auto number = static_cast<std::uint32_t>(dispatched_.size() % TIMED_PER_POOL);
   if (pool == set_.queries.size()) set_.queries.push_back(create_queries(device_));
-  const VkQueryPool queries = set_.queries[pool].get();
+  VkQueryPool queries = set_.queries[pool].get();
   if (which == 0 && number == 0) vkCmdResetQueryPool(set_.commands, queries, 0, 2 * TIMED_PER_POOL);
   vkCmdWriteTimestamp(set_.commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries,
                       2 * number + which);
@@ -196,9 +209,10 @@ std::vector<StageTime> Batch::run() {
   info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
   info.commandBufferCount = 1;
   info.pCommandBuffers = &set_.commands;
-  const VkFence fence = set_.fence.get();
+  VkFence fence = set_.fence.get();
   is_running_ = true;
   require(vkQueueSubmit(device_.queue(), 1, &info, fence), what + ": vkQueueSubmit");
+  ++device_.work().submits;
   require(vkWaitForFences(device_.get(), 1, &fence, VK_TRUE, UINT64_MAX),
           what + ": vkWaitForFences");
   is_running_ = false;

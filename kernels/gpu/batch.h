@@ -33,9 +33,12 @@ struct Bound {
       : buffer(&whole), bytes(whole.bytes()) {}  // implicit: a dispatch reads as a call
   Bound(const RawBuffer& part, VkDeviceSize from, VkDeviceSize size)
       : buffer(&part), offset(from), bytes(size) {}
+  // Its words from 0 on, read as texels where the kernel does.
+  Bound(const TexelBuffer& whole) : buffer(&whole), bytes(whole.bytes()), texels(whole.view()) {}
   const RawBuffer* buffer;
   VkDeviceSize offset = 0;
   VkDeviceSize bytes;
+  VkBufferView texels = VK_NULL_HANDLE;
 };
 
 struct Groups {
@@ -67,7 +70,8 @@ class Batch {
   void upload(const RawBuffer& to, std::span<const T> values) {
     upload_bytes(to, std::as_bytes(values));
   }
-  void fill(const RawBuffer& buffer, std::uint32_t word);
+  // The first `bytes` of the buffer, a multiple of 4, become `word`.
+  void fill(const RawBuffer& buffer, VkDeviceSize bytes, std::uint32_t word);
   // All of it; `to` must be as large.
   void copy(const RawBuffer& from, const RawBuffer& to);
   // Everything written so far is visible to everything that follows.

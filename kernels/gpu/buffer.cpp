@@ -31,8 +31,8 @@ VkBuffer create_buffer(VkDevice device, VkDeviceSize bytes, const std::string& w
   VkBufferCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
   info.size = bytes;
-  info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-               VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT |
+               VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   VkBuffer buffer = VK_NULL_HANDLE;
   require(vkCreateBuffer(device, &info, nullptr, &buffer), "vkCreateBuffer for " + what);
   return buffer;
@@ -49,6 +49,7 @@ VkDeviceMemory allocate(const Device& device, const VkMemoryRequirements& needs,
   if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
     throw OutOfDeviceMemory("vkAllocateMemory for " + what + ": " + result_name(result));
   require(result, "vkAllocateMemory for " + what);
+  ++device.work().allocations;
   return allocated;
 }
 
@@ -72,6 +73,21 @@ RawBuffer::RawBuffer(const Device& device, VkDeviceSize bytes, Memory memory, st
   require(vkMapMemory(device.get(), memory_.get(), 0, VK_WHOLE_SIZE, 0, &address),
           "vkMapMemory for " + what);
   mapped_ = static_cast<std::byte*>(address);
+}
+
+void TexelBuffer::reserve(const Device& device, std::size_t size, const char* name) {
+  if (size <= this->size() && view() != VK_NULL_HANDLE) return;
+  view_ = {};
+  Buffer::reserve(device, size, name);
+  VkBufferViewCreateInfo info{};
+  info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
+  info.buffer = get();
+  info.format = VK_FORMAT_R32_UINT;
+  info.range = VK_WHOLE_SIZE;
+  VkBufferView view = VK_NULL_HANDLE;
+  require(vkCreateBufferView(device.get(), &info, nullptr, &view),
+          "vkCreateBufferView for buffer '" + this->name() + "'");
+  view_ = {device.get(), view, vkDestroyBufferView};
 }
 
 }  // namespace edgescout::gpu

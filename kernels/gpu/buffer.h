@@ -72,4 +72,15 @@ class Buffer : public RawBuffer {
   std::size_t size_ = 0;
 };
 
+// Words that kernels may also read through a uniform texel buffer, which some devices do faster:
+// at most limits().maxTexelBufferElements.
+class TexelBuffer : public Buffer<std::uint32_t> {
+ public:
+  void reserve(const Device& device, std::size_t size, const char* name);
+  VkBufferView view() const { return view_.get(); }
+
+ private:
+  Handle<VkBufferView> view_;
+};
+
 }  // namespace edgescout::gpu

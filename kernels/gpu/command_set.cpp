@@ -47,7 +47,7 @@ CommandSet create_set(const Device& device) {
 
 void reset(const Device& device, const CommandSet& set) {
   require(vkResetCommandPool(device.get(), set.pool.get(), 0), "vkResetCommandPool");
-  const VkFence fence = set.fence.get();
+  VkFence fence = set.fence.get();
   require(vkResetFences(device.get(), 1, &fence), "vkResetFences");
   for (const Handle<VkDescriptorPool>& pool : set.descriptors)
     require(vkResetDescriptorPool(device.get(), pool.get(), 0), "vkResetDescriptorPool");
@@ -66,13 +66,14 @@ Handle<VkQueryPool> create_queries(const Device& device) {
 }
 
 Handle<VkDescriptorPool> create_descriptors(const Device& device) {
-  const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                  SETS_PER_POOL * BINDINGS_PER_SET};
+  const VkDescriptorPoolSize sizes[] = {
+      {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, SETS_PER_POOL * BINDINGS_PER_SET},
+      {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, SETS_PER_POOL}};
   VkDescriptorPoolCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
   info.maxSets = SETS_PER_POOL;
-  info.poolSizeCount = 1;
-  info.pPoolSizes = &size;
+  info.poolSizeCount = 2;
+  info.pPoolSizes = sizes;
   VkDescriptorPool pool = VK_NULL_HANDLE;
   require(vkCreateDescriptorPool(device.get(), &info, nullptr, &pool), "vkCreateDescriptorPool");
   return {device.get(), pool, vkDestroyDescriptorPool};

@@ -29,10 +29,12 @@ void DcdSeed::record(Batch& batch, std::span<const EdgePoint> edges, const Tenso
   const std::uint32_t words = (width + 31) / 32;
   lists.cell_columns = groups_for(width, DCD_CELL);
   lists.cell_rows = groups_for(height, DCD_CELL);
-  const std::size_t cell_rows = std::size_t(bins) * lists.cell_rows;
+  const std::size_t cell_rows = std::size_t(bins) * lists.cell_rows,
+                    plane_words = std::size_t(bins) * height * words,
+                    cell_words = cell_rows * lists.cell_columns * DCD_SEED_CELL_WORDS;
   lists.points.reserve(device_, count, "edge points");
-  lists.planes.reserve(device_, std::size_t(bins) * height * words, "seed planes");
-  lists.cells.reserve(device_, cell_rows * lists.cell_columns * DCD_SEED_CELL_WORDS, "seed cells");
+  lists.planes.reserve(device_, plane_words, "seed planes");
+  lists.cells.reserve(device_, cell_words, "seed cells");
   lists.seeds.reserve(device_, count, "seeds");
   lists.slots.reserve(device_, count, "seed slots");
   lists.placed.reserve(device_, 1, "seed count");
@@ -48,9 +50,9 @@ void DcdSeed::record(Batch& batch, std::span<const EdgePoint> edges, const Tenso
     batch.barrier();
   };
   batch.upload(lists.points, edges);
-  batch.fill(lists.planes, 0);
-  batch.fill(lists.cells, 0);
-  batch.fill(lists.placed, 0);
+  batch.fill(lists.planes, plane_words * sizeof(std::uint32_t), 0);
+  batch.fill(lists.cells, cell_words * sizeof(std::uint32_t), 0);
+  batch.fill(lists.placed, sizeof(std::uint32_t), 0);
   batch.barrier();
   dispatch(DCD_SEED_MARK, count);
   dispatch(DCD_SEED_OFFSETS, cell_rows);

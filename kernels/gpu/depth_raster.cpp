@@ -51,17 +51,17 @@ std::size_t DepthRaster::max_jobs(std::size_t triangles, int width, int height) 
 }
 
 void DepthRaster::record(Batch& batch, const TriangleMesh& mesh, std::span<const DepthJob> jobs,
-                         int width, int height, std::span<float> depth) {
-  check_depth_raster(mesh, jobs.size(), width, height, depth.size());
+                         int width, int height) {
+  const std::size_t pixels = jobs.size() * std::size_t(width) * std::size_t(height);
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size() / 3);
   vertices_.reserve(device_, mesh.vertices_m.size(), "mesh vertices");
   triangles_.reserve(device_, mesh.triangles.size(), "mesh triangles");
   jobs_.reserve(device_, jobs.size(), "depth jobs");
-  depth_.reserve(device_, depth.size(), "depth maps");
+  depth_.reserve(device_, pixels, "depth maps");
   batch.upload(vertices_, mesh.vertices_m);
   batch.upload(triangles_, mesh.triangles);
   batch.upload<DepthJob>(jobs_, with_poses_somewhere(jobs));
-  batch.fill(depth_, std::bit_cast<std::uint32_t>(DEPTH_EMPTY));
+  batch.fill(depth_, pixels * sizeof(float), std::bit_cast<std::uint32_t>(DEPTH_EMPTY));
   batch.barrier();
   const auto rows = static_cast<std::uint32_t>(height),
              maps = static_cast<std::uint32_t>(jobs.size());
@@ -73,7 +73,6 @@ void DepthRaster::record(Batch& batch, const TriangleMesh& mesh, std::span<const
     batch.dispatch(kernel_, {groups, maps, groups_for(rows, band_rows)},
                    {vertices_, triangles_, jobs_, depth_}, push);
   }
-  batch.download(depth_, depth);
 }
 
 }  // namespace edgescout::gpu

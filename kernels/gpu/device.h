@@ -10,6 +10,7 @@
 #include <vulkan/vulkan.h>
 
 #include "kernels/backend.h"
+#include "kernels/device_work.h"
 #include "kernels/gpu/device_options.h"
 #include "kernels/gpu/handle.h"
 #include "kernels/gpu/instance.h"
@@ -48,6 +49,8 @@ class Device {
   bool unified_memory() const { return unified_memory_; }
   StagingPool& staging() const { return *staging_; }
   CommandSets& command_sets() const { return *command_sets_; }
+  // Everything made from this device adds to it.
+  DeviceWork& work() const { return *work_; }
 
   // First memory type of `allowed` (a bit set) with all of `needed` and `wanted`, or, where there
   // is none, of `needed` alone; throws GpuError where there is none of these either.
@@ -71,6 +74,7 @@ class Device {
   double seconds_per_tick_ = 0;
   std::uint64_t tick_mask_ = ~std::uint64_t{0};
   bool unified_memory_ = false;
+  std::unique_ptr<DeviceWork> work_ = std::make_unique<DeviceWork>();
   std::unique_ptr<StagingPool> staging_;
   std::unique_ptr<CommandSets> command_sets_;
 };

@@ -46,8 +46,8 @@ void EdgeDetect::record_pixels(Batch& batch, const ImageView& image, const EdgeO
   kept_.reserve(device_, count + 1, "edge pixels");
   points_.reserve(device_, 1, "edge points");
 
-  batch.fill(components_, 0);
-  batch.fill(kept_, 0);
+  batch.fill(components_, count * sizeof(std::uint32_t), 0);
+  batch.fill(kept_, sizeof(std::uint32_t), 0);
   candidates_.record(batch, image, options.sigma_px, edge_threshold(options.low_threshold));
   for (const std::uint32_t pass : {EDGE_LINK_MERGE, EDGE_LINK_COUNT, EDGE_LINK_KEEP})
     record_link(batch, pass, static_cast<std::uint32_t>(count));

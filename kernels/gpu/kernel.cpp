@@ -22,7 +22,10 @@ void check_limits(const Device& device, const KernelSource& source) {
 VkDescriptorSetLayout create_set_layout(VkDevice device, const KernelSource& source) {
   std::vector<VkDescriptorSetLayoutBinding> bindings(source.bindings);
   for (std::uint32_t i = 0; i < source.bindings; ++i)
-    bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+    bindings[i] = {i,
+                   i < source.texel_bindings ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER
+                                             : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                   1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
   VkDescriptorSetLayoutCreateInfo info{};
   info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
   info.bindingCount = source.bindings;
@@ -84,7 +87,10 @@ VkPipeline create_pipeline(const Device& device, VkPipelineLayout layout,
 }  // namespace
 
 Kernel::Kernel(const Device& device, const KernelSource& source)
-    : name_(source.name), bindings_(source.bindings), push_bytes_(source.push_bytes) {
+    : name_(source.name),
+      bindings_(source.bindings),
+      push_bytes_(source.push_bytes),
+      texel_bindings_(source.texel_bindings) {
   check_limits(device, source);
   set_layout_ = {device.get(), create_set_layout(device.get(), source),
                  vkDestroyDescriptorSetLayout};

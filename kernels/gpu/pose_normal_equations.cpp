@@ -21,9 +21,9 @@ std::size_t PoseNormalEquations::that_fit(std::span<const PoseProblem> problems)
 }
 
 void PoseNormalEquations::record(Batch& batch, std::span<const PoseView> views,
-                                 std::span<const ModelPoint> points,
-                                 std::span<const PoseProblem> problems, const PoseLoss& loss) {
-  plan_ = plan_poses(problems, points.size(), views.size(), min_groups_);
+                                 const PosePoints& points, std::span<const PoseProblem> problems,
+                                 const PoseLoss& loss) {
+  plan_ = plan_poses(problems, points.host.size(), views.size(), min_groups_);
   buffers_.upload(batch, plan_, points, problems, POSE_SYSTEM_SUMS);
   for (const PosePlan::Run& run : plan_.runs) {
     const PoseView& view = views[run.view];

@@ -13,7 +13,7 @@ class PoseNormalEquations {
   explicit PoseNormalEquations(const Device& device, std::uint32_t min_groups = 0);
   // How many problems from the front one batch takes: at least one.
   std::size_t that_fit(std::span<const PoseProblem> problems) const;
-  void record(Batch& batch, std::span<const PoseView> views, std::span<const ModelPoint> points,
+  void record(Batch& batch, std::span<const PoseView> views, const PosePoints& points,
               std::span<const PoseProblem> problems, const PoseLoss& loss);
   // After the batch has run: a system for every problem that was recorded last.
   void collect(std::span<NormalEquations> out) const;

@@ -67,19 +67,22 @@ PoseCamera pose_camera(const Intrinsics& k) {
   return {k.fx, k.fy, k.cx, k.cy, POSE_MIN_DEPTH_M, POSE_MIN_FORESHORTENING};
 }
 
-void PoseBuffers::upload(Batch& batch, const PosePlan& plan, std::span<const ModelPoint> points,
+void PoseBuffers::upload(Batch& batch, const PosePlan& plan, const PosePoints& points,
                          std::span<const PoseProblem> problems, std::uint32_t sums) {
   std::vector<PoseProblem> sorted;
   sorted.reserve(problems.size());
   for (std::uint32_t i : plan.order) {
     sorted.push_back(problems[i]);
-    sorted.back().first_point -= plan.first_point;
+    if (!points.on_device) sorted.back().first_point -= plan.first_point;
   }
   host_results_.assign(problems.size() * plan.parts * sums, 0.0f);
-  points_.reserve(device_, plan.point_count, "model points");
+  if (!points.on_device) {
+    points_.reserve(device_, plan.point_count, "model points");
+    batch.upload(points_, points.host.subspan(plan.first_point, plan.point_count));
+  }
+  bound_points_ = points.on_device ? points.on_device : &points_;
   problems_.reserve(device_, sorted.size(), "pose problems");
   results_.reserve(device_, host_results_.size(), "pose sums");
-  batch.upload(points_, points.subspan(plan.first_point, plan.point_count));
   batch.upload<PoseProblem>(problems_, sorted);
   batch.barrier();
 }

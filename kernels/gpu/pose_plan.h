@@ -19,6 +19,13 @@ struct PoseView {
   const RawBuffer* gradient_x2;
 };
 
+// The points that problems name: in the host's memory and, where they stay for several calls, on
+// the device.
+struct PosePoints {
+  std::span<const ModelPoint> host;
+  const RawBuffer* on_device = nullptr;
+};
+
 // Problems in the order of their views; a run of them is one dispatch. The device holds the points
 // they name, [first_point, first_point + point_count).
 struct PosePlan {
@@ -50,19 +57,20 @@ PoseCamera pose_camera(const Intrinsics& intrinsics);
 class PoseBuffers {
  public:
   explicit PoseBuffers(const Device& device) : device_(device) {}
-  void upload(Batch& batch, const PosePlan& plan, std::span<const ModelPoint> points,
+  void upload(Batch& batch, const PosePlan& plan, const PosePoints& points,
               std::span<const PoseProblem> problems, std::uint32_t sums);
   void download(Batch& batch) { batch.download<float>(results_, host_results_); }
   // Sums of the n-th problem of the plan's order over its parts, after the batch has run.
   void total(const PosePlan& plan, std::size_t n, std::span<double> totals) const;
 
-  const RawBuffer& points() const { return points_; }
+  const RawBuffer& points() const { return *bound_points_; }
   const RawBuffer& problems() const { return problems_; }
   const RawBuffer& results() const { return results_; }
 
  private:
   const Device& device_;
-  Buffer<ModelPoint> points_;
+  Buffer<ModelPoint> points_;  // of a call whose points do not stay
+  const RawBuffer* bound_points_ = nullptr;
   Buffer<PoseProblem> problems_;
   Buffer<float> results_;
   std::vector<float> host_results_;

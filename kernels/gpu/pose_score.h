@@ -15,7 +15,7 @@ class PoseScorer {
   // How many problems from the front one batch takes: at least one.
   std::size_t that_fit(std::span<const PoseProblem> problems) const;
   // A view without a gradient scores psi = 0.
-  void record(Batch& batch, std::span<const PoseView> views, std::span<const ModelPoint> points,
+  void record(Batch& batch, std::span<const PoseView> views, const PosePoints& points,
               std::span<const PoseProblem> problems, const PoseScoreOptions& options);
   // After the batch has run: a score for every problem that was recorded last.
   void collect(std::span<PoseScore> out) const;

@@ -12,10 +12,12 @@
 #include "kernels/gpu/edge_detect.h"
 #include "kernels/gpu/edge_support.h"
 #include "kernels/gpu/mutual_information.h"
+#include "kernels/gpu/point_visibility.h"
 #include "kernels/gpu/pose_normal_equations.h"
 #include "kernels/gpu/pose_score.h"
 #include "kernels/gpu/support_map.h"
 #include "kernels/gpu/template_project.h"
+#include "kernels/gpu/template_scan.h"
 #include "kernels/gpu/template_score.h"
 #include "kernels/thread_pool.h"
 
@@ -28,10 +30,12 @@ using namespace gpu;
 // Keeps the device alive for as long as its memory is in use.
 class VulkanView : public BackendView {
  public:
-  VulkanView(std::shared_ptr<const Device> device, const TensorShape& tensor_shape)
-      : device_(std::move(device)), values(*device_, tensor_shape) {
+  VulkanView(std::shared_ptr<const Device> device, const TensorShape& tensor_shape,
+             std::uint64_t view_id)
+      : id(view_id), device_(std::move(device)), values(*device_, tensor_shape) {
     shape = tensor_shape;
   }
+  const std::uint64_t id;  // no other view of the backend has it
   const Device& device() const { return *device_; }
   std::vector<std::uint16_t> tensor() const override {
     std::vector<std::uint16_t> copy(shape.size());
@@ -66,6 +70,22 @@ class VulkanModelPoints : public BackendModelPoints {
 
  public:
   Buffer<float> planes;
+};
+
+// Too many for one binding stay with the host.
+class VulkanPosePoints : public BackendPosePoints {
+ public:
+  VulkanPosePoints(std::shared_ptr<const Device> device, std::vector<ModelPoint> points)
+      : device_(std::move(device)), host(std::move(points)) {}
+  const Device& device() const { return *device_; }
+  PosePoints points() const { return {host, values.size() > 0 ? &values : nullptr}; }
+
+ private:
+  std::shared_ptr<const Device> device_;
+
+ public:
+  std::vector<ModelPoint> host;
+  Buffer<ModelPoint> values;
 };
 
 class VulkanChamfer : public BackendChamfer {
@@ -104,11 +124,13 @@ class VulkanBackend : public Backend {
         edges_(*device_),
         templates_(*device_),
         projector_(*device_),
+        scanner_(*device_),
         systems_(*device_),
         scorer_(*device_),
         mapper_(*device_),
         supporter_(*device_),
         raster_(*device_),
+        visibility_(*device_),
         candidates_(*device_),
         chamfer_(*device_),
         information_(*device_) {}
@@ -118,6 +140,7 @@ class VulkanBackend : public Backend {
   }
   bool is_gpu() const override { return true; }
   ThreadPool& threads() override { return pool_; }
+  DeviceWork device_work() const override { return device_->work(); }
 
   std::vector<EdgePoint> detect_edges(const ImageView& image, const EdgeOptions& options) override {
     Batch first(*device_, "edge pixels");
@@ -143,7 +166,8 @@ class VulkanBackend : public Backend {
     check(width > 0 && height > 0, "make_view: an image without pixels");
     check(image.width == 0 || (image.width == width && image.height == height),
           "make_view: image of another size");
-    auto view = std::make_shared<VulkanView>(device_, TensorShape{width, height, options.bins});
+    auto view = std::make_shared<VulkanView>(device_, TensorShape{width, height, options.bins},
+                                             ++views_made_);
     view->options = options;
     view->intrinsics = intrinsics;
     Batch batch(*device_, "dcd_tensor");
@@ -187,30 +211,74 @@ class VulkanBackend : public Backend {
   void template_project(const BackendModelPoints& points, std::span<const TemplateProjectJob> jobs,
                         const TemplateProjectOptions& options, std::span<TemplatePoint> projected,
                         std::span<std::uint32_t> too_near) override {
-    const auto* mine = dynamic_cast<const VulkanModelPoints*>(&points);
-    check(mine != nullptr && &mine->device() == device_.get(), "model points of another backend");
-    check_template_project(mine->count, jobs, options, projected.size(), too_near.size());
+    const VulkanModelPoints& mine = own(points);
+    check_template_project(mine.count, jobs, options, projected.size(), too_near.size());
     for (std::size_t first = 0, count = 0; first < jobs.size(); first += count) {
       count = projector_.that_fit(jobs.subspan(first));
       const auto some = jobs.subspan(first, count);
       Batch batch(*device_, "template_project");
-      projector_.record(batch, mine->planes, some, options);
+      projector_.record(batch, mine.planes, some, options);
       projector_.download(batch);
       run(batch);
       projector_.collect(some, projected, too_near.subspan(first, count));
     }
   }
 
+  void template_scan(const BackendView& view, const BackendModelPoints& points,
+                     const TemplateScan& scan, std::span<TemplateHit> hits) override {
+    const VulkanView& on = own(view);
+    const VulkanModelPoints& mine = own(points);
+    check_template_scan(mine.count, scan, hits.size());
+    if (!scanner_.holds_planes(on.shape, scan.anchor_step)) {
+      scan_by_parts(
+          scan, hits,
+          [&](const RegionJobs& jobs, auto projected, auto too_near) {
+            template_project(points, jobs.projections, scan.project, projected, too_near);
+          },
+          [&](const RegionJobs& jobs, auto projected, auto of_jobs) {
+            template_score(view, projected, jobs.jobs, scan.anchor_step, of_jobs);
+          });
+      return;
+    }
+    for (std::size_t first = 0, count = 0; first < scan.regions.size(); first += count) {
+      count = scanner_.regions_that_fit(scan, first);
+      Batch batch(*device_, "template_scan");
+      scanner_.record_planes(batch, on.values, on.id, scan.anchor_step);
+      scanner_.record(batch, mine.planes, scan, first, count);
+      run(batch);
+      scanner_.collect(scan, first, hits);
+    }
+  }
+
   void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
                              std::span<const PoseProblem> problems, const PoseLoss& loss,
                              std::span<NormalEquations> out) override {
-    run_poses("pose_normal_equations", systems_, views, points, problems, loss, out);
+    run_poses("pose_normal_equations", systems_, views, {points}, problems, loss, out);
+  }
+
+  PosePointsHandle make_pose_points(std::vector<ModelPoint> points) override {
+    auto made = std::make_shared<VulkanPosePoints>(device_, std::move(points));
+    const std::size_t bytes = made->host.size() * sizeof(ModelPoint);
+    if (bytes == 0 || bytes > device_->max_band_bytes()) return made;
+    made->values.reserve(*device_, made->host.size(), "points of poses");
+    Batch batch(*device_, "points upload");
+    batch.upload<ModelPoint>(made->values, made->host);
+    run(batch);
+    return made;
+  }
+
+  void pose_normal_equations(std::span<const ViewHandle> views, const BackendPosePoints& points,
+                             std::span<const PoseProblem> problems, const PoseLoss& loss,
+                             std::span<NormalEquations> out) override {
+    const auto* mine = dynamic_cast<const VulkanPosePoints*>(&points);
+    check(mine != nullptr && &mine->device() == device_.get(), "points of another backend");
+    run_poses("pose_normal_equations", systems_, views, mine->points(), problems, loss, out);
   }
 
   void pose_score(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
                   std::span<const PoseProblem> problems, const PoseScoreOptions& options,
                   std::span<PoseScore> out) override {
-    run_poses("pose_score", scorer_, views, points, problems, options, out);
+    run_poses("pose_score", scorer_, views, {points}, problems, options, out);
   }
 
   void edge_support(std::span<const ViewHandle> views, std::span<const SupportPoint> points,
@@ -239,9 +307,26 @@ class VulkanBackend : public Backend {
     for (std::size_t first = 0; first < jobs.size(); first += most) {
       const std::size_t count = std::min(most, jobs.size() - first);
       Batch batch(*device_, "depth_raster");
-      raster_.record(batch, mesh, jobs.subspan(first, count), width, height,
-                     depth.subspan(first * map, count * map));
+      raster_.record(batch, mesh, jobs.subspan(first, count), width, height);
+      raster_.download(batch, depth.subspan(first * map, count * map));
       run(batch);
+    }
+  }
+
+  void point_visibility(const TriangleMesh& mesh, const VisibilityPoints& points,
+                        std::span<const VisibilityJob> jobs, int size,
+                        std::span<std::uint8_t> flags) override {
+    check_point_visibility(mesh, points, jobs, size, flags.size());
+    for (std::size_t first = 0, count = 0; first < jobs.size(); first += count) {
+      const auto rest = jobs.subspan(first);
+      count = visibility_.that_fit(raster_, mesh.triangles.size() / 3, points, rest, size);
+      const auto some = rest.first(count);
+      Batch batch(*device_, "point_visibility");
+      visibility_.record(batch, raster_, mesh, points, some, size);
+      run(batch);
+      const std::size_t found = flag_count(points, some);
+      visibility_.collect(flags.first(found));
+      flags = flags.subspan(found);
     }
   }
 
@@ -289,6 +374,12 @@ class VulkanBackend : public Backend {
     return *mine;
   }
 
+  const VulkanModelPoints& own(const BackendModelPoints& points) const {
+    const auto* mine = dynamic_cast<const VulkanModelPoints*>(&points);
+    check(mine != nullptr && &mine->device() == device_.get(), "model points of another backend");
+    return *mine;
+  }
+
   std::vector<PoseView> pose_views(std::span<const ViewHandle> views) const {
     std::vector<PoseView> list;
     for (const ViewHandle& view : views) list.push_back(own(*view).pose_view());
@@ -298,7 +389,7 @@ class VulkanBackend : public Backend {
   // As many batches as the points of all problems take.
   template <class Kernel, class Options, class Out>
   void run_poses(const char* name, Kernel& kernel, std::span<const ViewHandle> views,
-                 std::span<const ModelPoint> points, std::span<const PoseProblem> problems,
+                 const PosePoints& points, std::span<const PoseProblem> problems,
                  const Options& options, std::span<Out> out) {
     check(out.size() == problems.size(), "poses: as many results as problems");
     const std::vector<PoseView> own_views = pose_views(views);
@@ -319,6 +410,7 @@ class VulkanBackend : public Backend {
     for (const StageTime& time : batch.run()) {
       add_time(time.name, time.seconds);
       rest -= time.seconds;
+      device_->work().kernel_seconds += time.seconds;
     }
     rest += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     add_time(HOST_STAGE, std::max(0.0, rest));
@@ -330,11 +422,14 @@ class VulkanBackend : public Backend {
   EdgeDetect edges_;
   TemplateScore templates_;
   TemplateProject projector_;
+  TemplateScanner scanner_;
+  std::uint64_t views_made_ = 0;
   PoseNormalEquations systems_;
   PoseScorer scorer_;
   SupportMapper mapper_;
   SupportScorer supporter_;
   DepthRaster raster_;
+  PointVisibility visibility_;
   CandidateMaps candidates_;
   CombinationChamfer chamfer_;
   MutualInformation information_;

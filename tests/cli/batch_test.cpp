@@ -43,7 +43,19 @@ class FailingBackend : public Backend {
                         std::span<std::uint32_t> too_near) override {
     cpu_->template_project(points, jobs, options, projected, too_near);
   }
+  void template_scan(const BackendView& view, const BackendModelPoints& points,
+                     const TemplateScan& scan, std::span<TemplateHit> hits) override {
+    cpu_->template_scan(view, points, scan, hits);
+  }
   void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
+                             std::span<const PoseProblem> problems, const PoseLoss& loss,
+                             std::span<NormalEquations> out) override {
+    cpu_->pose_normal_equations(views, points, problems, loss, out);
+  }
+  PosePointsHandle make_pose_points(std::vector<ModelPoint> points) override {
+    return cpu_->make_pose_points(std::move(points));
+  }
+  void pose_normal_equations(std::span<const ViewHandle> views, const BackendPosePoints& points,
                              std::span<const PoseProblem> problems, const PoseLoss& loss,
                              std::span<NormalEquations> out) override {
     cpu_->pose_normal_equations(views, points, problems, loss, out);
@@ -60,6 +72,11 @@ class FailingBackend : public Backend {
   void depth_raster(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width, int height,
                     std::span<float> depth) override {
     cpu_->depth_raster(mesh, jobs, width, height, depth);
+  }
+  void point_visibility(const TriangleMesh& mesh, const VisibilityPoints& points,
+                        std::span<const VisibilityJob> jobs, int size,
+                        std::span<std::uint8_t> flags) override {
+    cpu_->point_visibility(mesh, points, jobs, size, flags);
   }
   void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width,
                      int height, std::span<std::uint32_t> nearest) override {

@@ -46,14 +46,42 @@ TEST_P(PoseNormalEquationsPaths, AgreesWithTheReference) {
     }
 }
 
+// The points go to the device once for both calls; on the narrow device they do not fit.
+TEST_P(PoseNormalEquationsPaths, PointsThatStayGiveTheSameSystems) {
+  std::mt19937 rng = test::test_rng();
+  const test::TwoViews views = test::make_views(*tested, *reference, rng, false);
+  const PoseLoss loss{LOSS_HUBER, 4};
+  for (const int most : {100, 1500}) {
+    const test::PoseCase c = test::pose_case(rng, views, 40, most);
+    const PosePointsHandle points = tested->make_pose_points(c.points);
+    std::vector<NormalEquations> once(c.problems.size()), kept(once.size());
+    for (const std::size_t first : {std::size_t(0), c.problems.size() / 2}) {
+      const auto problems = std::span(c.problems).subspan(first);
+      tested->pose_normal_equations(views.tested, c.points, problems, loss,
+                                    std::span(once).subspan(first));
+      tested->pose_normal_equations(views.tested, *points, problems, loss,
+                                    std::span(kept).subspan(first));
+      for (std::size_t i = first; i < once.size(); ++i) {
+        EXPECT_TRUE(std::ranges::equal(kept[i].hessian, once[i].hessian)) << i;
+        EXPECT_EQ(kept[i].cost, once[i].cost) << i;
+      }
+    }
+  }
+  if (GetParam() == test::Path::cpu) return;
+  EXPECT_THROW(
+      tested->pose_normal_equations(views.tested, *reference->make_pose_points({}), {}, loss, {}),
+      LogicError);
+}
+
 TEST_P(PoseNormalEquationsPaths, NoProblemsNoPoints) {
   std::mt19937 rng = test::test_rng();
   const test::TwoViews views = test::make_views(*tested, *reference, rng, false);
-  tested->pose_normal_equations(views.tested, {}, {}, {}, {});
+  tested->pose_normal_equations(views.tested, std::span<const ModelPoint>(), {}, {}, {});
   const PoseProblem empty{test::random_pose(rng, 0.3f), 0, 0, 1};
   NormalEquations found{};
   found.cost = found.points = 7;
-  tested->pose_normal_equations(views.tested, {}, {&empty, 1}, {}, {&found, 1});
+  tested->pose_normal_equations(views.tested, std::span<const ModelPoint>(), {&empty, 1}, {},
+                                {&found, 1});
   EXPECT_EQ(found.cost, 0);
   EXPECT_EQ(found.points, 0);
 }

@@ -32,14 +32,19 @@
 #include "kernels/edge_link.h"
 #include "kernels/edge_support_push.h"
 #include "kernels/information_push.h"
+#include "kernels/point_visibility.h"
 #include "kernels/pose_push.h"
 #include "kernels/support_map_push.h"
 #include "kernels/template_project.h"
+#include "kernels/template_scan.h"
 #include "kernels/template_score_push.h"
+#include "point_visibility.spv.h"
 #include "pose_normal_equations.spv.h"
 #include "pose_score.spv.h"
 #include "support_map.spv.h"
+#include "template_planes.spv.h"
 #include "template_project.spv.h"
+#include "template_scan.spv.h"
 #include "template_score.spv.h"
 
 namespace edgescout {
@@ -121,6 +126,12 @@ class Module {
 #define GRID_MEMBERS                                                                      \
   MEMBER(grid.width), MEMBER(grid.height), MEMBER(grid.bins), MEMBER(grid.tiles_per_row), \
       MEMBER(grid.band_rows)
+#define TENSOR_MEMBERS                                                                            \
+  MEMBER(tensor.width), MEMBER(tensor.height), MEMBER(tensor.bins), MEMBER(tensor.tiles_per_row), \
+      MEMBER(tensor.band_rows)
+#define PLANES_MEMBERS                                                                 \
+  MEMBER(planes.rows), MEMBER(planes.stride), MEMBER(planes.left), MEMBER(planes.top), \
+      MEMBER(planes.anchor_step)
 #define CAMERA_MEMBERS                                                        \
   MEMBER(camera.fx), MEMBER(camera.fy), MEMBER(camera.cx), MEMBER(camera.cy), \
       MEMBER(camera.min_depth_m), MEMBER(camera.min_foreshortening)
@@ -158,6 +169,42 @@ TEST(PushConstants, TemplateProject) {
   expect_members<Push>(template_project_spv,
                        {MEMBER(fx), MEMBER(fy), MEMBER(cx), MEMBER(cy), MEMBER(nearest_m),
                         MEMBER(bins), MEMBER(point_count), MEMBER(job_count)});
+}
+
+TEST(PushConstants, PointVisibility) {
+  using Push = PointVisibilityPush;
+  expect_members<Push>(point_visibility_spv, {MEMBER(size), MEMBER(shared_points), MEMBER(jobs)});
+}
+
+TEST(PushConstants, TemplatePlanes) {
+  using Push = TemplatePlanesPush;
+  expect_members<Push>(template_planes_spv, {TENSOR_MEMBERS, PLANES_MEMBERS, MEMBER(word_count)});
+}
+
+TEST(PushConstants, TemplateScan) {
+  using Push = TemplateScanPush;
+  expect_members<Push>(template_scan_spv, {PLANES_MEMBERS,
+                                           MEMBER(width),
+                                           MEMBER(height),
+                                           MEMBER(bins),
+                                           MEMBER(fx),
+                                           MEMBER(fy),
+                                           MEMBER(cx),
+                                           MEMBER(cy),
+                                           MEMBER(nearest_m),
+                                           MEMBER(point_count),
+                                           MEMBER(in_plane_steps),
+                                           MEMBER(distances),
+                                           MEMBER(turns),
+                                           MEMBER(templates),
+                                           MEMBER(most_columns),
+                                           MEMBER(most_rows),
+                                           MEMBER(distances_at),
+                                           MEMBER(numbers_at),
+                                           MEMBER(numbers_a_region),
+                                           MEMBER(regions_at),
+                                           MEMBER(anchors_at),
+                                           MEMBER(turned_at)});
 }
 
 TEST(PushConstants, TemplateScore) {

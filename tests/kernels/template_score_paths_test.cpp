@@ -4,15 +4,9 @@
 
 #include "kernels/error.h"
 #include "tests/kernels/paths.h"
+#include "tests/kernels/template_hits.h"
 
 namespace edgescout {
-
-static bool operator==(const TemplateHit& a, const TemplateHit& b) {
-  return a.sum == b.sum && a.x == b.x && a.y == b.y;
-}
-static std::ostream& operator<<(std::ostream& out, const TemplateHit& hit) {
-  return out << "sum " << hit.sum << " at " << hit.x << ", " << hit.y;
-}
 
 namespace {
 

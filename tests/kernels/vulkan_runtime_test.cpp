@@ -158,7 +158,7 @@ TEST_F(VulkanRuntime, CopiesWholeAndInPartWithAndWithoutStaging) {
     const std::vector<std::uint32_t> two{7, 8};
     std::vector<std::uint32_t> found(5);
     Batch batch(other, "copies");
-    batch.fill(buffer, 3);
+    batch.fill(buffer, buffer.bytes(), 3);
     batch.run();
     Batch second(other, "copies");
     second.upload<std::uint32_t>(buffer, two);
@@ -198,7 +198,7 @@ TEST_F(VulkanRuntime, ABatchThatNeverRanDoesNothing) {
     batch.upload<std::uint32_t>(buffer, ones);
     batch.run();
   }
-  { Batch(*device, "thrown away").fill(buffer, 2); }
+  { Batch(*device, "thrown away").fill(buffer, buffer.bytes(), 2); }
   EXPECT_EQ(read<std::uint32_t>(buffer, 4), ones);
 }
 
@@ -227,7 +227,7 @@ TEST_F(VulkanRuntime, CopiesWholeBuffers) {
       to(*device, values.size() + 1, "to"), small(*device, 10, "small");
   Batch batch(*device, "copy");
   batch.upload<std::uint32_t>(from, values);
-  batch.fill(to, 9);
+  batch.fill(to, to.bytes(), 9);
   batch.barrier();
   batch.copy(from, to);
   EXPECT_THROW(batch.copy(from, small), LogicError);
@@ -244,7 +244,7 @@ TEST_F(VulkanRuntime, ValidationSeesAMissingBarrier) {
   const Buffer<std::uint32_t> a(*device, 64, "a"), b(*device, 64, "b"), c(*device, 64, "c"),
       d(*device, 64, "d"), e(*device, 64, "e"), f(*device, 64, "f");
   Batch batch(*device, "hazard");
-  batch.fill(b, 0);
+  batch.fill(b, b.bytes(), 0);
   batch.dispatch(kernel, {1}, {a, b, c, d, e, f}, DcdSeedPush{});
   batch.run();
   bool seen = false;

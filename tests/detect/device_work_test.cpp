@@ -1,0 +1,50 @@
+// How much one frame asks of a device: the bounds that keep its path lean. They are some 20 % above
+// what was counted.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/detect/rendered_part.h"
+
+namespace edgescout::test {
+namespace {
+
+DeviceWork sum(const Detections& found) {
+  DeviceWork work;
+  for (const StageSeconds& stage : found.stages) work += stage.device;
+  return work;
+}
+
+const StageSeconds& stage_of(const Detections& found, const char* name) {
+  return *std::ranges::find(found.stages, name, &StageSeconds::name);
+}
+
+TEST(DeviceWork, OfOneFrameStaysWithinItsBounds) {
+  if (vulkan_devices().empty()) GTEST_SKIP() << "no Vulkan device";
+  const RenderedPart scene("bearing_block");
+  const std::unique_ptr<Backend> device = make_vulkan_backend(usual_vulkan_device());
+  scene.detect(0, *device);  // buffers grow in the first frame
+  const Detections found = scene.detect(0, *device);
+  const DeviceWork frame = sum(found), scan = stage_of(found, "scan").device;
+  const double megabytes = 1e-6 * double(frame.bytes_up + frame.bytes_down),
+               scan_megabytes = 1e-6 * double(scan.bytes_up + scan.bytes_down);
+  EXPECT_GT(frame.submits, 0u);
+  EXPECT_GT(frame.kernel_seconds, 0);
+  EXPECT_LE(frame.submits, 270u);
+  EXPECT_LE(megabytes, 310);
+  EXPECT_LE(1e-6 * double(frame.bytes_filled), 600);
+  EXPECT_LE(frame.allocations, 25u);
+  EXPECT_LE(scan.submits, 5u);
+  EXPECT_LE(scan_megabytes, 1.6);
+}
+
+TEST(DeviceWork, OfTheCpuIsNone) {
+  const RenderedPart scene("bearing_block");
+  const std::unique_ptr<Backend> cpu = make_cpu_backend(2);
+  const DeviceWork frame = sum(scene.detect(0, *cpu));
+  EXPECT_EQ(frame.submits, 0u);
+  EXPECT_EQ(frame.bytes_up + frame.bytes_down + frame.bytes_filled, 0u);
+}
+
+}  // namespace
+}  // namespace edgescout::test
