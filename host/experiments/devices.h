@@ -28,8 +28,8 @@ struct DevicesOptions {
 struct StageSamples {
   std::string stage;
   std::vector<double> ms;
-  std::vector<double> host_ms;  // of them, what the device's kernels did not take
-  DeviceWork device;            // of the last repetition
+  std::vector<double> host_ms = {};  // of them, what the device's kernels did not take
+  DeviceWork device = {};            // of the last repetition
   double median_ms() const;
 };
 

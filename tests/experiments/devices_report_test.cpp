@@ -29,6 +29,8 @@ DevicesReport report() {
   card.name = "vulkan:0 card";
   card.driver = "driver 1";
   card.stages = {{"edges", {1, 1.5, 2}}, {"image to poses", {100, 50, 40}}};
+  card.stages[1].host_ms = {30, 70, 20};
+  card.stages[1].device = {12, 34, 2500000, 1250000, 750000, 3, 0.02};
   card.peak_device_bytes = 64u << 20;
   card.copy_bytes_per_s = 2e9;
   // 4 MB at 2 GB/s take 2 ms; of the call's 5 the kernel took 4, as three repetitions' 12 say.
@@ -66,6 +68,12 @@ TEST(DevicesReport, AsJsonHasMediansRatiosAndFloors) {
   EXPECT_EQ(card.at("kernels").at(1).at("times_floor"), 2.5)
       << "without a clock of its own the whole call";
   EXPECT_FALSE(cpu.contains("kernels"));
+  const nlohmann::json& work = card.at("stages").at(1).at("device");
+  EXPECT_EQ(work.at("host_ms"), 30);
+  EXPECT_EQ(work.at("submits"), 12);
+  EXPECT_EQ(work.at("bytes_down"), 1250000);
+  EXPECT_EQ(work.at("allocations"), 3);
+  EXPECT_FALSE(cpu.at("stages").at(1).contains("device"));
 }
 
 TEST(DevicesReport, AsMarkdownHasARowAStageADeviceAndAKernel) {
@@ -74,6 +82,7 @@ TEST(DevicesReport, AsMarkdownHasARowAStageADeviceAndAKernel) {
        {"| edges | 3.0 (2.0 to 4.0) | 1.00 | 1.5 (1.0 to 2.0) | 0.50 |",
         "| image to poses | 500.0 (400.0 to 800.0) | 1.00 | 50.0 (40.0 to 100.0) | 0.10 |",
         "| cpu |  | 2.00 | 300 | 0 |  |", "| vulkan:0 card | driver 1 | 20.00 | 0 | 64 | 2.0 |",
+        "## Work of vulkan:0 card", "| image to poses | 30.0 | 12 | 34 | 2.50 | 1.25 | 0.75 | 3 |",
         "| dcd_tensor | 64x48 | 5.000 | 4.000 | 2.000 | 2.0 |", "**Warning:** something is odd",
         "Options: coarse-poses 600, lambda 30, on ",
         "97 % of the processors to be had before, 50 % at the end."})
