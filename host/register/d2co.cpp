@@ -8,6 +8,7 @@
 #include "host/register/lm_state.h"
 #include "host/register/visible_in_views.h"
 #include "kernels/error.h"
+#include "kernels/thread_pool.h"
 
 namespace edgescout {
 
@@ -38,6 +39,15 @@ PointSets collect_points(std::span<const ObjectPose> poses, std::size_t views,
   return sets;
 }
 
+// Calls body(p) for the poses on all threads. They do not know of each other.
+template <typename Body>
+void for_poses(std::size_t count, ThreadPool& pool, const Body& body) {
+  constexpr std::size_t chunk = 64;
+  pool.for_each((count + chunk - 1) / chunk, [&](std::size_t c) {
+    for (std::size_t p = c * chunk; p < std::min(count, (c + 1) * chunk); ++p) body(p);
+  });
+}
+
 class Evaluator {
  public:
   Evaluator(PointSets sets, const Scene& scene, const PoseLoss& loss)
@@ -52,20 +62,25 @@ class Evaluator {
   // states stay empty.
   std::vector<WorldSystem> at_trials(std::span<const LmState> states) {
     const std::span<const ObjectView> views = scene_.views;
-    problems_.clear();
+    std::vector<std::size_t> active;
     for (std::size_t p = 0; p < states.size(); ++p)
-      for (std::size_t v = 0; states[p].active && v < views.size(); ++v) {
-        const PointRange range = ranges_(p, v);
-        problems_.push_back({to_pose(views[v].camera_from_world * states[p].trial), range.first,
-                             range.count, static_cast<std::uint32_t>(v)});
-      }
+      if (states[p].active) active.push_back(p);
+    problems_.resize(active.size() * views.size());
     results_.resize(problems_.size());
+    for_poses(active.size(), scene_.backend.threads(), [&](std::size_t i) {
+      for (std::size_t v = 0; v < views.size(); ++v) {
+        const PointRange range = ranges_(active[i], v);
+        problems_[i * views.size() + v] = {
+            to_pose(views[v].camera_from_world * states[active[i]].trial), range.first, range.count,
+            static_cast<std::uint32_t>(v)};
+      }
+    });
     scene_.backend.pose_normal_equations(tensors_, *points_, problems_, loss_, results_);
     std::vector<WorldSystem> systems(states.size());
-    std::size_t next = 0;
-    for (std::size_t p = 0; p < states.size(); ++p)
-      for (std::size_t v = 0; states[p].active && v < views.size(); ++v)
-        add_view(systems[p], results_[next++], views[v].camera_from_world);
+    for_poses(active.size(), scene_.backend.threads(), [&](std::size_t i) {
+      for (std::size_t v = 0; v < views.size(); ++v)
+        add_view(systems[active[i]], results_[i * views.size() + v], views[v].camera_from_world);
+    });
     return systems;
   }
 
@@ -80,18 +95,20 @@ class Evaluator {
 };
 
 void run_round(std::span<LmState> states, Evaluator& evaluator, const D2coRound& round,
-               const D2coOptions& options) {
+               const D2coOptions& options, ThreadPool& pool) {
   for (LmState& state : states) restart(state);
   std::vector<WorldSystem> systems = evaluator.at_trials(states);
   for (std::size_t p = 0; p < states.size(); ++p) initialize(states[p], systems[p]);
   for (int i = 0; i < round.iterations; ++i) {
     if (std::ranges::none_of(states, [](const LmState& state) { return state.active; })) return;
-    for (LmState& state : states)
-      if (state.active) compute_step(state);
+    for_poses(states.size(), pool, [&](std::size_t p) {
+      if (states[p].active) compute_step(states[p]);
+    });
     systems = evaluator.at_trials(states);
-    for (std::size_t p = 0; p < states.size(); ++p)
+    for_poses(states.size(), pool, [&](std::size_t p) {
       if (states[p].active)
         accept_step(states[p], systems[p], options.min_step_m, options.min_step_rad);
+    });
   }
 }
 
@@ -130,7 +147,7 @@ std::vector<PoseEstimate> register_points(const Scene& scene, std::span<const Ob
     for (std::size_t p = 0; p < poses.size(); ++p) poses[p].world_from_object = states[p].pose;
     Evaluator evaluator(collect_points(poses, scene.views.size(), points, round.max_points), scene,
                         {round.loss, round.scale_px});
-    run_round(states, evaluator, round, options);
+    run_round(states, evaluator, round, options, scene.backend.threads());
   }
   std::vector<PoseEstimate> estimates;
   for (std::size_t p = 0; p < starts.size(); ++p)
