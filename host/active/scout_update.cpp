@@ -96,7 +96,7 @@ std::vector<Mode> Scout::update_belief(Update& next) const {
                                  options_.particles);
   step.update.reseeded |= reseeded;
   record_stage(watch, "particles");
-  const std::vector<Mode> modes =
+  std::vector<Mode> modes =
       find_modes(state.particles, sets_, models_, options_.particles, backend_.threads());
   step.mode_probabilities.clear();
   for (const Mode& mode : modes) step.mode_probabilities.push_back(mode.probability);

@@ -13,6 +13,7 @@
 // What the sanitizers see inside the validation layer and the software driver is none of ours:
 // neither was built for them. What we forget to destroy the layer reports, and that fails the test
 // that did it.
+// The sanitizers' runtimes give the names. NOLINTBEGIN(bugprone-reserved-identifier)
 extern "C" const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
   return "leak:libVkLayer_khronos_validation.so\nleak:libvulkan_lvp.so\nleak:libLLVM\n";
@@ -24,6 +25,7 @@ extern "C" const char* __tsan_default_suppressions() {
          "so\n"
          "mutex:libvulkan_lvp.so\nrace:libLLVM\n";
 }
+// NOLINTEND(bugprone-reserved-identifier)
 
 namespace edgescout {
 namespace {
