@@ -16,8 +16,7 @@ inline std::string device_work_text(const StageSeconds& stage) {
   if (work.submits == 0) return "";
   return fmt::format(
       " ({:.1f} ms beside the kernels, {} submits, {} dispatches, {:.2f} MB up, {:.2f} down, "
-      "{:.2f} "
-      "filled, {} allocations)",
+      "{:.2f} filled, {} allocations)",
       1000 * stage.host_seconds(), work.submits, work.dispatches,
       1e-6 * static_cast<double>(work.bytes_up), 1e-6 * static_cast<double>(work.bytes_down),
       1e-6 * static_cast<double>(work.bytes_filled), work.allocations);

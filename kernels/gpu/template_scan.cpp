@@ -99,7 +99,8 @@ void TemplateScanner::record_planes(Batch& batch, const DeviceTensor& tensor, st
   if (planes_of_ == view_id && grid_.anchor_step == static_cast<std::uint32_t>(anchor_step)) return;
   shape_ = tensor.shape();
   grid_ = grid_of(shape_, anchor_step);
-  planes_of_ = view_id;
+  planes_of_ = 0;
+  recorded_planes_of_ = view_id;
   const std::uint64_t words = plane_words(grid_, shape_.bins);
   planes_.reserve(device_, 4 * words, "template planes");
   const TemplatePlanesPush push{tensor.grid(), grid_, static_cast<std::uint32_t>(words)};
@@ -154,7 +155,8 @@ void TemplateScanner::record(Batch& batch, const Buffer<float>& points, const Te
 }
 
 void TemplateScanner::collect(const TemplateScan& scan, std::size_t first_region,
-                              std::span<TemplateHit> hits) const {
+                              std::span<TemplateHit> hits) {
+  planes_of_ = recorded_planes_of_;
   const std::size_t templates = scan.templates();
   constexpr std::uint32_t anchor_mask = (1u << TEMPLATE_SCAN_ANCHOR_BITS) - 1;
   for (std::size_t i = 0; i < host_hits_.size(); ++i) {

@@ -26,8 +26,7 @@ class TemplateScanner {
   void record(Batch& batch, const Buffer<float>& points, const TemplateScan& scan,
               std::size_t first_region, std::size_t regions);
   // The hits of the regions recorded last, after the batch has run.
-  void collect(const TemplateScan& scan, std::size_t first_region,
-               std::span<TemplateHit> hits) const;
+  void collect(const TemplateScan& scan, std::size_t first_region, std::span<TemplateHit> hits);
 
  private:
   const Device& device_;
@@ -37,7 +36,8 @@ class TemplateScanner {
   Buffer<std::uint32_t> input_, hits_;
   TemplatePlanesGrid grid_{};  // of the planes
   TensorShape shape_;          // of their tensor
-  std::uint64_t planes_of_ = 0;
+  std::uint64_t recorded_planes_of_ = 0;
+  std::uint64_t planes_of_ = 0;  // 0: none whose batch has run
   std::vector<std::uint32_t> host_hits_;
 };
 
