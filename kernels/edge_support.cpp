@@ -197,16 +197,12 @@ void edge_support_fast(std::span<const SupportView> views, std::span<const Suppo
   check_edge_support(views, points, problems, out.size());
   std::vector<Offsets> offsets;
   for (const SupportView& view : views) offsets.push_back(offsets_of(view));
-  constexpr std::size_t chunk = 16;
-  pool.for_each((problems.size() + chunk - 1) / chunk, [&](std::size_t c) {
-    for (std::size_t i = c * chunk; i < std::min(problems.size(), (c + 1) * chunk); ++i) {
-      const SupportView& view = views[problems[i].view];
-      out[i] = view.map.empty()
-                   ? EdgeSupport{}
-                   : to_edge_support(sum_fast(
-                         view, offsets[problems[i].view],
-                         points.subspan(problems[i].first_point, problems[i].point_count)));
-    }
+  for_each_in_chunks(pool, problems.size(), 16, [&](std::size_t i) {
+    const SupportView& view = views[problems[i].view];
+    out[i] = view.map.empty() ? EdgeSupport{}
+                              : to_edge_support(sum_fast(view, offsets[problems[i].view],
+                                                         points.subspan(problems[i].first_point,
+                                                                        problems[i].point_count)));
   });
 }
 

@@ -75,12 +75,10 @@ void pose_score_fast(std::span<const ScoreView> views, std::span<const ModelPoin
                      std::span<const PoseProblem> problems, const PoseScoreOptions& options,
                      std::span<PoseScore> out, ThreadPool& pool) {
   check(out.size() == problems.size(), "pose_score: as many scores as problems");
-  constexpr std::size_t chunk = 16;
-  pool.for_each((problems.size() + chunk - 1) / chunk, [&](std::size_t c) {
-    for (std::size_t i = c * chunk; i < std::min(problems.size(), (c + 1) * chunk); ++i)
-      out[i] = score_problem<float>(
-          views[problems[i].view], points.subspan(problems[i].first_point, problems[i].point_count),
-          problems[i].camera_from_object, options);
+  for_each_in_chunks(pool, problems.size(), 16, [&](std::size_t i) {
+    out[i] = score_problem<float>(views[problems[i].view],
+                                  points.subspan(problems[i].first_point, problems[i].point_count),
+                                  problems[i].camera_from_object, options);
   });
 }
 

@@ -68,11 +68,9 @@ void template_project_fast(const ModelPointPlanes& points, std::span<const Templ
                            std::span<TemplatePoint> projected, std::span<std::uint32_t> too_near,
                            ThreadPool& pool) {
   check_template_project(points.count(), jobs, options, projected.size(), too_near.size());
-  constexpr std::size_t chunk = 256;
-  pool.for_each((jobs.size() + chunk - 1) / chunk, [&](std::size_t c) {
-    for (std::size_t j = c * chunk; j < std::min(jobs.size(), (c + 1) * chunk); ++j)
-      too_near[j] =
-          project_template(points, jobs[j], options, projected.data() + jobs[j].first_projected);
+  for_each_in_chunks(pool, jobs.size(), 256, [&](std::size_t j) {
+    too_near[j] =
+        project_template(points, jobs[j], options, projected.data() + jobs[j].first_projected);
   });
 }
 

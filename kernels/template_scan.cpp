@@ -42,11 +42,7 @@ class FastScan {
         is_drawn_(scan.templates()) {}
 
   void score(std::size_t region, std::span<TemplateHit> hits) {
-    constexpr std::size_t chunk = 256;
-    pool_.for_each((jobs_.size() + chunk - 1) / chunk, [&](std::size_t c) {
-      for (std::size_t i = c * chunk; i < std::min(jobs_.size(), (c + 1) * chunk); ++i)
-        draw(region, i);
-    });
+    for_each_in_chunks(pool_, jobs_.size(), 256, [&](std::size_t i) { draw(region, i); });
     template_score_fast(tensor_, shape_, points_, jobs_, scan_.anchor_step, hits, pool_);
     for (std::size_t i = 0; i < hits.size(); ++i)
       if (!is_drawn_[i]) hits[i] = no_hit;

@@ -2,6 +2,7 @@
 // own thread alone.
 #pragma once
 
+#include <algorithm>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
@@ -40,5 +41,14 @@ class ThreadPool {
   std::exception_ptr failure_;
   bool stop_ = false;
 };
+
+// Calls body(i) for every i in [0, count), `chunk` of them at a time: for bodies that are short
+// beside what it takes to hand one out.
+template <typename Body>
+void for_each_in_chunks(ThreadPool& pool, std::size_t count, std::size_t chunk, const Body& body) {
+  pool.for_each((count + chunk - 1) / chunk, [&](std::size_t c) {
+    for (std::size_t i = c * chunk; i < std::min(count, (c + 1) * chunk); ++i) body(i);
+  });
+}
 
 }  // namespace edgescout

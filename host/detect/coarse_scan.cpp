@@ -213,11 +213,7 @@ class RegionScan {
     const int quick_points = std::min(options_.quick_points, options_.points);
     const Ranked promising =
         best_in_regions(quick_points, all, true, std::size_t(options_.quick_kept) * most);
-    std::vector<ScanHit> hits;
-    for (const std::vector<ScoredTemplate>& in_region :
-         best_in_regions(options_.points, numbers_of(promising), false, most))
-      for (const ScoredTemplate& scored : in_region) hits.push_back(scale_.hit_of(scored));
-    return hits;
+    return hits_of(best_in_regions(options_.points, numbers_of(promising), false, most));
   }
 
  private:
@@ -243,14 +239,11 @@ class RegionScan {
     const TemplateNumbering& numbering = scale_.numbering;
     const std::size_t turns = numbering.count() / numbering.distances_m.size();
     turned_.resize(regions_.size() * turns);
-    constexpr std::size_t chunk = 64;
-    backend_.threads().for_each((turned_.size() + chunk - 1) / chunk, [&](std::size_t c) {
-      for (std::size_t i = c * chunk; i < std::min(turned_.size(), (c + 1) * chunk); ++i) {
-        const std::size_t number = i % turns * numbering.distances_m.size();
-        turned_[i] = to_pose(place_template(
-            scale_.set, scale_.set.views[std::size_t(numbering.viewpoint(number))],
-            numbering.in_plane_rad(number), 0, middles_[i / turns], scale_.level.camera));
-      }
+    for_each_in_chunks(backend_.threads(), turned_.size(), 64, [&](std::size_t i) {
+      const std::size_t number = i % turns * numbering.distances_m.size();
+      turned_[i] = to_pose(place_template(
+          scale_.set, scale_.set.views[std::size_t(numbering.viewpoint(number))],
+          numbering.in_plane_rad(number), 0, middles_[i / turns], scale_.level.camera));
     });
   }
 
@@ -297,6 +290,19 @@ class RegionScan {
     }
     std::ranges::sort_heap(best, {}, &ScoredTemplate::key);
     return best;
+  }
+
+  // Region by region.
+  std::vector<ScanHit> hits_of(const Ranked& ranked) const {
+    std::vector<std::size_t> first{0};
+    for (const std::vector<ScoredTemplate>& in_region : ranked)
+      first.push_back(first.back() + in_region.size());
+    std::vector<ScanHit> hits(first.back());
+    backend_.threads().for_each(ranked.size(), [&](std::size_t region) {
+      std::ranges::transform(ranked[region], hits.begin() + std::ptrdiff_t(first[region]),
+                             [&](const ScoredTemplate& scored) { return scale_.hit_of(scored); });
+    });
+    return hits;
   }
 
   ScoredTemplate scored_template(const TemplateScan& scan, std::uint32_t number,

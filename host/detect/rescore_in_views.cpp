@@ -113,11 +113,8 @@ class ViewScoring {
   // Entry h * distances + step is hits[h] at that step; poses are in the frame of the view's
   // camera.
   std::vector<ViewVote> votes_of(std::span<const MovableHit> hits, Backend& backend) {
-    constexpr std::size_t chunk = 64;
-    backend.threads().for_each((hits.size() + chunk - 1) / chunk, [&](std::size_t c) {
-      for (std::size_t h = c * chunk; h < std::min(hits.size(), (c + 1) * chunk); ++h)
-        project_all_distances(hits[h], h);
-    });
+    for_each_in_chunks(backend.threads(), hits.size(), 64,
+                       [&](std::size_t h) { project_all_distances(hits[h], h); });
     std::vector<TemplateHit> scores(jobs_.size());
     backend.template_score(*level_.salient, points_, jobs_, 1, scores);
     for (std::size_t j = 0; j < jobs_.size(); ++j)

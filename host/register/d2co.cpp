@@ -24,28 +24,31 @@ struct PointSets {
   Grid<PointRange> ranges;  // rows are poses, columns views
 };
 
+// Calls body(p) for the poses on all threads. They do not know of each other.
+template <typename Body>
+void for_poses(std::size_t count, ThreadPool& pool, const Body& body) {
+  for_each_in_chunks(pool, count, 64, body);
+}
+
 PointSets collect_points(std::span<const ObjectPose> poses, std::size_t views,
-                         const PointsInViews& points, int most) {
+                         const PointsInViews& points, int most, ThreadPool& pool) {
   const Grid<std::vector<ModelPoint>> in_views = points(poses);
   check(in_views.rows() == poses.size() && in_views.columns() == views,
         "register_points: one list of points a pose and view");
   PointSets sets{{}, Grid<PointRange>(poses.size(), views)};
+  std::size_t total = 0;
   for (std::size_t i = 0; i < in_views.values().size(); ++i) {
-    const std::vector<ModelPoint> kept = thinned(in_views.values()[i], most);
-    sets.ranges.values()[i] = {static_cast<std::uint32_t>(sets.points.size()),
-                               static_cast<std::uint32_t>(kept.size())};
-    sets.points.insert(sets.points.end(), kept.begin(), kept.end());
+    const std::size_t kept = thinned_size(in_views.values()[i].size(), most);
+    sets.ranges.values()[i] = {static_cast<std::uint32_t>(total), static_cast<std::uint32_t>(kept)};
+    total += kept;
   }
-  return sets;
-}
-
-// Calls body(p) for the poses on all threads. They do not know of each other.
-template <typename Body>
-void for_poses(std::size_t count, ThreadPool& pool, const Body& body) {
-  constexpr std::size_t chunk = 64;
-  pool.for_each((count + chunk - 1) / chunk, [&](std::size_t c) {
-    for (std::size_t p = c * chunk; p < std::min(count, (c + 1) * chunk); ++p) body(p);
+  sets.points.resize(total);
+  for_poses(in_views.values().size(), pool, [&](std::size_t i) {
+    const PointRange& range = sets.ranges.values()[i];
+    thin_into<ModelPoint>(std::span(sets.points).subspan(range.first, range.count),
+                          in_views.values()[i]);
   });
+  return sets;
 }
 
 class Evaluator {
@@ -142,16 +145,17 @@ std::vector<PoseEstimate> register_points(const Scene& scene, std::span<const Ob
   check_problem(starts, std::numeric_limits<std::size_t>::max(), scene.views);
   std::vector<ObjectPose> poses(starts.begin(), starts.end());
   std::vector<LmState> states(starts.size());
+  ThreadPool& pool = scene.backend.threads();
   for (std::size_t p = 0; p < starts.size(); ++p) states[p].pose = starts[p].world_from_object;
   for (const D2coRound& round : options.rounds) {
     for (std::size_t p = 0; p < poses.size(); ++p) poses[p].world_from_object = states[p].pose;
-    Evaluator evaluator(collect_points(poses, scene.views.size(), points, round.max_points), scene,
-                        {round.loss, round.scale_px});
-    run_round(states, evaluator, round, options, scene.backend.threads());
+    Evaluator evaluator(collect_points(poses, scene.views.size(), points, round.max_points, pool),
+                        scene, {round.loss, round.scale_px});
+    run_round(states, evaluator, round, options, pool);
   }
-  std::vector<PoseEstimate> estimates;
-  for (std::size_t p = 0; p < starts.size(); ++p)
-    estimates.push_back(estimate_of(states[p], starts[p].object));
+  std::vector<PoseEstimate> estimates(starts.size());
+  for_poses(starts.size(), pool,
+            [&](std::size_t p) { estimates[p] = estimate_of(states[p], starts[p].object); });
   return estimates;
 }
 

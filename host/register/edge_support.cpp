@@ -136,21 +136,26 @@ std::vector<SupportPoint> support_points(const SeenPose& pose) {
 Grid<EdgeSupport> edge_support(const Scene& scene, std::span<const ObjectPose> poses,
                                const Grid<VisibleInView>& visible) {
   const std::size_t views = scene.views.size(), pairs = poses.size() * views;
+  ThreadPool& threads = scene.backend.threads();
   std::vector<std::vector<SupportPoint>> by_pair(pairs);
-  scene.backend.threads().for_each(pairs, [&](std::size_t i) {
+  for_each_in_chunks(threads, pairs, 16, [&](std::size_t i) {
     const ObjectPose& pose = poses[i / views];
     const ObjectView& view = scene.views[i % views];
     by_pair[i] = support_points({scene.models[std::size_t(pose.object)],
                                  view.camera_from_world * pose.world_from_object, *view.tensor,
                                  visible.values()[i]});
   });
-  std::vector<SupportPoint> points;
   std::vector<SupportProblem> problems;
+  std::size_t total = 0;
   for (std::size_t i = 0; i < pairs; ++i) {
     problems.push_back(
-        {std::uint32_t(points.size()), std::uint32_t(by_pair[i].size()), std::uint32_t(i % views)});
-    points.insert(points.end(), by_pair[i].begin(), by_pair[i].end());
+        {std::uint32_t(total), std::uint32_t(by_pair[i].size()), std::uint32_t(i % views)});
+    total += by_pair[i].size();
   }
+  std::vector<SupportPoint> points(total);
+  for_each_in_chunks(threads, pairs, 64, [&](std::size_t i) {
+    std::ranges::copy(by_pair[i], points.begin() + problems[i].first_point);
+  });
   std::vector<ViewHandle> tensors;
   for (const ObjectView& view : scene.views) tensors.push_back(view.tensor);
   Grid<EdgeSupport> support(poses.size(), views);

@@ -24,17 +24,13 @@ struct ScreenTriangle {
 std::vector<Eigen::Vector3d> project_vertices(const std::vector<Eigen::Vector3d>& vertices_m,
                                               const Camera& camera, const Se3& camera_from_world,
                                               ThreadPool& pool) {
-  constexpr std::size_t CHUNK = 4096;
   std::vector<Eigen::Vector3d> projected(vertices_m.size());
-  pool.for_each((vertices_m.size() + CHUNK - 1) / CHUNK, [&](std::size_t chunk) {
-    const std::size_t last = std::min(vertices_m.size(), (chunk + 1) * CHUNK);
-    for (std::size_t i = chunk * CHUNK; i < last; ++i) {
-      const Eigen::Vector3d x = camera_from_world * vertices_m[i];
-      if (x.z() < NEAR_M)
-        projected[i].setZero();
-      else
-        projected[i] << project(camera, x), 1 / x.z();
-    }
+  for_each_in_chunks(pool, vertices_m.size(), 4096, [&](std::size_t i) {
+    const Eigen::Vector3d x = camera_from_world * vertices_m[i];
+    if (x.z() < NEAR_M)
+      projected[i].setZero();
+    else
+      projected[i] << project(camera, x), 1 / x.z();
   });
   return projected;
 }
