@@ -7,6 +7,7 @@
 #include "host/register/pose_classifier.h"
 #include "host/register/visible_in_views.h"
 #include "kernels/pose_geometry.h"
+#include "kernels/thread_pool.h"
 
 namespace edgescout {
 
@@ -47,13 +48,17 @@ void append_explained(const Scene& scene, const ObjectPose& pose, std::size_t v,
   }
 }
 
-std::vector<ExplainedEdge> explained_edges(const Scene& scene, const ObjectPose& pose,
-                                           const EdgeClaimOptions& options) {
-  const Grid<VisibleInView> visible = visible_in_views(scene, {&pose, 1});
-  std::vector<ExplainedEdge> explained;
-  for (std::size_t v = 0; v < scene.views.size(); ++v)
-    if (scene.views[v].edges)
-      append_explained(scene, pose, v, visible(0, v).points, options, explained);
+// By pose.
+std::vector<std::vector<ExplainedEdge>> explained_edges(const Scene& scene,
+                                                        std::span<const ObjectPose> poses,
+                                                        const EdgeClaimOptions& options) {
+  const Grid<VisibleInView> visible = visible_in_views(scene, poses);
+  std::vector<std::vector<ExplainedEdge>> explained(poses.size());
+  scene.backend.threads().for_each(poses.size(), [&](std::size_t p) {
+    for (std::size_t v = 0; v < scene.views.size(); ++v)
+      if (scene.views[v].edges)
+        append_explained(scene, poses[p], v, visible(p, v).points, options, explained[p]);
+  });
   return explained;
 }
 
@@ -106,13 +111,19 @@ struct Competitor {
 
 std::vector<Competitor> competitors_of(const Scene& scene, std::span<const PoseEstimate> poses,
                                        const EdgeClaimOptions& options) {
+  std::vector<std::size_t> indices;
+  std::vector<ObjectPose> competing;
+  for (std::size_t p = 0; p < poses.size(); ++p)
+    if (exceeds_chance(poses[p].features)) {
+      indices.push_back(p);
+      competing.push_back(poses[p]);
+    }
+  std::vector<std::vector<ExplainedEdge>> explained = explained_edges(scene, competing, options);
   std::vector<Competitor> competitors;
-  for (std::size_t p = 0; p < poses.size(); ++p) {
-    std::vector<ExplainedEdge> explained = explained_edges(scene, poses[p], options);
-    if (exceeds_chance(poses[p].features))
-      competitors.push_back(
-          {{p, 1}, std::move(explained), PoseClassifier::probability(poses[p].features)});
-  }
+  for (std::size_t i = 0; i < indices.size(); ++i)
+    competitors.push_back({{indices[i], 1},
+                           std::move(explained[i]),
+                           PoseClassifier::probability(poses[indices[i]].features)});
   return competitors;
 }
 
@@ -163,11 +174,11 @@ std::vector<EdgeClaim> claim_edges(const Scene& scene, std::span<const PoseEstim
 
 double claimed_fraction(const Scene& scene, const ObjectPose& pose,
                         std::span<const ObjectPose> claimants, const EdgeClaimOptions& options) {
-  const std::vector<ExplainedEdge> explained = explained_edges(scene, pose, options);
+  const std::vector<ExplainedEdge> explained = explained_edges(scene, {&pose, 1}, options)[0];
   if (explained.empty()) return 0;
   ClaimedEdges claimed(scene.views, options.match_px);
-  for (const ObjectPose& claimant : claimants)
-    claimed.claim(explained_edges(scene, claimant, options));
+  for (const std::vector<ExplainedEdge>& of_claimant : explained_edges(scene, claimants, options))
+    claimed.claim(of_claimant);
   return 1 - claimed.unclaimed_fraction(explained);
 }
 
