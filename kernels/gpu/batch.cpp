@@ -5,7 +5,6 @@
 
 #include "kernels/error.h"
 #include "kernels/gpu/result.h"
-#include "kernels/gpu/staging.h"
 
 namespace edgescout::gpu {
 
@@ -42,11 +41,10 @@ Batch::~Batch() {
     vkDeviceWaitIdle(device_.get());
   else
     device_.command_sets().give_back(std::move(set_));
-  for (RawBuffer& buffer : staging_) device_.staging().give_back(std::move(buffer));
 }
 
 const RawBuffer& Batch::stage(VkDeviceSize bytes, Memory memory, const RawBuffer& other_end) {
-  staging_.push_back(device_.staging().take(bytes, memory, "staging for " + other_end.name()));
+  staging_.emplace_back(device_, bytes, memory, "staging for " + other_end.name());
   return staging_.back();
 }
 

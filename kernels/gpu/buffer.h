@@ -1,5 +1,5 @@
-// Device memory with a name. On a device with unified memory the host sees it; elsewhere Batch
-// copies through staging.
+// Device memory with a name, from the device's store. On a device with unified memory the host sees
+// it; elsewhere Batch copies through staging.
 #pragma once
 
 #include <cstddef>
@@ -7,24 +7,11 @@
 
 #include <vulkan/vulkan.h>
 
-#include "kernels/device_memory.h"
-#include "kernels/error.h"
+#include "kernels/gpu/buffer_store.h"
 #include "kernels/gpu/device.h"
 #include "kernels/gpu/handle.h"
 
 namespace edgescout::gpu {
-
-// The device has the memory, but others hold it.
-class OutOfDeviceMemory : public GpuError {
- public:
-  using GpuError::GpuError;
-};
-
-enum class Memory {
-  device,    // read and written by kernels
-  upload,    // host writes, device copies from it
-  download,  // device copies to it, host reads
-};
 
 class RawBuffer {
  public:
@@ -33,21 +20,16 @@ class RawBuffer {
   // where it is at another time. At least 4 bytes are allocated.
   RawBuffer(const Device& device, VkDeviceSize bytes, Memory memory, std::string name);
 
-  VkBuffer get() const { return buffer_.get(); }
+  VkBuffer get() const { return lease_ ? lease_->buffer.get() : VK_NULL_HANDLE; }
   VkDeviceSize bytes() const { return bytes_; }
-  Memory memory() const { return kind_; }
   const std::string& name() const { return name_; }
   // Null where the host cannot see the memory.
-  std::byte* mapped() const { return mapped_; }
+  std::byte* mapped() const { return lease_ ? lease_->mapped : nullptr; }
 
  private:
   std::string name_;
   VkDeviceSize bytes_ = 0;
-  Memory kind_ = Memory::device;
-  CountedMemory counted_;
-  Handle<VkDeviceMemory> memory_;  // freed after the buffer bound to it
-  Handle<VkBuffer> buffer_;
-  std::byte* mapped_ = nullptr;
+  BufferStore::Lease lease_;
 };
 
 // Room for `size` values of T.

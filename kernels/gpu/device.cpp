@@ -1,11 +1,11 @@
 #include "kernels/gpu/device.h"
 
 #include "kernels/error.h"
+#include "kernels/gpu/buffer_store.h"
 #include "kernels/gpu/command_set.h"
 #include "kernels/gpu/device_info.h"
 #include "kernels/gpu/extensions.h"
 #include "kernels/gpu/result.h"
-#include "kernels/gpu/staging.h"
 
 namespace edgescout::gpu {
 
@@ -109,7 +109,7 @@ Device::Device(const DeviceOptions& options)
   device_.reset(create_device(physical_, queue_family_));
   vkGetDeviceQueue(get(), queue_family_, 0, &queue_);
   cache_ = {get(), create_cache(get()), vkDestroyPipelineCache};
-  staging_ = std::make_unique<StagingPool>(*this);
+  buffers_ = std::make_unique<BufferStore>(*this);
   command_sets_ = std::make_unique<CommandSets>(*this);
 }
 

@@ -17,8 +17,8 @@
 
 namespace edgescout::gpu {
 
+class BufferStore;
 class CommandSets;
-class StagingPool;
 
 class Device {
  public:
@@ -47,7 +47,7 @@ class Device {
   }
   // Device-local memory can be read and written by the host at full speed: no staging.
   bool unified_memory() const { return unified_memory_; }
-  StagingPool& staging() const { return *staging_; }
+  BufferStore& buffers() const { return *buffers_; }
   CommandSets& command_sets() const { return *command_sets_; }
   // Everything made from this device adds to it.
   DeviceWork& work() const { return *work_; }
@@ -75,7 +75,7 @@ class Device {
   std::uint64_t tick_mask_ = ~std::uint64_t{0};
   bool unified_memory_ = false;
   std::unique_ptr<DeviceWork> work_ = std::make_unique<DeviceWork>();
-  std::unique_ptr<StagingPool> staging_;
+  std::unique_ptr<BufferStore> buffers_;
   std::unique_ptr<CommandSets> command_sets_;
 };
 

@@ -222,6 +222,42 @@ TEST_F(VulkanRuntime, CountsTheDevicesMemoryAlone) {
   EXPECT_GE(peak_device_memory_bytes(), before + (1 << 20));
 }
 
+TEST_F(VulkanRuntime, KeepsMemoryForTheNextTakerOfItsKindAndSize) {
+  const gpu::Device other(test::device_options(test::Path::vulkan));
+  const auto allocations_of = [&](std::size_t bytes, Memory memory) {
+    const std::uint64_t before = other.work().allocations;
+    const gpu::RawBuffer buffer(other, bytes, memory, "taken");
+    EXPECT_EQ(buffer.bytes(), bytes);
+    return other.work().allocations - before;
+  };
+  EXPECT_EQ(allocations_of(1 << 20, Memory::device), 1u);
+  EXPECT_EQ(allocations_of(1 << 20, Memory::device), 0u);
+  EXPECT_EQ(allocations_of((1 << 20) - (1 << 16), Memory::device), 0u) << "a little shorter";
+  EXPECT_EQ(allocations_of(1 << 19, Memory::device), 1u) << "half of it would lie idle";
+  EXPECT_EQ(allocations_of(3 << 19, Memory::device), 1u);
+  EXPECT_EQ(allocations_of(1 << 20, Memory::upload), 1u);
+  const std::uint64_t before = other.work().allocations;
+  const gpu::RawBuffer first(other, 1 << 20, Memory::device, "first"),
+      second(other, 1 << 20, Memory::device, "second");
+  EXPECT_EQ(other.work().allocations - before, 1u) << "what is in use is not given away";
+}
+
+TEST_F(VulkanRuntime, KeepsNoMoreFreeMemoryThanItsBound) {
+  const gpu::Device other(test::device_options(test::Path::vulkan));
+  constexpr std::size_t mib = 1 << 20, size = 40 * mib;
+  const auto held = [] {
+    forget_peak_device_memory();
+    return peak_device_memory_bytes();
+  };
+  const std::uint64_t before = held();
+  {
+    std::vector<gpu::RawBuffer> buffers;
+    for (int i = 0; i < 15; ++i) buffers.emplace_back(other, size, Memory::device, "one of many");
+  }
+  EXPECT_GT(held() - before, 0u);
+  EXPECT_LE(held() - before, 512 * mib);
+}
+
 TEST_F(VulkanRuntime, CopiesWholeBuffers) {
   std::vector<std::uint32_t> values(1000);
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<std::uint32_t>(7 * i);
