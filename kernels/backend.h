@@ -138,6 +138,13 @@ class Backend {
   virtual double mutual_information(const BackendChamfer& chamfer,
                                     std::span<const ParticleBelief> beliefs,
                                     const InformationOptions& options) = 0;
+  // What combination_chamfer and mutual_information give of each view, nats: all views side by
+  // side.
+  virtual std::vector<double> view_information(std::span<const ChamferView> views,
+                                               const CombinationBits& combinations,
+                                               const ChamferOptions& chamfer,
+                                               std::span<const ParticleBelief> beliefs,
+                                               const InformationOptions& information) = 0;
   // The threads host code may use beside the kernels.
   virtual ThreadPool& threads() = 0;
   // Since the backend was made. All 0 on the CPU.

@@ -261,8 +261,7 @@ class CpuBackend : public Backend {
                                     const ChamferOptions& options) override {
     const Timer timer(*this, "combination_chamfer");
     auto chamfer = std::make_shared<CpuChamfer>();
-    chamfer->values = fast_ ? combination_chamfer_fast(view, combinations, options, pool_)
-                            : combination_chamfer_reference(view, combinations, options);
+    chamfer->values = cells_of(view, combinations, options);
     chamfer->particles = static_cast<std::uint32_t>(view.particles());
     chamfer->combinations = combinations.count;
     chamfer->options = options;
@@ -274,10 +273,30 @@ class CpuBackend : public Backend {
     const Timer timer(*this, "mutual_information");
     const auto* mine = dynamic_cast<const CpuChamfer*>(&chamfer);
     check(mine != nullptr, "cells made by another backend");
-    const ChamferTable table{chamfer.particles, chamfer.combinations, chamfer.options.cap_px,
-                             mine->values};
-    return fast_ ? mutual_information_fast(table, beliefs, options, pool_)
-                 : mutual_information_reference(table, beliefs, options);
+    return information_of(
+        {chamfer.particles, chamfer.combinations, chamfer.options.cap_px, mine->values}, beliefs,
+        options);
+  }
+
+  std::vector<double> view_information(std::span<const ChamferView> views,
+                                       const CombinationBits& combinations,
+                                       const ChamferOptions& chamfer,
+                                       std::span<const ParticleBelief> beliefs,
+                                       const InformationOptions& information) override {
+    const Timer timer(*this, "view_information");
+    std::vector<double> nats(views.size());
+    const auto of_view = [&](std::size_t v) {
+      const std::vector<ChamferCell> cells = cells_of(views[v], combinations, chamfer);
+      nats[v] = information_of({static_cast<std::uint32_t>(views[v].particles()),
+                                combinations.count, chamfer.cap_px, cells},
+                               beliefs, information);
+    };
+    // Each kernel alone has parts that run on one thread.
+    if (views.size() >= std::size_t(pool_.threads()))
+      pool_.for_each(views.size(), of_view);
+    else
+      for (std::size_t v = 0; v < views.size(); ++v) of_view(v);
+    return nats;
   }
 
  private:
@@ -306,6 +325,18 @@ class CpuBackend : public Backend {
     const Timer timer(*this, "support_map");
     view.gradient_x2 = image_gradient_x2(image);
     view.support_map = fast_ ? support_map_fast(image, pool_) : support_map_reference(image);
+  }
+
+  std::vector<ChamferCell> cells_of(const ChamferView& view, const CombinationBits& combinations,
+                                    const ChamferOptions& options) {
+    return fast_ ? combination_chamfer_fast(view, combinations, options, pool_)
+                 : combination_chamfer_reference(view, combinations, options);
+  }
+
+  double information_of(const ChamferTable& table, std::span<const ParticleBelief> beliefs,
+                        const InformationOptions& options) {
+    return fast_ ? mutual_information_fast(table, beliefs, options, pool_)
+                 : mutual_information_reference(table, beliefs, options);
   }
 
   static const CpuView& own(const BackendView& view) {

@@ -63,16 +63,13 @@ struct ParticlePoints {
 
 ParticlePoints particle_points(const NextViewProblem& problem, const WeightedParticles& weighted,
                                const Se3& camera_from_world, const Camera& map_camera) {
-  std::vector<std::vector<ParticlePoint>> lists(weighted.particles.size());
-  problem.scene.backend.threads().for_each(lists.size(), [&](std::size_t i) {
-    const Particle& particle = *weighted.particles[i];
-    lists[i] = points_in_image(problem.tables[particle.object],
-                               camera_from_world * particle.world_from_object, map_camera,
-                               weighted.seen[i]);
-  });
   ParticlePoints all;
-  for (const std::vector<ParticlePoint>& list : lists) {
-    all.points.insert(all.points.end(), list.begin(), list.end());
+  for (std::size_t i = 0; i < weighted.particles.size(); ++i) {
+    const Particle& particle = *weighted.particles[i];
+    const std::vector<ParticlePoint> points = points_in_image(
+        problem.tables[particle.object], camera_from_world * particle.world_from_object, map_camera,
+        weighted.seen[i]);
+    all.points.insert(all.points.end(), points.begin(), points.end());
     all.first.push_back(std::uint32_t(all.points.size()));
   }
   return all;
@@ -111,17 +108,23 @@ std::vector<double> MutualInformation::of_block(std::span<const Se3> camera_from
   const CandidateScene candidates =
       draw_candidates(problem_.scene.models, problem_.candidates, map_camera_, camera_from_world,
                       backend, {options_.visibility, options_.tolerance});
-  std::vector<double> information(camera_from_world.size(), 0);
-  for (std::size_t i = 0; i < camera_from_world.size(); ++i) {
-    const ParticlePoints points =
-        particle_points(problem_, weighted_, camera_from_world[i], map_camera_);
-    if (points.points.empty()) continue;
-    ChamferView view = candidates.chamfer_view(i);
-    view.points = points.points;
-    view.first_point = points.first;
-    information[i] = backend.mutual_information(*backend.combination_chamfer(view, bits, chamfer),
-                                                weighted_.beliefs, likelihood);
+  std::vector<ParticlePoints> points(camera_from_world.size());
+  backend.threads().for_each(points.size(), [&](std::size_t i) {
+    points[i] = particle_points(problem_, weighted_, camera_from_world[i], map_camera_);
+  });
+  std::vector<std::size_t> seeing;  // views into which some point projects
+  std::vector<ChamferView> views;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].points.empty()) continue;
+    seeing.push_back(i);
+    ChamferView& view = views.emplace_back(candidates.chamfer_view(i));
+    view.points = points[i].points;
+    view.first_point = points[i].first;
   }
+  const std::vector<double> nats =
+      backend.view_information(views, bits, chamfer, weighted_.beliefs, likelihood);
+  std::vector<double> information(camera_from_world.size(), 0);
+  for (std::size_t k = 0; k < seeing.size(); ++k) information[seeing[k]] = nats[k];
   return information;
 }
 

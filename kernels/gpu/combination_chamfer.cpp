@@ -17,7 +17,19 @@ static_assert(sizeof(ChamferRow) == 4 * CHAMFER_ROW_WORDS);
 static_assert(sizeof(ChamferRun) == 4 * CHAMFER_RUN_WORDS);
 static_assert(sizeof(ChamferVisit) == 4 * CHAMFER_VISIT_WORDS);
 
-constexpr std::size_t max_row_bytes = std::size_t{64} << 20;
+constexpr std::size_t max_tile_bytes = std::size_t{64} << 20;
+constexpr std::size_t max_group_bytes = std::size_t{256} << 20;  // of tiles side by side
+
+std::size_t mask_bytes(const DevicePlan& plan) { return plan.masks.size() * sizeof(std::uint32_t); }
+std::size_t row_bytes(const DevicePlan& plan) { return plan.rows.size() * 32; }
+
+template <class T>
+Buffer<T> uploaded_values(Batch& batch, const Device& device, const std::vector<T>& values,
+                          const char* name) {
+  Buffer<T> buffer(device, values.size(), name);
+  batch.upload<T>(buffer, values);
+  return buffer;
+}
 
 // [candidate][word of 32 combinations]
 std::vector<std::uint32_t> columns_of(const CombinationBits& combinations) {
@@ -55,63 +67,99 @@ CombinationChamfer::CombinationChamfer(const Device& device)
       rows_kernel_(device, {"chamfer_rows", chamfer_rows_spv, 4, sizeof(ChamferPush), {}}),
       sums_kernel_(device, {"chamfer_sums", chamfer_sums_spv, 7, sizeof(ChamferPush), {}}) {}
 
-void CombinationChamfer::upload(Batch& batch, const ChamferPlan& plan,
-                                const CombinationBits& combinations) {
-  const std::vector<std::uint32_t> columns = columns_of(combinations);
-  masks_.reserve(device_, plan.masks.size(), "chamfer masks");
-  rows_.reserve(device_, plan.rows.size(), "chamfer rows");
-  particles_.reserve(device_, plan.particles.size(), "particles");
-  hiders_.reserve(device_, plan.hiders.size(), "hiding candidates");
-  reach_.reserve(device_, plan.reach.size(), "edges in reach");
-  visits_.reserve(device_, plan.visits.size(), "particles' visits");
-  columns_.reserve(device_, columns.size(), "combinations");
-  batch.upload<ChamferMask>(masks_, plan.masks);
-  batch.upload<ChamferRow>(rows_, plan.rows);
-  batch.upload<ChamferRun>(particles_, plan.particles);
-  batch.upload<std::uint32_t>(hiders_, plan.hiders);
-  batch.upload<std::uint32_t>(reach_, plan.reach);
-  batch.upload<ChamferVisit>(visits_, plan.visits);
-  batch.upload<std::uint32_t>(columns_, columns);
+DevicePlan CombinationChamfer::uploaded(Batch& batch, const ChamferPlan& plan) const {
+  return {plan.cap,
+          uploaded_values(batch, device_, plan.masks, "chamfer masks"),
+          uploaded_values(batch, device_, plan.rows, "chamfer rows"),
+          uploaded_values(batch, device_, plan.particles, "particles"),
+          uploaded_values(batch, device_, plan.visits, "particles' visits"),
+          uploaded_values(batch, device_, plan.hiders, "hiding candidates"),
+          uploaded_values(batch, device_, plan.reach, "edges in reach")};
 }
 
-std::uint32_t CombinationChamfer::tile_words(const ChamferPlan& plan, std::uint32_t words) const {
-  const std::size_t most = std::min<std::size_t>(max_row_bytes, device_.max_band_bytes());
-  const std::size_t word_bytes =
-      std::max(plan.rows.size() * 32, plan.masks.size() * sizeof(std::uint32_t));
-  return static_cast<std::uint32_t>(
-      std::clamp<std::size_t>(most / std::max<std::size_t>(word_bytes, 1), 1, std::max(words, 1u)));
+std::vector<std::vector<CombinationChamfer::Tile>> CombinationChamfer::side_by_side(
+    std::uint32_t words) const {
+  const std::size_t most = std::min<std::size_t>(max_tile_bytes, device_.max_band_bytes());
+  std::vector<std::vector<Tile>> groups;
+  std::size_t group_bytes = 0;
+  for (std::size_t view = 0; view < plans_.size(); ++view) {
+    const std::size_t masks = mask_bytes(plans_[view]), rows = row_bytes(plans_[view]),
+                      that_fit = most / std::max<std::size_t>({masks, rows, 1});
+    const auto of_tile = static_cast<std::uint32_t>(std::clamp<std::size_t>(that_fit, 1, words));
+    for (std::uint32_t first = 0; first < words; first += of_tile) {
+      const Tile tile{view, first, std::min(of_tile, words - first)};
+      const std::size_t bytes = tile.words * (masks + rows);
+      if (groups.empty() || group_bytes + bytes > max_group_bytes) {
+        groups.emplace_back();
+        group_bytes = 0;
+      }
+      groups.back().push_back(tile);
+      group_bytes += bytes;
+    }
+  }
+  return groups;
 }
 
-void CombinationChamfer::record_tile(Batch& batch, const ChamferPlan& plan, const ChamferPush& tile,
-                                     const DeviceCells& cells) {
-  ChamferPush push = tile;
-  const auto record = [&](const Kernel& kernel, std::size_t count, std::size_t groups,
-                          std::initializer_list<Bound> bound) {
-    push.count = static_cast<std::uint32_t>(count);
-    batch.barrier();
-    batch.dispatch(kernel, spread(static_cast<std::uint32_t>(groups)), bound, push);
+void CombinationChamfer::reserve(std::span<const std::vector<Tile>> groups) {
+  for (const std::vector<Tile>& tiles : groups) {
+    if (memory_.size() < tiles.size()) memory_.resize(tiles.size());
+    for (std::size_t t = 0; t < tiles.size(); ++t) {
+      const DevicePlan& plan = plans_[tiles[t].view];
+      memory_[t].bits.reserve(device_, plan.masks.size() * tiles[t].words, "masks of combinations");
+      memory_[t].bytes.reserve(device_, plan.rows.size() * tiles[t].words * CHAMFER_QUADS,
+                               "rows of distances");
+    }
+  }
+}
+
+void CombinationChamfer::record_tiles(Batch& batch, std::span<const Tile> tiles,
+                                      const CombinationBits& combinations,
+                                      std::span<const DeviceCells> cells) const {
+  const auto push_of = [&](const Tile& tile, std::size_t count) {
+    return ChamferPush{
+        static_cast<std::uint32_t>(count),  tile.words,         tile.first_word,
+        groups_for(combinations.count, 32), combinations.count, plans_[tile.view].cap};
   };
-  const std::size_t masks = plan.masks.size(), rows = plan.rows.size(),
-                    particles = plan.particles.size();
-  record(masks_kernel_, masks, groups_for(masks * tile.words, CHAMFER_GROUP),
-         {masks_, hiders_, columns_, bits_});
-  record(rows_kernel_, rows, groups_for(rows * tile.words, CHAMFER_GROUP),
-         {rows_, reach_, bits_, bytes_});
-  record(sums_kernel_, particles,
-         particles * groups_for(std::size_t{tile.words} * CHAMFER_HALVES, CHAMFER_GROUP),
-         {particles_, visits_, rows_, bits_, bytes_, cells.sums, cells.counts});
+  batch.barrier();
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    const DevicePlan& plan = plans_[tiles[t].view];
+    const std::size_t masks = plan.masks.size();
+    batch.dispatch(masks_kernel_, spread(groups_for(masks * tiles[t].words, CHAMFER_GROUP)),
+                   {plan.masks, plan.hiders, columns_, memory_[t].bits}, push_of(tiles[t], masks));
+  }
+  batch.barrier();
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    const DevicePlan& plan = plans_[tiles[t].view];
+    const std::size_t rows = plan.rows.size();
+    batch.dispatch(rows_kernel_, spread(groups_for(rows * tiles[t].words, CHAMFER_GROUP)),
+                   {plan.rows, plan.reach, memory_[t].bits, memory_[t].bytes},
+                   push_of(tiles[t], rows));
+  }
+  batch.barrier();
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    const DevicePlan& plan = plans_[tiles[t].view];
+    const DeviceCells& of_view = cells[tiles[t].view];
+    const auto particles = static_cast<std::uint32_t>(plan.particles.size());
+    const std::uint32_t groups = groups_for(tiles[t].words * CHAMFER_HALVES, CHAMFER_GROUP);
+    batch.dispatch(sums_kernel_, spread(particles * groups),
+                   {plan.particles, plan.visits, plan.rows, memory_[t].bits, memory_[t].bytes,
+                    of_view.sums, of_view.counts},
+                   push_of(tiles[t], particles));
+  }
 }
 
-void CombinationChamfer::record(Batch& batch, const ChamferPlan& plan,
-                                const CombinationBits& combinations, const DeviceCells& cells) {
-  upload(batch, plan, combinations);
-  const std::uint32_t words = groups_for(combinations.count, 32), tile = tile_words(plan, words);
-  bits_.reserve(device_, plan.masks.size() * tile, "masks of combinations");
-  bytes_.reserve(device_, plan.rows.size() * tile * CHAMFER_QUADS, "rows of distances");
-  for (std::uint32_t first = 0; first < words; first += tile)
-    record_tile(batch, plan,
-                {0, std::min(tile, words - first), first, words, combinations.count, plan.cap},
-                cells);
+void CombinationChamfer::record(Batch& batch, std::span<const ChamferPlan> plans,
+                                const CombinationBits& combinations,
+                                std::span<const DeviceCells> cells) {
+  check(plans.size() == cells.size(), "combination_chamfer: cells for every view");
+  const std::vector<std::uint32_t> columns = columns_of(combinations);
+  columns_.reserve(device_, columns.size(), "combinations");
+  batch.upload<std::uint32_t>(columns_, columns);
+  plans_.clear();
+  for (const ChamferPlan& plan : plans) plans_.push_back(uploaded(batch, plan));
+  const std::vector<std::vector<Tile>> groups = side_by_side(groups_for(combinations.count, 32));
+  reserve(groups);
+  for (const std::vector<Tile>& tiles : groups) record_tiles(batch, tiles, combinations, cells);
 }
 
 }  // namespace edgescout::gpu

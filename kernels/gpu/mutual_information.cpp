@@ -36,37 +36,49 @@ MutualInformation::MutualInformation(const Device& device)
           device,
           {"information_columns", information_columns_spv, 5, sizeof(InformationPush), {}}) {}
 
-void MutualInformation::record(Batch& batch, const DeviceCells& cells, double cap_px,
+void MutualInformation::record(Batch& batch, std::span<const DeviceCells> cells, double cap_px,
                                std::span<const ParticleBelief> beliefs,
                                const InformationOptions& options) {
-  check_information(cells.particles, cells.combinations, beliefs, options);
+  for (const DeviceCells& of_view : cells)
+    check_information(of_view.particles, of_view.combinations, beliefs, options);
   const std::vector<InformationBelief> own = beliefs_for_device(beliefs, options);
   beliefs_.reserve(device_, own.size(), "beliefs");
-  shifts_.reserve(device_, own.size(), "log likelihoods");
-  shares_.reserve(device_, cells.combinations, "information");
   batch.upload<InformationBelief>(beliefs_, own);
-  log_scale_ = 0;
-  if (options.use_paper_formula) {
-    const float least = std::ranges::min(own, {}, &InformationBelief::log_offset).log_offset;
-    log_scale_ = -double(least);
-    batch.upload<float>(shifts_, std::vector<float>(own.size(), -least));
+  const float least = std::ranges::min(own, {}, &InformationBelief::log_offset).log_offset;
+  log_scale_ = options.use_paper_formula ? -double(least) : 0;
+  const auto push_of = [&](const DeviceCells& of_view) {
+    return InformationPush{of_view.particles, of_view.combinations, float(cap_px),
+                           float(1 / options.scale_px2)};
+  };
+  views_.resize(cells.size());
+  for (std::size_t v = 0; v < cells.size(); ++v) {
+    views_[v].shifts.reserve(device_, own.size(), "log likelihoods");
+    views_[v].shares.reserve(device_, cells[v].combinations, "information");
+    views_[v].host_shares.resize(cells[v].combinations);
+    if (options.use_paper_formula)
+      batch.upload<float>(views_[v].shifts, std::vector<float>(own.size(), -least));
   }
   batch.barrier();
-  const InformationPush push{cells.particles, cells.combinations, float(cap_px),
-                             float(1 / options.scale_px2)};
   if (!options.use_paper_formula) {
-    batch.dispatch(rows_kernel_, spread(cells.particles),
-                   {cells.sums, cells.counts, beliefs_, shifts_}, push);
+    for (std::size_t v = 0; v < cells.size(); ++v)
+      batch.dispatch(rows_kernel_, spread(cells[v].particles),
+                     {cells[v].sums, cells[v].counts, beliefs_, views_[v].shifts},
+                     push_of(cells[v]));
     batch.barrier();
   }
-  batch.dispatch(columns_kernel_, spread(groups_for(cells.combinations, INFORMATION_GROUP)),
-                 {cells.sums, cells.counts, beliefs_, shifts_, shares_}, push);
-  host_shares_.resize(cells.combinations);
-  batch.download<float>(shares_, host_shares_);
+  for (std::size_t v = 0; v < cells.size(); ++v)
+    batch.dispatch(columns_kernel_, spread(groups_for(cells[v].combinations, INFORMATION_GROUP)),
+                   {cells[v].sums, cells[v].counts, beliefs_, views_[v].shifts, views_[v].shares},
+                   push_of(cells[v]));
+  for (OfView& view : views_) batch.download<float>(view.shares, view.host_shares);
 }
 
-double MutualInformation::information() const {
-  return std::exp(log_scale_) * std::accumulate(host_shares_.begin(), host_shares_.end(), 0.0);
+std::vector<double> MutualInformation::information() const {
+  std::vector<double> nats;
+  for (const OfView& view : views_)
+    nats.push_back(std::exp(log_scale_) *
+                   std::accumulate(view.host_shares.begin(), view.host_shares.end(), 0.0));
+  return nats;
 }
 
 }  // namespace edgescout::gpu

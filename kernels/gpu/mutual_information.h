@@ -1,5 +1,5 @@
-// Records mutual_information (kernels/mutual_information.h, information_push.h) on the cells of one
-// view.
+// Records mutual_information (kernels/mutual_information.h, information_push.h) on the cells of
+// several views.
 #pragma once
 
 #include <span>
@@ -14,19 +14,23 @@ namespace edgescout::gpu {
 class MutualInformation {
  public:
   explicit MutualInformation(const Device& device);
-  // Throws LogicError where check_information() does.
-  void record(Batch& batch, const DeviceCells& cells, double cap_px,
+  // One list of cells a view. Throws LogicError where check_information() does.
+  void record(Batch& batch, std::span<const DeviceCells> cells, double cap_px,
               std::span<const ParticleBelief> beliefs, const InformationOptions& options);
-  // After the batch has run, nats.
-  double information() const;
+  // One value a view, nats, after the batch has run.
+  std::vector<double> information() const;
 
  private:
+  struct OfView {
+    Buffer<float> shifts, shares;
+    std::vector<float> host_shares;
+  };
+
   const Device& device_;
   Kernel rows_kernel_, columns_kernel_;
   Buffer<InformationBelief> beliefs_;
-  Buffer<float> shifts_, shares_;
+  std::vector<OfView> views_;
   double log_scale_ = 0;  // of the shares
-  std::vector<float> host_shares_;
 };
 
 }  // namespace edgescout::gpu

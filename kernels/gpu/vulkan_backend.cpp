@@ -344,15 +344,11 @@ class VulkanBackend : public Backend {
 
   ChamferHandle combination_chamfer(const ChamferView& view, const CombinationBits& combinations,
                                     const ChamferOptions& options) override {
-    check_chamfer(view, combinations, options);
     auto chamfer = std::make_shared<VulkanChamfer>(device_, view.particles(), combinations.count);
     chamfer->options = options;
-    const auto start = std::chrono::steady_clock::now();
-    const ChamferPlan plan = plan_chamfer(view, options, pool_);
-    add_time("chamfer_plan",
-             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    const std::vector<ChamferPlan> plan = plans_of({&view, 1}, combinations, options);
     Batch batch(*device_, "combination_chamfer");
-    chamfer_.record(batch, plan, combinations, chamfer->values);
+    chamfer_.record(batch, plan, combinations, {&chamfer->values, 1});
     run(batch);
     return chamfer;
   }
@@ -362,12 +358,68 @@ class VulkanBackend : public Backend {
     const auto* mine = dynamic_cast<const VulkanChamfer*>(&chamfer);
     check(mine != nullptr && &mine->device() == device_.get(), "cells made by another backend");
     Batch batch(*device_, "mutual_information");
-    information_.record(batch, mine->values, chamfer.options.cap_px, beliefs, options);
+    information_.record(batch, {&mine->values, 1}, chamfer.options.cap_px, beliefs, options);
+    run(batch);
+    return information_.information()[0];
+  }
+
+  std::vector<double> view_information(std::span<const ChamferView> views,
+                                       const CombinationBits& combinations,
+                                       const ChamferOptions& chamfer,
+                                       std::span<const ParticleBelief> beliefs,
+                                       const InformationOptions& information) override {
+    std::vector<double> nats;
+    for (std::size_t first = 0, count = 0; first < views.size(); first += count) {
+      count = views_at_once(views.subspan(first), combinations);
+      const std::vector<double> found = information_of_some(
+          views.subspan(first, count), combinations, chamfer, beliefs, information);
+      nats.insert(nats.end(), found.begin(), found.end());
+    }
+    return nats;
+  }
+
+ private:
+  std::vector<ChamferPlan> plans_of(std::span<const ChamferView> views,
+                                    const CombinationBits& combinations,
+                                    const ChamferOptions& options) {
+    for (const ChamferView& view : views) check_chamfer(view, combinations, options);
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<ChamferPlan> plans(views.size());
+    pool_.for_each(views.size(),
+                   [&](std::size_t v) { plans[v] = plan_chamfer(views[v], options, pool_); });
+    add_time("chamfer_plan",
+             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    return plans;
+  }
+
+  // So many that their cells do not fill the device's memory; at least one.
+  static std::size_t views_at_once(std::span<const ChamferView> views,
+                                   const CombinationBits& combinations) {
+    constexpr std::size_t most_cells = std::size_t{32} << 20;
+    std::size_t cells = 0, count = 0;
+    for (; count < views.size(); ++count) {
+      cells += views[count].particles() * combinations.count;
+      if (cells > most_cells) break;
+    }
+    return std::max<std::size_t>(count, 1);
+  }
+
+  std::vector<double> information_of_some(std::span<const ChamferView> views,
+                                          const CombinationBits& combinations,
+                                          const ChamferOptions& chamfer,
+                                          std::span<const ParticleBelief> beliefs,
+                                          const InformationOptions& information) {
+    const std::vector<ChamferPlan> plans = plans_of(views, combinations, chamfer);
+    std::vector<DeviceCells> cells;
+    for (const ChamferView& view : views)
+      cells.emplace_back(*device_, view.particles(), combinations.count);
+    Batch batch(*device_, "view_information");
+    chamfer_.record(batch, plans, combinations, cells);
+    information_.record(batch, cells, chamfer.cap_px, beliefs, information);
     run(batch);
     return information_.information();
   }
 
- private:
   const VulkanView& own(const BackendView& view) const {
     const auto* mine = dynamic_cast<const VulkanView*>(&view);
     check(mine != nullptr && &mine->device() == device_.get(), "a view made by another backend");

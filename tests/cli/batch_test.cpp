@@ -90,6 +90,13 @@ class FailingBackend : public Backend {
                             const InformationOptions& options) override {
     return cpu_->mutual_information(chamfer, beliefs, options);
   }
+  std::vector<double> view_information(std::span<const ChamferView> views,
+                                       const CombinationBits& combinations,
+                                       const ChamferOptions& chamfer,
+                                       std::span<const ParticleBelief> beliefs,
+                                       const InformationOptions& information) override {
+    return cpu_->view_information(views, combinations, chamfer, beliefs, information);
+  }
   ThreadPool& threads() override { return cpu_->threads(); }
 
  private:

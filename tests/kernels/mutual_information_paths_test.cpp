@@ -88,6 +88,31 @@ TEST_P(MutualInformationPaths, IsZeroWhereAllParticlesAreTheSame) {
               tested->is_gpu() ? 1e-6 : 1e-12);
 }
 
+// In one call as one by one, also where several tiles and several groups of them are needed.
+TEST_P(MutualInformationPaths, OfSeveralViewsIsThatOfEach) {
+  std::mt19937 rng = test::test_rng();
+  std::vector<test::ChamferScene> scenes;
+  for (int view = 0; view < 7; ++view)
+    scenes.push_back(test::random_scene(rng, {60, 60, 20, 40, 33, 30, 257}));
+  std::vector<ChamferView> views;
+  for (const test::ChamferScene& scene : scenes) views.push_back(scene.view());
+  const CombinationBits combinations = scenes[0].combinations();
+  const std::vector<ParticleBelief> beliefs = random_beliefs(rng, views[0].particles());
+  for (const bool use_paper_formula : {false, true}) {
+    const InformationOptions options{8, use_paper_formula};
+    const std::vector<double> found =
+        tested->view_information(views, combinations, {test_cap_px}, beliefs, options);
+    ASSERT_EQ(found.size(), views.size());
+    for (std::size_t v = 0; v < views.size(); ++v) {
+      const double alone = tested->mutual_information(
+          *tested->combination_chamfer(views[v], combinations, {test_cap_px}), beliefs, options);
+      EXPECT_NEAR(found[v], alone, 1e-12 * (1 + alone)) << "view " << v;
+    }
+    EXPECT_GT(std::ranges::max(found), std::ranges::min(found));
+  }
+  EXPECT_TRUE(tested->view_information({}, combinations, {test_cap_px}, beliefs, {}).empty());
+}
+
 TEST_P(MutualInformationPaths, CellsOfAnotherBackendAreOurBug) {
   std::mt19937 rng = test::test_rng();
   const test::ChamferScene scene = test::random_scene(rng, {40, 30, 9, 30, 2, 20, 5});
