@@ -33,7 +33,7 @@ Options parse(int argc, char** argv) {
 }
 
 void run_device(const std::string& word, const std::string& driver, const Options& options) {
-  const std::unique_ptr<Backend> backend = make_backend(word);
+  const std::unique_ptr<Backend> backend = make_backend(word, {.time_kernels = true});
   Report report{backend->name(), driver, EDGESCOUT_COMMIT, backend->threads().threads(), {}};
   std::vector<Size> sizes{Size::small};
   if (!options.small && word != "cpu-reference") sizes.push_back(Size::full);

@@ -22,7 +22,7 @@ void Backend::add_time(const std::string& name, double seconds) {
 #ifndef EDGESCOUT_VULKAN
 std::vector<DeviceInfo> vulkan_devices() { return {}; }
 
-std::unique_ptr<Backend> make_vulkan_backend(int index, bool) {
+std::unique_ptr<Backend> make_vulkan_backend(int index, const BackendOptions&) {
   throw InputError("options", "device", "vulkan:" + std::to_string(index),
                    "cpu or cpu-reference: edgescout was built without Vulkan");
 }
@@ -44,7 +44,8 @@ namespace {
 
 constexpr const char* vulkan_prefix = "vulkan:";
 
-std::unique_ptr<Backend> make_checked_vulkan(int index, const std::string& choice) {
+std::unique_ptr<Backend> make_checked_vulkan(int index, const std::string& choice,
+                                             const BackendOptions& options) {
 #ifdef EDGESCOUT_VULKAN
   const std::size_t count = vulkan_devices().size();
   if (index < 0 || static_cast<std::size_t>(index) >= count)
@@ -53,16 +54,16 @@ std::unique_ptr<Backend> make_checked_vulkan(int index, const std::string& choic
                                 : "vulkan:0 to vulkan:" + std::to_string(count - 1));
 #endif
   (void)choice;
-  return make_vulkan_backend(index);
+  return make_vulkan_backend(index, options);
 }
 
 // A card whose driver is too old for the kernels is passed over; the backend's name says what was
 // taken.
-std::unique_ptr<Backend> make_automatic() {
+std::unique_ptr<Backend> make_automatic(const BackendOptions& options) {
   for (const DeviceInfo& device : in_order_of_use(vulkan_devices())) {
     if (!device.hardware) break;
     try {
-      return make_vulkan_backend(device.index);
+      return make_vulkan_backend(device.index, options);
     } catch (const GpuError&) {
       continue;
     }
@@ -72,18 +73,18 @@ std::unique_ptr<Backend> make_automatic() {
 
 }  // namespace
 
-std::unique_ptr<Backend> make_backend(const std::string& choice) {
-  if (choice == "auto") return make_automatic();
+std::unique_ptr<Backend> make_backend(const std::string& choice, const BackendOptions& options) {
+  if (choice == "auto") return make_automatic(options);
   if (choice == "cpu") return make_cpu_backend();
   if (choice == "cpu-reference") return make_reference_backend();
-  if (choice == "vulkan") return make_checked_vulkan(usual_vulkan_device(), choice);
+  if (choice == "vulkan") return make_checked_vulkan(usual_vulkan_device(), choice, options);
   if (choice.starts_with(vulkan_prefix)) {
     const char *first = choice.data() + std::char_traits<char>::length(vulkan_prefix),
                *last = choice.data() + choice.size();
     int index = -1;
     const auto [end, error] = std::from_chars(first, last, index);
     if (error == std::errc() && end == last && index >= 0)
-      return make_checked_vulkan(index, choice);
+      return make_checked_vulkan(index, choice, options);
   }
   throw InputError("options", "device", choice, "auto, cpu, cpu-reference, vulkan or vulkan:INDEX");
 }

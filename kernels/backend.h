@@ -72,10 +72,12 @@ class BackendChamfer {
 };
 using ChamferHandle = std::shared_ptr<const BackendChamfer>;
 
-// Name of what a device's host spent beside the device's own stages.
+// Name of what a device's host spent beside the device's own stages. Only where the device's
+// kernels are timed.
 inline constexpr char HOST_STAGE[] = "vulkan_host";
 
-// Wall time of one kernel or batch since the last call of take_timings(), by name.
+// Wall time of one kernel or batch since the last call of take_timings(), by name. A device whose
+// kernels are not timed tells the times of its batches.
 struct StageTime {
   std::string name;
   double seconds = 0;
@@ -88,6 +90,8 @@ class Backend {
   virtual std::string name()
       const = 0;  // "cpu", "cpu-reference", "vulkan:0 llvmpipe (LLVM 15.0.6, 256 bits)"
   virtual bool is_gpu() const = 0;
+  // Whether it computes beside the processor: neither a CPU path nor a software device.
+  virtual bool is_hardware() const { return false; }
 
   virtual std::vector<EdgePoint> detect_edges(const ImageView& image,
                                               const EdgeOptions& options) = 0;
@@ -174,11 +178,17 @@ struct DeviceInfo {
 // Empty where there is no Vulkan loader, no device, or the project was built without Vulkan.
 std::vector<DeviceInfo> vulkan_devices();
 
+struct BackendOptions {
+  // Takes the time of every kernel on a device's clock. The device then works on one kernel after
+  // the other, also where two could run side by side. A CPU path always takes times.
+  bool time_kernels = false;
+};
+
 std::unique_ptr<Backend> make_cpu_backend(int threads = 0);
 std::unique_ptr<Backend> make_reference_backend();
 // Throws GpuError where the device is missing or lacks a feature the kernels need, InputError where
 // the project was built without Vulkan.
-std::unique_ptr<Backend> make_vulkan_backend(int device_index, bool validation = false);
+std::unique_ptr<Backend> make_vulkan_backend(int device_index, const BackendOptions& options = {});
 
 // In the order in which they are tried: discrete cards, other hardware, software devices; of a kind
 // in the order they came.
@@ -189,6 +199,7 @@ int usual_vulkan_device();
 // "auto", "cpu", "cpu-reference", "vulkan" (the usual device) or "vulkan:INDEX"; auto takes the
 // first hardware Vulkan device in the order of use that can be opened, else the fast CPU path.
 // Throws InputError on another word and where the device asked for does not exist.
-std::unique_ptr<Backend> make_backend(const std::string& choice);
+std::unique_ptr<Backend> make_backend(const std::string& choice,
+                                      const BackendOptions& options = {});
 
 }  // namespace edgescout

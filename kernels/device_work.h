@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 namespace edgescout {
 
@@ -14,7 +15,14 @@ struct DeviceWork {
   std::uint64_t bytes_down = 0;    // from the device to the host
   std::uint64_t bytes_filled = 0;  // set to one value on the device
   std::uint64_t allocations = 0;   // of device memory, staging included
-  double kernel_seconds = 0;       // on the device's clock; 0 where it has none
+  std::uint64_t timed = 0;         // dispatches whose time was taken
+  double timed_seconds = 0;        // of these, on the device's clock
+
+  // Of all dispatches; nothing where the time of one was not taken: a backend takes times only
+  // where BackendOptions::time_kernels asks for them and its device has a clock.
+  std::optional<double> kernel_seconds() const {
+    return timed == dispatches ? std::optional(timed_seconds) : std::nullopt;
+  }
 };
 
 inline DeviceWork& operator+=(DeviceWork& sum, const DeviceWork& more) {
@@ -24,7 +32,8 @@ inline DeviceWork& operator+=(DeviceWork& sum, const DeviceWork& more) {
   sum.bytes_down += more.bytes_down;
   sum.bytes_filled += more.bytes_filled;
   sum.allocations += more.allocations;
-  sum.kernel_seconds += more.kernel_seconds;
+  sum.timed += more.timed;
+  sum.timed_seconds += more.timed_seconds;
   return sum;
 }
 
@@ -36,7 +45,8 @@ inline DeviceWork operator-(const DeviceWork& now, const DeviceWork& before) {
           now.bytes_down - before.bytes_down,
           now.bytes_filled - before.bytes_filled,
           now.allocations - before.allocations,
-          now.kernel_seconds - before.kernel_seconds};
+          now.timed - before.timed,
+          now.timed_seconds - before.timed_seconds};
 }
 
 }  // namespace edgescout

@@ -1,5 +1,7 @@
 #include "host/cli/common_arguments.h"
 
+#include <spdlog/spdlog.h>
+
 #include "host/cli/option_table.h"
 
 namespace edgescout {
@@ -24,6 +26,10 @@ void add_device(CLI::App& verb, std::string& device) {
   verb.add_option("--device", device,
                   "Device to compute on: auto, cpu, cpu-reference, vulkan or vulkan:INDEX")
       ->capture_default_str();
+}
+
+std::unique_ptr<Backend> backend_of(const std::string& device) {
+  return make_backend(device, {.time_kernels = spdlog::should_log(spdlog::level::debug)});
 }
 
 void add_scale_camera(CLI::App& verb, bool& scale_camera) {

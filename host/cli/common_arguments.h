@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ void add_camera_file(CLI::App& verb, std::string& file);            // --camera
 void add_results_folder(CLI::App& verb, std::string& out);          // --out, required
 void add_device(CLI::App& verb, std::string& device);               // --device; shows its default
 void add_scale_camera(CLI::App& verb, bool& scale_camera);          // --scale-camera
+
+// The backend of --device. Its kernels are timed where the log shows their times.
+std::unique_ptr<Backend> backend_of(const std::string& device);
 
 // Templates, edges, tensor and detection of single images.
 void add_detection_options(CLI::App& verb, TemplateOptions& templates, PipelineOptions& pipeline);

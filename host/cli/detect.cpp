@@ -51,7 +51,7 @@ int detect(DetectRequest& request) {
   request.batch.overlays = !request.no_overlays;
   request.batch.pipeline.validate();
   request.templates.validate();
-  const std::unique_ptr<Backend> backend = make_backend(request.device);
+  const std::unique_ptr<Backend> backend = backend_of(request.device);
   const std::vector<InputImage> images = list_images(request.inputs);
   const std::vector<TemplateSet> sets = template_sets(request, images, *backend);
   log(LogLevel::Info,

@@ -72,7 +72,7 @@ int register_all(RegisterRequest& request) {
   options.overlays = !request.no_overlays;
   options.pipeline.validate();
   options.refine.validate();
-  const std::unique_ptr<Backend> backend = make_backend(request.device);
+  const std::unique_ptr<Backend> backend = backend_of(request.device);
   if (!options.camera_file.empty()) options.camera = load_camera(options.camera_file);
   const std::vector<RegisterModel> models = load_models(request);
   for (const RegisterModel& model : models) warn_of_mesh(model.edges);

@@ -182,7 +182,7 @@ void print_summary(const ScoutState& state, const std::string& out) {
 
 int scout(ScoutRequest& request, const CLI::App& verb) {
   resolve_options(request, verb);
-  const std::unique_ptr<Backend> backend = make_backend(request.device);
+  const std::unique_ptr<Backend> backend = backend_of(request.device);
   const KnownModels known = load_models(request.models);
   const ScoutSource source = source_of(request, known, *backend);
   const fs::path file = fs::path(request.out) / "scout.state";

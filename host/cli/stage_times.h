@@ -11,13 +11,19 @@
 
 namespace edgescout {
 
+inline std::string host_time_text(const StageSeconds& stage) {
+  const std::optional<double> seconds = stage.host_seconds();
+  return seconds ? fmt::format("{:.1f} ms beside the kernels", 1000 * *seconds)
+                 : "kernels not measured";
+}
+
 inline std::string device_work_text(const StageSeconds& stage) {
   const DeviceWork& work = stage.device;
   if (work.submits == 0) return "";
   return fmt::format(
-      " ({:.1f} ms beside the kernels, {} submits, {} dispatches, {:.2f} MB up, {:.2f} down, "
+      " ({}, {} submits, {} dispatches, {:.2f} MB up, {:.2f} down, "
       "{:.2f} filled, {} allocations)",
-      1000 * stage.host_seconds(), work.submits, work.dispatches,
+      host_time_text(stage), work.submits, work.dispatches,
       1e-6 * static_cast<double>(work.bytes_up), 1e-6 * static_cast<double>(work.bytes_down),
       1e-6 * static_cast<double>(work.bytes_filled), work.allocations);
 }

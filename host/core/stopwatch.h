@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,11 @@ struct StageSeconds {
   std::string name;
   double seconds = 0;
   DeviceWork device{};  // all 0 on the CPU
-  double host_seconds() const { return seconds - device.kernel_seconds; }
+  // Beside the device's kernels; nothing where these were not timed.
+  std::optional<double> host_seconds() const {
+    const std::optional<double> in_kernels = device.kernel_seconds();
+    return in_kernels ? std::optional(seconds - *in_kernels) : std::nullopt;
+  }
 };
 
 inline double seconds_since(std::chrono::steady_clock::time_point start) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
 
 #include "host/detect/coarse_scan.h"
 #include "host/experiments/decision.h"
@@ -105,7 +106,8 @@ class Stages {
     StageSamples& measured = samples_[next_++];
     measured.device = backend_.device_work() - before;
     measured.ms.push_back(ms);
-    measured.host_ms.push_back(ms - 1000 * measured.device.kernel_seconds);
+    if (const std::optional<double> in_kernels = measured.device.kernel_seconds())
+      measured.host_ms.push_back(ms - 1000 * *in_kernels);
     return result;
   }
 
@@ -158,7 +160,7 @@ std::vector<Runner> make_runners(const DevicesOptions& options) {
   std::vector<Runner> runners;
   for (const std::string& choice : choices) {
     Runner& runner = runners.emplace_back();
-    runner.backend = make_backend(choice);
+    runner.backend = make_backend(choice, {.time_kernels = true});
     runner.times.choice = choice;
     runner.times.name = runner.backend->name();
     for (const DeviceInfo& device : known) {

@@ -28,8 +28,9 @@ struct DevicesOptions {
 struct StageSamples {
   std::string stage;
   std::vector<double> ms;
-  std::vector<double> host_ms = {};  // of them, what the device's kernels did not take
-  DeviceWork device = {};            // of the last repetition
+  // Of them, what the device's kernels did not take. Empty where these were not timed.
+  std::vector<double> host_ms = {};
+  DeviceWork device = {};  // of the last repetition
   double median_ms() const;
 };
 

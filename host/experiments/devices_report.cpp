@@ -40,11 +40,20 @@ constexpr double MB = 1e6;
 
 double megabytes(std::uint64_t bytes) { return static_cast<double>(bytes) / MB; }
 
+nlohmann::ordered_json host_ms_json(const StageSamples& stage) {
+  if (stage.host_ms.empty()) return nullptr;
+  return median(stage.host_ms);
+}
+
+std::string host_ms_text(const StageSamples& stage) {
+  return stage.host_ms.empty() ? "not measured" : fmt::format("{:.1f}", median(stage.host_ms));
+}
+
 nlohmann::ordered_json work_json(const StageSamples& stage) {
   const DeviceWork& work = stage.device;
-  return {{"host_ms", median(stage.host_ms)}, {"submits", work.submits},
-          {"dispatches", work.dispatches},    {"bytes_up", work.bytes_up},
-          {"bytes_down", work.bytes_down},    {"bytes_filled", work.bytes_filled},
+  return {{"host_ms", host_ms_json(stage)}, {"submits", work.submits},
+          {"dispatches", work.dispatches},  {"bytes_up", work.bytes_up},
+          {"bytes_down", work.bytes_down},  {"bytes_filled", work.bytes_filled},
           {"allocations", work.allocations}};
 }
 
@@ -123,8 +132,8 @@ std::string work_table(const DeviceTimes& device) {
       "allocations |\n|---|---|---|---|---|---|---|---|\n",
       device.name);
   for (const StageSamples& stage : device.stages)
-    text += fmt::format("| {} | {:.1f} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {} |\n", stage.stage,
-                        median(stage.host_ms), stage.device.submits, stage.device.dispatches,
+    text += fmt::format("| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.2f} | {} |\n", stage.stage,
+                        host_ms_text(stage), stage.device.submits, stage.device.dispatches,
                         megabytes(stage.device.bytes_up), megabytes(stage.device.bytes_down),
                         megabytes(stage.device.bytes_filled), stage.device.allocations);
   return text;

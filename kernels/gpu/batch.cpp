@@ -165,7 +165,7 @@ void Batch::dispatch_bytes(const Kernel& kernel, Groups groups, std::span<const 
 
 // Before (0) or after (1) the dispatch that comes next.
 void Batch::write_timestamp(std::uint32_t which) {
-  if (device_.seconds_per_tick() == 0) return;
+  if (!device_.times_kernels()) return;
   const std::size_t pool = dispatched_.size() / TIMED_PER_POOL;
   const auto number = static_cast<std::uint32_t>(dispatched_.size() % TIMED_PER_POOL);
   if (pool == set_.queries.size()) set_.queries.push_back(create_queries(device_));
@@ -177,7 +177,7 @@ void Batch::write_timestamp(std::uint32_t which) {
 
 std::vector<StageTime> Batch::read_times() const {
   std::vector<StageTime> times;
-  if (device_.seconds_per_tick() == 0) return times;
+  if (!device_.times_kernels()) return times;
   for (std::size_t p = 0; p * TIMED_PER_POOL < dispatched_.size(); ++p) {
     const std::span<const std::string> names =
         std::span(dispatched_)

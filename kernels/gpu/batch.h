@@ -90,8 +90,9 @@ class Batch {
     download_bytes(from, std::as_writable_bytes(to));
   }
 
+  const std::string& name() const { return name_; }
   // Once. Throws GpuError naming the batch, its kernels and their sizes. Returns the time each
-  // kernel took on the device, summed by name; empty where the device cannot tell.
+  // kernel took on the device, summed by name; empty where kernels are not timed.
   std::vector<StageTime> run();
 
  private:

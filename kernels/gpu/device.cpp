@@ -19,6 +19,26 @@ VkPhysicalDevice pick(const Instance& instance, int index) {
   return devices[index];
 }
 
+struct Properties {
+  VkPhysicalDeviceLimits limits;
+  std::uint32_t api_version, subgroup_size;
+  VkDeviceSize max_allocation_bytes;
+};
+
+Properties properties_of(VkPhysicalDevice device) {
+  VkPhysicalDeviceMaintenance3Properties maintenance{};
+  maintenance.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
+  VkPhysicalDeviceSubgroupProperties subgroup{};
+  subgroup.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+  subgroup.pNext = &maintenance;
+  VkPhysicalDeviceProperties2 properties{};
+  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  properties.pNext = &subgroup;
+  vkGetPhysicalDeviceProperties2(device, &properties);
+  return {properties.properties.limits, properties.properties.apiVersion, subgroup.subgroupSize,
+          maintenance.maxMemoryAllocationSize};
+}
+
 // A family that can compute; one that cannot draw leaves the desktop alone.
 std::uint32_t compute_family(VkPhysicalDevice device, const std::string& name,
                              std::uint32_t& timestamp_bits) {
@@ -86,26 +106,27 @@ void hide_cached(VkPhysicalDeviceMemoryProperties& memory) {
 Device::Device(const DeviceOptions& options)
     : physical_(pick(shared_instance(options.validation), options.index)),
       info_(describe(physical_, options.index)) {
-  VkPhysicalDeviceMaintenance3Properties maintenance{};
-  maintenance.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES;
-  VkPhysicalDeviceProperties2 properties{};
-  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
-  properties.pNext = &maintenance;
-  vkGetPhysicalDeviceProperties2(physical_, &properties);
-  if (properties.properties.apiVersion < VK_API_VERSION_1_2)
+  const Properties properties = properties_of(physical_);
+  if (properties.api_version < VK_API_VERSION_1_2)
     throw GpuError(info_.name + ": Vulkan " + info_.api_version + ", at least 1.2 is needed");
-  limits_ = properties.properties.limits;
-  max_allocation_bytes_ = maintenance.maxMemoryAllocationSize;
+  limits_ = properties.limits;
+  subgroup_size_ = properties.subgroup_size;
+  max_allocation_bytes_ = properties.max_allocation_bytes;
   max_band_bytes_ =
       options.max_band_bytes > 0 ? options.max_band_bytes : limits_.maxStorageBufferRange;
   vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
   if (options.staging) hide_cached(memory_);
+  if (options.as_hardware > 0) {
+    info_.hardware = true;
+    subgroup_size_ = options.as_hardware;
+  }
   unified_memory_ = is_unified(memory_);
 
   std::uint32_t timestamp_bits = 0;
   queue_family_ = compute_family(physical_, info_.name, timestamp_bits);
   if (timestamp_bits < 64) tick_mask_ = (std::uint64_t{1} << timestamp_bits) - 1;
-  seconds_per_tick_ = timestamp_bits > 0 ? 1e-9 * double(limits_.timestampPeriod) : 0.0;
+  if (options.time_kernels && timestamp_bits > 0)
+    seconds_per_tick_ = 1e-9 * double(limits_.timestampPeriod);
   device_.reset(create_device(physical_, queue_family_));
   vkGetDeviceQueue(get(), queue_family_, 0, &queue_);
   cache_ = {get(), create_cache(get()), vkDestroyPipelineCache};

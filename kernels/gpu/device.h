@@ -39,12 +39,14 @@ class Device {
   void check_range(VkDeviceSize bytes, const std::string& name) const;
   // Most bytes in one binding, of what is cut to fit: tensors, maps, poses.
   VkDeviceSize max_band_bytes() const { return max_band_bytes_; }
-  // 0: this queue cannot write timestamps.
-  double seconds_per_tick() const { return seconds_per_tick_; }
+  // Whether kernels are timed: asked for, and the queue can write timestamps.
+  bool times_kernels() const { return seconds_per_tick_ > 0; }
   // Between two timestamps, which may have fewer than 64 bits and wrap.
   double seconds_between(std::uint64_t first_tick, std::uint64_t last_tick) const {
     return seconds_per_tick_ * double((last_tick - first_tick) & tick_mask_);
   }
+  // Invocations that run in step, where they fill a group.
+  std::uint32_t subgroup_size() const { return subgroup_size_; }
   // Device-local memory can be read and written by the host at full speed: no staging.
   bool unified_memory() const { return unified_memory_; }
   BufferStore& buffers() const { return *buffers_; }
@@ -71,6 +73,7 @@ class Device {
   VkPhysicalDeviceLimits limits_{};
   VkPhysicalDeviceMemoryProperties memory_{};
   VkDeviceSize max_allocation_bytes_ = 0, max_band_bytes_ = 0;
+  std::uint32_t subgroup_size_ = 0;
   double seconds_per_tick_ = 0;
   std::uint64_t tick_mask_ = ~std::uint64_t{0};
   bool unified_memory_ = false;

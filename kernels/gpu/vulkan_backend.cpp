@@ -139,6 +139,7 @@ class VulkanBackend : public Backend {
     return "vulkan:" + std::to_string(device_->info().index) + " " + device_->info().name;
   }
   bool is_gpu() const override { return true; }
+  bool is_hardware() const override { return device_->info().hardware; }
   ThreadPool& threads() override { return pool_; }
   DeviceWork device_work() const override { return device_->work(); }
 
@@ -455,17 +456,23 @@ class VulkanBackend : public Backend {
   }
 
   // Kernels by their names on the device's clock; what the call took beyond them (copies, waiting,
-  // the driver's compiler) as "vulkan_host".
+  // the driver's compiler) as "vulkan_host". The whole call by the batch's name where kernels are
+  // not timed.
   void run(Batch& batch) {
     const auto start = std::chrono::steady_clock::now();
-    double rest = 0;
+    double in_kernels = 0;
     for (const StageTime& time : batch.run()) {
       add_time(time.name, time.seconds);
-      rest -= time.seconds;
-      device_->work().kernel_seconds += time.seconds;
+      in_kernels += time.seconds;
+      device_->work().timed += static_cast<std::uint64_t>(time.calls);
+      device_->work().timed_seconds += time.seconds;
     }
-    rest += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    add_time(HOST_STAGE, std::max(0.0, rest));
+    const double all =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (device_->times_kernels())
+      add_time(HOST_STAGE, std::max(0.0, all - in_kernels));
+    else
+      add_time(batch.name(), all);
   }
 
   std::shared_ptr<const Device> device_;
@@ -493,11 +500,11 @@ std::unique_ptr<Backend> gpu::make_backend(const DeviceOptions& options) {
   return std::make_unique<VulkanBackend>(options);
 }
 
-std::unique_ptr<Backend> make_vulkan_backend(int device_index, bool validation) {
-  DeviceOptions options;
-  options.index = device_index;
-  options.validation = validation;
-  return gpu::make_backend(options);
+std::unique_ptr<Backend> make_vulkan_backend(int device_index, const BackendOptions& options) {
+  DeviceOptions device;
+  device.index = device_index;
+  device.time_kernels = options.time_kernels;
+  return gpu::make_backend(device);
 }
 
 }  // namespace edgescout

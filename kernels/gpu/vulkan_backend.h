@@ -1,5 +1,4 @@
-// The Vulkan backend with every option of its device; make_vulkan_backend(index, validation) is the
-// usual way in.
+// The Vulkan backend with every option of its device; make_vulkan_backend() is the usual way in.
 #pragma once
 
 #include <memory>

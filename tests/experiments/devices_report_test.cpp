@@ -30,7 +30,7 @@ DevicesReport report() {
   card.driver = "driver 1";
   card.stages = {{"edges", {1, 1.5, 2}}, {"image to poses", {100, 50, 40}}};
   card.stages[1].host_ms = {30, 70, 20};
-  card.stages[1].device = {12, 34, 2500000, 1250000, 750000, 3, 0.02};
+  card.stages[1].device = {12, 34, 2500000, 1250000, 750000, 3, 34, 0.02};
   card.peak_device_bytes = 64u << 20;
   card.copy_bytes_per_s = 2e9;
   // 4 MB at 2 GB/s take 2 ms; of the call's 5 the kernel took 4, as three repetitions' 12 say.
@@ -87,6 +87,15 @@ TEST(DevicesReport, AsMarkdownHasARowAStageADeviceAndAKernel) {
         "Options: coarse-poses 600, lambda 30, on ",
         "97 % of the processors to be had before, 50 % at the end."})
     EXPECT_NE(text.find(row), std::string::npos) << row << " not in\n" << text;
+}
+
+TEST(DevicesReport, SaysWhereKernelsWereNotMeasured) {
+  DevicesReport untimed = report();
+  untimed.devices[1].stages[1].host_ms.clear();
+  EXPECT_TRUE(nlohmann::json::parse(devices_json(untimed))
+                  .at("devices").at(1).at("stages").at(1).at("device").at("host_ms").is_null());
+  EXPECT_NE(devices_markdown(untimed).find("| image to poses | not measured | 12 | 34 |"),
+            std::string::npos);
 }
 
 TEST(MachineLoad, IsWarnedOfWhereItSpoilsTimes) {

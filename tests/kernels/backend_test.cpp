@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "kernels/error.h"
 #include "tests/kernels/paths.h"
 
@@ -88,6 +90,27 @@ TEST_P(BackendTimings, AreTakenOnce) {
     EXPECT_GE(time.seconds, 0) << time.name;
   }
   EXPECT_TRUE(tested->take_timings().empty());
+}
+
+// Of one who asks for them; another one gets the times of whole batches.
+TEST_P(BackendTimings, AreThoseOfKernelsWhereTheyAreTimed) {
+  if (GetParam() == test::Path::cpu) GTEST_SKIP() << "a CPU path always takes times";
+#ifdef EDGESCOUT_VULKAN
+  for (const bool timed : {false, true}) {
+    gpu::DeviceOptions options = test::device_options(GetParam());
+    options.time_kernels = timed;
+    const auto backend = gpu::make_backend(options);
+    backend->make_view({}, 33, 17, {}, {}, {});
+    const std::vector<StageTime> times = backend->take_timings();
+    const auto has = [&](const char* name) {
+      return std::ranges::find(times, name, &StageTime::name) != times.end();
+    };
+    EXPECT_EQ(has("dcd_sweep"), timed);
+    EXPECT_EQ(has(HOST_STAGE), timed);
+    EXPECT_EQ(has("dcd_tensor"), !timed);
+    EXPECT_EQ(backend->device_work().kernel_seconds().has_value(), timed);
+  }
+#endif
 }
 
 TEST_P(BackendTimings, ViewsOfAnotherBackendAreOurBugs) {

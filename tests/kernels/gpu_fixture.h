@@ -14,7 +14,9 @@ class GpuTest : public ::testing::Test {
  protected:
   void SetUp() override {
     if (vulkan_devices().empty()) GTEST_SKIP() << "no Vulkan device";
-    device.emplace(device_options(Path::vulkan));
+    gpu::DeviceOptions options = device_options(Path::vulkan);
+    options.time_kernels = true;
+    device.emplace(options);
   }
   void TearDown() override {
     device.reset();

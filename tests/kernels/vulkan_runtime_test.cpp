@@ -172,7 +172,7 @@ TEST_F(VulkanRuntime, CopiesWholeAndInPartWithAndWithoutStaging) {
 
 // Both batches record in the same pools, the second time reset.
 TEST_F(VulkanRuntime, KernelsAreTimedByName) {
-  if (device->seconds_per_tick() == 0) GTEST_SKIP() << "the device has no clock";
+  if (!device->times_kernels()) GTEST_SKIP() << "the device has no clock";
   const Kernel kernel = seed_kernel();
   const Buffer<std::uint32_t> buffer(*device, 8, "words");
   for (int again = 0; again < 2; ++again) {
@@ -189,6 +189,16 @@ TEST_F(VulkanRuntime, KernelsAreTimedByName) {
     EXPECT_GT(times[0].seconds, 0);
     EXPECT_LT(times[0].seconds, 60);
   }
+}
+
+TEST_F(VulkanRuntime, KernelsAreNotTimedUnlessAsked) {
+  const gpu::Device untimed(test::device_options(test::Path::vulkan));
+  const Kernel kernel(untimed, {"dcd_seed", dcd_seed_spv, 6, sizeof(DcdSeedPush), {DCD_SEED_MARK}});
+  const Buffer<std::uint32_t> buffer(untimed, 8, "words");
+  Batch batch(untimed, "untimed");
+  batch.dispatch(kernel, {1}, {buffer, buffer, buffer, buffer, buffer, buffer}, DcdSeedPush{});
+  EXPECT_TRUE(batch.run().empty());
+  EXPECT_FALSE(untimed.work().kernel_seconds()) << "not measured is not 0";
 }
 
 // What was recorded and thrown away leaves nothing behind for the next.
