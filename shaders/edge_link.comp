@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#extension GL_KHR_memory_scope_semantics : require
 #include "edge_link.h"
 #include "edge_stages.h"
 #include "angle.glsl"
@@ -9,18 +10,24 @@ layout(constant_id = 0) const uint PASS = EDGE_LINK_MERGE;
 layout(local_size_x = EDGE_GROUP) in;
 layout(push_constant) uniform Push { EdgeLinkPush push; };
 layout(binding = 0) readonly buffer Gradient { uint gradient[]; };
-layout(binding = 1) coherent buffer Labels { uint labels[]; };
+layout(binding = 1) buffer Labels { uint labels[]; };
 layout(binding = 2) buffer Components { uint components[]; };
 layout(binding = 3) buffer Kept { uint kept[]; };
 layout(binding = 4) writeonly buffer Points { vec4 points[]; };
 #include "edge_read.glsl"
 
+// For all passes that write labels: others may shrink the label meanwhile, and a plain read beside an
+// atomic write is a race.
+uint label_of(uint i) {
+  return atomicLoad(labels[i], gl_ScopeDevice, gl_StorageSemanticsNone, gl_SemanticsRelaxed);
+}
+
 // Labels only ever shrink towards the root, so that a stale read costs a step and no correctness. Every step shortens
 // the way for the next: where all pixels of an edge link at once, it would be as long as the edge.
 uint root_of(uint i) {
-  uint label = labels[i];
+  uint label = label_of(i);
   [[dont_unroll]] while (label != i) {
-    const uint next = labels[label];
+    const uint next = label_of(label);
     if (next != label) atomicMin(labels[i], next);
     i = label;
     label = next;
@@ -50,7 +57,7 @@ void merge(ivec2 p, uint i) {
   [[unroll]] for (uint n = 0; n < 4; ++n) {
     // No candidate lies on the outermost ring: the neighbours exist.
     const uint q = uint(p.y + earlier[n].y) * push.width + uint(p.x + earlier[n].x);
-    if (labels[q] != EDGE_NO_LABEL) join(i, q);
+    if (label_of(q) != EDGE_NO_LABEL) join(i, q);
   }
 }
 
@@ -130,7 +137,7 @@ void main() {
     points[i] = edge_point(kept[1u + i]);
     return;
   }
-  if (labels[i] == EDGE_NO_LABEL) return;
+  if (label_of(i) == EDGE_NO_LABEL) return;
   const ivec2 p = ivec2(int(i % push.width), int(i / push.width));
   if (PASS == EDGE_LINK_MERGE)
     merge(p, i);
