@@ -24,6 +24,7 @@ struct CandidateMapPush {
   uint tile_count;
   uint width;  // of the image
   uint height;
+  uint most_edges;  // of a map
 };
 #ifdef __cplusplus
 }  // namespace edgescout

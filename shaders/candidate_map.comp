@@ -50,8 +50,9 @@ void main() {
   const uvec2 mine = uvec2(lane % CANDIDATE_TILE, lane / CANDIDATE_TILE);
   const uint down = CANDIDATE_GROUP / CANDIDATE_TILE;
   uint best[PIXELS];
-  for (uint k = 0u; k < PIXELS; ++k) best[k] = CANDIDATE_MAP_EMPTY;
-  [[dont_unroll]] for (uint begin = 0u; begin < edge_count; begin += CANDIDATE_EDGES_AT_ONCE) {
+  [[unroll]] for (uint k = 0u; k < PIXELS; ++k) best[k] = CANDIDATE_MAP_EMPTY;
+  // As many turns for every map: barriers must not depend on what a buffer holds.
+  [[dont_unroll]] for (uint begin = 0u; begin < push.most_edges; begin += CANDIDATE_EDGES_AT_ONCE) {
     if (lane == 0u) picked_count = 0u;
     barrier();
     pick(first_edge, begin, min(edge_count, begin + CANDIDATE_EDGES_AT_ONCE), low, high);
@@ -68,7 +69,7 @@ void main() {
     }
     barrier();
   }
-  for (uint k = 0u; k < PIXELS; ++k) {
+  [[unroll]] for (uint k = 0u; k < PIXELS; ++k) {
     const uvec2 p = corner + mine + uvec2(0u, k * down);
     if (p.x < size.x && p.y < size.y) nearest[maps[at + 4u] + p.y * size.x + p.x] = best[k];
   }

@@ -61,7 +61,9 @@ void main() {
     best_anchor = 0xffffffffu;
   }
   uint sum = 0xffffffffu, anchor = 0;
-  if (job.anchors > TEMPLATE_SCORE_GROUP / 2u) {
+  const bool shares_anchors = job.anchors <= TEMPLATE_SCORE_GROUP / 2u;
+  const uint lanes = shares_anchors ? TEMPLATE_SCORE_GROUP / job.anchors : 1u;  // of an anchor
+  if (!shares_anchors) {
     [[dont_unroll]] for (uint a = lane; a < job.anchors; a += TEMPLATE_SCORE_GROUP) {
       const uint here = sum_points(job, anchor_of(job, a), 0u, 1u);
       if (here < sum) {
@@ -71,16 +73,16 @@ void main() {
     }
   } else {
     // Lanes of one anchor share its points.
-    const uint lanes = TEMPLATE_SCORE_GROUP / job.anchors, a = lane / lanes;
+    const uint a = lane / lanes;
     partial[lane] = a < job.anchors ? sum_points(job, anchor_of(job, a), lane % lanes, lanes) : 0u;
-    barrier();
-    if (lane < job.anchors) {
-      sum = 0;
-      [[dont_unroll]] for (uint i = 0; i < lanes; ++i) sum += partial[lane * lanes + i];
-      anchor = lane;
-    }
   }
+  // For every job: barriers must not depend on what a buffer holds.
   barrier();
+  if (shares_anchors && lane < job.anchors) {
+    sum = 0;
+    [[dont_unroll]] for (uint i = 0; i < lanes; ++i) sum += partial[lane * lanes + i];
+    anchor = lane;
+  }
   atomicMin(best_sum, sum);
   barrier();
   // Equal sums: the first anchor in the order of rows.

@@ -38,12 +38,13 @@ void CandidateMaps::record(Batch& batch, std::span<const MapEdge> edges,
   std::vector<MapEdge> own_edges;
   std::vector<CandidateMap> own_maps(maps.begin(), maps.end());
   std::vector<std::uint32_t> tiles;
-  std::uint32_t pixels = 0;
+  std::uint32_t pixels = 0, most_edges = 0;
   for (std::uint32_t m = 0; m < own_maps.size(); ++m) {
     CandidateMap& map = own_maps[m];
     const auto points = edges.subspan(map.first_edge, map.edge_count);
     map.first_edge = static_cast<std::uint32_t>(own_edges.size());
     map.first_pixel = pixels;
+    most_edges = std::max(most_edges, map.edge_count);
     own_edges.insert(own_edges.end(), points.begin(), points.end());
     pixels += static_cast<std::uint32_t>(map.window.size());
     for (std::uint32_t y = 0; y < groups_for(map.window.height, CANDIDATE_TILE); ++y)
@@ -60,7 +61,7 @@ void CandidateMaps::record(Batch& batch, std::span<const MapEdge> edges,
   batch.barrier();
   const auto count = static_cast<std::uint32_t>(tiles.size() / 2);
   const CandidateMapPush push{count, static_cast<std::uint32_t>(width),
-                              static_cast<std::uint32_t>(height)};
+                              static_cast<std::uint32_t>(height), most_edges};
   batch.dispatch(kernel_, spread(count), {edges_, maps_, tiles_, nearest_}, push);
   host_nearest_.resize(pixels);
   batch.download<std::uint32_t>(nearest_, host_nearest_);

@@ -141,6 +141,7 @@ template <class Push>
 void expect_members(std::span<const std::uint32_t> spirv, const Members& expected) {
   EXPECT_EQ(Module(spirv).push_constants(), expected);
   EXPECT_EQ(sizeof(Push), 4 * expected.size());
+  EXPECT_LE(sizeof(Push), 128u) << "what every device takes";
 }
 
 TEST(PushConstants, DcdSeed) {
@@ -246,7 +247,8 @@ TEST(PushConstants, DepthRaster) {
 
 TEST(PushConstants, CandidateMap) {
   using Push = CandidateMapPush;
-  expect_members<Push>(candidate_map_spv, {MEMBER(tile_count), MEMBER(width), MEMBER(height)});
+  expect_members<Push>(candidate_map_spv,
+                       {MEMBER(tile_count), MEMBER(width), MEMBER(height), MEMBER(most_edges)});
 }
 
 TEST(PushConstants, CombinationChamfer) {
