@@ -14,36 +14,35 @@ layout(binding = 4) readonly buffer Bytes { uvec4 bytes[]; };
 layout(binding = 5) writeonly buffer Sums { uint sums[]; };
 layout(binding = 6) writeonly buffer Counts { uint counts[]; };
 
-// Of 16 combinations; those of one component of `even` and `odd` are 4k, 4k + 2 and 4k + 1, 4k + 3.
-uint distance_sum[16];
-uint hidden_sum[16];
-uint hidden_unseen_sum[16];
+// Of 16 combinations: component k of `of[c]` is that of 4k + c.
+struct Totals {
+  uvec4 of[4];
+};
 
-void flush_pairs(uvec4 even, uvec4 odd) {
-  for (uint k = 0u; k < 4u; ++k) {
-    distance_sum[4u * k] += even[k] & 0xffffu;
-    distance_sum[4u * k + 1u] += odd[k] & 0xffffu;
-    distance_sum[4u * k + 2u] += even[k] >> 16;
-    distance_sum[4u * k + 3u] += odd[k] >> 16;
-  }
+Totals no_totals() { return Totals(uvec4[4](uvec4(0u), uvec4(0u), uvec4(0u), uvec4(0u))); }
+
+// Of pairs in 16 bits: 4k and 4k + 2, 4k + 1 and 4k + 3.
+void add_pairs(inout Totals totals, uvec4 even, uvec4 odd) {
+  totals.of[0] += even & 0xffffu;
+  totals.of[1] += odd & 0xffffu;
+  totals.of[2] += even >> 16;
+  totals.of[3] += odd >> 16;
 }
 
-void flush_bytes(uvec4 all, uvec4 unseen) {
-  for (uint k = 0u; k < 16u; ++k) {
-    hidden_sum[k] += all[k / 4u] >> (8u * (k % 4u)) & 0xffu;
-    hidden_unseen_sum[k] += unseen[k / 4u] >> (8u * (k % 4u)) & 0xffu;
-  }
+void add_bytes(inout Totals totals, uvec4 four) {
+  [[unroll]] for (uint c = 0u; c < 4u; ++c) totals.of[c] += four >> (8u * c) & 0xffu;
 }
 
-void sum_distances(uint first, uint end, uint half_word) {
+Totals sum_distances(uint first, uint end, uint half_word) {
   const uint stride = push.words * CHAMFER_HALVES;
+  Totals total = no_totals();
   uvec4 even = uvec4(0u), odd = uvec4(0u);
   uint points = 0u;
   [[dont_unroll]] for (uint v = first; v < end; ++v) {
     const uvec2 visit = visits[v];
     const uint count = visit.y & 0xffffu;
     if (points + count > CHAMFER_POINTS_AT_ONCE) {
-      flush_pairs(even, odd);
+      add_pairs(total, even, odd);
       even = uvec4(0u);
       odd = uvec4(0u);
       points = 0u;
@@ -53,17 +52,21 @@ void sum_distances(uint first, uint end, uint half_word) {
     even += (row & 0x00ff00ffu) * count;
     odd += (row >> 8 & 0x00ff00ffu) * count;
   }
-  flush_pairs(even, odd);
+  add_pairs(total, even, odd);
+  return total;
 }
 
-void count_hidden(uint first, uint end, uint half_word) {
+void count_hidden(uint first, uint end, uint half_word, out Totals hidden, out Totals hidden_unseen) {
+  hidden = no_totals();
+  hidden_unseen = no_totals();
   uvec4 all = uvec4(0u), unseen = uvec4(0u);
   uint points = 0u;
   [[dont_unroll]] for (uint v = first; v < end; ++v) {
     const uvec2 visit = visits[v];
     const uint count = visit.y & 0xffffu;
     if (points + count > CHAMFER_POINTS_AT_ONCE) {
-      flush_bytes(all, unseen);
+      add_bytes(hidden, all);
+      add_bytes(hidden_unseen, unseen);
       all = uvec4(0u);
       unseen = uvec4(0u);
       points = 0u;
@@ -75,7 +78,8 @@ void count_hidden(uint first, uint end, uint half_word) {
     all += four * count;
     unseen += four * (visit.y >> 16);
   }
-  flush_bytes(all, unseen);
+  add_bytes(hidden, all);
+  add_bytes(hidden_unseen, unseen);
 }
 
 void main() {
@@ -83,19 +87,18 @@ void main() {
   const uint group = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
   const uint i = group / groups, half_word = group % groups * CHAMFER_GROUP + gl_LocalInvocationID.x;
   if (i >= push.count || half_word >= halves) return;
-  for (uint k = 0u; k < 16u; ++k) {
-    distance_sum[k] = 0u;
-    hidden_sum[k] = 0u;
-    hidden_unseen_sum[k] = 0u;
-  }
+  const uint first_j = push.first_word * 32u + half_word * 16u;
+  if (first_j >= push.combinations) return;
+  const uint cell = i * push.combinations + first_j, cells = min(16u, push.combinations - first_j);
   const uint at = i * CHAMFER_RUN_WORDS, end = particles[at + 2u];
-  sum_distances(particles[at], end, half_word);
-  count_hidden(particles[at + 1u], end, half_word);
+  // Distances are written before the rest is counted: fewer sums are held at a time.
+  const Totals distances = sum_distances(particles[at], end, half_word);
+  [[unroll]] for (uint k = 0u; k < 16u; ++k)
+    if (k < cells) sums[cell + k] = distances.of[k % 4u][k / 4u];
+  Totals hidden, hidden_unseen;
+  count_hidden(particles[at + 1u], end, half_word, hidden, hidden_unseen);
   const uint points = particles[at + 3u], unseen = particles[at + 4u];
-  for (uint k = 0u; k < 16u; ++k) {
-    const uint j = push.first_word * 32u + half_word * 16u + k;
-    if (j >= push.combinations) return;
-    sums[i * push.combinations + j] = distance_sum[k];
-    counts[i * push.combinations + j] = (unseen - hidden_unseen_sum[k]) << 16 | (points - hidden_sum[k]);
-  }
+  [[unroll]] for (uint k = 0u; k < 16u; ++k)
+    if (k < cells)
+      counts[cell + k] = (unseen - hidden_unseen.of[k % 4u][k / 4u]) << 16 | (points - hidden.of[k % 4u][k / 4u]);
 }

@@ -9,7 +9,8 @@ layout(push_constant) uniform Push { DcdSweepPush push; };
 layout(binding = 0) buffer Tensor { uvec2 tensor[]; };
 layout(binding = 1) readonly buffer Weights { uint weights[]; };
 
-// Newest first. As long as any radius asks for: a length that is specialized is not understood by every driver.
+// Newest first. As long as any radius asks for: a length that is specialized is not understood by every driver. Loops over
+// it count up from 0: some drivers do not unroll others, and leave the window in memory.
 uvec4 window[2 * DCD_SWEEP_MAX_RADIUS + 1];
 uint base;
 
@@ -29,7 +30,7 @@ void forward() {
 }
 
 void push_value(uvec4 value) {
-  [[unroll]] for (uint i = 2 * RADIUS; i > 0; --i) window[i] = window[i - 1];
+  [[unroll]] for (uint i = 0; i < 2 * RADIUS; ++i) window[2 * RADIUS - i] = window[2 * RADIUS - 1 - i];
   window[0] = value;
 }
 
@@ -45,7 +46,7 @@ void write_smoothed(uint bin) {
 void backward() {
   uvec4 carry = uvec4(push.cap);
   [[dont_unroll]] for (uint s = push.reach; s > 0; --s) carry = advance(carry, (RADIUS + s - 1) % push.bins);
-  [[unroll]] for (uint i = RADIUS; i > 0; --i) push_value(carry = advance(carry, i - 1));
+  [[unroll]] for (uint i = 0; i < RADIUS; ++i) push_value(carry = advance(carry, RADIUS - 1 - i));
   uvec4 highest[DCD_SWEEP_MAX_RADIUS];
   [[unroll]] for (uint i = 0; i < RADIUS; ++i) push_value(highest[i] = carry = advance(carry, push.bins - 1 - i));
   [[dont_unroll]] for (uint k = push.bins - RADIUS; k > 0; --k) {

@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "template_score.h"
 #include "template_scan.h"
 #include "tensor_read.glsl"
@@ -30,8 +31,8 @@ void main() {
   const uint bin = i / grid.rows;
   const int x = int(4u * word * grid.anchor_step + remainder) - int(grid.left);
   uint values[7];
-  for (uint k = 0u; k < 7u; ++k) values[k] = value_at(x + int(k * grid.anchor_step), y, bin);
-  for (uint copy = 0u; copy < 4u; ++copy)
+  [[unroll]] for (uint k = 0u; k < 7u; ++k) values[k] = value_at(x + int(k * grid.anchor_step), y, bin);
+  [[unroll]] for (uint copy = 0u; copy < 4u; ++copy)
     planes[copy * push.word_count + at] = values[copy] | values[copy + 1u] << 8 |
                                           values[copy + 2u] << 16 | values[copy + 3u] << 24;
 }

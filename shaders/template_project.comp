@@ -25,7 +25,7 @@ struct Job {
 Job read_job(uint j) {
   const uint at = j * TEMPLATE_PROJECT_JOB_WORDS;
   float m[12];
-  for (uint i = 0; i < 12u; ++i) m[i] = uintBitsToFloat(jobs[at + i]);
+  [[unroll]] for (uint i = 0; i < 12u; ++i) m[i] = uintBitsToFloat(jobs[at + i]);
   return Job(mat3(m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]), vec3(m[3], m[7], m[11]),
              jobs[at + 12], jobs[at + 13], jobs[at + 14],
              vec2(uintBitsToFloat(jobs[at + 15]), uintBitsToFloat(jobs[at + 16])));
