@@ -69,12 +69,13 @@ Triangle set_up(uint job, uint triangle) {
   const vec2 pa = focal * a.xy / a.z + centre, pb = focal * b.xy / b.z + centre, pc = focal * c.xy / c.z + centre;
   // The planes decide; the box must not be smaller by the rounding of a division.
   const float margin_px = 1.0 / 64.0;
-  t.low = ivec2(ceil(clamp(min(pa, min(pb, pc)) - margin_px, vec2(0.0), last + 1.0)));
-  ivec2 high = ivec2(floor(clamp(max(pa, max(pb, pc)) + margin_px, vec2(-1.0), last)));
-  const int first_row = int(gl_WorkGroupID.z * push.band_rows);
-  t.low.y = max(t.low.y, first_row);
-  high.y = min(high.y, first_row + int(push.band_rows) - 1);
-  t.size = max(high - t.low + 1, ivec2(0));
+  const ivec2 low = ivec2(ceil(clamp(min(pa, min(pb, pc)) - margin_px, vec2(0.0), last + 1.0)));
+  const ivec2 high = ivec2(floor(clamp(max(pa, max(pb, pc)) + margin_px, vec2(-1.0), last)));
+  // In integers: what comes of a coordinate that is no number must not lie outside the map.
+  const uint first_row = gl_WorkGroupID.z * push.band_rows;
+  const uvec2 end = uvec2(push.width, min(first_row + push.band_rows, push.height));
+  t.low = max(low, ivec2(0, first_row));
+  t.size = max(min(high + 1, ivec2(end)) - t.low, ivec2(0));
   return t;
 }
 

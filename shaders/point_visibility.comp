@@ -30,7 +30,9 @@ bvec2 flags_of(uint job, vec3 p) {
              centre = vec2(number_at(at + 2u), number_at(at + 3u));
   const vec2 pixel = focal * p.xy / p.z + centre + 0.5;
   const float last = float(push.size) - 1.0;
-  if (!(pixel.x >= 1.0 && pixel.y >= 1.0 && pixel.x < last && pixel.y < last)) return bvec2(true);
+  if (!finite(pixel.x) || !finite(pixel.y) ||
+      !(pixel.x >= 1.0 && pixel.y >= 1.0 && pixel.x < last && pixel.y < last))
+    return bvec2(true);
   const float nearest_m = p.z - number_at(at + 4u);
   const uint middle = (job * push.size + uint(pixel.y)) * push.size + uint(pixel.x);
   bool is_visible = false, is_border = false;
@@ -55,7 +57,7 @@ void main() {
   barrier();
   if (i < count) {
     const vec3 p = in_camera(job_at, i < push.shared_points ? i : first + i - push.shared_points);
-    if (p.z > 0.0) {
+    if (!is_nan(p.z) && p.z > 0.0) {
       const bvec2 found = flags_of(job, p);
       if (found.x) atomicOr(bits[lane / 32u], 1u << (lane % 32u));
       if (found.y) atomicOr(bits[2u + lane / 32u], 1u << (lane % 32u));

@@ -41,6 +41,20 @@ std::vector<std::uint8_t> flags_by(Backend& backend, const Sight& sight) {
 
 class PointVisibilityPaths : public test::PathTest {};
 
+// A shader must not look beyond its map for them.
+TEST_P(PointVisibilityPaths, PosesThatAreNoNumbers) {
+  Sight sight = square();
+  sight.points_m = {0, 0, 0.9f, 0, 0, 1.1f};
+  sight.shared = 2;
+  Pose no_depth = camera_frame, no_column = camera_frame, far_away = camera_frame;
+  no_depth.m[10] = no_column.m[3] = NAN;
+  far_away.m[7] = 1e38f;
+  for (const Pose& pose : {no_depth, no_column, far_away})
+    sight.jobs.push_back({pose, map_of_square, 0.01f, 0, 0});
+  const std::uint8_t both = is_seen | at_background;
+  EXPECT_EQ(flags_by(*tested, sight), (std::vector<std::uint8_t>{0, 0, both, both, both, both}));
+}
+
 TEST_P(PointVisibilityPaths, BeforeBehindAndBesideASquare) {
   Sight sight = square();
   sight.points_m = {0,     0, 0.9f,    // before it
