@@ -7,6 +7,11 @@
 //   D(x) = min(cap, round(256 * sqrt(min_s |x - s|^2))), the rounding made exact in integers.
 // Cost: seeds times the area within the cap of each, whatever their arrangement.
 //
+// Specialization constant 1: rows of invocations in a workgroup, DISTANCE_LEAST_LANE_ROWS or a
+// multiple of it, each with an equal share of the tile's rows. With 2 a workgroup has 32
+// invocations; 4 fill the 64 that some devices run in step. With fewer, an invocation does more
+// pixels for each seed it reads.
+//
 // Specialization constant 0: seeds looked at in one turn of the loop. lavapipe ends a shader's
 // loops after 65,535 turns in all; up to DISTANCE_PLAIN_REACH neighbours a window cannot hold as
 // many seeds, beyond it (17 x 17 cells of 32 x 32 px at a cap of 255 px) DISTANCE_MANY at once are
@@ -23,7 +28,7 @@
 namespace edgescout {
 #endif
 EDGESCOUT_CONST(DISTANCE_ROWS, 32);  // of a workgroup
-EDGESCOUT_CONST(DISTANCE_ROWS_PER_INVOCATION, 16);
+EDGESCOUT_CONST(DISTANCE_LEAST_LANE_ROWS, 2);
 EDGESCOUT_CONST(DISTANCE_PLAIN_REACH, 3);
 EDGESCOUT_CONST(DISTANCE_MANY, 8);
 EDGESCOUT_CONST(DISTANCE_WORDS, 16);  // of a tile's row: two pixels each

@@ -3,14 +3,17 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "distance_pass.h"
 
-layout(local_size_x = DISTANCE_WORDS, local_size_y = DISTANCE_ROWS / DISTANCE_ROWS_PER_INVOCATION) in;
+layout(local_size_x = DISTANCE_WORDS, local_size_y_id = 1) in;
 layout(constant_id = 0) const uint SEEDS_AT_ONCE = 1;
+layout(constant_id = 1) const uint LANE_ROWS = 2;
 layout(push_constant) uniform Push { DistancePassPush push; };
 layout(binding = 0) readonly buffer Cells { uvec2 cells[]; };
 layout(binding = 1) readonly buffer Seeds { uint seeds[]; };
 layout(binding = 2) writeonly buffer Tensor { uint tensor[]; };
 
-const uint ROWS = DISTANCE_ROWS_PER_INVOCATION;
+const uint ROWS = DISTANCE_ROWS / LANE_ROWS;
+// Of arrays: a length that is specialized is not understood by every driver.
+const uint MOST_ROWS = DISTANCE_ROWS / DISTANCE_LEAST_LANE_ROWS;
 const int FAR = 1 << 28;
 
 // round(256 * sqrt(v)) for v < 2^16. The float root may be off by one unit; q is right where (q - 1/2)^2 < 2^16 v < (q + 1/2)^2,
@@ -26,7 +29,7 @@ uint root(uint v) {
 }
 
 // The pixels of this invocation: a column of the left and one of the right of each word.
-int left[ROWS], right[ROWS];
+int left[MOST_ROWS], right[MOST_ROWS];
 
 // |x - s|^2 = dx^2 + sy^2 - 2 r sy + r^2 with sy counted from row y: r^2 is the same for all seeds and is added last.
 void look_at(uint seed, int x, int y) {
@@ -69,7 +72,6 @@ void main() {
 
   const uint band_row = uint(y) - push.first_row;
   [[unroll]] for (uint r = 0; r < ROWS; ++r) {
-    if (band_row + r >= push.row_count) break;
     uint low = push.cap, high = push.cap;
     if (any) {  // most windows of a bin are empty
       const int add = int(r * r);
@@ -77,6 +79,6 @@ void main() {
       if (uint(x) + 1u < push.width) high = distance_of(right[r] + add);
     }
     const uint line = ((band_row + r) * push.tiles_per_row + tile) * push.bins + bin;
-    tensor[line * DISTANCE_WORDS + gl_LocalInvocationID.x] = low | (high << 16);
+    if (band_row + r < push.row_count) tensor[line * DISTANCE_WORDS + gl_LocalInvocationID.x] = low | (high << 16);
   }
 }

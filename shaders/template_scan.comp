@@ -17,6 +17,8 @@ layout(binding = 3) writeonly buffer Hits { uint hits[]; };
 // Lanes share a block out: eight words of four columns across, LANE_ROWS rows, each ROWS times.
 const uint LANE_ROWS = GROUP / 8u;
 const uint ROWS = TEMPLATE_SCAN_ROWS / LANE_ROWS;
+// Of arrays: a length that is specialized is not understood by every driver.
+const uint MOST_ROWS = TEMPLATE_SCAN_ROWS;
 // So many values of at most TEMPLATE_SCORE_CAP fit into a byte.
 const uint POINTS_A_BYTE = 15;
 
@@ -44,7 +46,7 @@ Template read_template(uint region, uint number) {
   const uint viewpoint = turn / push.in_plane_steps;
   const uint pose_at = push.turned_at + 12u * (region * push.turns + turn);
   float m[12];
-  for (uint i = 0u; i < 12u; ++i) m[i] = number_at(pose_at + i);
+  [[unroll]] for (uint i = 0u; i < 12u; ++i) m[i] = number_at(pose_at + i);
   const uint region_at = push.regions_at + TEMPLATE_SCAN_REGION_WORDS * region;
   const uint anchors_at =
       push.anchors_at + TEMPLATE_SCAN_ANCHORS_WORDS * (region * push.distances + at_distance);
@@ -92,10 +94,10 @@ uint source_of(ivec2 at, uint bin) {
 uint best_in_block(Template t, uvec2 block, uint lane) {
   const uint next_row = push.planes.anchor_step * push.planes.anchor_step * push.planes.stride;
   const uint word = lane & 7u, row = lane >> 3, mine = word + row * next_row;
-  uint even[ROWS], odd[ROWS];  // sums of columns 0 and 2, of 1 and 3
+  uint even[MOST_ROWS], odd[MOST_ROWS];  // sums of columns 0 and 2, of 1 and 3
   [[unroll]] for (uint r = 0u; r < ROWS; ++r) even[r] = odd[r] = 0u;
   [[dont_unroll]] for (uint first = 0u; first < t.point_count; first += POINTS_A_BYTE) {
-    uint bytes[ROWS];
+    uint bytes[MOST_ROWS];
     [[unroll]] for (uint r = 0u; r < ROWS; ++r) bytes[r] = 0u;
     const uint end = min(first + POINTS_A_BYTE, t.point_count);
     [[dont_unroll]] for (uint p = first; p < end; ++p) {

@@ -5,10 +5,24 @@
 
 namespace edgescout::gpu {
 
+namespace {
+
+Kernel make_kernel(const Device& device, std::uint32_t seeds_at_once) {
+  const bool is_wide =
+      device.info().hardware &&
+      device.subgroup_size() > DISTANCE_WORDS * std::uint32_t{DISTANCE_LEAST_LANE_ROWS};
+  const std::uint32_t lane_rows = DISTANCE_LEAST_LANE_ROWS * (is_wide ? 2 : 1);
+  return Kernel(device, {"distance_pass",
+                         distance_pass_spv,
+                         3,
+                         sizeof(DistancePassPush),
+                         {seeds_at_once, lane_rows}});
+}
+
+}  // namespace
+
 DistancePass::DistancePass(const Device& device)
-    : plain_(device, {"distance_pass", distance_pass_spv, 3, sizeof(DistancePassPush), {1}}),
-      many_(device,
-            {"distance_pass", distance_pass_spv, 3, sizeof(DistancePassPush), {DISTANCE_MANY}}) {}
+    : plain_(make_kernel(device, 1)), many_(make_kernel(device, DISTANCE_MANY)) {}
 
 void DistancePass::record(Batch& batch, const SeedLists& lists, std::uint32_t cap,
                           const DeviceTensor& tensor) const {

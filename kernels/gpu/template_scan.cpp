@@ -32,7 +32,9 @@ std::uint64_t plane_words(const TemplatePlanesGrid& grid, int bins) {
 
 // A word of four columns and a row a lane: a graphics card fills its groups of lanes, a
 // processor's vectors have eight.
-std::uint32_t lanes_of(const Device& device) { return device.info().hardware ? 32 : 8; }
+std::uint32_t lanes_of(const Device& device) {
+  return device.info().hardware ? std::clamp(device.subgroup_size(), 32u, 64u) : 8;
+}
 
 // Words that go to the device in one piece.
 class Input {

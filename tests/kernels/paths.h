@@ -2,7 +2,8 @@
 // Vulkan device as it is, with staged copies, and with tensors cut into bands. Vulkan runs under
 // the validation layer, synchronization validation included; any message of it fails the test.
 // Without a device the Vulkan paths are skipped; with EDGESCOUT_TESTS_UNVALIDATED in the
-// environment they run without the layer.
+// environment they run without the layer. With staged copies the shaders have the shape that they
+// have on hardware.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -60,6 +61,7 @@ inline gpu::DeviceOptions device_options(Path path) {
   options.index = usual_vulkan_device();
   options.validation = is_validated();
   options.staging = path == Path::vulkan_staging;
+  options.as_hardware = options.staging ? 64 : 0;
   options.max_band_bytes = path == Path::vulkan_bands ? test_band_bytes : 0;
   return options;
 }

@@ -121,19 +121,16 @@ std::vector<TemplateHit> parts_by(Backend& backend, const ScanWork& work) {
   return hits;
 }
 
-class TemplateScanPaths : public test::PathTest {
- protected:
-  void expect_agreement(const ScanWork& work) {
-    const std::vector<TemplateHit> found = scan_by(*tested, work);
-    EXPECT_EQ(found, parts_by(*tested, work));
-    const std::vector<TemplateHit> expected = scan_by(*reference, work);
-    std::size_t different = 0;
-    for (std::size_t i = 0; i < found.size(); ++i) different += !(found[i] == expected[i]);
-    EXPECT_LE(different, found.size() / 50);
-  }
-};
+void expect_agreement(Backend& tested, Backend& reference, const ScanWork& work) {
+  const std::vector<TemplateHit> found = scan_by(tested, work);
+  EXPECT_EQ(found, parts_by(tested, work));
+  const std::vector<TemplateHit> expected = scan_by(reference, work);
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) different += !(found[i] == expected[i]);
+  EXPECT_LE(different, found.size() / 50);
+}
 
-TEST_P(TemplateScanPaths, AgreesWithItsPartsAndTheReference) {
+void expect_agreement_of_sizes(Backend& tested, Backend& reference) {
   std::mt19937 rng = test::test_rng();
   for (const ScanSize& size :
        {ScanSize{5, 3, 2, 3, 60, 32, 16, 2}, ScanSize{4, 2, 3, 2, 15, 7, 3, 1},
@@ -142,11 +139,28 @@ TEST_P(TemplateScanPaths, AgreesWithItsPartsAndTheReference) {
     SCOPED_TRACE("up to " + std::to_string(size.max_points) + " points, step " +
                  std::to_string(size.anchor_step));
     ScanWork work = random_scan(rng, size);
-    expect_agreement(work);
+    expect_agreement(tested, reference, work);
     number_by_region(work, rng, 9);
-    expect_agreement(work);
+    expect_agreement(tested, reference, work);
   }
 }
+
+class TemplateScanPaths : public test::PathTest {};
+
+TEST_P(TemplateScanPaths, AgreesWithItsPartsAndTheReference) {
+  expect_agreement_of_sizes(*tested, *reference);
+}
+
+#ifdef EDGESCOUT_VULKAN
+// In groups of 32 invocations; the path with staged copies has groups of 64.
+TEST(TemplateScan, AgreesWithItsPartsAndTheReferenceInGroupsOf32) {
+  if (vulkan_devices().empty()) GTEST_SKIP() << "no Vulkan device";
+  gpu::DeviceOptions options = test::device_options(test::Path::vulkan);
+  options.as_hardware = 32;
+  expect_agreement_of_sizes(*gpu::make_backend(options), *make_reference_backend());
+  test::expect_no_validation_message();
+}
+#endif
 
 TEST_P(TemplateScanPaths, TemplatesWithoutAHit) {
   std::mt19937 rng = test::test_rng();
