@@ -197,9 +197,11 @@ struct ScannedPoints {
 // Scans all regions of one scale: all templates with few points, the best of them with all.
 class RegionScan {
  public:
+  // `hits` is memory that the scans of an image share.
   RegionScan(const SearchedScale& scale, const AdmittedSearch& admitted,
-             std::span<const Region> regions, Backend& backend, const ScanOptions& options)
-      : scale_(scale), admitted_(admitted), backend_(backend), options_(options) {
+             std::span<const Region> regions, Backend& backend, const ScanOptions& options,
+             std::vector<TemplateHit>& hits)
+      : scale_(scale), admitted_(admitted), backend_(backend), options_(options), hits_(hits) {
     for (const double distance_m : scale.numbering.distances_m)
       distances_m_.push_back(float(distance_m));
     for (const Region& region : regions) add_region(region);
@@ -263,8 +265,9 @@ class RegionScan {
         turned_,
         numbers,
         same_numbers};
-    hits_.resize(scan.hits());
-    backend_.template_scan(*level.salient, *scanned.points, scan, hits_);
+    if (hits_.size() < scan.hits()) hits_.resize(scan.hits());
+    backend_.template_scan(*level.salient, *scanned.points, scan,
+                           std::span(hits_).first(scan.hits()));
     Ranked ranked(regions_.size());
     backend_.threads().for_each(regions_.size(), [&](std::size_t region) {
       ranked[region] = best_of_region(scan, region, most);
@@ -328,12 +331,12 @@ class RegionScan {
   const AdmittedSearch& admitted_;
   Backend& backend_;
   const ScanOptions& options_;
+  std::vector<TemplateHit>& hits_;  // of the last scan and, behind them, of longer ones
   std::vector<float> distances_m_;
   std::vector<Eigen::Vector2d> middles_;  // of the regions, coarse px
   std::vector<TemplateRegion> regions_;
   std::vector<TemplateAnchors> anchors_;  // [region][distance]
   std::vector<Pose> turned_;              // [region][turn]
-  std::vector<TemplateHit> hits_;         // of the last scan
 };
 
 }  // namespace
@@ -366,6 +369,7 @@ std::vector<ScanHit> coarse_scan(const TemplateSet& set, const ObjectView& view,
   check(options.quick_points >= 1 && options.quick_kept >= 1, "coarse_scan: first pass");
   const int scales = int(distance_scales(set.options).size());
   const std::size_t of_scale = share_of_scale(std::size_t(options.num_kept), set);
+  std::vector<TemplateHit> of_templates;
   std::vector<ScanHit> hits;
   for (int scale = 0; scale < scales; ++scale) {
     const SearchedScale searched(set, scale, view);
@@ -373,7 +377,8 @@ std::vector<ScanHit> coarse_scan(const TemplateSet& set, const ObjectView& view,
     const std::size_t most = (of_scale + regions.size() - 1) / regions.size();
     const AdmittedSearch admitted(searched, view, options);
     const std::vector<ScanHit> of_scale_hits =
-        RegionScan(searched, admitted, regions, backend, options).best(most);
+        RegionScan(searched, admitted, regions, backend, options, of_templates).best(most);
+    hits.reserve(std::size_t(scales) * of_scale_hits.size());
     hits.insert(hits.end(), of_scale_hits.begin(), of_scale_hits.end());
   }
   return hits;
