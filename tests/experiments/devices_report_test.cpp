@@ -93,7 +93,13 @@ TEST(DevicesReport, SaysWhereKernelsWereNotMeasured) {
   DevicesReport untimed = report();
   untimed.devices[1].stages[1].host_ms.clear();
   EXPECT_TRUE(nlohmann::json::parse(devices_json(untimed))
-                  .at("devices").at(1).at("stages").at(1).at("device").at("host_ms").is_null());
+                  .at("devices")
+                  .at(1)
+                  .at("stages")
+                  .at(1)
+                  .at("device")
+                  .at("host_ms")
+                  .is_null());
   EXPECT_NE(devices_markdown(untimed).find("| image to poses | not measured | 12 | 34 |"),
             std::string::npos);
 }
