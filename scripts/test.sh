@@ -54,7 +54,9 @@ build_and_test() { build_preset "$1" && test_preset "$1"; }
 # most of the same code.
 long_tests='^(cli\.BenchExperiments\.(LetRandom|RunChosen|KilledAndResumed)'
 long_tests+='|cli\.Scout\.(DrawsRandomViews|DoesNotGoOnInAnotherCell|LetsModesCompete)'
+long_tests+='|cli\.Scout\.(RemovesTheResultsOfARunBefore|KeepsToABoxInTheWorld)'
 long_tests+='|active\.Scout\.FlagsAGrosslyWrong|active\.ScoutState\.ContinuesPastViews'
+long_tests+='|register\.EdgeIcp\.RegionsHoldErrorsInFaultyImages'
 long_tests+='|scripts\.trust_symmetry)'
 
 release_without_long_tests() { build_preset release && test_preset release -E "$long_tests"; }
