@@ -169,8 +169,7 @@ void save_scout_state(const ScoutState& state, const std::filesystem::path& file
 }
 
 ScoutState load_scout_state(const std::filesystem::path& file) {
-  const std::string payload = read_binary_file(file, format);
-  BinaryReader in(payload, file.string(), format.name);
+  BinaryReader in(file, format);
   ScoutState state;
   Get{in}(state);
   if (!in.at_end())

@@ -6,14 +6,15 @@
 
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <vector>
 
 #include "host/core/se3.h"
+#include "host/io/files.h"
 
 namespace edgescout {
 
@@ -54,51 +55,58 @@ class BinaryWriter {
   std::string bytes;
 };
 
-// Throws InputError naming the file where a list is longer than the rest of the file.
+// Reads the payload of a file piece by piece, each straight to its place: a large file takes no
+// memory besides what is made of it. Throws InputError naming the file where a list is longer than
+// the rest of the file.
 class BinaryReader {
  public:
-  BinaryReader(std::string_view bytes, std::string source, const char* name)
-      : bytes_(bytes), source_(std::move(source)), name_(name) {}
+  // Opens the file, reads it once to compare its checksum, and goes back to the payload. InputError
+  // naming the file: it is cut short, of another version or another kind, its checksum is wrong, or
+  // it is no file that can be read twice.
+  BinaryReader(const std::filesystem::path& file, const BinaryFormat& format);
+  // The same of an open file. `source` is its name in errors.
+  BinaryReader(std::ifstream stream, std::string source, const BinaryFormat& format);
   template <typename T>
   T get() {
     static_assert(std::is_trivially_copyable_v<T>);
     T value;
-    std::memcpy(&value, take(sizeof value), sizeof value);
+    take(&value, sizeof value);
     return value;
   }
   template <typename T>
   std::vector<T> get_list() {
     static_assert(std::is_trivially_copyable_v<T>);
     std::vector<T> list(count(sizeof(T)));
-    if (!list.empty())
-      std::memcpy(list.data(), take(list.size() * sizeof(T)), list.size() * sizeof(T));
+    take(list.data(), list.size() * sizeof(T));
     return list;
   }
   std::string get_text() {
-    const std::size_t size = count(1);
-    return {take(size), size};
+    std::string text(count(1), '\0');
+    take(text.data(), text.size());
+    return text;
   }
   Eigen::Quaterniond get_rotation();
   Se3 get_pose();
   // Reads the number of elements that follow. Each takes at least `element_bytes`.
   std::size_t count(std::size_t element_bytes);
-  bool at_end() const { return bytes_.empty(); }
+  bool at_end() const { return remaining_ == 0; }
 
  private:
-  const char* take(std::size_t size);
-  std::string_view bytes_;
-  std::string source_;
-  const char* name_;
+  void take(void* to, std::size_t size);
+  // Returns the checksum of the payload that the header states.
+  std::uint64_t read_header(const BinaryFormat& format);
+  std::uint64_t checksum_of_rest();
+
+  std::ifstream stream_;
+  std::uint64_t remaining_ = 0;  // bytes
+  std::string source_, whole_;   // of errors
 };
 
-// FNV-1a, 64 bit.
-std::uint64_t checksum(std::string_view bytes);
+// FNV-1a, 64 bit. `before` is the checksum of what precedes the bytes.
+std::uint64_t checksum(std::string_view bytes, std::uint64_t before = 14695981039346656037u);
 
 // Writes header and payload atomically.
 void write_binary_file(const std::filesystem::path& file, const BinaryFormat& format,
-                       std::string_view payload);
-// Returns the payload. InputError naming the file: it is cut short, of another version or another
-// kind, or its checksum is wrong.
-std::string read_binary_file(const std::filesystem::path& file, const BinaryFormat& format);
+                       std::string_view payload, Flush flush = Flush::Yes);
 
 }  // namespace edgescout

@@ -60,6 +60,9 @@ class TemporaryFile {
       else if (errno != EINTR)
         error_ = errno;
     }
+    return error_;
+  }
+  int flush() {
     if (!error_ && ::fsync(descriptor_) != 0) error_ = errno;
     return error_;
   }
@@ -86,35 +89,28 @@ bool is_locked(const fs::path& file) {
   return locked;
 }
 
-// Temporary files of runs that were killed. A file of the last seconds may be about to be locked.
-void remove_abandoned_files(const fs::path& folder) {
-  constexpr std::chrono::seconds young{10};
-  std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with('.') || !name.ends_with(".part") || !entry.is_regular_file(ignored))
-      continue;
-    const auto age = fs::file_time_type::clock::now() - entry.last_write_time(ignored);
-    if (age > young && !is_locked(entry.path())) fs::remove(entry.path(), ignored);
-  }
-}
-
 // Writes in `where`. InputError about `folder`: that fails.
 void require_writable(const fs::path& where, const fs::path& folder) {
   TemporaryFile probe(where / "probe");
-  if (const int error = probe.write("x"))
+  probe.write("x");
+  if (const int error = probe.flush())
     throw InputError(folder.string(), "output folder", reason(error),
                      "a folder that can be written");
 }
 
 }  // namespace
 
-std::string read_file(const fs::path& file) {
+std::ifstream open_file(const fs::path& file) {
   std::error_code unknown;  // opening the file reports the error
   if (fs::is_directory(file, unknown))
     throw InputError(file.string(), "file", "a folder", "a readable file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file.string(), "file", reason(errno), "a readable file");
+  return stream;
+}
+
+std::string read_file(const fs::path& file) {
+  const std::ifstream stream = open_file(file);
   std::ostringstream content;
   content << stream.rdbuf();
   if (stream.bad() || content.bad())
@@ -122,9 +118,16 @@ std::string read_file(const fs::path& file) {
   return std::move(content).str();
 }
 
-void write_file_atomically(const fs::path& file, std::string_view content) {
+void write_file_atomically(const fs::path& file, std::string_view content, Flush flush) {
+  write_parts_atomically(file, {content}, flush);
+}
+
+void write_parts_atomically(const fs::path& file, std::initializer_list<std::string_view> parts,
+                            Flush flush) {
   TemporaryFile temporary(file);
-  int error = temporary.write(content);
+  int error = 0;
+  for (const std::string_view part : parts) error = temporary.write(part);
+  if (flush == Flush::Yes) error = temporary.flush();
   if (!error) error = temporary.rename_to(file);
   if (error)
     throw InputError(file.string(), "output file", reason(error), "a file that can be written");
@@ -149,6 +152,19 @@ void require_writable_place(const fs::path& folder) {
                      "a folder that can be created");
   while (!fs::exists(there, missing) && there.has_relative_path()) there = there.parent_path();
   require_writable(there, folder);
+}
+
+// A file of the last seconds may be about to be locked.
+void remove_abandoned_files(const fs::path& folder) {
+  constexpr std::chrono::seconds young{10};
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with('.') || !name.ends_with(".part") || !entry.is_regular_file(ignored))
+      continue;
+    const auto age = fs::file_time_type::clock::now() - entry.last_write_time(ignored);
+    if (age > young && !is_locked(entry.path())) fs::remove(entry.path(), ignored);
+  }
 }
 
 void require_writable_folder(const fs::path& folder) {

@@ -7,6 +7,7 @@
 #include "host/io/binary_file.h"
 #include "host/io/mesh_edges.h"
 #include "host/model/mesh_edge_kind.h"
+#include "host/model/template_parts.h"
 #include "host/model/union_find.h"
 #include "kernels/error.h"
 
@@ -73,6 +74,13 @@ void describe(EdgeModelOptions& o, OptionVisitor& visit) {
 void EdgeModelOptions::validate() const { check_bounds(*this, "model"); }
 
 EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options) {
+  EdgeModel model = edge_model_with(mesh, options, {});
+  model.occluding = occluding_surface(mesh);
+  return model;
+}
+
+EdgeModel edge_model_with(const Mesh& mesh, const EdgeModelOptions& options,
+                          OccludingSurface occluding) {
   options.validate();
   const double cos_crease = std::cos(options.crease_angle_deg * std::numbers::pi / 180);
   const std::vector<HalfEdge> sides = sorted_half_edges(mesh.triangles);
@@ -92,7 +100,7 @@ EdgeModel make_edge_model(const Mesh& mesh, const EdgeModelOptions& options) {
   if (model.crease_points.empty() && model.curved.empty())
     throw InputError(mesh.name, "edges", "none to draw",
                      "a mesh with creases, open borders or curved faces, a smaller raster step");
-  model.occluding = occluding_surface(mesh);
+  model.occluding = std::move(occluding);
   return model;
 }
 

@@ -2,15 +2,38 @@
 #include <array>
 #include <fstream>
 
-#include "host/io/binary_file.h"
 #include "host/io/mesh.h"
-#include "host/model/template_set.h"
+#include "host/model/template_parts.h"
 
 namespace edgescout {
 
 namespace {
 
 constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'T', 'S'}, 1, "template file"};
+
+std::string payload_of(const TemplateSet& set) {
+  BinaryWriter out;
+  out.put(set.object_id);
+  out.put_text(set.model.mesh.name);
+  put_options(out, set.options);
+  put_symmetries(out, set.symmetries);
+  put_mesh(out, set.model.mesh);
+  put_views(out, set.views);
+  return std::move(out.bytes);
+}
+
+TemplateSet set_from(BinaryReader in) {
+  TemplateSet set;
+  set.object_id = in.get<int>();
+  const std::string name = in.get_text();
+  set.options = get_options(in);
+  set.symmetries = get_symmetries(in);
+  set.model = make_edge_model(get_mesh(in, name), set.options.edges);
+  set.views = get_views(in);
+  return set;
+}
+
+}  // namespace
 
 void put_options(BinaryWriter& out, const TemplateOptions& o) {
   out.put(o.frequency);
@@ -37,56 +60,71 @@ TemplateOptions get_options(BinaryReader& in) {
   return o;
 }
 
-std::string payload_of(const TemplateSet& set) {
-  BinaryWriter out;
-  out.put(set.object_id);
-  out.put_text(set.model.mesh.name);
-  put_options(out, set.options);
-  out.put(static_cast<std::uint64_t>(set.symmetries.discrete.size()));
-  for (const Se3& s : set.symmetries.discrete) out.put_pose(s);
-  std::vector<std::array<double, 3>> vertices;
-  for (const Eigen::Vector3d& v : set.model.mesh.vertices_m)
-    vertices.push_back({v.x(), v.y(), v.z()});
-  out.put_list(vertices);
-  out.put_list(set.model.mesh.triangles);
-  out.put(static_cast<std::uint64_t>(set.views.size()));
-  for (const TemplateView& view : set.views) {
-    out.put_rotation(view.camera_from_object);
-    out.put_list(view.points);
-  }
-  return std::move(out.bytes);
+void put_symmetries(BinaryWriter& out, const Symmetries& symmetries) {
+  out.put(static_cast<std::uint64_t>(symmetries.discrete.size()));
+  for (const Se3& s : symmetries.discrete) out.put_pose(s);
 }
 
-TemplateSet set_from(std::string_view payload, const std::string& source) {
-  BinaryReader in(payload, source, format.name);
-  TemplateSet set;
-  set.object_id = in.get<int>();
-  const std::string name = in.get_text();
-  set.options = get_options(in);
-  set.symmetries.discrete.clear();
+Symmetries get_symmetries(BinaryReader& in) {
+  Symmetries symmetries{{}};
   for (std::size_t i = in.count(7 * sizeof(double)); i > 0; --i)
-    set.symmetries.discrete.push_back(in.get_pose());
+    symmetries.discrete.push_back(in.get_pose());
+  return symmetries;
+}
+
+void put_mesh(BinaryWriter& out, const Mesh& mesh) {
+  std::vector<std::array<double, 3>> vertices;
+  for (const Eigen::Vector3d& v : mesh.vertices_m) vertices.push_back({v.x(), v.y(), v.z()});
+  out.put_list(vertices);
+  out.put_list(mesh.triangles);
+}
+
+Mesh get_mesh(BinaryReader& in, const std::string& name) {
   std::vector<Eigen::Vector3d> vertices;
   for (const auto& v : in.get_list<std::array<double, 3>>())
     vertices.emplace_back(v[0], v[1], v[2]);
-  const Mesh mesh = restore_mesh(name, std::move(vertices), in.get_list<std::array<int, 3>>());
-  set.model = make_edge_model(mesh, set.options.edges);
+  return restore_mesh(name, std::move(vertices), in.get_list<std::array<int, 3>>());
+}
+
+void put_occluding(BinaryWriter& out, const OccludingSurface& occluding) {
+  out.put_list(occluding.vertices_m);
+  out.put_list(occluding.triangles);
+}
+
+OccludingSurface get_occluding(BinaryReader& in) {
+  OccludingSurface occluding;
+  occluding.vertices_m = in.get_list<float>();
+  occluding.triangles = in.get_list<std::uint32_t>();
+  return occluding;
+}
+
+void put_views(BinaryWriter& out, const std::vector<TemplateView>& views) {
+  std::size_t points = 0;
+  for (const TemplateView& view : views) points += view.points.size();
+  out.bytes.reserve(out.bytes.size() + 64 * (views.size() + 1) + points * sizeof(ModelPoint));
+  out.put(static_cast<std::uint64_t>(views.size()));
+  for (const TemplateView& view : views) {
+    out.put_rotation(view.camera_from_object);
+    out.put_list(view.points);
+  }
+}
+
+std::vector<TemplateView> get_views(BinaryReader& in) {
+  std::vector<TemplateView> views;
   for (std::size_t i = in.count(4 * sizeof(double)); i > 0; --i) {
     TemplateView view{in.get_rotation(), {}};
     view.points = in.get_list<ModelPoint>();
-    set.views.push_back(std::move(view));
+    views.push_back(std::move(view));
   }
-  return set;
+  return views;
 }
-
-}  // namespace
 
 void save_templates(const TemplateSet& set, const std::filesystem::path& file) {
   write_binary_file(file, format, payload_of(set));
 }
 
 TemplateSet load_templates(const std::filesystem::path& file) {
-  return set_from(read_binary_file(file, format), file.string());
+  return set_from(BinaryReader(file, format));
 }
 
 bool is_template_file(const std::filesystem::path& file) {
