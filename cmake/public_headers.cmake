@@ -10,7 +10,7 @@ set(EDGESCOUT_PUBLIC_HEADERS
   host/io/bop.h host/io/camera_file.h host/io/image.h host/io/mesh.h host/io/poses.h
   host/io/results.h
   host/model/axis_symmetry.h host/model/edge_model.h host/model/mesh_quality.h
-  host/model/template_set.h host/model/viewpoints.h
+  host/model/template_cache.h host/model/template_set.h host/model/viewpoints.h
   host/edge/edges.h
   host/register/d2co_options.h host/register/edge_icp_options.h host/register/object_view.h
   host/register/pose_classifier.h host/register/pose_estimate.h host/register/pose_features.h

@@ -11,6 +11,7 @@
 #include "host/io/poses.h"
 #include "host/io/results.h"
 #include "host/model/axis_symmetry.h"
+#include "host/model/template_cache.h"
 #include "host/model/template_set.h"
 #include "host/overlay.h"
 #include "host/pipeline.h"
