@@ -239,6 +239,7 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
   Preparer preparer(options, settings.camera);
   Detector detector(images, sets, backend, options, settings);
   BatchSummary& summary = detector.summary;
+  summary.templates = options.templates;
   std::vector<Group> open;
   for (Group& group : group_images(images, options.joint, settings)) {
     if (options.resume && is_done(group, options, settings))

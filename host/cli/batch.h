@@ -7,6 +7,7 @@
 #include <string>
 
 #include "host/cli/batch_results.h"
+#include "host/cli/template_origin.h"
 #include "host/pipeline.h"
 
 namespace edgescout {
@@ -19,6 +20,7 @@ struct BatchOptions {
   bool joint = false;  // all views of a BOP scene at once
   bool overlays = true;
   PipelineOptions pipeline;
+  std::vector<TemplateOrigin> templates;  // of the sets, for summary.json
   Settings settings;  // of the verb; a resumed batch compares them. Models and cameras are added
 };
 

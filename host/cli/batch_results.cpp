@@ -131,6 +131,9 @@ void write_summary(const BatchSummary& summary, const std::string& device, const
       {"images_per_second", summary.seconds > 0 ? summary.done / summary.seconds : 0.0}};
   for (const auto& [stage, seconds] : summary.stage_seconds)
     json["mean_ms_per_image"][stage] = 1000 * seconds / std::max(1, summary.done);
+  for (const TemplateOrigin& origin : summary.templates)
+    json["templates"].push_back(
+        {{"object_id", origin.object_id}, {"source", origin.source}, {"seconds", origin.seconds}});
   if (!summary.error.empty()) json["error"] = summary.error;
   json["failures"] = nlohmann::ordered_json::array();
   for (const auto& [file, message] : summary.failures)

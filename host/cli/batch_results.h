@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/cli/batch_settings.h"
+#include "host/cli/template_origin.h"
 
 namespace edgescout {
 
@@ -20,6 +21,7 @@ struct BatchSummary {
   std::set<std::string> finished;               // names of the images done and skipped
   std::map<std::string, std::string> failures;  // message by file
   std::map<std::string, double> stage_seconds;  // of all images done, by stage
+  std::vector<TemplateOrigin> templates;        // empty: not known
   double seconds = 0;
   std::string error;  // the error that ended the batch; empty: none
 };

@@ -28,8 +28,8 @@ struct DetectRequest {
 
 // Makes all cheap checks before it builds templates, so that nothing is written for an invalid
 // request.
-std::vector<TemplateSet> template_sets(const DetectRequest& request,
-                                       std::span<const InputImage> images, Backend& backend) {
+LoadedTemplates load_templates_for(const DetectRequest& request, std::span<const InputImage> images,
+                                   Backend& backend) {
   const KnownModels known = load_models(request.models);
   const SearchedImages searched = searched_images(
       images, first_camera(images, request.batch.camera_file, request.batch.scale_camera),
@@ -43,7 +43,8 @@ std::vector<TemplateSet> template_sets(const DetectRequest& request,
     for (const std::span<const InputImage> scene : groups_of(images, true))
       check_scene(scene, distances, searched.camera);
   }
-  return template_sets_of(known, request.templates, searched, backend);
+  return template_sets_of(known, request.templates, searched, backend,
+                          make_template_cache(request.models.cache));
 }
 
 int detect(DetectRequest& request) {
@@ -53,10 +54,11 @@ int detect(DetectRequest& request) {
   request.templates.validate();
   const std::unique_ptr<Backend> backend = backend_of(request.device);
   const std::vector<InputImage> images = list_images(request.inputs);
-  const std::vector<TemplateSet> sets = template_sets(request, images, *backend);
-  log(LogLevel::Info,
-      fmt::format("{} images, {} models, on {}", images.size(), sets.size(), backend->name()));
-  const BatchSummary summary = run_batch(images, sets, *backend, request.batch);
+  const LoadedTemplates templates = load_templates_for(request, images, *backend);
+  request.batch.templates = templates.origins;
+  log(LogLevel::Info, fmt::format("{} images, {} models, on {}", images.size(),
+                                  templates.sets.size(), backend->name()));
+  const BatchSummary summary = run_batch(images, templates.sets, *backend, request.batch);
   std::cout << fmt::format(
       "{} images: {} done, {} skipped, {} failed in {:.1f} s ({:.2f} images/s); {} poses in {} "
       "images; results in {}\n",

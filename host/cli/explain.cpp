@@ -194,7 +194,9 @@ ExitCode explain(ExplainRequest& request) {
   const std::vector<RegisterJob> jobs = jobs_of(request, images, known);
   require_safe_out(request, images);
   const std::vector<TemplateSet> sets =
-      template_sets_of(known, request.templates, searched, *backend);
+      template_sets_of(known, request.templates, searched, *backend,
+                       make_template_cache(request.models.cache))
+          .sets;
   Explainer explainer(request, sets, *backend);
   Progress progress("explain", jobs.size(), std::cerr, stderr_is_terminal());
   for (const RegisterJob& job : jobs) {

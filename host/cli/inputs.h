@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "host/cli/template_cache_arguments.h"
 #include "host/core/types.h"
 #include "host/io/bop.h"
 #include "host/model/template_set.h"
@@ -82,6 +83,7 @@ struct ModelArguments {
   // One per model. Empty: the number at the end of the file's name, else 1, 2 ..
   std::vector<int> object_ids;
   std::vector<std::string> templates;  // template files, in place of models
+  TemplateCacheArguments cache;        // of templates that are built of models
 };
 // Continuous symmetries are sampled in `continuous_steps` steps.
 std::vector<Object> load_objects(const ModelArguments& arguments,

@@ -31,7 +31,7 @@ struct BuildRequest {
 Object load_object(const BuildRequest& request) {
   if (!request.models_info.empty() && !request.symmetry.empty())
     throw InputError("command line", "--symmetry, --models-info", "both", "one of the two");
-  ModelArguments arguments{{request.file}, request.unit, request.models_info, {}, {}};
+  ModelArguments arguments{{request.file}, request.unit, request.models_info, {}, {}, {}};
   if (request.object_id > 0) arguments.object_ids = {request.object_id};
   Object object = load_objects(arguments)[0];
   if (!request.symmetry.empty()) object.symmetries = axis_symmetries(object.mesh, request.symmetry);

@@ -196,7 +196,9 @@ int scout(ScoutRequest& request, const CLI::App& verb) {
       known.objects.empty() ? request.templates
                             : with_distances_of(request.templates, searched.prior, views);
   check_views(views, searched_distances(known, templates, searched), source);
-  const std::vector<TemplateSet> sets = template_sets_of(known, templates, searched, *backend);
+  const std::vector<TemplateSet> sets = template_sets_of(known, templates, searched, *backend,
+                                                         make_template_cache(request.models.cache))
+                                            .sets;
   Scout scout(sets, searched.camera, views, request.options, *backend);
   if (saved)
     scout.resume(std::move(*saved), file.string());

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <iostream>
+#include <optional>
 
 #include "host/cli/progress.h"
 #include "host/core/log.h"
+#include "host/core/stopwatch.h"
 #include "host/detect/searched_sizes.h"
 #include "host/model/mesh_quality.h"
 #include "kernels/backend.h"
@@ -27,6 +30,7 @@ void add_model_arguments(CLI::App& verb, ModelArguments& arguments) {
   verb.add_option("--templates", arguments.templates,
                   "Template files of `edgescout model build`, in place of --model")
       ->type_name("FILE");
+  add_template_cache_arguments(verb, arguments.cache);
 }
 
 void refuse_beside_templates(const CLI::App& verb) {
@@ -46,7 +50,9 @@ KnownModels load_models(const ModelArguments& arguments) {
                      arguments.models.empty() ? "neither" : "both", "one of the two");
   KnownModels known;
   for (const std::string& file : arguments.templates) {
+    const auto start = std::chrono::steady_clock::now();
     known.sets.push_back(load_templates(file));
+    known.origins.push_back({known.sets.back().object_id, "file", seconds_since(start)});
     for (std::size_t i = 0; i + 1 < known.sets.size(); ++i)
       if (known.sets[i].object_id == known.sets.back().object_id)
         throw InputError(file, "object id", fmt::format("{} twice", known.sets[i].object_id),
@@ -59,15 +65,16 @@ KnownModels load_models(const ModelArguments& arguments) {
 namespace {
 
 // A wrong unit or distance shows in these numbers: they do not fit each other.
-void log_sizes(const TemplateSet& set, const Camera& camera) {
+void log_sizes(const TemplateSet& set, const TemplateOrigin& origin, const Camera& camera) {
   const SearchedSizes sizes = searched_sizes(set.model.mesh.diameter_m, set.options, camera);
   log(LogLevel::Info,
       fmt::format(
           "object {} ({}): diameter {:.1f} mm, searched {:.3f} to {:.3f} m from the camera, "
-          "{:.0f} to {:.0f} px in the image",
+          "{:.0f} to {:.0f} px in the image, templates {} in {:.2f} s",
           set.object_id, set.model.mesh.name, 1000 * set.model.mesh.diameter_m,
           set.options.distance_min_m, set.options.distance_max_m, sizes.largest_px,
-          sizes.smallest_px));
+          sizes.smallest_px, origin.source == "built" ? "built" : "read from the " + origin.source,
+          origin.seconds));
 }
 
 void check_size(const Mesh& mesh, const TemplateOptions& options, const Camera& camera) {
@@ -82,6 +89,17 @@ TemplateOptions with_distances(const TemplateOptions& options, double diameter_m
   return with_default_distances(with_distances_to_box(options, diameter_m, images.camera,
                                                       images.prior, images.camera_from_world),
                                 diameter_m, images.camera);
+}
+
+// The progress is shown from the first views on: templates that are read have none.
+CachedTemplates templates_of(const Object& object, const TemplateOptions& options, Backend& backend,
+                             TemplateCache& cache) {
+  std::optional<Progress> progress;
+  return cache.get(object, options, backend, [&](int done, int all) {
+    if (!progress)
+      progress.emplace("templates of " + object.mesh.name, 100, std::cerr, stderr_is_terminal());
+    progress->move_to(100 * done / all);
+  });
 }
 
 }  // namespace
@@ -112,24 +130,25 @@ DistanceRange searched_distances(const KnownModels& known, const TemplateOptions
   return range;
 }
 
-std::vector<TemplateSet> template_sets_of(const KnownModels& known, const TemplateOptions& options,
-                                          const SearchedImages& images, Backend& backend) {
+LoadedTemplates template_sets_of(const KnownModels& known, const TemplateOptions& options,
+                                 const SearchedImages& images, Backend& backend,
+                                 TemplateCache cache) {
   const Camera& camera = images.camera;
-  std::vector<TemplateSet> sets = known.sets;
-  for (const TemplateSet& set : sets) check_size(set.model.mesh, set.options, camera);
+  LoadedTemplates loaded{known.sets, known.origins};
+  for (const TemplateSet& set : known.sets) check_size(set.model.mesh, set.options, camera);
   for (const Object& object : known.objects)
     check_size(object.mesh, with_distances(options, object.mesh.diameter_m, images), camera);
   for (const Object& object : known.objects) {
-    Progress progress("templates of " + object.mesh.name, 100, std::cerr, stderr_is_terminal());
-    sets.push_back(build_templates(object, with_distances(options, object.mesh.diameter_m, images),
-                                   backend,
-                                   [&](int done, int all) { progress.move_to(100 * done / all); }));
+    CachedTemplates found = templates_of(
+        object, with_distances(options, object.mesh.diameter_m, images), backend, cache);
+    loaded.origins.push_back({object.id, found.are_cached ? "cache" : "built", found.seconds});
+    loaded.sets.push_back(std::move(found.set));
   }
-  for (const TemplateSet& set : sets) {
-    log_sizes(set, camera);
-    warn_of_mesh(set.model);
+  for (std::size_t i = 0; i < loaded.sets.size(); ++i) {
+    log_sizes(loaded.sets[i], loaded.origins[i], camera);
+    warn_of_mesh(loaded.sets[i].model);
   }
-  return sets;
+  return loaded;
 }
 
 }  // namespace edgescout

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "host/cli/inputs.h"
+#include "host/cli/template_origin.h"
 #include "host/detect/world_prior.h"
 #include "host/model/template_set.h"
 
@@ -11,7 +12,7 @@ namespace edgescout {
 
 class Backend;
 
-// --model, --unit, --models-info, --object-id and --templates.
+// --model, --unit, --models-info, --object-id, --templates and those of the template cache.
 void add_model_arguments(CLI::App& verb, ModelArguments& arguments);
 
 // InputError: --templates was given with an option for reading models or building templates. A
@@ -19,8 +20,9 @@ void add_model_arguments(CLI::App& verb, ModelArguments& arguments);
 void refuse_beside_templates(const CLI::App& verb);
 
 struct KnownModels {
-  std::vector<Object> objects;    // from meshes: templates must be built
-  std::vector<TemplateSet> sets;  // from template files
+  std::vector<Object> objects;          // from meshes: templates must be built
+  std::vector<TemplateSet> sets;        // from template files
+  std::vector<TemplateOrigin> origins;  // of the sets
 };
 
 // InputError: neither meshes nor templates, or both; a file that cannot be read; an id given twice.
@@ -42,10 +44,16 @@ SearchedImages searched_images(std::span<const InputImage> images, const Camera&
 DistanceRange searched_distances(const KnownModels& known, const TemplateOptions& options,
                                  const SearchedImages& images);
 
-// Builds the missing templates and shows the progress on standard error. Logs the size of every
-// object and the range of its distances, and warns of meshes with defects. Distances left at 0: as
-// searched_distances.
-std::vector<TemplateSet> template_sets_of(const KnownModels& known, const TemplateOptions& options,
-                                          const SearchedImages& images, Backend& backend);
+struct LoadedTemplates {
+  std::vector<TemplateSet> sets;
+  std::vector<TemplateOrigin> origins;  // of each set
+};
+
+// Reads the missing templates from the cache or builds them, and shows the progress on standard
+// error. Logs the size of every object, the range of its distances and where its templates come
+// from, and warns of meshes with defects. Distances left at 0: as searched_distances.
+LoadedTemplates template_sets_of(const KnownModels& known, const TemplateOptions& options,
+                                 const SearchedImages& images, Backend& backend,
+                                 TemplateCache cache);
 
 }  // namespace edgescout
