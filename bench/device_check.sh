@@ -32,6 +32,7 @@ in_all=$((350 * times))
 mkdir -p "$out" || exit
 out=$(cd "$out" && pwd)
 work=$(mktemp -d)
+export XDG_CACHE_HOME=$work/caches  # templates that other runs have kept are not read
 trap 'rm -rf "$work"' EXIT
 log=$out/log.txt
 : >"$log"

@@ -10,6 +10,8 @@ set -euo pipefail
 build=$1 out=$2 data=${3:-} device=${DEVICE:-cpu}
 edgescout=$build/host/cli/edgescout
 mkdir -p "$out"
+XDG_CACHE_HOME=$(realpath "$out")/caches  # templates that other runs have kept are not read
+export XDG_CACHE_HOME
 
 say() { printf '\n== %s\n' "$*"; }
 
@@ -30,7 +32,8 @@ say "time and peak memory of one detection in 1024x768"
 measure=(/usr/bin/time -f '%e s, %U s of CPU time, %M KiB at most')
 [ -x /usr/bin/time ] || { say "not measured: /usr/bin/time (package time) is missing"; measure=(); }
 "${measure[@]}" "$edgescout" detect "$out/one" --model "$out"/one/models/*.ply --unit mm \
-  --models-info "$out/one/models/models_info.json" --distance-min 0.35 --distance-max 0.7 --device "$device" --out "$out/one_results"
+  --models-info "$out/one/models/models_info.json" --distance-min 0.35 --distance-max 0.7 --no-template-cache --device "$device" \
+  --out "$out/one_results"
 
 if [ -z "$data" ]; then
   say "skipped: registration, brackets and cat (no DATA given)"

@@ -34,6 +34,7 @@ if [ ! -x "$edgescout" ]; then
 fi
 rm -rf "$out"
 mkdir -p "$out"
+export XDG_CACHE_HOME=$PWD/$out/caches  # the user's kept templates are neither read nor written
 
 # judge SET MIN_PROBABILITY SCENES MODEL_ARGUMENT...: prints one line as in the bounds.
 judge() {

@@ -28,6 +28,8 @@ if [ ! -x "$edgescout" ]; then
   exit 2
 fi
 mkdir -p "$out"
+XDG_CACHE_HOME=$(realpath "$out")/caches  # templates that other runs have kept are not read
+export XDG_CACHE_HOME
 
 # row NAME RESULT SCENES MODELS MIN_PROBABILITY MIN_VISIBLE: prints one row.
 row() {
