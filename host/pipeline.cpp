@@ -14,18 +14,28 @@ void PipelineOptions::validate() const {
   detect.validate();
 }
 
+ObjectView undistorted_view(const Image& image, const Camera& camera,
+                            const Se3& camera_from_world) {
+  ObjectView view;
+  view.camera = undistorted(camera);
+  view.camera_from_world = camera_from_world;
+  view.image = std::make_shared<Image>(undistort(image, camera));
+  return view;
+}
+
+void add_edges(ObjectView& view, Backend& backend, const EdgesOptions& options) {
+  view.edges = std::make_shared<EdgeIndex>(find_edges(*view.image, options, backend),
+                                           view.camera.width, view.camera.height);
+}
+
 ObjectView prepare_view(const Image& image, const Camera& camera, const Se3& camera_from_world,
                         Backend& backend, const PipelineOptions& options,
                         std::vector<StageSeconds>* stages) {
   std::vector<StageSeconds> unread;
   Stopwatch watch(stages ? *stages : unread, backend);
-  ObjectView view;
-  view.camera = undistorted(camera);
-  view.camera_from_world = camera_from_world;
-  view.image = std::make_shared<Image>(undistort(image, camera));
+  ObjectView view = undistorted_view(image, camera, camera_from_world);
   watch.lap("undistort");
-  view.edges = std::make_shared<EdgeIndex>(find_edges(*view.image, options.edges, backend),
-                                           view.camera.width, view.camera.height);
+  add_edges(view, backend, options.edges);
   watch.lap("edges");
   return view;
 }

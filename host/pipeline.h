@@ -27,6 +27,13 @@ struct PipelineOptions {
   void validate() const;
 };
 
+// Undistorts an image. The view has neither edges nor tensors yet. Needs no backend: it may run on
+// another thread while a backend is in use.
+ObjectView undistorted_view(const Image& image, const Camera& camera, const Se3& camera_from_world);
+
+// Finds the edges of an undistorted view.
+void add_edges(ObjectView& view, Backend& backend, const EdgesOptions& options);
+
 // Undistorts an image and finds its edges: all work that does not depend on the models. The view
 // has no tensors yet. One thread may prepare the next image while another thread detects in this
 // one, if each has its own backend. `stages`, where given, gains the time of each stage.

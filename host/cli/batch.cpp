@@ -51,12 +51,13 @@ struct PreparedGroup {
   std::vector<std::string> failures;  // one per image; empty if the image is good
 };
 
-// Decodes images and finds their edges, on its own CPU backend. It may run on another thread while
-// the device works on the group before.
+// Decodes and undistorts images. Also finds their edges, on its own CPU backend, unless the
+// detector's backend does. It may run on another thread while the detector works on the group
+// before.
 class Preparer {
  public:
-  Preparer(const BatchOptions& options, const std::optional<Camera>& camera)
-      : options_(options), camera_(camera), backend_(make_cpu_backend(1)) {}
+  Preparer(const BatchOptions& options, const std::optional<Camera>& camera, bool finds_edges)
+      : options_(options), camera_(camera), backend_(finds_edges ? make_cpu_backend(1) : nullptr) {}
   PreparedGroup prepare(const Group& group) {
     PreparedGroup prepared;
     for (const InputImage* input : group.images) {
@@ -80,15 +81,24 @@ class Preparer {
                                     {camera_, options_.camera_file, options_.scale_camera});
     const Se3 camera_from_world = options_.joint ? *input.camera_from_world : Se3{};
     prepared.view = naming(input, [&] {
-      return prepare_view(image, camera, camera_from_world, *backend_, options_.pipeline,
-                          &prepared.stages);
+      return backend_ ? prepare_view(image, camera, camera_from_world, *backend_, options_.pipeline,
+                                     &prepared.stages)
+                      : undistort(image, camera, camera_from_world, prepared.stages);
     });
     return prepared;
   }
 
+  static ObjectView undistort(const Image& image, const Camera& camera,
+                              const Se3& camera_from_world, std::vector<StageSeconds>& stages) {
+    const auto start = Clock::now();
+    ObjectView view = undistorted_view(image, camera, camera_from_world);
+    stages.push_back({"undistort", seconds_since(start)});
+    return view;
+  }
+
   const BatchOptions& options_;
   const std::optional<Camera>& camera_;
-  std::unique_ptr<Backend> backend_;
+  std::unique_ptr<Backend> backend_;  // null: edges are left to the detector
 };
 
 // Checks every image, also after one without a result: any existing result must be of this run.
@@ -99,7 +109,8 @@ bool is_done(const Group& group, const BatchOptions& options, const BatchSetting
   return all_done;
 }
 
-// Detects in the prepared groups one after the other and writes their results.
+// Detects in the prepared groups one after the other and writes their results. Finds the edges of
+// views that have none.
 class Detector {
  public:
   Detector(std::span<const InputImage> images, std::span<const TemplateSet> sets, Backend& backend,
@@ -116,6 +127,8 @@ class Detector {
     Group good{{}, group.views};
     std::vector<PreparedView> views;
     for (std::size_t i = 0; i < prepared.views.size(); ++i) {
+      if (prepared.failures[i].empty())
+        prepared.failures[i] = complete(*group.images[i], prepared.views[i]);
       if (!prepared.failures[i].empty()) {
         list_failure(*group.images[i], prepared.failures[i]);
         continue;
@@ -136,6 +149,19 @@ class Detector {
   BatchSummary summary;
 
  private:
+  // Returns why the view cannot have edges; nothing where it has them.
+  std::string complete(const InputImage& input, PreparedView& prepared) {
+    if (prepared.view.edges) return {};
+    try {
+      Stopwatch watch(prepared.stages, backend_);
+      naming(input, [&] { add_edges(prepared.view, backend_, options_.pipeline.edges); });
+      watch.lap("edges");
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  }
+
   // Returns nothing if the device cannot detect, as in an image too large for it.
   std::optional<Detections> detect(const Group& group, std::span<const PreparedView> prepared) {
     std::vector<ObjectView> views;
@@ -204,6 +230,12 @@ class Detector {
   std::string last_failure_;
 };
 
+// Line segments are found on the processor in any case.
+bool leaves_edges_to(const Backend& backend, const BatchOptions& options) {
+  return options.pipeline.edges.method == EdgeMethod::Gradient &&
+         options.edges_on_backend.value_or(backend.is_hardware());
+}
+
 void work_through(const std::vector<Group>& open, Preparer& preparer, Detector& detector) {
   Progress progress("detect", open.size(), std::cerr, stderr_is_terminal());
   std::future<PreparedGroup> next;
@@ -236,7 +268,7 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
   const auto start = Clock::now();
   if (options.joint) require_joinable(images);
   const BatchSettings settings = settings_of(sets, options);
-  Preparer preparer(options, settings.camera);
+  Preparer preparer(options, settings.camera, !leaves_edges_to(backend, options));
   Detector detector(images, sets, backend, options, settings);
   BatchSummary& summary = detector.summary;
   summary.templates = options.templates;

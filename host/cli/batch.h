@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -19,6 +20,9 @@ struct BatchOptions {
   bool resume = false;
   bool joint = false;  // all views of a BOP scene at once
   bool overlays = true;
+  // Whether the given backend finds the edges, and not a thread of the processor beside it. Absent:
+  // where it is hardware.
+  std::optional<bool> edges_on_backend;
   PipelineOptions pipeline;
   std::vector<TemplateOrigin> templates;  // of the sets, for summary.json
   Settings settings;  // of the verb; a resumed batch compares them. Models and cameras are added

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/core/se3.h"
 #include "host/io/results.h"
 #include "kernels/error.h"
 #include "tests/cli/small_scene.h"
@@ -21,7 +22,9 @@ class FailingBackend : public Backend {
       : good_views_(good_views), failure_(std::move(failure)) {}
   std::string name() const override { return "failing"; }
   bool is_gpu() const override { return true; }
+  int refused_edges = -1;  // which call, of two an image
   std::vector<EdgePoint> detect_edges(const ImageView& image, const EdgeOptions& options) override {
+    if (edges_++ == refused_edges) throw InputError("image", "size", "320x240", "less");
     return cpu_->detect_edges(image, options);
   }
   ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height,
@@ -101,7 +104,7 @@ class FailingBackend : public Backend {
 
  private:
   std::unique_ptr<Backend> cpu_ = make_cpu_backend(2);
-  int made_ = 0, good_views_;
+  int made_ = 0, edges_ = 0, good_views_;
   std::function<void()> failure_;
 };
 
@@ -200,6 +203,64 @@ TEST(RunBatch, GoesOnPastAnImageTheDeviceRefuses) {
   const Batch t;
   FailingBackend backend(views_per_image,
                          [] { throw InputError("image", "size", "320x240", "less"); });
+  const BatchSummary summary = run_batch(t.images, t.sets, backend, t.options);
+  EXPECT_EQ(summary.done, 2);
+  ASSERT_EQ(summary.failures.size(), 1u);
+  EXPECT_EQ(summary.failures.begin()->first, t.image(1).string());
+  EXPECT_NE(summary.failures.begin()->second.find("000001.png: image: size"), std::string::npos);
+  EXPECT_EQ(t.listed(), (std::set<int>{0, 2}));
+}
+
+// What a batch found in its images, with the edges of the backend or of a thread beside it.
+std::vector<std::vector<Detection>> found_in(Batch& t, Backend& backend, bool edges_on_backend) {
+  t.options.edges_on_backend = edges_on_backend;
+  const BatchSummary summary = run_batch(t.images, t.sets, backend, t.options);
+  EXPECT_EQ(summary.done, static_cast<int>(t.images.size()));
+  std::vector<std::vector<Detection>> found;
+  for (int i = 0; i < summary.done; ++i) {
+    const ImageResult result = load_image_result(t.json(i));
+    EXPECT_EQ(std::ranges::count(result.stages, "undistort", &StageSeconds::name), 1);
+    EXPECT_EQ(std::ranges::count(result.stages, "edges", &StageSeconds::name), 1);
+    found.push_back(result.detections);
+  }
+  return found;
+}
+
+TEST(RunBatch, FindsTheSameWithEdgesOfTheBackend) {
+  Batch t;
+  const auto cpu = make_cpu_backend(2);
+  const auto beside = found_in(t, *cpu, false), on_backend = found_in(t, *cpu, true);
+  for (std::size_t i = 0; i < beside.size(); ++i) {
+    ASSERT_EQ(beside[i].size(), on_backend[i].size());
+    for (std::size_t d = 0; d < beside[i].size(); ++d) {
+      const Detection &a = beside[i][d], &b = on_backend[i][d];
+      EXPECT_EQ(a.world_from_object.translation_m, b.world_from_object.translation_m);
+      EXPECT_EQ(a.probability, b.probability);
+    }
+  }
+}
+
+// Positions of edges differ by what detect_edges allows, so poses may differ a little.
+TEST(RunBatch, FindsTheSameWithEdgesOfADevice) {
+  if (vulkan_devices().empty()) GTEST_SKIP() << "no Vulkan device";
+  Batch t;
+  t.images.resize(1);
+  const auto device = make_vulkan_backend(usual_vulkan_device());
+  const auto beside = found_in(t, *device, false), on_device = found_in(t, *device, true);
+  ASSERT_EQ(beside[0].size(), on_device[0].size());
+  ASSERT_FALSE(beside[0].empty());
+  const Detection &a = beside[0][0], &b = on_device[0][0];
+  EXPECT_LT(distance_between_m(a.world_from_object, b.world_from_object), 0.0002);
+  EXPECT_LT(angle_between_rad(a.world_from_object, b.world_from_object), 0.002);
+  EXPECT_NEAR(a.probability, b.probability, 0.01);
+}
+
+// An image of which the backend finds no edges is listed; the batch goes on.
+TEST(RunBatch, GoesOnPastAnImageWithoutEdgesOfTheBackend) {
+  Batch t;
+  t.options.edges_on_backend = true;
+  FailingBackend backend(100, {});
+  backend.refused_edges = 2;
   const BatchSummary summary = run_batch(t.images, t.sets, backend, t.options);
   EXPECT_EQ(summary.done, 2);
   ASSERT_EQ(summary.failures.size(), 1u);
