@@ -9,7 +9,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 16, "scout state"};
+constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 17, "scout state"};
 
 template <typename T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -27,7 +27,7 @@ class Put {
   void put(const Matrix6d& matrix) {
     for (int i = 0; i < matrix.size(); ++i) out_.put(matrix.data()[i]);
   }
-  void put(const std::array<double, 8>& numbers) {
+  void put(const LensCoefficients& numbers) {
     for (const double number : numbers) out_.put(number);
   }
   template <typename T>
@@ -54,7 +54,7 @@ class Get {
   void get(Matrix6d& matrix) {
     for (int i = 0; i < matrix.size(); ++i) matrix.data()[i] = in_.get<double>();
   }
-  void get(std::array<double, 8>& numbers) {
+  void get(LensCoefficients& numbers) {
     for (double& number : numbers) number = in_.get<double>();
   }
   template <typename T>
@@ -89,7 +89,7 @@ void fields(auto& io, A<ParticleUpdate> auto& x) { io(x.effective, x.reseeded, x
 void fields(auto& io, A<FailedView> auto& x) { io(x.view, x.reason, x.after_step, x.stages); }
 void fields(auto& io, A<ScoutObject> auto& x) { io(x.id, x.fingerprint); }
 void fields(auto& io, A<Camera> auto& x) {
-  io(x.width, x.height, x.fx, x.fy, x.cx, x.cy, x.distortion);
+  io(x.width, x.height, x.fx, x.fy, x.cx, x.cy, x.distortion, x.lens, x.skew, x.field_of_view_rad);
 }
 void fields(auto& io, A<Image> auto& x) { io(x.width, x.height, x.pixels); }
 void fields(auto& io, A<ModeDetection> auto& x) { io(x.detection, x.weight, x.supporting_images); }

@@ -1,8 +1,8 @@
-// The pinhole camera with Brown-Conrady distortion.
+// The pinhole camera with a lens.
 //
 // Camera frame: +z forward, +x right, +y down. Pixel centres are at integers: the image covers
 // [-0.5, width - 0.5) x [-0.5, height - 0.5). The library undistorts every image once, on entry
-// (io/image.h). All later code may assume that `distortion` is zero.
+// (io/image.h). All later code may assume that has_distortion() is false.
 //
 // Public header.
 #pragma once
@@ -14,17 +14,32 @@
 
 namespace edgescout {
 
+// How a lens moves the image of a direction. core/lens.h has the formulas.
+enum class LensModel {
+  BrownConrady,          // OpenCV's: k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4 tau_x tau_y
+  ModifiedBrownConrady,  // RealSense's: k1 k2 p1 p2 k3
+  Fisheye,               // Kannala-Brandt: k1 .. k6 p1 p2 s1 .. s4
+  ThinPrismFisheye,      // COLMAP's: k1 k2 p1 p2 k3 k4 s1 s2
+  FieldOfView            // the angle omega, rad
+};
+using LensCoefficients = std::array<double, 14>;  // in the order of its model, the rest zero
+
 struct Camera {
   int width = 0;
   int height = 0;
   double fx = 0, fy = 0, cx = 0, cy = 0;  // px
-  std::array<double, 8> distortion{};     // k1 k2 p1 p2 k3 k4 k5 k6, OpenCV's order
+  LensCoefficients distortion{};
+  LensModel lens = LensModel::BrownConrady;
+  double skew = 0;  // px: u = fx x + skew y + cx
+  // Horizontal field of view of the undistorted image. 0: it keeps fx, fy, cx and cy.
+  double field_of_view_rad = 0;
+  // Whether undistorted(*this) differs: images must be resampled.
   bool has_distortion() const;
 };
 
 // Both compare bit for bit. Images of one lens may have several sizes.
-bool same_intrinsics(const Camera& a, const Camera& b);  // and distortion
-bool same_camera(const Camera& a, const Camera& b);      // intrinsics, distortion and size
+bool same_intrinsics(const Camera& a, const Camera& b);  // and lens, field of view
+bool same_camera(const Camera& a, const Camera& b);      // intrinsics, lens and size
 
 // InputError naming `source` and the field: a size below 1, a value that is not finite, a focal
 // length that is not positive, a principal point further from the image than one image size.
@@ -38,7 +53,8 @@ Eigen::Vector3d ray_through(const Camera& camera, const Eigen::Vector2d& pixel);
 double size_px(double length_m, double distance_m, const Camera& camera);
 // How far away it spans that many.
 double distance_at_size_m(double length_m, double size_px, const Camera& camera);
-// The same camera without distortion.
+// The pinhole camera of the undistorted image, of the same size. With a chosen field of view its
+// principal point is the middle of the image. LogicError: a chosen field of view without a size.
 Camera undistorted(const Camera& camera);
 // The camera of an image resized by `factor`. The new size is rounded. With pixel centres at
 // integers cx' = factor * (cx + 0.5) - 0.5.

@@ -23,7 +23,8 @@ void set_intrinsics(Camera& camera, const std::vector<double>& k, const std::str
 
 void set_distortion(Camera& camera, const std::vector<double>& coefficients,
                     const std::string& source, const std::string& field) {
-  const std::size_t kept = std::min(coefficients.size(), camera.distortion.size());
+  constexpr std::size_t most = 8;
+  const std::size_t kept = std::min(coefficients.size(), most);
   if (std::any_of(coefficients.begin() + static_cast<std::ptrdiff_t>(kept), coefficients.end(),
                   [](double x) { return x != 0; }))
     throw InputError(source, field, "thin-prism or tilt coefficients",

@@ -10,6 +10,7 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
+#include "host/core/lens.h"
 #include "host/core/log.h"
 #include "host/io/files.h"
 #include "kernels/error.h"
@@ -97,6 +98,46 @@ void require_all_pixels(const Image& image) {
                      std::to_string(expected) + " of " + size_text(image.width, image.height));
 }
 
+cv::Matx33d matrix_of(const Camera& camera) {
+  return {camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1};
+}
+
+// For every pixel of the undistorted image the place in the original.
+struct PixelMap {
+  cv::Mat x, y;
+};
+
+PixelMap map_by_opencv(const Camera& camera) {
+  PixelMap map;
+  const int count = static_cast<int>(camera.distortion.size());
+  const cv::Mat distortion(1, count, CV_64F, const_cast<double*>(camera.distortion.data()));
+  cv::initUndistortRectifyMap(matrix_of(camera), distortion, cv::noArray(),
+                              matrix_of(undistorted(camera)), {camera.width, camera.height},
+                              CV_32FC1, map.x, map.y);
+  return map;
+}
+
+// OpenCV has neither all of the models nor a skew.
+PixelMap map_by_lens(const Camera& camera) {
+  const Camera ideal = undistorted(camera);
+  PixelMap map{{camera.height, camera.width, CV_32FC1}, {camera.height, camera.width, CV_32FC1}};
+  cv::parallel_for_({0, camera.height}, [&](const cv::Range& rows) {
+    for (int row = rows.start; row < rows.end; ++row)
+      for (int column = 0; column < camera.width; ++column) {
+        const Eigen::Vector3d ray = ray_through(ideal, {column, row});
+        const Eigen::Vector2d seen = pixel_seeing(camera, ray.head<2>());
+        map.x.at<float>(row, column) = static_cast<float>(seen.x());
+        map.y.at<float>(row, column) = static_cast<float>(seen.y());
+      }
+  });
+  return map;
+}
+
+PixelMap map_to_original(const Camera& camera) {
+  return camera.lens == LensModel::BrownConrady && camera.skew == 0 ? map_by_opencv(camera)
+                                                                    : map_by_lens(camera);
+}
+
 std::string png_of(const cv::Mat& image) {
   std::vector<std::uint8_t> bytes;
   cv::imencode(".png", image, bytes);
@@ -131,14 +172,11 @@ Image undistort(const Image& image, const Camera& camera) {
     throw InputError("image", "size", size_text(image.width, image.height),
                      "sides of at most " + std::to_string(max_distorted_side_px) +
                          " px where a lens distortion is taken out");
-  const cv::Matx33d k(camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1);
-  const cv::Mat distortion(1, 8, CV_64F, const_cast<double*>(camera.distortion.data()));
   const cv::Mat source(image.height, image.width, CV_8U,
                        const_cast<std::uint8_t*>(image.pixels.data()));
-  cv::Mat map_x, map_y, result;
-  cv::initUndistortRectifyMap(k, distortion, cv::noArray(), k, source.size(), CV_32FC1, map_x,
-                              map_y);
-  cv::remap(source, result, map_x, map_y, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+  const PixelMap map = map_to_original(camera);
+  cv::Mat result;
+  cv::remap(source, result, map.x, map.y, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
   return from_mat(result);
 }
 

@@ -26,9 +26,18 @@ json pose_json(const Se3& pose) {
           {"quaternion_wxyz", {q.w(), q.x(), q.y(), q.z()}}};
 }
 
+// The camera of a result is ideal; the field keeps the length that it had in the first version.
+constexpr std::size_t written_coefficients = 8;
+
 json camera_json(const Camera& c) {
-  return {{"width", c.width}, {"height", c.height},        {"fx", c.fx}, {"fy", c.fy}, {"cx", c.cx},
-          {"cy", c.cy},       {"distortion", c.distortion}};
+  return {{"width", c.width},
+          {"height", c.height},
+          {"fx", c.fx},
+          {"fy", c.fy},
+          {"cx", c.cx},
+          {"cy", c.cy},
+          {"distortion",
+           std::vector<double>(c.distortion.begin(), c.distortion.begin() + written_coefficients)}};
 }
 
 json alternatives_json(const Detection& detection, const Se3& camera_from_world) {
@@ -74,7 +83,7 @@ Camera read_camera(const JsonField& field) {
   c.fy = field.at("fy").number();
   c.cx = field.at("cx").number();
   c.cy = field.at("cy").number();
-  const std::vector<double> distortion = field.at("distortion").numbers(c.distortion.size());
+  const std::vector<double> distortion = field.at("distortion").numbers(written_coefficients);
   std::copy(distortion.begin(), distortion.end(), c.distortion.begin());
   validate(c, field.source + ": " + field.path);
   return c;

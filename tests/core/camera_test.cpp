@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numbers>
 
 #include "kernels/error.h"
 #include "tests/test_random.h"
@@ -70,9 +71,29 @@ TEST(Camera, UndistortedForgetsTheLensOnly) {
   EXPECT_TRUE(bent.has_distortion());
   const Camera ideal = undistorted(bent);
   EXPECT_FALSE(ideal.has_distortion());
+  Camera fisheye = camera();
+  fisheye.lens = LensModel::Fisheye;  // bends the image also where all coefficients are zero
+  EXPECT_TRUE(fisheye.has_distortion());
+  EXPECT_FALSE(undistorted(fisheye).has_distortion());
+  Camera skewed = camera();
+  skewed.skew = 0.1;
+  EXPECT_TRUE(skewed.has_distortion());
   EXPECT_EQ(ideal.width, bent.width);
   EXPECT_EQ(ideal.fx, bent.fx);
   EXPECT_EQ(ideal.cy, bent.cy);
+}
+
+TEST(Camera, UndistortedHasTheChosenFieldOfView) {
+  Camera wide = camera();
+  wide.field_of_view_rad = std::numbers::pi / 2;
+  EXPECT_TRUE(wide.has_distortion());
+  const Camera ideal = undistorted(wide);
+  // 45 degrees to the left and to the right border.
+  EXPECT_NEAR(ray_through(ideal, {-0.5, 0}).x(), -1, 1e-12);
+  EXPECT_NEAR(ray_through(ideal, {639.5, 0}).x(), 1, 1e-12);
+  EXPECT_EQ(ideal.fx, ideal.fy);
+  EXPECT_EQ(ideal.cy, 239.5);
+  EXPECT_FALSE(ideal.has_distortion());
 }
 
 // Field and the name the error gives it.
@@ -101,7 +122,10 @@ TEST(Camera, ValidateNamesFileAndField) {
   }
   for (const double bad : {-641.0, 1281.0, nan, infinity}) expect_refused(&Camera::cx, bad, "cx");
   for (const double bad : {-481.0, 961.0, nan, -infinity}) expect_refused(&Camera::cy, bad, "cy");
-  expect_refused(&Camera::distortion, {0, 0, 0, nan, 0, 0, 0, 0}, "distortion");
+  for (const double bad : {-0.1, 3.2, nan})
+    expect_refused(&Camera::field_of_view_rad, bad, "field of view");
+  expect_refused(&Camera::skew, infinity, "skew");
+  expect_refused(&Camera::distortion, {0, 0, 0, nan}, "distortion");
 }
 
 }  // namespace

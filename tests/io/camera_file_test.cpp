@@ -62,7 +62,7 @@ TEST(LoadCamera, ReadsTheSameCameraFromEveryForm) {
     EXPECT_EQ(c.fy, 601.5);
     EXPECT_EQ(c.cx, 319.25);
     EXPECT_EQ(c.cy, 241);
-    EXPECT_EQ(c.distortion, (std::array<double, 8>{0.1, -0.2, 0.001, 0.002, 0.03, 0, 0, 0}));
+    EXPECT_EQ(c.distortion, (LensCoefficients{0.1, -0.2, 0.001, 0.002, 0.03}));
   }
 }
 
@@ -71,7 +71,7 @@ TEST(LoadCamera, ReadsPlainMatricesAndTheRationalModel) {
       "K: [[5, 0, 3], [0, 6, 4], [0, 0, 1]]\nD: [1, 2, 3, 4, 5, 6, 7, 8]\nimage_width: "
       "8\nimage_height: 9\n");
   EXPECT_EQ(c.fy, 6);
-  EXPECT_EQ(c.distortion, (std::array<double, 8>{1, 2, 3, 4, 5, 6, 7, 8}));
+  EXPECT_EQ(c.distortion, (LensCoefficients{1, 2, 3, 4, 5, 6, 7, 8}));
   const std::string rational =
       replaced(replaced(ros, "plumb_bob", "rational_polynomial"), "0.03]", "0.03, 4, 5, 6]");
   EXPECT_EQ(load(rational).distortion[7], 6);

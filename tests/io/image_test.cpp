@@ -9,6 +9,7 @@
 #include <new>
 #include <opencv2/imgcodecs.hpp>
 
+#include "host/core/lens.h"
 #include "tests/io/collected_log.h"
 #include "tests/io/expect_input_error.h"
 #include "tests/io/temporary_folder.h"
@@ -166,6 +167,48 @@ TEST(Undistort, TakesTheLensOutOfASmoothScene) {
       ++compared;
     }
   EXPECT_GT(compared, 25000);
+}
+
+// The place in the undistorted image of what a pixel of the original shows.
+Eigen::Vector2d ideal_place(const Camera& camera, const Eigen::Vector2d& seen) {
+  const Camera ideal = undistorted(camera);
+  Eigen::Vector2d place(ideal.cx, ideal.cy);
+  for (int i = 0; i < 200; ++i) {
+    const Eigen::Vector2d direction = ray_through(ideal, place).head<2>();
+    place += ideal.fx / camera.fx * (seen - pixel_seeing(camera, direction));
+  }
+  return place;
+}
+
+// With a skew, and with the pinhole of a chosen field of view.
+TEST(Undistort, TakesOtherLensesOutOfASmoothScene) {
+  Camera fisheye{200, 160, 150, 152, 98.5, 82, {-0.03, 0.01, -0.005, 0.001}};
+  fisheye.lens = LensModel::Fisheye;
+  fisheye.skew = 0.8;
+  Camera chosen = fisheye;
+  chosen.field_of_view_rad = 1.2;
+  Camera plain = chosen;  // by OpenCV
+  plain.lens = LensModel::BrownConrady;
+  plain.skew = 0;
+  for (const Camera& camera : {fisheye, chosen, plain}) {
+    Image seen{camera.width, camera.height, {}};
+    for (int y = 0; y < seen.height; ++y)
+      for (int x = 0; x < seen.width; ++x) {
+        const Eigen::Vector2d ideal = ideal_place(camera, {x, y});
+        seen.pixels.push_back(static_cast<std::uint8_t>(std::lround(scene(ideal.x(), ideal.y()))));
+      }
+    const Image flat = undistort(seen, camera);
+    int compared = 0;
+    for (int y = 0; y < flat.height; ++y)
+      for (int x = 0; x < flat.width; ++x) {
+        const Eigen::Vector2d from =
+            pixel_seeing(camera, ray_through(undistorted(camera), {x, y}).head<2>());
+        if (from.x() < 3 || from.y() < 3 || from.x() > 196 || from.y() > 156) continue;
+        EXPECT_NEAR(flat.at(x, y), scene(x, y), 1.5) << x << " " << y;
+        ++compared;
+      }
+    EXPECT_GT(compared, 20000);
+  }
 }
 
 TEST(Undistort, ReturnsTheImageWithoutDistortionAndRefusesAnotherSize) {
