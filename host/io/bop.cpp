@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "host/io/camera_json.h"
+#include "host/io/camera_reader.h"
 #include "host/io/files.h"
 #include "host/io/json_fields.h"
 #include "kernels/error.h"
@@ -50,9 +50,11 @@ std::map<int, BopImage> read_images(const fs::path& folder) {
     BopImage image;
     image.image_id = integer_key(key, root);
     image.file = image_file(folder, image.image_id);
-    image.camera = camera_from_bop(entry);
+    CameraFields fields(entry.value, entry.source, key);
+    image.camera = read_camera(fields);
     Camera checked = image.camera;
-    checked.width = checked.height = 1 << 20;  // the real size is known when the image is read
+    if (checked.width == 0)
+      checked.width = checked.height = 1 << 20;  // the real size is known when the image is read
     validate(checked, entry.source + ": " + entry.path);
     if (entry.has("cam_R_w2c"))
       image.camera_from_world =
@@ -100,7 +102,7 @@ json camera_entry(const BopImage& image) {
   check(c.lens == LensModel::BrownConrady && c.skew == 0 && c.field_of_view_rad == 0,
         "save_bop_scene: a lens that BOP has no field for");
   json entry{{"cam_K", {c.fx, 0.0, c.cx, 0.0, c.fy, c.cy, 0.0, 0.0, 1.0}}, {"depth_scale", 1.0}};
-  if (c.has_distortion()) entry["dist"] = std::vector<double>(c.distortion.begin(), c.distortion.begin() + 8);
+  if (c.has_distortion()) entry["dist"] = c.distortion;
   if (image.camera_from_world) {
     entry["cam_R_w2c"] = rotation_numbers(*image.camera_from_world);
     entry["cam_t_w2c"] = translation_numbers(*image.camera_from_world, metres_per_mm);

@@ -116,7 +116,7 @@ TEST(BopScene, NamesFileAndFieldOfWhatIsWrong) {
   expect_input_error([&] { load(R"({"x": {"cam_K": [5,0,3,0,6,4,0,0,1]}})"); },
                      {"scene_camera.json", "\"x\""});
   expect_input_error([&] { load(R"({"1": {"cam_K": [5,0,3,0,6,4,0,0]}})"); },
-                     {"/1/cam_K", "8 numbers"});
+                     {"1/cam_K", "8 numbers"});
   expect_input_error([&] { load(R"({"1": {"cam_K": [-5,0,3,0,6,4,0,0,1]}})"); },
                      {"/1", "fx", "positive"});
   expect_input_error(

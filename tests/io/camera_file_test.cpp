@@ -87,7 +87,7 @@ TEST(LoadCamera, ReadsASceneCameraWhoseImagesAgree) {
       [&] {
         load(replaced(same, "\"7\": {\"cam_K\": [5", "\"7\": {\"cam_K\": [9"), "scene_camera.json");
       },
-      {"scene_camera.json", "/7", "one camera"});
+      {"scene_camera.json", "1, 7", "one camera"});
   const Camera alone =
       load(R"({"cam_K": [5, 0, 3, 0, 6, 4, 0, 0, 1], "depth_scale": 1})", "camera.json");
   EXPECT_EQ(alone.fy, 6) << "one entry by itself";
@@ -98,7 +98,7 @@ TEST(LoadCamera, NamesFileAndFieldOfWhatIsMissing) {
                      {"camera.yaml", "camera_matrix", "nothing"});
   expect_input_error([] { load(replaced(ros, "image_height: 480", "")); },
                      {"camera.yaml", "image_height", "nothing"});
-  expect_input_error([] { load(replaced(ros, "distortion_coefficients", "coefficients")); },
+  expect_input_error([] { load(replaced(ros, "distortion_coefficients", "numbers")); },
                      {"distortion_coefficients", "nothing"});
   expect_input_error([] { load(replaced(ros, "600.5, ", "")); }, {"camera_matrix", "8 numbers"});
   expect_input_error(
@@ -108,11 +108,10 @@ TEST(LoadCamera, NamesFileAndFieldOfWhatIsMissing) {
       },
       {"distortion_coefficients", "3 coefficients"});
   expect_input_error([] { load(replaced(bop, "\"fy\": 601.5, ", ""), "camera.json"); },
-                     {"camera.json", "/fy", "nothing"});
-  for (const char* other : {"{}", "[600, 600]", "{\"K\": [600, 0, 320, 0, 600, 240, 0, 0, 1]}"})
+                     {"camera.json", "fy", "nothing"});
+  for (const char* other : {"{}", "[600, 600]", "{\"a\": {\"b\": 1}}", "\"text\""})
     expect_input_error([&] { load(other, "camera.json"); },
-                       {"camera.json", "fx, fy, cx, cy, width and height", "cam_K"});
-  expect_input_error([] { load("{}", "camera.json"); }, {"camera.json", "no camera"});
+                       {"camera.json", "camera_matrix", "fx, fy, cx and cy"});
   expect_input_error([] { load("", "camera.yaml"); }, {"camera.yaml"});
   expect_input_error([] { load("just text"); }, {"camera.yaml"});
   expect_input_error([] { load("a: [1, 2"); }, {"camera.yaml", "YAML"});
@@ -134,7 +133,7 @@ TEST(LoadCamera, RejectsValuesThatAreNotFiniteOrNegative) {
   expect_input_error([] { load(replaced(bop, "600.5", "-1"), "camera.json"); },
                      {"camera.json", "fx", "positive"});
   expect_input_error([] { load(replaced(bop, "600.5", "null"), "camera.json"); },
-                     {"camera.json", "/fx", "null"});
+                     {"camera.json", "fx", "nothing"});
   expect_input_error([] { load(replaced(bop, "600.5", "1e999"), "camera.json"); }, {"camera.json"});
   expect_input_error([] { load(replaced(ros, "319.25", "319250")); }, {"camera.yaml", "cx"});
   expect_input_error([] { load(replaced(ros, "image_width: 640", "image_width: -640")); },
@@ -145,18 +144,18 @@ TEST(LoadCamera, RejectsValuesThatAreNotFiniteOrNegative) {
 
 TEST(LoadCamera, RejectsAListThatHoldsItself) {
   expect_input_error([] { load("camera_matrix: &a [1, *a]\n"); },
-                     {"camera.yaml", "camera_matrix", "something else than numbers"});
+                     {"camera.yaml", "lists without an end"});
   expect_input_error([] { load("K: [5, 0, 3, 0, 6, 4, 0, 0, 1]\nD: {data: &a [[*a]]}\n"); },
-                     {"camera.yaml", "distortion_coefficients", "something else than numbers"});
+                     {"camera.yaml", "lists without an end"});
 }
 
 TEST(LoadCamera, RejectsModelsItCannotUndo) {
+  expect_input_error([] { load(replaced(ros, "plumb_bob", "omnidirectional")); },
+                     {"distortion_model", "omnidirectional", "plumb_bob"});
   expect_input_error([] { load(replaced(ros, "plumb_bob", "equidistant")); },
-                     {"distortion_model", "equidistant", "plumb_bob"});
-  expect_input_error([] { load(replaced(ros, "600.5, 0,", "600.5, 0.5,")); },
-                     {"camera_matrix", "skew"});
-  expect_input_error([] { load(replaced(ros, "0.03]", "0.03, 0, 0, 0, 0.1, 0, 0, 0]")); },
-                     {"distortion_coefficients", "thin-prism"});
+                     {"distortion_coefficients", "5 coefficients", "4"});
+  expect_input_error([] { load(replaced(ros, "0.03]", "0.03, 0, 0, 0, 0.1]")); },
+                     {"distortion_coefficients", "9 coefficients", "12"});
 }
 
 const Camera calibration{640, 480, 600, 610, 319.5, 239.5, {}};

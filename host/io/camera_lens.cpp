@@ -1,0 +1,337 @@
+#include "host/io/camera_lens.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "host/core/lens.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr const char* known_models =
+    "pinhole, plumb_bob, radtan, rational_polynomial, thin_prism, equidistant, fisheye, "
+    "kannala_brandt, fov, modified_brown_conrady or inverse_brown_conrady";
+
+// What a word for a model says. Pinhole says how rays are projected, nothing of distortion.
+enum class LensWord { Ideal, Pinhole, Brown, Modified, Fisheye, FieldOfView };
+
+const std::map<std::string, LensWord, std::less<>> lens_words{
+    {"none", LensWord::Ideal},
+    {"nodistortion", LensWord::Ideal},
+    {"undistorted", LensWord::Ideal},
+    {"rectified", LensWord::Ideal},
+    {"ideal", LensWord::Ideal},
+    {"simplepinhole", LensWord::Ideal},
+    {"pinhole", LensWord::Pinhole},
+    {"pinholeplane", LensWord::Pinhole},
+    {"perspective", LensWord::Pinhole},
+    {"linear", LensWord::Ideal},
+    {"plumbbob", LensWord::Brown},
+    {"radtan", LensWord::Brown},
+    {"radialtangential", LensWord::Brown},
+    {"pinholeradtan", LensWord::Brown},
+    {"pinholeradialtangential", LensWord::Brown},
+    {"rationalpolynomial", LensWord::Brown},
+    {"rational", LensWord::Brown},
+    {"pinholerational", LensWord::Brown},
+    {"radtan8", LensWord::Brown},
+    {"pinholeradtan8", LensWord::Brown},
+    {"brownconrady", LensWord::Brown},
+    {"brown", LensWord::Brown},
+    {"polynomial", LensWord::Brown},
+    {"standard", LensWord::Brown},
+    {"opencv", LensWord::Brown},
+    {"fullopencv", LensWord::Brown},
+    {"pinholeopencv", LensWord::Brown},
+    {"thinprism", LensWord::Brown},
+    {"tilted", LensWord::Brown},
+    {"modifiedbrownconrady", LensWord::Modified},
+    // librealsense computes with both alike: the coefficients distort.
+    {"inversebrownconrady", LensWord::Modified},
+    {"equidistant", LensWord::Fisheye},
+    {"equi", LensWord::Fisheye},
+    {"pinholeequi", LensWord::Fisheye},
+    {"pinholeequidistant", LensWord::Fisheye},
+    {"fisheye", LensWord::Fisheye},
+    {"opencvfisheye", LensWord::Fisheye},
+    {"pinholefisheye", LensWord::Fisheye},
+    {"kannalabrandt", LensWord::Fisheye},
+    {"kannalabrandt4", LensWord::Fisheye},
+    {"kannalabrandt8", LensWord::Fisheye},
+    {"kb", LensWord::Fisheye},
+    {"kb4", LensWord::Fisheye},
+    {"kb8", LensWord::Fisheye},
+    {"fisheye624", LensWord::Fisheye},
+    {"fov", LensWord::FieldOfView},
+    {"fieldofview", LensWord::FieldOfView},
+    {"pinholefov", LensWord::FieldOfView},
+    {"atan", LensWord::FieldOfView},
+    {"ftheta", LensWord::FieldOfView}};
+
+// "distortion.inverse_brown_conrady", "RS2_DISTORTION_..", "CameraModelType.FISHEYE624".
+std::string without_prefix(std::string word) {
+  for (const std::string_view prefix :
+       {"calibrationlensdistortionmodel", "k4acalibrationlensdistortionmodel", "rs2distortion",
+        "cameramodeltype", "distortion"})
+    if (word.starts_with(prefix) && word.size() > prefix.size()) return word.substr(prefix.size());
+  return word;
+}
+
+std::optional<LensWord> word_in(const std::string& text) {
+  const auto word = lens_words.find(without_prefix(plain_name(text)));
+  return word == lens_words.end() ? std::nullopt : std::optional(word->second);
+}
+
+// Names under which other programs also keep the name of a product.
+bool may_name_a_product(std::string_view name) {
+  return is_any_of(name, {"model", "type", "cameratype", "name"});
+}
+
+bool names_model(std::string_view name, const json& value) {
+  if (value.is_structured() || is_list(value)) return false;
+  if (contains_any_of(name, {"distortionmodel", "distmodel", "distortiontype", "disttype",
+                             "lensmodel", "lenstype", "cameramodel", "modeltype", "projectionmodel",
+                             "projectiontype", "calibrationmodel", "calibmodel"}))
+    return true;
+  if (!may_name_a_product(name)) return is_any_of(name, {"projection", "distortion", "lens"});
+  if (!value.is_string()) return false;
+  const std::string text = plain_name(value.get<std::string>());
+  return word_in(text).has_value() ||
+         is_any_of(text, {"ds", "doublesphere", "eucm", "mei", "ucm"}) ||
+         contains_any_of(text, {"fisheye", "omni", "distort", "conrady", "radial", "polynomial",
+                                "scaramuzza", "ocam", "unified", "spherical", "division", "pinhole",
+                                "equirect", "stereographic"});
+}
+
+// "fisheye_model: 1", "undistorted: true".
+std::optional<LensWord> word_of_switch(CameraFields& fields) {
+  std::optional<LensWord> word;
+  for (const JsonField& field : fields.take_all([](std::string_view name, const json&value) {
+         return !value.is_structured() &&
+                is_any_of(name, {"fisheyemodel", "fisheye", "isfisheye", "usefisheye"});
+       }))
+    if (!is_trivial(field.value)) word = LensWord::Fisheye;
+  for (const JsonField& field : fields.take_all([](std::string_view name, const json&value) {
+         return !value.is_structured() &&
+                is_any_of(name, {"undistorted", "isundistorted", "rectified", "isrectified"});
+       }))
+    if (!is_trivial(field.value)) word = LensWord::Ideal;
+  return word;
+}
+
+// RealSense numbers its models (rs2_distortion).
+std::optional<LensWord> realsense_word(CameraFields& fields) {
+  if (!fields.has({"ppx"})) return {};
+  for (const JsonField& field : fields.take_all([](std::string_view name, const json&value) {
+         return value.is_number() && is_any_of(name, {"model", "distortionmodel"});
+       })) {
+    constexpr LensWord words[] = {LensWord::Ideal,       LensWord::Modified, LensWord::Modified,
+                                  LensWord::FieldOfView, LensWord::Brown,    LensWord::Fisheye};
+    const int number = whole_number_in_field(field);
+    if (number < 0 || number >= int(std::size(words)))
+      field.fail(std::to_string(number), "a number of rs2_distortion, 0 to 5");
+    return words[number];
+  }
+  return {};
+}
+
+struct FoundModel {
+  LensWord word = LensWord::Pinhole;
+  std::string field;  // that names it; empty: none does
+};
+
+void join(FoundModel& model, LensWord word, const JsonField& field) {
+  if (word == LensWord::Pinhole && !model.field.empty()) return;
+  if (model.word != LensWord::Pinhole && model.word != word)
+    field.fail(text_in_field(field), "the same lens model as " + model.field);
+  model = {word, field.path};
+}
+
+FoundModel read_model(CameraFields& fields) {
+  FoundModel model;
+  const std::optional<LensWord> realsense = realsense_word(fields);
+  if (realsense) model = {*realsense, fields.at("model")};
+  for (const JsonField& field : fields.take_all(names_model)) {
+    const std::string text = text_in_field(field);
+    if (!field.value.is_string() && is_trivial(field.value)) continue;
+    if (plain_name(text).empty()) continue;
+    const std::optional<LensWord> word = word_in(text);
+    if (!word) field.fail(text, known_models);
+    join(model, *word, field);
+  }
+  const std::optional<LensWord> of_switch = word_of_switch(fields);
+  if (!of_switch) return model;
+  if (model.word != LensWord::Pinhole && model.word != *of_switch)
+    throw InputError(fields.source(), model.field, "another lens model than a switch of the file",
+                     "one lens model");
+  return {*of_switch, model.field.empty() ? fields.at("fisheye_model") : model.field};
+}
+
+struct Coefficients {
+  std::vector<double> values;
+  std::string field;  // empty: none are given
+};
+
+// "k1", "k_1", "radial_k1" -> "k1". Empty: no coefficient.
+std::string coefficient_name(std::string_view name) {
+  for (const std::string_view prefix :
+       {"distortion", "dist", "radial", "tangential", "prism", "lens"})
+    if (name.starts_with(prefix)) name.remove_prefix(prefix.size());
+  static const std::set<std::string, std::less<>> names{"k1",  "k2",  "k3",   "k4",  "k5", "k6",
+                                                        "p1",  "p2",  "s1",   "s2",  "s3", "s4",
+                                                        "sx1", "sy1", "taux", "tauy"};
+  return names.contains(name) ? std::string(name) : "";
+}
+
+// Single coefficients in the order of OpenCV, or of Kannala-Brandt.
+Coefficients single_coefficients(CameraFields& fields, bool is_fisheye) {
+  static const std::map<std::string, std::size_t> opencv{
+      {"k1", 0}, {"k2", 1}, {"p1", 2}, {"p2", 3},  {"k3", 4},  {"k4", 5},    {"k5", 6},
+      {"k6", 7}, {"s1", 8}, {"s2", 9}, {"s3", 10}, {"s4", 11}, {"taux", 12}, {"tauy", 13}};
+  static const std::map<std::string, std::size_t> kannala_brandt{{"k1", 0}, {"k2", 1}, {"k3", 2},
+                                                                 {"k4", 3}, {"k5", 4}, {"k6", 5}};
+  // camodocal begins at k2, and names the focal lengths mu and mv.
+  const std::size_t first = is_fisheye && fields.has({"mu"}) ? 1 : 0;
+  Coefficients found;
+  for (const JsonField& field : fields.take_all([](std::string_view name, const json&value) {
+         return !coefficient_name(name).empty() && !value.is_structured();
+       })) {
+    const std::string name =
+        coefficient_name(plain_name(field.path.substr(field.path.find_last_of("/.") + 1)));
+    const double value = number_in_field(field);
+    const auto& order = is_fisheye ? kannala_brandt : opencv;
+    const auto place = order.find(name);
+    if (place == order.end() || place->second < first) {
+      if (value != 0) field.fail(field.value.dump(), "a coefficient of the lens model");
+      continue;
+    }
+    found.values.resize(LensCoefficients{}.size());
+    found.values[place->second - first] = value;
+    if (found.field.empty()) found.field = field.path;
+  }
+  return found;
+}
+
+// MATLAB's, also single lists of other programs.
+Coefficients radial_and_tangential(CameraFields& fields) {
+  const std::optional<JsonField> radial =
+      fields.take({"radialdistortion", "radial", "radialcoefficients", "radialcoeffs"});
+  const std::optional<JsonField> tangential = fields.take(
+      {"tangentialdistortion", "tangential", "tangentialcoefficients", "tangentialcoeffs"});
+  if (!radial && !tangential) return {};
+  const std::vector<double> k = radial ? numbers_in_field(*radial) : std::vector<double>{};
+  const std::vector<double> p = tangential ? numbers_in_field(*tangential) : std::vector<double>{};
+  if (k.size() > 3) radial->fail(std::to_string(k.size()) + " coefficients", "at most 3");
+  if (p.size() > 2) tangential->fail(std::to_string(p.size()) + " coefficients", "2");
+  Coefficients found{std::vector<double>(5), radial ? radial->path : tangential->path};
+  constexpr std::size_t radial_places[] = {0, 1, 4};
+  for (std::size_t i = 0; i < k.size(); ++i) found.values[radial_places[i]] = k[i];
+  for (std::size_t i = 0; i < p.size(); ++i) found.values[2 + i] = p[i];
+  return found;
+}
+
+Coefficients listed_coefficients(CameraFields& fields) {
+  Coefficients found;
+  for (const JsonField& field : fields.take_all([](std::string_view name, const json&value) {
+         return is_distortion_name(name) && is_list(value);
+       })) {
+    const std::vector<double> values = numbers_in_field(field);
+    if (!found.values.empty() && !values.empty() && values != found.values)
+      field.fail("other coefficients", "those of " + found.field);
+    if (found.values.empty()) found = {values, field.path};
+  }
+  return found;
+}
+
+bool are_equal(std::vector<double> a, std::vector<double> b) {
+  a.resize(std::max(a.size(), b.size()));
+  b.resize(a.size());
+  return a == b;
+}
+
+// Some programs write the same coefficients in two forms.
+Coefficients read_coefficients(CameraFields& fields, bool is_fisheye) {
+  Coefficients found = radial_and_tangential(fields);
+  for (const Coefficients& other :
+       {listed_coefficients(fields), single_coefficients(fields, is_fisheye)}) {
+    if (other.field.empty()) continue;
+    if (!found.field.empty() && !are_equal(other.values, found.values))
+      throw InputError(fields.source(), other.field, "other coefficients",
+                       "those of " + found.field);
+    if (found.field.empty()) found = other;
+  }
+  return found;
+}
+
+// The counts that a model may have; more only where they are zero.
+std::vector<std::size_t> counts_of(LensModel lens) {
+  switch (lens) {
+    case LensModel::BrownConrady:
+      return {0, 4, 5, 8, 12, 14};
+    case LensModel::ModifiedBrownConrady:
+      return {0, 4, 5};
+    case LensModel::Fisheye:
+      return {4, 12};
+    case LensModel::ThinPrismFisheye:
+      return {8};
+    case LensModel::FieldOfView:
+      return {1};
+  }
+  throw LogicError("counts_of: no such lens model");
+}
+
+LensModel model_of(LensWord word) {
+  switch (word) {
+    case LensWord::Modified:
+      return LensModel::ModifiedBrownConrady;
+    case LensWord::Fisheye:
+      return LensModel::Fisheye;
+    case LensWord::FieldOfView:
+      return LensModel::FieldOfView;
+    default:
+      return LensModel::BrownConrady;
+  }
+}
+
+}  // namespace
+
+void set_lens(Camera& camera, LensModel lens, const std::vector<double>& coefficients,
+              const std::string& source, const std::string& field) {
+  std::vector<double> kept = coefficients;
+  const std::vector<std::size_t> counts = counts_of(lens);
+  const auto fits = [&] { return std::ranges::find(counts, kept.size()) != counts.end(); };
+  while (!fits() && kept.size() > counts.front() && kept.back() == 0) kept.pop_back();
+  std::string expected;
+  for (std::size_t count : counts)
+    expected += (expected.empty() ? "" : ", ") + std::to_string(count);
+  if (!fits())
+    throw InputError(source, field, std::to_string(coefficients.size()) + " coefficients",
+                     expected + " of the lens model " + to_string(lens) + " (more only where 0)");
+  camera.lens = lens;
+  camera.distortion.fill(0);
+  std::ranges::copy(kept, camera.distortion.begin());
+}
+
+void read_lens(CameraFields& fields, Camera& camera) {
+  const FoundModel model = read_model(fields);
+  const LensModel lens = model_of(model.word);
+  const Coefficients found = read_coefficients(fields, lens == LensModel::Fisheye);
+  const bool is_named = model.word != LensWord::Ideal && model.word != LensWord::Pinhole;
+  if (is_named && found.field.empty())
+    throw InputError(fields.source(), fields.at("distortion_coefficients"), "nothing",
+                     "the coefficients of the model in " + model.field);
+  const bool bends = std::ranges::any_of(found.values, [](double k) { return k != 0; });
+  if (model.word == LensWord::Ideal && bends)
+    throw InputError(fields.source(), found.field, "coefficients that are not 0",
+                     "none, as " + model.field + " says");
+  // RealSense's models have five coefficients, of which one or four count.
+  set_lens(camera, bends || lens == LensModel::Fisheye ? lens : LensModel::BrownConrady,
+           found.values, fields.source(), found.field);
+}
+
+}  // namespace edgescout

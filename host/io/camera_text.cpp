@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <functional>
+#include <vector>
+
+#include "host/io/camera_tree.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+using nlohmann::json;
+
+namespace {
+
+std::string trimmed(std::string_view line) {
+  const std::size_t from = line.find_first_not_of(" \t");
+  if (from == std::string_view::npos) return "";
+  return std::string(line.substr(from, line.find_last_not_of(" \t") + 1 - from));
+}
+
+// Lines without blanks at their ends, empty lines and comments.
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    std::string line = trimmed(text.substr(at, end - at));
+    if (!line.empty() && line[0] != '#' && line[0] != '%' && !line.starts_with("//"))
+      lines.push_back(std::move(line));
+    at = end + 1;
+  }
+  return lines;
+}
+
+std::vector<std::string> words_of(const std::string& line) {
+  std::vector<std::string> words;
+  for (std::size_t at = line.find_first_not_of(" \t"); at != std::string::npos;) {
+    const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
+    words.push_back(line.substr(at, end - at));
+    at = line.find_first_not_of(" \t", end);
+  }
+  return words;
+}
+
+// cam_K.txt, also a 3x4 or 4x4 matrix, or "fx fy cx cy".
+json numbers_alone(const std::vector<std::string>& lines) {
+  std::string all;
+  for (const std::string& line : lines) all += line + " ";
+  const json numbers = numbers_in(all);
+  if (numbers.is_null()) return nullptr;
+  return {{"K", numbers}};
+}
+
+// CAMERA_ID MODEL WIDTH HEIGHT PARAMS[]
+json colmap_camera(const std::string& line) {
+  const std::vector<std::string> words = words_of(line);
+  const auto is_name = [](const std::string& word) {
+    return word.size() > 2 &&
+           std::ranges::all_of(word, [](char c) { return (c >= 'A' && c <= 'Z') || c == '_'; });
+  };
+  if (words.size() < 5 || !is_name(words[1])) return nullptr;
+  json values = json::array();
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if (i != 1) values.push_back(scalar_of(words[i]));
+  if (!std::ranges::all_of(values, [](const json& x) { return x.is_number(); })) return nullptr;
+  return {{"camera_id", words[0]},
+          {"model", words[1]},
+          {"width", values[1]},
+          {"height", values[2]},
+          {"params", json(values.begin() + 3, values.end())}};
+}
+
+json colmap_cameras(const std::vector<std::string>& lines) {
+  json cameras = json::array();
+  for (const std::string& line : lines) {
+    json camera = colmap_camera(line);
+    if (camera.is_null()) return nullptr;
+    cameras.push_back(std::move(camera));
+  }
+  return cameras.empty() ? json(nullptr) : cameras;
+}
+
+bool is_section(const std::string& line) {
+  return line.size() > 2 && line[0] == '[' && line.back() == ']' && numbers_in(line).is_null() &&
+         line.find(',') == std::string::npos;
+}
+
+// ROS camera_calibration: a name of several words on a line, its numbers on the next lines.
+json ost_cameras(const std::vector<std::string>& lines, const std::string& source) {
+  const auto is_stereo = [](const std::string& line) { return line.starts_with("[narrow_stereo"); };
+  if (std::ranges::none_of(lines, is_stereo)) return nullptr;
+  json cameras = json::array();
+  std::string name;
+  for (const std::string& line : lines) {
+    if (line == "[image]" || cameras.empty()) cameras.push_back(json::object());
+    if (is_section(line)) {
+      if (line != "[image]") cameras.back()["name"] = line.substr(1, line.size() - 2);
+      continue;
+    }
+    const json numbers = numbers_in(line);
+    if (numbers.is_null()) {
+      add_field(cameras.back(), name = line, json::array(), source);
+      continue;
+    }
+    if (name.empty()) throw InputError(source, "ost.txt", line, "the name of a field before it");
+    for (const json& number : numbers) cameras.back()[name].push_back(number);
+  }
+  for (json& camera : cameras)
+    for (const char* side : {"width", "height"})
+      if (camera.contains(side) && camera[side].size() == 1) camera[side] = json(camera[side][0]);
+  return cameras;
+}
+
+// Blocks "Intrinsic of "Color" / 640x480 / {..}" with lines "PPX: 319.5". Motion intrinsics and
+// extrinsics, which have other headings, are skipped.
+json realsense_cameras(const std::vector<std::string>& lines, const std::string& source) {
+  constexpr std::string_view heading = "Intrinsic of \"";
+  json cameras = json::array();
+  bool is_inside = false;
+  for (const std::string& line : lines) {
+    if (line.starts_with(heading)) {
+      const std::size_t end = line.find('"', heading.size());
+      cameras.push_back({{"name", line.substr(heading.size(), end - heading.size())}});
+      is_inside = true;
+      continue;
+    }
+    const std::size_t colon = line.find(':');
+    if (line.find("trinsic") != std::string::npos || colon == std::string::npos) is_inside = false;
+    if (!is_inside) continue;
+    const std::string value = trimmed(std::string_view(line).substr(colon + 1));
+    add_field(cameras.back(), line.substr(0, colon), value_in(value), source);
+  }
+  return cameras.empty() ? json(nullptr) : cameras;
+}
+
+// name = value, below [sections]. A comment may end a line.
+json ini_cameras(const std::vector<std::string>& lines, const std::string& source) {
+  json root = json::object();
+  json* section = &root;
+  for (const std::string& line : lines) {
+    if (is_section(line)) {
+      const std::string name = line.substr(1, line.size() - 2);
+      add_field(root, name, json::object(), source);
+      section = &root[name];
+      continue;
+    }
+    const std::size_t equals = line.find('=');
+    if (equals == std::string::npos || equals == 0 || line.find(':') < equals) return nullptr;
+    std::string value = line.substr(equals + 1);
+    value = trimmed(value.substr(0, std::min(value.find('#'), value.find(';'))));
+    if (value.size() > 1 && value.front() == '"' && value.back() == '"')
+      value = value.substr(1, value.size() - 2);
+    add_field(*section, trimmed(line.substr(0, equals)), value_in(value), source);
+  }
+  return root;
+}
+
+}  // namespace
+
+json text_camera_tree(std::string_view text, const std::string& source) {
+  const std::vector<std::string> lines = lines_of(text);
+  if (lines.empty()) return nullptr;
+  if (json tree = numbers_alone(lines); !tree.is_null()) return tree;
+  if (json tree = colmap_cameras(lines); !tree.is_null()) return tree;
+  if (json tree = ost_cameras(lines, source); !tree.is_null()) return tree;
+  if (json tree = realsense_cameras(lines, source); !tree.is_null()) return tree;
+  return ini_cameras(lines, source);
+}
+
+}  // namespace edgescout

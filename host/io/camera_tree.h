@@ -1,0 +1,36 @@
+// Internal to host/io: camera files of every syntax as one tree of JSON values.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+
+namespace edgescout {
+
+// Objects are the fields of one camera, or of several below their names. Several documents or
+// cameras without names are an array. Accepts JSON with comments, YAML (also OpenCV's), XML, INI,
+// and the texts of text_camera_tree. A byte order mark, UTF-16 and CRLF are accepted. InputError:
+// none of these, a field that stands twice, nesting or aliases without an end.
+nlohmann::json parse_camera_tree(const std::string& bytes, const std::string& source, bool is_json);
+
+// One function for each syntax.
+nlohmann::json yaml_camera_tree(const std::string& text, const std::string& source);
+nlohmann::json xml_camera_tree(std::string_view text, const std::string& source);
+// Numbers alone (cam_K.txt), COLMAP's cameras.txt, ROS ost.txt, the list of `rs-enumerate-devices
+// -c`, and INI. Null: the text is none of these.
+nlohmann::json text_camera_tree(std::string_view text, const std::string& source);
+
+// A number, a truth value, null (also for an empty word) or the word itself. "nan" and "inf" are
+// numbers, so that their reader can refuse them as such.
+nlohmann::json scalar_of(const std::string& word);
+// The numbers of a text, between blanks, commas, semicolons and brackets. Null: it holds anything
+// else, or nothing.
+nlohmann::json numbers_in(std::string_view text);
+// A number, a list of several, or as scalar_of.
+nlohmann::json value_in(const std::string& text);
+
+// Adds a field. InputError: the object has one of that name.
+void add_field(nlohmann::json& object, const std::string& name, nlohmann::json value,
+               const std::string& source);
+
+}  // namespace edgescout

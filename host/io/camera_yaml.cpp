@@ -1,0 +1,80 @@
+#include <yaml-cpp/yaml.h>
+
+#include "host/io/camera_tree.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+using nlohmann::json;
+
+namespace {
+
+// Aliases can repeat a part of the file without end.
+struct YamlLimit {
+  int depth = 12;
+  int* values;
+};
+
+json yaml_value(const YAML::Node& node, YamlLimit limit, const std::string& source);
+
+json yaml_map(const YAML::Node& node, YamlLimit limit, const std::string& source) {
+  json object = json::object();
+  for (const auto& entry : node)
+    add_field(object, entry.first.as<std::string>("?"), yaml_value(entry.second, limit, source),
+              source);
+  return object;
+}
+
+json yaml_value(const YAML::Node& node, YamlLimit limit, const std::string& source) {
+  if (--limit.depth < 0 || --*limit.values < 0)
+    throw InputError(source, "YAML", "lists without an end", "a camera calibration");
+  if (node.IsMap()) return yaml_map(node, limit, source);
+  if (node.IsSequence()) {
+    json list = json::array();
+    for (const YAML::Node& element : node) list.push_back(yaml_value(element, limit, source));
+    return list;
+  }
+  return node.IsScalar() ? scalar_of(node.Scalar()) : json(nullptr);
+}
+
+// YAML forbids tabs before the first word of a line. Editors put them there all the same.
+std::string without_leading_tabs(const std::string& text) {
+  std::string spaced;
+  bool is_leading = true;
+  for (const char c : text) {
+    if (c == '\t' && is_leading)
+      spaced += "    ";
+    else
+      spaced += c;
+    is_leading = c == '\n' || (is_leading && (c == ' ' || c == '\t'));
+  }
+  return spaced;
+}
+
+// OpenCV's first line ("%YAML:1.0") is no directive of YAML, and version 2 writes no "---" after
+// it.
+std::string without_opencv_line(const std::string& text) {
+  const std::size_t start = text.find_first_not_of(" \t\n");
+  if (start == std::string::npos || text.compare(start, 5, "%YAML") != 0) return text;
+  const std::size_t end = text.find('\n', start);
+  return end == std::string::npos ? "" : text.substr(end);
+}
+
+}  // namespace
+
+json yaml_camera_tree(const std::string& text, const std::string& source) {
+  try {
+    json documents = json::array();
+    int values = 100'000;
+    for (const YAML::Node& document :
+         YAML::LoadAll(without_leading_tabs(without_opencv_line(text))))
+      if (!document.IsNull())
+        documents.push_back(yaml_value(document, {.values = &values}, source));
+    if (documents.size() == 1) return documents[0];
+    return documents;
+  } catch (const YAML::Exception& error) {
+    throw InputError(source, "YAML", error.what(), "a camera calibration");
+  }
+}
+
+}  // namespace edgescout
