@@ -96,6 +96,11 @@ if [ -z "${EDGESCOUT_DATA:-}" ] && [ -d ../shared/data ]; then
   EDGESCOUT_DATA=$(realpath ../shared/data)
   export EDGESCOUT_DATA
 fi
+# Inputs as users have them, with the right answers.
+if [ -z "${EDGESCOUT_FIELD:-}" ] && [ -d ../shared/field ]; then
+  EDGESCOUT_FIELD=$(realpath ../shared/field)
+  export EDGESCOUT_FIELD
+fi
 
 scripts/setup.sh --dev
 case "${1:-}" in

@@ -11,7 +11,6 @@
 #include "host/cli/view_results.h"
 #include "host/core/log.h"
 #include "host/core/stopwatch.h"
-#include "host/io/camera_file.h"
 #include "host/io/files.h"
 #include "host/io/image.h"
 #include "kernels/error.h"
@@ -22,10 +21,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-BatchSettings settings_of(std::span<const TemplateSet> sets, const BatchOptions& options) {
+BatchSettings settings_of(std::span<const TemplateSet> sets, std::span<const InputImage> images,
+                          const BatchOptions& options) {
   BatchSettings settings{options.settings, {}};
   for (auto& setting : settings_of(sets)) settings.common.push_back(std::move(setting));
-  if (!options.camera_file.empty()) settings.camera = load_camera(options.camera_file);
+  settings.camera = given_camera(options.camera, images);
   return settings;
 }
 
@@ -78,7 +78,7 @@ class Preparer {
     const Image image = load_image(input.file);
     PreparedView prepared{{}, {{"decode", seconds_since(start)}}};
     const Camera camera = camera_of(input, image.width, image.height,
-                                    {camera_, options_.camera_file, options_.scale_camera});
+                                    {camera_, options_.camera.file, options_.scale_camera});
     const Se3 camera_from_world = options_.joint ? *input.camera_from_world : Se3{};
     prepared.view = naming(input, [&] {
       return backend_ ? prepare_view(image, camera, camera_from_world, *backend_, options_.pipeline,
@@ -267,7 +267,7 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
                        Backend& backend, const BatchOptions& options) {
   const auto start = Clock::now();
   if (options.joint) require_joinable(images);
-  const BatchSettings settings = settings_of(sets, options);
+  const BatchSettings settings = settings_of(sets, images, options);
   Preparer preparer(options, settings.camera, !leaves_edges_to(backend, options));
   Detector detector(images, sets, backend, options, settings);
   BatchSummary& summary = detector.summary;
@@ -280,7 +280,7 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
       open.push_back(std::move(group));
   }
   require_writable_place(options.out);
-  warn_of_unknown_size({settings.camera, options.camera_file, options.scale_camera});
+  warn_of_camera({settings.camera, options.camera.file, options.scale_camera});
   try {
     work_through(open, preparer, detector);
   } catch (const std::exception& error) {

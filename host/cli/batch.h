@@ -8,6 +8,7 @@
 #include <string>
 
 #include "host/cli/batch_results.h"
+#include "host/cli/inputs.h"
 #include "host/cli/template_origin.h"
 #include "host/pipeline.h"
 
@@ -15,7 +16,7 @@ namespace edgescout {
 
 struct BatchOptions {
   std::filesystem::path out;
-  std::string camera_file;  // empty: the camera of the BOP scene
+  CameraArguments camera;
   bool scale_camera = false;
   bool resume = false;
   bool joint = false;  // all views of a BOP scene at once

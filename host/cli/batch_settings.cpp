@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "host/core/lens.h"
 #include "host/io/binary_file.h"
 #include "kernels/error.h"
 
@@ -14,9 +15,18 @@ namespace {
 
 std::string text_of(const std::optional<Camera>& camera) {
   if (!camera) return "none";
-  return fmt::format("{}x{} px, fx {}, fy {}, cx {}, cy {}, distortion {}", camera->width,
-                     camera->height, camera->fx, camera->fy, camera->cx, camera->cy,
-                     fmt::join(camera->distortion, " "));
+  std::span<const double> coefficients = camera->distortion;
+  constexpr std::size_t always_shown = 8;
+  while (coefficients.size() > always_shown && coefficients.back() == 0)
+    coefficients = coefficients.first(coefficients.size() - 1);
+  std::string text = fmt::format("{}x{} px, fx {}, fy {}, cx {}, cy {}, distortion {}",
+                                 camera->width, camera->height, camera->fx, camera->fy, camera->cx,
+                                 camera->cy, fmt::join(coefficients, " "));
+  if (camera->lens != LensModel::BrownConrady) text += ", " + to_string(camera->lens);
+  if (camera->skew != 0) text += fmt::format(", skew {}", camera->skew);
+  if (camera->field_of_view_rad > 0)
+    text += fmt::format(", field of view {} rad", camera->field_of_view_rad);
+  return text;
 }
 
 std::string text_of(const Se3& pose) {

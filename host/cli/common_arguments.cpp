@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include "host/cli/help.h"
 #include "host/cli/option_table.h"
 
 namespace edgescout {
@@ -11,11 +12,25 @@ void add_images(CLI::App& verb, std::vector<std::string>& inputs) {
       ->required();
 }
 
-void add_camera_file(CLI::App& verb, std::string& file) {
-  verb.add_option("--camera", file,
-                  "Calibration of the images: ROS or OpenCV YAML, or BOP camera JSON. BOP scenes "
-                  "have their own")
+void add_camera(CLI::App& verb, CameraArguments& camera) {
+  verb.add_option("--camera", camera.file,
+                  "Calibration of the images: a file of ROS, OpenCV, Kalibr, COLMAP, BOP, MATLAB "
+                  "and others (docs/cameras.md). BOP scenes have their own")
       ->type_name("FILE");
+  add_camera_choice(verb, camera);
+}
+
+void add_camera_choice(CLI::App& verb, CameraArguments& camera) {
+  CLI::Option* name =
+      verb.add_option("--camera-name", camera.name,
+                      "Which camera of the calibration's file, where it has several")
+          ->type_name("NAME")
+          ->group("Camera");
+  mark_expert(verb, name);
+  OptionTable(verb, "Camera", OptionLevel::Expert)
+      .bounded("field-of-view", camera.field_of_view_deg, 0.0, 170.0,
+               "Horizontal field of view of undistorted images, degrees. 0: they keep the "
+               "calibration's focal lengths and principal point");
 }
 
 void add_results_folder(CLI::App& verb, std::string& out) {

@@ -6,15 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "host/cli/inputs.h"
 #include "host/pipeline.h"
 
 namespace edgescout {
 
 void add_images(CLI::App& verb, std::vector<std::string>& inputs);  // required
-void add_camera_file(CLI::App& verb, std::string& file);            // --camera
-void add_results_folder(CLI::App& verb, std::string& out);          // --out, required
-void add_device(CLI::App& verb, std::string& device);               // --device; shows its default
-void add_scale_camera(CLI::App& verb, bool& scale_camera);          // --scale-camera
+// --camera, --camera-name, --field-of-view
+void add_camera(CLI::App& verb, CameraArguments& camera);
+void add_camera_choice(CLI::App& verb, CameraArguments& camera);  // the last two
+void add_results_folder(CLI::App& verb, std::string& out);        // --out, required
+void add_device(CLI::App& verb, std::string& device);             // --device; shows its default
+void add_scale_camera(CLI::App& verb, bool& scale_camera);        // --scale-camera
 
 // The backend of --device. Its kernels are timed where the log shows their times.
 std::unique_ptr<Backend> backend_of(const std::string& device);

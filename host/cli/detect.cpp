@@ -32,7 +32,7 @@ LoadedTemplates load_templates_for(const DetectRequest& request, std::span<const
                                    Backend& backend) {
   const KnownModels known = load_models(request.models);
   const SearchedImages searched = searched_images(
-      images, first_camera(images, request.batch.camera_file, request.batch.scale_camera),
+      images, first_camera(images, request.batch.camera, request.batch.scale_camera),
       request.batch.pipeline.detect.scan.world);
   if (request.batch.joint) require_joinable(images);
   require_other_folder(images, request.batch.out);
@@ -53,7 +53,7 @@ int detect(DetectRequest& request) {
   request.batch.pipeline.validate();
   request.templates.validate();
   const std::unique_ptr<Backend> backend = backend_of(request.device);
-  const std::vector<InputImage> images = list_images(request.inputs);
+  const std::vector<InputImage> images = list_images(request.inputs, request.batch.camera);
   const LoadedTemplates templates = load_templates_for(request, images, *backend);
   request.batch.templates = templates.origins;
   log(LogLevel::Info, fmt::format("{} images, {} models, on {}", images.size(),
@@ -71,7 +71,7 @@ int detect(DetectRequest& request) {
 void add_files(CLI::App& verb, DetectRequest& request) {
   add_images(verb, request.inputs);
   add_model_arguments(verb, request.models);
-  add_camera_file(verb, request.batch.camera_file);
+  add_camera(verb, request.batch.camera);
   add_results_folder(verb, request.out);
   add_device(verb, request.device);
 }

@@ -13,7 +13,6 @@
 #include "host/cli/template_sets.h"
 #include "host/cli/verbs.h"
 #include "host/core/log.h"
-#include "host/io/camera_file.h"
 #include "host/io/files.h"
 #include "host/io/image.h"
 #include "host/io/json_text.h"
@@ -184,12 +183,13 @@ ExitCode explain(ExplainRequest& request) {
   request.same.validate();
   source_of_poses(request);
   const std::unique_ptr<Backend> backend = make_backend(request.device);
-  const std::vector<InputImage> images = list_images(request.inputs);
+  const std::vector<InputImage> images = list_images(request.inputs, request.images.calibration);
   const KnownModels known = load_models(request.models);
   RegisterOptions& options = request.images;
-  if (!options.camera_file.empty()) options.camera = load_camera(options.camera_file);
+  options.camera = given_camera(options.calibration, images);
+  warn_of_camera({options.camera, options.calibration.file, options.scale_camera});
   const SearchedImages searched =
-      searched_images(images, first_camera(images, options.camera_file, options.scale_camera),
+      searched_images(images, first_camera(images, options.calibration, options.scale_camera),
                       options.pipeline.detect.scan.world);
   const std::vector<RegisterJob> jobs = jobs_of(request, images, known);
   require_safe_out(request, images);
@@ -230,7 +230,7 @@ void add_files(CLI::App& verb, ExplainRequest& request) {
   add_images(verb, request.inputs);
   add_poses(verb, request);
   add_model_arguments(verb, request.models);
-  add_camera_file(verb, request.images.camera_file);
+  add_camera(verb, request.images.calibration);
   verb.add_option("--out", request.out,
                   "Folder for explain.json and a picture of each given pose. Without it nothing is "
                   "written")

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "host/active/camera_pose_check.h"
+#include "host/core/camera_check.h"
 #include "host/core/log.h"
 #include "host/io/camera_file.h"
 #include "host/io/image.h"
@@ -76,6 +78,22 @@ void make_names_unique(std::vector<InputImage>& images) {
   }
 }
 
+double field_of_view_rad(const CameraArguments& arguments) {
+  return arguments.field_of_view_deg * std::numbers::pi / 180;
+}
+
+SizePx size_of_first(std::span<const InputImage> images) {
+  for (const InputImage& input : images) {
+    try {
+      const Image image = load_image(input.file);
+      return {image.width, image.height};
+    } catch (const InputError&) {
+      if (&input == &images.back()) throw;
+    }
+  }
+  throw InputError("command line", "inputs", "no image", "at least one");
+}
+
 int id_in_name(const std::string& file, int otherwise) {
   const std::string stem = fs::path(file).stem().string();
   const std::size_t digits = stem.size() - (stem.find_last_not_of("0123456789") + 1);
@@ -85,7 +103,8 @@ int id_in_name(const std::string& file, int otherwise) {
 
 }  // namespace
 
-std::vector<InputImage> list_images(const std::vector<std::string>& arguments) {
+std::vector<InputImage> list_images(const std::vector<std::string>& arguments,
+                                    const CameraArguments& chosen) {
   std::vector<InputImage> images;
   for (const std::string& argument : arguments) {
     const fs::path path = fs::path(argument).lexically_normal();
@@ -99,6 +118,8 @@ std::vector<InputImage> list_images(const std::vector<std::string>& arguments) {
                        "an image, a folder of images or a BOP scene");
   }
   make_names_unique(images);
+  for (InputImage& image : images)
+    if (image.camera) image.camera->field_of_view_rad = field_of_view_rad(chosen);
   return images;
 }
 
@@ -122,8 +143,24 @@ void require_other_folder(std::span<const InputImage> images, const fs::path& ou
       throw InputError("command line", "--out", "the folder of the images", "another one");
 }
 
-void warn_of_unknown_size(const GivenCamera& given) {
-  if (given.camera && given.camera->width == 0)
+std::optional<Camera> given_camera(const CameraArguments& arguments,
+                                   std::span<const InputImage> images) {
+  if (arguments.file.empty()) {
+    if (arguments.name.empty()) return {};
+    throw InputError("command line", "--camera-name", "it without --camera", "--camera FILE");
+  }
+  Camera camera = choose_camera(
+      load_cameras(arguments.file), arguments.name, [&] { return size_of_first(images); },
+      arguments.file);
+  camera.field_of_view_rad = field_of_view_rad(arguments);
+  return camera;
+}
+
+void warn_of_camera(const GivenCamera& given) {
+  if (!given.camera) return;
+  for (const std::string& doubt : implausible_in(*given.camera))
+    log(LogLevel::Warning, given.file + ": " + doubt);
+  if (given.camera->width == 0)
     log(LogLevel::Warning, fmt::format("{}: width, height: found none, expected the size of the "
                                        "calibration's images: taken to be that of every image",
                                        given.file));
@@ -140,10 +177,9 @@ Camera camera_of(const InputImage& image, int width, int height, const GivenCame
   });
 }
 
-Camera first_camera(std::span<const InputImage> images, const std::string& camera_file,
+Camera first_camera(std::span<const InputImage> images, const CameraArguments& arguments,
                     bool may_scale) {
-  GivenCamera given{{}, camera_file, may_scale};
-  if (!camera_file.empty()) given.camera = load_camera(camera_file);
+  const GivenCamera given{given_camera(arguments, images), arguments.file, may_scale};
   for (const InputImage& input : images) {
     try {
       const Image image = load_image(input.file);

@@ -27,10 +27,18 @@ struct InputImage {
   std::string name;
 };
 
+// What --camera, --camera-name and --field-of-view say.
+struct CameraArguments {
+  std::string file;              // empty: BOP scenes have their own cameras
+  std::string name;              // of one of several cameras in the file
+  double field_of_view_deg = 0;  // of undistorted images; 0: they keep the focal length
+};
+
 // Each argument is an image, a BOP scene folder (has scene_camera.json), a folder of such scenes,
-// or a folder of images (png, jpg, jpeg, pgm, ppm, bmp, tif, tiff; sorted by name). InputError: an
-// argument is none of these or has no image.
-std::vector<InputImage> list_images(const std::vector<std::string>& arguments);
+// or a folder of images (png, jpg, jpeg, pgm, ppm, bmp, tif, tiff; sorted by name). The cameras of
+// scenes get the chosen field of view. InputError: an argument is none of these or has no image.
+std::vector<InputImage> list_images(const std::vector<std::string>& arguments,
+                                    const CameraArguments& chosen = {});
 
 // Divides the images into groups of one, or with `by_scene` into the consecutive images of each
 // scene.
@@ -57,18 +65,22 @@ struct GivenCamera {
   std::string file;
   bool may_scale = false;  // to images of another size
 };
-// Warns of a calibration without image size: it is accepted for images of every size, but may be
-// wrong for most.
-void warn_of_unknown_size(const GivenCamera& given);
+// Reads the calibration of all images, with the chosen field of view. Of several cameras of other
+// sizes in the file the one of the first usable image's size is taken. Empty: no file is given.
+std::optional<Camera> given_camera(const CameraArguments& arguments,
+                                   std::span<const InputImage> images);
+
+// Warns of a calibration without image size, which is accepted for images of every size but may be
+// wrong for most, and of values that are hardly right (core/camera_check.h).
+void warn_of_camera(const GivenCamera& given);
 
 // Returns the camera of an image of this size. InputError naming the image and its calibration:
 // there is none, or it does not fit.
 Camera camera_of(const InputImage& image, int width, int height, const GivenCamera& given);
 
 // Returns the camera from which default distances are computed: that of the first usable image.
-// `camera_file` is the calibration of all images; empty: BOP scenes have their own. InputError: if
-// no image is usable, that of the last one.
-Camera first_camera(std::span<const InputImage> images, const std::string& camera_file,
+// InputError: if no image is usable, that of the last one.
+Camera first_camera(std::span<const InputImage> images, const CameraArguments& arguments,
                     bool may_scale);
 
 // As check_camera_poses, for images of one scene, which have world poses. They are taken to have

@@ -72,6 +72,7 @@ int run(int argc, char** argv) {
   std::ranges::reverse(arguments);  // what CLI11 asks for
   int exit_code = exit_internal_error;
   add_bench(app, exit_code);
+  add_camera_verb(app, exit_code);
   add_detect(app, exit_code);
   add_devices(app, exit_code);
   add_eval(app, exit_code);

@@ -22,7 +22,7 @@ namespace edgescout {
 namespace {
 
 struct BuildRequest {
-  std::string file, unit, models_info, camera, out, device = "auto";
+  std::string file, unit, models_info, camera, camera_name, out, device = "auto";
   std::vector<std::string> symmetry;
   int object_id = 0;  // 0: the number in the file's name
   TemplateOptions templates;
@@ -44,7 +44,7 @@ TemplateOptions with_distances(const BuildRequest& request, double diameter_m) {
   if (request.camera.empty())
     throw InputError("command line", "--distance-min", "none",
                      "a range of distances, or --camera to choose one");
-  const Camera camera = load_camera(request.camera);
+  const Camera camera = load_camera(request.camera, request.camera_name);
   if (camera.width == 0)
     throw InputError(request.camera, "image_width", "none",
                      "an image size, or --distance-min and --distance-max");
@@ -95,6 +95,9 @@ void add_model_build(CLI::App& model, int& exit_code) {
   verb->add_option("--camera", request->camera,
                    "Calibration from which the range of distances is computed")
       ->type_name("FILE");
+  verb->add_option("--camera-name", request->camera_name,
+                   "Which camera of that file, where it has several")
+      ->type_name("NAME");
   add_device(*verb, request->device);
   verb->add_option("--out", request->out, "Template file")->required()->type_name("FILE");
   OptionTable(*verb, "Model")

@@ -10,7 +10,6 @@
 #include "host/cli/register_batch.h"
 #include "host/cli/template_sets.h"
 #include "host/cli/verbs.h"
-#include "host/io/camera_file.h"
 #include "host/model/mesh_quality.h"
 #include "kernels/error.h"
 
@@ -73,17 +72,17 @@ int register_all(RegisterRequest& request) {
   options.pipeline.validate();
   options.refine.validate();
   const std::unique_ptr<Backend> backend = backend_of(request.device);
-  if (!options.camera_file.empty()) options.camera = load_camera(options.camera_file);
   const std::vector<RegisterModel> models = load_models(request);
   for (const RegisterModel& model : models) warn_of_mesh(model.edges);
   require_safe_starts(request);
   const std::vector<StartPose> poses = load_start_poses(request.poses);
-  const std::vector<InputImage> images = list_images(request.inputs);
+  const std::vector<InputImage> images = list_images(request.inputs, options.calibration);
+  options.camera = given_camera(options.calibration, images);
   require_other_folder(images, options.out);
   const std::vector<RegisterJob> jobs =
       make_jobs(images, models, poses, request.multi_view, request.poses);
   if (request.multi_view) {
-    const Camera camera = first_camera(images, options.camera_file, options.scale_camera);
+    const Camera camera = first_camera(images, options.calibration, options.scale_camera);
     for (const RegisterJob& job : jobs) check_scene(job.views, distances_of(job, models), camera);
   }
   const RegisterSummary summary = run_register(jobs, models, *backend, options);
@@ -113,7 +112,7 @@ void add_files(CLI::App& verb, RegisterRequest& request) {
   verb.add_option("--templates", request.template_files,
                   "Template files of `edgescout model build`, in place of --model")
       ->type_name("FILE");
-  add_camera_file(verb, request.options.camera_file);
+  add_camera(verb, request.options.calibration);
   add_results_folder(verb, request.out);
   add_device(verb, request.device);
 }

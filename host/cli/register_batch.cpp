@@ -186,7 +186,7 @@ RegisterSummary run_register(std::span<const RegisterJob> jobs,
   const std::vector<const RegisterJob*> open = skip_done(jobs, registrar, options.resume);
   require_writable_place(options.out);
   if (!options.resume) require_no_other_results(options.out, all_views(jobs));
-  warn_of_unknown_size({options.camera, options.camera_file, options.scale_camera});
+  warn_of_camera({options.camera, options.calibration.file, options.scale_camera});
   const auto write_summary_of = [&](const std::exception& error) {
     summary.error = error.what();
     summary.seconds = seconds_since(start);

@@ -17,7 +17,7 @@ namespace edgescout {
 struct RegisterOptions {
   std::filesystem::path out;
   std::optional<Camera> camera;  // absent: the camera of the BOP scene
-  std::string camera_file;
+  CameraArguments calibration;   // from which `camera` is read
   bool scale_camera = false;
   bool resume = false;
   bool overlays = true;

@@ -18,7 +18,7 @@ PreparedView prepare(const InputImage& input, bool is_single, Backend& backend,
                      const RegisterOptions& options) {
   const Image image = load_image(input.file);
   const Camera camera = camera_of(input, image.width, image.height,
-                                  {options.camera, options.camera_file, options.scale_camera});
+                                  {options.camera, options.calibration.file, options.scale_camera});
   const Se3 camera_from_world = is_single ? Se3{} : *input.camera_from_world;
   PreparedView prepared;
   prepared.view = naming(input, [&] {

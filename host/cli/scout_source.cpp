@@ -6,10 +6,10 @@
 
 #include "host/active/recorded_views.h"
 #include "host/cli/batch_settings.h"
+#include "host/cli/common_arguments.h"
 #include "host/cli/help.h"
 #include "host/cli/scene_options.h"
 #include "host/io/bop.h"
-#include "host/io/camera_file.h"
 #include "host/io/files.h"
 #include "kernels/error.h"
 
@@ -31,7 +31,7 @@ std::vector<Se3> cell_views(const SourceRequest& request, const SimulatedScene& 
 
 ScoutSource make_cell(const SourceRequest& request, std::span<const Object> objects,
                       ThreadPool& pool) {
-  if (!request.camera_file.empty())
+  if (!request.camera.file.empty())
     throw InputError("command line", "--camera", "one for a cell", "--width, --height and --focal");
   RenderOptions options = request.scene;
   options.min_distance_m = options.max_distance_m = request.hemisphere.radius_m;
@@ -65,6 +65,14 @@ std::filesystem::path scene_below(const std::filesystem::path& folder) {
   return {};
 }
 
+// What the images' camera depends on.
+std::string text_of(const CameraArguments& camera) {
+  std::string text = checksum_text(read_file(camera.file));
+  if (!camera.name.empty()) text += ", " + camera.name;
+  if (camera.field_of_view_deg > 0) text += fmt::format(", {} degrees", camera.field_of_view_deg);
+  return text;
+}
+
 ScoutSource make_recorded(const SourceRequest& request) {
   if (!request.views_file.empty())
     throw InputError("command line", "--views", "a list for recorded views", "their own poses");
@@ -77,15 +85,16 @@ ScoutSource make_recorded(const SourceRequest& request) {
       throw InputError(request.source, "source", "a folder of BOP scenes",
                        "one of them, such as " + scene.string());
   std::optional<Camera> camera;
-  if (!request.camera_file.empty()) camera = load_camera(request.camera_file);
+  if (!request.camera.file.empty()) camera = given_camera(request.camera, {});
+  if (!camera && request.camera.field_of_view_deg > 0)
+    throw InputError("command line", "--field-of-view", "it without --camera", "--camera FILE");
   ScoutSource made;
   const std::filesystem::path folder = std::filesystem::canonical(request.source);
   made.name = folder.filename().string();
   made.settings = request.settings;
   made.settings.emplace_back("source", folder.string());
-  made.settings.emplace_back("camera", request.camera_file.empty()
-                                           ? "its own"
-                                           : checksum_text(read_file(request.camera_file)));
+  made.settings.emplace_back("camera",
+                             request.camera.file.empty() ? "its own" : text_of(request.camera));
   auto views = std::make_unique<RecordedViews>(load_recorded_views(request.source, camera));
   for (const RecordedViews::Recording& recording : views->recordings())
     made.image_files.push_back(recording.file);
@@ -128,10 +137,7 @@ void add_source_options(CLI::App& verb, SourceRequest& r) {
                   "\"cell\": a rendered scene of the models. Else a folder of recorded views: a "
                   "BOP scene, or a folder with CameraPose and Images")
       ->required();
-  verb.add_option("--camera", r.camera_file,
-                  "Camera of recorded views: ROS or OpenCV YAML, or BOP camera JSON. BOP scenes "
-                  "have their own")
-      ->type_name("FILE");
+  add_camera(verb, r.camera);
   add_hemisphere_options(verb, r);
   add_scene_options(verb, r.scene, OptionLevel::Expert);
   OptionTable(verb, "Arm", OptionLevel::Expert)

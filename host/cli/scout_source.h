@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/active/views.h"
+#include "host/cli/inputs.h"
 #include "host/cli/option_table.h"
 #include "host/cli/scout_report.h"
 #include "host/render/simulated_cell.h"
@@ -9,10 +10,10 @@
 namespace edgescout {
 
 struct SourceRequest {
-  std::string source;       // "cell", or a folder (load_recorded_views)
-  std::string camera_file;  // of recorded views
-  std::string views_file;   // of a cell, in place of the hemisphere
-  RenderOptions scene;      // of a cell
+  std::string source;      // "cell", or a folder (load_recorded_views)
+  CameraArguments camera;  // of recorded views
+  std::string views_file;  // of a cell, in place of the hemisphere
+  RenderOptions scene;     // of a cell
   ArmNoise arm;
   HemisphereOptions hemisphere{.radius_m = 0};  // 0: such that the parts fill the image
   std::vector<double> center_m{0, 0, 0};

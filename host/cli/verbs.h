@@ -7,6 +7,7 @@ namespace edgescout {
 
 // The verb that runs sets `exit_code` (exit_codes.h), which must outlive the app.
 void add_bench(CLI::App& app, int& exit_code);
+void add_camera_verb(CLI::App& app, int& exit_code);
 void add_detect(CLI::App& app, int& exit_code);
 void add_devices(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);

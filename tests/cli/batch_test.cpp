@@ -302,7 +302,7 @@ TEST(RunBatch, NamesTheImageThatIsTooLarge) {
   Batch t;
   const fs::path wide = t.folder.path() / "wide.png";
   save_png(Image{32767, 120, std::vector<std::uint8_t>(32767 * 120, 128)}, wide);
-  t.options.camera_file = t.folder.write(
+  t.options.camera.file = t.folder.write(
       "lens.yaml", "K: [400, 0, 159.5, 0, 400, 119.5, 0, 0, 1]\nD: [0.1, 0, 0, 0, 0]\n");
   expect_input_error(
       [&] { run_batch(list_images({wide.string()}), t.sets, *make_cpu_backend(1), t.options); },
@@ -327,7 +327,7 @@ TEST(RunBatch, TakesFileNamesThatAreNoUtf8) {
   const fs::path folder = t.folder.path() / "images";
   t.folder.write("images/bad\xe9.png", "no image");
   fs::copy_file(t.image(), folder / "caf\xe9.png");
-  t.options.camera_file = t.camera();
+  t.options.camera.file = t.camera();
   const std::vector<InputImage> images = list_images({folder});
   EXPECT_EQ(run_batch(images, t.sets, *make_cpu_backend(2), t.options).done, 1);
   const std::string bad = t.summary().at("failures").at(0).at("file");

@@ -46,6 +46,7 @@ std::vector<std::string> descriptions(const std::string& help) {
 const std::vector<std::vector<std::string>>& all_verbs() {
   static const std::vector<std::vector<std::string>> verbs{{"bench", "devices"},
                                                            {"bench", "experiments"},
+                                                           {"camera"},
                                                            {"detect"},
                                                            {"devices"},
                                                            {"eval"},
