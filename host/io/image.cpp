@@ -12,6 +12,7 @@
 
 #include "host/core/lens.h"
 #include "host/core/log.h"
+#include "host/io/exif.h"
 #include "host/io/files.h"
 #include "kernels/error.h"
 
@@ -64,9 +65,9 @@ cv::Mat decode(const std::string& bytes, const std::string& source) {
 }
 
 cv::Mat to_grey(const cv::Mat& image, const std::string& source) {
-  if (image.depth() != CV_8U)
+  if (image.depth() != CV_8U && image.depth() != CV_16U)
     throw InputError(source, "bit depth", std::to_string(8 * image.elemSize1()) + " bit a channel",
-                     "8 bit");
+                     "8 or 16 bit");
   if (image.channels() == 1) return image;
   if (image.channels() != 3 && image.channels() != 4)
     throw InputError(source, "channels", std::to_string(image.channels()),
@@ -78,6 +79,44 @@ cv::Mat to_grey(const cv::Mat& image, const std::string& source) {
   cv::Mat grey;
   cv::cvtColor(image, grey, image.channels() == 3 ? cv::COLOR_BGR2GRAY : cv::COLOR_BGRA2GRAY);
   return grey;
+}
+
+// The values at which so many of a million pixels are darker, and so many brighter. Outliers, such
+// as dead and hot pixels, do not count.
+std::pair<int, int> robust_range(const cv::Mat& grey) {
+  constexpr std::size_t left_out_per_million = 1000;
+  std::vector<std::size_t> counts(1 << 16);
+  for (int y = 0; y < grey.rows; ++y)
+    for (int x = 0; x < grey.cols; ++x) ++counts[grey.at<std::uint16_t>(y, x)];
+  const std::size_t left_out = grey.total() * left_out_per_million / 1'000'000;
+  std::size_t low = 0, high = counts.size() - 1;
+  for (std::size_t below = counts[low]; below <= left_out && low < high;) below += counts[++low];
+  for (std::size_t above = counts[high]; above <= left_out && high > low;) above += counts[--high];
+  return {static_cast<int>(low), static_cast<int>(high)};
+}
+
+// Sensors of 10 to 16 bit fill any part of the range. An image scaled by its own values gives the
+// thresholds of edges the same meaning whatever that part is. Steps are never enlarged.
+cv::Mat to_8_bit(const cv::Mat& grey, const std::string& source) {
+  const auto [low, high] = robust_range(grey);
+  const double scale = 255.0 / std::max(high - low, 255);
+  cv::Mat scaled;
+  grey.convertTo(scaled, CV_8U, scale, -scale * low);
+  static std::atomic_flag was_logged;
+  if (!was_logged.test_and_set())
+    log(LogLevel::Info, source + ": 16 bit scaled to 8 bit, " + std::to_string(low) + " to " +
+                            std::to_string(high) +
+                            " becomes black to white (not repeated for further images)");
+  return scaled;
+}
+
+void mention_orientation(const std::string& bytes, const std::string& source) {
+  static std::atomic_flag was_logged;
+  const int orientation = exif_orientation(bytes);
+  if (orientation != 1 && !was_logged.test_and_set())
+    log(LogLevel::Warning, source + ": EXIF orientation: found " + std::to_string(orientation) +
+                               ", expected 1: the pixels are used as they are stored, and the "
+                               "calibration must be of these (not repeated for further images)");
 }
 
 Image from_mat(const cv::Mat& grey) {
@@ -157,7 +196,10 @@ bool has_image_extension(const std::filesystem::path& file) {
 
 Image load_image(const std::filesystem::path& file) {
   const std::string source = file.string();
-  const cv::Mat image = to_grey(decode(read_file(file), source), source);
+  const std::string bytes = read_file(file);
+  cv::Mat image = to_grey(decode(bytes, source), source);
+  mention_orientation(bytes, source);
+  if (image.depth() == CV_16U) image = to_8_bit(image, source);
   if (image.cols < min_side_px || image.rows < min_side_px)
     throw InputError(source, "image size", size_text(image.cols, image.rows), "at least 16x16 px");
   return from_mat(image);

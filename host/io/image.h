@@ -14,8 +14,11 @@ namespace edgescout {
 // ppm, bmp, tif or tiff, in any case.
 bool has_image_extension(const std::filesystem::path& file);
 
-// Reads a grey image of 8 bit. A colour image is converted; the first one is logged as Info.
-// InputError: the file is missing, is not an image, has 16 bit or is smaller than 16 x 16 px.
+// Reads a grey image of 8 bit. A colour image is converted. An image of 16 bit is scaled: the value
+// below which 0.1 % of its pixels lie becomes 0, that above which 0.1 % lie 255; a smaller range
+// than 255 is only shifted. Pixels are as stored, whatever an EXIF orientation says. The first of
+// each is logged. InputError: the file is missing, is not an image, has another bit depth or is
+// smaller than 16 x 16 px.
 Image load_image(const std::filesystem::path& file);
 
 // Resamples an image of `camera` into an image of undistorted(camera), bicubic. Without distortion

@@ -10,6 +10,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "host/core/lens.h"
+#include "host/io/exif.h"
 #include "tests/io/collected_log.h"
 #include "tests/io/expect_input_error.h"
 #include "tests/io/temporary_folder.h"
@@ -67,13 +68,53 @@ TEST(LoadImage, ConvertsColourAndLogsIt) {
   EXPECT_NE(log.messages[0].second.find("c.png: colour"), std::string::npos);
 }
 
-TEST(LoadImage, RejectsOtherDepthsThan8Bit) {
+// Grey steps 0 .. 249 in any part of the range, with a dead and a hot pixel.
+TEST(LoadImage, ScalesDeepImagesByTheirOwnValues) {
   const TemporaryFolder folder;
-  for (const char* name : {"deep.png", "deep.tif", "deep.pgm"}) {
-    cv::imwrite((folder.path() / name).string(), cv::Mat(20, 20, CV_16U, cv::Scalar(1000)));
-    expect_input_error([&] { load_image(folder.path() / name); },
-                       {name, "bit depth", "16 bit", "8 bit"});
-  }
+  for (const auto& [low, step] : {std::pair{0, 256}, {0, 16}, {3000, 20}})
+    for (const char* name : {"deep.png", "deep.tif", "deep.pgm"}) {
+      cv::Mat deep(50, 250, CV_16U);
+      for (int y = 0; y < deep.rows; ++y)
+        for (int x = 0; x < deep.cols; ++x)
+          deep.at<std::uint16_t>(y, x) = static_cast<std::uint16_t>(low + step * x);
+      deep.at<std::uint16_t>(3, 3) = 0;
+      deep.at<std::uint16_t>(4, 4) = 65535;
+      cv::imwrite((folder.path() / name).string(), deep);
+      const Image image = load_image(folder.path() / name);
+      for (const int x : {0, 100, 249})
+        EXPECT_NEAR(image.at(x, 10), x * 255 / 249.0, 1) << name << " " << low << " " << step;
+      EXPECT_EQ(image.at(3, 3), 0);
+      EXPECT_EQ(image.at(4, 4), 255);
+    }
+  cv::Mat flat(20, 20, CV_16U, cv::Scalar(1000));  // noise is not enlarged
+  flat.at<std::uint16_t>(5, 5) = 1010;
+  cv::imwrite((folder.path() / "flat.png").string(), flat);
+  EXPECT_EQ(load_image(folder.path() / "flat.png").at(5, 5), 10);
+}
+
+TEST(LoadImage, RejectsOtherDepths) {
+  const TemporaryFolder folder;
+  cv::imwrite((folder.path() / "real.tif").string(), cv::Mat(20, 20, CV_32F, cv::Scalar(0.5)));
+  expect_input_error([&] { load_image(folder.path() / "real.tif"); },
+                     {"real.tif", "bit depth", "32 bit", "8 or 16 bit"});
+}
+
+// A segment with the tag, in both orders of bytes.
+TEST(ExifOrientation, IsReadFromJpegFiles) {
+  const std::string big(
+      "\xff\xd8\xff\xe1\0\x22"
+      "Exif\0\0MM\0*\0\0\0\x08\0\x01\x01\x12\0\x03\0\0\0\x01\0\x06\0\0"
+      "\0\0\0\0\xff\xd9",
+      40);
+  EXPECT_EQ(exif_orientation(big), 6);
+  const std::string little(
+      "\xff\xd8\xff\xe1\0\x22"
+      "Exif\0\0II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0\x03\0\0\0"
+      "\0\0\0\0\xff\xd9",
+      40);
+  EXPECT_EQ(exif_orientation(little), 3);
+  for (std::size_t i = 0; i < big.size(); ++i) EXPECT_GE(exif_orientation(big.substr(0, i)), 1);
+  EXPECT_EQ(exif_orientation("\x89PNG"), 1);
 }
 
 TEST(LoadImage, RejectsTinyImages) {
