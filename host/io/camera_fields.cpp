@@ -38,6 +38,10 @@ bool is_part_of_camera(std::string_view name) {
                           "principalpoint", "focallength", "binning", "lens", "value", "value0"});
 }
 
+std::string path_below(const std::string& path, const std::string& name) {
+  return path.empty() ? name : path + "/" + name;
+}
+
 bool has_number_after(std::string_view name, char letter) {
   return name.size() >= 2 && name.size() <= 3 && name[0] == letter &&
          std::ranges::all_of(name.substr(1), [](unsigned char c) { return std::isdigit(c); });
@@ -166,7 +170,7 @@ void CameraFields::add(const json& object, const std::string& path, bool in_dist
     if (const std::size_t dot = key.find('.');
         dot != std::string::npos && plain_name(key.substr(0, dot)).starts_with("camera"))
       name = plain_name(key.substr(dot + 1));
-    const std::string where = path.empty() ? key : path + "/" + key;
+    const std::string where = path_below(path, key);
     const bool is_matrix = value.is_object() && value.contains("data");
     if (value.is_object() && !is_matrix && depth < 4 && is_part_of_camera(name)) {
       add(value, where, in_distortion || is_distortion_name(name), depth + 1);
@@ -179,7 +183,7 @@ void CameraFields::add(const json& object, const std::string& path, bool in_dist
 }
 
 std::string CameraFields::at(const std::string& field) const {
-  return path_.empty() ? field : path_ + "/" + field;
+  return path_below(path_, field);
 }
 
 bool CameraFields::has_intrinsics() const {

@@ -133,13 +133,13 @@ Camera choose_camera(const std::vector<FileCamera>& cameras, const std::string& 
   std::vector<FileCamera> left = cameras_named(name, cameras, source);
   if (all_same(left)) return left.front().camera;
   if (image_size) {
-    const auto [width, height] = image_size();
+    const SizePx size = image_size();
     std::erase_if(left, [&](const FileCamera& other) {
-      return other.camera.width != width || other.camera.height != height;
+      return SizePx(other.camera.width, other.camera.height) != size;
     });
     if (left.empty())
       throw InputError(source, "cameras", listed(cameras),
-                       "one for images of " + size_of(width, height));
+                       "one for images of " + size_of(size.first, size.second));
     if (all_same(left)) return left.front().camera;
   }
   throw InputError(source, "cameras", listed(left) + " that differ",
