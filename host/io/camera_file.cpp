@@ -135,7 +135,8 @@ Camera choose_camera(const std::vector<FileCamera>& cameras, const std::string& 
   if (image_size) {
     const SizePx size = image_size();
     std::erase_if(left, [&](const FileCamera& other) {
-      return SizePx(other.camera.width, other.camera.height) != size;
+      const SizePx own(other.camera.width, other.camera.height);
+      return own != size && own != SizePx();  // without a size it may be any
     });
     if (left.empty())
       throw InputError(source, "cameras", listed(cameras),

@@ -581,6 +581,14 @@ cam1:
   expect_input_error([&] { load_one("camchain.yaml", chain); },
                      {"camchain.yaml", "cam0", "cam1", "--camera-name"});
   EXPECT_EQ(load_one("camchain.yaml", chain, "cam1").fx, 800);
+  const std::vector<FileCamera> sizeless = load_text(
+      "c.yaml", "a: {K: [5, 0, 3, 0, 6, 4, 0, 0, 1]}\nb: {K: [7, 0, 3, 0, 6, 4, 0, 0, 1]}\n");
+  expect_input_error(
+      [&] {
+        choose_camera(
+            sizeless, "", [] { return SizePx(6, 8); }, "c.yaml");
+      },
+      {"c.yaml", "a, b", "--camera-name"});
   const std::string stereo = R"(%YAML:1.0
 ---
 M1: !!opencv-matrix
