@@ -178,7 +178,7 @@ TEST(ScoutState, OfAnotherVersionIsRefusedInOneLine) {
   const TemporaryFolder folder;
   save_scout_state({}, folder.path() / "state");
   const std::string current = content_of(folder.path() / "state");
-  ASSERT_EQ(current[8], 16);
+  ASSERT_EQ(current[8], 17);
   for (const char version : {15, 17}) {
     std::string other = current;
     other[8] = version;
@@ -188,7 +188,7 @@ TEST(ScoutState, OfAnotherVersionIsRefusedInOneLine) {
       ADD_FAILURE() << int(version);
     } catch (const InputError& error) {
       EXPECT_EQ(error.what(),
-                file + ": version: found " + std::to_string(int(version)) + ", expected 16");
+                file + ": version: found " + std::to_string(int(version)) + ", expected 17");
     }
   }
 }
