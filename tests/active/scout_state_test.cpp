@@ -179,7 +179,7 @@ TEST(ScoutState, OfAnotherVersionIsRefusedInOneLine) {
   save_scout_state({}, folder.path() / "state");
   const std::string current = content_of(folder.path() / "state");
   ASSERT_EQ(current[8], 17);
-  for (const char version : {15, 17}) {
+  for (const char version : {16, 18}) {
     std::string other = current;
     other[8] = version;
     const std::string file = folder.write("other.state", other);
