@@ -85,8 +85,9 @@ std::vector<FileCamera> chosen_cameras(const CameraRequest& request) {
 }
 
 void warn(const FileCamera& found, const std::string& file) {
+  const std::string where = found.name.empty() ? file : file + ": " + found.name;
   for (const std::string& doubt : implausible_in(found.camera))
-    log(LogLevel::Warning, file + ": " + (found.name.empty() ? "" : found.name + ": ") + doubt);
+    log(LogLevel::Warning, fmt::format("{}: {}", where, doubt));
 }
 
 void draw_undistorted(const CameraRequest& request) {
