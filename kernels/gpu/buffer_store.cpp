@@ -86,7 +86,7 @@ VkDeviceSize with_room(VkDeviceSize bytes, VkDeviceSize most) {
 
 BufferStore::BufferStore(const Device& device)
     : device_(device),
-      most_free_bytes_(std::min<VkDeviceSize>(512 * MIB, device.info().memory_bytes / 8)) {}
+      most_free_bytes_(std::min<VkDeviceSize>(512 * MIB, device.info().memory_bytes / 4)) {}
 
 BufferStore::Lease BufferStore::take(VkDeviceSize bytes, Memory kind, const std::string& what) {
   const VkDeviceSize most = device_.max_allocation_bytes();
