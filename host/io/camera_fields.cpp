@@ -182,9 +182,7 @@ void CameraFields::add(const json& object, const std::string& path, bool in_dist
   }
 }
 
-std::string CameraFields::at(const std::string& field) const {
-  return path_below(path_, field);
-}
+std::string CameraFields::at(const std::string& field) const { return path_below(path_, field); }
 
 bool CameraFields::has_intrinsics() const {
   return std::ranges::any_of(

@@ -110,7 +110,9 @@ TEST(TemplateSet, ScalesDivideARangeIntoEqualRatios) {
   EXPECT_NEAR(scales.back().max_m, 2.5, 1e-12);
   for (std::size_t i = 0; i < scales.size(); ++i) {
     EXPECT_NEAR(scales[i].max_m / scales[i].min_m, std::pow(20, 0.25), 1e-9);
-    if (i > 0) EXPECT_NEAR(scales[i].min_m, scales[i - 1].max_m, 1e-12);
+    if (i > 0) {
+      EXPECT_NEAR(scales[i].min_m, scales[i - 1].max_m, 1e-12);
+    }
     const std::vector<double> distances = template_distances_m(options, scales[i]);
     EXPECT_NEAR(distances.front(), scales[i].min_m, 1e-12);
     EXPECT_NEAR(distances.back(), scales[i].max_m, 1e-9);
