@@ -18,7 +18,11 @@ static_assert(sizeof(ChamferRun) == 4 * CHAMFER_RUN_WORDS);
 static_assert(sizeof(ChamferVisit) == 4 * CHAMFER_VISIT_WORDS);
 
 constexpr std::size_t max_tile_bytes = std::size_t{64} << 20;
-constexpr std::size_t max_group_bytes = std::size_t{256} << 20;  // of tiles side by side
+
+// Of tiles side by side: a card is not filled by one view.
+std::size_t max_group_bytes(const Device& device) {
+  return device.info().hardware ? 4 * max_tile_bytes : max_tile_bytes;
+}
 
 std::size_t mask_bytes(const DevicePlan& plan) { return plan.masks.size() * sizeof(std::uint32_t); }
 std::size_t row_bytes(const DevicePlan& plan) { return plan.rows.size() * 32; }
@@ -81,6 +85,7 @@ std::vector<std::vector<CombinationChamfer::Tile>> CombinationChamfer::side_by_s
     std::uint32_t words) const {
   const std::size_t most = std::min<std::size_t>(max_tile_bytes, device_.max_band_bytes());
   std::vector<std::vector<Tile>> groups;
+  const std::size_t most_of_group = max_group_bytes(device_);
   std::size_t group_bytes = 0;
   for (std::size_t view = 0; view < plans_.size(); ++view) {
     const std::size_t masks = mask_bytes(plans_[view]), rows = row_bytes(plans_[view]),
@@ -89,7 +94,7 @@ std::vector<std::vector<CombinationChamfer::Tile>> CombinationChamfer::side_by_s
     for (std::uint32_t first = 0; first < words; first += of_tile) {
       const Tile tile{view, first, std::min(of_tile, words - first)};
       const std::size_t bytes = tile.words * (masks + rows);
-      if (groups.empty() || group_bytes + bytes > max_group_bytes) {
+      if (groups.empty() || group_bytes + bytes > most_of_group) {
         groups.emplace_back();
         group_bytes = 0;
       }
