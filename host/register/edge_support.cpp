@@ -38,7 +38,8 @@ struct Center {
 
 std::uint8_t normal_bin(const ProjectedEdge<float>& edge) {
   const float angle = undirected_angle(-edge.dy, edge.dx);
-  return std::uint8_t(std::uint32_t(angle * float(SUPPORT_BINS) / PI + 0.5f) % SUPPORT_BINS);
+  return std::uint8_t(std::uint32_t(std::floor(angle * float(SUPPORT_BINS) / PI + 0.5f)) %
+                      SUPPORT_BINS);
 }
 
 std::uint8_t sector_about(const Center& center, const ProjectedEdge<float>& edge) {
@@ -52,7 +53,7 @@ std::uint8_t sector_about(const Center& center, const ProjectedEdge<float>& edge
 SupportPoint to_support_point(const ProjectedEdge<float>& edge, const TensorShape& image) {
   // In float the sum may round up to the image's size.
   const auto pixel = [](float at, int size) {
-    return std::uint16_t(std::min(int(at + 0.5f), size - 1));
+    return std::uint16_t(std::min(int(std::floor(at + 0.5f)), size - 1));
   };
   return {pixel(edge.u, image.width), pixel(edge.v, image.height), 0, normal_bin(edge), 0};
 }
@@ -122,11 +123,11 @@ std::vector<SupportPoint> support_points(const SeenPose& pose) {
   const std::vector<float> lengths = lengths_that_count_px(landings);
   std::vector<SupportPoint> points;
   points.reserve(lengths.size());
-  constexpr float largest = float(SUPPORT_MAX_WEIGHT / MOST_POINTS);
+  constexpr std::size_t largest = SUPPORT_MAX_WEIGHT / MOST_POINTS;
   for (std::size_t i = 0; i < lengths.size(); ++i) {
     const float weight = std::round(lengths[i] / OBSERVATION_PX * SUPPORT_WEIGHT_ONE);
     points.push_back(landings.list[i].point);
-    points.back().weight = std::uint16_t(std::min(weight, largest));
+    points.back().weight = std::uint16_t(std::min(weight, float(largest)));
   }
   return points;
 }
