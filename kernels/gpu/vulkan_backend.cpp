@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "kernels/error.h"
+#include "kernels/gpu/backend_handles.h"
 #include "kernels/gpu/candidate_map.h"
 #include "kernels/gpu/combination_chamfer.h"
 #include "kernels/gpu/dcd_tensor.h"
@@ -26,95 +27,6 @@ namespace edgescout {
 namespace {
 
 using namespace gpu;
-
-// Keeps the device alive for as long as its memory is in use.
-class VulkanView : public BackendView {
- public:
-  VulkanView(std::shared_ptr<const Device> device, const TensorShape& tensor_shape,
-             std::uint64_t view_id)
-      : id(view_id), device_(std::move(device)), values(*device_, tensor_shape) {
-    shape = tensor_shape;
-  }
-  const std::uint64_t id;  // no other view of the backend has it
-  const Device& device() const { return *device_; }
-  std::vector<std::uint16_t> tensor() const override {
-    std::vector<std::uint16_t> copy(shape.size());
-    Batch batch(*device_, "tensor download");
-    batch.download<std::uint16_t>(values.buffer(), copy);
-    batch.run();
-    return copy;
-  }
-  PoseView pose_view() const {
-    return {&values, intrinsics, gradient_x2.size() > 0 ? &gradient_x2 : nullptr};
-  }
-  SupportMapView support_view() const {
-    return {support_map.size() > 0 ? &support_map : nullptr, shape.width, shape.height};
-  }
-
- private:
-  std::shared_ptr<const Device> device_;
-
- public:
-  DeviceTensor values;
-  Buffer<std::int16_t> gradient_x2;
-  Buffer<std::uint32_t> support_map;
-};
-
-class VulkanModelPoints : public BackendModelPoints {
- public:
-  explicit VulkanModelPoints(std::shared_ptr<const Device> device) : device_(std::move(device)) {}
-  const Device& device() const { return *device_; }
-
- private:
-  std::shared_ptr<const Device> device_;
-
- public:
-  Buffer<float> planes;
-};
-
-// Too many for one binding stay with the host.
-class VulkanPosePoints : public BackendPosePoints {
- public:
-  VulkanPosePoints(std::shared_ptr<const Device> device, std::vector<ModelPoint> points)
-      : device_(std::move(device)), host(std::move(points)) {}
-  const Device& device() const { return *device_; }
-  PosePoints points() const { return {host, values.size() > 0 ? &values : nullptr}; }
-
- private:
-  std::shared_ptr<const Device> device_;
-
- public:
-  std::vector<ModelPoint> host;
-  Buffer<ModelPoint> values;
-};
-
-class VulkanChamfer : public BackendChamfer {
- public:
-  VulkanChamfer(std::shared_ptr<const Device> device, std::size_t particle_count,
-                std::uint32_t realization_count)
-      : device_(std::move(device)), values(*device_, particle_count, realization_count) {
-    particles = values.particles;
-    combinations = values.combinations;
-  }
-  const Device& device() const { return *device_; }
-  std::vector<ChamferCell> cells() const override {
-    std::vector<std::uint32_t> sums(std::size_t(particles) * combinations), counts(sums.size());
-    Batch batch(*device_, "cells download");
-    batch.download<std::uint32_t>(values.sums, sums);
-    batch.download<std::uint32_t>(values.counts, counts);
-    batch.run();
-    std::vector<ChamferCell> cells(sums.size());
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      cells[i] = {sums[i], std::uint16_t(counts[i] & 0xffffu), std::uint16_t(counts[i] >> 16)};
-    return cells;
-  }
-
- private:
-  std::shared_ptr<const Device> device_;
-
- public:
-  DeviceCells values;
-};
 
 class VulkanBackend : public Backend {
  public:
