@@ -80,7 +80,7 @@ std::vector<FileCamera> chosen_cameras(const CameraRequest& request) {
   std::vector<FileCamera> cameras =
       cameras_named(request.camera.name, load_cameras(request.camera.file), request.camera.file);
   for (FileCamera& found : cameras)
-    found.camera.field_of_view_rad = request.camera.field_of_view_deg * std::numbers::pi / 180;
+    found.camera.field_of_view_rad = field_of_view_rad(request.camera);
   return cameras;
 }
 

@@ -78,10 +78,6 @@ void make_names_unique(std::vector<InputImage>& images) {
   }
 }
 
-double field_of_view_rad(const CameraArguments& arguments) {
-  return arguments.field_of_view_deg * std::numbers::pi / 180;
-}
-
 SizePx size_of_first(std::span<const InputImage> images) {
   for (const InputImage& input : images) {
     try {
@@ -141,6 +137,10 @@ void require_other_folder(std::span<const InputImage> images, const fs::path& ou
     if (image.scene_folder.empty() &&
         fs::equivalent(image.file.parent_path() / ".", out, not_there))
       throw InputError("command line", "--out", "the folder of the images", "another one");
+}
+
+double field_of_view_rad(const CameraArguments& arguments) {
+  return arguments.field_of_view_deg * std::numbers::pi / 180;
 }
 
 std::optional<Camera> given_camera(const CameraArguments& arguments,

@@ -65,6 +65,9 @@ struct GivenCamera {
   std::string file;
   bool may_scale = false;  // to images of another size
 };
+// That of CameraArguments; 0: none is chosen.
+double field_of_view_rad(const CameraArguments& arguments);
+
 // Reads the calibration of all images, with the chosen field of view. Of several cameras of other
 // sizes in the file the one of the first usable image's size is taken. Empty: no file is given.
 std::optional<Camera> given_camera(const CameraArguments& arguments,
