@@ -32,7 +32,8 @@ say "time and peak memory of one detection in 1024x768"
 measure=(/usr/bin/time -f '%e s, %U s of CPU time, %M KiB at most')
 [ -x /usr/bin/time ] || { say "not measured: /usr/bin/time (package time) is missing"; measure=(); }
 "${measure[@]}" "$edgescout" detect "$out/one" --model "$out"/one/models/*.ply --unit mm \
-  --models-info "$out/one/models/models_info.json" --distance-min 0.35 --distance-max 0.7 --no-template-cache --device "$device" \
+  --models-info "$out/one/models/models_info.json" --distance-min 0.35 --distance-max 0.7 \
+  --no-template-cache --device "$device" \
   --out "$out/one_results"
 
 if [ -z "$data" ]; then

@@ -9,8 +9,9 @@ layout(push_constant) uniform Push { DcdSweepPush push; };
 layout(binding = 0) buffer Tensor { uvec2 tensor[]; };
 layout(binding = 1) readonly buffer Weights { uint weights[]; };
 
-// Newest first. As long as any radius asks for: a length that is specialized is not understood by every driver. Loops over
-// it count up from 0: some drivers do not unroll others, and leave the window in memory.
+// Newest first. As long as any radius asks for: a length that is specialized is not understood by
+// every driver. Loops over it count up from 0: some drivers do not unroll others, and leave the
+// window in memory.
 uvec4 window[2 * DCD_SWEEP_MAX_RADIUS + 1];
 uint base;
 
