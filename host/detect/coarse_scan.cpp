@@ -1,18 +1,15 @@
 #include "host/detect/coarse_scan.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <numeric>
 #include <optional>
 
 #include "host/core/thinned.h"
-#include "host/detect/search_space.h"
+#include "host/detect/admitted_search.h"
+#include "host/detect/scan_regions.h"
+#include "host/detect/searched_scale.h"
 #include "host/detect/template_projection.h"
 #include "host/register/coarse_registration.h"
-#include "host/register/thresholds.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
 
@@ -22,161 +19,6 @@ namespace {
 
 // Points nearer to the camera are not drawn.
 float nearest_m(const TemplateSet& set) { return float(0.1 * set.model.radius_m); }
-
-// The parameters of a template by its number. Numbers run over viewpoints, in-plane turns and
-// distances; the distance changes fastest.
-struct TemplateNumbering {
-  std::size_t viewpoints;
-  int in_plane_steps;
-  std::vector<double> distances_m;
-
-  std::size_t count() const { return viewpoints * in_plane_steps * distances_m.size(); }
-  int viewpoint(std::size_t t) const { return int(t / (in_plane_steps * distances_m.size())); }
-  double in_plane_rad(std::size_t t) const {
-    return 2 * std::numbers::pi / in_plane_steps * double(t / distances_m.size() % in_plane_steps);
-  }
-  double distance_m(std::size_t t) const { return distances_m[t % distances_m.size()]; }
-};
-
-// Anchors of one row or column of the grid: from `begin` on, before `end`.
-struct AnchorRange {
-  int begin, end;
-};
-
-// The anchors of a coarse image between two places of the full image; at least one.
-AnchorRange anchors_between(double from_px, double to_px, double reduction, int coarse_px,
-                            int step) {
-  const auto anchor_at = [&](double px) { return ((px + 0.5) / reduction - 0.5) / step; };
-  const int count = (coarse_px + step - 1) / step,
-            begin = std::min(int(std::ceil(anchor_at(from_px))), count - 1);
-  return {begin, int(std::clamp(std::ceil(anchor_at(to_px)), double(begin + 1), double(count)))};
-}
-
-struct Region {
-  int x0, y0, columns, rows;  // first anchor, coarse px, and numbers of anchors
-  Eigen::Vector2d middle;     // coarse px
-};
-
-Region region_at(AnchorRange across, AnchorRange down, int step) {
-  Region region{
-      across.begin * step, down.begin * step, across.end - across.begin, down.end - down.begin, {}};
-  region.middle = {std::round(region.x0 + 0.5 * step * (region.columns - 1)),
-                   std::round(region.y0 + 0.5 * step * (region.rows - 1))};
-  return region;
-}
-
-std::vector<Region> cut_into_regions(const ObjectView& view, const ReducedTensors& level,
-                                     const ScanOptions& options) {
-  const ImageRegion& within = options.within;
-  if (within.x >= view.camera.width || within.y >= view.camera.height)
-    throw InputError(
-        "options", "detect.region", fmt::format("a corner at {}, {}", within.x, within.y),
-        fmt::format("one in an image of {}x{}", view.camera.width, view.camera.height));
-  const int step = options.anchor_step;
-  const auto end_px = [](double from_px, double size_px) {
-    return size_px > 0 ? from_px + size_px : INFINITY;
-  };
-  const AnchorRange across = anchors_between(within.x, end_px(within.x, within.width),
-                                             level.reduction, level.camera.width, step),
-                    down = anchors_between(within.y, end_px(within.y, within.height),
-                                           level.reduction, level.camera.height, step);
-  std::vector<Region> regions;
-  for (int r = down.begin; r < down.end; r += options.region_rows)
-    for (int c = across.begin; c < across.end; c += options.region_columns)
-      regions.push_back(region_at({c, std::min(c + options.region_columns, across.end)},
-                                  {r, std::min(r + options.region_rows, down.end)}, step));
-  return regions;
-}
-
-// A template at its best anchor of a region.
-struct ScoredTemplate {
-  std::size_t number;
-  Eigen::Vector2d anchor_px;
-  double mean_px, rank;
-  auto key() const { return std::pair(rank, number); }
-};
-
-// One scale of a template set and the tensors on which it is scanned.
-struct SearchedScale {
-  const TemplateSet& set;
-  int index;  // of distance_scales
-  const ReducedTensors& level;
-  TemplateNumbering numbering;
-
-  SearchedScale(const TemplateSet& templates, int scale, const ObjectView& view)
-      : set(templates),
-        index(scale),
-        level(view.reduced[level_of_scale(templates, scale, view)]),
-        numbering{
-            set.views.size(), set.options.in_plane_steps,
-            template_distances_m(set.options, distance_scales(set.options)[std::size_t(scale)])} {}
-
-  Se3 camera_from_object(std::size_t number, const Eigen::Vector2d& anchor_px) const {
-    return place_template(set, set.views[std::size_t(numbering.viewpoint(number))],
-                          numbering.in_plane_rad(number), numbering.distance_m(number), anchor_px,
-                          level.camera);
-  }
-
-  ScanHit hit_of(const ScoredTemplate& scored) const {
-    return {{0, camera_from_object(scored.number, scored.anchor_px)},
-            numbering.viewpoint(scored.number),
-            index,
-            scored.mean_px,
-            scored.rank};
-  }
-};
-
-// What a prior in the world leaves of the search of one scale.
-class AdmittedSearch {
- public:
-  AdmittedSearch(const SearchedScale& scale, const ObjectView& view, const ScanOptions& options)
-      : scale_(scale),
-        anchor_step_(options.anchor_step),
-        space_(options.world, scale.set.model, view.camera_from_world) {}
-
-  // By distance: the smallest part of a region with all anchors where the object's centre may be.
-  std::vector<std::optional<Region>> parts_of(const Region& region) const {
-    std::vector<std::optional<Region>> parts;
-    for (const double distance_m : scale_.numbering.distances_m)
-      parts.push_back(part_at(distance_m, region));
-    return parts;
-  }
-
-  bool admits(const ScoredTemplate& scored) const {
-    return space_.is_everywhere() ||
-           space_.admits(scale_.hit_of(scored).pose.world_from_object,
-                         slack_at(scale_.numbering.distance_m(scored.number)));
-  }
-
- private:
-  std::optional<Region> part_at(double distance_m, const Region& region) const {
-    if (space_.is_everywhere()) return region;
-    Eigen::AlignedBox2i part;  // column, row
-    for (int row = 0; row < region.rows; ++row)
-      for (int column = 0; column < region.columns; ++column) {
-        const Eigen::Vector2d anchor(region.x0 + anchor_step_ * column,
-                                     region.y0 + anchor_step_ * row);
-        if (space_.meets(ray_through(scale_.level.camera, anchor).normalized(), distance_m,
-                         slack_at(distance_m)))
-          part.extend(Eigen::Vector2i(column, row));
-      }
-    if (part.isEmpty()) return std::nullopt;
-    return Region{region.x0 + anchor_step_ * part.min().x(),
-                  region.y0 + anchor_step_ * part.min().y(), part.sizes().x() + 1,
-                  part.sizes().y() + 1, region.middle};
-  }
-
-  // How far beside the pose that it stands for a hit may lie.
-  SearchSlack slack_at(double distance_m) const {
-    return {anchor_step_ * distance_m / scale_.level.camera.fx +
-                thresholds::SAME_POSE * scale_.set.model.mesh.diameter_m,
-            scale_.set.options.distance_ratio};
-  }
-
-  const SearchedScale& scale_;
-  int anchor_step_;
-  SearchSpace space_;
-};
 
 // The points of every viewpoint, evenly thinned, in the backend's memory.
 struct ScannedPoints {
@@ -199,12 +41,12 @@ class RegionScan {
  public:
   // `hits` is memory that the scans of an image share.
   RegionScan(const SearchedScale& scale, const AdmittedSearch& admitted,
-             std::span<const Region> regions, Backend& backend, const ScanOptions& options,
+             std::span<const ScanRegion> regions, Backend& backend, const ScanOptions& options,
              std::vector<TemplateHit>& hits)
       : scale_(scale), admitted_(admitted), backend_(backend), options_(options), hits_(hits) {
     for (const double distance_m : scale.numbering.distances_m)
       distances_m_.push_back(float(distance_m));
-    for (const Region& region : regions) add_region(region);
+    for (const ScanRegion& region : regions) add_region(region);
     turn_templates();
   }
 
@@ -222,15 +64,15 @@ class RegionScan {
   using Ranked = std::vector<std::vector<ScoredTemplate>>;  // by region, best first
 
   // One that the prior leaves anchors of.
-  void add_region(const Region& region) {
-    const std::vector<std::optional<Region>> parts = admitted_.parts_of(region);
-    if (std::ranges::none_of(parts, &std::optional<Region>::has_value)) return;
+  void add_region(const ScanRegion& region) {
+    const std::vector<std::optional<ScanRegion>> parts = admitted_.parts_of(region);
+    if (std::ranges::none_of(parts, &std::optional<ScanRegion>::has_value)) return;
     const Eigen::Vector3f ray =
         ray_through(scale_.level.camera, region.middle).normalized().cast<float>();
     middles_.push_back(region.middle);
     regions_.push_back(
         {float(region.middle.x()), float(region.middle.y()), ray.x(), ray.y(), ray.z()});
-    for (const std::optional<Region>& part : parts)
+    for (const std::optional<ScanRegion>& part : parts)
       anchors_.push_back(part ? TemplateAnchors{part->x0, part->y0, std::uint32_t(part->columns),
                                                 std::uint32_t(part->rows)}
                               : TemplateAnchors{});
@@ -295,7 +137,7 @@ class RegionScan {
     return best;
   }
 
-  // Region by region.
+  // ScanRegion by region.
   std::vector<ScanHit> hits_of(const Ranked& ranked) const {
     std::vector<std::size_t> first{0};
     for (const std::vector<ScoredTemplate>& in_region : ranked)
@@ -373,7 +215,7 @@ std::vector<ScanHit> coarse_scan(const TemplateSet& set, const ObjectView& view,
   std::vector<ScanHit> hits;
   for (int scale = 0; scale < scales; ++scale) {
     const SearchedScale searched(set, scale, view);
-    const std::vector<Region> regions = cut_into_regions(view, searched.level, options);
+    const std::vector<ScanRegion> regions = cut_into_regions(view, searched.level, options);
     const std::size_t most = (of_scale + regions.size() - 1) / regions.size();
     const AdmittedSearch admitted(searched, view, options);
     const std::vector<ScanHit> of_scale_hits =
