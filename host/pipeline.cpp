@@ -1,5 +1,7 @@
 #include "host/pipeline.h"
 
+#include <array>
+
 #include "host/detect/alternatives.h"
 #include "host/detect/detect.h"
 #include "host/detect/joint.h"
@@ -55,11 +57,22 @@ DetectOptions in_camera_frame(DetectOptions options, const Se3& camera_from_worl
   return options;
 }
 
+Completion completion_under(const TimeLimit& limit) {
+  if (limit.is_cancelled()) return Completion::Cancelled;
+  return limit.is_over() ? Completion::DeadlinePassed : Completion::Complete;
+}
+
 }  // namespace
+
+std::string to_string(Completion completion) {
+  constexpr std::array names{"complete", "deadline passed", "cancelled"};
+  return names[std::size_t(completion)];
+}
 
 Detections detect_objects(const ObjectView& prepared, std::span<const TemplateSet> sets,
                           Backend& backend, const PipelineOptions& options, DetectTrace* trace) {
   options.validate();
+  const TimeLimit limit = latched(options.limit);
   if (trace) *trace = {};
   Detections result;
   Stopwatch watch(result.stages, backend);
@@ -72,24 +85,26 @@ Detections detect_objects(const ObjectView& prepared, std::span<const TemplateSe
   std::vector<PoseEstimate> candidates;
   for (std::size_t object = 0; object < sets.size(); ++object)
     for (PoseEstimate& candidate :
-         find_candidates({sets[object], view, {}, backend, &watch}, {}, in_camera,
+         find_candidates({sets[object], view, {}, backend, &watch, &limit}, {}, in_camera,
                          trace ? &trace->searches.emplace_back() : nullptr)) {
       candidate.object = int(object);
       candidates.push_back(std::move(candidate));
     }
   const std::vector<EdgeModel> models = models_of(sets);
   SelectionTrace selection;
-  result.detections =
-      select_detections({models, {&view, 1}, backend}, candidates, in_camera, &selection);
+  result.detections = select_detections({models, {&view, 1}, backend, &limit}, candidates,
+                                        in_camera, &selection);
   set_alternatives(result.detections, selection.competing, sets);
   if (trace) trace->selection = std::move(selection);
   watch.lap("selection");
+  result.completion = completion_under(limit);
   return result;
 }
 
 Detections detect_jointly(std::span<const ObjectView> prepared, std::span<const TemplateSet> sets,
                           Backend& backend, const PipelineOptions& options) {
   options.validate();
+  const TimeLimit limit = latched(options.limit);
   Detections result;
   Stopwatch watch(result.stages, backend);
   std::vector<ObjectView> views(prepared.begin(), prepared.end());
@@ -100,14 +115,16 @@ Detections detect_jointly(std::span<const ObjectView> prepared, std::span<const 
     const std::vector<ObjectView> others = all_but(views, v);
     for (std::size_t object = 0; object < sets.size(); ++object)
       candidates(v, object) =
-          find_candidates({sets[object], views[v], others, backend, &watch}, {}, options.detect);
+          find_candidates({sets[object], views[v], others, backend, &watch, &limit}, {},
+                          options.detect);
   }
   const std::vector<EdgeModel> models = models_of(sets);
   SelectionTrace selection;
-  result.detections =
-      join_views({models, views, backend}, sets, candidates, options.detect, &selection);
+  result.detections = join_views({models, views, backend, &limit}, sets, candidates,
+                                 options.detect, &selection);
   set_alternatives(result.detections, selection.competing, sets);
   watch.lap("joint refinement");
+  result.completion = completion_under(limit);
   return result;
 }
 

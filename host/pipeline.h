@@ -9,9 +9,11 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "host/core/stopwatch.h"
+#include "host/core/time_limit.h"
 #include "host/detect/detect_options.h"
 #include "host/detect/detect_trace.h"
 #include "host/detect/tensors.h"
@@ -24,6 +26,7 @@ struct PipelineOptions {
   EdgesOptions edges;
   TensorOptions tensor;
   DetectOptions detect;
+  TimeLimit limit;  // of each detect_objects or detect_jointly
   void validate() const;
 };
 
@@ -43,10 +46,18 @@ ObjectView prepare_view(const Image& image, const Camera& camera, const Se3& cam
 
 std::vector<EdgeModel> models_of(std::span<const TemplateSet> sets);
 
+enum class Completion {
+  Complete,
+  DeadlinePassed,  // the limit was over before the work was: poses may be missing or unrefined
+  Cancelled,
+};
+std::string to_string(Completion completion);  // "complete", "deadline passed", "cancelled"
+
 struct Detections {
   // Best probability first; the world is the camera frame for one view.
   std::vector<Detection> detections;
   std::vector<StageSeconds> stages;  // in the order they ran, without those of prepare_view
+  Completion completion = Completion::Complete;
 };
 
 // All objects in one prepared view. Its camera_from_world matters only to a prior in the world

@@ -88,7 +88,7 @@ bool near_any(const Detection& candidate, const auto& known, std::span<const Tem
 std::vector<Detection> candidates_in_images(std::span<const TemplateSet> sets,
                                             std::span<const ScannedView> images,
                                             std::span<const ObjectPose> known, Backend& backend,
-                                            const DetectOptions& options) {
+                                            const DetectOptions& options, const TimeLimit* limit) {
   const std::vector<ObjectView> views = views_of(images);
   const ObjectView& newest = views.back();
   std::vector<Detection> found;
@@ -99,7 +99,8 @@ std::vector<Detection> candidates_in_images(std::span<const TemplateSet> sets,
                            near_known(known_poses, set, newest.camera_from_world)};
     const std::vector<ScanHit> hits =
         pooled_hits(set, views, hits_of_object(images, object), backend, pool);
-    const ObjectSearch search{set, newest, std::span(views).first(views.size() - 1), backend};
+    const ObjectSearch search{set,     newest,  std::span(views).first(views.size() - 1),
+                              backend, nullptr, limit};
     for (const PoseEstimate& candidate : find_candidates(search, hits, known_poses, options)) {
       found.push_back(candidate_in_world(to_detection(candidate), newest.camera_from_world));
       found.back().object = static_cast<int>(object);

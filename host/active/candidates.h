@@ -17,7 +17,8 @@ namespace edgescout {
 std::vector<Detection> candidates_in_images(std::span<const TemplateSet> sets,
                                             std::span<const ScannedView> images,
                                             std::span<const ObjectPose> known, Backend& backend,
-                                            const DetectOptions& options);
+                                            const DetectOptions& options,
+                                            const TimeLimit* limit = nullptr);
 
 // Registers candidates over all views of the scene (Eq. 11) and gives them the probability that
 // follows from all views (register/pose_classifier.h). Drops those that lie on no edge at all,

@@ -67,6 +67,7 @@ void Scout::give(int view, const Image& image) {
 void Scout::give(int view, const Image& image, const Se3& camera_from_world) {
   require_open(view);
   require_fitting(image, camera_from_world);
+  was_cancelled_ = false;
   Update next = begin_update(view, camera_from_world);
   add_image(next, image);  // edges and tensors: line 14
   std::vector<Mode> modes;
@@ -94,6 +95,7 @@ void Scout::unreachable(int view, const std::string& reason) {
 
 void Scout::resume(ScoutState state, const std::string& source) {
   require_same_run(state, state_, source);
+  was_cancelled_ = false;
   std::vector<ScannedView> views;
   std::vector<StageSeconds> not_counted;  // the saved state has the times of the first run
   for (const ScoutStep& step : state.steps) {
@@ -143,7 +145,18 @@ void Scout::record_stage(Stopwatch& watch, const char* stage) const {
 }
 
 void Scout::throw_if_cancelled() const {
-  if (options_.cancelled && options_.cancelled()) throw Cancelled();
+  if (is_cancelled()) throw Cancelled();
+}
+
+// What ends because of one answer must not be taken for complete after the next.
+bool Scout::is_cancelled() const {
+  was_cancelled_ = was_cancelled_ || (options_.cancelled && options_.cancelled());
+  return was_cancelled_;
+}
+
+TimeLimit Scout::until_cancelled() const {
+  if (!options_.cancelled) return {};
+  return {{}, [this] { return is_cancelled(); }};
 }
 
 }  // namespace edgescout

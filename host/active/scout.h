@@ -100,6 +100,8 @@ class Scout {
   void discard_proposal();
   void record_stage(Stopwatch& watch, const char* stage) const;
   void throw_if_cancelled() const;
+  bool is_cancelled() const;
+  TimeLimit until_cancelled() const;  // lives no longer than this object
 
   std::span<const TemplateSet> sets_;
   Camera camera_;
@@ -111,7 +113,8 @@ class Scout {
   std::vector<ScannedView> views_;  // of the images so far
   // The answer of propose() until there is a new image or failure.
   std::optional<ScoutDecision> proposal_;
-  bool has_ended_ = false;  // by a decision, which need not be made again
+  mutable bool was_cancelled_ = false;  // since the last call began
+  bool has_ended_ = false;              // by a decision, which need not be made again
 };
 
 // Runs the loop to its end. Views that cannot be acquired, or whose shot does not fit the camera,

@@ -9,6 +9,7 @@ std::optional<ScoutDecision> Scout::propose() {
     state_.end = end;
     return {};
   }
+  was_cancelled_ = false;
   ScoutDecision decision = decide();
   state_.end = decision.view < 0          ? ScoutEnd::NoViewLeft
                : expects_little(decision) ? ScoutEnd::LittleToLearn

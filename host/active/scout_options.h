@@ -65,9 +65,9 @@ struct ScoutOptions {
   double min_gained_nats = 0;
   // Of computing. It is checked between images, so one image may exceed it.
   double max_seconds = 0;
-  // Called between stages, on the calling thread; true cancels. The longest stages are the
-  // detection of all objects in an image and a decision: seconds, on a software device up to a
-  // minute.
+  // Called between stages and many times during detection, on the calling thread; true cancels. The
+  // longest part without a call is a decision: half a second, on a software
+  // device several.
   std::function<bool()> cancelled;
 
   // More hits per image than the detection in a single image keeps, because later images rescore

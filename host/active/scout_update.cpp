@@ -42,7 +42,8 @@ void Scout::search_image(Update& next) const {
     record_stage(watch, "detection");
   }
   const std::vector<ObjectView> views = views_of(next.views);
-  candidates = refined_candidates({models_, views, backend_}, sets_, candidates,
+  const TimeLimit limit = until_cancelled();
+  candidates = refined_candidates({models_, views, backend_, &limit}, sets_, candidates,
                                   static_cast<std::size_t>(options_.max_candidates),
                                   options_.pipeline.detect);
   record_stage(watch, "candidates");
@@ -62,9 +63,11 @@ std::vector<Detection> Scout::detect(Update& next, std::span<const ObjectPose> k
   const std::span<ScannedView> all = next.views;
   const std::span<ScannedView> images = options_.detect_jointly ? all : all.last(1);
   if (options_.detect) return call_detector(next, views_of(images), known);
+  const TimeLimit limit = until_cancelled();
   for (ScannedView& image : images)
-    scan_once(sets_, image, backend_, options_.pipeline.detect.scan);
-  return candidates_in_images(sets_, images, known, backend_, options_.pipeline.detect);
+    scan_once(sets_, image, backend_, options_.pipeline.detect.scan, &limit);
+  return candidates_in_images(sets_, images, known, backend_, options_.pipeline.detect,
+                              &limit);
 }
 
 std::vector<Detection> Scout::call_detector(const Update& next, std::span<const ObjectView> images,
@@ -89,7 +92,8 @@ std::vector<Mode> Scout::update_belief(Update& next) const {
   ScoutStep& step = next.step;
   Stopwatch watch(step.stages, backend_);
   const std::vector<ObjectView> views = views_of(next.views);
-  const Scene scene{models_, views, backend_};
+  const TimeLimit limit = until_cancelled();
+  const Scene scene{models_, views, backend_, &limit};
   add_particles(next);
   const bool reseeded = step.update.reseeded;
   step.update = update_particles(scene, state.particles, state.unseen_px2, state.candidates,

@@ -181,6 +181,17 @@ class RegionScan {
   std::vector<Pose> turned_;              // [region][turn]
 };
 
+// The regions that are scanned between two looks at the limit: without one, all.
+std::vector<std::span<const ScanRegion>> parts_between_checks(std::span<const ScanRegion> regions,
+                                                              const TimeLimit* limit) {
+  constexpr std::size_t most = 2;  // some tenth of a second on two cores
+  const std::size_t of_part = limit && limit->is_set() ? most : std::max<std::size_t>(1, regions.size());
+  std::vector<std::span<const ScanRegion>> parts;
+  for (std::size_t first = 0; first < regions.size(); first += of_part)
+    parts.push_back(regions.subspan(first, std::min(of_part, regions.size() - first)));
+  return parts;
+}
+
 }  // namespace
 
 Se3 place_template(const TemplateSet& set, const TemplateView& view, double in_plane_rad,
@@ -205,7 +216,7 @@ std::size_t share_of_scale(std::size_t of_one, const TemplateSet& set) {
 }
 
 std::vector<ScanHit> coarse_scan(const TemplateSet& set, const ObjectView& view, Backend& backend,
-                                 const ScanOptions& options) {
+                                 const ScanOptions& options, const TimeLimit* limit) {
   check(options.points >= 4 && options.points <= int(TEMPLATE_SCORE_MAX_POINTS),
         "coarse_scan: points of a template");
   check(options.quick_points >= 1 && options.quick_kept >= 1, "coarse_scan: first pass");
@@ -218,10 +229,12 @@ std::vector<ScanHit> coarse_scan(const TemplateSet& set, const ObjectView& view,
     const std::vector<ScanRegion> regions = cut_into_regions(view, searched.level, options);
     const std::size_t most = (of_scale + regions.size() - 1) / regions.size();
     const AdmittedSearch admitted(searched, view, options);
-    const std::vector<ScanHit> of_scale_hits =
-        RegionScan(searched, admitted, regions, backend, options, of_templates).best(most);
-    hits.reserve(std::size_t(scales) * of_scale_hits.size());
-    hits.insert(hits.end(), of_scale_hits.begin(), of_scale_hits.end());
+    for (const std::span<const ScanRegion> part : parts_between_checks(regions, limit)) {
+      if (limit && limit->is_over()) return hits;
+      const std::vector<ScanHit> of_part =
+          RegionScan(searched, admitted, part, backend, options, of_templates).best(most);
+      hits.insert(hits.end(), of_part.begin(), of_part.end());
+    }
   }
   return hits;
 }

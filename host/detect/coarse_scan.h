@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "host/core/time_limit.h"
 #include "host/detect/world_prior.h"
 #include "host/model/template_set.h"
 #include "host/register/object_view.h"
@@ -72,9 +73,10 @@ std::size_t share_of_scale(std::size_t of_one, const TemplateSet& set);
 // In each region, templates are projected exactly at the region's middle and then shifted, so that
 // perspective changes across the image. Anchors and templates whose poses options.world excludes
 // are left out, but for those beside the prior that stand for poses inside; regions without any
-// give no hits. InputError: options.within lies outside the image.
+// give no hits. Neither do regions that are not yet scanned where the limit is over. InputError:
+// options.within lies outside the image.
 std::vector<ScanHit> coarse_scan(const TemplateSet& set, const ObjectView& view, Backend& backend,
-                                 const ScanOptions& options);
+                                 const ScanOptions& options, const TimeLimit* limit = nullptr);
 
 // The mean_px that a hit at exactly this pose would have on the level that suits its size; 4, the
 // cap, where the object shows no edges. Templates stand beside the poses between them, so the best

@@ -56,6 +56,7 @@ class Cascade {
           const DetectOptions& options)
       : set_(search.set),
         backend_(search.backend),
+        limit_(search.limit),
         options_(options),
         views_(views_around(search.view, search.support)),
         is_known_(within_known(known_in_world, set_, search.view.camera_from_world,
@@ -65,8 +66,8 @@ class Cascade {
   // The best distinct hits of every scale.
   std::vector<ObjectPose> starts(std::span<const ScanHit> hits) const {
     const std::size_t scales = distance_scales(set_.options).size(),
-                      most = share_of_scale(std::size_t(is_joint() ? options_.coarse_poses_joint
-                                                                   : options_.coarse_poses),
+                      most = share_of_scale(number(is_joint() ? options_.coarse_poses_joint
+                                                              : options_.coarse_poses),
                                             set_);
     std::vector<ObjectPose> starts;
     for (std::size_t scale = 0; scale < scales; ++scale) {
@@ -95,8 +96,9 @@ class Cascade {
     std::vector<double> keys;
     for (const PoseFeatures& features : template_support(set_, scene_of(views_), aligned))
       keys.push_back(-PoseClassifier::rank(features));
-    const int most = is_joint() ? options_.medium_poses_joint : options_.medium_poses;
-    return best_admitted(aligned, keys, set_.options.distance_ratio, std::size_t(most));
+    const std::size_t most =
+        number(is_joint() ? options_.medium_poses_joint : options_.medium_poses);
+    return best_admitted(aligned, keys, set_.options.distance_ratio, most);
   }
 
   // Aligns poses on the full tensors and measures their features.
@@ -137,8 +139,14 @@ class Cascade {
  private:
   bool is_joint() const { return views_.size() > 1; }
 
+  // How many poses enter a stage. Where no time is left, no more than will be candidates: they only
+  // get their features.
+  std::size_t number(int of_stage) const {
+    return std::size_t(limit_ && limit_->is_over() ? std::min(of_stage, options_.candidates) : of_stage);
+  }
+
   Scene scene_of(std::span<const ObjectView> views) const {
-    return {{&set_.model, 1}, views, backend_};
+    return {{&set_.model, 1}, views, backend_, limit_};
   }
 
   // A pose that registration has shrunk onto one edge of the image matches it well.
@@ -172,11 +180,16 @@ class Cascade {
 
   const TemplateSet& set_;
   Backend& backend_;
+  const TimeLimit* limit_;
   const DetectOptions& options_;
   std::vector<ObjectView> views_;  // the searched view first; its camera frame is the world
   PoseFilter is_known_;
   SearchSpace space_;
 };
+
+ObjectSearch with_support(const ObjectSearch& search, std::span<const ObjectView> support) {
+  return {search.set, search.view, support, search.backend, search.watch, search.limit};
+}
 
 // From hits that are rescored in the supporting views of `search`.
 std::vector<PoseEstimate> run_cascade(const ObjectSearch& search, std::span<const ScanHit> hits,
@@ -233,9 +246,10 @@ std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
                                           const DetectOptions& options, SearchTrace* trace) {
   const std::vector<ObjectView> support =
       support_views(search.view, search.support, std::size_t(options.support_views));
-  const ObjectSearch supported{search.set, search.view, support, search.backend, search.watch};
+  const ObjectSearch supported = with_support(search, support);
   std::vector<ScanHit> hits = rescore_in_views(
-      supported, coarse_scan(search.set, search.view, search.backend, options.scan), options.scan);
+      supported, coarse_scan(search.set, search.view, search.backend, options.scan, search.limit),
+      options.scan);
   std::erase_if(hits,
                 [is_near = near_known(known_in_world, search.set, search.view.camera_from_world)](
                     const ScanHit& hit) { return is_near(hit.pose.world_from_object); });
@@ -248,8 +262,7 @@ std::vector<PoseEstimate> find_candidates(const ObjectSearch& search,
                                           const DetectOptions& options) {
   const std::vector<ObjectView> support =
       support_views(search.view, search.support, std::size_t(options.support_views));
-  return run_cascade({search.set, search.view, support, search.backend, search.watch}, rescored,
-                     known_in_world, options);
+  return run_cascade(with_support(search, support), rescored, known_in_world, options);
 }
 
 }  // namespace edgescout

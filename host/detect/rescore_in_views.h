@@ -22,6 +22,7 @@ struct ObjectSearch {
   std::span<const ObjectView> support;  // other images of the same static scene
   Backend& backend;
   Stopwatch* watch = nullptr;  // null: no stage is measured
+  const TimeLimit* limit = nullptr;  // null: none
 };
 
 // The hits of a scan of `search.view`, moved along their rays, in the order given. `rank` becomes

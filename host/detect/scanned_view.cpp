@@ -3,11 +3,11 @@
 namespace edgescout {
 
 void scan_once(std::span<const TemplateSet> sets, ScannedView& view, Backend& backend,
-               const ScanOptions& options) {
+               const ScanOptions& options, const TimeLimit* limit) {
   if (!view.hits.empty()) return;
   for (const TemplateSet& set : sets)
-    view.hits.push_back(
-        std::make_shared<std::vector<ScanHit>>(coarse_scan(set, view.view, backend, options)));
+    view.hits.push_back(std::make_shared<std::vector<ScanHit>>(
+        coarse_scan(set, view.view, backend, options, limit)));
 }
 
 std::vector<ObjectView> views_of(std::span<const ScannedView> scanned) {

@@ -67,7 +67,7 @@ std::vector<Detection> select_detections(const Scene& scene,
   competing.append(candidates);
   const std::size_t first_restarted = competing.poses().size();
   std::vector<Detection> detections = select(scene, competing.poses(), options);
-  if (options.restart_rotation_rad > 0 && !detections.empty()) {
+  if (options.restart_rotation_rad > 0 && !detections.empty() && !scene.is_time_over()) {
     RefineOptions refine = options.refine;
     refine.search.rotation_rad = options.restart_rotation_rad;
     competing.append(refine_poses(scene, object_poses(detections), refine));

@@ -27,7 +27,7 @@ std::vector<PoseEstimate> register_coarsely(const Scene& scene, std::span<const 
     for (const std::size_t i : indices) poses.push_back(starts[i]);
     const std::vector<ObjectView> views = on_coarse_tensors(scene.views, level);
     std::vector<PoseEstimate> registered =
-        register_on_level({scene.models, views, scene.backend}, poses);
+        register_on_level({scene.models, views, scene.backend, scene.limit}, poses);
     for (std::size_t k = 0; k < indices.size(); ++k)
       estimates[indices[k]] = std::move(registered[k]);
   }

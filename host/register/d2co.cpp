@@ -98,12 +98,14 @@ class Evaluator {
 };
 
 void run_round(std::span<LmState> states, Evaluator& evaluator, const D2coRound& round,
-               const D2coOptions& options, ThreadPool& pool) {
+               const D2coOptions& options, const Scene& scene) {
+  ThreadPool& pool = scene.backend.threads();
   for (LmState& state : states) restart(state);
   std::vector<WorldSystem> systems = evaluator.at_trials(states);
   for (std::size_t p = 0; p < states.size(); ++p) initialize(states[p], systems[p]);
   for (int i = 0; i < round.iterations; ++i) {
     if (std::ranges::none_of(states, [](const LmState& state) { return state.active; })) return;
+    if (scene.is_time_over()) return;
     for_poses(states.size(), pool, [&](std::size_t p) {
       if (states[p].active) compute_step(states[p]);
     });
@@ -151,7 +153,8 @@ std::vector<PoseEstimate> register_points(const Scene& scene, std::span<const Ob
     for (std::size_t p = 0; p < poses.size(); ++p) poses[p].world_from_object = states[p].pose;
     Evaluator evaluator(collect_points(poses, scene.views.size(), points, round.max_points, pool),
                         scene, {round.loss, round.scale_px});
-    run_round(states, evaluator, round, options, pool);
+    run_round(states, evaluator, round, options, scene);
+    if (scene.is_time_over()) break;
   }
   std::vector<PoseEstimate> estimates(starts.size());
   for_poses(starts.size(), pool,

@@ -130,12 +130,12 @@ std::vector<PoseEstimate> best_per_start(std::span<const PoseEstimate> estimates
 
 std::vector<PoseEstimate> refine_batch(const Scene& scene, std::span<const ObjectPose> starts,
                                        const RefineOptions& options) {
-  const bool searched = options.search.rotation_rad > 0;
+  const bool searched = options.search.rotation_rad > 0 && !scene.is_time_over();
   const SearchResult found = searched ? search(scene, starts, options) : without_search(starts);
   D2coOptions d2co = options.d2co;
   if (options.search.rotation_rad == 0) d2co.rounds.insert(d2co.rounds.begin(), options.unsearched);
   std::vector<PoseEstimate> estimates = register_poses(scene, found.poses, d2co);
-  if (options.use_edge_icp) edge_icp(scene, estimates, options.edge_icp);
+  if (options.use_edge_icp && !scene.is_time_over()) edge_icp(scene, estimates, options.edge_icp);
   measure_features(scene, estimates, {options.score, options.d2co.visibility});
   return best_per_start(estimates, found.start, starts.size());
 }

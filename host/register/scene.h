@@ -1,10 +1,11 @@
-// The models, views and backend that every step of registration and detection works on.
+// What every step of registration and detection works on: models, views, a backend, and until when.
 //
 // Public header.
 #pragma once
 
 #include <span>
 
+#include "host/core/time_limit.h"
 #include "host/model/edge_model.h"
 #include "host/register/object_view.h"
 #include "kernels/backend.h"
@@ -17,6 +18,9 @@ struct Scene {
   std::span<const EdgeModel> models;
   std::span<const ObjectView> views;
   Backend& backend;
+  // Where it is over, registration makes no further iteration and searches around no start.
+  const TimeLimit* limit = nullptr;  // null: none
+  bool is_time_over() const { return limit && limit->is_over(); }
 };
 
 }  // namespace edgescout

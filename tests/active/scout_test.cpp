@@ -185,19 +185,20 @@ TEST(Scout, CanContinueAfterCancellation) {
   options.detect_in_every_image = false;
   Scout uninterrupted = t.scout(options);
   run_scout(uninterrupted, cell);
-  int asked = 0, cancel_at = 0;
+  int asked = 0, cancel_at = 1;
   options.cancelled = [&] { return ++asked == cancel_at; };
   Scout scout = t.scout(options);
   for (const std::size_t step : {0, 1}) {
     int cancellations = 0;
-    while (scout.state().steps.size() == step) {  // each stage in turn is cancelled once
+    cancel_at = 1;
+    while (scout.state().steps.size() == step) {  // cancelled early and late in every stage
       asked = 0;
-      cancel_at = cancellations + 1;
       try {
         const auto proposal = scout.propose();
         scout.give(proposal->view, cell.acquire(proposal->view).image);
       } catch (const Cancelled&) {
         ++cancellations;
+        cancel_at += std::max(1, cancel_at / 2);
         EXPECT_EQ(scout.state().steps.size(), step);
         EXPECT_EQ(scout.state().particles.empty(), step == 0);
       }
