@@ -1,7 +1,8 @@
 #!/bin/bash
 # Installs the Debian packages that are missing. Needs neither root nor network where all are there.
-#   scripts/setup.sh         what the program needs (scripts/packages.txt)
-#   scripts/setup.sh --dev   also what tests and checks need (scripts/packages_dev.txt)
+#   scripts/setup.sh             what the program needs (scripts/packages.txt)
+#   scripts/setup.sh --bindings  also what other languages need (scripts/packages_bindings.txt)
+#   scripts/setup.sh --dev       also what tests and checks need (scripts/packages_dev.txt)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -14,9 +15,10 @@ as_root() {
 lists=(scripts/packages.txt)
 case "${1:-}" in
   '') ;;
-  --dev) lists+=(scripts/packages_dev.txt) ;;
+  --bindings) lists+=(scripts/packages_bindings.txt) ;;
+  --dev) lists+=(scripts/packages_bindings.txt scripts/packages_dev.txt) ;;
   *)
-    echo "setup: found $1, expected --dev or nothing" >&2
+    echo "setup: found $1, expected --bindings, --dev or nothing" >&2
     exit 2
     ;;
 esac

@@ -1,0 +1,34 @@
+#include "host/bindings/python/src/option_fields.h"
+#include "host/bindings/python/src/parts.h"
+#include "host/active/scout_options.h"
+#include "host/model/template_set.h"
+#include "host/pipeline.h"
+
+namespace edgescout::python {
+
+namespace {
+
+void describe_detection(PipelineOptions& options, OptionVisitor& visit) {
+  describe(options.edges, visit);
+  describe(options.tensor, visit);
+  describe(options.detect, visit);
+  describe(options.detect.scan.world, visit);
+  describe(options.detect.edge_claims, visit);
+}
+
+}  // namespace
+
+void add_options(py::module_& module) {
+  add_options_class<TemplateOptions>(
+      module, "TemplateOptions",
+      "Viewpoints and distances of an object's templates. Names are those of the command line with "
+      "underscores; help() explains them.",
+      [](TemplateOptions& options, OptionVisitor& visit) { describe(options, visit); });
+  add_options_class<PipelineOptions>(
+      module, "DetectOptions",
+      "Options of detection. Names are those of the command line with underscores; help() explains "
+      "them.",
+      describe_detection);
+}
+
+}  // namespace edgescout::python

@@ -1,0 +1,35 @@
+// A backend that threads of Python share: one call at a time works on it.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "kernels/backend.h"
+
+namespace edgescout::python {
+
+class SharedBackend {
+ public:
+  explicit SharedBackend(std::unique_ptr<Backend> backend) : backend_(std::move(backend)) {}
+
+  const Backend& info() const { return *backend_; }
+
+  // Calls work(backend); others wait. The caller has given up the interpreter's lock.
+  template <typename Work>
+  auto use(const Work& work) {
+    const std::scoped_lock lock(mutex_);
+    return work(*backend_);
+  }
+
+ private:
+  std::unique_ptr<Backend> backend_;
+  std::mutex mutex_;
+};
+
+using BackendPointer = std::shared_ptr<SharedBackend>;
+
+// `given`, or that of "auto", made at the first use.
+BackendPointer backend_or_usual(const BackendPointer& given);
+
+}  // namespace edgescout::python

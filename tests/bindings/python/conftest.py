@@ -1,0 +1,37 @@
+"""The example scene, its templates and one detection in it, made once."""
+
+import json
+import os
+import pathlib
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import edgescout
+
+SOURCE = pathlib.Path(__file__).resolve().parents[3]
+SCENE = SOURCE / "docs/examples/scenes/000000"
+PART = SOURCE / "docs/examples/parts/obj_000001.ply"
+
+
+@pytest.fixture(scope="session")
+def program():
+    return os.environ["EDGESCOUT_PROGRAM"]
+
+
+@pytest.fixture(scope="session")
+def scene():
+    image = edgescout.load_image(SCENE / "gray/000000.png")
+    matrix = json.loads((SCENE / "scene_camera.json").read_text())["0"]["cam_K"]
+    backend = edgescout.Backend("cpu", threads=2)
+    camera = edgescout.Camera(image.shape[1], image.shape[0], np.reshape(matrix, (3, 3)))
+    options = edgescout.TemplateOptions(distance_min=0.32, distance_max=0.36)
+    templates = edgescout.Templates(edgescout.load_mesh(PART, "mm"), options, backend=backend)
+    return SimpleNamespace(image=image, camera=camera, templates=templates, backend=backend,
+                           file=SCENE / "gray/000000.png", part=PART)
+
+
+@pytest.fixture(scope="session")
+def found(scene):
+    return edgescout.detect(scene.image, scene.camera, scene.templates, backend=scene.backend)

@@ -1,0 +1,76 @@
+"""Meshes, cameras, templates and images."""
+
+import numpy as np
+import pytest
+
+import edgescout
+
+
+def test_mesh_from_arrays_equals_the_file(scene):
+    loaded = edgescout.load_mesh(scene.part, "mm")
+    made = edgescout.Mesh(loaded.vertices_m, loaded.triangles, "made")
+    np.testing.assert_array_equal(made.vertices_m, loaded.vertices_m)
+    np.testing.assert_array_equal(made.triangles, loaded.triangles)
+    assert made.diameter_m == loaded.diameter_m
+
+
+@pytest.mark.parametrize("vertices, triangles, message", [
+    (np.zeros((4, 2)), [[0, 1, 2]], "vertices_m: found float64 of shape (4, 2)"),
+    (np.eye(3), [[0, 1, 7]], "found vertex index 7"),
+    (np.eye(3), [[0, 1, 2**40]], "an index of a vertex"),
+    (["a"], [[0, 1, 2]], "vertices_m"),
+    (np.full((3, 3), np.nan), [[0, 1, 2]], "finite"),
+])
+def test_refuses_what_is_no_mesh(vertices, triangles, message):
+    with pytest.raises(ValueError) as error:
+        edgescout.Mesh(vertices, triangles)
+    assert message in str(error.value)
+
+
+def test_missing_files_are_named():
+    with pytest.raises(edgescout.InputError, match="no_such.stl"):
+        edgescout.load_mesh("no_such.stl", "mm")
+    with pytest.raises(edgescout.InputError, match='found "feet"'):
+        edgescout.load_mesh("no_such.stl", "feet")
+
+
+def test_templates_need_distances_or_a_camera(scene):
+    mesh = edgescout.load_mesh(scene.part, "mm")
+    with pytest.raises(ValueError, match="distance_min, distance_max"):
+        edgescout.Templates(mesh)
+
+
+def test_templates_are_saved_whole(scene, tmp_path):
+    scene.templates.save(tmp_path / "part.templates")
+    loaded = edgescout.Templates.load(tmp_path / "part.templates")
+    assert loaded.options == scene.templates.options
+    assert repr(loaded) == repr(scene.templates)
+
+
+def test_symmetries_are_words_or_matrices(scene):
+    mesh = edgescout.load_mesh(scene.part, "mm")
+    half_turn = np.diag([-1.0, -1.0, 1.0, 1.0])
+    options = edgescout.TemplateOptions(distance_min=0.3, distance_max=0.3, viewpoints=1)
+    for given, count in (("z2", 2), ([half_turn], 2), ([np.eye(4), half_turn], 2), (None, 1)):
+        made = edgescout.Templates(mesh, options, symmetries=given, backend=scene.backend)
+        assert made.symmetries.shape == (count, 4, 4)
+        np.testing.assert_allclose(made.symmetries[0], np.eye(4))
+    with pytest.raises(ValueError, match="q9"):
+        edgescout.Templates(mesh, options, symmetries="q9", backend=scene.backend)
+
+
+def test_images_are_written_and_read(tmp_path):
+    image = np.random.default_rng(1).integers(0, 256, (40, 60), np.uint8)
+    edgescout.save_png(image[:, ::-1], tmp_path / "image.png")
+    np.testing.assert_array_equal(edgescout.load_image(tmp_path / "image.png"), image[:, ::-1])
+
+
+def test_camera_is_what_was_given():
+    matrix = np.array([[700.0, 0, 320], [0, 710, 240], [0, 0, 1]])
+    camera = edgescout.Camera(640, 480, matrix, [0.1, 0.01])
+    np.testing.assert_array_equal(camera.K, matrix)
+    np.testing.assert_array_equal(camera.distortion[:3], [0.1, 0.01, 0])
+    with pytest.raises(ValueError):
+        edgescout.Camera(640, 480, np.zeros((3, 3)))
+    with pytest.raises(ValueError, match="at most 14"):
+        edgescout.Camera(640, 480, matrix, [0.0] * 15)
