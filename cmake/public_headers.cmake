@@ -4,7 +4,7 @@
 # because public ones include them: a program should not include them itself, and they may change in
 # any version.
 set(EDGESCOUT_PUBLIC_HEADERS
-  host/edgescout.h host/pipeline.h host/overlay.h
+  host/edgescout.h host/pipeline.h host/register_objects.h host/overlay.h
   host/core/camera.h host/core/camera_check.h host/core/grid.h host/core/lens.h host/core/log.h
   host/core/options.h host/core/pose_error.h host/core/se3.h host/core/stopwatch.h
   host/core/time_limit.h

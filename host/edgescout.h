@@ -15,5 +15,5 @@
 #include "host/model/template_set.h"
 #include "host/overlay.h"
 #include "host/pipeline.h"
-#include "host/register/refine.h"
+#include "host/register_objects.h"
 #include "kernels/backend.h"

@@ -57,12 +57,12 @@ DetectOptions in_camera_frame(DetectOptions options, const Se3& camera_from_worl
   return options;
 }
 
+}  // namespace
+
 Completion completion_under(const TimeLimit& limit) {
   if (limit.is_cancelled()) return Completion::Cancelled;
   return limit.is_over() ? Completion::DeadlinePassed : Completion::Complete;
 }
-
-}  // namespace
 
 std::string to_string(Completion completion) {
   constexpr std::array names{"complete", "deadline passed", "cancelled"};

@@ -51,6 +51,8 @@ enum class Completion {
   DeadlinePassed,  // the limit was over before the work was: poses may be missing or unrefined
   Cancelled,
 };
+// Asked at the end of the work.
+Completion completion_under(const TimeLimit& limit);
 std::string to_string(Completion completion);  // "complete", "deadline passed", "cancelled"
 
 struct Detections {

@@ -11,6 +11,7 @@
 
 #include "host/cli/batch_settings.h"
 #include "host/cli/template_origin.h"
+#include "host/register_objects.h"
 
 namespace edgescout {
 
@@ -28,9 +29,6 @@ struct BatchSummary {
 
 std::filesystem::path json_of(const std::filesystem::path& out, const InputImage& input);
 std::filesystem::path overlay_of(const std::filesystem::path& out, const InputImage& input);
-
-// Detection::convergence of a pose that no image shows, so that nothing could be refined.
-inline constexpr const char* OUT_OF_SIGHT = "out of sight";
 
 // Transforms the detections of a single image from the camera frame to the world, if the pose of
 // the camera in the world is known.

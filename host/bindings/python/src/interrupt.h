@@ -34,10 +34,16 @@ auto without_lock(std::optional<double> max_seconds, const Work& work) {
   TimeLimit limit = max_seconds ? TimeLimit::after(*max_seconds) : TimeLimit{};
   bool raised = false;
   limit.cancelled = [&] { return raised = raised || signals.pending(); };
-  auto result = [&] {
-    const pybind11::gil_scoped_release unlocked;
-    return work(limit);
-  }();
+  const auto work_unlocked = [&] {
+    try {
+      const pybind11::gil_scoped_release unlocked;
+      return work(limit);
+    } catch (...) {
+      if (raised) throw pybind11::error_already_set();
+      throw;
+    }
+  };
+  auto result = work_unlocked();
   if (raised) throw pybind11::error_already_set();
   return result;
 }

@@ -1,5 +1,4 @@
 #include "host/bindings/python/src/arrays.h"
-#include "host/bindings/python/src/interrupt.h"
 #include "host/bindings/python/src/parts.h"
 #include "host/bindings/python/src/shared_backend.h"
 #include "host/io/bop.h"
@@ -40,7 +39,7 @@ Symmetries symmetries_of(const py::object& given, const Mesh& mesh) {
   return symmetries;
 }
 
-// Interrupted where a signal handler raised.
+// Thrown where a signal handler raised, whose exception replaces it.
 struct Interrupted {};
 
 // Built without the lock or read from the cache.
@@ -53,21 +52,14 @@ TemplateSet templates_of(const Object& object, TemplateOptions options,
     refuse("distance_min, distance_max", "0",
            "both, or a camera: then all distances at which the object fills a twentieth to all of "
            "the image are searched");
-  const BackendPointer used = backend_or_usual(backend);
-  return without_lock({}, [&](const TimeLimit& limit) {
+  return on_backend(backend, {}, [&](const TimeLimit& limit, Backend& on) {
     const auto progress = [&](int, int) {
       if (limit.is_cancelled()) throw Interrupted{};
     };
-    try {
-      return used->use([&](Backend& on) {
-        return cached ? TemplateCache(TemplateCacheOptions{.program = "python"})
-                            .get(object, options, on, progress)
-                            .set
-                      : build_templates(object, options, on, progress);
-      });
-    } catch (const Interrupted&) {
-      return TemplateSet{};  // without_lock raises what the signal handler raised
-    }
+    if (!cached) return build_templates(object, options, on, progress);
+    return TemplateCache(TemplateCacheOptions{.program = "python"})
+        .get(object, options, on, progress)
+        .set;
   });
 }
 

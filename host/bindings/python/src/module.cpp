@@ -10,5 +10,6 @@ PYBIND11_MODULE(_core, module) {
   python::add_options(module);
   python::add_models(module);
   python::add_detection(module);
+  python::add_scout(module);
   module.attr("__version__") = EDGESCOUT_VERSION;
 }

@@ -16,6 +16,17 @@ void describe_detection(PipelineOptions& options, OptionVisitor& visit) {
   describe(options.detect.edge_claims, visit);
 }
 
+void describe_scout(ScoutOptions& options, OptionVisitor& visit) {
+  describe_budget(options, visit);
+  describe_strategy(options.next_view, visit);
+  describe(options, visit);
+  describe(options.pipeline.edges, visit);
+  describe(options.pipeline.tensor, visit);
+  describe_search(options.pipeline.detect, visit);
+  describe(options.pipeline.detect.scan.world, visit);
+  describe(options.detections, visit);
+}
+
 }  // namespace
 
 void add_options(py::module_& module) {
@@ -29,6 +40,11 @@ void add_options(py::module_& module) {
       "Options of detection. Names are those of the command line with underscores; help() explains "
       "them.",
       describe_detection);
+  add_options_class<ScoutOptions>(
+      module, "ScoutOptions",
+      "Options of the scout. Names are those of the command line with underscores; help() explains "
+      "them.",
+      describe_scout);
 }
 
 }  // namespace edgescout::python

@@ -13,6 +13,5 @@ void add_backends(pybind11::module_& module);
 void add_options(pybind11::module_& module);
 void add_detection(pybind11::module_& module);
 void add_scout(pybind11::module_& module);
-void add_bop(pybind11::module_& module);
 
 }  // namespace edgescout::python

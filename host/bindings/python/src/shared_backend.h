@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string>
 
+#include "host/bindings/python/src/interrupt.h"
 #include "kernels/backend.h"
 
 namespace edgescout::python {
@@ -31,5 +32,14 @@ using BackendPointer = std::shared_ptr<SharedBackend>;
 
 // `given`, or that of "auto", made at the first use.
 BackendPointer backend_or_usual(const BackendPointer& given);
+
+// Calls work(limit, backend) without the interpreter's lock (without_lock).
+template <typename Work>
+auto on_backend(const BackendPointer& given, std::optional<double> max_seconds, const Work& work) {
+  const BackendPointer backend = backend_or_usual(given);
+  return without_lock(max_seconds, [&](const TimeLimit& limit) {
+    return backend->use([&](Backend& on) { return work(limit, on); });
+  });
+}
 
 }  // namespace edgescout::python

@@ -1,0 +1,103 @@
+#include "host/bindings/python/src/found_objects.h"
+
+namespace edgescout::python {
+
+std::vector<TemplateSet> sets_of(const py::object& given) {
+  std::vector<TemplateSet> sets;
+  if (py::isinstance<TemplateSet>(given)) {
+    sets.push_back(py::cast<const TemplateSet&>(given));
+    return sets;
+  }
+  for (const auto& set : py::cast<std::vector<std::shared_ptr<TemplateSet>>>(given))
+    sets.push_back(*set);
+  if (sets.empty()) refuse("templates", "none", "at least one");
+  return sets;
+}
+
+TakenImage taken_image(const py::array& image, const Camera& camera, const Se3& camera_from_world) {
+  TakenImage shot{image_of(image), camera, camera_from_world};
+  if (camera.width == 0 && camera.height == 0) {
+    shot.camera.width = shot.image.width;
+    shot.camera.height = shot.image.height;
+  }
+  if (shot.image.width != shot.camera.width || shot.image.height != shot.camera.height)
+    refuse("image",
+           std::to_string(shot.image.width) + "x" + std::to_string(shot.image.height) + " px",
+           "the camera's " + std::to_string(camera.width) + "x" + std::to_string(camera.height));
+  return shot;
+}
+
+std::vector<TakenImage> taken_images(const std::vector<py::array>& images, const Camera& camera,
+                                     const py::object& camera_from_world) {
+  const std::vector<Se3> poses = poses_of(camera_from_world, "camera_from_world");
+  if (poses.size() != images.size() || poses.empty())
+    refuse("camera_from_world", std::to_string(poses.size()) + " poses",
+           "one an image of " + std::to_string(images.size()));
+  std::vector<TakenImage> taken;
+  for (std::size_t i = 0; i < images.size(); ++i)
+    taken.push_back(taken_image(images[i], camera, poses[i]));
+  return taken;
+}
+
+FoundObjects named(Detections&& detections, std::span<const TemplateSet> sets) {
+  FoundObjects result{{}, detections.completion, std::move(detections.stages)};
+  for (Detection& detection : detections.detections) {
+    const TemplateSet& set = sets[std::size_t(detection.object)];
+    result.found.push_back({std::move(detection), set.object_id, set.model.mesh.name});
+  }
+  return result;
+}
+
+void add_found_objects(py::module_& module) {
+  py::class_<AlternativePose>(module, "Alternative", "Another pose that explains the same edges.")
+      .def_property_readonly(
+          "world_from_object",
+          [](const AlternativePose& a) { return matrix_of(a.world_from_object); })
+      .def_readonly("probability", &AlternativePose::probability);
+  py::class_<FoundObject>(module, "Detection", "One object that was found.")
+      .def_readonly("object", &FoundObject::object, "Index into the templates that were given.")
+      .def_readonly("object_id", &FoundObject::object_id)
+      .def_readonly("name", &FoundObject::name, "Of its mesh.")
+      .def_property_readonly(
+          "world_from_object",
+          [](const FoundObject& d) { return matrix_of(d.world_from_object); },
+          "(4, 4) float64, metres. With one image the world is the camera frame.")
+      .def_property_readonly(
+          "covariance", [](const FoundObject& d) { return array_of(d.covariance); },
+          "(6, 6) float64 of [translation m, rotation rad] in the world.")
+      .def_readonly("probability", &FoundObject::probability, "That the pose is right, [0, 1].")
+      .def_readonly("psi", &FoundObject::psi)
+      .def_readonly("psi_z_score", &FoundObject::psi_z_score)
+      .def_readonly("cost_px", &FoundObject::cost_px)
+      .def_readonly("matched_fraction", &FoundObject::matched_fraction)
+      .def_readonly("unexplained_grey", &FoundObject::unexplained_grey)
+      .def_readonly("convergence", &FoundObject::convergence)
+      .def_readonly("alternatives", &FoundObject::alternatives, "Most probable first.")
+      .def("__repr__", [](const FoundObject& d) {
+        const Eigen::Vector3d& t = d.world_from_object.translation_m;
+        return py::str("Detection({}, probability {:.3f}, at [{:.4f}, {:.4f}, {:.4f}] m)")
+            .format(d.name, d.probability, t.x(), t.y(), t.z());
+      });
+  py::class_<FoundObjects>(module, "Detections", "A sequence of Detection, most probable first.")
+      .def("__len__", [](const FoundObjects& f) { return f.found.size(); })
+      .def("__getitem__",
+           [](const FoundObjects& f, py::ssize_t i) {
+             const auto size = py::ssize_t(f.found.size());
+             if (i < -size || i >= size) throw py::index_error();
+             return f.found[std::size_t(i < 0 ? i + size : i)];
+           })
+      .def_property_readonly(
+          "is_complete", [](const FoundObjects& f) { return f.completion == Completion::Complete; },
+          "False where max_seconds were over: poses may be missing or not refined.")
+      .def_property_readonly(
+          "seconds",
+          [](const FoundObjects& f) {
+            py::dict seconds;
+            for (const StageSeconds& stage : f.stages)
+              seconds[py::str(stage.name)] = stage.seconds;
+            return seconds;
+          },
+          "Of each stage, by name.");
+}
+
+}  // namespace edgescout::python

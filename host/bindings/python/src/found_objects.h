@@ -1,0 +1,42 @@
+// What is given to detection and what it finds, with the names of the objects.
+#pragma once
+
+#include "host/bindings/python/src/arrays.h"
+#include "host/pipeline.h"
+
+namespace edgescout::python {
+
+// One Templates or a sequence of them. ValueError: none.
+std::vector<TemplateSet> sets_of(const py::object& templates);
+
+// What an image shows, and where it was taken.
+struct TakenImage {
+  Image image;
+  Camera camera;
+  Se3 camera_from_world;
+};
+
+// A camera without a size takes the image's. ValueError: they differ.
+TakenImage taken_image(const py::array& image, const Camera& camera, const Se3& camera_from_world);
+
+// ValueError: not one pose an image.
+std::vector<TakenImage> taken_images(const std::vector<py::array>& images, const Camera& camera,
+                                     const py::object& camera_from_world);
+
+// A detection with the identity of its object.
+struct FoundObject : Detection {
+  int object_id = 1;
+  std::string name;
+};
+
+struct FoundObjects {
+  std::vector<FoundObject> found;
+  Completion completion = Completion::Complete;
+  std::vector<StageSeconds> stages;
+};
+
+FoundObjects named(Detections&& detections, std::span<const TemplateSet> sets);
+
+void add_found_objects(py::module_& module);
+
+}  // namespace edgescout::python

@@ -1,0 +1,182 @@
+#include "host/active/scout.h"
+
+#include "host/active/views.h"
+#include "host/bindings/python/src/found_objects.h"
+#include "host/bindings/python/src/parts.h"
+#include "host/bindings/python/src/shared_backend.h"
+
+namespace edgescout::python {
+
+namespace {
+
+// A view that the scout asks for.
+struct Proposal {
+  int view = 0;
+  Se3 camera_from_world;
+  std::vector<double> values_nats;  // of each possible view; NaN: closed
+};
+
+// An instance that the scout reports.
+struct Instance : FoundObject {
+  std::vector<int> supporting_images;
+};
+
+// Keeps what a Scout refers to.
+class PythonScout {
+  // Before what calls it: its type is deduced.
+  template <typename Work>
+  auto call(const Work& work) {
+    return on_backend(backend_, {}, [&](const TimeLimit& limit, Backend&) {
+      limit_ = &limit;
+      const auto reset = [this](const TimeLimit*) { limit_ = nullptr; };
+      const std::unique_ptr<const TimeLimit, decltype(reset)> until_the_end(&limit, reset);
+      return work(*scout_);
+    });
+  }
+
+ public:
+  PythonScout(std::vector<TemplateSet> sets, const Camera& camera, std::vector<Se3> views,
+              ScoutOptions options, BackendPointer backend)
+      : sets_(std::move(sets)), backend_(std::move(backend)) {
+    options.cancelled = [this] { return limit_ && limit_->is_cancelled(); };
+    scout_ = on_backend(backend_, {}, [&](const TimeLimit&, Backend& on) {
+      return std::make_unique<Scout>(sets_, camera, std::move(views), options, on);
+    });
+  }
+
+  std::optional<Proposal> propose() {
+    const std::optional<ScoutDecision> decision = call([](Scout& scout) { return scout.propose(); });
+    if (!decision) return {};
+    Proposal proposal{decision->view, state().views[std::size_t(decision->view)], {}};
+    for (const ViewInformation& view : decision->views)
+      proposal.values_nats.push_back(view.open ? view.value() : NAN);
+    return proposal;
+  }
+
+  void give(int view, const py::array& image, const py::object& camera_from_world) {
+    require_view(view);
+    const Image grey = image_of(image);
+    const Se3 pose = camera_from_world.is_none() ? state().views[std::size_t(view)]
+                                                 : pose_of(camera_from_world, "camera_from_world");
+    call([&](Scout& scout) {
+      scout.give(view, grey, pose);
+      return 0;
+    });
+  }
+
+  void unreachable(int view, const std::string& reason) {
+    require_view(view);
+    scout_->unreachable(view, reason);
+  }
+
+  std::vector<Instance> detections() const {
+    std::vector<Instance> instances;
+    for (const ModeDetection& mode : state().detections) {
+      const TemplateSet& set = sets_[std::size_t(mode.detection.object)];
+      instances.push_back(
+          {{mode.detection, set.object_id, set.model.mesh.name}, mode.supporting_images});
+    }
+    return instances;
+  }
+
+  void resume(const std::filesystem::path& file) {
+    call([&](Scout& scout) {
+      scout.resume(load_scout_state(file), file.string());
+      return 0;
+    });
+  }
+
+  const ScoutState& state() const { return scout_->state(); }
+
+ private:
+  void require_view(int view) const {
+    if (view < 0 || std::size_t(view) >= state().views.size())
+      throw py::index_error("view: found " + std::to_string(view) + ", expected one of " +
+                            std::to_string(state().views.size()));
+  }
+
+  std::vector<TemplateSet> sets_;
+  BackendPointer backend_;
+  const TimeLimit* limit_ = nullptr;  // of the call in progress
+  std::unique_ptr<Scout> scout_;
+};
+
+py::array_t<double> hemisphere(const std::array<double, 3>& center_m, double radius_m, int count,
+                               const std::vector<double>& elevations_deg) {
+  return matrices_of(hemisphere_views(
+      {{center_m[0], center_m[1], center_m[2]}, radius_m, elevations_deg, count}));
+}
+
+void add_scout_results(py::module_& module) {
+  py::class_<Proposal>(module, "Proposal", "The view that the scout asks for.")
+      .def_readonly("view", &Proposal::view, "Index into the views that were given.")
+      .def_property_readonly(
+          "camera_from_world", [](const Proposal& p) { return matrix_of(p.camera_from_world); })
+      .def_property_readonly(
+          "values_nats",
+          [](const Proposal& p) {
+            return py::array_t<double>(py::ssize_t(p.values_nats.size()), p.values_nats.data());
+          },
+          "Of each possible view, what is expected of it; NaN: taken or failed. Empty for the "
+          "first image.");
+  py::class_<Instance, FoundObject>(module, "Instance", "An object that the scout reports.")
+      .def_readonly("supporting_images", &Instance::supporting_images,
+                    "Images, from 0, that alone make the pose probable.");
+}
+
+}  // namespace
+
+void add_scout(py::module_& module) {
+  add_scout_results(module);
+  py::class_<PythonScout>(
+      module, "Scout",
+      "Finds objects from several views and says which view to take next.\n\n"
+      "    while (proposal := scout.propose()) is not None:\n"
+      "        move_camera(proposal.camera_from_world)\n"
+      "        scout.give(proposal.view, take_image())\n")
+      .def(py::init([](const py::object& templates, const Camera& camera,
+                       const py::object& camera_from_world, const ScoutOptions* options,
+                       const BackendPointer& backend) {
+             return std::make_unique<PythonScout>(
+                 sets_of(templates), camera, poses_of(camera_from_world, "camera_from_world"),
+                 options ? *options : ScoutOptions{}, backend_or_usual(backend));
+           }),
+           py::arg("templates"), py::arg("camera"), py::arg("camera_from_world"),
+           py::arg("options") = nullptr, py::kw_only(), py::arg("backend") = nullptr,
+           "camera_from_world: (n, 4, 4), metres, where the camera may be sent.")
+      .def("propose", &PythonScout::propose,
+           "The next view, or None at the end. The same until an image or a failure is given.")
+      .def("give", &PythonScout::give, py::arg("view"), py::arg("image"),
+           py::arg("camera_from_world") = py::none(),
+           "Adds the image of a view, taken where it was planned or at the given (4, 4) pose. "
+           "Ctrl-C leaves the scout as it was.")
+      .def("unreachable", &PythonScout::unreachable, py::arg("view"), py::arg("reason"),
+           "The view failed; another one is proposed.")
+      .def_property_readonly("detections", &PythonScout::detections, "Most probable first.")
+      .def_property_readonly("entropy_nats",
+                             [](const PythonScout& s) { return s.state().entropy_nats; })
+      .def_property_readonly("images", [](const PythonScout& s) { return s.state().steps.size(); })
+      .def_property_readonly("end", [](const PythonScout& s) { return to_string(s.state().end); },
+                             "Why it ended; empty while it goes on.")
+      .def(
+          "save",
+          [](const PythonScout& s, const std::filesystem::path& file) {
+            save_scout_state(s.state(), file);
+          },
+          py::arg("file"))
+      .def("resume", &PythonScout::resume, py::arg("file"),
+           "Goes on from a saved state of the same objects, camera and views.");
+  module.def("hemisphere_views", &hemisphere, py::arg("center_m"), py::arg("radius_m"),
+             py::arg("count") = 32, py::arg("elevations_deg") = std::vector<double>{35, 55, 75},
+             "Poses (n, 4, 4) camera_from_world of cameras on rings above a point, which look at "
+             "it.");
+  module.def(
+      "look_at",
+      [](const std::array<double, 3>& eye_m, const std::array<double, 3>& target_m) {
+        return matrix_of(look_at({eye_m[0], eye_m[1], eye_m[2]},
+                                 {target_m[0], target_m[1], target_m[2]}));
+      },
+      py::arg("eye_m"), py::arg("target_m"), "The pose camera_from_world, world z up in the image.");
+}
+
+}  // namespace edgescout::python
