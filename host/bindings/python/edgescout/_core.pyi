@@ -210,6 +210,7 @@ def register(
     objects: Optional[Sequence[int]] = ...,
     *,
     backend: Optional[Backend] = ...,
+    max_seconds: Optional[float] = ...,
 ) -> Detections: ...
 def register_jointly(
     images: Sequence[Image],
@@ -220,6 +221,7 @@ def register_jointly(
     objects: Optional[Sequence[int]] = ...,
     *,
     backend: Optional[Backend] = ...,
+    max_seconds: Optional[float] = ...,
 ) -> Detections: ...
 def overlay(
     image: Image,

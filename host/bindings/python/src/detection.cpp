@@ -83,22 +83,22 @@ FoundObjects register_in(const std::vector<TakenImage>& taken,
 FoundObjects register_in_one(const py::array& image, const Camera& camera,
                              const py::object& templates, const py::object& camera_from_object,
                              const std::optional<std::vector<int>>& objects,
-                             const BackendPointer& backend) {
+                             const BackendPointer& backend, std::optional<double> max_seconds) {
   const std::vector<TemplateSet> sets = sets_of(templates);
   return register_in({taken_image(image, camera, Se3{})}, sets,
                      starts_of(camera_from_object, "camera_from_object", objects, sets.size()),
-                     backend, {});
+                     backend, max_seconds);
 }
 
 FoundObjects register_in_all(const std::vector<py::array>& images, const Camera& camera,
                              const py::object& camera_from_world, const py::object& templates,
                              const py::object& world_from_object,
                              const std::optional<std::vector<int>>& objects,
-                             const BackendPointer& backend) {
+                             const BackendPointer& backend, std::optional<double> max_seconds) {
   const std::vector<TemplateSet> sets = sets_of(templates);
   return register_in(taken_images(images, camera, camera_from_world), sets,
                      starts_of(world_from_object, "world_from_object", objects, sets.size()),
-                     backend, {});
+                     backend, max_seconds);
 }
 
 py::array_t<std::uint8_t> overlay(const py::array& image, const Camera& camera,
@@ -143,12 +143,14 @@ void add_detection(py::module_& module) {
   module.def("register", &register_in_one, py::arg("image"), py::arg("camera"),
              py::arg("templates"), py::arg("camera_from_object"),
              py::arg("objects") = std::nullopt, py::kw_only(), py::arg("backend") = nullptr,
+             py::arg("max_seconds") = std::nullopt,
              "Refines given poses in one image.\n\ncamera_from_object: (n, 4, 4), metres, within "
              "some 0.3 rad and a tenth of the object's size. objects: of each, the index of its "
              "templates; needed where there are several. The result is in the order of the poses.");
   module.def("register_jointly", &register_in_all, py::arg("images"), py::arg("camera"),
              py::arg("camera_from_world"), py::arg("templates"), py::arg("world_from_object"),
              py::arg("objects") = std::nullopt, py::kw_only(), py::arg("backend") = nullptr,
+             py::arg("max_seconds") = std::nullopt,
              "Refines given poses over several images of one static scene.");
   module.def("overlay", &overlay, py::arg("image"), py::arg("camera"), py::arg("detections"),
              py::arg("templates"), py::kw_only(), py::arg("camera_from_world") = py::none(),
