@@ -75,7 +75,7 @@ ceres::Solver::Options solver_options(const D2coRound& round, const D2coOptions&
 Convergence convergence_of(const ceres::Solver::Summary& summary) {
   switch (summary.termination_type) {
     case ceres::CONVERGENCE:
-      return Convergence::SmallStep;
+      return Convergence::Converged;
     case ceres::NO_CONVERGENCE:
       return Convergence::IterationLimit;
     default:
