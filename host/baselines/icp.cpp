@@ -60,7 +60,7 @@ LmState iterate_closest_points(const Se3& start, std::span<const ObjectView> vie
     ++state.iterations;
     if (state.active &&
         is_small(local_coordinates(before, state.pose), options.min_step_m, options.min_step_rad))
-      state.active = false, state.convergence = Convergence::SmallStep;
+      state.active = false, state.convergence = Convergence::Converged;
   }
   return state;
 }

@@ -11,6 +11,12 @@
 
 namespace edgescout {
 
+// For the help of options that name CAD files and their unit.
+inline const std::string MESH_FORMATS = "STL, PLY, OBJ, OFF, CAO, glTF, 3MF or COLLADA",
+                         UNIT_HELP =
+                             "Length unit of the model files: mm, cm, m or in. glTF, 3MF and "
+                             "COLLADA state one, which is used without it";
+
 void add_images(CLI::App& verb, std::vector<std::string>& inputs);  // required
 // --camera, --camera-name, --field-of-view
 void add_camera(CLI::App& verb, CameraArguments& camera);

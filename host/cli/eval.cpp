@@ -8,9 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/inputs.h"
 #include "host/cli/option_table.h"
+#include "host/cli/symmetry_arguments.h"
 #include "host/cli/verbs.h"
 #include "host/core/log.h"
 #include "host/eval/recall.h"
@@ -164,6 +166,10 @@ nlohmann::ordered_json row_json(const Recalls& r) {
           {"false_positives_per_image", r.false_positives_per_image}};
 }
 
+bool states_symmetries(const ModelArguments& models) {
+  return !models.models_info.empty() || !models.symmetry.empty();
+}
+
 void save_json(const Evaluation& evaluation, const EvalRequest& request) {
   const RecallOptions& o = request.recall;
   nlohmann::ordered_json root{{"results", request.results},
@@ -173,7 +179,7 @@ void save_json(const Evaluation& evaluation, const EvalRequest& request) {
                               {"max_angle_rad", o.max_angle_rad},
                               {"max_distance_m", o.max_distance_m},
                               {"max_mspd_px", o.max_mspd_px},
-                              {"symmetries", !request.models.models_info.empty()},
+                              {"symmetries", states_symmetries(request.models)},
                               {"objects_left_out", evaluation.left_out}};
   for (const auto& [object, recalls] : evaluation.rows)
     (object == "all" ? root["all"] : root["objects"][object]) = row_json(recalls);
@@ -186,8 +192,9 @@ void print_limits(const Evaluation& evaluation, const EvalRequest& request) {
     std::cout << fmt::format(
         "left out, truths and estimates, as they have no --model: objects {}\n",
         fmt::join(evaluation.left_out, ", "));
-  if (request.models.models_info.empty())
-    std::cout << "no symmetries without --models-info: a pose that looks the same as the truth "
+  if (!states_symmetries(request.models))
+    std::cout << "no symmetries without --models-info or --symmetry: a pose that looks the same as "
+                 "the truth "
                  "counts as a miss\n";
 }
 
@@ -231,12 +238,10 @@ void add_eval(CLI::App& app, int& exit_code) {
       ->type_name("DIR");
   verb->add_option(
           "--model", request->models.models,
-          "STL, PLY, OBJ or CAO files of the objects to evaluate; the scenes' others are left out")
+          MESH_FORMATS + " files of the objects to evaluate; the scenes' others are left out")
       ->required()
       ->type_name("FILE");
-  verb->add_option("--unit", request->models.unit,
-                   "Length unit of the model files: mm, cm, m or in")
-      ->required();
+  verb->add_option("--unit", request->models.unit, UNIT_HELP);
   verb->add_option(
           "--models-info", request->models.models_info,
           "BOP models_info.json with symmetries. Without it, a pose that looks the same as "
@@ -244,6 +249,7 @@ void add_eval(CLI::App& app, int& exit_code) {
       ->type_name("FILE");
   verb->add_option("--object-id", request->models.object_ids,
                    "BOP ids of the models; default: the number at the end of their names");
+  add_symmetry(*verb, request->models.symmetry);
   verb->add_option("--json", request->json_file, "Also write the figures here")->type_name("FILE");
   RecallOptions& o = request->recall;
   OptionTable(*verb, "Evaluation", OptionLevel::Expert)

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "host/active/camera_pose_check.h"
+#include "host/cli/symmetry_arguments.h"
 #include "host/core/camera_check.h"
 #include "host/core/log.h"
 #include "host/io/camera_file.h"
@@ -198,34 +199,41 @@ void check_scene(std::span<const InputImage> images, const DistanceRange& search
   check_camera_poses(cameras, searched, images[0].scene_folder.string());
 }
 
+std::optional<LengthUnit> unit_of(const std::string& word) {
+  if (word.empty()) return {};
+  return length_unit(word);
+}
+
 std::vector<Object> load_objects(const ModelArguments& arguments, int continuous_steps) {
   for (const std::string& file : arguments.models)
     if (is_template_file(file))
       throw InputError(file, "model", "a template file",
                        "a CAD file (templates are given with --templates)");
-  if (arguments.unit.empty())
-    throw InputError("command line", "--unit", "none", "mm, cm, m or in: mesh files carry no unit");
   if (!arguments.object_ids.empty() && arguments.object_ids.size() != arguments.models.size())
     throw InputError("command line", "--object-id",
                      std::to_string(arguments.object_ids.size()) + " ids",
                      "one for each of " + std::to_string(arguments.models.size()) + " models");
-  const LengthUnit unit = length_unit(arguments.unit);
   std::map<int, Symmetries> symmetries;
   if (!arguments.models_info.empty())
     symmetries = load_symmetries(arguments.models_info, continuous_steps);
   std::vector<Object> objects;
-  std::set<int> ids;
+  std::vector<int> ids;
   for (std::size_t i = 0; i < arguments.models.size(); ++i) {
     Object object;
     object.id = arguments.object_ids.empty() ? id_in_name(arguments.models[i], int(i) + 1)
                                              : arguments.object_ids[i];
-    if (!ids.insert(object.id).second)
+    if (std::ranges::find(ids, object.id) != ids.end())
       throw InputError(arguments.models[i], "object id", std::to_string(object.id) + " twice",
                        "ids that differ: give --object-id");
-    object.mesh = load_mesh(arguments.models[i], unit);
+    ids.push_back(object.id);
+    object.mesh = load_mesh(arguments.models[i], unit_of(arguments.unit));
     if (symmetries.contains(object.id)) object.symmetries = symmetries.at(object.id);
     objects.push_back(std::move(object));
   }
+  const StatedSymmetries stated(arguments.symmetry, ids);
+  for (Object& object : objects)
+    if (const auto own = stated.of(object.id, object.mesh, continuous_steps))
+      replace_symmetries(object, *own, symmetries.contains(object.id) ? arguments.models_info : "");
   return objects;
 }
 

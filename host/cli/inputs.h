@@ -10,6 +10,7 @@
 #include "host/cli/template_cache_arguments.h"
 #include "host/core/types.h"
 #include "host/io/bop.h"
+#include "host/io/mesh.h"
 #include "host/model/template_set.h"
 #include "kernels/error.h"
 
@@ -93,13 +94,17 @@ void check_scene(std::span<const InputImage> images, const DistanceRange& search
 
 struct ModelArguments {
   std::vector<std::string> models;  // mesh files
-  std::string unit;
-  std::string models_info;  // BOP models_info.json; empty: no symmetries
+  std::string unit;                 // empty: the files state it
+  std::string models_info;          // BOP models_info.json; empty: no symmetries
   // One per model. Empty: the number at the end of the file's name, else 1, 2 ..
   std::vector<int> object_ids;
   std::vector<std::string> templates;  // template files, in place of models
+  std::vector<std::string> symmetry;   // words, in place of what files say (symmetry_arguments.h)
   TemplateCacheArguments cache;        // of templates that are built of models
 };
+// The unit of --unit; absent where none is given.
+std::optional<LengthUnit> unit_of(const std::string& word);
+
 // Continuous symmetries are sampled in `continuous_steps` steps.
 std::vector<Object> load_objects(const ModelArguments& arguments,
                                  int continuous_steps = DETECTION_SYMMETRY_STEPS);

@@ -15,6 +15,7 @@
 #include "host/cli/renamed_options.h"
 #include "host/cli/verbs.h"
 #include "host/core/log.h"
+#include "host/core/option_names.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -29,6 +30,10 @@ void send_log_to_stderr() {
                                                     spdlog::level::warn, spdlog::level::err};
     spdlog::log(levels[static_cast<int>(level)], message);
   });
+}
+
+void name_options_as_typed() {
+  set_option_naming([](const std::string& name) { return "--" + name; });
 }
 
 void add_log_level(CLI::App& app) {
@@ -118,6 +123,7 @@ int run_and_catch(int argc, char** argv) {
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file-size limit is then an error of write(), as a full disk is
+  edgescout::name_options_as_typed();
   edgescout::send_log_to_stderr();
   return edgescout::run_and_catch(argc, argv);
 }

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/model_verbs.h"
 #include "host/cli/verbs.h"
@@ -40,7 +41,7 @@ struct Inspection {
   MeshQuality quality;
 };
 
-Inspection inspect_file(const std::string& file, LengthUnit unit) {
+Inspection inspect_file(const std::string& file, std::optional<LengthUnit> unit) {
   Inspection found{file, make_edge_model(load_mesh(file, unit)), {}, {}};
   found.edges = count_edges(found.model.mesh);
   found.quality = mesh_quality(found.model);
@@ -102,7 +103,7 @@ struct InspectOptions {
 
 // Reads every file before it prints, so that a bad file gives no partial output.
 void inspect(const InspectOptions& options) {
-  const LengthUnit unit = length_unit(options.unit);
+  const std::optional<LengthUnit> unit = unit_of(options.unit);
   std::vector<Inspection> inspections;
   for (const std::string& file : options.files) inspections.push_back(inspect_file(file, unit));
   nlohmann::json list = nlohmann::json::array();
@@ -120,11 +121,8 @@ void add_inspect(CLI::App& model, int& exit_code) {
   CLI::App* verb =
       model.add_subcommand("inspect", "Print box, diameter, counts and defects of CAD files");
   auto options = std::make_shared<InspectOptions>();
-  verb->add_option("files", options->files, "STL, PLY, OBJ or CAO files")
-      ->required()
-      ->type_name("FILE");
-  verb->add_option("--unit", options->unit, "Length unit of the files: mm, cm, m or in")
-      ->required();
+  verb->add_option("files", options->files, MESH_FORMATS + " files")->required()->type_name("FILE");
+  verb->add_option("--unit", options->unit, UNIT_HELP);
   verb->add_flag("--json", options->as_json, "Print JSON");
   verb->callback([options, &exit_code] {
     inspect(*options);

@@ -9,9 +9,9 @@
 #include "host/cli/model_verbs.h"
 #include "host/cli/option_table.h"
 #include "host/cli/progress.h"
+#include "host/cli/symmetry_arguments.h"
 #include "host/io/camera_file.h"
 #include "host/io/files.h"
-#include "host/model/axis_symmetry.h"
 #include "host/model/mesh_quality.h"
 #include "host/model/template_set.h"
 #include "kernels/backend.h"
@@ -29,13 +29,12 @@ struct BuildRequest {
 };
 
 Object load_object(const BuildRequest& request) {
-  if (!request.models_info.empty() && !request.symmetry.empty())
-    throw InputError("command line", "--symmetry, --models-info", "both", "one of the two");
-  ModelArguments arguments{{request.file}, request.unit, request.models_info, {}, {}, {}};
+  ModelArguments arguments{.models = {request.file},
+                           .unit = request.unit,
+                           .models_info = request.models_info,
+                           .symmetry = request.symmetry};
   if (request.object_id > 0) arguments.object_ids = {request.object_id};
-  Object object = load_objects(arguments)[0];
-  if (!request.symmetry.empty()) object.symmetries = axis_symmetries(object.mesh, request.symmetry);
-  return object;
+  return load_objects(arguments)[0];
 }
 
 TemplateOptions with_distances(const BuildRequest& request, double diameter_m) {
@@ -82,16 +81,12 @@ void add_model_build(CLI::App& model, int& exit_code) {
   CLI::App* verb =
       model.add_subcommand("build", "Build the templates of a CAD file, once for many detections");
   auto request = std::make_shared<BuildRequest>();
-  verb->add_option("file", request->file, "STL, PLY, OBJ or CAO file")
-      ->required()
-      ->type_name("FILE");
-  verb->add_option("--unit", request->unit, "Length unit of the file: mm, cm, m or in")->required();
+  verb->add_option("file", request->file, MESH_FORMATS + " file")->required()->type_name("FILE");
+  verb->add_option("--unit", request->unit, UNIT_HELP);
   verb->add_option("--models-info,--symmetries", request->models_info,
                    "BOP models_info.json with symmetries")
       ->type_name("FILE");
-  verb->add_option("--symmetry", request->symmetry,
-                   "In place of --models-info: z2 for a half turn about z, x4 for quarter turns "
-                   "about x, z for a surface of revolution. Several give all their products");
+  add_symmetry(*verb, request->symmetry);
   verb->add_option("--camera", request->camera,
                    "Calibration from which the range of distances is computed")
       ->type_name("FILE");

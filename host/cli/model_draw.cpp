@@ -108,13 +108,10 @@ void draw(const DrawRequest& request) {
   if (holds_templates && !request.unit.empty())
     throw InputError("command line", "--unit", "together with " + request.file,
                      "it with a CAD file");
-  if (!holds_templates && request.unit.empty() && std::filesystem::exists(request.file))
-    throw InputError(request.file, "--unit", "none",
-                     "mm, cm, m or in: no template file, which needs none");
-  if (request.unit.empty())
+  if (holds_templates)
     set = load_templates(request.file);
   else
-    set.model = make_edge_model(load_mesh(request.file, length_unit(request.unit)), request.edges);
+    set.model = make_edge_model(load_mesh(request.file, unit_of(request.unit)), request.edges);
   warn_of_mesh(set.model);
   const Viewpoints viewpoints = set.views.empty() ? of_model(set.model) : of_templates(set);
   save_png(contact_sheet(set.model, viewpoints, request, *backend), request.out);

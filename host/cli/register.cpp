@@ -8,6 +8,7 @@
 #include "host/cli/exit_codes.h"
 #include "host/cli/option_table.h"
 #include "host/cli/register_batch.h"
+#include "host/cli/symmetry_arguments.h"
 #include "host/cli/template_sets.h"
 #include "host/cli/verbs.h"
 #include "host/model/mesh_quality.h"
@@ -18,28 +19,18 @@ namespace edgescout {
 namespace {
 
 struct RegisterRequest {
-  std::vector<std::string> inputs, template_files;
+  std::vector<std::string> inputs;
   std::string poses, out, device = "auto";
   ModelArguments models;
   bool multi_view = false, no_overlays = false;
   RegisterOptions options;
 };
 
-std::vector<RegisterModel> load_models(const RegisterRequest& request) {
-  if (request.models.models.empty() == request.template_files.empty())
-    throw InputError("command line", "--model, --templates",
-                     request.models.models.empty() ? "neither" : "both", "one of the two");
+std::vector<RegisterModel> models_of(const RegisterRequest& request) {
+  KnownModels known = load_models(request.models);
   std::vector<RegisterModel> models;
-  for (const std::string& file : request.template_files) {
-    TemplateSet set = load_templates(file);
-    for (const RegisterModel& known : models)
-      if (known.object_id == set.object_id)
-        throw InputError(file, "object id", std::to_string(set.object_id) + " twice",
-                         "templates of different objects");
-    models.push_back({set.object_id, std::move(set.model)});
-  }
-  if (!models.empty()) return models;
-  for (const Object& object : load_objects(request.models))
+  for (TemplateSet& set : known.sets) models.push_back({set.object_id, std::move(set.model)});
+  for (const Object& object : known.objects)
     models.push_back({object.id, make_edge_model(object.mesh)});
   return models;
 }
@@ -72,7 +63,7 @@ int register_all(RegisterRequest& request) {
   options.pipeline.validate();
   options.refine.validate();
   const std::unique_ptr<Backend> backend = backend_of(request.device);
-  const std::vector<RegisterModel> models = load_models(request);
+  const std::vector<RegisterModel> models = models_of(request);
   for (const RegisterModel& model : models) warn_of_mesh(model.edges);
   require_safe_starts(request);
   const std::vector<StartPose> poses = load_start_poses(request.poses);
@@ -103,13 +94,13 @@ void add_files(CLI::App& verb, RegisterRequest& request) {
           "frame")
       ->required()
       ->type_name("FILE");
-  verb.add_option("--model", request.models.models,
-                  "CAD files of the objects: STL, PLY, OBJ or CAO")
+  verb.add_option("--model", request.models.models, "CAD files of the objects: " + MESH_FORMATS)
       ->type_name("FILE");
-  verb.add_option("--unit", request.models.unit, "Length unit of the model files: mm, cm, m or in");
+  verb.add_option("--unit", request.models.unit, UNIT_HELP);
   verb.add_option("--object-id", request.models.object_ids,
                   "BOP ids of the models; default: the number at the end of their names");
-  verb.add_option("--templates", request.template_files,
+  add_symmetry(verb, request.models.symmetry);
+  verb.add_option("--templates", request.models.templates,
                   "Template files of `edgescout model build`, in place of --model")
       ->type_name("FILE");
   add_camera(verb, request.options.calibration);

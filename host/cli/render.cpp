@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/help.h"
 #include "host/cli/progress.h"
@@ -40,9 +41,7 @@ std::vector<Object> load_objects(const RenderRequest& request) {
                      "one of the two");
   for (const std::string& name : request.parts) objects.push_back(make_part(name));
   if (request.models.empty()) return objects;
-  if (request.unit.empty())
-    throw InputError("command line", "--unit", "none", "mm, cm, m or in with --model");
-  const LengthUnit unit = length_unit(request.unit);
+  const std::optional<LengthUnit> unit = unit_of(request.unit);
   std::map<int, Symmetries> symmetries;
   if (!request.models_info.empty()) symmetries = load_symmetries(request.models_info);
   for (const std::string& file : request.models) {
@@ -160,9 +159,9 @@ void add_render(CLI::App& app, int& exit_code) {
   CLI::App* verb = app.add_subcommand(
       "render", "Render scenes with known poses from CAD models, in BOP's layout");
   auto request = std::make_shared<RenderRequest>();
-  verb->add_option("--model", request->models, "CAD files of the parts: STL, PLY, OBJ or CAO")
+  verb->add_option("--model", request->models, "CAD files of the parts: " + MESH_FORMATS)
       ->type_name("FILE");
-  verb->add_option("--unit", request->unit, "Length unit of the files: mm, cm, m or in");
+  verb->add_option("--unit", request->unit, UNIT_HELP);
   verb->add_option("--models-info", request->models_info,
                    "BOP models_info.json with symmetries. Id 1 is the first --model")
       ->type_name("FILE");

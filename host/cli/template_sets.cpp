@@ -8,7 +8,9 @@
 #include <iostream>
 #include <optional>
 
+#include "host/cli/common_arguments.h"
 #include "host/cli/progress.h"
+#include "host/cli/symmetry_arguments.h"
 #include "host/core/log.h"
 #include "host/core/stopwatch.h"
 #include "host/detect/searched_sizes.h"
@@ -20,13 +22,14 @@ namespace edgescout {
 
 void add_model_arguments(CLI::App& verb, ModelArguments& arguments) {
   verb.add_option("--model", arguments.models,
-                  "CAD files of the objects to detect: STL, PLY, OBJ or CAO")
+                  "CAD files of the objects to detect: " + MESH_FORMATS)
       ->type_name("FILE");
-  verb.add_option("--unit", arguments.unit, "Length unit of the model files: mm, cm, m or in");
+  verb.add_option("--unit", arguments.unit, UNIT_HELP);
   verb.add_option("--models-info", arguments.models_info, "BOP models_info.json with symmetries")
       ->type_name("FILE");
   verb.add_option("--object-id", arguments.object_ids,
                   "BOP ids of the models; default: the number at the end of their names");
+  add_symmetry(verb, arguments.symmetry);
   verb.add_option("--templates", arguments.templates,
                   "Template files of `edgescout model build`, in place of --model")
       ->type_name("FILE");
@@ -44,6 +47,15 @@ void refuse_beside_templates(const CLI::App& verb) {
   }
 }
 
+void state_symmetries(std::span<TemplateSet> sets, const ModelArguments& arguments) {
+  std::vector<int> ids;
+  for (const TemplateSet& set : sets) ids.push_back(set.object_id);
+  const StatedSymmetries stated(arguments.symmetry, ids);
+  for (std::size_t i = 0; i < sets.size(); ++i)
+    if (const auto own = stated.of(ids[i], sets[i].model.mesh, DETECTION_SYMMETRY_STEPS))
+      replace_symmetries(sets[i], *own, arguments.templates[i]);
+}
+
 KnownModels load_models(const ModelArguments& arguments) {
   if (arguments.models.empty() == arguments.templates.empty())
     throw InputError("command line", "--model, --templates",
@@ -58,7 +70,10 @@ KnownModels load_models(const ModelArguments& arguments) {
         throw InputError(file, "object id", fmt::format("{} twice", known.sets[i].object_id),
                          "ids that differ: give model build --object-id");
   }
-  if (known.sets.empty()) known.objects = load_objects(arguments);
+  if (known.sets.empty())
+    known.objects = load_objects(arguments);
+  else
+    state_symmetries(known.sets, arguments);
   return known;
 }
 

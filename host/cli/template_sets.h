@@ -12,12 +12,16 @@ namespace edgescout {
 
 class Backend;
 
-// --model, --unit, --models-info, --object-id, --templates and those of the template cache.
+// --model, --unit, --models-info, --object-id, --symmetry, --templates and those of the template
+// cache.
 void add_model_arguments(CLI::App& verb, ModelArguments& arguments);
 
 // InputError: --templates was given with an option for reading models or building templates. A
 // template file already has these properties.
 void refuse_beside_templates(const CLI::App& verb);
+
+// Gives the sets of the files the symmetries of --symmetry. InputError as symmetry_arguments.h.
+void state_symmetries(std::span<TemplateSet> sets, const ModelArguments& arguments);
 
 struct KnownModels {
   std::vector<Object> objects;          // from meshes: templates must be built

@@ -4,15 +4,19 @@
 
 #include <algorithm>
 
+#include "host/core/option_names.h"
 #include "kernels/error.h"
 
 namespace edgescout {
 
 namespace {
 
-constexpr const char* ADVICE =
-    "another unit of the model (--unit), other distances (--distance-min, --distance-max), or "
-    "camera poses with lengths in their right unit";
+std::string advice() {
+  return fmt::format(
+      "another unit of the model ({}), other distances ({}, {}), or camera poses with lengths in "
+      "their right unit",
+      option_name("unit"), option_name("distance-min"), option_name("distance-max"));
+}
 
 std::string text_of(const SearchedSizes& sizes, double diameter_m, const TemplateOptions& options) {
   return fmt::format(
@@ -33,7 +37,7 @@ void require_searchable_size(const std::string& name, double diameter_m,
                              const TemplateOptions& options, const Camera& camera) {
   const SearchedSizes sizes = searched_sizes(diameter_m, options, camera);
   if (sizes.largest_px < LEAST_SIZE_PX || options.distance_max_m < 0.5 * diameter_m)
-    throw InputError(name, "size", text_of(sizes, diameter_m, options), ADVICE);
+    throw InputError(name, "size", text_of(sizes, diameter_m, options), advice());
 }
 
 std::string size_warning(const std::string& name, double diameter_m, const TemplateOptions& options,
@@ -43,7 +47,7 @@ std::string size_warning(const std::string& name, double diameter_m, const Templ
                most_px = std::max(camera.width, camera.height);
   if (sizes.largest_px >= least_px && sizes.smallest_px <= most_px) return "";
   return fmt::format("{}: size: found {}, expected {:.0f} to {:.0f} px: {}", name,
-                     text_of(sizes, diameter_m, options), least_px, most_px, ADVICE);
+                     text_of(sizes, diameter_m, options), least_px, most_px, advice());
 }
 
 }  // namespace edgescout

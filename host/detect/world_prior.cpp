@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/core/option_names.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -98,8 +99,9 @@ TemplateOptions with_distances_to_box(TemplateOptions options, double diameter_m
         fmt::format("one {:.3f} to {:.3f} m from the cameras", box.low, box.high),
         fmt::format(
             "one where an object of {:.1f} mm spans a twentieth to all of the image, {:.3f} "
-            "to {:.3f} m away, or --distance-min and --distance-max",
-            1000 * diameter_m, useful.low, useful.high));
+            "to {:.3f} m away, or {} and {}",
+            1000 * diameter_m, useful.low, useful.high, option_name("distance-min"),
+            option_name("distance-max")));
   return options;
 }
 

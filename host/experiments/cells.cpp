@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "host/core/log.h"
+#include "host/core/option_names.h"
 #include "host/io/files.h"
 #include "kernels/error.h"
 
@@ -42,7 +43,8 @@ void require_same_settings(const Table& finished, const CellRun& run, const std:
   if (commit == finished.notes.end()) fail(COMMIT, "nothing", run.commit);
   if (commit->second != run.commit && !run.any_commit)
     throw InputError(file, COMMIT, commit->second,
-                     run.commit + " as in this run, --any-commit, or another output folder");
+                     run.commit + " as in this run, " + option_name("any-commit") +
+                         ", or another output folder");
 }
 
 // Returns the table that an earlier run left of a cell. A damaged file is made again; with `warn`
@@ -52,7 +54,7 @@ std::optional<Table> finished_cell(const Cell& cell, const CellRun& run, bool wa
   if (!fs::exists(file)) return std::nullopt;
   if (!run.resume)
     throw InputError(file.string(), "finished cell", "one of an earlier run",
-                     "--resume or another output folder");
+                     option_name("resume") + " or another output folder");
   Table table;
   try {
     table = load_table(file);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/core/option_names.h"
 #include "host/io/camera_reader.h"
 #include "host/io/camera_tree.h"
 #include "host/io/files.h"
@@ -144,7 +145,7 @@ Camera choose_camera(const std::vector<FileCamera>& cameras, const std::string& 
     if (all_same(left)) return left.front().camera;
   }
   throw InputError(source, "cameras", listed(left) + " that differ",
-                   "one camera, or --camera-name with the name of one");
+                   "one camera, or " + option_name("camera-name") + " with the name of one");
 }
 
 Camera load_camera(const std::filesystem::path& file, const std::string& name) {
@@ -161,9 +162,11 @@ Camera camera_for_image(const Camera& calibration, int width, int height, bool a
                  y = static_cast<double>(height) / calibration.height;
     const bool pure_scale = std::abs(x / y - 1) <= 0.005;
     if (!pure_scale || !allow_scale)
-      throw InputError(source, "image size", size_of(width, height),
-                       "the calibration's " + size_of(calibration.width, calibration.height) +
-                           (pure_scale ? " (a pure scale: allow it with --scale-camera)" : ""));
+      throw InputError(
+          source, "image size", size_of(width, height),
+          "the calibration's " + size_of(calibration.width, calibration.height) +
+              (pure_scale ? " (a pure scale: allow it with " + option_name("scale-camera") + ")"
+                          : ""));
     // Each axis has its own factor, since the image's size is rounded. See scaled() for the half
     // pixels.
     camera.fx *= x;

@@ -16,21 +16,25 @@ namespace {
 // Larger than any mesh with a wrong unit. Keeps squares and grid indices far from overflow.
 constexpr double max_coordinate_m = 1e9;
 
+void require_usable(const std::string& name, const std::vector<Vector3d>& vertices, int v) {
+  const auto field = [v] { return "vertex " + std::to_string(v); };
+  if (!vertices[v].allFinite())
+    throw InputError(name, field(), "a coordinate that is not finite", "finite numbers");
+  if (vertices[v].cwiseAbs().maxCoeff() > max_coordinate_m)
+    throw InputError(name, field(), "a coordinate beyond 1e9 m", "the size of a thing");
+}
+
+// Vertices that no triangle uses may be anything.
 void require_usable(const std::string& name, const std::vector<Vector3d>& vertices,
                     const std::vector<std::array<int, 3>>& triangles) {
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const auto field = [i] { return "vertex " + std::to_string(i); };
-    if (!vertices[i].allFinite())
-      throw InputError(name, field(), "a coordinate that is not finite", "finite numbers");
-    if (vertices[i].cwiseAbs().maxCoeff() > max_coordinate_m)
-      throw InputError(name, field(), "a coordinate beyond 1e9 m", "the size of a thing");
-  }
   const int count = static_cast<int>(vertices.size());
   for (std::size_t i = 0; i < triangles.size(); ++i)
-    for (int v : triangles[i])
+    for (int v : triangles[i]) {
       if (v < 0 || v >= count)
         throw InputError(name, "triangle " + std::to_string(i), "vertex index " + std::to_string(v),
                          "0 to " + std::to_string(count - 1));
+      require_usable(name, vertices, v);
+    }
   if (triangles.empty()) throw InputError(name, "triangles", "none", "at least one");
 }
 
@@ -81,7 +85,7 @@ double metres_per(LengthUnit unit) {
 Mesh make_mesh(std::string name, std::vector<Vector3d> vertices_m,
                std::vector<std::array<int, 3>> triangles) {
   require_usable(name, vertices_m, triangles);
-  RawMesh mesh{std::move(vertices_m), std::move(triangles)};
+  RawMesh mesh{std::move(vertices_m), std::move(triangles), {}};
   drop_unused_vertices(mesh);
   const double size_m = largest_distance(mesh.vertices);
   if (size_m > 0) repair_mesh(mesh, size_m);
@@ -94,7 +98,8 @@ Mesh make_mesh(std::string name, std::vector<Vector3d> vertices_m,
 Mesh restore_mesh(std::string name, std::vector<Vector3d> vertices_m,
                   std::vector<std::array<int, 3>> triangles) {
   require_usable(name, vertices_m, triangles);
-  return complete(std::move(name), {std::move(vertices_m), std::move(triangles)});
+  for (int v = 0; v < static_cast<int>(vertices_m.size()); ++v) require_usable(name, vertices_m, v);
+  return complete(std::move(name), {std::move(vertices_m), std::move(triangles), {}});
 }
 
 }  // namespace edgescout

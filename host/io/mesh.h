@@ -1,9 +1,10 @@
-// Reads triangle meshes: STL and PLY (binary, ASCII), OBJ (by assimp) and ViSP's `.cao`.
+// Reads triangle meshes: STL, PLY, OBJ, OFF and ViSP's `.cao`; glTF, 3MF and COLLADA by assimp.
 //
 // Public header.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,11 +18,14 @@ enum class LengthUnit { Millimetre, Centimetre, Metre, Inch };
 LengthUnit length_unit(const std::string& word);
 double metres_per(LengthUnit unit);
 
-// Reads a mesh, converts it to metres and repairs it as make_mesh does. A diameter outside 5 mm..5
-// m is logged as a warning. InputError: the file is missing, unreadable, truncated or of unknown
-// type; the count in an STL's header disagrees with the file's size; there is no triangle; a vertex
-// is not finite or beyond 1e9 m; an index is out of range.
-Mesh load_mesh(const std::filesystem::path& file, LengthUnit unit);
+// Reads a mesh, converts it to metres and repairs it as make_mesh does. The given unit decides.
+// Without one the file's own is used: of glTF (m), 3MF and COLLADA. If both differ, a warning is
+// logged; so is a diameter outside 5 mm..5 m, and what is left out of a file. Nodes are placed by
+// their transforms; the axes stay those of the file. InputError: the file is missing, unreadable,
+// truncated or of unknown type; no unit is known; the count in an STL's header disagrees with the
+// file's size; there is no triangle; a corner is not finite or beyond 1e9 m; an index is out of
+// range; a glTF, 3MF or COLLADA file has more than 256 MiB, unpacked.
+Mesh load_mesh(const std::filesystem::path& file, std::optional<LengthUnit> unit = {});
 
 // Makes a mesh of raw triangles. `name` appears in errors. Computes normals, box and diameter. A
 // mesh without defects keeps its triangles and vertices; otherwise, with lengths as shares of the

@@ -1,13 +1,13 @@
-// Chooses the reader of a mesh file and applies the unit. Reads OBJ by assimp. Writes PLY.
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
+// Chooses the reader of a mesh file and applies the unit. Writes PLY.
 #include <algorithm>
-#include <assimp/Importer.hpp>
-#include <cctype>
+#include <cmath>
 #include <cstdint>
+#include <string_view>
 
 #include "host/core/log.h"
+#include "host/core/option_names.h"
 #include "host/io/files.h"
+#include "host/io/lower_case.h"
 #include "host/io/mesh.h"
 #include "host/io/raw_mesh.h"
 #include "kernels/error.h"
@@ -16,39 +16,42 @@ namespace edgescout {
 
 namespace {
 
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
-
-void append(const aiMesh& part, RawMesh& mesh, const std::string& source) {
-  const int base = static_cast<int>(mesh.vertices.size());
-  for (unsigned i = 0; i < part.mNumVertices; ++i)
-    mesh.vertices.emplace_back(part.mVertices[i].x, part.mVertices[i].y, part.mVertices[i].z);
-  for (unsigned i = 0; i < part.mNumFaces; ++i) {
-    std::vector<int> corners;
-    for (unsigned k = 0; k < part.mFaces[i].mNumIndices; ++k) {
-      const unsigned index = part.mFaces[i].mIndices[k];
-      if (index >= part.mNumVertices)
-        throw InputError(source, "face " + std::to_string(i),
-                         "vertex index " + std::to_string(index),
-                         "an index below " + std::to_string(part.mNumVertices));
-      corners.push_back(base + static_cast<int>(index));
-    }
-    triangulate(corners, mesh.vertices, mesh.triangles);
-  }
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
+  return std::ranges::find(words, word) != words.end();
 }
 
 RawMesh read_raw(const std::filesystem::path& file) {
-  const std::string extension = lower_extension(file);
+  const std::string extension = lower_case(file.extension().string());
   if (extension == ".stl") return read_stl(file);
   if (extension == ".cao") return read_cao(file);
   if (extension == ".ply") return read_ply(file);
   if (extension == ".obj") return read_obj(file);
+  if (extension == ".off") return read_off(file);
+  if (is_one_of(extension, {".gltf", ".glb", ".3mf", ".dae"})) return read_scene(file);
+  const std::string meshes = ".stl, .ply, .obj, .cao, .gltf, .glb, .3mf, .dae or .off";
+  if (is_one_of(extension, {".step", ".stp", ".iges", ".igs", ".brep", ".brp"}))
+    throw InputError(file.string(), "file type", extension + " (surfaces without triangles)",
+                     meshes + ": export an STL with the CAD program, or by gmsh " +
+                         file.filename().string() + " -2 -clcurv 24 -format stl -bin -o " +
+                         file.stem().string() + ".stl");
   throw InputError(file.string(), "file type", extension.empty() ? "no extension" : extension,
-                   ".stl, .ply, .obj or .cao");
+                   meshes);
+}
+
+// Metres per unit of the file. The given unit decides: many files of formats that have a unit hold
+// numbers of another one.
+double scale_of(const RawMesh& mesh, std::optional<LengthUnit> unit, const std::string& source) {
+  const std::optional<double>& stated = mesh.metres_per_unit;
+  if (!unit && !stated)
+    throw InputError(source, option_name("unit"), "none in the file",
+                     "the unit of its lengths: mm, cm, m or in");
+  if (!unit) return *stated;
+  const double given = metres_per(*unit);
+  if (stated && std::abs(*stated / given - 1) > 1e-6)
+    log(LogLevel::Warning, source + ": the file says that its unit is " + std::to_string(*stated) +
+                               " m, the given unit is " + std::to_string(given) +
+                               " m: the given one is used");
+  return given;
 }
 
 template <typename T>
@@ -58,26 +61,10 @@ void put(std::string& bytes, const T& value) {
 
 }  // namespace
 
-RawMesh read_obj(const std::filesystem::path& file) {
-  const std::string bytes = read_file(file), source = file.string();
-  Assimp::Importer importer;
-  const aiScene* scene = nullptr;
-  std::string failure;
-  try {
-    scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, "obj");
-    failure = importer.GetErrorString();
-  } catch (const std::exception& error) {
-    failure = error.what();
-  }
-  if (!scene) throw InputError(source, "mesh", failure, "an OBJ file with faces");
-  RawMesh mesh;
-  for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], mesh, source);
-  return mesh;
-}
-
-Mesh load_mesh(const std::filesystem::path& file, LengthUnit unit) {
+Mesh load_mesh(const std::filesystem::path& file, std::optional<LengthUnit> unit) {
   RawMesh raw = read_raw(file);
-  for (Eigen::Vector3d& x : raw.vertices) x *= metres_per(unit);
+  const double scale = scale_of(raw, unit, file.string());
+  for (Eigen::Vector3d& x : raw.vertices) x *= scale;
   Mesh mesh = make_mesh(file.string(), std::move(raw.vertices), std::move(raw.triangles));
   mesh.name = file.stem().string();
   if (mesh.diameter_m < 0.005 || mesh.diameter_m > 5)

@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 
 #include "host/io/raw_mesh.h"
+#include "kernels/error.h"
 
 namespace edgescout {
 
@@ -8,6 +9,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 namespace {
+
+constexpr int most_corners = 20'000;  // ear clipping takes a time of their number squared
 
 // Newell's normal, which is correct for concave polygons too.
 Vector3d polygon_normal(const std::vector<int>& corners, const std::vector<Vector3d>& x) {
@@ -62,6 +65,29 @@ void triangulate(const std::vector<int>& corners, const std::vector<Vector3d>& v
   }
   for (std::size_t i = 1; i + 1 < rest.size(); ++i)
     triangles.push_back({corners[rest[0]], corners[rest[i]], corners[rest[i + 1]]});
+}
+
+void add_polygons(std::span<const int> counted_corners, int first_index, const std::string& source,
+                  RawMesh& mesh) {
+  const int count = static_cast<int>(mesh.vertices.size());
+  std::vector<int> corners;
+  for (int face = 0; !counted_corners.empty(); ++face) {
+    const int size = counted_corners.front();
+    const auto fail = [&](const std::string& found, const std::string& expected) {
+      throw InputError(source, "face " + std::to_string(face + first_index), found, expected);
+    };
+    if (size > most_corners)
+      fail(std::to_string(size) + " corners", "at most " + std::to_string(most_corners));
+    corners.clear();
+    for (const int index : counted_corners.subspan(1, static_cast<std::size_t>(size))) {
+      if (index < first_index || index - first_index >= count)
+        fail("vertex index " + std::to_string(index),
+             "an index below " + std::to_string(count + first_index));
+      corners.push_back(index - first_index);
+    }
+    triangulate(corners, mesh.vertices, mesh.triangles);
+    counted_corners = counted_corners.subspan(1 + static_cast<std::size_t>(size));
+  }
 }
 
 }  // namespace edgescout

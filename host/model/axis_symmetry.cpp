@@ -3,6 +3,7 @@
 #include <charconv>
 #include <numbers>
 
+#include "host/core/option_names.h"
 #include "host/core/symmetry_group.h"
 #include "kernels/error.h"
 
@@ -34,7 +35,7 @@ struct Turns {
 
 Turns turns_of(const std::string& word, int continuous_steps) {
   const InputError unknown(
-      "command line", "--symmetry", "\"" + word + "\"",
+      "options", option_name("symmetry"), "\"" + word + "\"",
       "x, y or z for any turn, or followed by 2 to 360 for an order, as in z2");
   if (word.empty() || word[0] < 'x' || word[0] > 'z') throw unknown;
   Turns turns{Eigen::Vector3d::Unit(word[0] - 'x'), continuous_steps, word.size() > 1};
@@ -68,7 +69,7 @@ Symmetries axis_symmetries(const Mesh& mesh, std::span<const std::string> words,
   Symmetries all;
   all.discrete = generated_group(generators, MOST_MEMBERS);
   if (all.discrete.empty())
-    throw InputError("command line", "--symmetry", "turns that generate no finite group",
+    throw InputError("options", option_name("symmetry"), "turns that generate no finite group",
                      "those of a solid");
   for (const Turns& turns : continuous) {
     std::vector<Se3> products;

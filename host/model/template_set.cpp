@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/core/option_names.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -52,17 +53,18 @@ void describe(TemplateOptions& o, OptionVisitor& visit) {
 }
 
 void TemplateOptions::validate() const {
-  const auto fail = [](const char* field, double found, const char* bound) {
-    throw InputError("options", std::string("templates.") + field, std::to_string(found), bound);
+  const auto fail = [](const std::string& field, double found, const std::string& bound) {
+    throw InputError("options", field, std::to_string(found), bound);
   };
   edges.validate();
   check_bounds(*this, "templates");
-  const char *min = "distance_min (--distance-min)", *max = "distance_max (--distance-max)";
+  const std::string min = option_name("distance-min"), max = option_name("distance-max");
   if ((distance_min_m == 0) != (distance_max_m == 0))
-    fail(distance_min_m == 0 ? min : max, 0, "both --distance-min and --distance-max, or neither");
-  if (distance_max_m < distance_min_m) fail(max, distance_max_m, "at least --distance-min");
+    fail(distance_min_m == 0 ? min : max, 0, "both " + min + " and " + max + ", or neither");
+  if (distance_max_m < distance_min_m) fail(max, distance_max_m, "at least " + min);
   if (range.latitude_min_deg > range.latitude_max_deg)
-    fail("latitude_min", range.latitude_min_deg, "at most latitude_max");
+    fail(option_name("latitude-min"), range.latitude_min_deg,
+         "at most " + option_name("latitude-max"));
 }
 
 TemplateOptions with_default_distances(TemplateOptions options, double diameter_m,

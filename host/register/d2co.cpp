@@ -97,6 +97,10 @@ class Evaluator {
   std::vector<NormalEquations> results_;
 };
 
+void end_early(std::span<LmState> states) {
+  for (LmState& state : states) state.convergence = Convergence::OutOfTime;
+}
+
 void run_round(std::span<LmState> states, Evaluator& evaluator, const D2coRound& round,
                const D2coOptions& options, const Scene& scene) {
   ThreadPool& pool = scene.backend.threads();
@@ -154,7 +158,9 @@ std::vector<PoseEstimate> register_points(const Scene& scene, std::span<const Ob
     Evaluator evaluator(collect_points(poses, scene.views.size(), points, round.max_points, pool),
                         scene, {round.loss, round.scale_px});
     run_round(states, evaluator, round, options, scene);
-    if (scene.is_time_over()) break;
+    if (!scene.is_time_over()) continue;
+    end_early(states);
+    break;
   }
   std::vector<PoseEstimate> estimates(starts.size());
   for_poses(starts.size(), pool,

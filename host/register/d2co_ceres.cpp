@@ -72,12 +72,26 @@ ceres::Solver::Options solver_options(const D2coRound& round, const D2coOptions&
   return solver;
 }
 
+// Ends the iterations where the scene's limit is over.
+class EndsInTime : public ceres::IterationCallback {
+ public:
+  explicit EndsInTime(const Scene& scene) : scene_(scene) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary&) override {
+    return scene_.is_time_over() ? ceres::SOLVER_TERMINATE_SUCCESSFULLY : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  const Scene& scene_;
+};
+
 Convergence convergence_of(const ceres::Solver::Summary& summary) {
   switch (summary.termination_type) {
     case ceres::CONVERGENCE:
-      return Convergence::SmallStep;
+      return Convergence::Converged;
     case ceres::NO_CONVERGENCE:
       return Convergence::IterationLimit;
+    case ceres::USER_SUCCESS:
+      return Convergence::OutOfTime;
     default:
       return Convergence::NoDecrease;
   }
@@ -114,18 +128,22 @@ void fill(PoseEstimate& result, const WorldSystem& system) {
       pose_covariance(system.hessian, 2 * system.cost / std::max(1.0, system.weight_sum - 6));
 }
 
-void solve_round(PoseEstimate& result, const EdgeModel& model, std::span<const HostView> views,
-                 Backend& backend, const D2coRound& round, const D2coOptions& options) {
+void solve_round(PoseEstimate& result, const Scene& scene, std::span<const HostView> views,
+                 const D2coRound& round, const D2coOptions& options) {
+  const EdgeModel& model = scene.models[std::size_t(result.object)];
   RoundProblem at_pose(result.world_from_object, {round.loss, round.scale_px});
   for (const HostView& view : views)
-    add_visible_points(at_pose, model, view, backend, options.visibility, round.max_points);
+    add_visible_points(at_pose, model, view, scene.backend, options.visibility, round.max_points);
   if (at_pose.problem.NumResiduals() == 0) {
     result.convergence = Convergence::NoPoints;
     fill(result, {});
     return;
   }
   ceres::Solver::Summary summary;
-  ceres::Solve(solver_options(round, options), &at_pose.problem, &summary);
+  EndsInTime ends_in_time(scene);
+  ceres::Solver::Options solver = solver_options(round, options);
+  solver.callbacks.push_back(&ends_in_time);
+  ceres::Solve(solver, &at_pose.problem, &summary);
   result.world_from_object = from_parameters(at_pose.pose.data());
   // The first entry is the start itself. There is none where the start could not be evaluated.
   result.iterations += std::max(0, static_cast<int>(summary.iterations.size()) - 1);
@@ -146,7 +164,7 @@ std::vector<PoseEstimate> register_poses_ceres(const Scene& scene,
     PoseEstimate& result = results.emplace_back();
     static_cast<ObjectPose&>(result) = start;
     for (const D2coRound& round : options.rounds)
-      solve_round(result, scene.models[start.object], views, scene.backend, round, options);
+      solve_round(result, scene, views, round, options);
   }
   return results;
 }

@@ -77,6 +77,7 @@ Matrix6d camera_tangent(const ObjectView& view) {
 struct LineSystem {
   Matrix6d hessian = Matrix6d::Zero();
   Vector6d gradient = Vector6d::Zero();
+  double weight = 0;
   Counts counts;
 };
 
@@ -88,6 +89,7 @@ void add_points(LineSystem& sum, const ObjectView& view, const Se3& world_from_o
                                      [&](const LineResidual& r, double weight, const auto&) {
                                        hessian += weight * r.jacobian * r.jacobian.transpose();
                                        gradient += weight * r.value * r.jacobian;
+                                       sum.weight += weight;
                                      });
   const Matrix6d to_camera = camera_tangent(view);
   sum.hessian += to_camera.transpose() * hessian * to_camera;
@@ -143,25 +145,45 @@ bool enough(const LineSystem& system, const EdgeIcpOptions& options) {
          system.counts.matched >= options.min_matched * system.counts.points;
 }
 
-void edge_icp_of_one(PoseEstimate& estimate, std::span<const ObjectView> views,
-                     std::span<const VisibleInView> visible, const EdgeIcpOptions& options) {
-  Se3 pose = estimate.world_from_object;
-  for (const EdgeIcpRound& round : options.rounds)
+// What the iterations of all rounds came to.
+struct Iterated {
+  Se3 pose;
+  Convergence convergence = Convergence::TooFewEdges;
+  double last_step_px = 0;
+};
+
+Iterated iterate(const Se3& start, std::span<const ObjectView> views,
+                 std::span<const VisibleInView> visible, const EdgeIcpOptions& options) {
+  Iterated at{start};
+  for (const EdgeIcpRound& round : options.rounds) {
+    at.convergence = Convergence::IterationLimit;
     for (int i = 0; i < round.iterations; ++i) {
-      LineSystem system = system_at(pose, views, visible, round, options.max_turn_rad);
-      if (!enough(system, options)) return;
+      LineSystem system = system_at(at.pose, views, visible, round, options.max_turn_rad);
+      if (!enough(system, options)) return {start};
       system.hessian.diagonal() *= 1 + 1e-4;  // no motion in directions that no edge determines
       const Vector6d step = -system.hessian.ldlt().solve(system.gradient);
-      if (!step.allFinite()) return;
-      pose = retract(pose, step);
-      if (step.head<3>().norm() < options.min_step_m &&
-          step.tail<3>().norm() < options.min_step_rad)
+      if (!step.allFinite()) return {start};
+      at.pose = retract(at.pose, step);
+      at.last_step_px = rms_motion_px(step, system.hessian, system.weight);
+      if (is_small(step, options.min_step_m, options.min_step_rad)) {
+        at.convergence = Convergence::Converged;
         break;
+      }
     }
-  const LineSystem final_system =
-      system_at(pose, views, visible, options.rounds.back(), options.max_turn_rad);
-  if (!enough(final_system, options)) return;
-  estimate.world_from_object = pose;
+  }
+  const LineSystem end =
+      system_at(at.pose, views, visible, options.rounds.back(), options.max_turn_rad);
+  return enough(end, options) ? at : Iterated{start};
+}
+
+void edge_icp_of_one(PoseEstimate& estimate, std::span<const ObjectView> views,
+                     std::span<const VisibleInView> visible, const EdgeIcpOptions& options) {
+  const Iterated found = iterate(estimate.world_from_object, views, visible, options);
+  const bool is_kept = found.convergence == Convergence::TooFewEdges;
+  if (!is_kept || estimate.points > 0) estimate.convergence = found.convergence;
+  if (is_kept) return;
+  estimate.last_step_px = found.last_step_px;
+  estimate.world_from_object = found.pose;
   set_covariance(estimate, views, visible, options.rounds.back(), options.max_turn_rad);
 }
 
@@ -184,6 +206,8 @@ void EdgeIcpOptions::validate() const {
 }
 
 void edge_icp(const Scene& scene, std::span<PoseEstimate> poses, const EdgeIcpOptions& options) {
+  const auto takes_part = [](const ObjectView& view) { return view.edges != nullptr; };
+  if (std::ranges::none_of(scene.views, takes_part)) return;
   Grid<VisibleInView> visible = visible_in_views(scene, object_poses(poses), options.visibility);
   for (VisibleInView& cell : visible.values())
     cell.points = thinned(cell.points, options.max_points);

@@ -16,7 +16,8 @@
 namespace edgescout {
 
 // Improves every pose in place and gives it the covariance of edge_covariance.h. Views without an
-// edge index do not take part. A pose with too few edges stays as it is.
+// edge index do not take part. A pose with too few edges stays as it is. Sets the convergence,
+// unless no view takes part.
 void edge_icp(const Scene& scene, std::span<PoseEstimate> poses, const EdgeIcpOptions& options);
 
 }  // namespace edgescout

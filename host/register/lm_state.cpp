@@ -1,6 +1,7 @@
 #include "host/register/lm_state.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <Eigen/Cholesky>
@@ -42,13 +43,17 @@ void accept_step(LmState& state, const WorldSystem& at_trial, double min_step_m,
     state.damping *= 6;
   }
   if (is_small(state.step, min_step_m, min_step_rad))
-    state.active = false, state.convergence = Convergence::SmallStep;
+    state.active = false, state.convergence = Convergence::Converged;
   if (!better && state.damping > 1e6)
     state.active = false, state.convergence = Convergence::NoDecrease;
 }
 
 bool is_small(const Vector6d& step, double min_step_m, double min_step_rad) {
   return step.head<3>().norm() < min_step_m && step.tail<3>().norm() < min_step_rad;
+}
+
+double rms_motion_px(const Vector6d& step, const Matrix6d& hessian, double weight_sum) {
+  return weight_sum > 0 ? std::sqrt(std::max(0.0, step.dot(hessian * step)) / weight_sum) : 0;
 }
 
 void add_view(WorldSystem& sum, const NormalEquations& view, const Se3& camera_from_world) {
@@ -100,6 +105,7 @@ PoseEstimate estimate_of(const LmState& state, int object) {
   result.mean_px = system.points > 0 ? system.residual_sum / system.points : 0;
   result.iterations = state.iterations;
   result.convergence = state.convergence;
+  result.last_step_px = rms_motion_px(state.step, system.hessian, system.weight_sum);
   result.covariance =
       pose_covariance(system.hessian, 2 * system.cost / std::max(1.0, system.weight_sum - 6));
   return result;

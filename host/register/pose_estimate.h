@@ -31,8 +31,15 @@ struct PoseFeatures {
   EdgeSupport support;   // the same (edge_support.h)
 };
 
-// Why a registration stopped.
-enum class Convergence { SmallStep, NoDecrease, IterationLimit, NoPoints };
+// Why the last stage of a registration stopped.
+enum class Convergence {
+  Converged,       // the last step was small
+  NoDecrease,      // no step lowered the cost
+  IterationLimit,  // the last step was not small
+  TooFewEdges,     // edge ICP found too few near the visible points: the pose is as it was before
+  NoPoints,        // no point was visible
+  OutOfTime,       // the limit was over before (Scene::limit)
+};
 std::string to_string(Convergence convergence);
 
 struct PoseEstimate : ObjectPose {
@@ -44,6 +51,9 @@ struct PoseEstimate : ObjectPose {
   double mean_px = 0;    // mean residual
   int points = 0;        // in all views
   int iterations = 0;    // of Levenberg-Marquardt
+  // Of the last stage: by how much its last step moved the points across their edges, root mean
+  // square.
+  double last_step_px = 0;
   Convergence convergence = Convergence::NoPoints;
   std::vector<PoseFeatures> features;  // one per view; empty until measured (measure_features)
 };

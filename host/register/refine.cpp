@@ -128,6 +128,15 @@ std::vector<PoseEstimate> best_per_start(std::span<const PoseEstimate> estimates
   return best;
 }
 
+// The steps of the last stage need not become as small as its own limit: that would cost more
+// iterations than the pose is worth.
+void judge_last_step(std::span<PoseEstimate> estimates) {
+  for (PoseEstimate& estimate : estimates)
+    if (estimate.convergence == Convergence::IterationLimit &&
+        estimate.last_step_px < thresholds::CONVERGED_PX)
+      estimate.convergence = Convergence::Converged;
+}
+
 std::vector<PoseEstimate> refine_batch(const Scene& scene, std::span<const ObjectPose> starts,
                                        const RefineOptions& options) {
   const bool searched = options.search.rotation_rad > 0 && !scene.is_time_over();
@@ -136,6 +145,7 @@ std::vector<PoseEstimate> refine_batch(const Scene& scene, std::span<const Objec
   if (options.search.rotation_rad == 0) d2co.rounds.insert(d2co.rounds.begin(), options.unsearched);
   std::vector<PoseEstimate> estimates = register_poses(scene, found.poses, d2co);
   if (options.use_edge_icp && !scene.is_time_over()) edge_icp(scene, estimates, options.edge_icp);
+  judge_last_step(estimates);
   measure_features(scene, estimates, {options.score, options.d2co.visibility});
   return best_per_start(estimates, found.start, starts.size());
 }

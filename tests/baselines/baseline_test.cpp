@@ -124,7 +124,7 @@ TEST_P(Baseline, EndsByASmallStep) {
   };
   int fine = 0, coarse = 0;
   for (const PoseEstimate& found : results_with(1)) {
-    EXPECT_EQ(found.convergence, Convergence::SmallStep) << found.iterations;
+    EXPECT_EQ(found.convergence, Convergence::Converged) << found.iterations;
     fine += found.iterations;
   }
   for (const PoseEstimate& found : results_with(1000)) coarse += found.iterations;

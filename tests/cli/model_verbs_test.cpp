@@ -33,6 +33,14 @@ TEST(ModelBuild, WritesASetThatReadsBack) {
   EXPECT_LT(load_templates(file).views.size(), 35u);
   ASSERT_EQ(run_program(build(file, joined({distances, {"--symmetry", "y2"}}))).exit_code, 0);
   EXPECT_EQ(load_templates(file).symmetries.discrete.size(), 2u);
+  const Outcome both =
+      run_program(build(file, joined({distances, models_info(), {"--symmetry", "y4"}})));
+  ASSERT_EQ(both.exit_code, 0) << both.err;
+  EXPECT_NE(both.err.find("object 2: the symmetries of --symmetry, 3 besides the identity, replace "
+                          "the 1 of "),
+            std::string::npos)
+      << both.err;
+  EXPECT_EQ(load_templates(file).symmetries.discrete.size(), 4u);
 }
 
 TEST(ModelBuild, ChoosesDistancesByTheCamera) {
@@ -60,8 +68,6 @@ TEST(ModelBuild, RefusesAndWritesNothing) {
   expect_refused(build(out, {"--distance-min", "0.6", "--distance-ratio", "1"}),
                  {"--distance-ratio", "found 1"});
   expect_refused(build(out, joined({distances, {"--symmetry", "q4"}})), {"--symmetry", "q4"});
-  expect_refused(build(out, joined({distances, {"--symmetry", "z2"}, models_info()})),
-                 {"--symmetry", "both"});
   expect_refused(build(out, joined({distances, {"--latitude-min", "91"}})),
                  {"--latitude-min", "found 91"});
   EXPECT_FALSE(fs::exists(out.parent_path()));
@@ -94,7 +100,7 @@ TEST(ModelDraw, DrawsMeshesAndSets) {
     fs::remove(picture);
   }
   expect_refused({"model", "draw", part_file(2), "--out", picture},
-                 {"obj_000002.ply", "--unit", "none", "mm, cm, m or in", "template file"});
+                 {"obj_000002.ply", "--unit", "none", "mm, cm, m or in"});
   expect_refused({"model", "draw", set, "--unit", "mm", "--out", picture}, {"--unit", "part.est"});
   expect_refused({"model", "draw", set, "--tile", "9", "--out", picture}, {"--tile", "found 9"});
   EXPECT_FALSE(fs::exists(picture));

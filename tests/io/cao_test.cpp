@@ -83,6 +83,40 @@ TEST(Cao, IgnoresCommentsSettingsAndLineEnds) {
   EXPECT_EQ(read(windows).triangles.size(), 2u);
 }
 
+// ViSP takes nothing but a row's numbers from its line.
+TEST(Cao, IgnoresWhatFollowsTheNumbersOfARow) {
+  const std::string text =
+      "V1 // format\n4 points\n0 0 0 // a\n1 0 0 b 7\n1 1 0\n0 1 0\n0 // no line\n0\n1 - a face\n"
+      "4 0 1 2 3 name=\"the top\" useLod = true\n0 cylinders\n0\n";
+  EXPECT_DOUBLE_EQ(area(read(text)), 1);
+  // V2 has the place of each point in an image.
+  EXPECT_DOUBLE_EQ(
+      area(read("V2\n4\n0 0 0 5 6\n1 0 0 7 8\n1 1 0 9 9\n0 1 0 1 1\n0\n0\n1\n4 0 1 2 3\n")), 1);
+}
+
+TEST(Cao, PlacesWhatItIncludes) {
+  const TemporaryFolder folder;
+  folder.write("a.cao", square + "0\n0\n1\n4 0 1 2 3\n");
+  const auto placed = [&](const std::string& how) {
+    return read_cao(folder.write("m.cao", "V1\nload(\"a.cao\"" + how + ")\n0\n0\n0\n0\n"));
+  };
+  const RawMesh turned = placed(", t=[0; 0; 5], tu=[0; 0; 90deg]");
+  ASSERT_EQ(turned.vertices.size(), 4u);
+  EXPECT_LT((turned.vertices[1] - Vector3d(0, 1, 5)).norm(), 1e-12);
+  EXPECT_LT((turned.vertices[2] - Vector3d(-1, 1, 5)).norm(), 1e-12);
+  EXPECT_LT((placed(", tu=[0;0;1.5707963267948966rad]").vertices[1] - Vector3d(0, 1, 0)).norm(),
+            1e-12);
+  expect_input_error([&] { placed(", t=[1; 2]"); }, {"m.cao", "line 2", "three numbers"});
+  expect_input_error([&] { placed(", scale=2"); }, {"m.cao", "line 2", "scale=2", "tu="});
+  expect_input_error([&] { placed(", t=[1; x; 2]"); }, {"m.cao", "line 2", "x", "a number"});
+}
+
+TEST(Cao, HasAtMostTwoThousandRings) {
+  std::string text = "V1\n2\n0 0 0\n0 0 1\n0\n0\n0\n1001\n";
+  for (int i = 0; i < 1001; ++i) text += "0 1 2\n";
+  expect_input_error([&] { read(text); }, {"m.cao", "2000"});
+}
+
 TEST(Cao, CylindersAndCirclesMayBeLeftOut) {
   EXPECT_EQ(read(square + "0\n0\n1\n4 0 1 2 3\n").triangles.size(), 2u);
   EXPECT_EQ(read(square + "0\n0\n1\n4 0 1 2 3\n0\n").triangles.size(), 2u);
@@ -101,7 +135,7 @@ TEST(Cao, IncludesOtherFilesFromItsOwnFolder) {
 }
 
 TEST(Cao, NamesTheLineOfWhatIsWrong) {
-  expect_input_error([] { read("V2\n"); }, {"m.cao", "line 1", "V2", "V1"});
+  expect_input_error([] { read("V3\n"); }, {"m.cao", "line 1", "V3", "V1"});
   expect_input_error([] { read("V1\n1\n0 x 0\n"); }, {"line 3", "x", "a number"});
   expect_input_error([] { read("V1\n-1\n"); }, {"line 2", "-1"});
   expect_input_error([] { read(square + "0\n0\n1\n4 0 1 2 4\n"); },

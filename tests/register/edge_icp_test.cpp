@@ -161,5 +161,45 @@ TEST(EdgeIcp, RegionsOfCleanImagesAreNotManyTimesTooLarge) {
   }
 }
 
+struct Refined {
+  std::size_t count = 0, converged = 0, at_limit = 0, too_few = 0;
+};
+
+Refined refined(const Rendered& known, double offset_m, const RefineOptions& options,
+                Backend& backend) {
+  Random random = test_random();
+  std::vector<ObjectPose> starts;
+  for (const KnownInstance& instance : known.scene.instances) {
+    Vector6d off;
+    off << offset_m * random.direction(), 10 * offset_m * random.direction();
+    starts.push_back({instance.object, retract(instance.world_from_object, off)});
+  }
+  Refined sum;
+  for (const PoseEstimate& found :
+       refine_poses({known.models, std::span(known.views).first(1), backend}, starts, options)) {
+    ++sum.count;
+    sum.converged += found.convergence == Convergence::Converged;
+    sum.at_limit += found.convergence == Convergence::IterationLimit;
+    sum.too_few += found.convergence == Convergence::TooFewEdges;
+  }
+  return sum;
+}
+
+TEST(EdgeIcp, SaysWhatEndedIt) {
+  const std::unique_ptr<Backend> backend = make_cpu_backend(2);
+  const Rendered known = rendered(1, Images::Clean, *backend);
+  RefineOptions options;
+  options.search.rotation_rad = 0;
+  const Refined near = refined(known, 0.001, options, *backend);
+  std::printf("%zu of %zu converged\n", near.converged, near.count);
+  EXPECT_GE(near.converged, 0.8 * double(near.count));
+  options.edge_icp.rounds = {{5, 2.5f, 1}};
+  const Refined starved = refined(known, 0.001, options, *backend);
+  EXPECT_GE(starved.at_limit, 0.8 * double(starved.count));
+  options.edge_icp.min_matched = 1;
+  const Refined without = refined(known, 0.001, options, *backend);
+  EXPECT_GE(without.too_few, 0.8 * double(without.count));
+}
+
 }  // namespace
 }  // namespace edgescout

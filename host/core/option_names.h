@@ -1,0 +1,17 @@
+// How messages name the options of the interface that was used.
+//
+// Public header.
+#pragma once
+
+#include <string>
+
+namespace edgescout {
+
+// "distance-min" -> "distance_min", its field in C++; or what the interface calls it.
+std::string option_name(const std::string& name);
+
+// Sets what option_name returns, for the whole process. The program sets "--distance-min" before
+// its first message; a binding for another language may set its own.
+void set_option_naming(std::string (*name_of)(const std::string& name));
+
+}  // namespace edgescout
