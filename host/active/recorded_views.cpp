@@ -110,11 +110,12 @@ Shot RecordedViews::acquire(int view) {
   }
 }
 
-RecordedViews load_recorded_views(const fs::path& folder, const std::optional<Camera>& given) {
+RecordedViews load_recorded_views(const fs::path& folder, const std::optional<Camera>& given,
+                                  const std::string& camera_name) {
   Camera camera = given.value_or(Camera{});
   if (is_bop_scene(folder)) {
     const std::vector<RecordedViews::Recording> recordings =
-        bop_recordings(load_bop_scene(folder), camera);
+        bop_recordings(load_bop_images(folder, camera_name), camera);
     return {camera, recordings};
   }
   if (!fs::is_directory(folder / "CameraPose"))

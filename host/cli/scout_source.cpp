@@ -73,6 +73,13 @@ std::string text_of(const CameraArguments& camera) {
   return text;
 }
 
+std::string camera_of(const DatasetArguments& dataset) {
+  if (dataset.cameras.size() > 1)
+    throw InputError("command line", "--cameras", std::to_string(dataset.cameras.size()) + " names",
+                     "one: a scout has one camera");
+  return dataset.cameras.empty() ? "" : dataset.cameras[0];
+}
+
 ScoutSource make_recorded(const SourceRequest& request) {
   if (!request.views_file.empty())
     throw InputError("command line", "--views", "a list for recorded views", "their own poses");
@@ -95,12 +102,15 @@ ScoutSource make_recorded(const SourceRequest& request) {
   made.settings.emplace_back("source", folder.string());
   made.settings.emplace_back("camera",
                              request.camera.file.empty() ? "its own" : text_of(request.camera));
-  auto views = std::make_unique<RecordedViews>(load_recorded_views(request.source, camera));
+  const std::string camera_name = camera_of(request.dataset);
+  if (!camera_name.empty()) made.settings.emplace_back("camera's name", camera_name);
+  auto views =
+      std::make_unique<RecordedViews>(load_recorded_views(request.source, camera, camera_name));
   for (const RecordedViews::Recording& recording : views->recordings())
     made.image_files.push_back(recording.file);
   made.source = std::move(views);
   if (!is_bop_scene(request.source)) return made;
-  const BopScene scene = load_bop_scene(request.source);
+  const BopScene scene = load_bop_images(request.source, camera_name);
   made.scene_id = scene.scene_id;
   for (const BopImage& image : scene.images) made.image_ids.push_back(image.image_id);
   return made;
@@ -138,6 +148,7 @@ void add_source_options(CLI::App& verb, SourceRequest& r) {
                   "BOP scene, or a folder with CameraPose and Images")
       ->required();
   add_camera(verb, r.camera);
+  add_camera_names(verb, r.dataset);
   add_hemisphere_options(verb, r);
   add_scene_options(verb, r.scene, OptionLevel::Expert);
   OptionTable(verb, "Arm", OptionLevel::Expert)

@@ -12,6 +12,7 @@ namespace edgescout {
 struct SourceRequest {
   std::string source;      // "cell", or a folder (load_recorded_views)
   CameraArguments camera;  // of recorded views
+  DatasetArguments dataset;  // of recorded views: at most one camera
   std::string views_file;  // of a cell, in place of the hemisphere
   RenderOptions scene;     // of a cell
   ArmNoise arm;
