@@ -272,19 +272,19 @@ void print_table(const std::vector<Row>& rows, const RecallOptions& o) {
                                     : fmt::format("estimates of score {} or more", o.min_score);
   std::cout << fmt::format(
       "{} images; truths seen by at least {:.0f} %; {}\n"
-      "AR(MSSD,MSPD): mean of BOP's average recalls MSSD and MSPD; BOP's own AR has VSD in it, "
-      "which needs depth\n"
-      "AP(MSSD,MSPD): the same of BOP's average precisions of 2024; of all: mean over the objects\n"
+      "AR: mean of BOP's average recalls MSSD and MSPD; BOP's own AR has VSD in it, which needs "
+      "depth\n"
+      "AP: mean of BOP's average precisions (2024) MSSD and MSPD; of all: mean over the objects\n"
       "pose: below {} rad and {} mm; mspd: below {} px; fp: estimates that match no truth so, an "
       "image\n\n"
-      "{:>6} {:>7} {:>9} {:>13} {:>7} {:>7} {:>13} {:>7} {:>7} {:>9} {:>9} {:>7} {:>7}\n",
+      "{:>6}{:>7}{:>10}{:>7}{:>6}{:>6}{:>7}{:>6}{:>6}{:>7}{:>9}{:>6}{:>6}\n",
       rows.back().recalls.images, 100 * o.min_visible_fraction, estimates, o.max_angle_rad,
-      1000 * o.max_distance_m, o.max_mspd_px, "object", "truths", "estimates", "AR(MSSD,MSPD)",
-      "MSSD", "MSPD", "AP(MSSD,MSPD)", "MSSD", "MSPD", "pose", "pose/sym", "mspd", "fp");
+      1000 * o.max_distance_m, o.max_mspd_px, "object", "truths", "estimates", "AR", "MSSD", "MSPD",
+      "AP", "MSSD", "MSPD", "pose", "pose/sym", "mspd", "fp");
   for (const auto& [object, r, p] : rows)
     std::cout << fmt::format(
-        "{:>6} {:>7} {:>9} {:>13.3f} {:>7.3f} {:>7.3f} {:>13.3f} {:>7.3f} {:>7.3f} {:>9.3f} "
-        "{:>9.3f} {:>7.3f} {:>7.2f}\n",
+        "{:>6}{:>7}{:>10}{:>7.3f}{:>6.3f}{:>6.3f}{:>7.3f}{:>6.3f}{:>6.3f}{:>7.3f}{:>9.3f}"
+        "{:>6.3f}{:>6.2f}\n",
         object, r.truths, r.estimates, 0.5 * (r.ar_mssd + r.ar_mspd), r.ar_mssd, r.ar_mspd,
         0.5 * (p.ap_mssd + p.ap_mspd), p.ap_mssd, p.ap_mspd, r.recall_raw, r.recall_symmetric,
         r.recall_mspd, r.false_positives_per_image);

@@ -1,6 +1,7 @@
 #include "host/cli/scout_source.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <numeric>
 
@@ -73,11 +74,16 @@ std::string text_of(const CameraArguments& camera) {
   return text;
 }
 
-std::string camera_of(const DatasetArguments& dataset) {
-  if (dataset.cameras.size() > 1)
-    throw InputError("command line", "--cameras", std::to_string(dataset.cameras.size()) + " names",
-                     "one: a scout has one camera");
-  return dataset.cameras.empty() ? "" : dataset.cameras[0];
+// A scout has one camera.
+std::string camera_of(const SourceRequest& request) {
+  const std::vector<std::string>& chosen = request.dataset.cameras;
+  if (chosen.size() == 1) return chosen[0];
+  const std::vector<std::string> there = bop_cameras(request.source);
+  const bool has_own = there.empty() || there[0].empty();
+  if (chosen.size() > 1 || (!has_own && there.size() > 1))
+    throw InputError("command line", "--cameras", std::to_string(chosen.size()) + " names",
+                     fmt::format("one of {}", fmt::join(there, ", ")));
+  return "";
 }
 
 ScoutSource make_recorded(const SourceRequest& request) {
@@ -102,7 +108,7 @@ ScoutSource make_recorded(const SourceRequest& request) {
   made.settings.emplace_back("source", folder.string());
   made.settings.emplace_back("camera",
                              request.camera.file.empty() ? "its own" : text_of(request.camera));
-  const std::string camera_name = camera_of(request.dataset);
+  const std::string camera_name = camera_of(request);
   if (!camera_name.empty()) made.settings.emplace_back("camera's name", camera_name);
   auto views =
       std::make_unique<RecordedViews>(load_recorded_views(request.source, camera, camera_name));

@@ -94,7 +94,7 @@ void report(const PassedOver& passed_over, std::size_t read, const std::string& 
   log(LogLevel::Warning, file + ": " + std::to_string(passed_over.rows) + " of " +
                              std::to_string(passed_over.rows + int(read)) +
                              " rows hold no pose and are left out; the first: " +
-                             passed_over.first);
+                             passed_over.first.substr(file.size() + 2));  // without "FILE: "
 }
 
 std::vector<std::string> lines_of(const std::filesystem::path& file) {

@@ -99,10 +99,11 @@ def random_images(draw):
         truths = [{"obj": draw.choice((1, 2)), "pose": anywhere(),
                    "visible": draw.choice((0, 0.05, 0.1, 0.5, 1))}
                   for _ in range(draw.randint(0, 5))]
-        estimates = [{"obj": t["obj"], "score": draw.random(),
+        estimates = [{"obj": t["obj"], "score": draw.uniform(0.3, 1),
                       "pose": near(draw, t["pose"], draw.random())}
                      for t in truths for _ in range(draw.randint(0, 2))]
-        estimates += [{"obj": draw.choice((1, 2)), "score": draw.random(), "pose": anywhere()}
+        estimates += [{"obj": draw.choice((1, 2)), "score": draw.uniform(0, 0.8),
+                       "pose": anywhere()}
                       for _ in range(draw.choice((0, 1, 3, 120)))]
         images.append((truths, estimates))
     return images
