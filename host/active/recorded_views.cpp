@@ -43,8 +43,8 @@ Se3 read_matrix(const fs::path& file, ProjectedRotations& projected) {
     throw InputError(file.string(), "camera pose",
                      "a matrix with another last row than 0 0 0 1 or not finite",
                      "a rigid transform");
-  const std::optional<Se3> pose = nearest_rigid(matrix.topLeftCorner<3, 3>(),
-                                                matrix.topRightCorner<3, 1>(), projected);
+  const std::optional<Se3> pose =
+      nearest_rigid(matrix.topLeftCorner<3, 3>(), matrix.topRightCorner<3, 1>(), projected);
   if (!pose)
     throw InputError(file.string(), "camera pose", "a matrix that is no rotation",
                      EXPECTED_ROTATION);

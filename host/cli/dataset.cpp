@@ -92,10 +92,11 @@ void add_dataset_arguments(CLI::App& verb, DatasetArguments& dataset) {
                   "val, train_pbr .. Without --model the dataset's models are taken")
       ->type_name("NAME");
   add_camera_names(verb, dataset);
-  verb.add_option("--targets", dataset.targets,
-                  "BOP's list of images to work on (test_targets_bop19.json, .._bop24.json, "
-                  ".._multiview_bop25.json). That of 2019 also says which objects each image holds, "
-                  "and how many")
+  verb.add_option(
+          "--targets", dataset.targets,
+          "BOP's list of images to work on (test_targets_bop19.json, .._bop24.json, "
+          ".._multiview_bop25.json). That of 2019 also says which objects each image holds, "
+          "and how many")
       ->type_name("FILE");
 }
 
@@ -136,9 +137,9 @@ std::vector<std::string> SceneLoader::cameras_of(const fs::path& folder) {
     if (std::ranges::count(there, name) > 0 && std::ranges::count(chosen, name) == 0)
       chosen.push_back(name);
     else if (std::ranges::count(there, name) == 0)
-      example_ = fmt::format("{}: found the cameras {}", folder.string(),
-                             there[0].empty() ? "of scene_camera.json"
-                                              : fmt::format("{}", fmt::join(there, ", ")));
+      example_ = fmt::format(
+          "{}: found the cameras {}", folder.string(),
+          there[0].empty() ? "of scene_camera.json" : fmt::format("{}", fmt::join(there, ", ")));
   empty_ += chosen.empty();
   incomplete_ += chosen.size() < dataset_.cameras.size();
   return chosen;
@@ -163,9 +164,9 @@ void SceneLoader::report() const {
 
 DatasetModels models_of_dataset(const std::vector<std::string>& inputs,
                                 const std::vector<int>& object_ids, bool to_evaluate) {
-  const std::vector<const char*> order =
-      to_evaluate ? std::vector{"models_eval", "models", "models_cad"}
-                  : std::vector{"models", "models_cad", "models_eval"};
+  const std::vector<const char*> order = to_evaluate
+                                             ? std::vector{"models_eval", "models", "models_cad"}
+                                             : std::vector{"models", "models_cad", "models_eval"};
   for (const std::string& input : inputs)
     for (const char* name : order) {
       const fs::path folder = fs::path(input) / name;

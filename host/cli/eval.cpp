@@ -100,8 +100,8 @@ void read_image_sizes(BopScene& scene) {
 void require_images(const BopScene& scene, std::span<const BopResult> results,
                     const std::string& file) {
   if (scene.truth.empty())
-    throw InputError(bop_file(scene.folder, "scene_gt", scene.camera_name).string(),
-                     "ground truth", "none", "the scene's true poses");
+    throw InputError(bop_file(scene.folder, "scene_gt", scene.camera_name).string(), "ground truth",
+                     "none", "the scene's true poses");
   std::set<int> ids;
   for (const BopImage& image : scene.images) ids.insert(image.image_id);
   for (const BopResult& result : results)

@@ -34,10 +34,9 @@ void EvalTargets::restrict(BopScene& scene) const {
   for (const auto& [place, wanted] : images_)
     if (place.first == scene.scene_id && find(scene, place.second) &&
         std::ranges::find(scene.images, place.second, &BopImage::image_id) == scene.images.end())
-      throw InputError(file_, "scene " + std::to_string(scene.scene_id),
-                       "image " + std::to_string(place.second),
-                       "an image in " +
-                           bop_file(scene.folder, "scene_camera", scene.camera_name).string());
+      throw InputError(
+          file_, "scene " + std::to_string(scene.scene_id), "image " + std::to_string(place.second),
+          "an image in " + bop_file(scene.folder, "scene_camera", scene.camera_name).string());
   std::erase_if(scene.images, [&](const BopImage& image) { return !find(scene, image.image_id); });
 }
 

@@ -72,9 +72,9 @@ BopScene scene_with_truth(const InputImage& view) {
   BopScene scene;
   if (!view.scene_folder.empty()) scene = load_bop_scene(view.scene_folder, view.camera_name);
   if (scene.truth.empty())
-    throw InputError(view.file.string(), "ground truth", "none",
-                     "an image of a BOP scene with " +
-                         bop_file("", "scene_gt", view.camera_name).string());
+    throw InputError(
+        view.file.string(), "ground truth", "none",
+        "an image of a BOP scene with " + bop_file("", "scene_gt", view.camera_name).string());
   return scene;
 }
 

@@ -44,7 +44,12 @@ void add_scene(const fs::path& folder, SceneLoader& loader, std::vector<InputIma
   for (const BopScene& scene : loader.load(folder)) {
     const std::string& camera = scene.camera_name;
     for (const BopImage& image : scene.images)
-      images.push_back({image.file, folder, scene.scene_id, image.image_id, camera, image.camera,
+      images.push_back({image.file,
+                        folder,
+                        scene.scene_id,
+                        image.image_id,
+                        camera,
+                        image.camera,
                         image.camera_from_world,
                         fmt::format("{}_{}{}{}", six_digits(scene.scene_id),
                                     six_digits(image.image_id), camera.empty() ? "" : "_", camera),

@@ -22,7 +22,7 @@ struct InputImage {
   std::filesystem::path scene_folder;  // of a BOP scene; else empty
   int scene_id = 0;
   int image_id = 0;
-  std::string camera_name;  // of a BOP scene with several cameras; else empty
+  std::string camera_name;       // of a BOP scene with several cameras; else empty
   std::optional<Camera> camera;  // of a BOP scene; size 0 x 0 until the image is read
   std::optional<Se3> camera_from_world;
   // The name of its result files, unique in the batch: "000001_000012" in a BOP scene, with

@@ -79,7 +79,8 @@ int register_all(RegisterRequest& request) {
   for (const RegisterModel& model : models) warn_of_mesh(model.edges);
   require_safe_starts(request);
   const std::vector<StartPose> poses = load_start_poses(request.poses);
-  const std::vector<InputImage> images = list_images(request.inputs, options.calibration, request.dataset);
+  const std::vector<InputImage> images =
+      list_images(request.inputs, options.calibration, request.dataset);
   options.camera = given_camera(options.calibration, images);
   require_other_folder(images, options.out);
   const std::vector<RegisterJob> jobs =

@@ -26,11 +26,10 @@ std::vector<InputImage> images_of_view(std::span<const InputImage> scene, const 
   const bool is_of_other_camera = !view.camera_name.empty() && !dataset.cameras.empty() &&
                                   std::ranges::count(dataset.cameras, view.camera_name) == 0;
   if (found.empty() && !is_of_other_camera)
-    throw InputError(
-        dataset.targets, fmt::format("scene {}", scene[0].scene_id),
-        fmt::format("image {}{}", view.image_id,
-                    view.camera_name.empty() ? "" : " of camera " + view.camera_name),
-        "an image in " + scene[0].scene_folder.string());
+    throw InputError(dataset.targets, fmt::format("scene {}", scene[0].scene_id),
+                     fmt::format("image {}{}", view.image_id,
+                                 view.camera_name.empty() ? "" : " of camera " + view.camera_name),
+                     "an image in " + scene[0].scene_folder.string());
   return found;
 }
 

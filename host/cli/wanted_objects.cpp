@@ -11,16 +11,14 @@ std::map<int, int> wanted_of(const std::vector<const InputImage*>& images) {
   std::map<int, int> wanted;
   for (const InputImage* image : images) {
     if (image->wanted.empty()) return {};
-    for (const auto& [id, instances] : image->wanted)
-      wanted[id] = std::max(wanted[id], instances);
+    for (const auto& [id, instances] : image->wanted) wanted[id] = std::max(wanted[id], instances);
   }
   return wanted;
 }
 
 }  // namespace
 
-std::span<const TemplateSet> WantedObjects::sets_for(
-    const std::vector<const InputImage*>& images) {
+std::span<const TemplateSet> WantedObjects::sets_for(const std::vector<const InputImage*>& images) {
   std::set<int> ids;
   const std::map<int, int> wanted = wanted_of(images);
   for (const TemplateSet& set : all_)

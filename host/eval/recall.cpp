@@ -57,8 +57,7 @@ void count(const Instances& pair, const RecallOptions& options, Recalls& sums) {
 void count_image(const EvaluationImage& image, const std::map<int, Object>& objects,
                  const RecallOptions& options, Recalls& sums) {
   for (const Instances& pair : instances_of(image, objects, options, true))
-    if (image.targets.empty() || image.targets.contains(pair.object_id))
-      count(pair, options, sums);
+    if (image.targets.empty() || image.targets.contains(pair.object_id)) count(pair, options, sums);
 }
 
 void finish(Recalls& sums) {

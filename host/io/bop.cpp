@@ -144,7 +144,8 @@ void save_bop_scene(const BopScene& scene, const fs::path& folder) {
       image_infos.push_back({{"visib_fract", object.visible_fraction}});
     }
   }
-  write_file_atomically(bop_file(folder, "scene_camera", scene.camera_name), cameras.dump(1) + "\n");
+  write_file_atomically(bop_file(folder, "scene_camera", scene.camera_name),
+                        cameras.dump(1) + "\n");
   write_file_atomically(bop_file(folder, "scene_gt", scene.camera_name), poses.dump(1) + "\n");
   write_file_atomically(bop_file(folder, "scene_gt_info", scene.camera_name), infos.dump(1) + "\n");
 }

@@ -18,7 +18,7 @@ namespace edgescout {
 struct BopImage {
   int image_id = 0;
   std::filesystem::path file;
-  Camera camera;               // size 0 x 0 until the image is read; `dist` is read if given
+  Camera camera;  // size 0 x 0 until the image is read; `dist` is read if given
   std::optional<Se3> camera_from_world;  // set if the file has cam_R_w2c and cam_t_w2c
 };
 

@@ -15,7 +15,7 @@ namespace {
 constexpr std::string_view camera_file_start = "scene_camera_", camera_file_end = ".json";
 
 // Grey ones first: nothing is lost by a conversion.
-constexpr const char* kinds_of_images[] = {"gray", "grey",  "mono",   "rgb",   "bgr",
+constexpr const char* kinds_of_images[] = {"gray",  "grey",   "mono",  "rgb",   "bgr",
                                            "color", "colour", "image", "images"};
 
 // "000012" -> 12. Nothing: the name is no number.
@@ -93,9 +93,9 @@ std::vector<std::string> bop_cameras(const fs::path& folder) {
     const std::string name = entry.filename().string();
     if (name.starts_with(camera_file_start) && name.ends_with(camera_file_end) &&
         name.size() > camera_file_start.size() + camera_file_end.size())
-      cameras.push_back(name.substr(
-          camera_file_start.size(),
-          name.size() - camera_file_start.size() - camera_file_end.size()));
+      cameras.push_back(
+          name.substr(camera_file_start.size(),
+                      name.size() - camera_file_start.size() - camera_file_end.size()));
   }
   return cameras;
 }

@@ -60,9 +60,9 @@ BopResult read_result(const std::vector<std::string>& fields, bool has_cameras, 
                       ProjectedRotations& projected) {
   const std::size_t columns = has_cameras ? 8 : 7;
   if (fields.size() != columns)
-    line.fail("fields", std::to_string(fields.size()),
-              std::to_string(columns) + " (" + std::string(header) +
-                  (has_cameras ? ",camera)" : ")"));
+    line.fail(
+        "fields", std::to_string(fields.size()),
+        std::to_string(columns) + " (" + std::string(header) + (has_cameras ? ",camera)" : ")"));
   BopResult result;
   result.scene_id = line.integer(fields[0], "scene_id");
   result.image_id = line.integer(fields[1], "im_id");

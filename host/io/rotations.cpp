@@ -33,10 +33,9 @@ void warn_of_projected(const ProjectedRotations& projected, const std::string& f
   if (projected.count == 0) return;
   char largest[32];
   std::snprintf(largest, sizeof largest, "%.2g", projected.largest_difference);
-  log(LogLevel::Warning,
-      file + ": found " + std::to_string(projected.count) +
-          (projected.count == 1 ? " matrix" : " matrices") + " up to " + largest +
-          " off a rotation: the nearest rotation is taken");
+  log(LogLevel::Warning, file + ": found " + std::to_string(projected.count) +
+                             (projected.count == 1 ? " matrix" : " matrices") + " up to " +
+                             largest + " off a rotation: the nearest rotation is taken");
 }
 
 }  // namespace edgescout

@@ -17,8 +17,8 @@ struct ProjectedRotations {
 
 inline constexpr const char* EXPECTED_ROTATION = "a rotation, to 0.01 in every number";
 
-// Returns the transform with the rotation next to `rotation`. Counts it where the two differ by more
-// than rounding. Nothing: a number is not finite, or differs by 0.01 or more.
+// Returns the transform with the rotation next to `rotation`. Counts it where the two differ by
+// more than rounding. Nothing: a number is not finite, or differs by 0.01 or more.
 std::optional<Se3> nearest_rigid(const Eigen::Matrix3d& rotation,
                                  const Eigen::Vector3d& translation_m,
                                  ProjectedRotations& projected);

@@ -20,10 +20,10 @@ void expect_done(const Outcome& outcome) { EXPECT_EQ(outcome.exit_code, 0) << ou
 TEST(Dataset, OfSeveralCamerasIsSearchedInEach) {
   const SmallDataset set = industrial_set();
   expect_done(run_program(set.detect(set.scene, set.model())));
-  EXPECT_EQ(files_in(set.out),
-            (std::vector<std::string>{"000003_000000_cam1.json", "000003_000000_cam2.json",
-                                      "results.csv", "results_cam1.csv", "results_cam2.csv",
-                                      "summary.json"}));
+  EXPECT_EQ(
+      files_in(set.out),
+      (std::vector<std::string>{"000003_000000_cam1.json", "000003_000000_cam2.json", "results.csv",
+                                "results_cam1.csv", "results_cam2.csv", "summary.json"}));
   const std::vector<BopResult> rows = load_bop_results(set.out / "results.csv");
   for (const char* camera : {"cam1", "cam2"}) {
     const BopScene scene = load_bop_scene(set.scene, camera);
@@ -42,9 +42,8 @@ TEST(Dataset, OfSeveralCamerasIsSearchedInEach) {
 TEST(Dataset, OfSeveralCamerasIsSearchedInChosenOnes) {
   const SmallDataset set = industrial_set();
   expect_done(run_program(set.detect(set.scene, joined({set.model(), {"--cameras", "cam2"}}))));
-  EXPECT_EQ(files_in(set.out),
-            (std::vector<std::string>{"000003_000000_cam2.json", "results.csv", "results_cam2.csv",
-                                      "summary.json"}));
+  EXPECT_EQ(files_in(set.out), (std::vector<std::string>{"000003_000000_cam2.json", "results.csv",
+                                                         "results_cam2.csv", "summary.json"}));
   expect_refused(set.detect(set.scene, joined({set.model(), {"--cameras", "cam9"}})),
                  {"cam1, cam2", "--cameras", "cam9"});
 }
@@ -75,8 +74,7 @@ TEST(Dataset, OfSeveralCamerasIsEvaluatedForEach) {
     }
   const fs::path csv = set.made.folder.path() / "r.csv", json = set.made.folder.path() / "r.json";
   const auto evaluate = [&](const std::vector<std::string>& more) {
-    expect_done(run_program(
-        joined({{"eval", csv, set.scene, "--json", json}, set.model(), more})));
+    expect_done(run_program(joined({{"eval", csv, set.scene, "--json", json}, set.model(), more})));
     return nlohmann::json::parse(content_of(json)).at("all");
   };
   save_bop_results(rows, csv);
@@ -111,9 +109,8 @@ TEST(Dataset, OfSeveralCamerasIsRegisteredAndExplained) {
   ASSERT_EQ(rows.size(), 2u);
   for (const char* camera : {"cam1", "cam2"})
     EXPECT_LT(off_truth_m(rows, load_bop_scene(set.scene, camera), 0), near_truth_m) << camera;
-  const Outcome outcome = run_program(joined({{"explain", set.scene, "--truth", "--device", "cpu"},
-                                              set.model(),
-                                              few_templates()}));
+  const Outcome outcome = run_program(
+      joined({{"explain", set.scene, "--truth", "--device", "cpu"}, set.model(), few_templates()}));
   expect_done(outcome);
   for (const char* file : {"rgb_cam1", "gray_cam2"})
     EXPECT_NE(outcome.out.find(file), std::string::npos) << outcome.out;

@@ -68,8 +68,8 @@ inline double off_truth_m(const std::vector<BopResult>& results, const BopScene&
     if (result.image_id == image_id &&
         (result.camera_name.empty() || result.camera_name == scene.camera_name))
       for (const BopTruth& truth : scene.truth.at(image_id))
-        least_m = std::min(least_m, distance_between_m(result.camera_from_object,
-                                                       truth.camera_from_object));
+        least_m = std::min(least_m,
+                           distance_between_m(result.camera_from_object, truth.camera_from_object));
   return least_m;
 }
 

@@ -25,8 +25,8 @@ TEST(AveragePrecision, OfTheTruthIsOne) {
 }
 
 // Four truths. In the order of the scores: right, wrong, right, wrong, right. Recall 0.25 at
-// precision 1, 0.5 at 2/3, 0.75 at 3/5. Of the 101 recalls 26 are up to 0.25, 25 up to 0.5, 25 up to
-// 0.75, and 25 are not reached.
+// precision 1, 0.5 at 2/3, 0.75 at 3/5. Of the 101 recalls 26 are up to 0.25, 25 up to 0.5, 25 up
+// to 0.75, and 25 are not reached.
 TEST(AveragePrecision, IsTheMeanPrecisionAt101Recalls) {
   EvaluationImage one = image();
   one.truth = {truth(1, 0), truth(1, 500), truth(1, 1000), truth(1, 1500)};

@@ -30,9 +30,9 @@ struct CameraFolder {
 TEST(BopLayout, HasTheImagesOfEachCameraInItsFolder) {
   const TemporaryFolder folder;
   int focal_px = 100;
-  const std::vector<CameraFolder> all{{"3dlong", "gray_3dlong"}, {"cam1", "rgb_cam1"},
-                                      {"gray1", "gray1"},        {"photoneo", "gray_photoneo"},
-                                      {"realsense", "rgb_realsense"}, {"rgb", "rgb"}};
+  const std::vector<CameraFolder> all{
+      {"3dlong", "gray_3dlong"},     {"cam1", "rgb_cam1"},           {"gray1", "gray1"},
+      {"photoneo", "gray_photoneo"}, {"realsense", "rgb_realsense"}, {"rgb", "rgb"}};
   for (const CameraFolder& of : all) {
     write_camera(folder, of.camera, focal_px++);
     folder.write(std::string(of.folder) + "/000000.png", "");
@@ -64,7 +64,7 @@ TEST(BopLayout, TakesTheOnlyCamera) {
   EXPECT_EQ(load_bop_scene(folder.path()).camera_name, "xyz");
   EXPECT_EQ(load_bop_scene(folder.path()).images[0].file,
             folder.path() / "rgb_xyz" / "000000.png");  // missing, and named so
-  folder.write("scene_camera.json", pinhole);  // now that is the scene's own camera
+  folder.write("scene_camera.json", pinhole);           // now that is the scene's own camera
   EXPECT_EQ(load_bop_scene(folder.path()).camera_name, "");
   EXPECT_EQ(bop_cameras(folder.path()), (std::vector<std::string>{"", "xyz"}));
 }
@@ -93,9 +93,8 @@ TEST(BopLayout, PrefersGreyAndWhatLosesNothing) {
 // HOT3D's entries have no cam_K.
 TEST(BopLayout, ReadsTheCameraModelsOfHeadsets) {
   const TemporaryFolder folder;
-  folder.write(
-      "scene_camera_rgb.json",
-      R"({"0": {"cam_model": {"image_height": 1408, "image_width": 1408,
+  folder.write("scene_camera_rgb.json",
+               R"({"0": {"cam_model": {"image_height": 1408, "image_width": 1408,
           "projection_model_type": "CameraModelType.FISHEYE624",
           "projection_params": [610.5, 714.6, 706.8, 0.4, -0.49, 0.17, 1.13, -1.66, 0.63, 0.0001,
                                 0.0002, 0.0003, -0.0004, 0.0005, 0.0006]},

@@ -52,7 +52,8 @@ TEST(BopTargets, NameTheFieldOfWhatIsWrong) {
   expect_input_error([] { targets_of(R"({"1": 2})"); }, {"targets.json", "an array"});
   expect_input_error([] { targets_of(R"([{"im_id": 1}])"); }, {"/0/scene_id", "nothing"});
   expect_input_error([] { targets_of(R"([{"scene_id": 1}])"); }, {"/0/im_id", "nothing"});
-  expect_input_error([] { targets_of(R"([{"scene_id": 1, "im_id": []}])"); }, {"/0/im_id", "empty"});
+  expect_input_error([] { targets_of(R"([{"scene_id": 1, "im_id": []}])"); },
+                     {"/0/im_id", "empty"});
   expect_input_error([] { targets_of(R"([{"scene_id": 1, "im_id": [["a", 1, 2]]}])"); },
                      {"/0/im_id/0", "3 values"});
   expect_input_error([] { targets_of(R"([{"scene_id": 1, "im_id": 1, "obj_id": "a"}])"); },
