@@ -298,6 +298,23 @@ void run_eval(EvalRequest& request) {
   print_table(evaluation.rows, request.recall);
 }
 
+void add_options(CLI::App& verb, EvalRequest& request) {
+  RecallOptions& o = request.recall;
+  OptionTable(verb, "Evaluation", OptionLevel::Expert)
+      .bounded("min-visible", o.min_visible_fraction, 0.0, 1.0,
+               "Truths with a smaller visible fraction are ignored")
+      .bounded("min-score", o.min_score, -std::numeric_limits<double>::infinity(), 1e6,
+               "Estimates with a lower score are dropped")
+      .bounded("max-angle", o.max_angle_rad, 1e-6, 3.2,
+               "Largest angle of a right pose to the truth, rad")
+      .bounded("max-distance", o.max_distance_m, 1e-9, 100.0,
+               "Largest distance of a right pose from the truth, m")
+      .bounded("max-mspd", o.max_mspd_px, 0.01, 10000.0, "Largest MSPD of a right pose, px")
+      .bounded("max-estimates", request.most_estimates, 1, 1000000,
+               "Estimates of an image that count for AP, best scores first. BOP: 100, of XYZ-IBD "
+               "200");
+}
+
 }  // namespace
 
 void add_eval(CLI::App& app, int& exit_code) {
@@ -324,20 +341,7 @@ void add_eval(CLI::App& app, int& exit_code) {
   verb->add_option("--object-id", request->models.object_ids,
                    "BOP ids of the models; default: the number at the end of their names");
   verb->add_option("--json", request->json_file, "Also write the figures here")->type_name("FILE");
-  RecallOptions& o = request->recall;
-  OptionTable(*verb, "Evaluation", OptionLevel::Expert)
-      .bounded("min-visible", o.min_visible_fraction, 0.0, 1.0,
-               "Truths with a smaller visible fraction are ignored")
-      .bounded("min-score", o.min_score, -std::numeric_limits<double>::infinity(), 1e6,
-               "Estimates with a lower score are dropped")
-      .bounded("max-angle", o.max_angle_rad, 1e-6, 3.2,
-               "Largest angle of a right pose to the truth, rad")
-      .bounded("max-distance", o.max_distance_m, 1e-9, 100.0,
-               "Largest distance of a right pose from the truth, m")
-      .bounded("max-mspd", o.max_mspd_px, 0.01, 10000.0, "Largest MSPD of a right pose, px")
-      .bounded("max-estimates", request->most_estimates, 1, 1000000,
-               "Estimates of an image that count for AP, best scores first. BOP: 100, of XYZ-IBD "
-               "200");
+  add_options(*verb, *request);
   verb->callback([request, &exit_code] {
     run_eval(*request);
     exit_code = exit_done;
