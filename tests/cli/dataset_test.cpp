@@ -117,7 +117,7 @@ TEST(Dataset, OfSeveralCamerasIsRegisteredAndExplained) {
 }
 
 TEST(Dataset, IsTakenFromItsRootWithItsModels) {
-  const SmallDataset set({{"", "gray"}}, "test_primesense", "models_cad");
+  const SmallDataset set(Views{{"", "gray"}}, "test_primesense", "models_cad");
   expect_refused(set.detect(set.root), {"test_primesense", "--split"});
   expect_refused(set.detect(set.root, {"--split", "val"}), {"--split", "val", "test_primesense"});
   expect_done(run_program(set.detect(set.root, {"--split", "test"})));
@@ -133,7 +133,7 @@ TEST(Dataset, IsTakenFromItsRootWithItsModels) {
 
 // Two images; the list of 2024 names one, that of 2019 another object.
 TEST(Dataset, IsRestrictedToTargets) {
-  const SmallDataset set({{"", "gray"}, {"", "gray", ".bmp"}});
+  const SmallDataset set(Views{{"", "gray"}, {"", "gray", ".bmp"}});
   const TemporaryFolder& folder = set.made.folder;
   const fs::path of_2024 = folder.write("t24.json", R"([{"scene_id": 3, "im_id": 1}])");
   const auto detect = [&](const fs::path& targets) {
@@ -156,7 +156,7 @@ TEST(Dataset, IsRestrictedToTargets) {
 }
 
 TEST(Dataset, ReportsAsManyInstancesAsTheTargetsSay) {
-  const SmallDataset set({{"", "gray"}, {"", "gray"}});
+  const SmallDataset set(Views{{"", "gray"}, {"", "gray"}});
   const fs::path targets = set.made.folder.write(
       "t19.json", R"([{"scene_id": 3, "im_id": 0, "obj_id": 1, "inst_count": 1},
                       {"scene_id": 3, "im_id": 1, "obj_id": 1, "inst_count": 0}])");
@@ -170,7 +170,7 @@ TEST(Dataset, ReportsAsManyInstancesAsTheTargetsSay) {
 
 // The groups of 2025 are worked on by themselves.
 TEST(Dataset, IsSearchedJointlyInTheGroupsOfTargets) {
-  const SmallDataset set({{"cam1", "rgb_cam1"}, {"cam1", "rgb_cam1"}, {"cam2", "rgb_cam2"}});
+  const SmallDataset set(Views{{"cam1", "rgb_cam1"}, {"cam1", "rgb_cam1"}, {"cam2", "rgb_cam2"}});
   const fs::path targets = set.made.folder.write(
       "t25.json",
       R"([{"scene_id": 3, "im_id": [["cam1", 0], ["cam2", 0]]}, {"scene_id": 3, "im_id": [["cam1", 1]]}])");
@@ -186,7 +186,7 @@ TEST(Dataset, IsSearchedJointlyInTheGroupsOfTargets) {
 }
 
 TEST(Dataset, IsSearchedWithoutItsTruth) {
-  const SmallDataset set({{"", "gray"}});
+  const SmallDataset set(Views{{"", "gray"}});
   std::ofstream(set.scene / "scene_gt_info.json") << R"({"0": [{"visib_fract": null}]})";
   expect_done(run_program(set.detect(set.scene, set.model())));
   expect_refused(joined({{"eval", set.out / "results.csv", set.scene}, set.model()}),

@@ -14,11 +14,13 @@ struct CameraOfView {
   std::string ending = ".png";
 };
 
+using Views = std::vector<CameraOfView>;
+
 // DATASET/models and DATASET/test/000003.
 class SmallDataset {
  public:
-  // View i of the scene is image `image_id` of camera i, or, of the same camera, image i.
-  explicit SmallDataset(const std::vector<CameraOfView>& cameras, const std::string& split = "test",
+  // Camera i saw view i of the scene. The images of each camera are numbered from 0.
+  explicit SmallDataset(const Views& cameras, const std::string& split = "test",
                         const std::string& models = "models")
       : made(static_cast<int>(cameras.size())) {
     scene = root / split / "000003";
@@ -57,7 +59,7 @@ class SmallDataset {
 };
 
 inline SmallDataset industrial_set() {
-  return SmallDataset({{"cam1", "rgb_cam1"}, {"cam2", "gray_cam2", ".tif"}});
+  return SmallDataset(Views{{"cam1", "rgb_cam1"}, {"cam2", "gray_cam2", ".tif"}});
 }
 
 // The result nearest to the truth, m.
