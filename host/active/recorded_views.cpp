@@ -7,6 +7,7 @@
 #include "host/io/bop.h"
 #include "host/io/files.h"
 #include "host/io/image.h"
+#include "host/io/rotations.h"
 #include "host/io/text_tokens.h"
 #include "kernels/error.h"
 
@@ -33,7 +34,7 @@ std::vector<RecordedViews::Recording> bop_recordings(const BopScene& scene, Came
   return recordings;
 }
 
-Se3 read_matrix(const fs::path& file) {
+Se3 read_matrix(const fs::path& file, ProjectedRotations& projected) {
   const std::string text = read_file(file);
   TextTokens tokens(text, file.string());
   Eigen::Matrix4d matrix;
@@ -42,12 +43,12 @@ Se3 read_matrix(const fs::path& file) {
     throw InputError(file.string(), "camera pose",
                      "a matrix with another last row than 0 0 0 1 or not finite",
                      "a rigid transform");
-  try {
-    return se3_from_matrix(matrix.topLeftCorner<3, 3>(), matrix.topRightCorner<3, 1>());
-  } catch (const InputError&) {
+  const std::optional<Se3> pose =
+      nearest_rigid(matrix.topLeftCorner<3, 3>(), matrix.topRightCorner<3, 1>(), projected);
+  if (!pose)
     throw InputError(file.string(), "camera pose", "a matrix that is no rotation",
-                     "R'R = I and det R = +1 to 1e-3");
-  }
+                     EXPECTED_ROTATION);
+  return *pose;
 }
 
 std::string digits(int number, std::size_t width) {
@@ -67,9 +68,11 @@ std::vector<RecordedViews::Recording> visp_recordings(const fs::path& folder) {
       poses.emplace(number, entry.path());
   }
   std::vector<RecordedViews::Recording> recordings;
+  ProjectedRotations projected;
   for (const auto& [number, pose] : poses)
-    recordings.push_back(
-        {folder / "Images" / ("Image_" + digits(number, 4) + ".pgm"), read_matrix(pose)});
+    recordings.push_back({folder / "Images" / ("Image_" + digits(number, 4) + ".pgm"),
+                          read_matrix(pose, projected)});
+  warn_of_projected(projected, (folder / "CameraPose").string());
   return recordings;
 }
 
@@ -107,11 +110,12 @@ Shot RecordedViews::acquire(int view) {
   }
 }
 
-RecordedViews load_recorded_views(const fs::path& folder, const std::optional<Camera>& given) {
+RecordedViews load_recorded_views(const fs::path& folder, const std::optional<Camera>& given,
+                                  const std::string& camera_name) {
   Camera camera = given.value_or(Camera{});
   if (is_bop_scene(folder)) {
     const std::vector<RecordedViews::Recording> recordings =
-        bop_recordings(load_bop_scene(folder), camera);
+        bop_recordings(load_bop_images(folder, camera_name), camera);
     return {camera, recordings};
   }
   if (!fs::is_directory(folder / "CameraPose"))

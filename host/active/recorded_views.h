@@ -39,10 +39,11 @@ class RecordedViews : public ViewSource {
 //                 camera_from_object; the object frame is the world (Debian package
 //                 visp-images-data)
 //
-// `camera` replaces the camera of a BOP scene; the other form needs it. InputError naming folder or
-// file: neither form, no camera, a view without world pose, images of different cameras, a matrix
-// that is not rigid.
+// `camera` replaces the camera of a BOP scene; the other form needs it. `camera_name` chooses one
+// of a BOP scene with several cameras. InputError naming folder or file: neither form, no camera, a
+// view without world pose, images of different cameras, a matrix that is not rigid.
 RecordedViews load_recorded_views(const std::filesystem::path& folder,
-                                  const std::optional<Camera>& camera = {});
+                                  const std::optional<Camera>& camera = {},
+                                  const std::string& camera_name = "");
 
 }  // namespace edgescout

@@ -153,10 +153,12 @@ void save_views(std::span<const Se3> camera_from_world, const std::filesystem::p
 std::vector<Se3> load_views(const std::filesystem::path& file) {
   const nlohmann::json content = read_json(file);
   std::vector<Se3> views;
+  ProjectedRotations projected;
   for (const JsonField& entry : JsonField{content, file.string(), ""}.elements()) {
     const JsonField pose = entry.at("camera_from_world");
-    views.push_back(pose_from(pose.at("R"), pose.at("t"), 1.0));
+    views.push_back(pose_from(pose.at("R"), pose.at("t"), 1.0, projected));
   }
+  warn_of_projected(projected, file.string());
   validate_views(views, file.string());
   return views;
 }

@@ -9,6 +9,7 @@
 
 #include "host/cli/progress.h"
 #include "host/cli/view_results.h"
+#include "host/cli/wanted_objects.h"
 #include "host/core/log.h"
 #include "host/core/stopwatch.h"
 #include "host/io/files.h"
@@ -115,7 +116,12 @@ class Detector {
  public:
   Detector(std::span<const InputImage> images, std::span<const TemplateSet> sets, Backend& backend,
            const BatchOptions& options, const BatchSettings& settings)
-      : images_(images), sets_(sets), backend_(backend), options_(options), settings_(settings) {
+      : images_(images),
+        sets_(sets),
+        wanted_(sets),
+        backend_(backend),
+        options_(options),
+        settings_(settings) {
     for (const TemplateSet& set : sets) models_.push_back(set.model);
     summary.images = static_cast<int>(images.size());
   }
@@ -170,9 +176,12 @@ class Detector {
       views.back().camera_from_world = group.images[i]->camera_from_world.value_or(Se3{});
     }
     try {
+      const std::span<const TemplateSet> sets = wanted_.sets_for(group.images);
+      if (sets.empty()) return Detections{{}, stages_of(prepared)};
       Detections found = options_.joint
-                             ? detect_jointly(views, sets_, backend_, options_.pipeline)
-                             : detect_objects(views[0], sets_, backend_, options_.pipeline);
+                             ? detect_jointly(views, sets, backend_, options_.pipeline)
+                             : detect_objects(views[0], sets, backend_, options_.pipeline);
+      wanted_.keep_most_probable(group.images, found.detections);
       const std::vector<StageSeconds> before = stages_of(prepared);
       found.stages.insert(found.stages.begin(), before.begin(), before.end());
       return found;
@@ -222,6 +231,7 @@ class Detector {
 
   std::span<const InputImage> images_;  // of the whole batch
   std::span<const TemplateSet> sets_;
+  WantedObjects wanted_;
   Backend& backend_;
   const BatchOptions& options_;
   const BatchSettings& settings_;

@@ -30,6 +30,30 @@ std::optional<bool> holds_result(const fs::path& file) {
   }
 }
 
+// Of scenes with several.
+std::set<std::string> cameras_of(std::span<const InputImage> images) {
+  std::set<std::string> cameras;
+  for (const InputImage& image : images)
+    if (!image.camera_name.empty()) cameras.insert(image.camera_name);
+  return cameras;
+}
+
+fs::path csv_of(const fs::path& out, const std::string& camera) {
+  return out / ("results_" + camera + ".csv");
+}
+
+// In BOP's own format, which has no place for the name of a camera: one file for each.
+void write_csv_of_cameras(const std::vector<BopResult>& rows, const std::set<std::string>& cameras,
+                          const fs::path& out) {
+  for (const std::string& camera : cameras) {
+    std::vector<BopResult> of_camera;
+    for (const BopResult& row : rows)
+      if (row.camera_name == camera) of_camera.push_back(row);
+    for (BopResult& row : of_camera) row.camera_name.clear();
+    save_bop_results(of_camera, csv_of(out, camera));
+  }
+}
+
 }  // namespace
 
 fs::path json_of(const fs::path& out, const InputImage& input) {
@@ -90,6 +114,7 @@ void require_no_other_results(const fs::path& out, std::span<const InputImage> i
 
 void start_anew(const fs::path& out, std::span<const InputImage> images) {
   std::vector<fs::path> files{out / "results.csv", out / "summary.json"};
+  for (const std::string& camera : cameras_of(images)) files.push_back(csv_of(out, camera));
   for (const InputImage& image : images) {
     files.push_back(json_of(out, image));
     files.push_back(overlay_of(out, image));
@@ -112,9 +137,11 @@ void write_csv(std::span<const InputImage> images, BatchSummary& summary, const 
     for (const Detection& d : result.detections)
       rows.push_back({result.scene_id, result.image_id,
                       result.objects[static_cast<std::size_t>(d.object)].id, d.probability,
-                      result.camera_from_world.value_or(Se3{}) * d.world_from_object, seconds});
+                      result.camera_from_world.value_or(Se3{}) * d.world_from_object, seconds,
+                      result.camera_name});
   }
   save_bop_results(rows, out / "results.csv");
+  write_csv_of_cameras(rows, cameras_of(images), out);
   summary.poses = static_cast<int>(rows.size());
 }
 

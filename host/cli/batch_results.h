@@ -53,7 +53,8 @@ void require_no_other_results(const std::filesystem::path& out, std::span<const 
 // require_no_other_results before.
 void start_anew(const std::filesystem::path& out, std::span<const InputImage> images);
 
-// Writes results.csv from the JSON files of the finished images. JSON files that an earlier run
+// Writes results.csv from the JSON files of the finished images; of scenes with several cameras
+// also results_CAMERA.csv. JSON files that an earlier run
 // left for other images are not used. Counts in the summary the rows and the poses out of sight.
 void write_csv(std::span<const InputImage> images, BatchSummary& summary,
                const std::filesystem::path& out);

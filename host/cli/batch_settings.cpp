@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "host/core/lens.h"
 #include "host/io/binary_file.h"
@@ -52,6 +53,16 @@ std::string text_of(const TemplateOptions& o) {
       o.distance_ratio);
 }
 
+// Objects, each with the largest number of its instances.
+std::string text_of(const std::map<int, int>& wanted) {
+  std::vector<std::string> objects;
+  for (const auto& [id, instances] : wanted)
+    objects.push_back(instances == std::numeric_limits<int>::max()
+                          ? fmt::format("object {}", id)
+                          : fmt::format("object {} x {}", id, instances));
+  return fmt::format("{}", fmt::join(objects, ", "));
+}
+
 std::string text_of_checksum(std::uint64_t sum) { return fmt::format("checksum {:016x}", sum); }
 
 std::string value_in(const Settings& settings, const std::string& name) {
@@ -83,6 +94,7 @@ Settings BatchSettings::of(const InputImage& input, const std::string& views) co
   Settings settings = common;
   settings.emplace_back("views", views);
   settings.emplace_back("camera", text_of(camera ? camera : input.camera));
+  if (!input.wanted.empty()) settings.emplace_back("targets", text_of(input.wanted));
   if (input.camera_from_world)
     settings.emplace_back("camera in the world", text_of(*input.camera_from_world));
   return settings;

@@ -20,6 +20,7 @@ namespace {
 struct DetectRequest {
   std::vector<std::string> inputs;
   ModelArguments models;
+  DatasetArguments dataset;
   TemplateOptions templates;
   std::string device = "auto", out;
   bool no_overlays = false;
@@ -53,7 +54,9 @@ int detect(DetectRequest& request) {
   request.batch.pipeline.validate();
   request.templates.validate();
   const std::unique_ptr<Backend> backend = backend_of(request.device);
-  const std::vector<InputImage> images = list_images(request.inputs, request.batch.camera);
+  take_models_of_dataset(request.models, request.inputs, request.dataset, false);
+  const std::vector<InputImage> images =
+      list_images(request.inputs, request.batch.camera, request.dataset);
   const LoadedTemplates templates = load_templates_for(request, images, *backend);
   request.batch.templates = templates.origins;
   log(LogLevel::Info, fmt::format("{} images, {} models, on {}", images.size(),
@@ -70,6 +73,7 @@ int detect(DetectRequest& request) {
 
 void add_files(CLI::App& verb, DetectRequest& request) {
   add_images(verb, request.inputs);
+  add_dataset_arguments(verb, request.dataset);
   add_model_arguments(verb, request.models);
   add_camera(verb, request.batch.camera);
   add_results_folder(verb, request.out);

@@ -9,12 +9,14 @@
 #include <set>
 
 #include "host/cli/common_arguments.h"
+#include "host/cli/eval_targets.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/inputs.h"
 #include "host/cli/option_table.h"
 #include "host/cli/symmetry_arguments.h"
 #include "host/cli/verbs.h"
 #include "host/core/log.h"
+#include "host/eval/average_precision.h"
 #include "host/eval/recall.h"
 #include "host/io/files.h"
 #include "host/io/image.h"
@@ -31,31 +33,60 @@ struct EvalRequest {
   std::string results, json_file;
   std::vector<std::string> scenes;
   ModelArguments models;
+  DatasetArguments dataset;
   RecallOptions recall;
+  int most_estimates = 100;
 };
 
-// Each argument is a scene or a folder of scenes.
-std::vector<BopScene> load_scenes(const std::vector<std::string>& arguments) {
-  std::vector<BopScene> scenes;
-  for (const std::string& argument : arguments) {
-    const std::size_t before = scenes.size();
-    if (is_bop_scene(argument)) {
-      scenes.push_back(load_bop_scene(argument));
-    } else if (fs::is_directory(argument)) {
-      for (const fs::directory_entry& entry : fs::directory_iterator(argument))
-        if (is_bop_scene(entry.path())) scenes.push_back(load_bop_scene(entry.path()));
+// Each argument is a scene, a folder of scenes, or with a split a dataset.
+std::vector<fs::path> scene_folders(const EvalRequest& request) {
+  std::vector<fs::path> folders;
+  for (const std::string& argument : request.scenes) {
+    const fs::path place = folder_of_split(argument, request.dataset);
+    const std::size_t before = folders.size();
+    if (is_bop_scene(place)) {
+      folders.push_back(place);
+    } else if (fs::is_directory(place)) {
+      for (const fs::directory_entry& entry : fs::directory_iterator(place))
+        if (is_bop_scene(entry.path())) folders.push_back(entry.path());
     }
-    if (scenes.size() == before)
-      throw InputError(argument, "scene", "no scene_camera.json",
-                       "a BOP scene or a folder of BOP scenes");
+    if (folders.size() == before)
+      throw InputError(place.string(), "scene", "no scene_camera.json, " + splits_in(place),
+                       "a BOP scene, a folder of BOP scenes, or --split for a dataset");
   }
-  std::ranges::sort(scenes, {}, &BopScene::scene_id);
+  return folders;
+}
+
+// One for each camera of a scene.
+std::vector<BopScene> load_scenes(const EvalRequest& request) {
+  std::vector<BopScene> scenes;
+  SceneLoader loader(request.dataset, true);
+  for (const fs::path& folder : scene_folders(request))
+    for (BopScene& scene : loader.load(folder)) scenes.push_back(std::move(scene));
+  loader.report();
+  const auto place = [](const BopScene& scene) {
+    return std::pair(scene.scene_id, scene.camera_name);
+  };
+  std::ranges::sort(scenes, {}, place);
   for (std::size_t i = 1; i < scenes.size(); ++i)
-    if (scenes[i].scene_id == scenes[i - 1].scene_id)
+    if (place(scenes[i]) == place(scenes[i - 1]))
       throw InputError(scenes[i].folder.string(), "scene id",
                        std::to_string(scenes[i].scene_id) + " twice",
                        "scenes of different numbers");
   return scenes;
+}
+
+// A result that names no camera can belong to any of the scene's.
+void require_cameras(const std::vector<BopScene>& scenes, std::span<const BopResult> results,
+                     const std::string& file) {
+  std::map<int, std::vector<std::string>> cameras;
+  for (const BopScene& scene : scenes) cameras[scene.scene_id].push_back(scene.camera_name);
+  for (const BopResult& result : results)
+    if (const auto scene = cameras.find(result.scene_id);
+        scene != cameras.end() && scene->second.size() > 1 && result.camera_name.empty())
+      throw InputError(file, "camera", "none",
+                       fmt::format("--cameras with that of the results, one of {}",
+                                   fmt::join(scene->second, ", ")));
 }
 
 // The size of BOP images is only known from the images.
@@ -70,36 +101,60 @@ void read_image_sizes(BopScene& scene) {
 // Checked here, since the evaluation does not know the file's name.
 void require_images(const BopScene& scene, std::span<const BopResult> results,
                     const std::string& file) {
+  if (scene.truth.empty())
+    throw InputError(bop_file(scene.folder, "scene_gt", scene.camera_name).string(), "ground truth",
+                     "none", "the scene's true poses");
   std::set<int> ids;
   for (const BopImage& image : scene.images) ids.insert(image.image_id);
   for (const BopResult& result : results)
-    if (result.scene_id == scene.scene_id && !ids.contains(result.image_id))
+    if (is_of(scene, result) && !ids.contains(result.image_id))
       throw InputError(file, "im_id", std::to_string(result.image_id),
                        "an image of scene " + std::to_string(scene.scene_id));
 }
 
+// The results of the scene's images.
+std::vector<BopResult> results_in(const BopScene& scene, std::span<const BopResult> results) {
+  std::set<int> ids;
+  for (const BopImage& image : scene.images) ids.insert(image.image_id);
+  std::vector<BopResult> in_scene;
+  for (const BopResult& result : results)
+    if (is_of(scene, result) && ids.contains(result.image_id)) in_scene.push_back(result);
+  return in_scene;
+}
+
 std::vector<EvaluationImage> load_images(const EvalRequest& request,
                                          std::span<const BopResult> results) {
-  std::vector<BopScene> scenes = load_scenes(request.scenes);
+  std::vector<BopScene> scenes = load_scenes(request);
+  require_cameras(scenes, results, request.results);
+  const EvalTargets targets(request.dataset.targets);
   std::vector<EvaluationImage> images;
-  for (BopScene& scene : scenes) {
-    if (scene.truth.empty())
-      throw InputError((scene.folder / "scene_gt.json").string(), "ground truth", "none",
-                       "the scene's true poses");
-    require_images(scene, results, request.results);
-    read_image_sizes(scene);
-    for (EvaluationImage& image : evaluation_images(scene, results))
-      images.push_back(std::move(image));
-  }
   std::size_t used = 0;
-  for (const EvaluationImage& image : images) used += image.estimates.size();
+  for (BopScene& scene : scenes) {
+    require_images(scene, results, request.results);
+    targets.restrict(scene);
+    read_image_sizes(scene);
+    std::size_t i = 0;
+    for (EvaluationImage& image : evaluation_images(scene, results_in(scene, results))) {
+      image.targets = targets.objects_of(scene, scene.images[i++].image_id);
+      used += image.estimates.size();
+      images.push_back(std::move(image));
+    }
+  }
+  if (images.empty())
+    throw InputError(request.dataset.targets, "targets", "none in the scenes given",
+                     "at least one");
   if (used < results.size())
-    log(LogLevel::Warning, fmt::format("{}: {} of {} results are of scenes not given here",
-                                       request.results, results.size() - used, results.size()));
+    log(LogLevel::Warning,
+        fmt::format("{}: {} of {} results are of scenes, cameras or images not evaluated here",
+                    request.results, results.size() - used, results.size()));
   return images;
 }
 
-using Row = std::pair<std::string, Recalls>;
+struct Row {
+  std::string object;
+  Recalls recalls;
+  AveragePrecision precision;
+};
 
 struct Evaluation {
   std::vector<Row> rows;   // by object, "all" last
@@ -137,6 +192,9 @@ std::set<int> leave_out_others(std::vector<EvaluationImage>& images,
 
 Evaluation evaluate_objects(const EvalRequest& request) {
   request.recall.validate();
+  if (request.models.models.empty())
+    throw InputError("command line", "--model", "none",
+                     "model files, or --split for a dataset with models");
   std::map<int, Object> objects;
   for (Object& object : load_objects(request.models, EVALUATION_SYMMETRY_STEPS))
     objects[object.id] = std::move(object);
@@ -144,13 +202,22 @@ Evaluation evaluate_objects(const EvalRequest& request) {
   std::vector<EvaluationImage> images = load_images(request, results);
   Evaluation evaluation;
   evaluation.left_out = leave_out_others(images, objects, request);
-  for (const auto& [id, recalls] : evaluate_by_object(images, objects, request.recall))
-    evaluation.rows.emplace_back(std::to_string(id), recalls);
-  evaluation.rows.emplace_back("all", evaluate(images, objects, request.recall));
+  const std::map<int, AveragePrecision> precisions =
+      average_precisions(images, objects, request.recall, request.most_estimates);
+  for (const auto& [id, recalls] : evaluate_by_object(images, objects, request.recall)) {
+    const auto precision = precisions.find(id);
+    evaluation.rows.push_back(
+        {std::to_string(id), recalls,
+         precision == precisions.end() ? AveragePrecision{} : precision->second});
+  }
+  evaluation.rows.push_back(
+      {"all", evaluate(images, objects, request.recall), mean_over_objects(precisions)});
   return evaluation;
 }
 
-nlohmann::ordered_json row_json(const Recalls& r) {
+nlohmann::ordered_json row_json(const Row& row) {
+  const Recalls& r = row.recalls;
+  const AveragePrecision& p = row.precision;
   return {{"images", r.images},
           {"truths", r.truths},
           {"estimates", r.estimates},
@@ -159,6 +226,11 @@ nlohmann::ordered_json row_json(const Recalls& r) {
           {"ar_mspd", r.ar_mspd},
           {"recalls_mssd", r.mssd},
           {"recalls_mspd", r.mspd},
+          {"ap_mssd_mspd", 0.5 * (p.ap_mssd + p.ap_mspd)},
+          {"ap_mssd", p.ap_mssd},
+          {"ap_mspd", p.ap_mspd},
+          {"precisions_mssd", p.mssd},
+          {"precisions_mspd", p.mspd},
           {"recall_pose_raw", r.recall_raw},
           {"recall_pose_symmetric", r.recall_symmetric},
           {"recall_mspd_below_max", r.recall_mspd},
@@ -174,6 +246,9 @@ void save_json(const Evaluation& evaluation, const EvalRequest& request) {
   const RecallOptions& o = request.recall;
   nlohmann::ordered_json root{{"results", request.results},
                               {"scenes", request.scenes},
+                              {"split", request.dataset.split},
+                              {"cameras", request.dataset.cameras},
+                              {"targets", request.dataset.targets},
                               {"min_visible", o.min_visible_fraction},
                               {"min_score", o.min_score},
                               {"max_angle_rad", o.max_angle_rad},
@@ -181,8 +256,8 @@ void save_json(const Evaluation& evaluation, const EvalRequest& request) {
                               {"max_mspd_px", o.max_mspd_px},
                               {"symmetries", states_symmetries(request.models)},
                               {"objects_left_out", evaluation.left_out}};
-  for (const auto& [object, recalls] : evaluation.rows)
-    (object == "all" ? root["all"] : root["objects"][object]) = row_json(recalls);
+  for (const Row& row : evaluation.rows)
+    (row.object == "all" ? root["all"] : root["objects"][row.object]) = row_json(row);
   write_file_atomically(request.json_file, json_text(root));
 }
 
@@ -204,26 +279,47 @@ void print_table(const std::vector<Row>& rows, const RecallOptions& o) {
                                     : fmt::format("estimates of score {} or more", o.min_score);
   std::cout << fmt::format(
       "{} images; truths seen by at least {:.0f} %; {}\n"
-      "AR(MSSD,MSPD): mean of BOP's average recalls MSSD and MSPD; BOP's own AR has VSD in it, "
-      "which needs depth\n"
+      "AR: mean of BOP's average recalls MSSD and MSPD; BOP's own AR has VSD in it, which needs "
+      "depth\n"
+      "AP: mean of BOP's average precisions (2024) MSSD and MSPD; of all: mean over the objects\n"
       "pose: below {} rad and {} mm; mspd: below {} px; fp: estimates that match no truth so, an "
       "image\n\n"
-      "{:>6} {:>7} {:>9} {:>13} {:>7} {:>7} {:>9} {:>9} {:>7} {:>7}\n",
-      rows.back().second.images, 100 * o.min_visible_fraction, estimates, o.max_angle_rad,
-      1000 * o.max_distance_m, o.max_mspd_px, "object", "truths", "estimates", "AR(MSSD,MSPD)",
-      "MSSD", "MSPD", "pose", "pose/sym", "mspd", "fp");
-  for (const auto& [object, r] : rows)
+      "{:>6}{:>7}{:>10}{:>7}{:>6}{:>6}{:>7}{:>6}{:>6}{:>7}{:>9}{:>6}{:>6}\n",
+      rows.back().recalls.images, 100 * o.min_visible_fraction, estimates, o.max_angle_rad,
+      1000 * o.max_distance_m, o.max_mspd_px, "object", "truths", "estimates", "AR", "MSSD", "MSPD",
+      "AP", "MSSD", "MSPD", "pose", "pose/sym", "mspd", "fp");
+  for (const auto& [object, r, p] : rows)
     std::cout << fmt::format(
-        "{:>6} {:>7} {:>9} {:>13.3f} {:>7.3f} {:>7.3f} {:>9.3f} {:>9.3f} {:>7.3f} {:>7.2f}\n",
+        "{:>6}{:>7}{:>10}{:>7.3f}{:>6.3f}{:>6.3f}{:>7.3f}{:>6.3f}{:>6.3f}{:>7.3f}{:>9.3f}"
+        "{:>6.3f}{:>6.2f}\n",
         object, r.truths, r.estimates, 0.5 * (r.ar_mssd + r.ar_mspd), r.ar_mssd, r.ar_mspd,
-        r.recall_raw, r.recall_symmetric, r.recall_mspd, r.false_positives_per_image);
+        0.5 * (p.ap_mssd + p.ap_mspd), p.ap_mssd, p.ap_mspd, r.recall_raw, r.recall_symmetric,
+        r.recall_mspd, r.false_positives_per_image);
 }
 
-void run_eval(const EvalRequest& request) {
+void run_eval(EvalRequest& request) {
+  take_models_of_dataset(request.models, request.scenes, request.dataset, true);
   const Evaluation evaluation = evaluate_objects(request);
   if (!request.json_file.empty()) save_json(evaluation, request);
   print_limits(evaluation, request);
   print_table(evaluation.rows, request.recall);
+}
+
+void add_options(CLI::App& verb, EvalRequest& request) {
+  RecallOptions& o = request.recall;
+  OptionTable(verb, "Evaluation", OptionLevel::Expert)
+      .bounded("min-visible", o.min_visible_fraction, 0.0, 1.0,
+               "Truths with a smaller visible fraction are ignored")
+      .bounded("min-score", o.min_score, -std::numeric_limits<double>::infinity(), 1e6,
+               "Estimates with a lower score are dropped")
+      .bounded("max-angle", o.max_angle_rad, 1e-6, 3.2,
+               "Largest angle of a right pose to the truth, rad")
+      .bounded("max-distance", o.max_distance_m, 1e-9, 100.0,
+               "Largest distance of a right pose from the truth, m")
+      .bounded("max-mspd", o.max_mspd_px, 0.01, 10000.0, "Largest MSPD of a right pose, px")
+      .bounded("max-estimates", request.most_estimates, 1, 1000000,
+               "Estimates of an image that count for AP, best scores first. BOP: 100, of XYZ-IBD "
+               "200");
 }
 
 }  // namespace
@@ -233,13 +329,14 @@ void add_eval(CLI::App& app, int& exit_code) {
       app.add_subcommand("eval", "Compare a BOP results CSV with the ground truth of BOP scenes");
   auto request = std::make_shared<EvalRequest>();
   verb->add_option("results", request->results, "BOP results CSV")->required()->type_name("FILE");
-  verb->add_option("scenes", request->scenes, "BOP scenes with scene_gt.json, or folders of them")
+  verb->add_option("scenes", request->scenes,
+                   "BOP scenes with scene_gt.json, folders of them, or datasets with --split")
       ->required()
       ->type_name("DIR");
+  add_dataset_arguments(*verb, request->dataset);
   verb->add_option(
           "--model", request->models.models,
           MESH_FORMATS + " files of the objects to evaluate; the scenes' others are left out")
-      ->required()
       ->type_name("FILE");
   verb->add_option("--unit", request->models.unit, UNIT_HELP);
   verb->add_option(
@@ -251,17 +348,7 @@ void add_eval(CLI::App& app, int& exit_code) {
                    "BOP ids of the models; default: the number at the end of their names");
   add_symmetry(*verb, request->models.symmetry);
   verb->add_option("--json", request->json_file, "Also write the figures here")->type_name("FILE");
-  RecallOptions& o = request->recall;
-  OptionTable(*verb, "Evaluation", OptionLevel::Expert)
-      .bounded("min-visible", o.min_visible_fraction, 0.0, 1.0,
-               "Truths with a smaller visible fraction are ignored")
-      .bounded("min-score", o.min_score, -std::numeric_limits<double>::infinity(), 1e6,
-               "Estimates with a lower score are dropped")
-      .bounded("max-angle", o.max_angle_rad, 1e-6, 3.2,
-               "Largest angle of a right pose to the truth, rad")
-      .bounded("max-distance", o.max_distance_m, 1e-9, 100.0,
-               "Largest distance of a right pose from the truth, m")
-      .bounded("max-mspd", o.max_mspd_px, 0.01, 10000.0, "Largest MSPD of a right pose, px");
+  add_options(*verb, *request);
   verb->callback([request, &exit_code] {
     run_eval(*request);
     exit_code = exit_done;

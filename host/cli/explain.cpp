@@ -16,6 +16,7 @@
 #include "host/io/files.h"
 #include "host/io/image.h"
 #include "host/io/json_text.h"
+#include "host/io/rotations.h"
 
 namespace edgescout {
 
@@ -26,6 +27,7 @@ namespace fs = std::filesystem;
 struct ExplainRequest {
   std::vector<std::string> inputs;
   ModelArguments models;
+  DatasetArguments dataset;
   TemplateOptions templates;
   std::vector<double> pose;  // R by row, t
   std::string poses;         // file
@@ -57,8 +59,23 @@ StartPose pose_of_command_line(const ExplainRequest& request, std::span<const In
   StartPose pose;
   pose.image_id = images[0].image_id;
   pose.object_id = models[0].object_id;
-  pose.camera_from_object = se3_from_matrix(rotation, {n[9], n[10], n[11]});
+  ProjectedRotations projected;
+  const std::optional<Se3> given = nearest_rigid(rotation, {n[9], n[10], n[11]}, projected);
+  if (!given)
+    throw InputError("command line", "--pose", "a matrix that is no rotation", EXPECTED_ROTATION);
+  warn_of_projected(projected, "--pose");
+  pose.camera_from_object = *given;
   return pose;
+}
+
+BopScene scene_with_truth(const InputImage& view) {
+  BopScene scene;
+  if (!view.scene_folder.empty()) scene = load_bop_scene(view.scene_folder, view.camera_name);
+  if (scene.truth.empty())
+    throw InputError(
+        view.file.string(), "ground truth", "none",
+        "an image of a BOP scene with " + bop_file("", "scene_gt", view.camera_name).string());
+  return scene;
 }
 
 // Objects without a model are left out.
@@ -66,18 +83,17 @@ std::vector<StartPose> true_poses(std::span<const InputImage> images,
                                   std::span<const RegisterModel> models, double min_visible) {
   std::vector<StartPose> poses;
   for (const std::span<const InputImage> views : groups_of(images, true)) {
-    const fs::path& folder = views[0].scene_folder;
-    const auto truth = folder.empty() ? decltype(BopScene::truth)() : load_bop_scene(folder).truth;
-    if (truth.empty())
-      throw InputError(views[0].file.string(), "ground truth", "none",
-                       "an image of a BOP scene with scene_gt.json");
+    std::map<std::string, BopScene> scenes;  // by camera
     for (const InputImage& view : views) {
-      const auto in_image = truth.find(view.image_id);
-      if (in_image == truth.end()) continue;
+      BopScene& scene = scenes[view.camera_name];
+      if (scene.images.empty()) scene = scene_with_truth(view);
+      const auto in_image = scene.truth.find(view.image_id);
+      if (in_image == scene.truth.end()) continue;
       for (const BopTruth& t : in_image->second)
         if (t.visible_fraction >= min_visible &&
             std::ranges::count(models, t.object_id, &RegisterModel::object_id) > 0)
-          poses.push_back({view.scene_id, view.image_id, "", t.object_id, t.camera_from_object});
+          poses.push_back({view.scene_id, view.image_id, "", view.camera_name, t.object_id,
+                           t.camera_from_object});
     }
   }
   return poses;
@@ -183,7 +199,9 @@ ExitCode explain(ExplainRequest& request) {
   request.same.validate();
   source_of_poses(request);
   const std::unique_ptr<Backend> backend = make_backend(request.device);
-  const std::vector<InputImage> images = list_images(request.inputs, request.images.calibration);
+  take_models_of_dataset(request.models, request.inputs, request.dataset, false);
+  const std::vector<InputImage> images =
+      list_images(request.inputs, request.images.calibration, request.dataset);
   const KnownModels known = load_models(request.models);
   RegisterOptions& options = request.images;
   options.camera = given_camera(options.calibration, images);
@@ -228,6 +246,7 @@ void add_poses(CLI::App& verb, ExplainRequest& request) {
 
 void add_files(CLI::App& verb, ExplainRequest& request) {
   add_images(verb, request.inputs);
+  add_dataset_arguments(verb, request.dataset);
   add_poses(verb, request);
   add_model_arguments(verb, request.models);
   add_camera(verb, request.images.calibration);

@@ -9,6 +9,7 @@
 
 #include "host/active/camera_pose_check.h"
 #include "host/cli/symmetry_arguments.h"
+#include "host/cli/targets.h"
 #include "host/core/camera_check.h"
 #include "host/core/log.h"
 #include "host/io/camera_file.h"
@@ -40,14 +41,25 @@ std::vector<fs::path> sorted_entries(const fs::path& folder) {
   return entries;
 }
 
-void add_scene(const fs::path& folder, std::vector<InputImage>& images) {
-  const BopScene scene = load_bop_scene(folder);
-  for (const BopImage& image : scene.images)
-    images.push_back({image.file, folder, scene.scene_id, image.image_id, image.camera,
-                      image.camera_from_world,
-                      fmt::format("{:06}_{:06}", scene.scene_id, image.image_id)});
-  if (scene.images.empty())
-    throw InputError((folder / "scene_camera.json").string(), "images", "none", "at least one");
+void add_scene(const fs::path& folder, SceneLoader& loader, std::vector<InputImage>& images) {
+  for (const BopScene& scene : loader.load(folder)) {
+    const std::string& camera = scene.camera_name;
+    for (const BopImage& image : scene.images)
+      images.push_back({image.file,
+                        folder,
+                        scene.scene_id,
+                        image.image_id,
+                        camera,
+                        image.camera,
+                        image.camera_from_world,
+                        fmt::format("{}_{}{}{}", six_digits(scene.scene_id),
+                                    six_digits(image.image_id), camera.empty() ? "" : "_", camera),
+                        0,
+                        {}});
+    if (scene.images.empty())
+      throw InputError(bop_file(folder, "scene_camera", camera).string(), "images", "none",
+                       "at least one");
+  }
 }
 
 void add_file(const fs::path& file, std::vector<InputImage>& images) {
@@ -58,16 +70,22 @@ void add_file(const fs::path& file, std::vector<InputImage>& images) {
   images.push_back(image);
 }
 
-void add_folder(const fs::path& folder, std::vector<InputImage>& images) {
-  if (is_bop_scene(folder)) return add_scene(folder, images);
+void add_folder(const fs::path& folder, SceneLoader& loader, std::vector<InputImage>& images) {
+  if (is_bop_scene(folder)) return add_scene(folder, loader, images);
   const std::size_t before = images.size();
-  for (const fs::path& entry : sorted_entries(folder))
-    if (is_folder(entry) && is_bop_scene(entry)) add_scene(entry, images);
-  if (images.size() > before) return;
-  for (const fs::path& entry : sorted_entries(folder))
+  const std::vector<fs::path> entries = sorted_entries(folder);
+  bool has_scenes = false;
+  for (const fs::path& entry : entries)
+    if (is_folder(entry) && is_bop_scene(entry)) {
+      has_scenes = true;
+      add_scene(entry, loader, images);
+    }
+  if (has_scenes) return;
+  for (const fs::path& entry : entries)
     if (has_image_extension(entry)) add_file(entry, images);
   if (images.size() == before)
-    throw InputError(folder.string(), "folder", "no image and no BOP scene", "at least one");
+    throw InputError(folder.string(), "folder", "no image and " + splits_in(folder),
+                     "an image, a BOP scene, or --split for a dataset");
 }
 
 void make_names_unique(std::vector<InputImage>& images) {
@@ -101,19 +119,23 @@ int id_in_name(const std::string& file, int otherwise) {
 }  // namespace
 
 std::vector<InputImage> list_images(const std::vector<std::string>& arguments,
-                                    const CameraArguments& chosen) {
+                                    const CameraArguments& chosen,
+                                    const DatasetArguments& dataset) {
   std::vector<InputImage> images;
+  SceneLoader loader(dataset, false);
   for (const std::string& argument : arguments) {
-    const fs::path path = fs::path(argument).lexically_normal();
+    const fs::path path = folder_of_split(fs::path(argument).lexically_normal(), dataset);
     std::error_code unknown;
     if (is_folder(path))
-      add_folder(path.has_filename() ? path : path.parent_path(), images);
+      add_folder(path.has_filename() ? path : path.parent_path(), loader, images);
     else if (fs::exists(path, unknown))
       add_file(path, images);
     else
       throw InputError(argument, "input", unknown ? unknown.message() : "nothing of that name",
                        "an image, a folder of images or a BOP scene");
   }
+  loader.report();
+  images = images_of_targets(images, dataset);
   make_names_unique(images);
   for (InputImage& image : images)
     if (image.camera) image.camera->field_of_view_rad = field_of_view_rad(chosen);
@@ -124,7 +146,8 @@ std::vector<std::span<const InputImage>> groups_of(std::span<const InputImage> i
                                                    bool by_scene) {
   std::vector<std::span<const InputImage>> groups;
   for (std::size_t first = 0, i = 1; i <= images.size(); ++i) {
-    if (by_scene && i < images.size() && images[i].scene_folder == images[first].scene_folder)
+    if (by_scene && i < images.size() && images[i].scene_folder == images[first].scene_folder &&
+        images[i].group == images[first].group)
       continue;
     groups.push_back(images.subspan(first, i - first));
     first = i;
@@ -171,7 +194,8 @@ Camera camera_of(const InputImage& image, int width, int height, const GivenCame
   if (!given.camera && !image.camera)
     throw InputError(image.file.string(), "camera", "none", "--camera FILE");
   const std::string source =
-      given.camera ? given.file : (image.scene_folder / "scene_camera.json").string();
+      given.camera ? given.file
+                   : bop_file(image.scene_folder, "scene_camera", image.camera_name).string();
   return naming(image, [&] {
     return camera_for_image(given.camera ? *given.camera : *image.camera, width, height,
                             given.may_scale, source);
@@ -202,6 +226,22 @@ void check_scene(std::span<const InputImage> images, const DistanceRange& search
 std::optional<LengthUnit> unit_of(const std::string& word) {
   if (word.empty()) return {};
   return length_unit(word);
+}
+
+void take_models_of_dataset(ModelArguments& arguments, const std::vector<std::string>& inputs,
+                            const DatasetArguments& dataset, bool to_evaluate) {
+  if (dataset.split.empty() || !arguments.models.empty() || !arguments.templates.empty()) return;
+  std::vector<int> ids = arguments.object_ids;
+  if (ids.empty() && !dataset.targets.empty() && !to_evaluate) {
+    const std::set<int> named = objects_of_targets(dataset.targets);
+    ids.assign(named.begin(), named.end());
+  }
+  const DatasetModels found = models_of_dataset(inputs, ids, to_evaluate);
+  if (found.files.empty()) return;
+  arguments.models = found.files;
+  arguments.object_ids = found.object_ids;
+  arguments.unit = "mm";
+  if (arguments.models_info.empty()) arguments.models_info = found.models_info;
 }
 
 std::vector<Object> load_objects(const ModelArguments& arguments, int continuous_steps) {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "host/cli/dataset.h"
 #include "host/cli/template_cache_arguments.h"
 #include "host/core/types.h"
 #include "host/io/bop.h"
@@ -21,11 +23,16 @@ struct InputImage {
   std::filesystem::path scene_folder;  // of a BOP scene; else empty
   int scene_id = 0;
   int image_id = 0;
+  std::string camera_name;       // of a BOP scene with several cameras; else empty
   std::optional<Camera> camera;  // of a BOP scene; size 0 x 0 until the image is read
   std::optional<Se3> camera_from_world;
-  // The name of its result files, unique in the batch: "000001_000012" in a BOP scene, else the
-  // file's stem (with a number if needed).
+  // The name of its result files, unique in the batch: "000001_000012" in a BOP scene, with
+  // "_cam1" where the scene has several cameras, else the file's stem (with a number if needed).
   std::string name;
+  // By a list of targets. Images of one scene and one group are worked on together. Objects to
+  // search, with the largest number of instances; empty: all.
+  int group = 0;
+  std::map<int, int> wanted;
 };
 
 // What --camera, --camera-name and --field-of-view say.
@@ -35,14 +42,16 @@ struct CameraArguments {
   double field_of_view_deg = 0;  // of undistorted images; 0: they keep the focal length
 };
 
-// Each argument is an image, a BOP scene folder (has scene_camera.json), a folder of such scenes,
-// or a folder of images (png, jpg, jpeg, pgm, ppm, bmp, tif, tiff; sorted by name). The cameras of
-// scenes get the chosen field of view. InputError: an argument is none of these or has no image.
+// Each argument is an image, a BOP scene folder (is_bop_scene), a folder of such scenes, or a
+// folder of images (png, jpg, jpeg, pgm, ppm, bmp, tif, tiff; sorted by name). With a split it is
+// the folder of a dataset. The cameras of scenes get the chosen field of view. No truth is read.
+// InputError: an argument is none of these or has no image.
 std::vector<InputImage> list_images(const std::vector<std::string>& arguments,
-                                    const CameraArguments& chosen = {});
+                                    const CameraArguments& chosen = {},
+                                    const DatasetArguments& dataset = {});
 
 // Divides the images into groups of one, or with `by_scene` into the consecutive images of each
-// scene.
+// scene, of all its cameras, or of each group of a list of targets.
 std::vector<std::span<const InputImage>> groups_of(std::span<const InputImage> images,
                                                    bool by_scene);
 
@@ -105,6 +114,9 @@ struct ModelArguments {
 // The unit of --unit; absent where none is given.
 std::optional<LengthUnit> unit_of(const std::string& word);
 
+// Without models and templates, takes those of the dataset that the inputs name.
+void take_models_of_dataset(ModelArguments& arguments, const std::vector<std::string>& inputs,
+                            const DatasetArguments& dataset, bool to_evaluate);
 // Continuous symmetries are sampled in `continuous_steps` steps.
 std::vector<Object> load_objects(const ModelArguments& arguments,
                                  int continuous_steps = DETECTION_SYMMETRY_STEPS);

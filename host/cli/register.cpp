@@ -22,6 +22,7 @@ struct RegisterRequest {
   std::vector<std::string> inputs;
   std::string poses, out, device = "auto";
   ModelArguments models;
+  DatasetArguments dataset;
   bool multi_view = false, no_overlays = false;
   RegisterOptions options;
 };
@@ -63,11 +64,13 @@ int register_all(RegisterRequest& request) {
   options.pipeline.validate();
   options.refine.validate();
   const std::unique_ptr<Backend> backend = backend_of(request.device);
+  take_models_of_dataset(request.models, request.inputs, request.dataset, false);
   const std::vector<RegisterModel> models = models_of(request);
   for (const RegisterModel& model : models) warn_of_mesh(model.edges);
   require_safe_starts(request);
   const std::vector<StartPose> poses = load_start_poses(request.poses);
-  const std::vector<InputImage> images = list_images(request.inputs, options.calibration);
+  const std::vector<InputImage> images =
+      list_images(request.inputs, options.calibration, request.dataset);
   options.camera = given_camera(options.calibration, images);
   require_other_folder(images, options.out);
   const std::vector<RegisterJob> jobs =
@@ -87,6 +90,7 @@ int register_all(RegisterRequest& request) {
 
 void add_files(CLI::App& verb, RegisterRequest& request) {
   add_images(verb, request.inputs);
+  add_dataset_arguments(verb, request.dataset);
   verb.add_option(
           "--poses", request.poses,
           "Poses to start from: a BOP results CSV (t in mm), a result of this program, or a JSON "

@@ -23,7 +23,8 @@ std::optional<std::size_t> image_of(const StartPose& pose, std::span<const Input
     const std::optional<int> scene =
         images[i].camera ? std::optional(images[i].scene_id) : std::nullopt;
     scene_is_given |= !scene || scene == pose.scene_id;
-    if (!belongs_to(pose, images[i].file, scene, images[i].image_id)) continue;
+    if (!belongs_to(pose, {images[i].file, scene, images[i].image_id, images[i].camera_name}))
+      continue;
     if (!found.empty() &&
         same_ending(pose, images[i].file) > same_ending(pose, images[found[0]].file))
       found.clear();
@@ -35,7 +36,9 @@ std::optional<std::size_t> image_of(const StartPose& pose, std::span<const Input
     throw InputError(poses_file, "image",
                      fmt::format("{}, which is {} and {}", described(pose),
                                  images[found[0]].file.string(), images[found[1]].file.string()),
-                     "one that fits a single image");
+                     images[found[0]].camera_name.empty()
+                         ? "one that fits a single image"
+                         : "one that fits a single image: --cameras chooses cameras");
   if (!found.empty()) return found[0];
   if (scene_is_given)
     throw InputError(poses_file, "image", described(pose), "one of the images given");

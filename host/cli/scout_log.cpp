@@ -222,7 +222,7 @@ void save_scout_results(const ScoutState& state, const ScoutReport& report,
     for (const Detection& d : result.detections)
       rows.push_back({result.scene_id, result.image_id,
                       result.objects[static_cast<std::size_t>(d.object)].id, d.probability,
-                      step.camera_from_world * d.world_from_object, state.seconds()});
+                      step.camera_from_world * d.world_from_object, state.seconds(), ""});
   }
   save_bop_results(rows, folder / "results.csv");
 }

@@ -1,6 +1,7 @@
 #include "host/cli/scout_source.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <numeric>
 
@@ -73,6 +74,18 @@ std::string text_of(const CameraArguments& camera) {
   return text;
 }
 
+// A scout has one camera.
+std::string camera_of(const SourceRequest& request) {
+  const std::vector<std::string>& chosen = request.dataset.cameras;
+  if (chosen.size() == 1) return chosen[0];
+  const std::vector<std::string> there = bop_cameras(request.source);
+  const bool has_own = there.empty() || there[0].empty();
+  if (chosen.size() > 1 || (!has_own && there.size() > 1))
+    throw InputError("command line", "--cameras", std::to_string(chosen.size()) + " names",
+                     fmt::format("one of {}", fmt::join(there, ", ")));
+  return "";
+}
+
 ScoutSource make_recorded(const SourceRequest& request) {
   if (!request.views_file.empty())
     throw InputError("command line", "--views", "a list for recorded views", "their own poses");
@@ -95,12 +108,15 @@ ScoutSource make_recorded(const SourceRequest& request) {
   made.settings.emplace_back("source", folder.string());
   made.settings.emplace_back("camera",
                              request.camera.file.empty() ? "its own" : text_of(request.camera));
-  auto views = std::make_unique<RecordedViews>(load_recorded_views(request.source, camera));
+  const std::string camera_name = camera_of(request);
+  if (!camera_name.empty()) made.settings.emplace_back("camera's name", camera_name);
+  auto views =
+      std::make_unique<RecordedViews>(load_recorded_views(request.source, camera, camera_name));
   for (const RecordedViews::Recording& recording : views->recordings())
     made.image_files.push_back(recording.file);
   made.source = std::move(views);
   if (!is_bop_scene(request.source)) return made;
-  const BopScene scene = load_bop_scene(request.source);
+  const BopScene scene = load_bop_images(request.source, camera_name);
   made.scene_id = scene.scene_id;
   for (const BopImage& image : scene.images) made.image_ids.push_back(image.image_id);
   return made;
@@ -138,6 +154,7 @@ void add_source_options(CLI::App& verb, SourceRequest& r) {
                   "BOP scene, or a folder with CameraPose and Images")
       ->required();
   add_camera(verb, r.camera);
+  add_camera_names(verb, r.dataset);
   add_hemisphere_options(verb, r);
   add_scene_options(verb, r.scene, OptionLevel::Expert);
   OptionTable(verb, "Arm", OptionLevel::Expert)

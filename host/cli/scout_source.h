@@ -10,10 +10,11 @@
 namespace edgescout {
 
 struct SourceRequest {
-  std::string source;      // "cell", or a folder (load_recorded_views)
-  CameraArguments camera;  // of recorded views
-  std::string views_file;  // of a cell, in place of the hemisphere
-  RenderOptions scene;     // of a cell
+  std::string source;        // "cell", or a folder (load_recorded_views)
+  CameraArguments camera;    // of recorded views
+  DatasetArguments dataset;  // of recorded views: at most one camera
+  std::string views_file;    // of a cell, in place of the hemisphere
+  RenderOptions scene;       // of a cell
   ArmNoise arm;
   HemisphereOptions hemisphere{.radius_m = 0};  // 0: such that the parts fill the image
   std::vector<double> center_m{0, 0, 0};

@@ -18,6 +18,7 @@ ImageResult begin_result(const InputImage& input, const ObjectView& view, const 
   result.image = place_of(input);
   result.scene_id = input.scene_id;
   result.image_id = input.image_id;
+  result.camera_name = input.camera_name;
   result.camera = view.camera;
   result.device = backend.name();
   result.stages = found.stages;

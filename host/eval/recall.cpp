@@ -4,24 +4,12 @@
 #include <cmath>
 #include <string>
 
-#include "host/core/pose_error.h"
+#include "host/eval/instances.h"
 #include "host/eval/matching.h"
 #include "kernels/error.h"
 
 namespace edgescout {
 namespace {
-
-// The instances of one object in one image, with the error of every estimate (row, best score
-// first) against every truth (column).
-struct Instances {
-  int truths = 0;
-  std::vector<char> counts;            // per truth: not ignored
-  std::vector<double> mssd;            // of the diameter
-  std::vector<double> mspd;            // px
-  std::vector<double> raw, symmetric;  // largest of angle and distance, each over its bound
-  int counting() const { return static_cast<int>(std::ranges::count(counts, 1)); }
-  int estimates() const { return truths == 0 ? 0 : static_cast<int>(mssd.size()) / truths; }
-};
 
 struct Matches {
   int found = 0;    // truths that are not ignored
@@ -52,64 +40,24 @@ int found_by_bop(const Instances& pair, std::span<const double> errors, double t
   return static_cast<int>(matched.size() - std::ranges::count(matched, UNMATCHED));
 }
 
-const Object& object_of(const std::map<int, Object>& objects, int id) {
-  const auto found = objects.find(id);
-  if (found == objects.end())
-    throw InputError("evaluation", "obj_id", std::to_string(id), "the id of a given model");
-  return found->second;
-}
-
-Instances compare(const Object& object, const Camera& camera, const std::vector<BopTruth>& truth,
-                  std::vector<BopResult> estimates, const RecallOptions& options) {
-  std::stable_sort(estimates.begin(), estimates.end(),
-                   [](const BopResult& a, const BopResult& b) { return a.score > b.score; });
-  Instances pair;
-  pair.truths = static_cast<int>(truth.size());
-  for (const BopTruth& t : truth)
-    pair.counts.push_back(t.visible_fraction >= options.min_visible_fraction);
-  for (const BopResult& e : estimates)
-    for (const BopTruth& t : truth) {
-      pair.mssd.push_back(mssd_m(e.camera_from_object, t.camera_from_object, object) /
-                          object.mesh.diameter_m);
-      pair.mspd.push_back(mspd_px(e.camera_from_object, t.camera_from_object, object, camera));
-      const auto paper_error_with = [&](const Symmetries& symmetries) {
-        return pose_error(e.camera_from_object, t.camera_from_object, symmetries,
-                          options.max_angle_rad, options.max_distance_m)
-            .of_bounds(options.max_angle_rad, options.max_distance_m);
-      };
-      pair.raw.push_back(paper_error_with(Symmetries{}));
-      pair.symmetric.push_back(paper_error_with(object.symmetries));
-    }
-  return pair;
-}
-
-void count(const Instances& pair, int estimates, double px_per_step, const RecallOptions& options,
-           Recalls& sums) {
+void count(const Instances& pair, const RecallOptions& options, Recalls& sums) {
   for (int step = 0; step < RECALL_STEPS; ++step) {
     sums.mssd[step] += found_by_bop(pair, pair.mssd, 0.05 * (step + 1));
-    sums.mspd[step] += found_by_bop(pair, pair.mspd, px_per_step * (step + 1));
+    sums.mspd[step] += found_by_bop(pair, pair.mspd, pair.px_per_step * (step + 1));
   }
   sums.recall_raw += match(pair, pair.raw, 1.0).found;
   sums.recall_symmetric += match(pair, pair.symmetric, 1.0).found;
   const Matches seen = match(pair, pair.mspd, options.max_mspd_px);
   sums.recall_mspd += seen.found;
-  sums.false_positives += estimates - seen.matched;
-  sums.estimates += estimates;
+  sums.false_positives += pair.estimates() - seen.matched;
+  sums.estimates += pair.estimates();
   sums.truths += pair.counting();
 }
 
 void count_image(const EvaluationImage& image, const std::map<int, Object>& objects,
                  const RecallOptions& options, Recalls& sums) {
-  std::map<int, std::pair<std::vector<BopTruth>, std::vector<BopResult>>> by_object;
-  for (const BopTruth& t : image.truth) by_object[t.object_id].first.push_back(t);
-  for (const BopResult& e : image.estimates)
-    if (e.score >= options.min_score) by_object[e.object_id].second.push_back(e);
-  for (const auto& [id, instances] : by_object) {
-    const auto& [truth, estimates] = instances;
-    const Instances pair = compare(object_of(objects, id), image.camera, truth, estimates, options);
-    count(pair, static_cast<int>(estimates.size()), 5.0 * image.camera.width / 640.0, options,
-          sums);
-  }
+  for (const Instances& pair : instances_of(image, objects, options, true))
+    if (image.targets.empty() || image.targets.contains(pair.object_id)) count(pair, options, sums);
 }
 
 void finish(Recalls& sums) {
@@ -143,6 +91,11 @@ void RecallOptions::validate() const {
   require(max_mspd_px > 0, "max_mspd_px", max_mspd_px, "above 0");
 }
 
+bool is_of(const BopScene& scene, const BopResult& result) {
+  return result.scene_id == scene.scene_id &&
+         (result.camera_name.empty() || result.camera_name == scene.camera_name);
+}
+
 std::vector<EvaluationImage> evaluation_images(const BopScene& scene,
                                                std::span<const BopResult> results) {
   std::map<int, EvaluationImage> by_id;
@@ -153,10 +106,10 @@ std::vector<EvaluationImage> evaluation_images(const BopScene& scene,
                        "no entry " + std::to_string(image.image_id), "the truth of " + name);
     if (image.camera.width < 1)
       throw InputError(name, "width", "none", "the image's size in its camera");
-    by_id[image.image_id] = {image.camera, scene.truth.at(image.image_id), {}};
+    by_id[image.image_id] = {image.camera, scene.truth.at(image.image_id), {}, {}};
   }
   for (const BopResult& result : results) {
-    if (result.scene_id != scene.scene_id) continue;
+    if (!is_of(scene, result)) continue;
     const auto image = by_id.find(result.image_id);
     if (image == by_id.end())
       throw InputError("results", "im_id", std::to_string(result.image_id),

@@ -23,7 +23,14 @@ struct EvaluationImage {
   Camera camera;
   std::vector<BopTruth> truth;
   std::vector<BopResult> estimates;  // of this image
+  // Of a list of 2019: how many instances are to be found, by object. Then the most visible ones
+  // are the truths of the recalls, whatever is seen of them, and other objects are left out. Empty:
+  // all objects, all truths that are seen enough.
+  std::map<int, int> targets;
 };
+
+// Whether a result is of this scene and, where it names one, of this camera.
+bool is_of(const BopScene& scene, const BopResult& result);
 
 // Returns the images of a scene with their results, by image_id. Results of other scenes are
 // ignored. InputError: a result for an image that the scene does not have; an image without truth

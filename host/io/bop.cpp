@@ -2,6 +2,7 @@
 
 #include <charconv>
 
+#include "host/io/bop_layout.h"
 #include "host/io/camera_reader.h"
 #include "host/io/files.h"
 #include "host/io/json_fields.h"
@@ -24,32 +25,18 @@ int scene_number(const fs::path& folder) {
   return error == std::errc{} && end == name.data() + name.size() ? number : 0;
 }
 
-// A path that cannot be examined counts as missing.
-bool is_there(const fs::path& path) {
-  std::error_code unknown;
-  return fs::exists(path, unknown);
-}
-
-// Returns the image under gray/ or rgb/. If there is none, returns the name that it would have, so
-// that the error of reading it names the missing file.
-fs::path image_file(const fs::path& folder, int image_id) {
-  const std::string digits = std::to_string(image_id);
-  const std::string stem = std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits;
-  for (const char* kind : {"gray", "rgb"})
-    for (const char* extension : {".png", ".jpg", ".jpeg", ".tif"})
-      if (const fs::path file = folder / kind / (stem + extension); is_there(file)) return file;
-  return folder / (is_there(folder / "gray") ? "gray" : "rgb") / (stem + ".png");
-}
-
-std::map<int, BopImage> read_images(const fs::path& folder) {
-  const json content = read_json(folder / "scene_camera.json");
-  const JsonField root{content, (folder / "scene_camera.json").string(), ""};
+std::map<int, BopImage> read_images(const fs::path& folder, const std::string& camera_name) {
+  const fs::path file = bop_file(folder, "scene_camera", camera_name);
+  const json content = read_json(file);
+  const JsonField root{content, file.string(), ""};
+  const ImageFiles files(folder, camera_name);
+  ProjectedRotations projected;
   std::map<int, BopImage> images;
   for (const auto& [key, value] : content.items()) {
     const JsonField entry = root.at(key);
     BopImage image;
     image.image_id = integer_key(key, root);
-    image.file = image_file(folder, image.image_id);
+    image.file = files.of(image.image_id);
     CameraFields fields(entry.value, entry.source, key);
     image.camera = read_camera(fields);
     Camera checked = image.camera;
@@ -58,29 +45,32 @@ std::map<int, BopImage> read_images(const fs::path& folder) {
     validate(checked, entry.source + ": " + entry.path);
     if (entry.has("cam_R_w2c"))
       image.camera_from_world =
-          pose_from(entry.at("cam_R_w2c"), entry.at("cam_t_w2c"), metres_per_mm);
+          pose_from(entry.at("cam_R_w2c"), entry.at("cam_t_w2c"), metres_per_mm, projected);
     images[image.image_id] = image;
   }
+  warn_of_projected(projected, file.string());
   return images;
 }
 
-void read_truth(const fs::path& folder, std::map<int, std::vector<BopTruth>>& truth) {
-  if (!is_there(folder / "scene_gt.json")) return;
-  const json content = read_json(folder / "scene_gt.json");
-  const JsonField root{content, (folder / "scene_gt.json").string(), ""};
+void read_truth(const fs::path& file, std::map<int, std::vector<BopTruth>>& truth) {
+  if (!is_there(file)) return;
+  const json content = read_json(file);
+  const JsonField root{content, file.string(), ""};
+  ProjectedRotations projected;
   for (const auto& [key, value] : content.items()) {
     std::vector<BopTruth>& objects = truth[integer_key(key, root)];  // also without any object
     for (const JsonField& entry : root.at(key).elements())
-      objects.push_back({entry.at("obj_id").integer(),
-                         pose_from(entry.at("cam_R_m2c"), entry.at("cam_t_m2c"), metres_per_mm),
-                         1.0});
+      objects.push_back(
+          {entry.at("obj_id").integer(),
+           pose_from(entry.at("cam_R_m2c"), entry.at("cam_t_m2c"), metres_per_mm, projected), 1.0});
   }
+  warn_of_projected(projected, file.string());
 }
 
-void read_visible_fractions(const fs::path& folder, std::map<int, std::vector<BopTruth>>& truth) {
-  if (!is_there(folder / "scene_gt_info.json")) return;
-  const json content = read_json(folder / "scene_gt_info.json");
-  const JsonField root{content, (folder / "scene_gt_info.json").string(), ""};
+void read_visible_fractions(const fs::path& file, std::map<int, std::vector<BopTruth>>& truth) {
+  if (!is_there(file)) return;
+  const json content = read_json(file);
+  const JsonField root{content, file.string(), ""};
   std::map<int, std::string> keys;  // as written: they may be padded with zeros
   for (const auto& [key, value] : content.items()) keys[integer_key(key, root)] = key;
   for (auto& [image_id, objects] : truth) {
@@ -90,11 +80,21 @@ void read_visible_fractions(const fs::path& folder, std::map<int, std::vector<Bo
     const std::vector<JsonField> infos = entries.elements();
     if (infos.size() != objects.size())
       entries.fail(std::to_string(infos.size()) + " objects",
-                   std::to_string(objects.size()) + " as in scene_gt.json");
+                   std::to_string(objects.size()) + " as in the file of the poses");
     for (std::size_t i = 0; i < infos.size(); ++i)
       if (infos[i].has("visib_fract"))
         objects[i].visible_fraction = infos[i].at("visib_fract").number();
   }
+}
+
+// The camera that is meant where none is named.
+std::string only_camera(const fs::path& folder) {
+  const std::vector<std::string> cameras = bop_cameras(folder);
+  if (cameras.empty() || cameras[0].empty()) return "";
+  if (cameras.size() == 1) return cameras[0];
+  std::string names;
+  for (const std::string& name : cameras) names += (names.empty() ? "" : ", ") + name;
+  throw InputError(folder.string(), "cameras", names, "the name of one");
 }
 
 json camera_entry(const BopImage& image) {
@@ -112,15 +112,20 @@ json camera_entry(const BopImage& image) {
 
 }  // namespace
 
-bool is_bop_scene(const fs::path& folder) { return is_there(folder / "scene_camera.json"); }
-
-BopScene load_bop_scene(const fs::path& folder) {
+BopScene load_bop_images(const fs::path& folder, const std::string& camera_name) {
   BopScene scene;
   scene.scene_id = scene_number(folder);
   scene.folder = folder;
-  for (const auto& [id, image] : read_images(folder)) scene.images.push_back(image);
-  read_truth(folder, scene.truth);
-  read_visible_fractions(folder, scene.truth);
+  scene.camera_name = camera_name.empty() ? only_camera(folder) : camera_name;
+  for (const auto& [id, image] : read_images(folder, scene.camera_name))
+    scene.images.push_back(image);
+  return scene;
+}
+
+BopScene load_bop_scene(const fs::path& folder, const std::string& camera_name) {
+  BopScene scene = load_bop_images(folder, camera_name);
+  read_truth(bop_file(folder, "scene_gt", scene.camera_name), scene.truth);
+  read_visible_fractions(bop_file(folder, "scene_gt_info", scene.camera_name), scene.truth);
   return scene;
 }
 
@@ -139,9 +144,10 @@ void save_bop_scene(const BopScene& scene, const fs::path& folder) {
       image_infos.push_back({{"visib_fract", object.visible_fraction}});
     }
   }
-  write_file_atomically(folder / "scene_camera.json", cameras.dump(1) + "\n");
-  write_file_atomically(folder / "scene_gt.json", poses.dump(1) + "\n");
-  write_file_atomically(folder / "scene_gt_info.json", infos.dump(1) + "\n");
+  write_file_atomically(bop_file(folder, "scene_camera", scene.camera_name),
+                        cameras.dump(1) + "\n");
+  write_file_atomically(bop_file(folder, "scene_gt", scene.camera_name), poses.dump(1) + "\n");
+  write_file_atomically(bop_file(folder, "scene_gt_info", scene.camera_name), infos.dump(1) + "\n");
 }
 
 }  // namespace edgescout

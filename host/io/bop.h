@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "host/core/types.h"
@@ -16,8 +17,8 @@ namespace edgescout {
 
 struct BopImage {
   int image_id = 0;
-  std::filesystem::path file;  // under gray/ or rgb/: .png, .jpg, .jpeg or .tif
-  Camera camera;               // size 0 x 0 until the image is read; `dist` is read if given
+  std::filesystem::path file;
+  Camera camera;  // size 0 x 0 until the image is read; `dist` is read if given
   std::optional<Se3> camera_from_world;  // set if the file has cam_R_w2c and cam_t_w2c
 };
 
@@ -27,15 +28,35 @@ struct BopTruth {
   double visible_fraction = 1;  // visib_fract of scene_gt_info.json; 1 without that file
 };
 
+// What one camera saw of a scene. Most sets have one camera, with scene_camera.json. The industrial
+// and the headset sets have several. Camera NAME has scene_camera_NAME.json, scene_gt_NAME.json and
+// its images in gray_NAME/, rgb_NAME/ or NAME/.
 struct BopScene {
   int scene_id = 0;  // from the folder's name; 0 if that is no number
   std::filesystem::path folder;
+  std::string camera_name;                     // empty: the camera of scene_camera.json
   std::vector<BopImage> images;                // by image_id
   std::map<int, std::vector<BopTruth>> truth;  // by image_id; empty without scene_gt.json
 };
 
-bool is_bop_scene(const std::filesystem::path& folder);  // has scene_camera.json
-BopScene load_bop_scene(const std::filesystem::path& folder);
+std::string six_digits(int number);  // in BOP's names of files and folders: "000012"
+
+// Whether the folder has scene_camera.json or scene_camera_NAME.json.
+bool is_bop_scene(const std::filesystem::path& folder);
+
+// The names of the scene's cameras, sorted; "" stands for scene_camera.json and comes first.
+std::vector<std::string> bop_cameras(const std::filesystem::path& folder);
+
+// The scene's file for `kind`: "scene_camera", "scene_gt" or "scene_gt_info".
+std::filesystem::path bop_file(const std::filesystem::path& folder, const std::string& kind,
+                               const std::string& camera_name);
+
+// Reads what a camera saw; without a name the scene's only camera. Rotations up to 0.01 off are
+// projected to the nearest one, with one warning a file. InputError naming file and field; several
+// cameras and no name.
+BopScene load_bop_scene(const std::filesystem::path& folder, const std::string& camera_name = "");
+// The same without the truth, whose files may be missing or broken.
+BopScene load_bop_images(const std::filesystem::path& folder, const std::string& camera_name = "");
 
 // Enough to find duplicates: a pose is at most 0.05 rad from the next sample.
 inline constexpr int DETECTION_SYMMETRY_STEPS = 64;
@@ -50,19 +71,23 @@ inline constexpr int EVALUATION_SYMMETRY_STEPS = 315;
 std::map<int, Symmetries> load_symmetries(const std::filesystem::path& models_info,
                                           int continuous_steps = DETECTION_SYMMETRY_STEPS);
 
-// One row of a results CSV: scene_id,im_id,obj_id,score,R,t,time.
+// One row of a results CSV: scene_id,im_id,obj_id,score,R,t,time. If a scene has several cameras, a
+// column `camera` may follow.
 struct BopResult {
   int scene_id = 0, image_id = 0, object_id = 0;
   double score = 0;
   Se3 camera_from_object;
-  double time_s = -1;
+  double time_s = -1;       // below 0: unknown
+  std::string camera_name;  // empty: not told
 };
+// Rows that hold no pose (NaN, a matrix that is no rotation, too few numbers) are left out; one
+// warning counts them and names the first. InputError: the file has rows, and none holds a pose.
 std::vector<BopResult> load_bop_results(const std::filesystem::path& file);
+// With the column `camera` where a result has a camera.
 void save_bop_results(const std::vector<BopResult>& results,
                       const std::filesystem::path& file);  // atomically
 
-// Writes scene_camera.json, scene_gt.json and scene_gt_info.json of a rendered scene. The caller
-// writes the images.
+// Writes the scene's three files (bop_file) of a rendered scene. The caller writes the images.
 void save_bop_scene(const BopScene& scene, const std::filesystem::path& folder);
 
 }  // namespace edgescout

@@ -33,19 +33,18 @@ std::vector<Se3> group_of(std::span<const Se3> given, double diameter_m) {
   return with_identity(given);
 }
 
-std::vector<Se3> read_discrete(const JsonField& object) {
+std::vector<Se3> read_discrete(const JsonField& object, ProjectedRotations& projected) {
   std::vector<Se3> given;
   if (!object.has("symmetries_discrete")) return {Se3{}};
   for (const JsonField& entry : object.at("symmetries_discrete").elements()) {
     const std::vector<double> m = entry.numbers(16);
     const Eigen::Matrix4d matrix =
         Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(m.data());
-    try {
-      given.push_back(
-          se3_from_matrix(matrix.topLeftCorner<3, 3>(), 1e-3 * matrix.topRightCorner<3, 1>()));
-    } catch (const InputError&) {
+    const std::optional<Se3> symmetry = nearest_rigid(
+        matrix.topLeftCorner<3, 3>(), 1e-3 * matrix.topRightCorner<3, 1>(), projected);
+    if (!symmetry)
       entry.fail("a matrix that is no rotation", "a rigid 4x4 transform by row, in mm");
-    }
+    given.push_back(*symmetry);
   }
   return group_of(given, object.has("diameter") ? 1e-3 * object.at("diameter").number() : 0);
 }
@@ -77,13 +76,15 @@ std::map<int, Symmetries> load_symmetries(const std::filesystem::path& models_in
   const nlohmann::json content = read_json(models_info);
   const JsonField root{content, models_info.string(), ""};
   std::map<int, Symmetries> result;
+  ProjectedRotations projected;
   for (const auto& [key, value] : content.items()) {
     const JsonField object = root.at(key);
     const std::vector<Se3> continuous = read_continuous(object, continuous_steps);
     std::vector<Se3>& group = result[integer_key(key, root)].discrete;
-    for (const Se3& discrete : read_discrete(object))
+    for (const Se3& discrete : read_discrete(object, projected))
       for (const Se3& turn : continuous) add_unless_known(group, turn * discrete);
   }
+  warn_of_projected(projected, models_info.string());
   return result;
 }
 

@@ -79,15 +79,23 @@ int integer_key(const std::string& key, const JsonField& parent) {
   return number;
 }
 
-Se3 pose_from(const JsonField& rotation, const JsonField& translation, double metres_per_unit) {
+Se3 pose_from(const JsonField& rotation, const JsonField& translation, double metres_per_unit,
+              ProjectedRotations& projected) {
   const std::vector<double> r = rotation.numbers(9), t = translation.numbers(3);
   const Eigen::Matrix3d matrix =
       Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(r.data());
-  try {
-    return se3_from_matrix(matrix, metres_per_unit * Eigen::Vector3d(t[0], t[1], t[2]));
-  } catch (const InputError&) {
-    rotation.fail("a matrix that is no rotation", "R'R = I and det R = +1 to 1e-3");
-  }
+  const std::optional<Se3> pose =
+      nearest_rigid(matrix, metres_per_unit * Eigen::Vector3d(t[0], t[1], t[2]), projected);
+  if (!pose) rotation.fail("a matrix that is no rotation", EXPECTED_ROTATION);
+  return *pose;
+}
+
+Se3 pose_from(const JsonField& rotation, const JsonField& translation, double metres_per_unit) {
+  ProjectedRotations projected;
+  const Se3 pose = pose_from(rotation, translation, metres_per_unit, projected);
+  if (projected.count > 0)
+    rotation.fail("a matrix that is no rotation", "one, to 0.0005 in every number");
+  return pose;
 }
 
 std::vector<double> rotation_numbers(const Se3& pose) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/core/se3.h"
+#include "host/io/rotations.h"
 
 namespace edgescout {
 
@@ -33,7 +34,11 @@ struct JsonField {
 // "000012" -> 12. InputError naming the field: the key is no whole number.
 int integer_key(const std::string& key, const JsonField& parent);
 
-// R: 9 numbers by row. t: 3 numbers in units of `metres_per_unit`. InputError: R is no rotation.
+// R: 9 numbers by row. t: 3 numbers in units of `metres_per_unit`. Counts rotations that had to be
+// projected (rotations.h). InputError: R is no rotation.
+Se3 pose_from(const JsonField& rotation, const JsonField& translation, double metres_per_unit,
+              ProjectedRotations& projected);
+// Of a file of this program: as above, but R must be a rotation to rounding.
 Se3 pose_from(const JsonField& rotation, const JsonField& translation, double metres_per_unit);
 std::vector<double> rotation_numbers(const Se3& pose);  // by row
 std::vector<double> translation_numbers(const Se3& pose, double metres_per_unit);

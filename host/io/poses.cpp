@@ -13,8 +13,8 @@ namespace {
 std::vector<StartPose> from_bop_results(const std::filesystem::path& file) {
   std::vector<StartPose> poses;
   for (const BopResult& row : load_bop_results(file))
-    poses.push_back(
-        {row.scene_id, row.image_id, "", row.object_id, row.camera_from_object, row.score});
+    poses.push_back({row.scene_id, row.image_id, "", row.camera_name, row.object_id,
+                     row.camera_from_object, row.score});
   return poses;
 }
 
@@ -26,13 +26,13 @@ std::vector<StartPose> from_image_result(const std::filesystem::path& file) {
       result.scene_id == 0 ? std::nullopt : std::optional(result.scene_id);
   std::vector<StartPose> poses;
   for (const Detection& found : result.detections)
-    poses.push_back({scene, result.image_id, result.image,
+    poses.push_back({scene, result.image_id, result.image, result.camera_name,
                      result.objects.at(static_cast<std::size_t>(found.object)).id,
                      camera_from_world * found.world_from_object, found.probability});
   return poses;
 }
 
-StartPose from_entry(const JsonField& entry) {
+StartPose from_entry(const JsonField& entry, ProjectedRotations& projected) {
   StartPose pose;
   const JsonField image = entry.at("image");
   if (image.value.is_string())
@@ -40,9 +40,10 @@ StartPose from_entry(const JsonField& entry) {
   else
     pose.image_id = image.integer();
   if (entry.has("scene")) pose.scene_id = entry.at("scene").integer();
+  if (entry.has("camera")) pose.camera_name = entry.at("camera").text();
   if (entry.has("score")) pose.score = entry.at("score").number();
   pose.object_id = entry.at("object").integer();
-  pose.camera_from_object = pose_from(entry.at("R"), entry.at("t"), 1.0);
+  pose.camera_from_object = pose_from(entry.at("R"), entry.at("t"), 1.0, projected);
   return pose;
 }
 
@@ -53,16 +54,18 @@ std::vector<StartPose> load_start_poses(const std::filesystem::path& file) {
   if (is_image_result(file)) return from_image_result(file);
   const nlohmann::json content = read_json(file);
   std::vector<StartPose> poses;
+  ProjectedRotations projected;
   for (const JsonField& entry : JsonField{content, file.string(), ""}.elements())
-    poses.push_back(from_entry(entry));
+    poses.push_back(from_entry(entry, projected));
+  warn_of_projected(projected, file.string());
   return poses;
 }
 
-bool belongs_to(const StartPose& pose, const std::filesystem::path& image,
-                std::optional<int> scene_id, int image_id) {
-  if (pose.scene_id && scene_id && *pose.scene_id != *scene_id) return false;
-  if (pose.image.empty()) return pose.image_id == image_id;
-  return pose.image.filename() == as_in_json(image.filename().string());
+bool belongs_to(const StartPose& pose, const PosedImage& image) {
+  if (pose.scene_id && image.scene_id && *pose.scene_id != *image.scene_id) return false;
+  if (!pose.camera_name.empty() && pose.camera_name != image.camera_name) return false;
+  if (pose.image.empty()) return pose.image_id == image.image_id;
+  return pose.image.filename() == as_in_json(image.file.filename().string());
 }
 
 int same_ending(const StartPose& pose, const std::filesystem::path& image) {

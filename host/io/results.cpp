@@ -143,6 +143,7 @@ void save_image_result(const ImageResult& result, const std::filesystem::path& f
   root["image"] = result.image.string();
   root["scene_id"] = result.scene_id;
   root["image_id"] = result.image_id;
+  if (!result.camera_name.empty()) root["camera_name"] = result.camera_name;
   root["device"] = result.device;
   root["camera"] = camera_json(result.camera);
   for (const auto& [name, value] : result.settings) root["settings"][name] = value;
@@ -168,6 +169,7 @@ ImageResult load_image_result(const std::filesystem::path& file) {
   result.image = root.at("image").text();
   result.scene_id = root.at("scene_id").integer();
   result.image_id = root.at("image_id").integer();
+  if (root.has("camera_name")) result.camera_name = root.at("camera_name").text();
   result.device = root.at("device").text();
   result.camera = read_camera(root.at("camera"));
   if (root.has("settings")) result.settings = read_settings(root.at("settings"));

@@ -30,6 +30,7 @@ struct ImageResult {
   std::filesystem::path image;
   int scene_id = 0;
   int image_id = 0;
+  std::string camera_name;  // of a BOP scene with several cameras; else empty
   Camera camera;
   std::string device;                    // Backend::name()
   Settings settings;                     // empty: unknown; sorted by name after reading
@@ -42,6 +43,7 @@ struct ImageResult {
 // Writes atomically. A number that is not finite becomes null. The fields:
 //   edgescout_result   version of the format: 3
 //   image, scene_id, image_id, device, camera
+//   camera_name        only of a BOP scene with several cameras
 //   settings           {name: text}, optional
 //   world              the frame of the poses: "scene" or "camera"
 //   camera_from_world  only if `world` is "scene"

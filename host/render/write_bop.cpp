@@ -13,11 +13,6 @@ namespace {
 
 using nlohmann::json;
 
-std::string six_digits(int number) {
-  const std::string digits = std::to_string(number);
-  return std::string(6 - std::min<std::size_t>(6, digits.size()), '0') + digits;
-}
-
 json matrix_mm(const Se3& transform) {
   Eigen::Matrix<double, 4, 4, Eigen::RowMajor> matrix = Eigen::Matrix4d::Identity();
   matrix.topLeftCorner<3, 3>() = transform.rotation.toRotationMatrix();

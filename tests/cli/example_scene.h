@@ -44,7 +44,7 @@ inline std::vector<BopResult> true_results(const BopScene& scene, int image_id,
   for (const BopTruth& truth : scene.truth.at(image_id))
     if (truth.visible_fraction >= min_visible)
       results.push_back(
-          {scene.scene_id, image_id, truth.object_id, 1, truth.camera_from_object, -1});
+          {scene.scene_id, image_id, truth.object_id, 1, truth.camera_from_object, -1, ""});
   return results;
 }
 

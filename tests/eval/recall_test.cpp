@@ -6,52 +6,16 @@
 #include <cmath>
 
 #include "kernels/error.h"
+#include "tests/eval/cube.h"
 
 namespace edgescout {
 namespace {
-
-// Eight corners of a cube; diameter 100 mm.
-Object cube(int id) {
-  Object object;
-  object.id = id;
-  const double half = 0.05 / std::sqrt(3.0);
-  for (int corner = 0; corner < 8; ++corner)
-    object.mesh.vertices_m.emplace_back(corner & 1 ? half : -half, corner & 2 ? half : -half,
-                                        corner & 4 ? half : -half);
-  object.mesh.diameter_m = 0.1;
-  return object;
-}
-
-// Far away with a long lens: MSPD is 10 px for each millimetre of a sideways shift, to 1 %.
-EvaluationImage image() {
-  EvaluationImage image;
-  image.camera.width = 640;
-  image.camera.height = 480;
-  image.camera.fx = image.camera.fy = 1e5;
-  return image;
-}
-
-Se3 at_mm(double x_mm) { return {Eigen::Quaterniond::Identity(), {1e-3 * x_mm, 0, 10}}; }
-
-BopTruth truth(int object, double x_mm, double visible = 1) {
-  return {object, at_mm(x_mm), visible};
-}
-
-BopResult estimate(int object, double x_mm, double score) {
-  BopResult result;
-  result.object_id = object;
-  result.score = score;
-  result.camera_from_object = at_mm(x_mm);
-  return result;
-}
-
-const std::map<int, Object> OBJECTS{{1, cube(1)}, {2, cube(2)}};
 
 TEST(Recall, OfPerfectEstimatesIsOne) {
   EvaluationImage one = image();
   one.truth = {truth(1, 0), truth(1, 500), truth(2, 1000)};
   one.estimates = {estimate(1, 500, 0.5), estimate(2, 1000, 0.4), estimate(1, 0, 0.9)};
-  const Recalls recalls = evaluate(std::vector{one}, OBJECTS, {});
+  const Recalls recalls = evaluate(std::vector{one}, CUBES, {});
   EXPECT_EQ(recalls.truths, 3);
   EXPECT_EQ(recalls.estimates, 3);
   EXPECT_DOUBLE_EQ(recalls.ar_mssd, 1);
@@ -67,7 +31,7 @@ TEST(Recall, CountsThresholdsOfTheDiameter) {
   EvaluationImage one = image();
   one.truth = {truth(1, 0)};
   one.estimates = {estimate(1, 12, 1)};
-  const Recalls recalls = evaluate(std::vector{one}, OBJECTS, {});
+  const Recalls recalls = evaluate(std::vector{one}, CUBES, {});
   EXPECT_DOUBLE_EQ(recalls.mssd[1], 0);
   EXPECT_DOUBLE_EQ(recalls.mssd[2], 1);
   EXPECT_NEAR(recalls.ar_mssd, 0.8, 1e-12);
@@ -81,9 +45,9 @@ TEST(Recall, ScalesPixelThresholdsWithTheImage) {
   EvaluationImage one = image();
   one.truth = {truth(1, 0)};
   one.estimates = {estimate(1, 2.2, 1)};
-  EXPECT_NEAR(evaluate(std::vector{one}, OBJECTS, {}).ar_mspd, 0.6, 1e-12);
+  EXPECT_NEAR(evaluate(std::vector{one}, CUBES, {}).ar_mspd, 0.6, 1e-12);
   one.camera.width = 1280;
-  const Recalls recalls = evaluate(std::vector{one}, OBJECTS, {});
+  const Recalls recalls = evaluate(std::vector{one}, CUBES, {});
   EXPECT_NEAR(recalls.ar_mspd, 0.8, 1e-12);
   EXPECT_DOUBLE_EQ(recalls.recall_mspd, 0) << "10 px stay 10 px";
   EXPECT_DOUBLE_EQ(recalls.recall_raw, 1) << "within 5 mm";
@@ -93,7 +57,7 @@ TEST(Recall, UsesEachTruthOnce) {
   EvaluationImage one = image();
   one.truth = {truth(1, 0), truth(1, 300)};
   one.estimates = {estimate(1, 0, 0.9), estimate(1, 0.1, 0.8), estimate(1, 0.2, 0.7)};
-  const Recalls recalls = evaluate(std::vector{one}, OBJECTS, {});
+  const Recalls recalls = evaluate(std::vector{one}, CUBES, {});
   EXPECT_DOUBLE_EQ(recalls.recall_mspd, 0.5);
   EXPECT_EQ(recalls.false_positives, 2);
 }
@@ -106,19 +70,32 @@ TEST(Recall, MatchesGreedilyByScore) {
   one.estimates = {estimate(1, 0.5, 0.9), estimate(1, 1.6, 0.8)};
   // The first is 5 px from truth 0 and 3 px from truth 0.8: takes the latter. The second is 16 px
   // from truth 0.
-  EXPECT_DOUBLE_EQ(evaluate(std::vector{one}, OBJECTS, {}).recall_mspd, 0.5);
+  EXPECT_DOUBLE_EQ(evaluate(std::vector{one}, CUBES, {}).recall_mspd, 0.5);
   one.estimates[1].score = 0.95;  // now 8 px from truth 0.8, takes it; the other has truth 0 left
-  EXPECT_DOUBLE_EQ(evaluate(std::vector{one}, OBJECTS, {}).recall_mspd, 1);
+  EXPECT_DOUBLE_EQ(evaluate(std::vector{one}, CUBES, {}).recall_mspd, 1);
 }
 
 TEST(Recall, LooksAtAsManyEstimatesAsTruthsForBopOnly) {
   EvaluationImage one = image();
   one.truth = {truth(1, 0)};
   one.estimates = {estimate(1, 0, 0.5), estimate(1, 400, 0.9)};
-  const Recalls recalls = evaluate(std::vector{one}, OBJECTS, {});
+  const Recalls recalls = evaluate(std::vector{one}, CUBES, {});
   EXPECT_DOUBLE_EQ(recalls.ar_mssd, 0);
   EXPECT_DOUBLE_EQ(recalls.recall_mspd, 1);
   EXPECT_EQ(recalls.false_positives, 1);
+}
+
+// Of a list of 2019: two instances of object 1 are to be found, nothing of object 2.
+TEST(Recall, CountsWhatTheTargetsWant) {
+  EvaluationImage one = image();
+  one.truth = {truth(1, 0, 0.5), truth(1, 300, 0.05), truth(1, 600, 0.04), truth(2, 900)};
+  one.estimates = {estimate(1, 0, 0.9), estimate(1, 600, 0.8), estimate(2, 1200, 0.7)};
+  one.targets = {{1, 2}};
+  const Recalls recalls = evaluate(std::vector{one}, CUBES, {});
+  EXPECT_EQ(recalls.truths, 2);
+  EXPECT_EQ(recalls.estimates, 2);
+  EXPECT_DOUBLE_EQ(recalls.ar_mssd, 0.5) << "the most visible ones, although one is hidden";
+  EXPECT_EQ(recalls.false_positives, 0);
 }
 
 TEST(Recall, IgnoresHiddenTruths) {
@@ -127,12 +104,12 @@ TEST(Recall, IgnoresHiddenTruths) {
   one.estimates = {estimate(1, 0, 0.9), estimate(1, 300, 0.8), estimate(1, 600, 0.7)};
   RecallOptions options;
   options.min_visible_fraction = 0.7;
-  const Recalls with = evaluate(std::vector{one}, OBJECTS, options);
+  const Recalls with = evaluate(std::vector{one}, CUBES, options);
   EXPECT_EQ(with.truths, 1);
   EXPECT_DOUBLE_EQ(with.recall_mspd, 1);
   EXPECT_EQ(with.false_positives, 1) << "the one at 600 alone";
   one.estimates.erase(one.estimates.begin() + 1);
-  const Recalls without = evaluate(std::vector{one}, OBJECTS, options);
+  const Recalls without = evaluate(std::vector{one}, CUBES, options);
   EXPECT_DOUBLE_EQ(without.recall_mspd, 1);
   EXPECT_DOUBLE_EQ(without.ar_mssd, 1);
 }
@@ -145,7 +122,7 @@ TEST(Recall, OfBopGivesNothingToHiddenTruths) {
   one.estimates = {estimate(1, 300, 0.9), estimate(1, 0, 0.8)};
   RecallOptions options;
   options.min_visible_fraction = 0.7;
-  const Recalls recalls = evaluate(std::vector{one}, OBJECTS, options);
+  const Recalls recalls = evaluate(std::vector{one}, CUBES, options);
   EXPECT_DOUBLE_EQ(recalls.ar_mssd, 0) << "the first estimate alone is looked at";
   EXPECT_DOUBLE_EQ(recalls.recall_mspd, 1);
   EXPECT_EQ(recalls.false_positives, 0);
@@ -158,7 +135,7 @@ TEST(Recall, CountsFalsePositivesAboveTheScorePerImage) {
                    estimate(2, 50, 0.2)};
   RecallOptions options;
   options.min_score = 0.5;
-  const Recalls recalls = evaluate(std::vector{one, image()}, OBJECTS, options);
+  const Recalls recalls = evaluate(std::vector{one, image()}, CUBES, options);
   EXPECT_EQ(recalls.images, 2);
   EXPECT_EQ(recalls.estimates, 3);
   EXPECT_EQ(recalls.false_positives, 2) << "of another object at the same place counts too";
@@ -169,11 +146,11 @@ TEST(Recall, CountsEveryScoreByDefault) {
   EvaluationImage one = image();
   one.truth = {truth(1, 0)};
   one.estimates = {estimate(1, 0, -3)};
-  EXPECT_DOUBLE_EQ(evaluate(std::vector{one}, OBJECTS, {}).recall_mspd, 1);
+  EXPECT_DOUBLE_EQ(evaluate(std::vector{one}, CUBES, {}).recall_mspd, 1);
 }
 
 TEST(Recall, DistinguishesRawFromSymmetric) {
-  std::map<int, Object> objects = OBJECTS;
+  std::map<int, Object> objects = CUBES;
   const Se3 half_turn{so3_exp({0, 0, 3.14159265358979}), {0, 0, 0}};
   objects[1].symmetries.discrete.push_back(half_turn);
   EvaluationImage one = image();
@@ -190,7 +167,7 @@ TEST(Recall, BreaksDownByObject) {
   EvaluationImage one = image();
   one.truth = {truth(1, 0), truth(2, 300)};
   one.estimates = {estimate(1, 0, 0.9), estimate(2, 0, 0.9)};
-  const std::map<int, Recalls> recalls = evaluate_by_object(std::vector{one}, OBJECTS, {});
+  const std::map<int, Recalls> recalls = evaluate_by_object(std::vector{one}, CUBES, {});
   ASSERT_EQ(recalls.size(), 2u);
   EXPECT_DOUBLE_EQ(recalls.at(1).recall_mspd, 1);
   EXPECT_EQ(recalls.at(1).false_positives, 0);
@@ -226,7 +203,7 @@ TEST(Recall, AgreesWithThePlainDefinition) {
     }
     RecallOptions options;
     options.max_distance_m = 0.002;
-    const Recalls recalls = evaluate(std::vector{one}, OBJECTS, options);
+    const Recalls recalls = evaluate(std::vector{one}, CUBES, options);
     ASSERT_NEAR(recalls.recall_raw, found / 4.0, 1e-12) << "round " << round;
   }
 }
@@ -254,7 +231,7 @@ TEST(EvaluationImages, PutResultsToTheirImages) {
   ASSERT_EQ(images.size(), 2u);
   EXPECT_EQ(images[0].estimates.size(), 1u);
   EXPECT_EQ(images[1].estimates.size(), 1u);
-  EXPECT_DOUBLE_EQ(evaluate(images, OBJECTS, {}).ar_mssd, 1);
+  EXPECT_DOUBLE_EQ(evaluate(images, CUBES, {}).ar_mssd, 1);
 }
 
 TEST(EvaluationImages, RefuseWhatDoesNotFitTheScene) {
@@ -273,7 +250,7 @@ TEST(EvaluationImages, RefuseWhatDoesNotFitTheScene) {
 TEST(Recall, RefusesWhatItCannotEvaluate) {
   EvaluationImage one = image();
   one.estimates = {estimate(3, 0, 1)};
-  EXPECT_THROW(evaluate(std::vector{one}, OBJECTS, {}), InputError);
+  EXPECT_THROW(evaluate(std::vector{one}, CUBES, {}), InputError);
   RecallOptions options;
   options.min_visible_fraction = 1.5;
   EXPECT_THROW(options.validate(), InputError);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/io/collected_log.h"
 #include "tests/io/expect_input_error.h"
 #include "tests/io/temporary_folder.h"
 
@@ -133,10 +134,52 @@ TEST(BopScene, NamesFileAndFieldOfWhatIsWrong) {
       {"/1/0/obj_id"});
 }
 
+// A matrix of one scene with `error` added to one number.
+std::string scene_gt_with_error(double error) {
+  return R"({"1": [{"obj_id": 1, "cam_R_m2c": [)" + std::to_string(1 + error) +
+         R"(,0,0,0,1,0,0,0,1], "cam_t_m2c": [0,0,1]}]})";
+}
+
+TEST(BopScene, ProjectsRotationsThatAreNearlyOneAndSaysSoOnceAFile) {
+  const TemporaryFolder folder;
+  folder.write("scene_camera.json",
+               R"({"1": {"cam_K": [5,0,3,0,6,4,0,0,1], "cam_R_w2c": [1.004,0,0,0,1,0,0,0,1],
+                         "cam_t_w2c": [0,0,1]},
+                   "2": {"cam_K": [5,0,3,0,6,4,0,0,1], "cam_R_w2c": [1,0.008,0,0,1,0,0,0,1],
+                         "cam_t_w2c": [0,0,1]}})");
+  folder.write("scene_gt.json", scene_gt_with_error(0.009));
+  CollectedLog log;
+  const BopScene scene = load_bop_scene(folder.path());
+  EXPECT_LT(angle_between_rad(scene.truth.at(1)[0].camera_from_object, Se3{}), 1e-12);
+  ASSERT_EQ(log.messages.size(), 2u);
+  EXPECT_NE(log.messages[0].second.find("scene_camera.json: found 2 matrices"), std::string::npos)
+      << log.messages[0].second;
+  EXPECT_NE(log.messages[1].second.find("scene_gt.json: found 1 matrix"), std::string::npos)
+      << log.messages[1].second;
+  folder.write("scene_gt.json", scene_gt_with_error(0.02));
+  expect_input_error([&] { load_bop_scene(folder.path()); },
+                     {"scene_gt.json", "/1/0/cam_R_m2c", "no rotation", "0.01"});
+}
+
+TEST(BopScene, IsReadWithoutItsTruth) {
+  const TemporaryFolder folder;
+  folder.write("scene_camera.json", R"({"1": {"cam_K": [5,0,3,0,6,4,0,0,1]}})");
+  folder.write("scene_gt.json", scene_gt_with_error(0));
+  for (const char* info : {R"({"1": [{"visib_fract": null}]})", "[1", R"({"1": []})", "{}"}) {
+    folder.write("scene_gt_info.json", info);
+    EXPECT_EQ(load_bop_images(folder.path()).images.size(), 1u);
+    expect_input_error([&] { load_bop_scene(folder.path()); }, {"scene_gt_info.json"});
+  }
+  folder.write("scene_gt_info.json", R"({"1": [{"visib_fract": null}]})");
+  expect_input_error([&] { load_bop_scene(folder.path()); }, {"/1/0/visib_fract", "null"});
+  folder.write("scene_gt.json", "broken");
+  EXPECT_EQ(load_bop_images(folder.path()).images.size(), 1u);
+}
+
 TEST(BopResults, ReadBackExactly) {
   const TemporaryFolder folder;
-  const std::vector<BopResult> results{{48, 3, 1, 0.123456789012345678, sample_pose(0.1), 0.25},
-                                       {48, 4, 2, 1, sample_pose(0.2), -1}};
+  const std::vector<BopResult> results{{48, 3, 1, 0.123456789012345678, sample_pose(0.1), 0.25, ""},
+                                       {48, 4, 2, 1, sample_pose(0.2), -1, ""}};
   save_bop_results(results, folder.path() / "r.csv");
   const std::string text = content_of(folder.path() / "r.csv");
   EXPECT_TRUE(text.starts_with("scene_id,im_id,obj_id,score,R,t,time\n48,3,1,0.12345678901234568,"))
@@ -162,6 +205,63 @@ TEST(BopResults, ReadsWhatOtherToolsWrite) {
   EXPECT_LT((results[0].camera_from_object.translation_m - Vector3d(0.01, 0.02, 0.3)).norm(),
             1e-15);
   EXPECT_EQ(results[1].score, 0.5);
+}
+
+// A failed estimate is no reason to refuse the others.
+TEST(BopResults, LeaveOutRowsWithoutPose) {
+  const TemporaryFolder folder;
+  const std::string good = "1,2,3,0.5,1 0 0 0 1 0 0 0 1,1 2 3,0.1\n";
+  for (const std::string& row :
+       {"1,2,3,0.1,nan nan nan nan nan nan nan nan nan,nan nan nan,-1",
+        "1,2,3,0.1,0 0 0 0 0 0 0 0 0,0 0 0,-1", "1,2,3,0.1,1 0 0 0 1 0 0 0,1 2 3,0.1",
+        "1,2,3,0.1,1 0 0 0 1 0 0 0 1,1 2,0.1", "1,2,3,0.1,1 0 0 0 1 0 0 0 1,1 inf 3,0.1",
+        "1,2,3,0.1,1 0 0 0 1 0 0 0 -1,1 2 3,0.1", "1,2,3,nan,1 0 0 0 1 0 0 0 1,1 2 3,0.1",
+        "1,2,3,0.1,,,0.1", "1,2,3,0.1,1 0 0"}) {
+    CollectedLog log;
+    const auto file = folder.write("r.csv", good + row + "\n" + row + "\n" + good);
+    EXPECT_EQ(load_bop_results(file).size(), 2u) << row;
+    ASSERT_EQ(log.messages.size(), 1u) << row;
+    for (const char* words : {"r.csv: 2 of 4 rows hold no pose", "line 2"})
+      EXPECT_NE(log.messages[0].second.find(words), std::string::npos) << log.messages[0].second;
+  }
+}
+
+TEST(BopResults, ReadMarksOfOtherSystems) {
+  const TemporaryFolder folder;
+  CollectedLog log;
+  const auto file = folder.write("r.csv",
+                                 "\xef\xbb\xbfscene_id,im_id,obj_id,score,R,t,time\r\n"
+                                 "1,2,3,0.5,1 0 0 0 1 0 0 0 1,1 2 3,nan\r\n\r\n");
+  const std::vector<BopResult> results = load_bop_results(file);
+  ASSERT_EQ(results.size(), 1u);
+  EXPECT_EQ(results[0].time_s, -1);
+  EXPECT_TRUE(log.messages.empty());
+  expect_input_error([&] { load_bop_results(folder.write("r.csv", "\xff\xfes\0c\0")); },
+                     {"r.csv", "UTF-16"});
+}
+
+TEST(BopResults, TellTheCamera) {
+  const TemporaryFolder folder;
+  std::vector<BopResult> results{{48, 3, 1, 0.5, sample_pose(0.1), 0.25, "cam1"},
+                                 {48, 3, 1, 0.5, sample_pose(0.1), 0.25, "photoneo"}};
+  save_bop_results(results, folder.path() / "r.csv");
+  const std::vector<BopResult> back = load_bop_results(folder.path() / "r.csv");
+  ASSERT_EQ(back.size(), 2u);
+  EXPECT_EQ(back[0].camera_name, "cam1");
+  EXPECT_EQ(back[1].camera_name, "photoneo");
+}
+
+// As BOP's own files are: 0.002 off.
+TEST(BopResults, ProjectRotationsThatAreNearlyOne) {
+  const TemporaryFolder folder;
+  CollectedLog log;
+  const std::string row = "1,2,3,0.5,1.002 0.001 0 0 0.998 0 0 0 1.001,1 2 3,0.1\n";
+  const std::vector<BopResult> results = load_bop_results(folder.write("r.csv", row + row));
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_LT(angle_between_rad(results[0].camera_from_object, Se3{}), 0.001);
+  ASSERT_EQ(log.messages.size(), 1u);
+  EXPECT_NE(log.messages[0].second.find("r.csv: found 2 matrices"), std::string::npos)
+      << log.messages[0].second;
 }
 
 TEST(BopResults, NamesTheLineOfWhatIsWrong) {

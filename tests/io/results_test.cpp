@@ -210,9 +210,9 @@ TEST(StartPoses, ComeFromOurOwnResultsInTheCameraFrame) {
   const Se3 expected = *r.camera_from_world * r.detections[0].world_from_object;
   EXPECT_LT(angle_between_rad(poses[0].camera_from_object, expected), 1e-7);
   EXPECT_LT(distance_between_m(poses[0].camera_from_object, expected), 1e-12);
-  EXPECT_TRUE(belongs_to(poses[0], "elsewhere/000012.png", 48, 12));
-  EXPECT_FALSE(belongs_to(poses[0], "elsewhere/000013.png", 48, 12));
-  EXPECT_FALSE(belongs_to(poses[0], "elsewhere/000012.png", 47, 12));
+  EXPECT_TRUE(belongs_to(poses[0], {"elsewhere/000012.png", 48, 12, ""}));
+  EXPECT_FALSE(belongs_to(poses[0], {"elsewhere/000013.png", 48, 12, ""}));
+  EXPECT_FALSE(belongs_to(poses[0], {"elsewhere/000012.png", 47, 12, ""}));
 }
 
 TEST(StartPoses, ComeFromABopResultsFile) {
@@ -225,10 +225,10 @@ TEST(StartPoses, ComeFromABopResultsFile) {
   EXPECT_EQ(poses[0].object_id, 3);
   EXPECT_EQ(poses[0].score, 0.7);
   EXPECT_LT((poses[0].camera_from_object.translation_m - Vector3d(0.01, 0.02, 0.3)).norm(), 1e-15);
-  EXPECT_TRUE(belongs_to(poses[0], "any.png", 48, 12));
-  EXPECT_FALSE(belongs_to(poses[0], "any.png", 48, 13));
-  EXPECT_FALSE(belongs_to(poses[0], "any.png", 0, 12));  // 0 is a scene like any other
-  EXPECT_TRUE(belongs_to(poses[0], "any.png", std::nullopt, 12));
+  EXPECT_TRUE(belongs_to(poses[0], {"any.png", 48, 12, ""}));
+  EXPECT_FALSE(belongs_to(poses[0], {"any.png", 48, 13, ""}));
+  EXPECT_FALSE(belongs_to(poses[0], {"any.png", 0, 12, ""}));  // 0 is a scene like any other
+  EXPECT_TRUE(belongs_to(poses[0], {"any.png", std::nullopt, 12, ""}));
 }
 
 TEST(StartPoses, ComeFromAPlainList) {
@@ -238,17 +238,17 @@ TEST(StartPoses, ComeFromAPlainList) {
     {"image": "a/b.png", "object": 4, "R": [0,-1,0,1,0,0,0,0,1], "t": [0, 0, 1], "scene": 5, "score": 0.5}])");
   const std::vector<StartPose> poses = load_start_poses(file);
   ASSERT_EQ(poses.size(), 2u);
-  EXPECT_TRUE(belongs_to(poses[0], "x.png", 99, 12));
-  EXPECT_TRUE(belongs_to(poses[1], "b.png", 5, 0));
+  EXPECT_TRUE(belongs_to(poses[0], {"x.png", 99, 12, ""}));
+  EXPECT_TRUE(belongs_to(poses[1], {"b.png", 5, 0, ""}));
   EXPECT_EQ(same_ending(poses[1], "/images/a/b.png"), 2);
   EXPECT_EQ(same_ending(poses[1], "/images/x/b.png"), 1);
   EXPECT_EQ(same_ending(poses[1], "/b.png"), 1);
   EXPECT_EQ(same_ending(poses[1], "/a/x.png"), 0);
   StartPose of_latin_1;  // as in a result of the image
   of_latin_1.image = "a\xef\xbf\xbd/caf\xef\xbf\xbd.png";
-  EXPECT_TRUE(belongs_to(of_latin_1, "caf\xe9.png", std::nullopt, 0));
+  EXPECT_TRUE(belongs_to(of_latin_1, {"caf\xe9.png", std::nullopt, 0, ""}));
   EXPECT_EQ(same_ending(of_latin_1, "/a\xe9/caf\xe9.png"), 2);
-  EXPECT_FALSE(belongs_to(poses[1], "b.png", 6, 0));
+  EXPECT_FALSE(belongs_to(poses[1], {"b.png", 6, 0, ""}));
   EXPECT_LT((poses[1].camera_from_object * Vector3d::UnitX() - Vector3d(0, 1, 1)).norm(), 1e-12);
   const auto bad = [&](const std::string& text) {
     load_start_poses(folder.write("bad.json", text));
