@@ -7,7 +7,7 @@ namespace {
 
 constexpr double near_truth_m = 0.006;  // of one small view
 
-std::vector<std::string> files_in(const fs::path& folder) {
+std::vector<std::string> names_in(const fs::path& folder) {
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(folder))
     names.push_back(entry.path().filename().string());
@@ -21,7 +21,7 @@ TEST(Dataset, OfSeveralCamerasIsSearchedInEach) {
   const SmallDataset set = industrial_set();
   expect_done(run_program(set.detect(set.scene, set.model())));
   EXPECT_EQ(
-      files_in(set.out),
+      names_in(set.out),
       (std::vector<std::string>{"000003_000000_cam1.json", "000003_000000_cam2.json", "results.csv",
                                 "results_cam1.csv", "results_cam2.csv", "summary.json"}));
   const std::vector<BopResult> rows = load_bop_results(set.out / "results.csv");
@@ -42,7 +42,7 @@ TEST(Dataset, OfSeveralCamerasIsSearchedInEach) {
 TEST(Dataset, OfSeveralCamerasIsSearchedInChosenOnes) {
   const SmallDataset set = industrial_set();
   expect_done(run_program(set.detect(set.scene, joined({set.model(), {"--cameras", "cam2"}}))));
-  EXPECT_EQ(files_in(set.out), (std::vector<std::string>{"000003_000000_cam2.json", "results.csv",
+  EXPECT_EQ(names_in(set.out), (std::vector<std::string>{"000003_000000_cam2.json", "results.csv",
                                                          "results_cam2.csv", "summary.json"}));
   expect_refused(set.detect(set.scene, joined({set.model(), {"--cameras", "cam9"}})),
                  {"cam1, cam2", "--cameras", "cam9"});
@@ -140,7 +140,7 @@ TEST(Dataset, IsRestrictedToTargets) {
     return set.detect(set.root, {"--split", "test", "--targets", targets});
   };
   expect_done(run_program(detect(of_2024)));
-  EXPECT_EQ(files_in(set.out),
+  EXPECT_EQ(names_in(set.out),
             (std::vector<std::string>{"000003_000001.json", "results.csv", "summary.json"}));
   std::vector<BopResult> rows = true_results(load_bop_scene(set.scene), 1);
   save_bop_results(rows, folder.path() / "r.csv");
