@@ -70,7 +70,7 @@ void add_folder(const fs::path& folder, std::vector<InputImage>& images) {
 }
 
 void make_names_unique(std::vector<InputImage>& images) {
-  std::set<std::string> taken{"summary"};  // the batch's own file
+  std::set<std::string> taken{"shard", "summary"};  // the batch's own files
   for (InputImage& image : images) {
     const std::string name = image.name;
     for (int times = 2; !taken.insert(image.name).second; ++times)
