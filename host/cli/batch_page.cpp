@@ -65,8 +65,8 @@ std::array<std::size_t, BINS> bins_of(const BatchTables& tables) {
 std::string histogram(const BatchTables& tables) {
   const std::array<std::size_t, BINS> bins = bins_of(tables);
   const std::size_t most = std::max<std::size_t>(1, *std::ranges::max_element(bins));
-  constexpr double left = 12, width = 26, height = 150, foot = 180;
-  std::string svg = "<svg class=histogram viewBox='0 0 544 206' role=img>";
+  constexpr double left = 12, width = 26, height = 250, foot = 280;
+  std::string svg = "<svg class=histogram viewBox='0 0 544 306' role=img>";
   for (int b = 0; b < BINS; ++b) {
     const std::size_t count = bins[static_cast<std::size_t>(b)];
     const double bar = height * static_cast<double>(count) / static_cast<double>(most),

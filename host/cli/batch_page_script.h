@@ -11,7 +11,7 @@ inline constexpr const char* GALLERY_STYLE = R"(
 .figure{text-align:right}th.figure{text-align:right}
 .length{display:block;height:12px;min-width:1px;background:#2b6cb0;border-radius:3px}
 .controls,.pager{display:flex;flex-wrap:wrap;gap:10px;align-items:center;margin:0 0 14px}
-.pager{margin:0}.controls .pager{margin-left:auto}
+.pager{margin:0}.pager[hidden]{display:none}.controls .pager{margin-left:auto}
 .controls input,.controls select,.pager button,.pager input{font:inherit;padding:4px 10px;border:1px solid var(--line);border-radius:8px;background:#fff;color:var(--ink)}
 .controls #find{width:210px}.pager input{width:70px;text-align:right}
 .pager button{cursor:pointer}.pager button:disabled{opacity:.4;cursor:default}
@@ -54,7 +54,7 @@ function show(to){
   page=Math.min(Math.max(0,to),pages-1);
   grid.replaceChildren(...chosen.slice(page*perPage,(page+1)*perPage).map(card));
   const first=page*perPage+1,last=Math.min(chosen.length,first+perPage-1);
-  document.getElementById('shown').textContent=chosen.length?first+' to '+last+' of '+chosen.length:'none';
+  document.getElementById('shown').textContent=chosen.length?[first,last].join(' to ')+' of '+chosen.length.toLocaleString('en'):'none';
   for(const bar of document.querySelectorAll('.pager')){
     const button=(text,to,off)=>make('button',{textContent:text,disabled:off,onclick(){show(to)}});
     const number=make('input',{type:'number',min:1,max:pages,value:page+1,ariaLabel:'Page',onchange(){show(Number(this.value)-1)}});
