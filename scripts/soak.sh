@@ -24,7 +24,7 @@ mkdir -p "$out"
 limit=$(awk "BEGIN { print int($hours * 3600) }")
 
 # seconds_of VERB: how long was measured so far, over all runs.
-seconds_of() { if [ -s "$out/$1.csv" ]; then tail -n 1 "$out/$1.csv" | cut -d, -f1; else echo 0; fi; }
+seconds_of() { (tail -n 1 "$out/$1.csv" 2>/dev/null || echo 0) | cut -d, -f1; }
 
 # watch VERB COMMAND...: runs the command, and writes down memory and files every five seconds.
 watch() {
@@ -38,7 +38,7 @@ watch() {
     sleep 5
     local memory files
     memory=$(awk '/VmRSS/ { print $2 / 1024 }' "/proc/$process/status" 2>/dev/null || true)
-    files=$(find "/proc/$process/fd" -mindepth 1 2>/dev/null | wc -l)
+    files=$(find "/proc/$process/fd" -mindepth 1 2>/dev/null | wc -l || true)
     if [ -n "$memory" ]; then
       echo "$((before + SECONDS - start)),$process,$memory,$files" >>"$out/$verb.csv"
     fi
@@ -66,8 +66,8 @@ loop_of_images() {
 say "detect, $hours h"
 loop_of_images
 while [ "$(seconds_of detect)" -lt "$limit" ]; do
-  watch detect "$edgescout" detect "$out/images" "${model[@]}" --camera "$parts/../scenes/000000/scene_camera.json" \
-    --no-overlays --resume --out "$out/found"
+  watch detect "$edgescout" detect "$out/images" "${model[@]}" \
+    --camera docs/examples/scenes/000000/scene_camera.json --no-overlays --resume --out "$out/found"
   if [ "$(seconds_of detect)" -lt "$limit" ]; then rm -rf "$out/found"; fi  # all done: once more
 done
 

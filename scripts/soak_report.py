@@ -45,10 +45,11 @@ def report(file):
     drawn = [slope_of([blocks[i] for i in random.integers(len(blocks), size=len(blocks))])
              for _ in range(DRAWS)]
     low, high = numpy.percentile(drawn, [2.5, 97.5])
+    slope = slope_of([centred(run) for run in runs])
     all_of = numpy.concatenate(runs)
     print(f'{pathlib.Path(file).stem}: {len(runs)} processes, {all_of[:, 0].max() / 60:.0f} min, '
-          f'{all_of[:, 1].max():.0f} MiB at most, slope {slope_of([centred(r) for r in runs]):+.2f} '
-          f'MiB an hour (95 %: {low:+.2f} to {high:+.2f}), open files {all_of[:, 2].min():.0f} to '
+          f'{all_of[:, 1].max():.0f} MiB at most, slope {slope:+.2f} MiB an hour '
+          f'(95 %: {low:+.2f} to {high:+.2f}), open files {all_of[:, 2].min():.0f} to '
           f'{all_of[:, 2].max():.0f}')
 
 

@@ -8,6 +8,7 @@ have the files of an undisturbed run, with equal contents but for times, and no 
 """
 import random
 import shutil
+import subprocess
 import sys
 
 from verbs import Folder, arguments_of, difference, files_in, finished_files, report
@@ -24,7 +25,7 @@ def kill_often(folder, verb, moments):
         process = folder.start(folder.call(verb, out, resume=out.exists()))
         try:
             errors = process.communicate(timeout=None if last else random.uniform(0, seconds))[1]
-        except Exception:
+        except subprocess.TimeoutExpired:
             process.kill()
             process.communicate()
             kills += 1

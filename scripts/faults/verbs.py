@@ -1,4 +1,4 @@
-"""What the scripts of this folder share: small inputs, the verbs that write folders, comparisons."""
+"""What the scripts of this folder share: small inputs, the verbs that write folders, the judge."""
 import argparse
 import hashlib
 import json
@@ -14,7 +14,8 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get('EDGESCOUT', str(ROOT / 'build/release/host/cli/edgescout'))
 VERBS = ['detect', 'register', 'scout', 'render', 'experiments']
-FEW = ['--viewpoints', '3', '--in-plane-steps', '12']
+FEW = ['--viewpoints', '1', '--in-plane-steps', '6', '--distance-min', '0.25', '--distance-max',
+       '0.27', '--scan-hits', '200', '--coarse-poses', '8', '--medium-poses', '3']
 SMALL = ['--width', '160', '--height', '120', '--focal', '200']
 
 
@@ -35,15 +36,15 @@ class Folder:
     def call(self, verb, out, resume=False):
         """The arguments of the verb. One that cannot resume is run again from its beginning."""
         work = {
-            'render': ['--part', 'l_bracket', '--objects', '1', '--scenes', '3', '--views', '4',
+            'render': ['--part', 'l_bracket', '--objects', '1', '--scenes', '2', '--views', '4',
                        '--seed', '1', *SMALL],
-            'detect': [self.scenes, *self.model, *FEW, '--coarse-poses', '300', '--candidates',
-                       '10', '--min-probability', '0.01', '--device', 'cpu'],
+            'detect': [self.scenes, *self.model, *FEW, '--candidates', '2', '--min-probability',
+                       '0.0001', '--device', 'cpu'],
             'register': [self.scenes, *self.model, '--poses', self.path / 'detect/results.csv',
                          '--device', 'cpu'],
             'scout': ['cell', *self.model, *FEW, '--objects', '2', '--seed', '3', *SMALL,
-                      '--view-count', '8', '--max-views', '3', '--coarse-poses', '300',
-                      '--candidates', '5', '--particles', '50', '--device', 'cpu'],
+                      '--view-count', '6', '--max-views', '3', '--candidates', '5', '--particles',
+                      '20', '--device', 'cpu'],
             'experiments': ['detection', '--scenes', '3', '--image-scale', '0.25', '--candidates',
                             '5', '--no-times', '--seed', '1'],
         }[verb]

@@ -3,6 +3,7 @@
 # 400 small images in eight shards, kills a node in the middle, and compares the merged result with
 # that of one run. Needs Debian's slurm-wlm and munge, and root. Takes minutes.
 #   scripts/slurm/try.sh [FOLDER]        # default: a temporary one, removed at the end
+# Images that an earlier try left in FOLDER/scenes are used again.
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 here=$PWD/scripts/slurm
 EDGESCOUT=$(realpath "${EDGESCOUT:-build/release/host/cli/edgescout}")
@@ -34,10 +35,14 @@ descendants() {
   for child in $(pgrep -P "$1" || true); do descendants "$child"; done
 }
 
-# of_node NAME: the processes of tasks that run on the node.
+# of_node NAME: the processes of tasks that run on the node, and the step daemons above them.
 of_node() {
+  local process parent
   grep -lsz "^SLURMD_NODENAME=$1\$" /proc/[0-9]*/environ | cut -d/ -f3 | while read -r process; do
-    if grep -qsz "^SLURM_CONF=$cluster/slurm.conf\$" "/proc/$process/environ"; then echo "$process"; fi
+    if ! grep -qsz "^SLURM_CONF=$cluster/slurm.conf\$" "/proc/$process/environ"; then continue; fi
+    echo "$process"
+    parent=$(ps -o ppid= -p "$process" | tr -d ' ' || true)
+    if [[ $(ps -o args= -p "${parent:-0}") == *slurmstepd* ]]; then echo "$parent"; fi
   done
 }
 
@@ -104,9 +109,10 @@ CONF
 start_slurm() {
   slurmctld -D >"$cluster/slurmctld.out" 2>&1 &
   daemons+=($!)
-  slurmd -D -N node1 >"$cluster/node1.out" 2>&1 &
+  # Each node has a processor of its own.
+  taskset -c 0 slurmd -D -N node1 >"$cluster/node1.out" 2>&1 &
   daemons+=($!)
-  slurmd -D -N node2 >"$cluster/node2.out" 2>&1 &
+  taskset -c $(($(nproc) - 1)) slurmd -D -N node2 >"$cluster/node2.out" 2>&1 &
   node2=$!
   daemons+=("$node2")
   for ((wait = 0; wait < 60; ++wait)); do
@@ -122,13 +128,17 @@ start_slurm() {
 results() { find "$folder/out" -name '0*_0*.json' 2>/dev/null | wc -l; }
 
 say "$images images of 160x120 px"
-"$EDGESCOUT" render --part l_bracket --objects 1 --scenes $((images / 10)) --views 10 --width 160 \
-  --height 120 --focal 200 --seed 1 --supersampling 1 --out "$folder/scenes" 2>/dev/null
+if [ ! -d "$folder/scenes" ]; then
+  "$EDGESCOUT" render --part l_bracket --objects 1 --scenes $((images / 10)) --views 10 \
+    --width 160 --height 120 --focal 200 --seed 1 --supersampling 1 --out "$folder/scenes" \
+    2>/dev/null
+fi
 detect=("$folder/scenes" --model "$folder/scenes/models/obj_000001.ply" --unit mm --device cpu
-  --viewpoints 3 --in-plane-steps 12 --coarse-poses 300 --candidates 10 --no-overlays)
+  --viewpoints 1 --in-plane-steps 6 --distance-min 0.25 --distance-max 0.27 --scan-hits 200
+  --coarse-poses 8 --medium-poses 3 --candidates 1 --min-probability 0.0001 --no-overlays)
 
-say "one run on one machine"
-"$EDGESCOUT" detect "${detect[@]}" --out "$folder/one" 2>/dev/null
+say "one run on one processor, as a node has"
+taskset -c 0 "$EDGESCOUT" detect "${detect[@]}" --out "$folder/one" 2>/dev/null
 
 say "a cluster of two nodes, $shards shards"
 start_munge
@@ -138,9 +148,12 @@ sinfo
 merge=$(LOCK_SECONDS=0 scripts/slurm/submit.sh "$shards" "$folder/out" detect "${detect[@]}")
 until [ "$(results)" -ge $((images / 3)) ]; do sleep 0.3; done
 before=$(results)
-# As if it lost its power: the daemon, its steps and their programs end at once.
 squeue -h -o '%i %T %N' | sort
-{ descendants "$node2"; of_node node2; } | sort -un | xargs -r kill -9 2>/dev/null || true
+# As if it lost its power: the daemon, its steps and their programs end at once. They are stopped
+# first, so that no step reports that its program was killed.
+mapfile -t lost < <({ descendants "$node2"; of_node node2; } | sort -un)
+kill -STOP "${lost[@]}" 2>/dev/null || true
+kill -9 "${lost[@]}" 2>/dev/null || true
 echo "node2 killed after $before of $images results"
 
 while squeue -h -j "$merge" 2>/dev/null | grep -q .; do
@@ -149,10 +162,8 @@ while squeue -h -j "$merge" 2>/dev/null | grep -q .; do
   if [ "$state" != "${last:-}" ]; then echo "nodes: $state"; fi
   last=$state
 done
-echo "restarts of the tasks:"
-scontrol show job "${merge}" | grep -oE 'JobState=[A-Z]+'
-scontrol show jobs | awk '/JobId=/ { task = $2 } /Restarts=/ { print task, $0 }' |
-  sed -nE 's/.*ArrayTaskId=([0-9]+).*Restarts=([1-9][0-9]*).*/shard \1: \2/p'
+scontrol show jobs | awk '/JobId=/ { task = $0 } /Restarts=/ { print task, $0 }' |
+  sed -nE 's/.*ArrayTaskId=([0-9]+) .*Restarts=([1-9][0-9]*).*/shard \1 was restarted: \2/p'
 cat "$folder/out/log/merge.txt"
 
 say "the merged result against that of one run"
