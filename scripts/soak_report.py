@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Reports what scripts/soak.sh measured: the slope of resident memory and the open files.
 
 The slope is fitted to each process by itself, after its first quarter (it loads and grows until it

@@ -40,7 +40,7 @@ def starve(folder, verb, times):
     codes = {}
     for number in range(times):
         out = folder.path / 'starved'
-        mib = random.randrange(enough // 4, enough)
+        mib = random.randrange(enough * 3 // 4, enough)  # below, no library loads
         done = run_with(folder, folder.call(verb, out), mib)
         codes[done.returncode] = codes.get(done.returncode, 0) + 1
         loads = 'error while loading shared libraries' not in done.stderr
