@@ -8,6 +8,7 @@
 #include "host/cli/exit_codes.h"
 #include "host/cli/option_table.h"
 #include "host/cli/program_version.h"
+#include "host/cli/shard_file.h"
 #include "host/cli/template_sets.h"
 #include "host/cli/verbs.h"
 #include "host/core/log.h"
@@ -37,6 +38,7 @@ LoadedTemplates load_templates_for(const DetectRequest& request, std::span<const
       images, first_camera(images, request.batch.camera, request.batch.scale_camera),
       request.batch.pipeline.detect.scan.world);
   if (request.batch.joint) require_joinable(images);
+  require_own_folder(request.batch.out, request.batch.shard);
   if (!request.batch.resume)
     require_no_other_results(request.batch.out,
                              images_of_shard(images, request.batch.joint, request.batch.shard));

@@ -121,17 +121,22 @@ ShardOfBatch::ShardOfBatch(const std::optional<Shard>& shard, WholeBatch batch,
   }
 }
 
-void ShardOfBatch::require_own(const fs::path& folder) const {
+void require_own_folder(const fs::path& folder, const std::optional<Shard>& shard) {
   std::error_code unknown;
   if (!fs::exists(shard_file(folder), unknown)) return;
-  const ShardFile found = load_shard(folder);
-  const std::string file = shard_file(folder).string();
-  if (!file_)
-    throw InputError(file, "shard", text_of(found.shard), "no shard of a batch (another --out)");
-  if (found.shard != file_->shard)
-    throw InputError(file, "shard", text_of(found.shard),
-                     text_of(file_->shard) + " as in this run (or another --out)");
-  require_same_batch(found.batch, file_->batch, file, " as in this run (or another --out)");
+  const Shard found = load_shard(folder).shard;
+  if (found != shard)
+    throw InputError(shard_file(folder).string(), "shard", text_of(found),
+                     (shard ? text_of(*shard) + " as in this run" : "no shard of a batch") +
+                         " (or another --out)");
+}
+
+void ShardOfBatch::require_own(const fs::path& folder) const {
+  require_own_folder(folder, file_ ? std::optional(file_->shard) : std::nullopt);
+  std::error_code unknown;
+  if (file_ && fs::exists(shard_file(folder), unknown))
+    require_same_batch(load_shard(folder).batch, file_->batch, shard_file(folder).string(),
+                       " as in this run (or another --out)");
 }
 
 void ShardOfBatch::save(const fs::path& folder) const {

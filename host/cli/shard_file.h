@@ -45,6 +45,10 @@ ShardFile load_shard(const std::filesystem::path& folder);
 void require_same_batch(const WholeBatch& found, const WholeBatch& expected,
                         const std::string& file, const std::string& as);
 
+// The part of ShardOfBatch::require_own that needs nothing but the numbers. InputError: the folder
+// holds another shard than this, or a shard where this run has all images.
+void require_own_folder(const std::filesystem::path& folder, const std::optional<Shard>& shard);
+
 // The shard.json of a run, and the checks that it needs. A run of all images has none.
 class ShardOfBatch {
  public:
