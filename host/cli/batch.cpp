@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "host/cli/progress.h"
+#include "host/cli/shard_file.h"
 #include "host/cli/view_results.h"
 #include "host/cli/wanted_objects.h"
 #include "host/core/log.h"
@@ -123,6 +124,8 @@ class Detector {
         options_(options),
         settings_(settings) {
     for (const TemplateSet& set : sets) models_.push_back(set.model);
+    summary.verb = "detect";
+    summary.by_scene = options.joint;
     summary.images = static_cast<int>(images.size());
   }
   void skip(const Group& group) {
@@ -147,9 +150,10 @@ class Detector {
     if (found) write(good, views, *found);
   }
 
-  // If no image can be used, throws the error of the last one.
+  // If no image can be used, throws the error of the last one. Another shard may have good ones.
   void require_any_usable() const {
-    if (failed_ > 0 && failed_ == summary.images) throw InputError(last_failure_);
+    if (!options_.shard && failed_ > 0 && failed_ == summary.images)
+      throw InputError(last_failure_);
   }
 
   BatchSummary summary;
@@ -226,7 +230,7 @@ class Detector {
   void list_failure(const InputImage& input, const std::string& message) {
     summary.failures[input.file.string()] = message;
     last_failure_ = message;
-    if (++failed_ < summary.images) log(LogLevel::Warning, message);
+    if (++failed_ < summary.images || options_.shard) log(LogLevel::Warning, message);
   }
 
   std::span<const InputImage> images_;  // of the whole batch
@@ -260,6 +264,19 @@ void work_through(const std::vector<Group>& open, Preparer& preparer, Detector& 
   }
 }
 
+// Existing results are checked before any work: a result of another run ends the batch.
+std::vector<Group> open_groups(std::span<const InputImage> images, const BatchOptions& options,
+                               const BatchSettings& settings, Detector& detector) {
+  std::vector<Group> open;
+  for (Group& group : group_images(images, options.joint, settings)) {
+    if (options.resume && is_done(group, options, settings))
+      detector.skip(group);
+    else
+      open.push_back(std::move(group));
+  }
+  return open;
+}
+
 }  // namespace
 
 void require_joinable(std::span<const InputImage> images) {
@@ -278,31 +295,29 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
   const auto start = Clock::now();
   if (options.joint) require_joinable(images);
   const BatchSettings settings = settings_of(sets, images, options);
+  const std::vector<InputImage> own = images_of_shard(images, options.joint, options.shard);
+  const ShardOfBatch shard(options.shard, {options.version, "detect", options.joint, 0, "", {}},
+                           settings, images, own);
+  shard.require_own(options.out);
   Preparer preparer(options, settings.camera, !leaves_edges_to(backend, options));
-  Detector detector(images, sets, backend, options, settings);
+  Detector detector(own, sets, backend, options, settings);
   BatchSummary& summary = detector.summary;
   summary.templates = options.templates;
-  std::vector<Group> open;
-  for (Group& group : group_images(images, options.joint, settings)) {
-    if (options.resume && is_done(group, options, settings))
-      detector.skip(group);
-    else
-      open.push_back(std::move(group));
-  }
+  const std::vector<Group> open = open_groups(own, options, settings, detector);
   require_writable_place(options.out);
+  shard.save(options.out);
   warn_of_camera({settings.camera, options.camera.file, options.scale_camera});
   try {
     work_through(open, preparer, detector);
   } catch (const std::exception& error) {
     summary.error = error.what();
     summary.seconds = seconds_since(start);
-    write_ended(images, summary, backend.name(), options.out);
+    write_ended(own, summary, backend.name(), options.out);
     throw;
   }
   detector.require_any_usable();
   summary.seconds = seconds_since(start);
-  write_csv(images, summary, options.out);
-  write_summary(summary, backend.name(), options.out);
+  write_tables(own, summary, backend.name(), options.out);
   return summary;
 }
 

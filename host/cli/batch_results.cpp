@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "host/active/particles.h"
+#include "host/cli/batch_page.h"
 #include "host/cli/stage_times.h"
 #include "host/core/log.h"
 #include "host/io/bop.h"
@@ -113,7 +114,7 @@ void require_no_other_results(const fs::path& out, std::span<const InputImage> i
 }
 
 void start_anew(const fs::path& out, std::span<const InputImage> images) {
-  std::vector<fs::path> files{out / "results.csv", out / "summary.json"};
+  std::vector<fs::path> files{out / "results.csv", out / "summary.json", out / "report.html"};
   for (const std::string& camera : cameras_of(images)) files.push_back(csv_of(out, camera));
   for (const InputImage& image : images) {
     files.push_back(json_of(out, image));
@@ -124,26 +125,7 @@ void start_anew(const fs::path& out, std::span<const InputImage> images) {
   remove_earlier_files(files);
 }
 
-void write_csv(std::span<const InputImage> images, BatchSummary& summary, const fs::path& out) {
-  std::vector<BopResult> rows;
-  summary.out_of_sight = 0;
-  for (const InputImage& input : images) {
-    if (!summary.finished.contains(input.name)) continue;
-    const ImageResult result = load_image_result(json_of(out, input));
-    double seconds = 0;
-    for (const StageSeconds& stage : result.stages) seconds += stage.seconds;
-    summary.out_of_sight += static_cast<int>(
-        std::ranges::count(result.detections, OUT_OF_SIGHT, &Detection::convergence));
-    for (const Detection& d : result.detections)
-      rows.push_back({result.scene_id, result.image_id,
-                      result.objects[static_cast<std::size_t>(d.object)].id, d.probability,
-                      result.camera_from_world.value_or(Se3{}) * d.world_from_object, seconds,
-                      result.camera_name});
-  }
-  save_bop_results(rows, out / "results.csv");
-  write_csv_of_cameras(rows, cameras_of(images), out);
-  summary.poses = static_cast<int>(rows.size());
-}
+namespace {
 
 void write_summary(const BatchSummary& summary, const std::string& device, const fs::path& out) {
   nlohmann::ordered_json json{
@@ -165,7 +147,47 @@ void write_summary(const BatchSummary& summary, const std::string& device, const
   json["failures"] = nlohmann::ordered_json::array();
   for (const auto& [file, message] : summary.failures)
     json["failures"].push_back({{"file", file}, {"error", message}});
+  for (const MissingPart& part : summary.missing)
+    json["missing"].push_back(
+        {{"what", part.what}, {"images", part.images}, {"reason", part.reason}});
   write_file_atomically(out / "summary.json", json_text(json, 2));
+}
+
+void write_rows(const BatchTables& tables, BatchSummary& summary, const std::string& device,
+                const fs::path& out) {
+  summary.poses = static_cast<int>(tables.rows.size());
+  summary.out_of_sight = tables.out_of_sight;
+  save_bop_results(tables.rows, out / "results.csv");
+  write_csv_of_cameras(tables.rows, tables.cameras, out);
+  write_file_atomically(out / "report.html", batch_page(tables, summary, device));
+}
+
+BatchTables tables_of(std::span<const InputImage> images, const BatchSummary& summary,
+                      const fs::path& out) {
+  BatchTables tables(summary.by_scene);
+  for (const InputImage& input : images) {
+    const auto failure = summary.failures.find(input.file.string());
+    if (summary.finished.contains(input.name))
+      tables.add(input, load_image_result(json_of(out, input)));
+    else if (failure != summary.failures.end())
+      tables.add_failed(input, failure->second);
+    else
+      tables.add_missing(input, "the batch ended before");
+  }
+  return tables;
+}
+
+}  // namespace
+
+void write_tables(const BatchTables& tables, BatchSummary& summary, const std::string& device,
+                  const fs::path& out) {
+  write_rows(tables, summary, device, out);
+  write_summary(summary, device, out);
+}
+
+void write_tables(std::span<const InputImage> images, BatchSummary& summary,
+                  const std::string& device, const fs::path& out) {
+  write_tables(tables_of(images, summary, out), summary, device, out);
 }
 
 void write_ended(std::span<const InputImage> images, BatchSummary& summary,
@@ -179,7 +201,7 @@ void write_ended(std::span<const InputImage> images, BatchSummary& summary,
   };
   try_to([&] {
     require_writable_folder(out);  // the folder does not exist before the first result
-    write_csv(images, summary, out);
+    write_rows(tables_of(images, summary, out), summary, device, out);
   });
   try_to([&] { write_summary(summary, device, out); });
 }

@@ -1,5 +1,5 @@
-// Writes the files of a batch apart from the pictures: NAME.json for every image, results.csv over
-// all images and summary.json. An interrupted batch resumes from the JSON files.
+// Writes the files of a batch apart from the pictures: NAME.json for every image, results.csv,
+// summary.json and report.html over all images. An interrupted batch resumes from the JSON files.
 #pragma once
 
 #include <filesystem>
@@ -10,12 +10,22 @@
 #include <vector>
 
 #include "host/cli/batch_settings.h"
+#include "host/cli/batch_tables.h"
 #include "host/cli/template_origin.h"
 #include "host/register_objects.h"
 
 namespace edgescout {
 
+// What a merged batch lacks: an image, or a shard as a whole.
+struct MissingPart {
+  std::string what;  // "image FILE", "shard 2/8"
+  int images = 1;
+  std::string reason;
+};
+
 struct BatchSummary {
+  std::string verb;
+  bool by_scene = false;  // views of a scene are worked on together
   int images = 0, done = 0, skipped = 0;
   int poses = 0;                                // in results.csv: of images done and skipped
   int out_of_sight = 0;                         // of these poses: OUT_OF_SIGHT
@@ -24,7 +34,8 @@ struct BatchSummary {
   std::map<std::string, double> stage_seconds;  // of all images done, by stage
   std::vector<TemplateOrigin> templates;        // empty: not known
   double seconds = 0;
-  std::string error;  // the error that ended the batch; empty: none
+  std::string error;                 // the error that ended the batch; empty: none
+  std::vector<MissingPart> missing;  // of a merged batch
 };
 
 std::filesystem::path json_of(const std::filesystem::path& out, const InputImage& input);
@@ -53,18 +64,18 @@ void require_no_other_results(const std::filesystem::path& out, std::span<const 
 // require_no_other_results before.
 void start_anew(const std::filesystem::path& out, std::span<const InputImage> images);
 
-// Writes results.csv from the JSON files of the finished images; of scenes with several cameras
-// also results_CAMERA.csv. JSON files that an earlier run
-// left for other images are not used. Counts in the summary the rows and the poses out of sight.
-void write_csv(std::span<const InputImage> images, BatchSummary& summary,
-               const std::filesystem::path& out);
+// Writes results.csv (of scenes with several cameras also results_CAMERA.csv), report.html and summary.json (counts, throughput, mean time of every stage,
+// failures, what is missing, and the error that ended the batch). Counts in the summary the poses
+// and those out of sight.
+void write_tables(const BatchTables& tables, BatchSummary& summary, const std::string& device,
+                  const std::filesystem::path& out);
 
-// Writes summary.json: counts, throughput, mean time of every stage, failures, and the error that
-// ended the batch.
-void write_summary(const BatchSummary& summary, const std::string& device,
-                   const std::filesystem::path& out);
+// The same, from the JSON files of the finished images. JSON files that an earlier run left for
+// other images are not used.
+void write_tables(std::span<const InputImage> images, BatchSummary& summary,
+                  const std::string& device, const std::filesystem::path& out);
 
-// Writes both for a batch that an error ends, so that those of an earlier run do not remain. If
+// Writes them for a batch that an error ends, so that those of an earlier run do not remain. If
 // writing fails, that is logged: the first error is the one to report.
 void write_ended(std::span<const InputImage> images, BatchSummary& summary,
                  const std::string& device, const std::filesystem::path& out);

@@ -110,14 +110,13 @@ std::string BatchSettings::jointly(const std::vector<const InputImage*>& views) 
   return fmt::format("{} jointly, {}", views.size(), checksum_text(out.bytes));
 }
 
-void require_same(const Settings& found, const Settings& expected, const std::string& file) {
+void require_same(const Settings& found, const Settings& expected, const std::string& file,
+                  const std::string& as) {
   Settings all = expected;
   all.insert(all.end(), found.begin(), found.end());
   for (const auto& [name, value] : all)
     if (value_in(found, name) != value_in(expected, name))
-      throw InputError(
-          file, name, value_in(found, name),
-          value_in(expected, name) + " as in this run (or no --resume, or another --out)");
+      throw InputError(file, name, value_in(found, name), value_in(expected, name) + as);
 }
 
 }  // namespace edgescout

@@ -32,7 +32,9 @@ std::pair<std::string, std::string> setting_of(int object_id, const EdgeModel& m
 // Returns a checksum in place of a value that is too long to be written.
 std::string checksum_text(std::string_view bytes);
 
-// InputError naming `file` and the first setting that differs or is missing on one side.
-void require_same(const Settings& found, const Settings& expected, const std::string& file);
+// InputError naming `file` and the first setting that differs or is missing on one side. `as` ends
+// the line: what the settings are compared with.
+void require_same(const Settings& found, const Settings& expected, const std::string& file,
+                  const std::string& as = " as in this run (or no --resume, or another --out)");
 
 }  // namespace edgescout

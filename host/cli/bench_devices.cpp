@@ -11,6 +11,7 @@
 #include "host/core/log.h"
 #include "host/experiments/devices.h"
 #include "host/io/files.h"
+#include "host/io/folder_lock.h"
 
 namespace edgescout {
 
@@ -24,7 +25,7 @@ struct DevicesRequest {
 void run(DevicesRequest& request, CLI::App& verb) {
   request.options.validate();
   for (const std::string& device : request.options.devices) make_backend(device);  // it exists
-  require_writable_folder(request.out);
+  const FolderLock lock(request.out);
   DevicesReport report;
   {
     Progress progress("devices", static_cast<std::size_t>(request.options.repetitions), std::cerr,

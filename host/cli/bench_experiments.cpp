@@ -12,6 +12,7 @@
 #include "host/cli/option_table.h"
 #include "host/cli/progress.h"
 #include "host/experiments/experiment.h"
+#include "host/io/folder_lock.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -77,6 +78,7 @@ class Bars {
 
 void run(const ExperimentsRequest& request, const CLI::App& verb) {
   cv::setNumThreads(1);  // cells run in parallel, and their times are those of one thread
+  const FolderLock lock(request.out, 2);  // down to cells/NAME
   Bars bars;
   ExperimentRun run;
   run.out = request.out;

@@ -7,10 +7,13 @@
 #include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/option_table.h"
+#include "host/cli/program_version.h"
+#include "host/cli/shard_file.h"
 #include "host/cli/template_sets.h"
 #include "host/cli/verbs.h"
 #include "host/core/log.h"
 #include "host/io/files.h"
+#include "host/io/folder_lock.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -36,9 +39,10 @@ LoadedTemplates load_templates_for(const DetectRequest& request, std::span<const
       images, first_camera(images, request.batch.camera, request.batch.scale_camera),
       request.batch.pipeline.detect.scan.world);
   if (request.batch.joint) require_joinable(images);
-  require_other_folder(images, request.batch.out);
-  require_writable_place(request.batch.out);
-  if (!request.batch.resume) require_no_other_results(request.batch.out, images);
+  require_own_folder(request.batch.out, request.batch.shard);
+  if (!request.batch.resume)
+    require_no_other_results(request.batch.out,
+                             images_of_shard(images, request.batch.joint, request.batch.shard));
   if (request.batch.joint) {
     const DistanceRange distances = searched_distances(known, request.templates, searched);
     for (const std::span<const InputImage> scene : groups_of(images, true))
@@ -51,16 +55,22 @@ LoadedTemplates load_templates_for(const DetectRequest& request, std::span<const
 int detect(DetectRequest& request) {
   request.batch.out = request.out;
   request.batch.overlays = !request.no_overlays;
+  request.batch.version = program_version();
   request.batch.pipeline.validate();
   request.templates.validate();
   const std::unique_ptr<Backend> backend = backend_of(request.device);
   take_models_of_dataset(request.models, request.inputs, request.dataset, false);
   const std::vector<InputImage> images =
       list_images(request.inputs, request.batch.camera, request.dataset);
+  require_other_folder(images, request.batch.out);
+  require_writable_place(request.batch.out);
+  const FolderLock lock(request.batch.out);
   const LoadedTemplates templates = load_templates_for(request, images, *backend);
   request.batch.templates = templates.origins;
-  log(LogLevel::Info, fmt::format("{} images, {} models, on {}", images.size(),
-                                  templates.sets.size(), backend->name()));
+  log(LogLevel::Info,
+      fmt::format("{} images{}, {} models, on {}", images.size(),
+                  request.batch.shard ? ", of them shard " + text_of(*request.batch.shard) : "",
+                  templates.sets.size(), backend->name()));
   const BatchSummary summary = run_batch(images, templates.sets, *backend, request.batch);
   std::cout << fmt::format(
       "{} images: {} done, {} skipped, {} failed in {:.1f} s ({:.2f} images/s); {} poses in {} "
@@ -87,6 +97,7 @@ void add_options(CLI::App& verb, DetectRequest& request) {
       .flag("joint", request.batch.joint,
             "Detect in all views of a BOP scene at once. The scene must have world poses")
       .flag("no-overlays", request.no_overlays, "Write no overlay pictures");
+  add_shard(verb, request.batch.shard);
   add_scale_camera(verb, request.batch.scale_camera);
   add_detection_options(verb, request.templates, request.batch.pipeline);
 }

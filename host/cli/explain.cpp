@@ -14,6 +14,7 @@
 #include "host/cli/verbs.h"
 #include "host/core/log.h"
 #include "host/io/files.h"
+#include "host/io/folder_lock.h"
 #include "host/io/image.h"
 #include "host/io/json_text.h"
 #include "host/io/rotations.h"
@@ -187,10 +188,12 @@ class Explainer {
   std::vector<std::string> failures_;
 };
 
-void require_safe_out(const ExplainRequest& request, std::span<const InputImage> images) {
-  if (request.out.empty()) return;
+// Nothing is locked where nothing is written.
+std::optional<FolderLock> locked_out(const ExplainRequest& request,
+                                     std::span<const InputImage> images) {
+  if (request.out.empty()) return std::nullopt;
   require_other_folder(images, request.out);
-  require_writable_folder(request.out);
+  return std::optional<FolderLock>(std::in_place, request.out);
 }
 
 ExitCode explain(ExplainRequest& request) {
@@ -210,7 +213,7 @@ ExitCode explain(ExplainRequest& request) {
       searched_images(images, first_camera(images, options.calibration, options.scale_camera),
                       options.pipeline.detect.scan.world);
   const std::vector<RegisterJob> jobs = jobs_of(request, images, known);
-  require_safe_out(request, images);
+  const std::optional<FolderLock> lock = locked_out(request, images);
   const std::vector<TemplateSet> sets =
       template_sets_of(known, request.templates, searched, *backend,
                        make_template_cache(request.models.cache))

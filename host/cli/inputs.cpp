@@ -89,11 +89,12 @@ void add_folder(const fs::path& folder, SceneLoader& loader, std::vector<InputIm
 }
 
 void make_names_unique(std::vector<InputImage>& images) {
-  std::set<std::string> taken{"summary"};  // the batch's own file
+  std::set<std::string> taken{"shard", "summary"};  // the batch's own files
+  std::map<std::string, int> next;                  // number of each name that comes again
   for (InputImage& image : images) {
     const std::string name = image.name;
-    for (int times = 2; !taken.insert(image.name).second; ++times)
-      image.name = fmt::format("{}_{}", name, times);
+    while (!taken.insert(image.name).second)
+      image.name = fmt::format("{}_{}", name, next.try_emplace(name, 2).first->second++);
   }
 }
 

@@ -82,6 +82,7 @@ int run(int argc, char** argv) {
   add_devices(app, exit_code);
   add_eval(app, exit_code);
   add_explain(app, exit_code);
+  add_merge(app, exit_code);
   add_model(app, exit_code);
   add_register(app, exit_code);
   add_render(app, exit_code);

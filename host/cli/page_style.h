@@ -1,4 +1,4 @@
-// The style sheet of the page of an active detection.
+// The style sheet of the program's HTML pages.
 #pragma once
 
 namespace edgescout {

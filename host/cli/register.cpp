@@ -7,10 +7,13 @@
 #include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/option_table.h"
+#include "host/cli/program_version.h"
 #include "host/cli/register_batch.h"
 #include "host/cli/symmetry_arguments.h"
 #include "host/cli/template_sets.h"
 #include "host/cli/verbs.h"
+#include "host/io/files.h"
+#include "host/io/folder_lock.h"
 #include "host/model/mesh_quality.h"
 #include "kernels/error.h"
 
@@ -61,6 +64,7 @@ int register_all(RegisterRequest& request) {
   RegisterOptions& options = request.options;
   options.out = request.out;
   options.overlays = !request.no_overlays;
+  options.version = program_version();
   options.pipeline.validate();
   options.refine.validate();
   const std::unique_ptr<Backend> backend = backend_of(request.device);
@@ -73,6 +77,8 @@ int register_all(RegisterRequest& request) {
       list_images(request.inputs, options.calibration, request.dataset);
   options.camera = given_camera(options.calibration, images);
   require_other_folder(images, options.out);
+  require_writable_place(options.out);
+  const FolderLock lock(options.out);
   const std::vector<RegisterJob> jobs =
       make_jobs(images, models, poses, request.multi_view, request.poses);
   if (request.multi_view) {
@@ -121,6 +127,7 @@ void add_options(CLI::App& verb, RegisterRequest& request) {
       .flag("resume", request.options.resume,
             "Skip images that have a result of the same models and options")
       .flag("no-overlays", request.no_overlays, "Write no overlay pictures");
+  add_shard(verb, request.options.shard);
   add_scale_camera(verb, request.options.scale_camera);
   CommandLineOptions add(verb);
   describe(request.options.refine, add);

@@ -8,6 +8,7 @@
 
 #include "host/cli/progress.h"
 #include "host/cli/register_job.h"
+#include "host/cli/shard_file.h"
 #include "host/cli/view_results.h"
 #include "host/core/log.h"
 #include "host/core/stopwatch.h"
@@ -60,6 +61,23 @@ std::vector<InputImage> all_views(std::span<const RegisterJob> jobs) {
   std::vector<InputImage> views;
   for (const RegisterJob& job : jobs) views.insert(views.end(), job.views.begin(), job.views.end());
   return views;
+}
+
+// The jobs of the shard; without one, all.
+std::vector<RegisterJob> jobs_of_shard(std::span<const RegisterJob> jobs,
+                                       const std::optional<Shard>& shard) {
+  if (!shard) return {jobs.begin(), jobs.end()};
+  std::vector<std::span<const InputImage>> groups;
+  for (const RegisterJob& job : jobs) groups.emplace_back(job.views);
+  const std::vector<bool> belongs = in_shard(groups, *shard);
+  std::vector<RegisterJob> chosen;
+  for (std::size_t j = 0; j < jobs.size(); ++j)
+    if (belongs[j]) chosen.push_back(jobs[j]);
+  return chosen;
+}
+
+bool has_joint_views(std::span<const RegisterJob> jobs) {
+  return std::ranges::any_of(jobs, [](const RegisterJob& job) { return job.views.size() > 1; });
 }
 
 // Runs the jobs of a batch one after the other.
@@ -155,7 +173,15 @@ std::vector<const RegisterJob*> skip_done(std::span<const RegisterJob> jobs, Reg
   return open;
 }
 
-void work_through(const std::vector<const RegisterJob*>& open, Registrar& registrar) {
+void list_failure(const RegisterJob& job, const std::string& message, RegisterSummary& summary) {
+  for (std::size_t view : views_with_starts(job))
+    summary.failures[job.views[view].file.string()] = message;
+  log(LogLevel::Warning, message);
+}
+
+// `may_all_fail`: another shard may have good images.
+void work_through(const std::vector<const RegisterJob*>& open, Registrar& registrar,
+                  bool may_all_fail) {
   Progress progress("register", open.size(), std::cerr, stderr_is_terminal());
   std::size_t failed = 0;
   for (const RegisterJob* job : open) {
@@ -163,29 +189,47 @@ void work_through(const std::vector<const RegisterJob*>& open, Registrar& regist
     try {
       refined = registrar.refine(*job);
     } catch (const InputError& error) {
-      if (++failed == open.size() && registrar.summary.skipped == 0) throw;
-      for (std::size_t view : views_with_starts(*job))
-        registrar.summary.failures[job->views[view].file.string()] = error.what();
-      log(LogLevel::Warning, error.what());
+      if (++failed == open.size() && registrar.summary.skipped == 0 && !may_all_fail) throw;
+      list_failure(*job, error.what(), registrar.summary);
     }
     if (refined) registrar.write(refined->first, refined->second);
     progress.step();
   }
 }
 
+// The settings of all images, with a checksum of all starts.
+BatchSettings settings_of_batch(std::span<const RegisterJob> jobs,
+                                std::span<const RegisterModel> models,
+                                const RegisterOptions& options) {
+  BatchSettings settings = settings_of(models, options);
+  std::vector<RegisterJob::Start> starts;
+  for (const RegisterJob& job : jobs)
+    starts.insert(starts.end(), job.starts.begin(), job.starts.end());
+  settings.common.emplace_back("starts of the batch", text_of(starts, models));
+  return settings;
+}
+
 }  // namespace
 
-RegisterSummary run_register(std::span<const RegisterJob> jobs,
+RegisterSummary run_register(std::span<const RegisterJob> all_jobs,
                              std::span<const RegisterModel> models, Backend& backend,
                              const RegisterOptions& options) {
   const auto start = Clock::now();
+  const std::vector<RegisterJob> jobs = jobs_of_shard(all_jobs, options.shard);
   const std::vector<InputImage> images = images_of(jobs);
+  const ShardOfBatch shard(
+      options.shard, {options.version, "register", has_joint_views(all_jobs), 0, "", {}},
+      settings_of_batch(all_jobs, models, options), images_of(all_jobs), images);
+  shard.require_own(options.out);
   Registrar registrar(all_views(jobs), models, backend, options);
   RegisterSummary& summary = registrar.summary;
+  summary.verb = "register";
+  summary.by_scene = has_joint_views(all_jobs);
   summary.images = static_cast<int>(images.size());
   const std::vector<const RegisterJob*> open = skip_done(jobs, registrar, options.resume);
   require_writable_place(options.out);
   if (!options.resume) require_no_other_results(options.out, all_views(jobs));
+  shard.save(options.out);
   warn_of_camera({options.camera, options.calibration.file, options.scale_camera});
   const auto write_summary_of = [&](const std::exception& error) {
     summary.error = error.what();
@@ -193,7 +237,7 @@ RegisterSummary run_register(std::span<const RegisterJob> jobs,
     write_ended(images, summary, backend.name(), options.out);
   };
   try {
-    work_through(open, registrar);
+    work_through(open, registrar, options.shard.has_value());
   } catch (const InputError& error) {  // if no image can be used, nothing is written
     if (!summary.finished.empty()) write_summary_of(error);
     throw;
@@ -202,8 +246,7 @@ RegisterSummary run_register(std::span<const RegisterJob> jobs,
     throw;
   }
   summary.seconds = seconds_since(start);
-  write_csv(images, summary, options.out);
-  write_summary(summary, backend.name(), options.out);
+  write_tables(images, summary, backend.name(), options.out);
   return summary;
 }
 

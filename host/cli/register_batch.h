@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/cli/batch_results.h"
+#include "host/cli/shard.h"
 #include "host/io/poses.h"
 #include "host/pipeline.h"
 
@@ -21,6 +22,8 @@ struct RegisterOptions {
   bool scale_camera = false;
   bool resume = false;
   bool overlays = true;
+  std::optional<Shard> shard;  // as in BatchOptions
+  std::string version;
   PipelineOptions pipeline;  // only its edges and tensor are used
   RefineOptions refine;
   Settings settings;  // of the verb, as in BatchOptions; models, cameras and starts are added
@@ -58,9 +61,10 @@ struct RegisterSummary : BatchSummary {  // images: those with starts
 };
 
 // Writes into `out`: NAME.json for every image with starts, with its detections in the order of the
-// starts; NAME_overlay.png for every view; at the end results.csv, with one row per start, and
-// summary.json. Earlier results are handled as in run_batch. A pose that no image shows gets
-// probability 0 and OUT_OF_SIGHT, and a warning is logged.
+// starts; NAME_overlay.png for every view; at the end results.csv, with one row per start,
+// summary.json and report.html. With a shard: its part of the jobs alone, as run_batch does.
+// Earlier results are handled as in run_batch. A pose that no image shows gets probability 0 and
+// OUT_OF_SIGHT, and a warning is logged.
 //
 // A job with a bad image is listed and the batch continues. If all jobs fail, the error of the last
 // one is thrown and nothing is written. Any other error ends the batch; results.csv and
@@ -69,7 +73,7 @@ struct RegisterSummary : BatchSummary {  // images: those with starts
 // With `resume`, jobs that have results are skipped. InputError, and nothing is written: such a
 // result was made with other models, cameras, views, starts or settings. A result of another image
 // under the same name is not skipped but replaced.
-RegisterSummary run_register(std::span<const RegisterJob> jobs,
+RegisterSummary run_register(std::span<const RegisterJob> all_jobs,
                              std::span<const RegisterModel> models, Backend& backend,
                              const RegisterOptions& options);
 

@@ -9,6 +9,7 @@
 #include "host/cli/scene_options.h"
 #include "host/cli/verbs.h"
 #include "host/io/bop.h"
+#include "host/io/folder_lock.h"
 #include "host/io/mesh.h"
 #include "host/render/parts.h"
 #include "host/render/photographs.h"
@@ -105,6 +106,7 @@ void render_scenes(const RenderRequest& request) {
   request.options.validate();
   const std::vector<Object> objects = load_objects(request);
   const SceneFiles files = load_files(request);
+  const FolderLock lock(request.out, 2);  // down to SCENE/gray
   require_no_other_scenes(request);
   const std::filesystem::path out = request.out;
   write_bop_models(objects, turning_axes(objects), out / "models");

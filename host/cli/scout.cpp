@@ -16,6 +16,7 @@
 #include "host/cli/verbs.h"
 #include "host/core/log.h"
 #include "host/io/files.h"
+#include "host/io/folder_lock.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -186,6 +187,7 @@ int scout(ScoutRequest& request, const CLI::App& verb) {
   const KnownModels known = load_models(request.models);
   const ScoutSource source = source_of(request, known, *backend);
   const fs::path file = fs::path(request.out) / "scout.state";
+  const FolderLock lock(request.out);
   // Before the templates, which take long.
   std::optional<ScoutState> saved = state_to_resume(request, file, source);
   require_writable_folder(request.out);

@@ -6,24 +6,13 @@
 #include <set>
 
 #include "host/cli/drawings.h"
-#include "host/cli/page_style.h"
+#include "host/cli/page_parts.h"
 #include "host/cli/scout_report.h"
 #include "host/overlay.h"
 
 namespace edgescout {
 
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '<'   ? "&lt;"
-           : c == '>' ? "&gt;"
-           : c == '&' ? "&amp;"
-           : c == '"' ? "&quot;"
-                      : std::string(1, c);
-  return out;
-}
 
 std::string figure(const std::string& picture, const std::string& caption) {
   return "<figure>" + picture + "<figcaption>" + caption + "</figcaption></figure>";
@@ -32,10 +21,6 @@ std::string figure(const std::string& picture, const std::string& caption) {
 std::string png_figure(const RgbImage& image, const std::string& caption) {
   return figure(fmt::format("<img class=picture alt='' src='{}'>", inline_png(encode_png(image))),
                 caption);
-}
-
-std::string tile(const std::string& value, const std::string& label) {
-  return "<div class=tile><b>" + value + "</b><span>" + label + "</span></div>";
 }
 
 std::string seconds_of(const std::vector<StageSeconds>& stages) {
@@ -82,7 +67,7 @@ class Page {
     std::string html = fmt::format(
         "<header><h1>edgescout <em>scout</em></h1><p>{} · {} · strategy <b>{}</b></p></header><div "
         "class=tiles>",
-        escaped(report_.source), escaped(report_.device), report_.strategy);
+        escaped_html(report_.source), escaped_html(report_.device), report_.strategy);
     html += tile(fmt::format("{} of {}", steps.size(), state_.views.size()), "views taken");
     html += tile(std::to_string(state_.detections.size()), "objects found");
     if (!report_.truth.empty())
@@ -128,7 +113,7 @@ class Page {
       for (const int image : mode.supporting_images) support += fmt::format(" {}", image + 1);
       html += fmt::format(
           "<tr><td>{}<td>{:.2f}<td>{:.2f}<td>{:.0f} %<td>{:.2f} mm<td>{:.2f}°<td>{}",
-          escaped(name_of(d)), d.probability, d.psi, 100 * d.matched_fraction, 1000 * place_m,
+          escaped_html(name_of(d)), d.probability, d.psi, 100 * d.matched_fraction, 1000 * place_m,
           turn_rad * 57.29578, support.empty() ? "none alone" : support);
       if (const auto off = distance_to_truth(d, report_))
         html += fmt::format("<td class={}>{:.1f} mm, {:.1f}°", off->right ? "right" : "wrong",
@@ -280,7 +265,7 @@ class Page {
     for (const FailedView& failed : state_.failed)
       if (failed.after_step == step)
         html += fmt::format("<p class=warning>View {} could not be had: {}</p>", failed.view,
-                            escaped(failed.reason));
+                            escaped_html(failed.reason));
     return html;
   }
 
@@ -300,12 +285,8 @@ class Page {
 
 std::string scout_page(const ScoutState& state, const ScoutReport& report, bool refreshing,
                        Backend& backend) {
-  return std::string(
-             "<!doctype html>\n<html lang=en><head><meta charset=utf-8><meta name=viewport "
-             "content='width=device-width'>") +
-         (refreshing ? "<meta http-equiv=refresh content=2>" : "") +
-         "<title>edgescout scout</title><style>" + PAGE_STYLE + "</style></head><body>" +
-         Page(state, report, backend).body() + "</body></html>\n";
+  return html_page("edgescout scout", refreshing ? "<meta http-equiv=refresh content=2>" : "",
+                   Page(state, report, backend).body());
 }
 
 }  // namespace edgescout

@@ -12,6 +12,7 @@ void add_detect(CLI::App& app, int& exit_code);
 void add_devices(CLI::App& app, int& exit_code);
 void add_eval(CLI::App& app, int& exit_code);
 void add_explain(CLI::App& app, int& exit_code);
+void add_merge(CLI::App& app, int& exit_code);
 void add_model(CLI::App& app, int& exit_code);
 void add_register(CLI::App& app, int& exit_code);
 void add_render(CLI::App& app, int& exit_code);

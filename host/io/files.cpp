@@ -154,16 +154,14 @@ void require_writable_place(const fs::path& folder) {
   require_writable(there, folder);
 }
 
-// A file of the last seconds may be about to be locked.
-void remove_abandoned_files(const fs::path& folder) {
-  constexpr std::chrono::seconds young{10};
+void remove_abandoned_files(const fs::path& folder, std::chrono::seconds least_age) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with('.') || !name.ends_with(".part") || !entry.is_regular_file(ignored))
       continue;
     const auto age = fs::file_time_type::clock::now() - entry.last_write_time(ignored);
-    if (age > young && !is_locked(entry.path())) fs::remove(entry.path(), ignored);
+    if (age >= least_age && !is_locked(entry.path())) fs::remove(entry.path(), ignored);
   }
 }
 

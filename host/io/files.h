@@ -1,6 +1,7 @@
 // Reads and writes whole files safely.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <initializer_list>
@@ -36,8 +37,9 @@ void remove_earlier_files(std::span<const std::filesystem::path> files);
 void require_writable_place(const std::filesystem::path& folder);
 
 // Removes temporary files (.NAME.part) that killed runs have left in the folder. Those that another
-// run writes now stay.
-void remove_abandoned_files(const std::filesystem::path& folder);
+// run writes now stay. Younger ones than `least_age` stay too: one may be about to be locked.
+void remove_abandoned_files(const std::filesystem::path& folder,
+                            std::chrono::seconds least_age = std::chrono::seconds(10));
 
 // Creates the folder (and parents), checks that a file can be written in it, and calls
 // remove_abandoned_files. InputError: the folder cannot be created or written.
