@@ -159,7 +159,8 @@ PixelMap map_by_opencv(const Camera& camera) {
 // OpenCV has neither all of the models nor a skew.
 PixelMap map_by_lens(const Camera& camera) {
   const Camera ideal = undistorted(camera);
-  PixelMap map{{camera.height, camera.width, CV_32FC1}, {camera.height, camera.width, CV_32FC1}};
+  PixelMap map{cv::Mat(camera.height, camera.width, CV_32FC1),
+               cv::Mat(camera.height, camera.width, CV_32FC1)};
   cv::parallel_for_({0, camera.height}, [&](const cv::Range& rows) {
     for (int row = rows.start; row < rows.end; ++row)
       for (int column = 0; column < camera.width; ++column) {
