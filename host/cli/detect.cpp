@@ -19,6 +19,7 @@ namespace {
 
 struct DetectRequest {
   std::vector<std::string> inputs;
+  InputOptions reading;
   ModelArguments models;
   TemplateOptions templates;
   std::string device = "auto", out;
@@ -53,7 +54,8 @@ int detect(DetectRequest& request) {
   request.batch.pipeline.validate();
   request.templates.validate();
   const std::unique_ptr<Backend> backend = backend_of(request.device);
-  const std::vector<InputImage> images = list_images(request.inputs, request.batch.camera);
+  const std::vector<InputImage> images =
+      list_images(request.inputs, request.batch.camera, request.reading);
   const LoadedTemplates templates = load_templates_for(request, images, *backend);
   request.batch.templates = templates.origins;
   log(LogLevel::Info, fmt::format("{} images, {} models, on {}", images.size(),
@@ -84,6 +86,7 @@ void add_options(CLI::App& verb, DetectRequest& request) {
             "Detect in all views of a BOP scene at once. The scene must have world poses")
       .flag("no-overlays", request.no_overlays, "Write no overlay pictures");
   add_scale_camera(verb, request.batch.scale_camera);
+  add_input_options(verb, request.reading);
   add_detection_options(verb, request.templates, request.batch.pipeline);
 }
 
@@ -97,7 +100,7 @@ void add_detect(CLI::App& app, int& exit_code) {
   add_options(*verb, *request);
   verb->callback([request, &exit_code, verb] {
     refuse_beside_templates(*verb);
-    request->batch.settings = settings_of(*verb, {"Edges", "Tensor", "Detection"});
+    request->batch.settings = settings_of(*verb, {"Images", "Edges", "Tensor", "Detection"});
     exit_code = detect(*request);
   });
 }

@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 
 struct ExplainRequest {
   std::vector<std::string> inputs;
+  InputOptions reading;
   ModelArguments models;
   TemplateOptions templates;
   std::vector<double> pose;  // R by row, t
@@ -183,7 +184,8 @@ ExitCode explain(ExplainRequest& request) {
   request.same.validate();
   source_of_poses(request);
   const std::unique_ptr<Backend> backend = make_backend(request.device);
-  const std::vector<InputImage> images = list_images(request.inputs, request.images.calibration);
+  const std::vector<InputImage> images =
+      list_images(request.inputs, request.images.calibration, request.reading);
   const KnownModels known = load_models(request.models);
   RegisterOptions& options = request.images;
   options.camera = given_camera(options.calibration, images);
@@ -240,6 +242,7 @@ void add_files(CLI::App& verb, ExplainRequest& request) {
 
 void add_options(CLI::App& verb, ExplainRequest& request) {
   add_scale_camera(verb, request.images.scale_camera);
+  add_input_options(verb, request.reading);
   CommandLineOptions add(verb);
   describe(request.same, add);
   add_detection_options(verb, request.templates, request.images.pipeline);

@@ -19,6 +19,7 @@ namespace {
 
 struct RegisterRequest {
   std::vector<std::string> inputs, template_files;
+  InputOptions reading;
   std::string poses, out, device = "auto";
   ModelArguments models;
   bool multi_view = false, no_overlays = false;
@@ -76,7 +77,8 @@ int register_all(RegisterRequest& request) {
   for (const RegisterModel& model : models) warn_of_mesh(model.edges);
   require_safe_starts(request);
   const std::vector<StartPose> poses = load_start_poses(request.poses);
-  const std::vector<InputImage> images = list_images(request.inputs, options.calibration);
+  const std::vector<InputImage> images =
+      list_images(request.inputs, options.calibration, request.reading);
   options.camera = given_camera(options.calibration, images);
   require_other_folder(images, options.out);
   const std::vector<RegisterJob> jobs =
@@ -127,6 +129,7 @@ void add_options(CLI::App& verb, RegisterRequest& request) {
             "Skip images that have a result of the same models and options")
       .flag("no-overlays", request.no_overlays, "Write no overlay pictures");
   add_scale_camera(verb, request.options.scale_camera);
+  add_input_options(verb, request.reading);
   CommandLineOptions add(verb);
   describe(request.options.refine, add);
   describe(request.options.pipeline.edges, add);
@@ -143,7 +146,7 @@ void add_register(CLI::App& app, int& exit_code) {
   add_options(*verb, *request);
   verb->callback([request, &exit_code, verb] {
     refuse_beside_templates(*verb);
-    request->options.settings = settings_of(*verb, {"Registration", "Edges", "Tensor"});
+    request->options.settings = settings_of(*verb, {"Registration", "Images", "Edges", "Tensor"});
     exit_code = register_all(*request);
   });
 }
