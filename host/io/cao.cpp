@@ -18,6 +18,8 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr int circle_corners = 64;
+// A few bytes make a circle. Without a limit a small file would ask for much memory.
+constexpr int max_circles = 4000;
 constexpr int max_include_depth = 8;
 
 struct CaoText {
@@ -112,6 +114,9 @@ class CaoReader {
   // Both directions of the axis give the same corners, so that the rims of cylinders and circles
   // weld.
   std::vector<int> add_ring(const Vector3d& centre, const Vector3d& axis, double radius) {
+    if (++circles_ > max_circles)
+      tokens_.fail("at most " + std::to_string(max_circles) + " circles and ends of cylinders",
+                   "another one");
     int least = 0;
     axis.cwiseAbs().minCoeff(&least);
     const Vector3d u = (Vector3d::Unit(least) - axis[least] * axis).normalized(), v = axis.cross(u);
@@ -160,7 +165,7 @@ class CaoReader {
   TextTokens tokens_;
   RawMesh& mesh_;
   int base_;
-  int points_ = 0;
+  int points_ = 0, circles_ = 0;
   std::vector<std::array<int, 2>> segments_;
 };
 
@@ -168,8 +173,14 @@ void read_into(RawMesh& mesh, const std::filesystem::path& file, int depth) {
   if (depth > max_include_depth)
     throw InputError(file.string(), "load()", "files that include each other", "at most 8 levels");
   const CaoText text = split_text(read_file(file));
-  for (const std::string& include : text.includes)
-    read_into(mesh, file.parent_path() / include, depth + 1);
+  for (const std::string& include : text.includes) {
+    try {
+      read_into(mesh, file.parent_path() / include, depth + 1);
+    } catch (const InputError& error) {
+      if (depth > 0) throw;  // the user knows the outermost file alone
+      throw InputError(file.string() + ": load(\"" + include + "\"): " + error.what());
+    }
+  }
   CaoReader(text.sections, file.string(), mesh).read();
 }
 
