@@ -77,13 +77,14 @@ run_reader() {
     "$(find "$work" -type f | wc -l)" "$(du -sk "$work" | cut -f 1)" "$found"
 }
 
-# The files are named after their content, so a corpus that did not change stays as it is.
+# The files are named after their content, so a corpus that did not change stays as it is. Those
+# named found-* were failures once; they stay.
 keep() {
   local least=$scratch/$1 corpus=tests/fuzz/corpus/$1
   mkdir -p "$least"
   fuzz "$1" -merge=1 "$least" "$corpus" "$(work_of "$1")" >"$scratch/merge.log" 2>&1
-  rm -rf "$corpus"
-  cp -r "$least" "$corpus"
+  find "$corpus" -type f ! -name 'found-*' -delete
+  cp "$least"/* "$corpus"
   echo "$1: $(find "$corpus" -type f | wc -l) files, $(du -sbk "$corpus" | cut -f 1) KiB"
 }
 

@@ -25,7 +25,8 @@ namespace {
 constexpr std::uint64_t max_side_px = 1 << 20;  // OpenCV's
 constexpr std::uint64_t max_pixels = 1 << 28;   // 256 MiB for each byte of a pixel
 constexpr std::uintmax_t max_bytes = 1u << 31;  // OpenCV counts them in an int
-constexpr const char* an_image = "a PNG, JPEG or other image";
+constexpr const char* an_image =
+    "a PNG, JPEG or other image (--raw-size reads one without a header)";
 
 // Decoders fill the missing rest of a truncated image with grey and only warn. So the end marks of
 // the two common formats are checked here.

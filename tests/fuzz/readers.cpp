@@ -13,6 +13,7 @@
 #include "host/io/files.h"
 #include "host/io/image_header.h"
 #include "host/io/mesh.h"
+#include "host/io/one_line.h"
 #include "host/io/poses.h"
 #include "host/model/template_set.h"
 #include "kernels/error.h"
@@ -68,7 +69,7 @@ void read_options(const fs::path& file) {
   try {
     program.parse("--config \"" + file.string() + "\" detect");
   } catch (const CLI::ParseError& error) {
-    throw InputError(file.string() + ": " + error.what());
+    throw InputError(file.string() + ": " + one_line(error.what()));  // as the program prints it
   }
 }
 
