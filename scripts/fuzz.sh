@@ -82,7 +82,7 @@ run_reader() {
 keep() {
   local least=$scratch/$1 corpus=tests/fuzz/corpus/$1
   mkdir -p "$least"
-  fuzz "$1" -merge=1 "$least" "$corpus" "$(work_of "$1")" >"$scratch/merge.log" 2>&1
+  fuzz "$1" -set_cover_merge=1 "$least" "$corpus" "$(work_of "$1")" >"$scratch/merge.log" 2>&1
   find "$corpus" -type f ! -name 'found-*' -delete
   cp "$least"/* "$corpus"
   echo "$1: $(find "$corpus" -type f | wc -l) files, $(du -sbk "$corpus" | cut -f 1) KiB"
