@@ -8,7 +8,8 @@ set(EDGESCOUT_PUBLIC_HEADERS
   host/core/camera.h host/core/camera_check.h host/core/grid.h host/core/lens.h host/core/log.h
   host/core/option_names.h host/core/options.h host/core/pose_error.h host/core/se3.h
   host/core/stopwatch.h host/core/time_limit.h host/core/types.h
-  host/io/bop.h host/io/bop_targets.h host/io/camera_file.h host/io/image.h host/io/mesh.h
+  host/io/bop.h host/io/bop_targets.h host/io/camera_file.h host/io/image.h
+  host/io/image_options.h host/io/mesh.h
   host/io/poses.h host/io/results.h
   host/model/axis_symmetry.h host/model/edge_model.h host/model/mesh_quality.h
   host/model/template_cache.h host/model/template_set.h host/model/viewpoints.h

@@ -3,11 +3,13 @@
 #   scripts/test.sh             formatting; links; the suite in the release preset without its
 #                               longest tests; the guard on recall and false poses; pages of the
 #                               C++ API; clang-tidy on recently changed files; the tests of kernels,
-#                               core and io under the address and undefined-behaviour sanitizers;
-#                               the kernels alone without Vulkan
+#                               core and io, and the readers of files on the saved corpus of the
+#                               fuzzer, under the address and undefined-behaviour sanitizers; the
+#                               kernels alone without Vulkan
 #   scripts/test.sh --long      clang-tidy on all files; the whole suite built by clang 16, under
 #                               the address and undefined-behaviour sanitizers, and under the thread
-#                               sanitizer. Prints a line for docs/reliability.md
+#                               sanitizer; the fuzzer for 30 s a reader. Prints a line for
+#                               docs/reliability.md
 #   scripts/test.sh PRESET...   the whole suite in each of these presets, nothing else
 # A step that fails does not keep the others from running.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -67,8 +69,8 @@ kernels_alone() {
 }
 
 checked_parts() {
-  build_preset asan kernels_test core_test io_test &&
-    test_preset asan -R '^(kernels|core|io)\.'
+  build_preset asan kernels_test core_test io_test fuzz_test &&
+    test_preset asan -R '^(kernels|core|io|fuzz)\.'
 }
 
 api_pages() { cmake --build --preset release --target docs; }
@@ -80,7 +82,7 @@ every_change() {
   step "recall and false poses" scripts/guard.sh
   step "pages of the C++ API" api_pages
   report "clang-tidy, changed files" env TIDY_SECONDS="${TIDY_SECONDS:-60}" scripts/tidy.sh
-  step "address sanitizer: kernels, core, io" checked_parts
+  step "address sanitizer: kernels, core, io, corpus" checked_parts
   step "kernels alone, without Vulkan" kernels_alone
 }
 
@@ -89,6 +91,7 @@ long_run() {
   step "clang 16: build and tests" build_and_test clang
   step "address sanitizer: build and tests" build_and_test asan
   step "thread sanitizer: build and tests" build_and_test tsan
+  step "fuzzer: 30 s a reader" scripts/fuzz.sh 30
 }
 
 # Recorded data that lies beside the checkout; tests that need it are skipped elsewhere.

@@ -59,8 +59,8 @@ class Get {
   }
   template <typename T>
   void get(std::vector<T>& list) {
-    list.resize(in_.count(1));  // every element takes at least one byte
-    for (T& element : list) get(element);
+    // Every element takes at least one byte of the file, but many take a thousand in memory.
+    for (std::size_t i = in_.count(1); i > 0; --i) get(list.emplace_back());
   }
   template <typename T>
   requires(!Number<T>) void get(T& value) { fields(*this, value); }

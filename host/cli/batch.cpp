@@ -77,7 +77,7 @@ class Preparer {
  private:
   PreparedView prepare_one(const InputImage& input) {
     const auto start = Clock::now();
-    const Image image = load_image(input.file);
+    const Image image = read_image(input);
     PreparedView prepared{{}, {{"decode", seconds_since(start)}}};
     const Camera camera = camera_of(input, image.width, image.height,
                                     {camera_, options_.camera.file, options_.scale_camera});

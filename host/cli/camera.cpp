@@ -7,6 +7,7 @@
 
 #include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
+#include "host/cli/option_table.h"
 #include "host/cli/verbs.h"
 #include "host/core/camera_check.h"
 #include "host/core/lens.h"
@@ -20,6 +21,7 @@ namespace edgescout {
 namespace {
 
 struct CameraRequest {
+  ImageOptions reading;
   CameraArguments camera;
   std::string image, out;
   bool may_scale = false;
@@ -93,7 +95,9 @@ void warn(const FileCamera& found, const std::string& file) {
 void draw_undistorted(const CameraRequest& request) {
   InputImage input;
   input.file = request.image;
-  const Image image = load_image(input.file);
+  input.reading = request.reading;
+  input.reading.validate();
+  const Image image = read_image(input);
   const GivenCamera given{given_camera(request.camera, {&input, 1}), request.camera.file,
                           request.may_scale};
   const Camera camera = camera_of(input, image.width, image.height, given);
@@ -135,6 +139,8 @@ void add_camera_verb(CLI::App& app, int& exit_code) {
       ->type_name("PNG");
   add_camera_choice(*verb, request->camera);
   add_scale_camera(*verb, request->may_scale);
+  CommandLineOptions add(*verb);
+  describe(request->reading, add);
   verb->callback([request, &exit_code] {
     show(*request);
     exit_code = exit_done;

@@ -8,8 +8,20 @@
 namespace edgescout {
 
 void add_images(CLI::App& verb, std::vector<std::string>& inputs) {
-  verb.add_option("inputs", inputs, "Images, folders of images, BOP scenes or folders of them")
+  verb.add_option("inputs", inputs,
+                  "Images, videos, folders of them, BOP scenes or folders of these")
       ->required();
+}
+
+void add_input_options(CLI::App& verb, InputOptions& options) {
+  constexpr int most_frames = 1'000'000'000;
+  CommandLineOptions add(verb);
+  describe(options.images, add);
+  OptionTable(verb, "Videos", OptionLevel::Expert)
+      .bounded("every", options.every, 1, most_frames, "Take every Nth frame of videos")
+      .bounded("first-frame", options.first_frame, 0, most_frames,
+               "First frame of videos; the first one of the file is 0")
+      .bounded("last-frame", options.last_frame, 0, most_frames, "Last frame of videos");
 }
 
 void add_camera(CLI::App& verb, CameraArguments& camera) {

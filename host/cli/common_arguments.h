@@ -18,6 +18,8 @@ inline const std::string MESH_FORMATS = "STL, PLY, OBJ, OFF, CAO, glTF, 3MF or C
                              "COLLADA state one, which is used without it";
 
 void add_images(CLI::App& verb, std::vector<std::string>& inputs);  // required
+// How images are read, and which frames of videos: --bayer, --image-range, --every ..
+void add_input_options(CLI::App& verb, InputOptions& options);
 // --camera, --camera-name, --field-of-view
 void add_camera(CLI::App& verb, CameraArguments& camera);
 void add_camera_choice(CLI::App& verb, CameraArguments& camera);  // the last two

@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include "host/cli/renamed_options.h"
+#include "host/io/one_line.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -114,16 +115,17 @@ std::vector<CLI::ConfigItem> YamlConfig::from_config(std::istream& input) const 
   const std::vector<std::string> files = program_.get_config_ptr()->results();
   const std::string source = files.empty() ? "configuration" : files.back();
   YamlReader reader(source, running_verb(program_));
-  try {
-    const YAML::Node root = YAML::Load(input);
-    if (root.IsNull()) return {};
-    if (!root.IsMap())
-      throw InputError(source, "configuration", "no keys", "lines such as \"device: auto\"");
-    reader.read(root, 0);
-  } catch (const YAML::Exception& error) {
-    throw InputError(source, "line " + std::to_string(error.mark.line + 1), error.msg, "YAML");
-  }
-  return reader.take();
+  return with_errors_of_one_line([&] {
+    try {
+      const YAML::Node root = YAML::Load(input);
+      if (!root.IsNull() && !root.IsMap())
+        throw InputError(source, "configuration", "no keys", "lines such as \"device: auto\"");
+      reader.read(root, 0);
+    } catch (const YAML::Exception& error) {
+      throw InputError(source, "line " + std::to_string(error.mark.line + 1), error.msg, "YAML");
+    }
+    return reader.take();
+  });
 }
 
 std::string YamlConfig::to_config(const CLI::App* app, bool default_also, bool, std::string) const {

@@ -22,6 +22,7 @@ namespace {
 
 struct DetectRequest {
   std::vector<std::string> inputs;
+  InputOptions reading;
   ModelArguments models;
   DatasetArguments dataset;
   TemplateOptions templates;
@@ -61,7 +62,7 @@ int detect(DetectRequest& request) {
   const std::unique_ptr<Backend> backend = backend_of(request.device);
   take_models_of_dataset(request.models, request.inputs, request.dataset, false);
   const std::vector<InputImage> images =
-      list_images(request.inputs, request.batch.camera, request.dataset);
+      list_images(request.inputs, request.batch.camera, request.dataset, request.reading);
   require_other_folder(images, request.batch.out);
   require_writable_place(request.batch.out);
   const FolderLock lock(request.batch.out);
@@ -99,6 +100,7 @@ void add_options(CLI::App& verb, DetectRequest& request) {
       .flag("no-overlays", request.no_overlays, "Write no overlay pictures");
   add_shard(verb, request.batch.shard);
   add_scale_camera(verb, request.batch.scale_camera);
+  add_input_options(verb, request.reading);
   add_detection_options(verb, request.templates, request.batch.pipeline);
 }
 
@@ -112,7 +114,7 @@ void add_detect(CLI::App& app, int& exit_code) {
   add_options(*verb, *request);
   verb->callback([request, &exit_code, verb] {
     refuse_beside_templates(*verb);
-    request->batch.settings = settings_of(*verb, {"Edges", "Tensor", "Detection"});
+    request->batch.settings = settings_of(*verb, {"Images", "Edges", "Tensor", "Detection"});
     exit_code = detect(*request);
   });
 }

@@ -27,6 +27,7 @@ namespace fs = std::filesystem;
 
 struct ExplainRequest {
   std::vector<std::string> inputs;
+  InputOptions reading;
   ModelArguments models;
   DatasetArguments dataset;
   TemplateOptions templates;
@@ -204,7 +205,8 @@ ExitCode explain(ExplainRequest& request) {
   const std::unique_ptr<Backend> backend = make_backend(request.device);
   take_models_of_dataset(request.models, request.inputs, request.dataset, false);
   const std::vector<InputImage> images =
-      list_images(request.inputs, request.images.calibration, request.dataset);
+      list_images(request.inputs, request.images.calibration, request.dataset,
+                  request.reading);
   const KnownModels known = load_models(request.models);
   RegisterOptions& options = request.images;
   options.camera = given_camera(options.calibration, images);
@@ -262,6 +264,7 @@ void add_files(CLI::App& verb, ExplainRequest& request) {
 
 void add_options(CLI::App& verb, ExplainRequest& request) {
   add_scale_camera(verb, request.images.scale_camera);
+  add_input_options(verb, request.reading);
   CommandLineOptions add(verb);
   describe(request.same, add);
   add_detection_options(verb, request.templates, request.images.pipeline);

@@ -70,7 +70,41 @@ void add_file(const fs::path& file, std::vector<InputImage>& images) {
   images.push_back(image);
 }
 
-void add_folder(const fs::path& folder, SceneLoader& loader, std::vector<InputImage>& images) {
+// The name is the same whichever frames are chosen.
+void add_video(const fs::path& video, const InputOptions& options,
+               std::vector<InputImage>& images) {
+  int scene_id = 1;
+  for (std::size_t i = 0; i < images.size(); ++i)
+    if (!images[i].video.empty() && (i == 0 || images[i].video != images[i - 1].video)) ++scene_id;
+  const int count = count_frames(video);
+  const auto frames = images.empty() || !images.back().frames ? std::make_shared<VideoReader>()
+                                                              : images.back().frames;
+  for (int frame = options.first_frame; frame < count && frame <= options.last_frame;
+       frame += options.every) {
+    InputImage& image = images.emplace_back();
+    image.file = name_of_frame(video, frame);
+    image.scene_id = scene_id;
+    image.image_id = frame;
+    image.name = fmt::format("{}_{:06}", video.stem().string(), frame);
+    image.video = video;
+    image.frame = frame;
+    image.frames = frames;
+  }
+  if (options.first_frame >= count)
+    throw InputError(video.string(), "frames", std::to_string(count),
+                     fmt::format("more than {} (--first-frame)", options.first_frame));
+}
+
+void add_file_or_video(const fs::path& file, const InputOptions& options,
+                       std::vector<InputImage>& images) {
+  if (has_video_extension(file))
+    add_video(file, options, images);
+  else
+    add_file(file, images);
+}
+
+void add_folder(const fs::path& folder, SceneLoader& loader, const InputOptions& options,
+                std::vector<InputImage>& images) {
   if (is_bop_scene(folder)) return add_scene(folder, loader, images);
   const std::size_t before = images.size();
   const std::vector<fs::path> entries = sorted_entries(folder);
@@ -82,10 +116,11 @@ void add_folder(const fs::path& folder, SceneLoader& loader, std::vector<InputIm
     }
   if (has_scenes) return;
   for (const fs::path& entry : entries)
-    if (has_image_extension(entry)) add_file(entry, images);
+    if (!is_folder(entry) && (has_video_extension(entry) || is_image_file(entry)))
+      add_file_or_video(entry, options, images);
   if (images.size() == before)
-    throw InputError(folder.string(), "folder", "no image and " + splits_in(folder),
-                     "an image, a BOP scene, or --split for a dataset");
+    throw InputError(folder.string(), "folder", "no image, no video and " + splits_in(folder),
+                     "an image, a video, a BOP scene, or --split for a dataset");
 }
 
 void make_names_unique(std::vector<InputImage>& images) {
@@ -101,7 +136,7 @@ void make_names_unique(std::vector<InputImage>& images) {
 SizePx size_of_first(std::span<const InputImage> images) {
   for (const InputImage& input : images) {
     try {
-      const Image image = load_image(input.file);
+      const Image image = read_image(input);
       return {image.width, image.height};
     } catch (const InputError&) {
       if (&input == &images.back()) throw;
@@ -121,26 +156,36 @@ int id_in_name(const std::string& file, int otherwise) {
 
 std::vector<InputImage> list_images(const std::vector<std::string>& arguments,
                                     const CameraArguments& chosen,
-                                    const DatasetArguments& dataset) {
+                                    const DatasetArguments& dataset, const InputOptions& options) {
+  options.images.validate();
+  if (options.last_frame < options.first_frame)
+    throw InputError("command line", "--last-frame", std::to_string(options.last_frame),
+                     fmt::format("{} (--first-frame) or more", options.first_frame));
   std::vector<InputImage> images;
   SceneLoader loader(dataset, false);
   for (const std::string& argument : arguments) {
     const fs::path path = folder_of_split(fs::path(argument).lexically_normal(), dataset);
     std::error_code unknown;
     if (is_folder(path))
-      add_folder(path.has_filename() ? path : path.parent_path(), loader, images);
+      add_folder(path.has_filename() ? path : path.parent_path(), loader, options, images);
     else if (fs::exists(path, unknown))
-      add_file(path, images);
+      add_file_or_video(path, options, images);
     else
       throw InputError(argument, "input", unknown ? unknown.message() : "nothing of that name",
-                       "an image, a folder of images or a BOP scene");
+                       "an image, a video, a folder of images or a BOP scene");
   }
   loader.report();
   images = images_of_targets(images, dataset);
   make_names_unique(images);
+  for (InputImage& image : images) image.reading = options.images;
   for (InputImage& image : images)
     if (image.camera) image.camera->field_of_view_rad = field_of_view_rad(chosen);
   return images;
+}
+
+Image read_image(const InputImage& input) {
+  return input.frames ? input.frames->frame(input.video, input.frame, input.reading)
+                      : load_image(input.file, input.reading);
 }
 
 std::vector<std::span<const InputImage>> groups_of(std::span<const InputImage> images,
@@ -208,7 +253,7 @@ Camera first_camera(std::span<const InputImage> images, const CameraArguments& a
   const GivenCamera given{given_camera(arguments, images), arguments.file, may_scale};
   for (const InputImage& input : images) {
     try {
-      const Image image = load_image(input.file);
+      const Image image = read_image(input);
       return camera_of(input, image.width, image.height, given);
     } catch (const InputError&) {
       if (&input == &images.back()) throw;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,6 +14,8 @@
 #include "host/core/types.h"
 #include "host/io/bop.h"
 #include "host/io/mesh.h"
+#include "host/io/image_options.h"
+#include "host/io/video.h"
 #include "host/model/template_set.h"
 #include "kernels/error.h"
 
@@ -33,6 +36,22 @@ struct InputImage {
   // search, with the largest number of instances; empty: all.
   int group = 0;
   std::map<int, int> wanted;
+  ImageOptions reading = {};
+  // Of a frame of a video, whose `file` then is the video's with the frame's number:
+  // "a.avi#000012".
+  std::filesystem::path video = {};
+  int frame = 0;
+  std::shared_ptr<VideoReader> frames = {};  // shared by all frames
+};
+
+// InputError: as load_image.
+Image read_image(const InputImage& input);
+
+// How images are read, and which frames of videos.
+struct InputOptions {
+  ImageOptions images;
+  int every = 1;
+  int first_frame = 0, last_frame = 1'000'000'000;
 };
 
 // What --camera, --camera-name and --field-of-view say.
@@ -42,13 +61,15 @@ struct CameraArguments {
   double field_of_view_deg = 0;  // of undistorted images; 0: they keep the focal length
 };
 
-// Each argument is an image, a BOP scene folder (is_bop_scene), a folder of such scenes, or a
-// folder of images (png, jpg, jpeg, pgm, ppm, bmp, tif, tiff; sorted by name). With a split it is
-// the folder of a dataset. The cameras of scenes get the chosen field of view. No truth is read.
-// InputError: an argument is none of these or has no image.
+// Each argument is an image, a video, a BOP scene folder (is_bop_scene), a folder of such scenes, or
+// a folder of images and videos, sorted by name. With a split it is the folder of a dataset. Frames
+// of the first video have scene_id 1, of the second one 2, and their number in the video, from 0, as
+// image_id. The cameras of scenes get the chosen field of view. No truth is read. InputError: an
+// argument is none of these or has no image.
 std::vector<InputImage> list_images(const std::vector<std::string>& arguments,
                                     const CameraArguments& chosen = {},
-                                    const DatasetArguments& dataset = {});
+                                    const DatasetArguments& dataset = {},
+                                    const InputOptions& options = {});
 
 // Divides the images into groups of one, or with `by_scene` into the consecutive images of each
 // scene, of all its cameras, or of each group of a list of targets.

@@ -23,6 +23,7 @@ namespace {
 
 struct RegisterRequest {
   std::vector<std::string> inputs;
+  InputOptions reading;
   std::string poses, out, device = "auto";
   ModelArguments models;
   DatasetArguments dataset;
@@ -74,7 +75,7 @@ int register_all(RegisterRequest& request) {
   require_safe_starts(request);
   const std::vector<StartPose> poses = load_start_poses(request.poses);
   const std::vector<InputImage> images =
-      list_images(request.inputs, options.calibration, request.dataset);
+      list_images(request.inputs, options.calibration, request.dataset, request.reading);
   options.camera = given_camera(options.calibration, images);
   require_other_folder(images, options.out);
   require_writable_place(options.out);
@@ -129,6 +130,7 @@ void add_options(CLI::App& verb, RegisterRequest& request) {
       .flag("no-overlays", request.no_overlays, "Write no overlay pictures");
   add_shard(verb, request.options.shard);
   add_scale_camera(verb, request.options.scale_camera);
+  add_input_options(verb, request.reading);
   CommandLineOptions add(verb);
   describe(request.options.refine, add);
   describe(request.options.pipeline.edges, add);
@@ -145,7 +147,7 @@ void add_register(CLI::App& app, int& exit_code) {
   add_options(*verb, *request);
   verb->callback([request, &exit_code, verb] {
     refuse_beside_templates(*verb);
-    request->options.settings = settings_of(*verb, {"Registration", "Edges", "Tensor"});
+    request->options.settings = settings_of(*verb, {"Registration", "Images", "Edges", "Tensor"});
     exit_code = register_all(*request);
   });
 }

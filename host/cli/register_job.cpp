@@ -14,7 +14,7 @@ namespace {
 
 PreparedView prepare(const InputImage& input, bool is_single, Backend& backend,
                      const RegisterOptions& options) {
-  const Image image = load_image(input.file);
+  const Image image = read_image(input);
   const Camera camera = camera_of(input, image.width, image.height,
                                   {options.camera, options.calibration.file, options.scale_camera});
   const Se3 camera_from_world = is_single ? Se3{} : *input.camera_from_world;

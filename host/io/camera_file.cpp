@@ -7,6 +7,7 @@
 #include "host/io/camera_reader.h"
 #include "host/io/camera_tree.h"
 #include "host/io/files.h"
+#include "host/io/one_line.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -115,8 +116,10 @@ bool is_named(const FileCamera& camera, const std::string& name) {
 
 std::vector<FileCamera> load_cameras(const std::filesystem::path& file) {
   const std::string source = file.string();
-  const json tree = parse_camera_tree(read_file(file), source, file.extension() == ".json");
-  return CameraFinder(source).find(tree);
+  return with_errors_of_one_line([&] {
+    const json tree = parse_camera_tree(read_file(file), source, file.extension() == ".json");
+    return CameraFinder(source).find(tree);
+  });
 }
 
 std::vector<FileCamera> cameras_named(const std::string& name,

@@ -1,4 +1,7 @@
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
+
+#include <sstream>
 
 #include "host/io/camera_tree.h"
 #include "kernels/error.h"
@@ -8,6 +11,12 @@ namespace edgescout {
 using nlohmann::json;
 
 namespace {
+
+constexpr int most_values = 100'000;
+
+InputError endless(const std::string& source) {
+  return InputError(source, "YAML", "lists without an end", "a camera calibration");
+}
 
 // Aliases can repeat a part of the file without end.
 struct YamlLimit {
@@ -26,8 +35,7 @@ json yaml_map(const YAML::Node& node, YamlLimit limit, const std::string& source
 }
 
 json yaml_value(const YAML::Node& node, YamlLimit limit, const std::string& source) {
-  if (--limit.depth < 0 || --*limit.values < 0)
-    throw InputError(source, "YAML", "lists without an end", "a camera calibration");
+  if (--limit.depth < 0 || --*limit.values < 0) throw endless(source);
   if (node.IsMap()) return yaml_map(node, limit, source);
   if (node.IsSequence()) {
     json list = json::array();
@@ -35,6 +43,46 @@ json yaml_value(const YAML::Node& node, YamlLimit limit, const std::string& sour
     return list;
   }
   return node.IsScalar() ? scalar_of(node.Scalar()) : json(nullptr);
+}
+
+// Stops at a text that has no end: the library finds one document after the other at a comma
+// outside of a list, and would keep them all.
+class EndlessCheck : public YAML::EventHandler {
+ public:
+  explicit EndlessCheck(std::string source) : source_(std::move(source)) {}
+  void OnDocumentStart(const YAML::Mark&) override { count(); }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override { count(); }
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override { count(); }
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {
+    count();
+  }
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    count();
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    count();
+  }
+  void OnMapEnd() override {}
+
+ private:
+  void count() {
+    if (++values_ > most_values) throw endless(source_);
+  }
+
+  std::string source_;
+  int values_ = 0;
+};
+
+void require_an_end(const std::string& text, const std::string& source) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  EndlessCheck check(source);
+  while (parser.HandleNextDocument(check)) continue;
 }
 
 // YAML forbids tabs before the first word of a line. Editors put them there all the same.
@@ -65,9 +113,10 @@ std::string without_opencv_line(const std::string& text) {
 json yaml_camera_tree(const std::string& text, const std::string& source) {
   try {
     json documents = json::array();
-    int values = 100'000;
-    for (const YAML::Node& document :
-         YAML::LoadAll(without_leading_tabs(without_opencv_line(text))))
+    int values = most_values;
+    const std::string yaml = without_leading_tabs(without_opencv_line(text));
+    require_an_end(yaml, source);
+    for (const YAML::Node& document : YAML::LoadAll(yaml))
       if (!document.IsNull())
         documents.push_back(yaml_value(document, {.values = &values}, source));
     if (documents.size() == 1) return documents[0];

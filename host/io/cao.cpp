@@ -260,7 +260,12 @@ void read_into(RawMesh& mesh, const std::filesystem::path& file, int depth, CaoT
   const CaoText text = split_text(read_file(file), file.string());
   for (const CaoInclude& include : text.includes) {
     const std::size_t first = mesh.vertices.size();
-    read_into(mesh, file.parent_path() / include.file, depth + 1, totals);
+    try {
+      read_into(mesh, file.parent_path() / include.file, depth + 1, totals);
+    } catch (const InputError& error) {
+      if (depth > 0) throw;  // the user knows the outermost file alone
+      throw InputError(file.string() + ": load(\"" + include.file + "\"): " + error.what());
+    }
     for (std::size_t i = first; i < mesh.vertices.size(); ++i)
       mesh.vertices[i] = include.includer_from_file * mesh.vertices[i];
   }

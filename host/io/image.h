@@ -4,22 +4,35 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 #include "host/core/types.h"
+#include "host/io/image_options.h"
 
 namespace edgescout {
 
-// Whether a file's name ends as those of images that folders are searched for: png, jpg, jpeg, pgm,
-// ppm, bmp, tif or tiff, in any case.
+// Whether a file's name has one of the endings of images that folders are searched for, in any
+// case: those of all formats that OpenCV decodes.
 bool has_image_extension(const std::filesystem::path& file);
 
-// Reads a grey image of 8 bit. A colour image is converted. An image of 16 bit is scaled: the value
-// below which 0.1 % of its pixels lie becomes 0, that above which 0.1 % lie 255; a smaller range
-// than 255 is only shifted. Pixels are as stored, whatever an EXIF orientation says. The first of
-// each is logged. InputError: the file is missing, is not an image, has another bit depth or is
-// smaller than 16 x 16 px.
-Image load_image(const std::filesystem::path& file);
+// Whether a file of a folder is taken for an image: by the ending of its name, or by its first
+// bytes.
+bool is_image_file(const std::filesystem::path& file);
+
+// Reads a grey image of 8 bit. The content decides about the format, not the name. Colour images
+// and mosaics are converted. Deeper images are scaled as ImageOptions say (docs/images.md). Pixels
+// are as stored, whatever an EXIF orientation says; of several pages the first is read. The first
+// of each is logged. InputError: the file is missing, is not an image, has more than 2^28 pixels
+// (found in the header, before it is decoded) or is smaller than 16 x 16 px.
+Image load_image(const std::filesystem::path& file, const ImageOptions& options = {});
+
+// The same of values in memory, row by row: of 16 bit, or real numbers. InputError: another number
+// of values than the size says.
+Image grey_image(std::span<const std::uint16_t> values, int width, int height,
+                 const ImageOptions& options = {});
+Image grey_image(std::span<const float> values, int width, int height,
+                 const ImageOptions& options = {});
 
 // Resamples an image of `camera` into an image of undistorted(camera), bicubic. Without distortion
 // the image is returned unchanged. Pixels that no ray of the original reaches repeat its border.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/io/files.h"
+#include "host/io/one_line.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -23,7 +24,7 @@ json read_json(const std::filesystem::path& file) {
 }
 
 void JsonField::fail(const std::string& found, const std::string& expected) const {
-  throw InputError(source, path.empty() ? "/" : path, found, expected);
+  throw InputError(source, path.empty() ? "/" : one_line(path), one_line(found), expected);
 }
 
 JsonField JsonField::at(const std::string& name) const {

@@ -4,6 +4,7 @@
 
 #include "host/io/mesh.h"
 #include "host/model/template_parts.h"
+#include "kernels/error.h"
 
 namespace edgescout {
 
@@ -123,8 +124,15 @@ void save_templates(const TemplateSet& set, const std::filesystem::path& file) {
   write_binary_file(file, format, payload_of(set));
 }
 
+// What is wrong with a value in it is said without the file.
 TemplateSet load_templates(const std::filesystem::path& file) {
-  return set_from(BinaryReader(file, format));
+  try {
+    return set_from(BinaryReader(file, format));
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    if (message.starts_with(file.string())) throw;
+    throw InputError(file.string() + ": " + message);
+  }
 }
 
 bool is_template_file(const std::filesystem::path& file) {

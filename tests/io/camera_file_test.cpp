@@ -190,5 +190,25 @@ TEST(CameraForImage, TakesTheImagesSizeWhereTheCalibrationHasNone) {
                      {"k.json", "cx", "principal point"});
 }
 
+// Found by fuzzing: the YAML library found documents without an end here until the memory ended.
+TEST(LoadCameras, RefusesYamlWithoutAnEnd) {
+  const TemporaryFolder folder;
+  for (const char* text : {",", "a: 1\n---\n,b: 2", ",ri/t4/.inrfx  2,16"})
+    expect_input_error([&] { load_cameras(folder.write("a.yaml", text)); },
+                       {"a.yaml", "YAML", "without an end"});
+}
+
+TEST(LoadCameras, NamesFieldsWithLineBreaksInOneLine) {
+  const TemporaryFolder folder;
+  expect_input_error(
+      [&] {
+        load_cameras(
+            folder.write("a.json", R"({"ImageSize": [480, 640], "RadialDistortion": [-0.25, 0.12],
+                          "T\ngentialDistortion": [0.001, -0.0005], "Skew": 0,
+                          "IntrinsicMatrix": [[700, 0, 0], [0, 701, 0], [322, 239, 1]]})"));
+      },
+      {"a.json", "T gentialDistortion"});
+}
+
 }  // namespace
 }  // namespace edgescout::test

@@ -152,6 +152,19 @@ TEST(Cao, NamesTheLineOfWhatIsWrong) {
   expect_input_error([] { read(square + "0\n0\n2\n4 0 1 2 3\n"); }, {"truncated"});
 }
 
+TEST(Cao, NamesTheFileThatLoadsAnother) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("a.cao", "load(\"none.cao\")\nV1\n0\n0\n0\n0\n");
+  expect_input_error([&] { load_mesh(file, LengthUnit::Metre); },
+                     {"a.cao: load(\"none.cao\")", "No such file"});
+}
+
+TEST(Cao, LimitsCircles) {
+  std::string circles = square + "0\n0\n0\n0\n4001\n";
+  for (int i = 0; i < 4001; ++i) circles += "1 0 1 2\n";
+  expect_input_error([&] { read(circles); }, {"line 4012", "at most 4000 circles"});
+}
+
 // ViSP's own models, where Debian's package visp-images-data is installed.
 TEST(Cao, ReadsTheModelsOfVisp) {
   const std::filesystem::path root = "/usr/share/visp-images-data/ViSP-images";

@@ -28,8 +28,8 @@ Image gradient_image(int width, int height) {
 }
 
 TEST(HasImageExtension, IsOfTheNameInAnyCase) {
-  for (const char* name :
-       {"a.png", "a.JPG", "b/a.jpeg", "a.x.Tiff", "a.tif", "a.pgm", "a.ppm", "a.bmp"})
+  for (const char* name : {"a.png", "a.JPG", "b/a.jpeg", "a.x.Tiff", "a.tif", "a.pgm", "a.ppm",
+                           "a.bmp", "a.webp", "a.JP2", "a.exr", "a.pfm", "a.hdr", "a b#%d.png"})
     EXPECT_TRUE(has_image_extension(name)) << name;
   for (const char* name : {"png", "a.png.txt", "a", "a.json", ".png/a", "a.pn"})
     EXPECT_FALSE(has_image_extension(name)) << name;
@@ -68,35 +68,210 @@ TEST(LoadImage, ConvertsColourAndLogsIt) {
   EXPECT_NE(log.messages[0].second.find("c.png: colour"), std::string::npos);
 }
 
-// Grey steps 0 .. 249 in any part of the range, with a dead and a hot pixel.
-TEST(LoadImage, ScalesDeepImagesByTheirOwnValues) {
+// Every grey level, with a dead and a hot pixel, as a sensor of `white` gives them.
+cv::Mat ramp(int type, double scale, double offset = 0) {
+  cv::Mat grey(50, 256, CV_8U), deep;
+  for (int y = 0; y < grey.rows; ++y)
+    for (int x = 0; x < grey.cols; ++x) grey.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(x);
+  grey.convertTo(deep, type, scale, offset);
+  return deep;
+}
+
+void expect_ramp(const Image& image, double tolerance, const std::string& what) {
+  for (int x = 0; x < image.width; ++x) EXPECT_NEAR(image.at(x, 10), x, tolerance) << what;
+}
+
+// The thresholds of edges are grey levels, so the levels must be those of the 8-bit image.
+TEST(LoadImage, GivesDeepImagesTheLevelsOfTheirEightBitVersions) {
   const TemporaryFolder folder;
-  for (const auto& [low, step] : {std::pair{0, 256}, {0, 16}, {3000, 20}})
+  for (const int white : {255, 1023, 4095, 16383, 65535, 4095 * 16})
     for (const char* name : {"deep.png", "deep.tif", "deep.pgm"}) {
-      cv::Mat deep(50, 250, CV_16U);
-      for (int y = 0; y < deep.rows; ++y)
-        for (int x = 0; x < deep.cols; ++x)
-          deep.at<std::uint16_t>(y, x) = static_cast<std::uint16_t>(low + step * x);
+      cv::Mat deep = ramp(CV_16U, white / 255.0);
       deep.at<std::uint16_t>(3, 3) = 0;
-      deep.at<std::uint16_t>(4, 4) = 65535;
+      deep.at<std::uint16_t>(4, 4) = 65535;  // a hot pixel
       cv::imwrite((folder.path() / name).string(), deep);
-      const Image image = load_image(folder.path() / name);
-      for (const int x : {0, 100, 249})
-        EXPECT_NEAR(image.at(x, 10), x * 255 / 249.0, 1) << name << " " << low << " " << step;
-      EXPECT_EQ(image.at(3, 3), 0);
-      EXPECT_EQ(image.at(4, 4), 255);
+      expect_ramp(load_image(folder.path() / name), 0, name + std::to_string(white));
     }
+  for (const double white : {1.0, 255.0, 65535.0}) {
+    cv::imwrite((folder.path() / "real.tif").string(), ramp(CV_32F, white / 255));
+    expect_ramp(load_image(folder.path() / "real.tif"), 0, "real " + std::to_string(white));
+  }
+}
+
+TEST(LoadImage, SpreadsTheValuesOfAnImageWithLittleContrast) {
+  const TemporaryFolder folder;
+  for (const auto& [scale, offset] : {std::pair{20.0, 30000.0}, {2.0, 1000.0}, {0.05, -6.0}}) {
+    const bool real = offset < 0;
+    const auto file = folder.path() / (real ? "low.tif" : "low.png");
+    cv::imwrite(file.string(), ramp(real ? CV_32F : CV_16U, scale, offset));
+    const Image image = load_image(file);
+    EXPECT_NEAR(image.at(0, 10), 10, 1) << scale;
+    EXPECT_NEAR(image.at(127, 10), 10 + 235 * 127 / 255.0, 1) << scale;
+    EXPECT_NEAR(image.at(255, 10), 245, 1) << scale;
+  }
   cv::Mat flat(20, 20, CV_16U, cv::Scalar(1000));  // noise is not enlarged
   flat.at<std::uint16_t>(5, 5) = 1010;
   cv::imwrite((folder.path() / "flat.png").string(), flat);
-  EXPECT_EQ(load_image(folder.path() / "flat.png").at(5, 5), 10);
+  const Image image = load_image(folder.path() / "flat.png");
+  EXPECT_EQ(image.at(5, 5) - image.at(6, 6), 10);
 }
 
-TEST(LoadImage, RejectsOtherDepths) {
+TEST(LoadImage, TakesAStatedRange) {
   const TemporaryFolder folder;
-  cv::imwrite((folder.path() / "real.tif").string(), cv::Mat(20, 20, CV_32F, cv::Scalar(0.5)));
-  expect_input_error([&] { load_image(folder.path() / "real.tif"); },
-                     {"real.tif", "bit depth", "32 bit", "8 or 16 bit"});
+  cv::imwrite((folder.path() / "deep.png").string(), ramp(CV_16U, 10, 2000));
+  cv::imwrite((folder.path() / "grey.png").string(), ramp(CV_8U, 1));
+  ImageOptions options;
+  options.scaling = GreyScaling::Quantiles;
+  expect_ramp(load_image(folder.path() / "deep.png", options), 1, "quantiles");
+  options.scaling = GreyScaling::Full;
+  EXPECT_EQ(load_image(folder.path() / "deep.png", options).at(255, 10),
+            std::lround(4550 * 255.0 / 65535));
+  options.black_white = {2000, 4550};
+  expect_ramp(load_image(folder.path() / "deep.png", options), 0, "stated");
+  options.black_white = {100, 151};
+  const Image grey = load_image(folder.path() / "grey.png", options);
+  EXPECT_EQ(grey.at(90, 10), 0);
+  EXPECT_EQ(grey.at(110, 10), 50);
+  EXPECT_EQ(grey.at(160, 10), 255);
+  options.black_white = {5, 5};
+  expect_input_error([&] { options.validate(); }, {"image_range", "black below white"});
+}
+
+TEST(LoadImage, LeavesWhatIsNoNumberBlack) {
+  const TemporaryFolder folder;
+  cv::Mat real = ramp(CV_32F, 1 / 255.0);
+  real.at<float>(3, 200) = NAN;
+  real.at<float>(4, 200) = INFINITY;
+  real.at<float>(5, 200) = -INFINITY;
+  cv::imwrite((folder.path() / "real.tif").string(), real);
+  CollectedLog log;
+  const Image image = load_image(folder.path() / "real.tif");
+  expect_ramp(image, 0, "around");
+  EXPECT_EQ(image.at(200, 3), 0);
+  EXPECT_EQ(image.at(200, 4), 255);
+  EXPECT_EQ(image.at(200, 5), 0);
+  cv::imwrite((folder.path() / "none.tif").string(), cv::Mat(20, 20, CV_32F, cv::Scalar(NAN)));
+  expect_input_error([&] { load_image(folder.path() / "none.tif"); },
+                     {"none.tif", "pixels", "none that is finite"});
+}
+
+// A colour that each pattern must find in its own places; the wrong pattern finds another grey.
+TEST(LoadImage, InterpolatesMosaics) {
+  const TemporaryFolder folder;
+  const double grey = 0.299 * 200 + 0.587 * 100 + 0.114 * 50;
+  const auto value = [](char colour) { return colour == 'r' ? 200 : colour == 'g' ? 100 : 50; };
+  const std::vector<std::pair<BayerPattern, std::string>> patterns{{BayerPattern::RGGB, "rggb"},
+                                                                   {BayerPattern::BGGR, "bggr"},
+                                                                   {BayerPattern::GRBG, "grbg"},
+                                                                   {BayerPattern::GBRG, "gbrg"}};
+  for (const auto& [pattern, letters] : patterns)
+    for (const int type : {CV_8U, CV_16U}) {
+      cv::Mat mosaic(40, 60, CV_8U);
+      for (int y = 0; y < mosaic.rows; ++y)
+        for (int x = 0; x < mosaic.cols; ++x)
+          mosaic.at<std::uint8_t>(y, x) = static_cast<std::uint8_t>(
+              value(letters[static_cast<std::size_t>(2 * (y % 2) + x % 2)]));
+      mosaic.convertTo(mosaic, type, type == CV_8U ? 1 : 257);
+      cv::imwrite((folder.path() / "mosaic.png").string(), mosaic);
+      ImageOptions options;
+      options.black_white = {0, type == CV_8U ? 255.0 : 65535.0};
+      for (const auto& [tried, name] : patterns) {
+        options.bayer = tried;
+        const double found = load_image(folder.path() / "mosaic.png", options).at(30, 20);
+        if (tried == pattern)
+          EXPECT_NEAR(found, grey, 2) << name;
+        else
+          EXPECT_GT(std::abs(found - grey), 5) << letters << " as " << name;
+      }
+    }
+  cv::imwrite((folder.path() / "colour.png").string(), cv::Mat(20, 20, CV_8UC3, cv::Scalar(9)));
+  ImageOptions options;
+  options.bayer = BayerPattern::RGGB;
+  expect_input_error([&] { load_image(folder.path() / "colour.png", options); },
+                     {"colour.png", "channels", "found 3", "1 with --bayer"});
+}
+
+TEST(LoadImage, ReadsFilesWithoutAHeaderOfAStatedSize) {
+  const TemporaryFolder folder;
+  std::string bytes, words;
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 30; ++x) {
+      bytes += static_cast<char>(5 * x + y);
+      words += {'\0', static_cast<char>(x == 29 ? 255 : 5 * x + y)};  // the low byte first
+    }
+  const auto grey = folder.write("a.raw", bytes), deep = folder.write("b", words);
+  ImageOptions options;
+  options.raw_size_px = {30, 20};
+  EXPECT_EQ(load_image(grey, options).at(12, 3), 63);
+  EXPECT_NEAR(load_image(deep, options).at(12, 3), 63, 1);
+  options.raw_size_px = {30, 21};
+  expect_input_error([&] { load_image(grey, options); },
+                     {"a.raw", "600 bytes", "630 or 1260", "30x21", "--raw-size"});
+  expect_input_error([&] { load_image(grey); }, {"a.raw", "no image decoder"});
+}
+
+// The content says what a file is.
+TEST(LoadImage, ReadsEveryFormatUnderEveryName) {
+  const TemporaryFolder folder;
+  const cv::Mat grey = ramp(CV_8U, 1);
+  for (const char* ending : {".png", ".bmp", ".tif", ".pgm", ".jp2", ".webp", ".ras", ".pfm"}) {
+    cv::Mat pixels = grey;
+    if (ending == std::string(".pfm")) pixels = ramp(CV_32F, 1 / 255.0);
+    std::vector<std::uint8_t> bytes;
+    cv::imencode(ending, pixels, bytes, {cv::IMWRITE_WEBP_QUALITY, 101});
+    const std::string content(bytes.begin(), bytes.end());
+    for (const char* name : {"x.PNG", "no_ending", "a b.1", "f\xc3\xa4rbung%03d#7.jpg"}) {
+      const auto file = folder.write(name, content);
+      expect_ramp(load_image(file), 1, std::string(ending) + " as " + name);
+      EXPECT_TRUE(is_image_file(file)) << ending << " as " << name;
+    }
+  }
+  EXPECT_FALSE(is_image_file(folder.write("note", "BMW and Porsche")));
+  EXPECT_FALSE(is_image_file(folder.write("results.csv", "scene_id,im_id")));
+  EXPECT_FALSE(is_image_file(folder.path()));
+}
+
+TEST(LoadImage, ReadsOneBitAndPalettes) {
+  const TemporaryFolder folder;
+  std::string bits = "P4\n32 16\n";
+  for (int y = 0; y < 16; ++y) bits += "\xff\xff" + std::string(2, '\0');  // 1 is black
+  const Image image = load_image(folder.write("bits.pbm", bits));
+  EXPECT_EQ(image.at(3, 3), 0);
+  EXPECT_EQ(image.at(20, 3), 255);
+  cv::imwrite((folder.path() / "bits.png").string(), cv::Mat(20, 20, CV_8U, cv::Scalar(255)),
+              {cv::IMWRITE_PNG_BILEVEL, 1});
+  EXPECT_EQ(load_image(folder.path() / "bits.png").at(3, 3), 255);
+}
+
+TEST(LoadImage, RefusesHugeImagesBeforeItDecodesThem) {
+  const TemporaryFolder folder;
+  const auto refused = [&](const std::string& name, const std::string& bytes, const char* size) {
+    expect_input_error([&] { load_image(folder.write(name, bytes)); },
+                       {name, "image size", size, "268435456 pixels"});
+  };
+  refused("a.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\xff\xff\0\0\xff\xffIEND", 28),
+          "65535x65535");
+  refused("a.jpg", std::string("\xff\xd8\xff\xc0\0\x11\x08\xff\xff\x7f\xff\x03\xff\xd9", 14),
+          "32767x65535");
+  refused("a.pgm", "P5\n# a comment\n100000 3000\n255\n", "100000x3000");
+  refused("a.bmp", std::string("BM\0\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\0\0\x01\0\0\0\xff\xff", 26),
+          "65536x65536");
+  refused("a.tif",
+          std::string("II*\0\x08\0\0\0\x02\0\0\x01\x04\0\x01\0\0\0\0\0\x10\0"
+                      "\x01\x01\x03\0\x01\0\0\0\0\x10\0\0\0\0\0\0",
+                      38),
+          "1048576x4096");
+  refused("side.pgm", "P5 2000000 16 255\n", "2000000x16");
+}
+
+TEST(LoadImage, ReadsTheFirstOfSeveralPagesAndSaysSo) {
+  const TemporaryFolder folder;
+  cv::imwritemulti((folder.path() / "pages.tif").string(),
+                   std::vector<cv::Mat>{ramp(CV_8U, 1), cv::Mat(20, 20, CV_8U, cv::Scalar(3))});
+  CollectedLog log;
+  expect_ramp(load_image(folder.path() / "pages.tif"), 0, "first page");
+  ASSERT_EQ(log.messages.size(), 1u);
+  EXPECT_NE(log.messages[0].second.find("pages: found several"), std::string::npos);
 }
 
 // A segment with the tag, in both orders of bytes.
@@ -115,6 +290,23 @@ TEST(ExifOrientation, IsReadFromJpegFiles) {
   EXPECT_EQ(exif_orientation(little), 3);
   for (std::size_t i = 0; i < big.size(); ++i) EXPECT_GE(exif_orientation(big.substr(0, i)), 1);
   EXPECT_EQ(exif_orientation("\x89PNG"), 1);
+}
+
+TEST(ExifOrientation, IsReadFromOtherFiles) {
+  const std::string tag("II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0\x03\0\0\0\0\0\0\0", 26);
+  const std::string png = std::string("\x89PNG\r\n\x1a\n\0\0\0\x01zzzz.CRC.", 21) +
+                          std::string(
+                              "\0\0\0\x1a"
+                              "eXIf",
+                              8) +
+                          tag;
+  const std::string webp =
+      std::string("RIFF\0\0\0\0WEBPVP8X\x03\0\0\0abc.EXIF\x1a\0\0\0", 32) + tag;
+  for (const std::string& bytes : {tag, png, webp}) {
+    EXPECT_EQ(exif_orientation(bytes), 3);
+    for (std::size_t i = 0; i < bytes.size(); ++i)
+      EXPECT_GE(exif_orientation(bytes.substr(0, i)), 1);
+  }
 }
 
 TEST(LoadImage, RejectsTinyImages) {

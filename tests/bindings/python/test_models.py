@@ -74,3 +74,17 @@ def test_camera_is_what_was_given():
         edgescout.Camera(640, 480, np.zeros((3, 3)))
     with pytest.raises(ValueError, match="at most 14"):
         edgescout.Camera(640, 480, matrix, [0.0] * 15)
+
+
+def test_deep_images_become_what_files_of_them_become(scene):
+    """An 8-bit image times 257 is the same image of 16 bit."""
+    deep = scene.image.astype(np.uint16) * 257
+    np.testing.assert_array_equal(
+        edgescout.to_grey(deep, edgescout.ImageOptions(image_scaling="full")), scene.image)
+    assert np.abs(edgescout.to_grey(deep).astype(int) - scene.image).max() <= 1
+    real = (scene.image / 255).astype(np.float32)
+    np.testing.assert_array_equal(
+        edgescout.to_grey(real[:, ::-1], edgescout.ImageOptions(image_scaling="full")),
+        scene.image[:, ::-1])
+    with pytest.raises(ValueError, match="uint16 of shape"):
+        edgescout.to_grey(np.zeros((20, 20, 3), np.uint16))

@@ -14,6 +14,7 @@ from ._core import (
     DetectOptions as DetectOptions,
     Device as Device,
     DeviceError as DeviceError,
+    ImageOptions as ImageOptions,
     InputError as InputError,
     Instance as Instance,
     LensModel as LensModel,
@@ -37,5 +38,6 @@ from ._core import (
     register as register,
     register_jointly as register_jointly,
     save_png as save_png,
+    to_grey as to_grey,
     undistort as undistort,
 )

@@ -10,6 +10,7 @@ __version__: str
 
 Path = Union[str, "os.PathLike[str]"]
 Image = npt.NDArray[np.uint8]
+AnyImage = Union[Image, npt.NDArray[np.uint16], npt.NDArray[np.float32]]
 Matrix = npt.NDArray[np.float64]
 OptionValue = Union[bool, int, float, str, Tuple[float, float], Sequence[float]]
 
@@ -53,9 +54,10 @@ class Camera:
     def scaled(self, factor: float) -> Camera: ...
 
 def load_camera(file: Path, name: str = ...) -> Camera: ...
-def load_image(file: Path) -> Image: ...
+def load_image(file: Path, options: Optional[ImageOptions] = ...) -> Image: ...
+def to_grey(image: AnyImage, options: Optional[ImageOptions] = ...) -> Image: ...
 def save_png(image: Image, file: Path) -> None: ...
-def undistort(image: Image, camera: Camera) -> Image: ...
+def undistort(image: AnyImage, camera: Camera) -> Image: ...
 
 class Device:
     @property
@@ -77,6 +79,13 @@ class Backend:
     def name(self) -> str: ...
     @property
     def is_hardware(self) -> bool: ...
+
+class ImageOptions:
+    def __init__(self, **options: OptionValue) -> None: ...
+    def __getattr__(self, name: str) -> Any: ...
+    def __setattr__(self, name: str, value: OptionValue) -> None: ...
+    def copy(self) -> ImageOptions: ...
+    def help(self) -> Dict[str, str]: ...
 
 class TemplateOptions:
     def __init__(self, **options: OptionValue) -> None: ...
@@ -184,7 +193,7 @@ class Detections:
 _Templates = Union[Templates, Sequence[Templates]]
 
 def detect(
-    image: Image,
+    image: AnyImage,
     camera: Camera,
     templates: _Templates,
     options: Optional[DetectOptions] = ...,
@@ -193,7 +202,7 @@ def detect(
     max_seconds: Optional[float] = ...,
 ) -> Detections: ...
 def detect_jointly(
-    images: Sequence[Image],
+    images: Sequence[AnyImage],
     camera: Camera,
     camera_from_world: npt.ArrayLike,
     templates: _Templates,
@@ -203,7 +212,7 @@ def detect_jointly(
     max_seconds: Optional[float] = ...,
 ) -> Detections: ...
 def register(
-    image: Image,
+    image: AnyImage,
     camera: Camera,
     templates: _Templates,
     camera_from_object: npt.ArrayLike,
@@ -213,7 +222,7 @@ def register(
     max_seconds: Optional[float] = ...,
 ) -> Detections: ...
 def register_jointly(
-    images: Sequence[Image],
+    images: Sequence[AnyImage],
     camera: Camera,
     camera_from_world: npt.ArrayLike,
     templates: _Templates,
@@ -224,7 +233,7 @@ def register_jointly(
     max_seconds: Optional[float] = ...,
 ) -> Detections: ...
 def overlay(
-    image: Image,
+    image: AnyImage,
     camera: Camera,
     detections: Union[Detections, Sequence[Detection]],
     templates: _Templates,
@@ -257,7 +266,7 @@ class Scout:
     ) -> None: ...
     def propose(self) -> Optional[Proposal]: ...
     def give(
-        self, view: int, image: Image, camera_from_world: Optional[npt.ArrayLike] = ...
+        self, view: int, image: AnyImage, camera_from_world: Optional[npt.ArrayLike] = ...
     ) -> None: ...
     def unreachable(self, view: int, reason: str) -> None: ...
     @property

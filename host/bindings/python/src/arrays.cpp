@@ -69,11 +69,25 @@ void refuse(const std::string& name, const std::string& found, const std::string
   throw py::value_error(fmt::format("{}: found {}, expected {}", name, found, expected));
 }
 
-Image image_of(const py::array& array) {
+// Of a sensor's own values.
+template <typename Value>
+Image deep_image_of(const py::array& array, const ImageOptions& options) {
+  const auto packed = py::array_t<Value, py::array::c_style>::ensure(array);
+  return grey_image({packed.data(), std::size_t(packed.size())}, int(packed.shape(1)),
+                    int(packed.shape(0)), options);
+}
+
+Image image_of(const py::array& array, const ImageOptions& options) {
+  if (array.ndim() == 2 && array.size() > 0) {
+    if (py::isinstance<py::array_t<std::uint16_t>>(array))
+      return deep_image_of<std::uint16_t>(array, options);
+    if (py::isinstance<py::array_t<float>>(array)) return deep_image_of<float>(array, options);
+  }
   const bool is_grey = array.ndim() == 2,
              is_colour = array.ndim() == 3 && (array.shape(2) == 3 || array.shape(2) == 4);
   if (!py::isinstance<py::array_t<std::uint8_t>>(array) || !(is_grey || is_colour))
-    refuse("image", found(array), "uint8 of shape (height, width) or (height, width, 3)");
+    refuse("image", found(array), "uint8 of shape (height, width) or (height, width, 3), or uint16 or float32 of shape "
+           "(height, width)");
   if (array.size() == 0) refuse("image", found(array), "pixels");
   Image image{int(array.shape(1)), int(array.shape(0)), {}};
   image.pixels.resize(std::size_t(image.width) * std::size_t(image.height));

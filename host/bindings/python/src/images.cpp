@@ -20,8 +20,19 @@ void save_image(const py::array& array, const std::filesystem::path& file) {
 
 void add_images(py::module_& module) {
   module.def(
-      "load_image", [](const std::filesystem::path& file) { return array_of(load_image(file)); },
-      py::arg("file"), "A grey image, (height, width) uint8, as `edgescout detect` reads it.");
+      "load_image",
+      [](const std::filesystem::path& file, const ImageOptions* options) {
+        return array_of(load_image(file, options ? *options : ImageOptions{}));
+      },
+      py::arg("file"), py::arg("options") = nullptr,
+      "A grey image, (height, width) uint8, as `edgescout detect` reads it.");
+  module.def(
+      "to_grey",
+      [](const py::array& image, const ImageOptions* options) {
+        return array_of(image_of(image, options ? *options : ImageOptions{}));
+      },
+      py::arg("image"), py::arg("options") = nullptr,
+      "The 8-bit grey image that detection makes of an array, with options of its own.");
   module.def("save_png", &save_image, py::arg("image"), py::arg("file"),
              "image: uint8, (height, width) or (height, width, 3) in the order red, green, blue.");
   module.def(

@@ -1,6 +1,7 @@
 #include "host/bindings/python/src/option_fields.h"
 #include "host/bindings/python/src/parts.h"
 #include "host/active/scout_options.h"
+#include "host/io/image_options.h"
 #include "host/model/template_set.h"
 #include "host/pipeline.h"
 
@@ -30,6 +31,11 @@ void describe_scout(ScoutOptions& options, OptionVisitor& visit) {
 }  // namespace
 
 void add_options(py::module_& module) {
+  add_options_class<ImageOptions>(
+      module, "ImageOptions",
+      "How stored values become 8-bit grey. Names are those of the command line with underscores; "
+      "help() explains them.",
+      [](ImageOptions& options, OptionVisitor& visit) { describe(options, visit); });
   add_options_class<TemplateOptions>(
       module, "TemplateOptions",
       "Viewpoints and distances of an object's templates. Names are those of the command line with "

@@ -1,0 +1,274 @@
+#include "host/io/image_header.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "host/io/byte_numbers.h"
+
+namespace edgescout {
+
+namespace {
+
+using MaybeSize = std::optional<StatedSize>;
+
+constexpr std::size_t searched_bytes = 4096;  // within which text headers are searched
+
+MaybeSize size_at(const ByteNumbers& numbers, std::size_t width_at, std::size_t height_at,
+                  std::size_t bytes_each) {
+  if (std::max(width_at, height_at) + bytes_each > numbers.bytes.size()) return {};
+  return StatedSize{numbers.at(width_at, bytes_each), numbers.at(height_at, bytes_each)};
+}
+
+// Words between blanks; from a # to the end of its line there is none.
+class HeaderWords {
+ public:
+  explicit HeaderWords(std::string_view text) : text_(text.substr(0, searched_bytes)) {}
+  std::string_view next() {
+    const auto is_blank = [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
+    while (at_ < text_.size() && (is_blank(text_[at_]) || text_[at_] == '#')) {
+      if (text_[at_] == '#') at_ = std::min(text_.find('\n', at_), text_.size());
+      if (at_ < text_.size()) ++at_;
+    }
+    const std::size_t start = at_;
+    while (at_ < text_.size() && !is_blank(text_[at_])) ++at_;
+    return text_.substr(start, at_ - start);
+  }
+  // 0: no number.
+  std::uint64_t number() {
+    const std::string_view word = next();
+    std::uint64_t value = 0;
+    std::from_chars(word.data(), word.data() + word.size(), value);
+    return value;
+  }
+
+ private:
+  std::string_view text_;
+  std::size_t at_ = 0;
+};
+
+MaybeSize portable_size(std::string_view bytes) {
+  HeaderWords words(bytes);
+  const std::string_view kind = words.next();
+  StatedSize size;
+  if (kind != "P7") {
+    size.width = words.number();
+    size.height = words.number();
+    return size;
+  }
+  for (std::string_view word = words.next(); !word.empty() && word != "ENDHDR"; word = words.next())
+    if (word == "WIDTH")
+      size.width = words.number();
+    else if (word == "HEIGHT")
+      size.height = words.number();
+  return size;
+}
+
+// "-Y 480 +X 640" after the lines of Radiance's header.
+MaybeSize radiance_size(std::string_view bytes) {
+  HeaderWords words(bytes);
+  StatedSize size;
+  for (std::string_view word = words.next(); !word.empty(); word = words.next())
+    if (word == "-Y" || word == "+Y")
+      size.height = words.number();
+    else if (word == "+X" || word == "-X")
+      size.width = words.number();
+  return size;
+}
+
+MaybeSize jpeg_size(const ByteNumbers& numbers) {
+  const std::string_view bytes = numbers.bytes;
+  for (std::size_t at = 2; at + 4 <= bytes.size() && bytes[at] == '\xff';) {
+    const std::uint64_t mark = numbers.at(at + 1, 1);
+    constexpr unsigned fill = 0xff, scan = 0xda;
+    if (mark == fill) {
+      ++at;
+      continue;
+    }
+    // The marks of frames, less those of tables among them.
+    if (mark >= 0xc0 && mark <= 0xcf && mark != 0xc4 && mark != 0xc8 && mark != 0xcc)
+      return size_at(numbers, at + 7, at + 5, 2);
+    if (mark == scan) return {};
+    at += 2 + numbers.at(at + 2, 2);
+  }
+  return {};
+}
+
+MaybeSize bmp_size(const ByteNumbers& numbers) {
+  constexpr std::size_t info_at = 14;
+  constexpr unsigned oldest_info = 12;
+  if (numbers.at(info_at, 4) == oldest_info) return size_at(numbers, 18, 20, 2);
+  MaybeSize size = size_at(numbers, 18, 22, 4);
+  constexpr std::uint64_t sign = 0x80000000, range = 0x100000000;
+  if (size && size->height >= sign) size->height = range - size->height;  // rows from the top
+  return size;
+}
+
+// Places and widths of the numbers in the directories of a TIFF file, and of one beyond 4 GiB.
+struct TiffLayout {
+  std::size_t first_directory_at, offset_bytes, count_bytes, entry_bytes;
+};
+
+TiffLayout tiff_layout(const ByteNumbers& numbers) {
+  constexpr unsigned big = 43;
+  return numbers.at(2, 2) == big ? TiffLayout{8, 8, 8, 20} : TiffLayout{4, 4, 2, 12};
+}
+
+std::size_t tiff_directory(const ByteNumbers& numbers) {
+  const TiffLayout layout = tiff_layout(numbers);
+  return numbers.at(layout.first_directory_at, layout.offset_bytes);
+}
+
+// Of the directory's entries, those that the file has.
+std::uint64_t tiff_entries(const ByteNumbers& numbers) {
+  const TiffLayout layout = tiff_layout(numbers);
+  return std::min<std::uint64_t>(numbers.at(tiff_directory(numbers), layout.count_bytes),
+                                 numbers.bytes.size() / layout.entry_bytes);
+}
+
+MaybeSize tiff_size(const ByteNumbers& numbers) {
+  const TiffLayout layout = tiff_layout(numbers);
+  const std::size_t entries = tiff_directory(numbers) + layout.count_bytes;
+  StatedSize size;
+  for (std::uint64_t i = 0; i < tiff_entries(numbers); ++i) {
+    const std::size_t entry = entries + i * layout.entry_bytes;
+    constexpr unsigned width_tag = 256, height_tag = 257, two_bytes = 3, eight_bytes = 16;
+    const std::uint64_t tag = numbers.at(entry, 2), type = numbers.at(entry + 2, 2);
+    const std::size_t bytes = type == two_bytes ? 2 : type == eight_bytes ? 8 : 4;
+    const std::size_t value_at = entry + 4 + layout.offset_bytes;
+    if (tag == width_tag) size.width = numbers.at(value_at, bytes);
+    if (tag == height_tag) size.height = numbers.at(value_at, bytes);
+  }
+  return size;
+}
+
+MaybeSize webp_size(const ByteNumbers& numbers) {
+  const std::string_view kind =
+      numbers.bytes.substr(std::min<std::size_t>(12, numbers.bytes.size()), 4);
+  MaybeSize size;
+  if (kind == "VP8X" && (size = size_at(numbers, 24, 27, 3))) {
+    ++size->width;  // stored less one
+    ++size->height;
+  } else if (kind == "VP8L" && numbers.bytes.size() >= 25) {
+    const std::uint64_t bits = numbers.at(21, 4), mask = 0x3fff;
+    size = {(bits & mask) + 1, (bits >> 14 & mask) + 1};
+  } else if (kind == "VP8 " && (size = size_at(numbers, 26, 28, 2))) {
+    size->width &= 0x3fff;  // two bits say how to scale it
+    size->height &= 0x3fff;
+  }
+  return size;
+}
+
+MaybeSize jpeg_2000_size(const ByteNumbers& numbers) {
+  constexpr std::size_t codestream_size_at = 8;
+  if (numbers.bytes.starts_with("\xff\x4f"))
+    return size_at(numbers, codestream_size_at, codestream_size_at + 4, 4);
+  const std::size_t box = numbers.bytes.substr(0, searched_bytes).find("ihdr");
+  if (box == std::string_view::npos) return {};
+  return size_at(numbers, box + 8, box + 4, 4);
+}
+
+MaybeSize exr_size(const ByteNumbers& numbers) {
+  constexpr std::string_view window("dataWindow\0box2i\0", 17);
+  const std::size_t found = numbers.bytes.substr(0, 16 * searched_bytes).find(window);
+  if (found == std::string_view::npos) return {};
+  const std::size_t corners = found + window.size() + 4;  // after the length of what follows
+  if (corners + 16 > numbers.bytes.size()) return {};
+  std::array<std::int64_t, 4> window_px;
+  for (std::size_t i = 0; i < window_px.size(); ++i)
+    window_px[i] = static_cast<std::int32_t>(numbers.at(corners + 4 * i, 4));
+  const auto span = [&](std::size_t from, std::size_t to) {
+    return static_cast<std::uint64_t>(
+        std::max<std::int64_t>(0, window_px[to] - window_px[from] + 1));
+  };
+  return StatedSize{span(0, 2), span(1, 3)};
+}
+
+enum class Kind {
+  Unknown,
+  Png,
+  Jpeg,
+  Bmp,
+  Tiff,
+  Webp,
+  Jpeg2000,
+  Exr,
+  SunRaster,
+  Radiance,
+  Portable
+};
+
+bool is_tiff(std::string_view bytes) {
+  const ByteNumbers numbers{bytes, bytes.starts_with("MM")};
+  return (bytes.starts_with("MM") || bytes.starts_with("II")) &&
+         (numbers.at(2, 2) == 42 || numbers.at(2, 2) == 43);
+}
+
+bool is_portable(std::string_view bytes) {
+  constexpr std::string_view kinds = "123456Ff";
+  if (bytes.starts_with("P7\n")) return true;
+  if (bytes.size() < 3 || bytes[0] != 'P' || kinds.find(bytes[1]) == std::string_view::npos)
+    return false;
+  HeaderWords words(bytes);
+  return words.next().size() == 2 && words.number() > 0;
+}
+
+Kind kind_of(std::string_view bytes) {
+  constexpr std::string_view jpeg_2000_box("\0\0\0\x0cjP  ", 8), reserved("\0\0\0\0", 4);
+  const auto at = [&](std::size_t from) { return bytes.substr(std::min(from, bytes.size()), 4); };
+  if (bytes.starts_with("\x89PNG")) return Kind::Png;
+  if (bytes.starts_with("\xff\xd8\xff")) return Kind::Jpeg;
+  if (bytes.starts_with("BM") && at(6) == reserved) return Kind::Bmp;
+  if (is_tiff(bytes)) return Kind::Tiff;
+  if (bytes.starts_with("RIFF") && at(8) == "WEBP") return Kind::Webp;
+  if (bytes.starts_with(jpeg_2000_box) || bytes.starts_with("\xff\x4f\xff\x51"))
+    return Kind::Jpeg2000;
+  if (bytes.starts_with("\x76\x2f\x31\x01")) return Kind::Exr;
+  if (bytes.starts_with("\x59\xa6\x6a\x95")) return Kind::SunRaster;
+  if (bytes.starts_with("#?RADIANCE") || bytes.starts_with("#?RGBE")) return Kind::Radiance;
+  return is_portable(bytes) ? Kind::Portable : Kind::Unknown;
+}
+
+}  // namespace
+
+bool begins_as_image(std::string_view bytes) { return kind_of(bytes) != Kind::Unknown; }
+
+std::optional<StatedSize> stated_size(std::string_view bytes) {
+  const ByteNumbers big{bytes, true}, little{bytes, false};
+  switch (kind_of(bytes)) {
+    case Kind::Png:
+      return size_at(big, 16, 20, 4);
+    case Kind::Jpeg:
+      return jpeg_size(big);
+    case Kind::Bmp:
+      return bmp_size(little);
+    case Kind::Tiff:
+      return tiff_size(bytes.starts_with("MM") ? big : little);
+    case Kind::Webp:
+      return webp_size(little);
+    case Kind::Jpeg2000:
+      return jpeg_2000_size(big);
+    case Kind::Exr:
+      return exr_size(little);
+    case Kind::SunRaster:
+      return size_at(big, 4, 8, 4);
+    case Kind::Radiance:
+      return radiance_size(bytes);
+    case Kind::Portable:
+      return portable_size(bytes);
+    case Kind::Unknown:
+      break;
+  }
+  return {};
+}
+
+bool has_more_pages(std::string_view bytes) {
+  if (!is_tiff(bytes)) return false;
+  const ByteNumbers numbers{bytes, bytes.starts_with("MM")};
+  const TiffLayout layout = tiff_layout(numbers);
+  const std::size_t next_at =
+      tiff_directory(numbers) + layout.count_bytes + tiff_entries(numbers) * layout.entry_bytes;
+  return numbers.at(next_at, layout.offset_bytes) != 0;
+}
+
+}  // namespace edgescout

@@ -1,0 +1,25 @@
+// Internal to host/io: what the first bytes of an image file state, read before anything is
+// decoded.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace edgescout {
+
+struct StatedSize {
+  std::uint64_t width = 0, height = 0;
+};
+
+// The size in the header of a PNG, JPEG, BMP, TIFF, WebP, JPEG 2000, OpenEXR, Sun raster, Radiance
+// or portable (PBM to PFM) file. Nothing for other files, and where the header is cut short.
+std::optional<StatedSize> stated_size(std::string_view bytes);
+
+// Whether these are the first bytes, 16 or more, of a file of such a format.
+bool begins_as_image(std::string_view bytes);
+
+// Whether a TIFF file has a page after the first one.
+bool has_more_pages(std::string_view bytes);
+
+}  // namespace edgescout
