@@ -182,9 +182,10 @@ class Detector {
     try {
       const std::span<const TemplateSet> sets = wanted_.sets_for(group.images);
       if (sets.empty()) return Detections{{}, stages_of(prepared)};
-      Detections found = options_.joint
-                             ? detect_jointly(views, sets, backend_, options_.pipeline)
-                             : detect_objects(views[0], sets, backend_, options_.pipeline);
+      PipelineOptions pipeline = options_.pipeline;
+      pipeline.limit = limit_from_now(options_.max_seconds);
+      Detections found = options_.joint ? detect_jointly(views, sets, backend_, pipeline)
+                                        : detect_objects(views[0], sets, backend_, pipeline);
       wanted_.keep_most_probable(group.images, found.detections);
       const std::vector<StageSeconds> before = stages_of(prepared);
       found.stages.insert(found.stages.begin(), before.begin(), before.end());

@@ -27,6 +27,7 @@ struct BatchOptions {
   // Whether the given backend finds the edges, and not a thread of the processor beside it. Absent:
   // where it is hardware.
   std::optional<bool> edges_on_backend;
+  double max_seconds = 0;  // of the detection in an image, with `joint` in a scene; 0: no limit
   PipelineOptions pipeline;
   std::vector<TemplateOrigin> templates;  // of the sets, for summary.json
   Settings settings;  // of the verb; a resumed batch compares them. Models and cameras are added

@@ -135,6 +135,7 @@ void write_summary(const BatchSummary& summary, const std::string& device, const
       {"failed", summary.failures.size()},
       {"poses", summary.poses},
       {"poses_out_of_sight", summary.out_of_sight},
+      {"incomplete", summary.incomplete},
       {"device", device},
       {"seconds", summary.seconds},
       {"images_per_second", summary.seconds > 0 ? summary.done / summary.seconds : 0.0}};
@@ -157,6 +158,7 @@ void write_rows(const BatchTables& tables, BatchSummary& summary, const std::str
                 const fs::path& out) {
   summary.poses = static_cast<int>(tables.rows.size());
   summary.out_of_sight = tables.out_of_sight;
+  summary.incomplete = tables.incomplete;
   save_bop_results(tables.rows, out / "results.csv");
   write_csv_of_cameras(tables.rows, tables.cameras, out);
   write_file_atomically(out / "report.html", batch_page(tables, summary, device));

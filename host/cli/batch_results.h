@@ -29,6 +29,7 @@ struct BatchSummary {
   int images = 0, done = 0, skipped = 0;
   int poses = 0;                                // in results.csv: of images done and skipped
   int out_of_sight = 0;                         // of these poses: OUT_OF_SIGHT
+  int incomplete = 0;                           // images whose poses may be missing: --max-seconds
   std::set<std::string> finished;               // names of the images done and skipped
   std::map<std::string, std::string> failures;  // message by file
   std::map<std::string, double> stage_seconds;  // of all images done, by stage

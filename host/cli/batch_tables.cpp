@@ -20,6 +20,7 @@ void BatchTables::add(const InputImage& input, const ImageResult& result,
     out_of_sight += d.convergence == OUT_OF_SIGHT;
   }
   image.poses = static_cast<int>(result.detections.size());
+  incomplete += !result.incomplete.empty();
   devices.insert(result.device);
   ++done;
   add_stages(input, result);

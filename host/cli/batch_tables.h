@@ -35,6 +35,7 @@ class BatchTables {
 
   std::vector<BopResult> rows;
   int out_of_sight = 0;  // of the rows: OUT_OF_SIGHT
+  int incomplete = 0;    // images: ImageResult::incomplete
   std::vector<PageImage> images;
   std::set<std::string> cameras;  // of scenes with several
   std::set<std::string> devices;

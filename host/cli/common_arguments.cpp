@@ -59,6 +59,13 @@ std::unique_ptr<Backend> backend_of(const std::string& device) {
   return make_backend(device, {.time_kernels = spdlog::should_log(spdlog::level::debug)});
 }
 
+void add_max_seconds(CLI::App& verb, double& max_seconds) {
+  OptionTable(verb, "Batch")
+      .bounded("max-seconds", max_seconds, 0.0, 1e6,
+               "Time for each image once its edges are found, or for each scene whose views are "
+               "worked on together, s. Then the poses found so far are written. 0: no limit");
+}
+
 void add_scale_camera(CLI::App& verb, bool& scale_camera) {
   OptionTable(verb, "Batch", OptionLevel::Expert)
       .flag("scale-camera", scale_camera,

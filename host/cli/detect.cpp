@@ -99,6 +99,7 @@ void add_options(CLI::App& verb, DetectRequest& request) {
             "Detect in all views of a BOP scene at once. The scene must have world poses")
       .flag("no-overlays", request.no_overlays, "Write no overlay pictures");
   add_shard(verb, request.batch.shard);
+  add_max_seconds(verb, request.batch.max_seconds);
   add_scale_camera(verb, request.batch.scale_camera);
   add_input_options(verb, request.reading);
   add_detection_options(verb, request.templates, request.batch.pipeline);

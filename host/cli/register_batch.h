@@ -24,6 +24,7 @@ struct RegisterOptions {
   bool overlays = true;
   std::optional<Shard> shard;  // as in BatchOptions
   std::string version;
+  double max_seconds = 0;    // of each registration; 0: no limit
   PipelineOptions pipeline;  // only its edges and tensor are used
   RefineOptions refine;
   Settings settings;  // of the verb, as in BatchOptions; models, cameras and starts are added

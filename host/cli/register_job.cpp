@@ -54,6 +54,7 @@ Detections refine_job(const ReadyJob& ready, std::span<const RegisterModel> mode
   RegisterObjectsOptions objects;
   objects.tensor = options.pipeline.tensor;
   objects.refine = options.refine;
+  objects.limit = limit_from_now(options.max_seconds);
   Detections result = naming(ready.job->views[0], [&] {
     return register_objects(views, edge_models, ready.starts, backend, objects);
   });

@@ -12,6 +12,10 @@ std::vector<StageSeconds> stages_of(std::span<const PreparedView> views) {
   return stages;
 }
 
+TimeLimit limit_from_now(double max_seconds) {
+  return max_seconds > 0 ? TimeLimit::after(max_seconds) : TimeLimit{};
+}
+
 ImageResult begin_result(const InputImage& input, const ObjectView& view, const Detections& found,
                          const Backend& backend) {
   ImageResult result;
@@ -21,6 +25,7 @@ ImageResult begin_result(const InputImage& input, const ObjectView& view, const 
   result.camera_name = input.camera_name;
   result.camera = view.camera;
   result.device = backend.name();
+  if (found.completion != Completion::Complete) result.incomplete = to_string(found.completion);
   result.stages = found.stages;
   result.camera_from_world = input.camera_from_world;
   return result;

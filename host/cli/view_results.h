@@ -18,6 +18,8 @@ struct PreparedView {
 // Returns the stages of all views, one view after the other.
 std::vector<StageSeconds> stages_of(std::span<const PreparedView> views);
 
+TimeLimit limit_from_now(double max_seconds);  // 0: none
+
 // Returns the result without objects and detections, which the verb adds.
 ImageResult begin_result(const InputImage& input, const ObjectView& view, const Detections& found,
                          const Backend& backend);

@@ -146,6 +146,7 @@ void save_image_result(const ImageResult& result, const std::filesystem::path& f
   if (!result.camera_name.empty()) root["camera_name"] = result.camera_name;
   root["device"] = result.device;
   root["camera"] = camera_json(result.camera);
+  if (!result.incomplete.empty()) root["incomplete"] = result.incomplete;
   for (const auto& [name, value] : result.settings) root["settings"][name] = value;
   root["world"] = result.camera_from_world ? "scene" : "camera";
   if (result.camera_from_world) root["camera_from_world"] = pose_json(*result.camera_from_world);
@@ -172,6 +173,7 @@ ImageResult load_image_result(const std::filesystem::path& file) {
   if (root.has("camera_name")) result.camera_name = root.at("camera_name").text();
   result.device = root.at("device").text();
   result.camera = read_camera(root.at("camera"));
+  if (root.has("incomplete")) result.incomplete = root.at("incomplete").text();
   if (root.has("settings")) result.settings = read_settings(root.at("settings"));
   if (root.has("camera_from_world"))
     result.camera_from_world = read_pose(root.at("camera_from_world"));

@@ -34,6 +34,7 @@ struct ImageResult {
   Camera camera;
   std::string device;                    // Backend::name()
   Settings settings;                     // empty: unknown; sorted by name after reading
+  std::string incomplete;                // why poses may be missing or not refined; empty: they are all
   std::vector<StageSeconds> stages;      // in the order in which they ran
   std::optional<Se3> camera_from_world;  // absent: the world is the camera frame
   std::vector<ObjectName> objects;       // Detection::object is an index into them
@@ -44,6 +45,7 @@ struct ImageResult {
 //   edgescout_result   version of the format: 3
 //   image, scene_id, image_id, device, camera
 //   camera_name        only of a BOP scene with several cameras
+//   incomplete         "deadline passed" or "cancelled"; only where the work was cut short
 //   settings           {name: text}, optional
 //   world              the frame of the poses: "scene" or "camera"
 //   camera_from_world  only if `world` is "scene"

@@ -151,6 +151,18 @@ TEST(RunBatch, KeepsWhatWasFinishedWhenTheDeviceIsLost) {
   EXPECT_EQ(t.listed(), (std::set<int>{0, 1, 2}));
 }
 
+TEST(RunBatch, WritesWhatWasFoundWithinItsTime) {
+  Batch t;
+  t.options.max_seconds = 1e-3;
+  run_batch(std::span(t.images).first(1), t.sets, *make_cpu_backend(2), t.options);
+  EXPECT_EQ(load_image_result(t.json(0)).incomplete, "deadline passed");
+  EXPECT_EQ(t.summary().at("incomplete"), 1);
+  t.options.max_seconds = 1000;
+  run_batch(std::span(t.images).first(1), t.sets, *make_cpu_backend(2), t.options);
+  EXPECT_EQ(load_image_result(t.json(0)).incomplete, "");
+  EXPECT_EQ(t.summary().at("incomplete"), 0);
+}
+
 TEST(RunBatch, ListsNoOlderResultWhenTheDeviceIsLost) {
   const Batch t;
   run_batch(t.images, t.sets, *make_cpu_backend(2), t.options);
