@@ -54,11 +54,14 @@ build_and_test() { build_preset "$1" && test_preset "$1"; }
 
 # What runs in the whole suites of --long alone. Each takes 20 s or more, and a shorter test runs
 # most of the same code.
-long_tests='^(cli\.BenchExperiments\.(LetRandom|RunChosen|KilledAndResumed)'
+long_tests='^(cli\.BenchExperiments\.(LetRandom|RunChosen|KilledAndResumed|WritesRows)'
+long_tests+='|cli\.BenchDevices\.TimesEveryStage'
 long_tests+='|cli\.Scout\.(DrawsRandomViews|DoesNotGoOnInAnotherCell|LetsModesCompete)'
 long_tests+='|cli\.Scout\.(RemovesTheResultsOfARunBefore|KeepsToABoxInTheWorld)'
-long_tests+='|active\.Scout\.FlagsAGrosslyWrong|active\.ScoutState\.ContinuesPastViews'
-long_tests+='|register\.EdgeIcp\.RegionsHoldErrorsInFaultyImages'
+long_tests+='|active\.Scout\.FlagsAGrosslyWrong'
+long_tests+='|active\.ScoutState\.Continues(PastViews|WithOccluders|BehindALens)'
+long_tests+='|python\.test_(examples|install)'
+long_tests+='|register\.EdgeIcp\.Regions(HoldErrorsInFaultyImages|OfCleanImages)'
 long_tests+='|scripts\.trust_symmetry)'
 
 release_without_long_tests() { build_preset release && test_preset release -E "$long_tests"; }

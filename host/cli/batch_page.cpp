@@ -34,6 +34,8 @@ std::string tiles(const BatchTables& tables, const BatchSummary& summary) {
   std::string html = "<div class=tiles>" + tile(thousands(tables.images.size()), "images") +
                      tile(thousands(static_cast<std::size_t>(tables.done)), "with a result");
   html += tile(thousands(summary.failures.size()), "failed");
+  if (tables.incomplete > 0)
+    html += tile(thousands(std::size_t(tables.incomplete)), "cut short by --max-seconds");
   if (const std::size_t missing = missing_images(summary); missing > 0)
     html += tile(thousands(missing), "missing");
   html += tile(thousands(tables.rows.size()), "poses");
@@ -117,11 +119,10 @@ nlohmann::json listed(const std::vector<PageImage>& images) {
   return {{"folders", folders}, {"images", list}};
 }
 
-// "</script>" in a message would end the script.
+// "</script>" in a message would end the script, "<!--" with "<script" hide its end.
 std::string in_script(const nlohmann::json& json) {
-  std::string text = json_text(json, -1);
-  for (std::size_t at = 0; (at = text.find("</", at)) != text.npos; at += 3)
-    text.insert(at + 1, "\\");
+  std::string text;
+  for (const char c : json_text(json, -1)) text += c == '<' ? "\\u003c" : std::string(1, c);
   return text;
 }
 

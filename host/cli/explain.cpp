@@ -1,6 +1,8 @@
 // edgescout explain: names the stage at which detection lost poses that are known to be right.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include "host/cli/common_arguments.h"
@@ -64,7 +66,11 @@ StartPose pose_of_command_line(const ExplainRequest& request, std::span<const In
   ProjectedRotations projected;
   const std::optional<Se3> given = nearest_rigid(rotation, {n[9], n[10], n[11]}, projected);
   if (!given)
-    throw InputError("command line", "--pose", "a matrix that is no rotation", EXPECTED_ROTATION);
+    throw InputError("command line", "--pose",
+                     std::ranges::all_of(n, [](double number) { return std::isfinite(number); })
+                         ? "a matrix that is no rotation"
+                         : "a number that is not finite",
+                     EXPECTED_ROTATION);
   warn_of_projected(projected, "--pose");
   pose.camera_from_object = *given;
   return pose;

@@ -36,8 +36,8 @@ void read_summary(ReadShard& shard) {
     shard.why_unfinished = "the shard has not ended";
     return;
   }
-  const nlohmann::json json = read_json(path);
-  const JsonField fields{json, path.string(), ""};
+  const nlohmann::json summary = read_json(path);
+  const JsonField fields{summary, path.string(), ""};
   for (const JsonField& failure : fields.at("failures").elements())
     shard.failures[failure.at("file").text()] = failure.at("error").text();
   if (fields.has("templates"))

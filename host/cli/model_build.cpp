@@ -29,10 +29,11 @@ struct BuildRequest {
 };
 
 Object load_object(const BuildRequest& request) {
-  ModelArguments arguments{.models = {request.file},
-                           .unit = request.unit,
-                           .models_info = request.models_info,
-                           .symmetry = request.symmetry};
+  ModelArguments arguments;
+  arguments.models = {request.file};
+  arguments.unit = request.unit;
+  arguments.models_info = request.models_info;
+  arguments.symmetry = request.symmetry;
   if (request.object_id > 0) arguments.object_ids = {request.object_id};
   return load_objects(arguments)[0];
 }

@@ -11,6 +11,7 @@
 #include <cstring>
 
 #include "host/core/log.h"
+#include "host/core/option_names.h"
 #include "host/io/files.h"
 #include "kernels/error.h"
 
@@ -91,7 +92,7 @@ int locked(const fs::path& folder) {
       const std::string holder = holder_in(descriptor);
       ::close(descriptor);
       throw InputError(folder.string(), "output folder", "it in use by " + holder,
-                       "one that no other program writes (wait for it, or another --out)");
+                       "one that no other program writes (wait for it, or another " + option_name("out") + ")");
     } else {
       log(LogLevel::Warning,
           folder.string() + ": output folder: found a file system without locks (" +

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/core/log.h"
+#include "host/core/option_names.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -104,8 +105,8 @@ void mention(const cv::Mat& grey, const Range& range, const std::string& source)
   if (!was_logged.test_and_set())
     log(LogLevel::Info, source + ": scaled to 8 bit: " + text_of_number(range.low) + " to " +
                             text_of_number(range.high) +
-                            " becomes black to white (not repeated for further images; "
-                            "--image-range LOW HIGH sets it)");
+                            " becomes black to white (not repeated for further images; " +
+                            option_name("image-range") + " sets it)");
   const auto unusable = std::count_if(grey.begin<float>(), grey.end<float>(),
                                       [](float value) { return !std::isfinite(value); });
   static std::atomic_flag was_warned;

@@ -10,6 +10,7 @@
 
 #include "host/core/log.h"
 #include "host/io/exif.h"
+#include "host/core/option_names.h"
 #include "host/io/files.h"
 #include "host/io/from_mat.h"
 #include "host/io/grey_levels.h"
@@ -25,8 +26,10 @@ namespace {
 constexpr std::uint64_t max_side_px = 1 << 20;  // OpenCV's
 constexpr std::uint64_t max_pixels = 1 << 28;   // 256 MiB for each byte of a pixel
 constexpr std::uintmax_t max_bytes = 1u << 31;  // OpenCV counts them in an int
-constexpr const char* an_image =
-    "a PNG, JPEG or other image (--raw-size reads one without a header)";
+std::string an_image() {
+  return "a PNG, JPEG or other image (" + option_name("raw-size") +
+         " reads one without a header)";
+}
 
 // Decoders fill the missing rest of a truncated image with grey and only warn. So the end marks of
 // the two common formats are checked here.
@@ -78,7 +81,7 @@ cv::Mat decode(const std::string& bytes, const std::string& source) {
       throw InputError(source, "image", "more pixels than there is memory for", "one that fits");
     found = reason_of(error);
   }
-  if (image.empty()) throw InputError(source, "image", found, an_image);
+  if (image.empty()) throw InputError(source, "image", found, an_image());
   return image;
 }
 
@@ -92,7 +95,7 @@ cv::Mat raw_image(const std::string& bytes, const ImageOptions& options,
   if (bytes.size() != pixels && bytes.size() != 2 * pixels)
     throw InputError(source, "file size", std::to_string(bytes.size()) + " bytes",
                      std::to_string(pixels) + " or " + std::to_string(2 * pixels) +
-                         " for pixels of " + text_of_size(size) + " (--raw-size)");
+                         " for pixels of " + text_of_size(size) + " (" + option_name("raw-size") + ")");
   const int type = bytes.size() == pixels ? CV_8U : CV_16U;
   return cv::Mat(static_cast<int>(size.height), static_cast<int>(size.width), type,
                  const_cast<char*>(bytes.data()))
@@ -101,7 +104,7 @@ cv::Mat raw_image(const std::string& bytes, const ImageOptions& options,
 
 cv::Mat pixels_of(const std::string& bytes, const ImageOptions& options,
                   const std::string& source) {
-  if (bytes.empty()) throw InputError(source, "image", "an empty file", an_image);
+  if (bytes.empty()) throw InputError(source, "image", "an empty file", an_image());
   if (!begins_as_image(bytes) && !options.raw_size_px.empty())
     return raw_image(bytes, options, source);
   const std::optional<StatedSize> size = stated_size(bytes);

@@ -21,6 +21,7 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
 }
 
 RawMesh read_raw(const std::filesystem::path& file) {
+  open_file(file);  // a file that is not there is refused for that, whatever its name
   const std::string extension = lower_case(file.extension().string());
   if (extension == ".stl") return read_stl(file);
   if (extension == ".cao") return read_cao(file);

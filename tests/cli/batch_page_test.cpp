@@ -56,6 +56,15 @@ TEST(BatchPage, ListsWhatFailedFirst) {
   EXPECT_NE(page.find("0.30 to 0.35: 1 poses"), std::string::npos);
   EXPECT_NE(page.find("0.95 to 1.00: 0 poses"), std::string::npos);
   EXPECT_NE(page.find("<td>scan<td class=figure>500.0"), std::string::npos) << "mean of two images";
+  EXPECT_EQ(page.find("cut short"), std::string::npos);
+}
+
+TEST(BatchPage, CountsWhatWasCutShort) {
+  BatchTables tables(false);
+  ImageResult cut = result_with({});
+  cut.incomplete = "deadline passed";
+  tables.add(input_named("a"), cut);
+  EXPECT_NE(batch_page(tables, {}, "cpu").find("cut short"), std::string::npos);
 }
 
 TEST(BatchPage, TextCannotBreakIt) {

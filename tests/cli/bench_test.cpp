@@ -370,7 +370,7 @@ TEST(BenchDevices, RefuseWhatTheyCannotTime) {
   };
   refused("--device", "vulkan:99", {"vulkan:99"});
   refused("--repetitions", "2", {"--repetitions", "3 to 1000"});
-  refused("--distance-min", "0.5", {"distance_max"});
+  refused("--distance-min", "0.5", {"--distance-max"});
 }
 
 }  // namespace

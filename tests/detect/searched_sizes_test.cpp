@@ -33,7 +33,7 @@ TEST(SizeWarning, IsOfObjectsMuchSmallerOrLargerThanTheImage) {
   EXPECT_NE(far.find("spans 15.0 to 23.1 px at 2.600 to 4.000 m, expected 24 to 640 px"),
             std::string::npos)
       << far;
-  EXPECT_NE(far.find("--unit"), std::string::npos) << far;
+  EXPECT_NE(far.find("(unit)"), std::string::npos) << far;
   EXPECT_EQ(warning(0.05, 0.1), "");
   EXPECT_NE(warning(0.05, 0.09), "") << "667 px at the farthest";
 }
@@ -42,7 +42,7 @@ TEST(RequireSearchableSize, RefusesWhatHasNoShapeOrHoldsTheCamera) {
   const auto refused = [](double min_m, double max_m) {
     expect_input_error(
         [&] { require_searchable_size("part", DIAMETER_M, between(min_m, max_m), pinhole()); },
-        {"part", "size", "diameter of 100.0 mm", "--unit", "--distance-min"});
+        {"part", "size", "diameter of 100.0 mm", "(unit)", "distance_min"});
   };
   EXPECT_NO_THROW(require_searchable_size("part", DIAMETER_M, between(7.4, 8), pinhole()));
   refused(7.6, 8);  // 7.9 px

@@ -97,7 +97,7 @@ TEST(WithDistancesToBox, KeepsToSizesThatCanBeSeen) {
       [&] {
         with_distances_to_box({}, 0.1, camera, with_box({0, 0, 5, 1, 1, 6}), {&from_origin, 1});
       },
-      {"detect.world_box", "5.000 to 6.164 m", "0.094 to 2.500 m", "--distance-min"});
+      {"detect.world_box", "5.000 to 6.164 m", "0.094 to 2.500 m", "distance_min"});
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ TEST(Cells, ThatCannotBeReadAreDoneAgain) {
 TEST(Cells, OfAnEarlierRunAreNotOverwritten) {
   Trial t;
   t.go();
-  expect_input_error([&] { t.go(); }, {"a.csv", "--resume"});
+  expect_input_error([&] { t.go(); }, {"a.csv", "resume"});
 }
 
 TEST(Cells, OfOtherSettingsAreNoPartOfThisRun) {
@@ -108,7 +108,7 @@ TEST(Cells, OfSeveralCommitsAreDistinguished) {
   fs::remove(t.run.folder / "b.csv");
   t.run.resume = true;
   t.run.commit = "def";
-  expect_input_error([&] { t.go(); }, {"a.csv", "commit", "found abc", "--any-commit"});
+  expect_input_error([&] { t.go(); }, {"a.csv", "commit", "found abc", "any_commit"});
   t.run.any_commit = true;
   EXPECT_EQ(joined(t.go()).notes.back(),
             (std::pair<std::string, std::string>{"commit", "abc def"}));

@@ -211,7 +211,7 @@ TEST(BopResults, ReadsWhatOtherToolsWrite) {
 TEST(BopResults, LeaveOutRowsWithoutPose) {
   const TemporaryFolder folder;
   const std::string good = "1,2,3,0.5,1 0 0 0 1 0 0 0 1,1 2 3,0.1\n";
-  for (const std::string& row :
+  for (const std::string row :
        {"1,2,3,0.1,nan nan nan nan nan nan nan nan nan,nan nan nan,-1",
         "1,2,3,0.1,0 0 0 0 0 0 0 0 0,0 0 0,-1", "1,2,3,0.1,1 0 0 0 1 0 0 0,1 2 3,0.1",
         "1,2,3,0.1,1 0 0 0 1 0 0 0 1,1 2,0.1", "1,2,3,0.1,1 0 0 0 1 0 0 0 1,1 inf 3,0.1",

@@ -176,7 +176,7 @@ TEST(CameraForImage, ScalesOnlyWhereAllowedAndPure) {
   EXPECT_DOUBLE_EQ(half.cy, 119.5);
   EXPECT_EQ(camera_for_image(calibration, 213, 160, true, "x").width, 213);  // a third, rounded
   expect_input_error([] { camera_for_image(calibration, 320, 240, false, "k.yaml"); },
-                     {"k.yaml", "image size", "320x240", "640x480", "--scale-camera"});
+                     {"k.yaml", "image size", "320x240", "640x480", "scale_camera"});
   for (bool allowed : {false, true})
     expect_input_error([&] { camera_for_image(calibration, 640, 400, allowed, "k.yaml"); },
                        {"k.yaml", "640x400", "640x480"});

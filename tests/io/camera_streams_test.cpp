@@ -55,7 +55,7 @@ TEST(CameraFormats, ChoosesAmongStreamsByNameAndSize) {
                 .fx,
             1400);
   expect_input_error([&] { choose_camera(cameras, "", small, "rs.txt"); },
-                     {"rs.txt", "Color (640x480)", "Infrared 1", "--camera-name"});
+                     {"rs.txt", "Color (640x480)", "Infrared 1", "camera_name"});
   expect_input_error([&] { choose_camera(cameras, "Depth", small, "rs.txt"); },
                      {"rs.txt", "Color (640x480)", "one named Depth"});
   expect_input_error(
@@ -110,7 +110,7 @@ cam1:
   resolution: [640, 480]
 )";
   expect_input_error([&] { load_one("camchain.yaml", chain); },
-                     {"camchain.yaml", "cam0", "cam1", "--camera-name"});
+                     {"camchain.yaml", "cam0", "cam1", "camera_name"});
   EXPECT_EQ(load_one("camchain.yaml", chain, "cam1").fx, 800);
   const std::vector<FileCamera> sizeless = load_text(
       "c.yaml", "a: {K: [5, 0, 3, 0, 6, 4, 0, 0, 1]}\nb: {K: [7, 0, 3, 0, 6, 4, 0, 0, 1]}\n");
@@ -119,7 +119,7 @@ cam1:
         choose_camera(
             sizeless, "", [] { return SizePx(6, 8); }, "c.yaml");
       },
-      {"c.yaml", "a, b", "--camera-name"});
+      {"c.yaml", "a, b", "camera_name"});
   const std::string stereo = R"(%YAML:1.0
 ---
 M1: !!opencv-matrix
@@ -147,7 +147,7 @@ D2: !!opencv-matrix
   EXPECT_EQ(first.fx, 700);
   EXPECT_EQ(first.distortion[0], -0.25);
   EXPECT_EQ(load_one("intrinsics.yml", stereo, "2").distortion[0], 0.1);
-  expect_input_error([&] { load_one("intrinsics.yml", stereo); }, {"1", "2", "--camera-name"});
+  expect_input_error([&] { load_one("intrinsics.yml", stereo); }, {"1", "2", "camera_name"});
 }
 
 }  // namespace

@@ -188,7 +188,7 @@ TEST(LoadImage, InterpolatesMosaics) {
   ImageOptions options;
   options.bayer = BayerPattern::RGGB;
   expect_input_error([&] { load_image(folder.path() / "colour.png", options); },
-                     {"colour.png", "channels", "found 3", "1 with --bayer"});
+                     {"colour.png", "channels", "found 3", "1 with bayer"});
 }
 
 TEST(LoadImage, ReadsFilesWithoutAHeaderOfAStatedSize) {
@@ -206,7 +206,7 @@ TEST(LoadImage, ReadsFilesWithoutAHeaderOfAStatedSize) {
   EXPECT_NEAR(load_image(deep, options).at(12, 3), 63, 1);
   options.raw_size_px = {30, 21};
   expect_input_error([&] { load_image(grey, options); },
-                     {"a.raw", "600 bytes", "630 or 1260", "30x21", "--raw-size"});
+                     {"a.raw", "600 bytes", "630 or 1260", "30x21", "raw_size"});
   expect_input_error([&] { load_image(grey); }, {"a.raw", "no image decoder"});
 }
 

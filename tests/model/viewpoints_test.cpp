@@ -160,7 +160,7 @@ TEST(AxisSymmetry, GeneratesTheGroupOfItsWords) {
 TEST(AxisSymmetry, RefusesOtherWords) {
   for (const std::string word : {"", "q", "w2", "z1", "z0", "z-2", "z361", "z2x", "Z2"})
     expect_input_error([&] { axis_symmetries(box_mesh(0.06, 0.04, 0.02), std::vector{word}); },
-                       {"--symmetry", "\"" + word + "\""});
+                       {"symmetry", "\"" + word + "\""});
 }
 
 }  // namespace

@@ -45,16 +45,15 @@ def test_the_stubs_name_what_the_module_has():
         assert public(listed) == public(vars(getattr(module, name))), name
 
 
-@pytest.mark.parametrize("line, error", [
-    ("", None),
-    ("found[0].pose", 'has no attribute "pose"'),
-    ("edgescout.load_mesh('part.stl')", 'Missing positional argument "unit"'),
-    ("edgescout.detect(1, camera, templates)", "incompatible type"),
-])
-def test_a_users_program_is_checked(tmp_path, line, error):
-    (tmp_path / "program.py").write_text(PROGRAM + line + "\n")
+def test_a_users_program_is_checked(tmp_path):
+    wrong = {"found[0].pose": 'has no attribute "pose"',
+             "edgescout.load_mesh('part.stl')": 'Missing positional argument "unit"',
+             "edgescout.detect(1, camera, templates)": "incompatible type"}
+    (tmp_path / "program.py").write_text(PROGRAM + "\n".join(wrong) + "\n")
     package = os.path.dirname(edgescout.__file__)
     checked = run("mypy", "--strict", "--cache-dir", str(tmp_path / "cache"), "program.py",
                   cwd=tmp_path, env={**os.environ, "MYPYPATH": os.path.dirname(package)})
-    assert (checked.returncode == 0) == (error is None), checked.stdout
-    assert error is None or error in checked.stdout
+    errors = [line for line in checked.stdout.splitlines() if ": error: " in line]
+    assert len(errors) == len(wrong), checked.stdout
+    for error, expected in zip(errors, wrong.values()):
+        assert expected in error
