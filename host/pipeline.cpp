@@ -92,8 +92,8 @@ Detections detect_objects(const ObjectView& prepared, std::span<const TemplateSe
     }
   const std::vector<EdgeModel> models = models_of(sets);
   SelectionTrace selection;
-  result.detections = select_detections({models, {&view, 1}, backend, &limit}, candidates,
-                                        in_camera, &selection);
+  result.detections =
+      select_detections({models, {&view, 1}, backend, &limit}, candidates, in_camera, &selection);
   set_alternatives(result.detections, selection.competing, sets);
   if (trace) trace->selection = std::move(selection);
   watch.lap("selection");
@@ -114,14 +114,13 @@ Detections detect_jointly(std::span<const ObjectView> prepared, std::span<const 
   for (std::size_t v = 0; v < views.size(); ++v) {
     const std::vector<ObjectView> others = all_but(views, v);
     for (std::size_t object = 0; object < sets.size(); ++object)
-      candidates(v, object) =
-          find_candidates({sets[object], views[v], others, backend, &watch, &limit}, {},
-                          options.detect);
+      candidates(v, object) = find_candidates(
+          {sets[object], views[v], others, backend, &watch, &limit}, {}, options.detect);
   }
   const std::vector<EdgeModel> models = models_of(sets);
   SelectionTrace selection;
-  result.detections = join_views({models, views, backend, &limit}, sets, candidates,
-                                 options.detect, &selection);
+  result.detections =
+      join_views({models, views, backend, &limit}, sets, candidates, options.detect, &selection);
   set_alternatives(result.detections, selection.competing, sets);
   watch.lap("joint refinement");
   result.completion = completion_under(limit);

@@ -16,8 +16,7 @@ double smallest_size_px(std::span<const ObjectPose> poses, const ObjectView& vie
   double smallest = std::max(view.camera.width, view.camera.height);
   for (const ObjectPose& pose : poses) {
     const EdgeModel& model = models[std::size_t(pose.object)];
-    const double depth_m =
-        (view.camera_from_world * (pose.world_from_object * model.center_m)).z();
+    const double depth_m = (view.camera_from_world * (pose.world_from_object * model.center_m)).z();
     if (depth_m > 0)
       smallest = std::min(smallest, model.mesh.diameter_m / depth_m * view.camera.fx);
   }
@@ -54,9 +53,9 @@ void RegisterObjectsOptions::validate() const {
   refine.validate();
 }
 
-Detections register_objects(std::span<const ObjectView> prepared,
-                            std::span<const EdgeModel> models, std::span<const ObjectPose> starts,
-                            Backend& backend, const RegisterObjectsOptions& options) {
+Detections register_objects(std::span<const ObjectView> prepared, std::span<const EdgeModel> models,
+                            std::span<const ObjectPose> starts, Backend& backend,
+                            const RegisterObjectsOptions& options) {
   options.validate();
   check_problem(starts, models.size(), prepared);
   const TimeLimit limit = latched(options.limit);

@@ -66,8 +66,7 @@ std::vector<Detection> Scout::detect(Update& next, std::span<const ObjectPose> k
   const TimeLimit limit = until_cancelled();
   for (ScannedView& image : images)
     scan_once(sets_, image, backend_, options_.pipeline.detect.scan, &limit);
-  return candidates_in_images(sets_, images, known, backend_, options_.pipeline.detect,
-                              &limit);
+  return candidates_in_images(sets_, images, known, backend_, options_.pipeline.detect, &limit);
 }
 
 std::vector<Detection> Scout::call_detector(const Update& next, std::span<const ObjectView> images,

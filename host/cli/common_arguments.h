@@ -27,7 +27,7 @@ void add_results_folder(CLI::App& verb, std::string& out);        // --out, requ
 void add_device(CLI::App& verb, std::string& device);             // --device; shows its default
 // Adds --max-seconds.
 void add_max_seconds(CLI::App& verb, double& max_seconds);
-void add_scale_camera(CLI::App& verb, bool& scale_camera);        // --scale-camera
+void add_scale_camera(CLI::App& verb, bool& scale_camera);  // --scale-camera
 
 // The backend of --device. Its kernels are timed where the log shows their times.
 std::unique_ptr<Backend> backend_of(const std::string& device);

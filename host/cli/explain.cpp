@@ -211,8 +211,7 @@ ExitCode explain(ExplainRequest& request) {
   const std::unique_ptr<Backend> backend = make_backend(request.device);
   take_models_of_dataset(request.models, request.inputs, request.dataset, false);
   const std::vector<InputImage> images =
-      list_images(request.inputs, request.images.calibration, request.dataset,
-                  request.reading);
+      list_images(request.inputs, request.images.calibration, request.dataset, request.reading);
   const KnownModels known = load_models(request.models);
   RegisterOptions& options = request.images;
   options.camera = given_camera(options.calibration, images);

@@ -155,8 +155,8 @@ int id_in_name(const std::string& file, int otherwise) {
 }  // namespace
 
 std::vector<InputImage> list_images(const std::vector<std::string>& arguments,
-                                    const CameraArguments& chosen,
-                                    const DatasetArguments& dataset, const InputOptions& options) {
+                                    const CameraArguments& chosen, const DatasetArguments& dataset,
+                                    const InputOptions& options) {
   options.images.validate();
   if (options.last_frame < options.first_frame)
     throw InputError("command line", "--last-frame", std::to_string(options.last_frame),

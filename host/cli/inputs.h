@@ -13,8 +13,8 @@
 #include "host/cli/template_cache_arguments.h"
 #include "host/core/types.h"
 #include "host/io/bop.h"
-#include "host/io/mesh.h"
 #include "host/io/image_options.h"
+#include "host/io/mesh.h"
 #include "host/io/video.h"
 #include "host/model/template_set.h"
 #include "kernels/error.h"
@@ -61,11 +61,11 @@ struct CameraArguments {
   double field_of_view_deg = 0;  // of undistorted images; 0: they keep the focal length
 };
 
-// Each argument is an image, a video, a BOP scene folder (is_bop_scene), a folder of such scenes, or
-// a folder of images and videos, sorted by name. With a split it is the folder of a dataset. Frames
-// of the first video have scene_id 1, of the second one 2, and their number in the video, from 0, as
-// image_id. The cameras of scenes get the chosen field of view. No truth is read. InputError: an
-// argument is none of these or has no image.
+// Each argument is an image, a video, a BOP scene folder (is_bop_scene), a folder of such scenes,
+// or a folder of images and videos, sorted by name. With a split it is the folder of a dataset.
+// Frames of the first video have scene_id 1, of the second one 2, and their number in the video,
+// from 0, as image_id. The cameras of scenes get the chosen field of view. No truth is read.
+// InputError: an argument is none of these or has no image.
 std::vector<InputImage> list_images(const std::vector<std::string>& arguments,
                                     const CameraArguments& chosen = {},
                                     const DatasetArguments& dataset = {},

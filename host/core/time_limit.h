@@ -22,8 +22,8 @@ struct TimeLimit {
   std::function<bool()> cancelled;
 
   static TimeLimit after(double seconds) {
-    return {Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                               std::chrono::duration<double>(seconds)),
+    return {Clock::now() +
+                std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)),
             {}};
   }
 

@@ -185,7 +185,8 @@ class RegionScan {
 std::vector<std::span<const ScanRegion>> parts_between_checks(std::span<const ScanRegion> regions,
                                                               const TimeLimit* limit) {
   constexpr std::size_t most = 2;  // some tenth of a second on two cores
-  const std::size_t of_part = limit && limit->is_set() ? most : std::max<std::size_t>(1, regions.size());
+  const std::size_t of_part =
+      limit && limit->is_set() ? most : std::max<std::size_t>(1, regions.size());
   std::vector<std::span<const ScanRegion>> parts;
   for (std::size_t first = 0; first < regions.size(); first += of_part)
     parts.push_back(regions.subspan(first, std::min(of_part, regions.size() - first)));

@@ -66,9 +66,9 @@ class Cascade {
   // The best distinct hits of every scale.
   std::vector<ObjectPose> starts(std::span<const ScanHit> hits) const {
     const std::size_t scales = distance_scales(set_.options).size(),
-                      most = share_of_scale(number(is_joint() ? options_.coarse_poses_joint
-                                                              : options_.coarse_poses),
-                                            set_);
+                      most = share_of_scale(
+                          number(is_joint() ? options_.coarse_poses_joint : options_.coarse_poses),
+                          set_);
     std::vector<ObjectPose> starts;
     for (std::size_t scale = 0; scale < scales; ++scale) {
       KeyedPoses poses;
@@ -142,7 +142,8 @@ class Cascade {
   // How many poses enter a stage. Where no time is left, no more than will be candidates: they only
   // get their features.
   std::size_t number(int of_stage) const {
-    return std::size_t(limit_ && limit_->is_over() ? std::min(of_stage, options_.candidates) : of_stage);
+    return std::size_t(limit_ && limit_->is_over() ? std::min(of_stage, options_.candidates)
+                                                   : of_stage);
   }
 
   Scene scene_of(std::span<const ObjectView> views) const {

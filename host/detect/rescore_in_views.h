@@ -21,7 +21,7 @@ struct ObjectSearch {
   const ObjectView& view;               // the image that is searched
   std::span<const ObjectView> support;  // other images of the same static scene
   Backend& backend;
-  Stopwatch* watch = nullptr;  // null: no stage is measured
+  Stopwatch* watch = nullptr;        // null: no stage is measured
   const TimeLimit* limit = nullptr;  // null: none
 };
 

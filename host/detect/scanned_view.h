@@ -17,8 +17,8 @@ struct ScannedView {
   std::vector<ScanHits> hits;  // by object; empty before the scan
 };
 
-// Fills ScannedView::hits by coarse_scan. Does nothing where they are already there. Where the limit
-// is over, hits are missing.
+// Fills ScannedView::hits by coarse_scan. Does nothing where they are already there. Where the
+// limit is over, hits are missing.
 void scan_once(std::span<const TemplateSet> sets, ScannedView& view, Backend& backend,
                const ScanOptions& options, const TimeLimit* limit = nullptr);
 

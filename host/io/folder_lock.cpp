@@ -91,8 +91,9 @@ int locked(const fs::path& folder) {
     } else if (errno == EWOULDBLOCK) {
       const std::string holder = holder_in(descriptor);
       ::close(descriptor);
-      throw InputError(folder.string(), "output folder", "it in use by " + holder,
-                       "one that no other program writes (wait for it, or another " + option_name("out") + ")");
+      throw InputError(
+          folder.string(), "output folder", "it in use by " + holder,
+          "one that no other program writes (wait for it, or another " + option_name("out") + ")");
     } else {
       log(LogLevel::Warning,
           folder.string() + ": output folder: found a file system without locks (" +

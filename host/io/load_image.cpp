@@ -9,8 +9,8 @@
 #include <set>
 
 #include "host/core/log.h"
-#include "host/io/exif.h"
 #include "host/core/option_names.h"
+#include "host/io/exif.h"
 #include "host/io/files.h"
 #include "host/io/from_mat.h"
 #include "host/io/grey_levels.h"
@@ -27,8 +27,7 @@ constexpr std::uint64_t max_side_px = 1 << 20;  // OpenCV's
 constexpr std::uint64_t max_pixels = 1 << 28;   // 256 MiB for each byte of a pixel
 constexpr std::uintmax_t max_bytes = 1u << 31;  // OpenCV counts them in an int
 std::string an_image() {
-  return "a PNG, JPEG or other image (" + option_name("raw-size") +
-         " reads one without a header)";
+  return "a PNG, JPEG or other image (" + option_name("raw-size") + " reads one without a header)";
 }
 
 // Decoders fill the missing rest of a truncated image with grey and only warn. So the end marks of
@@ -95,7 +94,8 @@ cv::Mat raw_image(const std::string& bytes, const ImageOptions& options,
   if (bytes.size() != pixels && bytes.size() != 2 * pixels)
     throw InputError(source, "file size", std::to_string(bytes.size()) + " bytes",
                      std::to_string(pixels) + " or " + std::to_string(2 * pixels) +
-                         " for pixels of " + text_of_size(size) + " (" + option_name("raw-size") + ")");
+                         " for pixels of " + text_of_size(size) + " (" + option_name("raw-size") +
+                         ")");
   const int type = bytes.size() == pixels ? CV_8U : CV_16U;
   return cv::Mat(static_cast<int>(size.height), static_cast<int>(size.width), type,
                  const_cast<char*>(bytes.data()))

@@ -32,10 +32,10 @@ struct ImageResult {
   int image_id = 0;
   std::string camera_name;  // of a BOP scene with several cameras; else empty
   Camera camera;
-  std::string device;                    // Backend::name()
-  Settings settings;                     // empty: unknown; sorted by name after reading
-  std::string incomplete;                // why poses may be missing or not refined; empty: they are all
-  std::vector<StageSeconds> stages;      // in the order in which they ran
+  std::string device;                // Backend::name()
+  Settings settings;                 // empty: unknown; sorted by name after reading
+  std::string incomplete;            // why poses may be missing or not refined; empty: they are all
+  std::vector<StageSeconds> stages;  // in the order in which they ran
   std::optional<Se3> camera_from_world;  // absent: the world is the camera frame
   std::vector<ObjectName> objects;       // Detection::object is an index into them
   std::vector<Detection> detections;

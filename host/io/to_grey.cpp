@@ -29,9 +29,11 @@ int code_of(BayerPattern bayer) {
 
 cv::Mat grey_of_mosaic(const cv::Mat& mosaic, BayerPattern bayer, const std::string& source) {
   if (mosaic.channels() != 1)
-    throw InputError(source, "channels", std::to_string(mosaic.channels()), "1 with " + option_name("bayer"));
+    throw InputError(source, "channels", std::to_string(mosaic.channels()),
+                     "1 with " + option_name("bayer"));
   if (mosaic.depth() != CV_8U && mosaic.depth() != CV_16U)
-    throw InputError(source, "bit depth", "real or signed numbers", "8 or 16 bit with " + option_name("bayer"));
+    throw InputError(source, "bit depth", "real or signed numbers",
+                     "8 or 16 bit with " + option_name("bayer"));
   cv::Mat grey;
   cv::cvtColor(mosaic, grey, code_of(bayer));
   return grey;

@@ -163,8 +163,7 @@ std::vector<PoseEstimate> register_poses_ceres(const Scene& scene,
   for (const ObjectPose& start : starts) {
     PoseEstimate& result = results.emplace_back();
     static_cast<ObjectPose&>(result) = start;
-    for (const D2coRound& round : options.rounds)
-      solve_round(result, scene, views, round, options);
+    for (const D2coRound& round : options.rounds) solve_round(result, scene, views, round, options);
   }
   return results;
 }

@@ -20,11 +20,10 @@ void expect_done(const Outcome& outcome) { EXPECT_EQ(outcome.exit_code, 0) << ou
 TEST(Dataset, OfSeveralCamerasIsSearchedInEach) {
   const SmallDataset set = industrial_set();
   expect_done(run_program(set.detect(set.scene, set.model())));
-  EXPECT_EQ(
-      names_in(set.out),
-      (std::vector<std::string>{"000003_000000_cam1.json", "000003_000000_cam2.json", "report.html",
-                                "results.csv", "results_cam1.csv", "results_cam2.csv",
-                                "summary.json"}));
+  EXPECT_EQ(names_in(set.out),
+            (std::vector<std::string>{"000003_000000_cam1.json", "000003_000000_cam2.json",
+                                      "report.html", "results.csv", "results_cam1.csv",
+                                      "results_cam2.csv", "summary.json"}));
   const std::vector<BopResult> rows = load_bop_results(set.out / "results.csv");
   for (const char* camera : {"cam1", "cam2"}) {
     const BopScene scene = load_bop_scene(set.scene, camera);
@@ -142,9 +141,8 @@ TEST(Dataset, IsRestrictedToTargets) {
     return set.detect(set.root, {"--split", "test", "--targets", targets});
   };
   expect_done(run_program(detect(of_2024)));
-  EXPECT_EQ(names_in(set.out),
-            (std::vector<std::string>{"000003_000001.json", "report.html", "results.csv",
-                                      "summary.json"}));
+  EXPECT_EQ(names_in(set.out), (std::vector<std::string>{"000003_000001.json", "report.html",
+                                                         "results.csv", "summary.json"}));
   std::vector<BopResult> rows = true_results(load_bop_scene(set.scene), 1);
   save_bop_results(rows, folder.path() / "r.csv");
   const fs::path json = folder.path() / "r.json";
@@ -164,8 +162,7 @@ TEST(Dataset, ReportsAsManyInstancesAsTheTargetsSay) {
   const fs::path targets = set.made.folder.write(
       "t19.json", R"([{"scene_id": 3, "im_id": 0, "obj_id": 1, "inst_count": 1},
                       {"scene_id": 3, "im_id": 1, "obj_id": 1, "inst_count": 0}])");
-  expect_done(run_program(set.detect(
-      set.root, {"--split", "test", "--targets", targets})));
+  expect_done(run_program(set.detect(set.root, {"--split", "test", "--targets", targets})));
   std::vector<int> images;
   for (const BopResult& row : load_bop_results(set.out / "results.csv"))
     images.push_back(row.image_id);

@@ -58,7 +58,8 @@ TEST_F(LimitedDetection, AnEndlessLimitChangesNothing) {
 }
 
 TEST_F(LimitedDetection, ALimitThatIsOverGivesNothing) {
-  for (const Detections& found : {detect(TimeLimit::after(0)), detect_in_both(TimeLimit::after(0))}) {
+  for (const Detections& found :
+       {detect(TimeLimit::after(0)), detect_in_both(TimeLimit::after(0))}) {
     EXPECT_EQ(found.completion, Completion::DeadlinePassed);
     EXPECT_TRUE(found.detections.empty());
   }
@@ -81,9 +82,9 @@ TEST_F(LimitedDetection, GivesWhatWasFoundBeforeItsEnd) {
     }
     if (part < 0.9) continue;
     ASSERT_FALSE(found.detections.empty());
-    const PoseError error =
-        scene.error(found.detections[0].world_from_object, scene.truth_in(0));
-    EXPECT_TRUE(error.passes(0.15, 0.01)) << error.angle_rad << " rad, " << error.distance_m << " m";
+    const PoseError error = scene.error(found.detections[0].world_from_object, scene.truth_in(0));
+    EXPECT_TRUE(error.passes(0.15, 0.01))
+        << error.angle_rad << " rad, " << error.distance_m << " m";
   }
 }
 

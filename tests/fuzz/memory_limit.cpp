@@ -11,13 +11,18 @@
 
 #ifdef EDGESCOUT_COUNTS_MEMORY
 
-#include <sanitizer/allocator_interface.h>
 #include <sanitizer/common_interface_defs.h>
 
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+
+// Of sanitizer/allocator_interface.h. GCC has the functions without the header.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*of_new)(const volatile void*,
+                                                                        std::size_t),
+                                                         void (*of_freed)(const volatile void*));
+extern "C" std::size_t __sanitizer_get_allocated_size(const volatile void* memory);
 
 namespace edgescout::test {
 
@@ -38,8 +43,7 @@ void count_new(const volatile void*, std::size_t size) {
 }
 
 void count_freed(const volatile void* memory) {
-  held -=
-      static_cast<std::ptrdiff_t>(__sanitizer_get_allocated_size(const_cast<const void*>(memory)));
+  held -= static_cast<std::ptrdiff_t>(__sanitizer_get_allocated_size(memory));
 }
 
 }  // namespace

@@ -162,7 +162,8 @@ TEST(Cao, NamesTheFileThatLoadsAnother) {
 TEST(Cao, LimitsCircles) {
   std::string circles = square + "0\n0\n0\n0\n2001\n";
   for (int i = 0; i < 2001; ++i) circles += "1 0 1 2\n";
-  expect_input_error([&] { read(circles); }, {"line 2012", "at most 2000 ends of cylinders and circles"});
+  expect_input_error([&] { read(circles); },
+                     {"line 2012", "at most 2000 ends of cylinders and circles"});
 }
 
 // ViSP's own models, where Debian's package visp-images-data is installed.

@@ -42,8 +42,7 @@ py::array_t<std::uint8_t> copied(const std::vector<std::uint8_t>& pixels,
 Se3 pose_of(const double* m, const std::string& name) {
   const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(m);
   if (!matrix.allFinite()) refuse(name, "a value that is not finite", "finite numbers");
-  if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1))
-    refuse(name, "another last row", "0 0 0 1");
+  if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) refuse(name, "another last row", "0 0 0 1");
   try {
     return se3_from_matrix(matrix.topLeftCorner<3, 3>(), matrix.topRightCorner<3, 1>());
   } catch (const InputError& error) {
@@ -86,16 +85,17 @@ Image image_of(const py::array& array, const ImageOptions& options) {
   const bool is_grey = array.ndim() == 2,
              is_colour = array.ndim() == 3 && (array.shape(2) == 3 || array.shape(2) == 4);
   if (!py::isinstance<py::array_t<std::uint8_t>>(array) || !(is_grey || is_colour))
-    refuse("image", found(array), "uint8 of shape (height, width) or (height, width, 3), or uint16 or float32 of shape "
+    refuse("image", found(array),
+           "uint8 of shape (height, width) or (height, width, 3), or uint16 or float32 of shape "
            "(height, width)");
   if (array.size() == 0) refuse("image", found(array), "pixels");
   Image image{int(array.shape(1)), int(array.shape(0)), {}};
   image.pixels.resize(std::size_t(image.width) * std::size_t(image.height));
   const auto* data = static_cast<const char*>(array.data());
   const auto at = [&](int y, int x, int channel) {
-    return *reinterpret_cast<const std::uint8_t*>(
-        data + y * array.strides(0) + x * array.strides(1) +
-        (is_colour ? channel * array.strides(2) : 0));
+    return *reinterpret_cast<const std::uint8_t*>(data + y * array.strides(0) +
+                                                  x * array.strides(1) +
+                                                  (is_colour ? channel * array.strides(2) : 0));
   };
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x)

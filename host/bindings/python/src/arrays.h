@@ -24,8 +24,8 @@ std::string found(const py::array& array);
                          const std::string& expected);
 
 // A grey image of an array of (height, width), or of (height, width, 3 or 4) in the order red,
-// green, blue; or of 16 bit or float32, (height, width), scaled to 8 bit by the options. Any strides.
-// ValueError: another type or shape.
+// green, blue; or of 16 bit or float32, (height, width), scaled to 8 bit by the options. Any
+// strides. ValueError: another type or shape.
 Image image_of(const py::array& array, const ImageOptions& options = {});
 
 // (height, width) and (height, width, 3); they own their memory.

@@ -20,8 +20,8 @@ void add_backends(py::module_& module) {
       "Where the kernels run. Threads may share one; their calls follow one another.")
       .def(py::init([](const std::string& device, int threads) {
              if (device != "cpu" && threads != 0)
-               throw py::value_error("threads: found " + std::to_string(threads) + " for " + device +
-                                     ", expected them for cpu alone");
+               throw py::value_error("threads: found " + std::to_string(threads) + " for " +
+                                     device + ", expected them for cpu alone");
              return std::make_shared<SharedBackend>(device == "cpu" ? make_cpu_backend(threads)
                                                                     : make_backend(device));
            }),

@@ -8,8 +8,12 @@ namespace {
 
 Camera make_camera(int width, int height, std::array<double, 4> focal_and_centre_px,
                    const std::vector<double>& distortion, LensModel lens) {
-  Camera camera{width, height, focal_and_centre_px[0], focal_and_centre_px[1],
-                focal_and_centre_px[2], focal_and_centre_px[3]};
+  Camera camera{width,
+                height,
+                focal_and_centre_px[0],
+                focal_and_centre_px[1],
+                focal_and_centre_px[2],
+                focal_and_centre_px[3]};
   if (distortion.size() > camera.distortion.size())
     refuse("distortion", std::to_string(distortion.size()) + " coefficients", "at most 14");
   std::ranges::copy(distortion, camera.distortion.begin());
@@ -27,8 +31,8 @@ std::array<double, 4> intrinsics_of(const py::handle& matrix) {
 
 py::array_t<double> intrinsic_matrix(const Camera& c) {
   py::array_t<double> k({3, 3});
-  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(k.mutable_data())
-      << c.fx, c.skew, c.cx, 0, c.fy, c.cy, 0, 0, 1;
+  Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(k.mutable_data()) << c.fx, c.skew, c.cx,
+      0, c.fy, c.cy, 0, 0, 1;
   return k;
 }
 
@@ -49,8 +53,7 @@ void add_cameras(py::module_& module) {
              return make_camera(width, height, intrinsics_of(k), distortion, lens);
            }),
            py::arg("width"), py::arg("height"), py::arg("K"),
-           py::arg("distortion") = std::vector<double>{},
-           py::arg("lens") = LensModel::BrownConrady,
+           py::arg("distortion") = std::vector<double>{}, py::arg("lens") = LensModel::BrownConrady,
            "K: (3, 3), px. distortion: at most 14 coefficients in the order of `lens`.")
       .def_readonly("width", &Camera::width)
       .def_readonly("height", &Camera::height)

@@ -67,8 +67,7 @@ std::vector<ObjectPose> starts_of(const py::object& poses, const char* name,
   return starts;
 }
 
-FoundObjects register_in(const std::vector<TakenImage>& taken,
-                         const std::vector<TemplateSet>& sets,
+FoundObjects register_in(const std::vector<TakenImage>& taken, const std::vector<TemplateSet>& sets,
                          const std::vector<ObjectPose>& starts, const BackendPointer& backend,
                          std::optional<double> max_seconds) {
   const std::vector<EdgeModel> models = models_of(sets);
@@ -103,12 +102,10 @@ FoundObjects register_in_all(const std::vector<py::array>& images, const Camera&
 
 py::array_t<std::uint8_t> overlay(const py::array& image, const Camera& camera,
                                   const std::vector<FoundObject>& found,
-                                  const py::object& templates,
-                                  const py::object& camera_from_world,
+                                  const py::object& templates, const py::object& camera_from_world,
                                   const BackendPointer& backend) {
-  const Se3 camera_pose = camera_from_world.is_none() ? Se3{}
-                                                      : pose_of(camera_from_world,
-                                                                "camera_from_world");
+  const Se3 camera_pose =
+      camera_from_world.is_none() ? Se3{} : pose_of(camera_from_world, "camera_from_world");
   const TakenImage taken = taken_image(image, camera, camera_pose);
   const std::vector<TemplateSet> sets = sets_of(templates);
   std::vector<OverlayPose> poses;
@@ -141,9 +138,8 @@ void add_detection(py::module_& module) {
              "Finds objects in several images of one static scene.\n\ncamera_from_world: "
              "(n, 4, 4), metres, one an image.");
   module.def("register", &register_in_one, py::arg("image"), py::arg("camera"),
-             py::arg("templates"), py::arg("camera_from_object"),
-             py::arg("objects") = std::nullopt, py::kw_only(), py::arg("backend") = nullptr,
-             py::arg("max_seconds") = std::nullopt,
+             py::arg("templates"), py::arg("camera_from_object"), py::arg("objects") = std::nullopt,
+             py::kw_only(), py::arg("backend") = nullptr, py::arg("max_seconds") = std::nullopt,
              "Refines given poses in one image.\n\ncamera_from_object: (n, 4, 4), metres, within "
              "some 0.3 rad and a tenth of the object's size. objects: of each, the index of its "
              "templates; needed where there are several. The result is in the order of the poses.");

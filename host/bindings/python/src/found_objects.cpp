@@ -59,8 +59,7 @@ void add_found_objects(py::module_& module) {
       .def_readonly("object_id", &FoundObject::object_id)
       .def_readonly("name", &FoundObject::name, "Of its mesh.")
       .def_property_readonly(
-          "world_from_object",
-          [](const FoundObject& d) { return matrix_of(d.world_from_object); },
+          "world_from_object", [](const FoundObject& d) { return matrix_of(d.world_from_object); },
           "(4, 4) float64, metres. With one image the world is the camera frame.")
       .def_property_readonly(
           "covariance", [](const FoundObject& d) { return array_of(d.covariance); },
@@ -93,8 +92,7 @@ void add_found_objects(py::module_& module) {
           "seconds",
           [](const FoundObjects& f) {
             py::dict seconds;
-            for (const StageSeconds& stage : f.stages)
-              seconds[py::str(stage.name)] = stage.seconds;
+            for (const StageSeconds& stage : f.stages) seconds[py::str(stage.name)] = stage.seconds;
             return seconds;
           },
           "Of each stage, by name.");

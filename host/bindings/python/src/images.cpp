@@ -7,11 +7,11 @@ namespace {
 
 void save_image(const py::array& array, const std::filesystem::path& file) {
   if (array.ndim() == 2) return save_png(image_of(array), file);
-  if (!py::isinstance<py::array_t<std::uint8_t>>(array) || array.ndim() != 3 ||
-      array.shape(2) != 3)
+  if (!py::isinstance<py::array_t<std::uint8_t>>(array) || array.ndim() != 3 || array.shape(2) != 3)
     refuse("image", found(array), "uint8 of shape (height, width) or (height, width, 3)");
   const auto packed = py::array_t<std::uint8_t, py::array::c_style>::ensure(array);
-  save_png(RgbImage{int(packed.shape(1)), int(packed.shape(0)),
+  save_png(RgbImage{int(packed.shape(1)),
+                    int(packed.shape(0)),
                     {packed.data(), packed.data() + packed.size()}},
            file);
 }

@@ -32,7 +32,8 @@ T value_of(const OptionInfo& option, const py::object& value, const char* expect
 
 // A number that is set only if it lies within its bounds.
 template <typename T>
-OptionField number_field(const std::string& type, const OptionInfo& option, T& field, T low, T high) {
+OptionField number_field(const std::string& type, const OptionInfo& option, T& field, T low,
+                         T high) {
   return {python_name(option), option.help, [&field] { return py::cast(field); },
           [&field, type, option, low, high](const py::object& value) {
             T given = value_of<T>(option, value, std::is_integral_v<T> ? "an integer" : "a number");
@@ -75,13 +76,12 @@ void OptionFields::range(const OptionInfo& option, Range& field, double low, dou
 
 void OptionFields::numbers(const OptionInfo& option, std::vector<double>& field, int count,
                            double low, double high) {
-  fields.push_back(
-      {python_name(option), option.help, [&field] { return py::cast(field); },
-       [&field, type = type_, option, count, low, high](const py::object& value) {
-         auto given = value_of<std::vector<double>>(option, value, "numbers");
-         BoundsCheck(type).numbers(option, given, count, low, high);
-         field = std::move(given);
-       }});
+  fields.push_back({python_name(option), option.help, [&field] { return py::cast(field); },
+                    [&field, type = type_, option, count, low, high](const py::object& value) {
+                      auto given = value_of<std::vector<double>>(option, value, "numbers");
+                      BoundsCheck(type).numbers(option, given, count, low, high);
+                      field = std::move(given);
+                    }});
 }
 
 void OptionFields::flag(const OptionInfo& option, bool& field) {

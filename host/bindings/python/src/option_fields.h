@@ -58,7 +58,8 @@ void add_options_class(py::module_& module, const char* name, const char* doc,
     describe_all(options, fields);
     return std::move(fields.fields);
   };
-  const auto set = [fields_of](Options& options, const std::string& field, const py::object& value) {
+  const auto set = [fields_of](Options& options, const std::string& field,
+                               const py::object& value) {
     field_named(fields_of(options), field).set(value);
   };
   py::class_<Options>(module, name, doc)

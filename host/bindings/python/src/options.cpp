@@ -1,6 +1,6 @@
+#include "host/active/scout_options.h"
 #include "host/bindings/python/src/option_fields.h"
 #include "host/bindings/python/src/parts.h"
-#include "host/active/scout_options.h"
 #include "host/io/image_options.h"
 #include "host/model/template_set.h"
 #include "host/pipeline.h"

@@ -45,7 +45,8 @@ class PythonScout {
   }
 
   std::optional<Proposal> propose() {
-    const std::optional<ScoutDecision> decision = call([](Scout& scout) { return scout.propose(); });
+    const std::optional<ScoutDecision> decision =
+        call([](Scout& scout) { return scout.propose(); });
     if (!decision) return {};
     Proposal proposal{decision->view, state().views[std::size_t(decision->view)], {}};
     for (const ViewInformation& view : decision->views)
@@ -103,15 +104,15 @@ class PythonScout {
 
 py::array_t<double> hemisphere(const std::array<double, 3>& center_m, double radius_m, int count,
                                const std::vector<double>& elevations_deg) {
-  return matrices_of(hemisphere_views(
-      {{center_m[0], center_m[1], center_m[2]}, radius_m, elevations_deg, count}));
+  return matrices_of(
+      hemisphere_views({{center_m[0], center_m[1], center_m[2]}, radius_m, elevations_deg, count}));
 }
 
 void add_scout_results(py::module_& module) {
   py::class_<Proposal>(module, "Proposal", "The view that the scout asks for.")
       .def_readonly("view", &Proposal::view, "Index into the views that were given.")
-      .def_property_readonly(
-          "camera_from_world", [](const Proposal& p) { return matrix_of(p.camera_from_world); })
+      .def_property_readonly("camera_from_world",
+                             [](const Proposal& p) { return matrix_of(p.camera_from_world); })
       .def_property_readonly(
           "values_nats",
           [](const Proposal& p) {
@@ -128,12 +129,11 @@ void add_scout_results(py::module_& module) {
 
 void add_scout(py::module_& module) {
   add_scout_results(module);
-  py::class_<PythonScout>(
-      module, "Scout",
-      "Finds objects from several views and says which view to take next.\n\n"
-      "    while (proposal := scout.propose()) is not None:\n"
-      "        move_camera(proposal.camera_from_world)\n"
-      "        scout.give(proposal.view, take_image())\n")
+  py::class_<PythonScout>(module, "Scout",
+                          "Finds objects from several views and says which view to take next.\n\n"
+                          "    while (proposal := scout.propose()) is not None:\n"
+                          "        move_camera(proposal.camera_from_world)\n"
+                          "        scout.give(proposal.view, take_image())\n")
       .def(py::init([](const py::object& templates, const Camera& camera,
                        const py::object& camera_from_world, const ScoutOptions* options,
                        const BackendPointer& backend) {
@@ -156,8 +156,9 @@ void add_scout(py::module_& module) {
       .def_property_readonly("entropy_nats",
                              [](const PythonScout& s) { return s.state().entropy_nats; })
       .def_property_readonly("images", [](const PythonScout& s) { return s.state().steps.size(); })
-      .def_property_readonly("end", [](const PythonScout& s) { return to_string(s.state().end); },
-                             "Why it ended; empty while it goes on.")
+      .def_property_readonly(
+          "end", [](const PythonScout& s) { return to_string(s.state().end); },
+          "Why it ended; empty while it goes on.")
       .def(
           "save",
           [](const PythonScout& s, const std::filesystem::path& file) {
@@ -173,10 +174,11 @@ void add_scout(py::module_& module) {
   module.def(
       "look_at",
       [](const std::array<double, 3>& eye_m, const std::array<double, 3>& target_m) {
-        return matrix_of(look_at({eye_m[0], eye_m[1], eye_m[2]},
-                                 {target_m[0], target_m[1], target_m[2]}));
+        return matrix_of(
+            look_at({eye_m[0], eye_m[1], eye_m[2]}, {target_m[0], target_m[1], target_m[2]}));
       },
-      py::arg("eye_m"), py::arg("target_m"), "The pose camera_from_world, world z up in the image.");
+      py::arg("eye_m"), py::arg("target_m"),
+      "The pose camera_from_world, world z up in the image.");
 }
 
 }  // namespace edgescout::python
