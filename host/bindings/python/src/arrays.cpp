@@ -91,16 +91,17 @@ Image image_of(const py::array& array, const ImageOptions& options) {
   if (array.size() == 0) refuse("image", found(array), "pixels");
   Image image{int(array.shape(1)), int(array.shape(0)), {}};
   image.pixels.resize(std::size_t(image.width) * std::size_t(image.height));
-  const auto* data = static_cast<const char*>(array.data());
-  const auto at = [&](int y, int x, int channel) {
-    return *reinterpret_cast<const std::uint8_t*>(data + y * array.strides(0) +
-                                                  x * array.strides(1) +
-                                                  (is_colour ? channel * array.strides(2) : 0));
-  };
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)] =
-          is_grey ? at(y, x, 0) : grey(at(y, x, 0), at(y, x, 1), at(y, x, 2));
+  const auto packed = py::array_t<std::uint8_t, py::array::c_style>::ensure(array);
+  const std::uint8_t* const values = packed.data();
+  if (is_grey) {
+    std::copy_n(values, image.pixels.size(), image.pixels.begin());
+    return image;
+  }
+  const auto channels = std::size_t(packed.shape(2));
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const std::uint8_t* const colour = values + channels * i;
+    image.pixels[i] = grey(colour[0], colour[1], colour[2]);
+  }
   return image;
 }
 

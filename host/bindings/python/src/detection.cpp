@@ -26,7 +26,8 @@ FoundObjects detect(const py::array& image, const Camera& camera, const py::obje
                     const PipelineOptions* options, const BackendPointer& backend,
                     std::optional<double> max_seconds) {
   const TakenImage taken = taken_image(image, camera, Se3{});
-  const std::vector<TemplateSet> sets = sets_of(templates);
+  const GivenSets given(templates);
+  const std::span<const TemplateSet> sets = given.sets();
   PipelineOptions used = options_of(options);
   const auto work = [&](const TimeLimit& limit, Backend& on) {
     used.limit = limit;
@@ -40,7 +41,8 @@ FoundObjects detect_in_all(const std::vector<py::array>& images, const Camera& c
                            const PipelineOptions* options, const BackendPointer& backend,
                            std::optional<double> max_seconds) {
   const std::vector<TakenImage> taken = taken_images(images, camera, camera_from_world);
-  const std::vector<TemplateSet> sets = sets_of(templates);
+  const GivenSets given(templates);
+  const std::span<const TemplateSet> sets = given.sets();
   PipelineOptions used = options_of(options);
   const auto work = [&](const TimeLimit& limit, Backend& on) {
     used.limit = limit;
@@ -67,7 +69,7 @@ std::vector<ObjectPose> starts_of(const py::object& poses, const char* name,
   return starts;
 }
 
-FoundObjects register_in(const std::vector<TakenImage>& taken, const std::vector<TemplateSet>& sets,
+FoundObjects register_in(const std::vector<TakenImage>& taken, std::span<const TemplateSet> sets,
                          const std::vector<ObjectPose>& starts, const BackendPointer& backend,
                          std::optional<double> max_seconds) {
   const std::vector<EdgeModel> models = models_of(sets);
@@ -83,7 +85,8 @@ FoundObjects register_in_one(const py::array& image, const Camera& camera,
                              const py::object& templates, const py::object& camera_from_object,
                              const std::optional<std::vector<int>>& objects,
                              const BackendPointer& backend, std::optional<double> max_seconds) {
-  const std::vector<TemplateSet> sets = sets_of(templates);
+  const GivenSets given(templates);
+  const std::span<const TemplateSet> sets = given.sets();
   return register_in({taken_image(image, camera, Se3{})}, sets,
                      starts_of(camera_from_object, "camera_from_object", objects, sets.size()),
                      backend, max_seconds);
@@ -94,7 +97,8 @@ FoundObjects register_in_all(const std::vector<py::array>& images, const Camera&
                              const py::object& world_from_object,
                              const std::optional<std::vector<int>>& objects,
                              const BackendPointer& backend, std::optional<double> max_seconds) {
-  const std::vector<TemplateSet> sets = sets_of(templates);
+  const GivenSets given(templates);
+  const std::span<const TemplateSet> sets = given.sets();
   return register_in(taken_images(images, camera, camera_from_world), sets,
                      starts_of(world_from_object, "world_from_object", objects, sets.size()),
                      backend, max_seconds);
@@ -107,7 +111,8 @@ py::array_t<std::uint8_t> overlay(const py::array& image, const Camera& camera,
   const Se3 camera_pose =
       camera_from_world.is_none() ? Se3{} : pose_of(camera_from_world, "camera_from_world");
   const TakenImage taken = taken_image(image, camera, camera_pose);
-  const std::vector<TemplateSet> sets = sets_of(templates);
+  const GivenSets given(templates);
+  const std::span<const TemplateSet> sets = given.sets();
   std::vector<OverlayPose> poses;
   for (const FoundObject& each : found) {
     if (each.object < 0 || std::size_t(each.object) >= sets.size())

@@ -2,16 +2,14 @@
 
 namespace edgescout::python {
 
-std::vector<TemplateSet> sets_of(const py::object& given) {
-  std::vector<TemplateSet> sets;
-  if (py::isinstance<TemplateSet>(given)) {
-    sets.push_back(py::cast<const TemplateSet&>(given));
-    return sets;
+GivenSets::GivenSets(const py::object& templates) {
+  using Pointer = std::shared_ptr<TemplateSet>;
+  if (py::isinstance<TemplateSet>(templates)) {
+    one_ = py::cast<Pointer>(templates);
+    return;
   }
-  for (const auto& set : py::cast<std::vector<std::shared_ptr<TemplateSet>>>(given))
-    sets.push_back(*set);
-  if (sets.empty()) refuse("templates", "none", "at least one");
-  return sets;
+  for (const Pointer& set : py::cast<std::vector<Pointer>>(templates)) several_.push_back(*set);
+  if (several_.empty()) refuse("templates", "none", "at least one");
 }
 
 TakenImage taken_image(const py::array& image, const Camera& camera, const Se3& camera_from_world) {

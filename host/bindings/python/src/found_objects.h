@@ -1,13 +1,26 @@
 // What is given to detection and what it finds, with the names of the objects.
 #pragma once
 
+#include <memory>
+#include <span>
+
 #include "host/bindings/python/src/arrays.h"
 #include "host/pipeline.h"
 
 namespace edgescout::python {
 
-// One Templates or a sequence of them. ValueError: none.
-std::vector<TemplateSet> sets_of(const py::object& templates);
+// One Templates, which is shared and not copied, or a sequence of them.
+class GivenSets {
+ public:
+  explicit GivenSets(const py::object& templates);  // ValueError: none
+  std::span<const TemplateSet> sets() const {
+    return one_ ? std::span<const TemplateSet>(one_.get(), 1) : several_;
+  }
+
+ private:
+  std::shared_ptr<const TemplateSet> one_;
+  std::vector<TemplateSet> several_;
+};
 
 // What an image shows, and where it was taken.
 struct TakenImage {

@@ -35,9 +35,9 @@ class PythonScout {
   }
 
  public:
-  PythonScout(std::vector<TemplateSet> sets, const Camera& camera, std::vector<Se3> views,
-              ScoutOptions options, BackendPointer backend)
-      : sets_(std::move(sets)), backend_(std::move(backend)) {
+  PythonScout(GivenSets sets, const Camera& camera, std::vector<Se3> views, ScoutOptions options,
+              BackendPointer backend)
+      : given_(std::move(sets)), sets_(given_.sets()), backend_(std::move(backend)) {
     options.cancelled = [this] { return limit_ && limit_->is_cancelled(); };
     scout_ = on_backend(backend_, {}, [&](const TimeLimit&, Backend& on) {
       return std::make_unique<Scout>(sets_, camera, std::move(views), options, on);
@@ -96,7 +96,8 @@ class PythonScout {
                             std::to_string(state().views.size()));
   }
 
-  std::vector<TemplateSet> sets_;
+  GivenSets given_;
+  std::span<const TemplateSet> sets_;
   BackendPointer backend_;
   const TimeLimit* limit_ = nullptr;  // of the call in progress
   std::unique_ptr<Scout> scout_;
@@ -138,7 +139,7 @@ void add_scout(py::module_& module) {
                        const py::object& camera_from_world, const ScoutOptions* options,
                        const BackendPointer& backend) {
              return std::make_unique<PythonScout>(
-                 sets_of(templates), camera, poses_of(camera_from_world, "camera_from_world"),
+                 GivenSets(templates), camera, poses_of(camera_from_world, "camera_from_world"),
                  options ? *options : ScoutOptions{}, backend_or_usual(backend));
            }),
            py::arg("templates"), py::arg("camera"), py::arg("camera_from_world"),
