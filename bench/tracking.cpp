@@ -4,7 +4,8 @@
 //
 // Prints a row for each part and kind of motion: the frames that are tracked, doubtful and lost; of
 // the tracked ones those that are wrong (MSSD above a tenth of the diameter); errors; the time of an
-// update.
+// update. A lost part is searched for in every frame: how many frames and seconds of search from
+// the loss, or from the first frame in which half of the part is visible, until it is tracked again.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -63,25 +64,44 @@ double quantile(std::vector<double> values, double share) {
 }
 
 struct Outcome {
-  int tracked = 0, doubtful = 0, lost = 0, wrong = 0, found_again_after = -1;
+  int tracked = 0, doubtful = 0, lost = 0, wrong = 0;
   std::vector<double> errors, above_chance_right, above_chance_wrong, update_ms;
+  int losses = 0, found_again = 0, frames_to_find = 0;
+  double search_seconds = 0;
 };
 
+TemplateSet set_of(const Object& part, const MovingScene& scene, Backend& backend) {
+  const double distance_m = scene.frames[0].camera_from_object.translation_m.norm();
+  TemplateOptions templates;
+  templates.distance_min_m = 0.9 * distance_m;
+  templates.distance_max_m = 1.1 * distance_m;
+  return build_templates(part, templates, backend);
+}
+
 Outcome follow(const Object& part, const MovingScene& scene, const Arguments& a) {
-  const std::vector<TemplateSet> sets{
-      {part.id, part.symmetries, {}, make_edge_model(part.mesh), {}}};
   const std::unique_ptr<Backend> backend = make_backend("cpu");
+  const std::vector<TemplateSet> sets{set_of(part, scene, *backend)};
   TrackOptions options;
   options.max_points = a.points;
   options.register_doubtful = !a.no_registration;
   Tracker tracker(sets, scene.camera, *backend, options);
   tracker.add(0, scene.frames[0].camera_from_object);
   Outcome outcome;
+  bool was_lost = false;
   for (std::size_t f = 0; f < scene.frames.size(); ++f) {
     const TrackFrame frame{std::make_shared<const Image>(scene.frames[f].image), double(f)};
-    const auto begin = std::chrono::steady_clock::now();
+    auto begin = std::chrono::steady_clock::now();
+    if (was_lost && scene.frames[f].visible > 0.5) {
+      tracker.search(frame, *backend);
+      outcome.search_seconds += seconds_since(begin);
+      ++outcome.frames_to_find;
+    }
+    begin = std::chrono::steady_clock::now();
     const Track track = tracker.update(frame)[0];
     outcome.update_ms.push_back(1000 * seconds_since(begin));
+    outcome.losses += track.state == TrackState::Lost && !was_lost;
+    outcome.found_again += track.state == TrackState::Tracked && was_lost;
+    was_lost = track.state == TrackState::Lost || (was_lost && track.state != TrackState::Tracked);
     const double error =
         mssd_m(track.world_from_object, scene.frames[f].camera_from_object, part) /
         part.mesh.diameter_m;
@@ -99,11 +119,13 @@ Outcome follow(const Object& part, const MovingScene& scene, const Arguments& a)
 }
 
 void report(const std::string& part, const Motion& motion, const Outcome& o) {
-  std::printf("| %s | %s | %d | %d | %d | %d | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f |\n",
+  std::printf("| %s | %s | %d | %d | %d | %d | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f "
+              "| %d | %d | %d | %.1f |\n",
               part.c_str(), motion.name, o.tracked, o.doubtful, o.lost, o.wrong,
               100 * quantile(o.errors, 0.5), 100 * quantile(o.errors, 0.95),
               quantile(o.above_chance_right, 0.05), quantile(o.above_chance_wrong, 0.95),
-              quantile(o.update_ms, 0.5), quantile(o.update_ms, 0.99));
+              quantile(o.update_ms, 0.5), quantile(o.update_ms, 0.99), o.losses, o.found_again,
+              o.frames_to_find, o.search_seconds);
   std::fflush(stdout);
 }
 
@@ -119,8 +141,8 @@ int main(int argc, char** argv) try {
                          {"--no-registration", &a.no_registration}});
   std::puts(
       "| part | motion | tracked | doubtful | lost | wrong of tracked | error, median, % of the "
-      "diameter | 95 % | above chance, 5 % of right | 95 % of wrong | ms, median | 99 % |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|");
+      "diameter | 95 % | above chance, 5 % of right | 95 % of wrong | ms, median | 99 % | losses | found again | frames searched | s of search |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   ThreadPool pool(0);
   for (const std::string& name : a.part.empty() ? part_names() : std::vector{a.part}) {
     const Object part = make_part(name);

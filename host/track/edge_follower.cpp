@@ -30,6 +30,13 @@ bool has_turned(const Se3& from, const Se3& to) {
   return angle_between_rad(from, to) > most_rad;
 }
 
+// A round moves a pose by a few hundredths of its distance and a tenth of a radian. Without a bound
+// small objects go off along the line of sight, where edges hardly determine them.
+PosePrior near(const Se3& pose) {
+  constexpr double sigma_of_distance = 0.02, sigma_rad = 0.1;
+  return {pose, sigma_of_distance * pose.translation_m.norm(), sigma_rad};
+}
+
 }  // namespace
 
 std::vector<ModelPoint> EdgeFollower::visible_points(const Se3& camera_from_object) const {
@@ -55,12 +62,12 @@ FollowedPose EdgeFollower::follow_near(const SearchedImage& image, const Se3& st
                                        const SeenObject* earlier) const {
   std::vector<ModelPoint> points = visible_points(start);
   NormalSearch lines = search(image, start, points, earlier, options_.search_px);
-  Se3 pose = fit_to_edges(lines, image.ideal, start, 0.5 * options_.search_px, 5);
-  pose = fit_to_edges(lines, image.ideal, pose, 1.5, 5);
+  Se3 pose = fit_to_edges(lines, image.ideal, start, 0.5 * options_.search_px, 5, near(start));
+  pose = fit_to_edges(lines, image.ideal, pose, 1.5, 5, near(pose));
   if (has_turned(start, pose)) points = visible_points(pose);
   lines = search(image, pose, points, earlier, near_reach_px);
-  pose = fit_to_edges(lines, image.ideal, pose, 1.5, 4);
-  pose = fit_to_edges(lines, image.ideal, pose, 0.8, 4);
+  pose = fit_to_edges(lines, image.ideal, pose, 1.5, 4, near(pose));
+  pose = fit_to_edges(lines, image.ideal, pose, 0.8, 4, near(pose));
   lines = search(image, pose, points, earlier, options_.search_px);
   return {pose, measure_fit(lines, image.ideal, pose)};
 }
@@ -70,7 +77,7 @@ Se3 EdgeFollower::follow_far(const SearchedImage& half, const Se3& start,
   const std::vector<ModelPoint> points = visible_points(start);
   const NormalSearch lines = search(half, start, points, earlier, options_.far_search_px);
   const Se3 shifted = shifted_to_edges(lines, half.ideal, start);
-  return fit_to_edges(lines, half.ideal, shifted, 6, 6);
+  return fit_to_edges(lines, half.ideal, shifted, 6, 6, near(shifted));
 }
 
 NormalFit EdgeFollower::measure(const SearchedImage& image, const Se3& camera_from_object,

@@ -79,6 +79,14 @@ System system_at(const NormalSearch& search, const Intrinsics& k, const Se3& cam
   return sum;
 }
 
+void add_prior(System& system, const Se3& pose, const PosePrior& prior) {
+  Vector6d weight;
+  weight << Eigen::Vector3d::Constant(1 / (prior.sigma_m * prior.sigma_m)),
+      Eigen::Vector3d::Constant(1 / (prior.sigma_rad * prior.sigma_rad));
+  system.hessian.diagonal() += weight;
+  system.gradient += weight.cwiseProduct(local_coordinates(prior.camera_from_object, pose));
+}
+
 // How well points displaced by every whole number of pixels lie on edges: a table of one line.
 class ShiftVotes {
  public:
@@ -105,14 +113,14 @@ class ShiftVotes {
 }  // namespace
 
 Se3 fit_to_edges(const NormalSearch& search, const Camera& ideal, const Se3& camera_from_object,
-                 double scale_px, int iterations) {
+                 double scale_px, int iterations, const PosePrior& prior) {
   constexpr double min_step_m = 2e-6, min_step_rad = 2e-5;
   const Intrinsics k = intrinsics_of(ideal);
   Se3 pose = camera_from_object;
   for (int i = 0; i < iterations; ++i) {
     System system = system_at(search, k, pose, scale_px);
     if (system.matched < thresholds::MIN_POINTS) return camera_from_object;
-    system.hessian.diagonal() *= 1 + 1e-4;  // no motion in directions that no edge determines
+    add_prior(system, pose, prior);
     const Vector6d step = -system.hessian.ldlt().solve(system.gradient);
     if (!step.allFinite()) return camera_from_object;
     pose = retract(pose, step);

@@ -6,11 +6,18 @@
 
 namespace edgescout {
 
+// How far a pose may be expected to lie from a given one: standard deviations of its tangent.
+struct PosePrior {
+  Se3 camera_from_object;
+  double sigma_m = 0, sigma_rad = 0;
+};
+
 // Gauss-Newton over the distances of the projected points from their edges along the normals of the
 // search, with Geman-McClure weights. Of several edges on a line the one counts that is near and
-// has the expected contrast. Where edges do not determine the pose, it stays.
+// has the expected contrast. The prior, in px like the distances, keeps the pose where edges do not
+// determine it.
 Se3 fit_to_edges(const NormalSearch& search, const Camera& ideal, const Se3& camera_from_object,
-                 double scale_px, int iterations);
+                 double scale_px, int iterations, const PosePrior& prior);
 
 // The shift in the image that brings most points onto edges, within the reach of the search, as a
 // motion of the object across the line of sight. For motions too large for fit_to_edges.

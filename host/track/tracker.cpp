@@ -36,6 +36,22 @@ Matrix6d unknown_covariance() {
   return Matrix6d::Constant(std::numeric_limits<double>::infinity());
 }
 
+// Whether the place of an object is known well enough to act on: edges of a few pixels fit anything.
+bool is_determined(const Track& track, const EdgeModel& model) {
+  constexpr double most_of_diameter = 0.1;
+  const double most_m = most_of_diameter * model.mesh.diameter_m;
+  const Matrix6d about_center =
+      covariance_about(track.world_from_object, model.center_m, track.covariance);
+  return about_center.topLeftCorner<3, 3>().trace() < most_m * most_m;
+}
+
+// A doubtful pose is believed where it agrees with the predicted one.
+bool is_near(const Se3& pose, const Se3& predicted, const EdgeModel& model) {
+  constexpr double most_of_diameter = 0.15;
+  return pose_distance_m(pose, predicted, model.mesh, {}) <
+         most_of_diameter * model.mesh.diameter_m;
+}
+
 bool fits(const Image& image, const Camera& camera) {
   return image.width == camera.width && image.height == camera.height &&
          image.pixels.size() == std::size_t(image.width) * image.height;
@@ -230,15 +246,20 @@ std::optional<FollowedPose> Tracker::State::registered(const Instance& instance,
 
 void Tracker::State::judge(Instance& instance, const FollowedPose& found, double time_s) {
   Track& track = instance.track;
+  const EdgeModel& model = models[std::size_t(track.object)];
   track.above_chance = found.fit.above_chance();
-  const bool is_measured = track.above_chance >= options.lost_above_chance && found.fit.points > 0;
+  const bool is_on_edges = track.above_chance >= options.tracked_above_chance;
+  const bool agrees =
+      track.above_chance >= options.lost_above_chance &&
+      is_near(found.camera_from_object, instance.motion.predicted(time_s), model);
+  const bool is_measured = (is_on_edges || agrees) && found.fit.covariance.allFinite();
   if (is_measured)
-    instance.motion.measured(found.camera_from_object, time_s);
+    instance.motion.measured(found.camera_from_object, found.fit.covariance, time_s);
   else
     instance.motion.coast(time_s);
   track.world_from_object = instance.motion.pose();
-  track.covariance = is_measured ? found.fit.covariance : unknown_covariance();
-  instance.was_seen = track.above_chance >= options.tracked_above_chance;
+  track.covariance = instance.motion.covariance();
+  instance.was_seen = is_on_edges && is_measured && is_determined(track, model);
   track.doubtful_frames = instance.was_seen ? 0 : track.doubtful_frames + 1;
   track.state = instance.was_seen                                     ? TrackState::Tracked
                 : track.doubtful_frames > options.doubtful_frames ? TrackState::Lost

@@ -35,7 +35,9 @@ std::string to_string(TrackState state);  // "tracked", "doubtful", "lost"
 struct Track : ObjectPose {
   int id = 0;  // of the instance, from 1; it keeps it when it is found again
   TrackState state = TrackState::Tracked;
-  Matrix6d covariance = Matrix6d::Zero();  // tangent of core/se3.h; infinite where not determined
+  // Tangent of core/se3.h; of measurement and prediction together. It grows while the pose is
+  // doubtful, and is infinite before the first measurement.
+  Matrix6d covariance = Matrix6d::Zero();
   double above_chance = 0;  // share of the edges found, above what chance gives, [0, 1]
   int doubtful_frames = 0;  // in a row
 };
