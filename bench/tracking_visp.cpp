@@ -90,7 +90,7 @@ Followed by_visp(const Sequence& sequence, const Arguments& a) {
 }
 
 Followed by_edgescout(const Sequence& sequence) {
-  const std::vector<TemplateSet> sets{{1, {}, {}, make_edge_model(sequence.mesh), {}}};
+  const std::vector<TemplateSet> sets{without_views({1, sequence.mesh, {}})};
   const std::unique_ptr<Backend> backend = make_backend("cpu");
   Tracker tracker(sets, sequence.camera, *backend);
   tracker.add(0, sequence.first_pose);

@@ -31,8 +31,7 @@ struct TrackArguments {
 // Sets without templates: nothing is searched for.
 std::vector<TemplateSet> models_alone(KnownModels known) {
   std::vector<TemplateSet> sets = std::move(known.sets);
-  for (const Object& object : known.objects)
-    sets.push_back({object.id, object.symmetries, {}, make_edge_model(object.mesh), {}});
+  for (const Object& object : known.objects) sets.push_back(without_views(object));
   return sets;
 }
 

@@ -16,10 +16,6 @@ namespace edgescout {
 namespace {
 
 const Object block = make_part("bearing_block");
-TemplateSet without_templates() {
-  return {1, block.symmetries, {}, make_edge_model(block.mesh), {}};
-}
-
 // Goes to the right and turns: some 4 px and 0.03 rad a frame.
 Se3 pose_at(int frame) {
   return {so3_exp({0.5 + 0.01 * frame, -0.4 + 0.025 * frame, 0.3}),
@@ -46,7 +42,7 @@ class TrackerTest : public testing::Test {
   ThreadPool pool{2};
   Camera camera = test::flat_camera();
   std::unique_ptr<Backend> backend = make_backend("cpu");
-  std::vector<TemplateSet> sets{without_templates()};
+  std::vector<TemplateSet> sets{without_views(block)};
 };
 
 TEST_F(TrackerTest, FollowsAPartThatMovesAndTurns) {
