@@ -3,9 +3,10 @@
 //   edgescout_bench_tracking [--frames N] [--seed N] [--part NAME] [--points N] [--no-registration]
 //
 // Prints a row for each part and kind of motion: the frames that are tracked, doubtful and lost; of
-// the tracked ones those that are wrong (MSSD above a tenth of the diameter); errors; the time of an
-// update. A lost part is searched for in every frame: how many frames and seconds of search from
-// the loss, or from the first frame in which half of the part is visible, until it is tracked again.
+// the tracked ones those that are wrong (MSSD above a tenth of the diameter); errors; the time of
+// an update. A lost part is searched for in every frame: how many frames and seconds of search from
+// the loss, or from the first frame in which half of the part is visible, until it is tracked
+// again.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -36,9 +37,12 @@ struct Motion {
   int hidden_frames = 0;
   double jump_px = 0;
 };
-constexpr Motion motions[] = {{"slow", 2, 0.01},           {"medium", 6, 0.03},
-                              {"fast", 15, 0.06},          {"very fast", 30, 0.1},
-                              {"hidden 8 frames", 3, 0.01, 8}, {"jump of 40 px", 3, 0.01, 0, 40}};
+constexpr Motion motions[] = {{"slow", 2, 0.01},
+                              {"medium", 6, 0.03},
+                              {"fast", 15, 0.06},
+                              {"very fast", 30, 0.1},
+                              {"hidden 8 frames", 3, 0.01, 8},
+                              {"jump of 40 px", 3, 0.01, 0, 40}};
 
 MovingSceneOptions options_of(const Motion& motion, const Arguments& a) {
   MovingSceneOptions options;
@@ -102,9 +106,8 @@ Outcome follow(const Object& part, const MovingScene& scene, const Arguments& a)
     outcome.losses += track.state == TrackState::Lost && !was_lost;
     outcome.found_again += track.state == TrackState::Tracked && was_lost;
     was_lost = track.state == TrackState::Lost || (was_lost && track.state != TrackState::Tracked);
-    const double error =
-        mssd_m(track.world_from_object, scene.frames[f].camera_from_object, part) /
-        part.mesh.diameter_m;
+    const double error = mssd_m(track.world_from_object, scene.frames[f].camera_from_object, part) /
+                         part.mesh.diameter_m;
     const bool is_right = error < 0.1;
     (is_right ? outcome.above_chance_right : outcome.above_chance_wrong)
         .push_back(track.above_chance);
@@ -119,13 +122,14 @@ Outcome follow(const Object& part, const MovingScene& scene, const Arguments& a)
 }
 
 void report(const std::string& part, const Motion& motion, const Outcome& o) {
-  std::printf("| %s | %s | %d | %d | %d | %d | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f "
-              "| %d | %d | %d | %.1f |\n",
-              part.c_str(), motion.name, o.tracked, o.doubtful, o.lost, o.wrong,
-              100 * quantile(o.errors, 0.5), 100 * quantile(o.errors, 0.95),
-              quantile(o.above_chance_right, 0.05), quantile(o.above_chance_wrong, 0.95),
-              quantile(o.update_ms, 0.5), quantile(o.update_ms, 0.99), o.losses, o.found_again,
-              o.frames_to_find, o.search_seconds);
+  std::printf(
+      "| %s | %s | %d | %d | %d | %d | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f "
+      "| %d | %d | %d | %.1f |\n",
+      part.c_str(), motion.name, o.tracked, o.doubtful, o.lost, o.wrong,
+      100 * quantile(o.errors, 0.5), 100 * quantile(o.errors, 0.95),
+      quantile(o.above_chance_right, 0.05), quantile(o.above_chance_wrong, 0.95),
+      quantile(o.update_ms, 0.5), quantile(o.update_ms, 0.99), o.losses, o.found_again,
+      o.frames_to_find, o.search_seconds);
   std::fflush(stdout);
 }
 
@@ -141,7 +145,8 @@ int main(int argc, char** argv) try {
                          {"--no-registration", &a.no_registration}});
   std::puts(
       "| part | motion | tracked | doubtful | lost | wrong of tracked | error, median, % of the "
-      "diameter | 95 % | above chance, 5 % of right | 95 % of wrong | ms, median | 99 % | losses | found again | frames searched | s of search |\n"
+      "diameter | 95 % | above chance, 5 % of right | 95 % of wrong | ms, median | 99 % | losses | "
+      "found again | frames searched | s of search |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   ThreadPool pool(0);
   for (const std::string& name : a.part.empty() ? part_names() : std::vector{a.part}) {

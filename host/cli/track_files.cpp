@@ -34,10 +34,9 @@ std::string quoted(const std::string& text) {
 }
 
 std::string row_of(const InputImage& input, double time_s, const Track& track, int object_id) {
-  std::string row =
-      fmt::format("{},{},{},{:.6f},{},{},{},{:.4f}", input.scene_id, input.image_id,
-                  quoted(input.camera_name), time_s, track.id, object_id, to_string(track.state),
-                  track.above_chance);
+  std::string row = fmt::format("{},{},{},{:.6f},{},{},{},{:.4f}", input.scene_id, input.image_id,
+                                quoted(input.camera_name), time_s, track.id, object_id,
+                                to_string(track.state), track.above_chance);
   const Eigen::Matrix3d rotation = track.world_from_object.rotation.toRotationMatrix();
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) row += fmt::format(",{:.9g}", rotation(r, c));
@@ -102,19 +101,19 @@ void TrackFiles::finish(const TrackSummary& summary, const std::string& device) 
   if (::fsync(descriptor_) != 0)
     throw InputError((out_ / "tracks.csv").string() + ": " + std::strerror(errno));
   save_bop_results(results_, out_ / "results.csv");
-  const nlohmann::ordered_json json{
-      {"frames", summary.frames},
-      {"sequences", summary.sequences},
-      {"instances", summary.instances},
-      {"losses", summary.losses},
-      {"tracked", summary.tracked},
-      {"doubtful", summary.doubtful},
-      {"lost", summary.lost},
-      {"failed", summary.failures},
-      {"device", device},
-      {"update_ms", {{"median", percentile(summary.update_ms, 0.5)},
-                     {"p99", percentile(summary.update_ms, 0.99)}}},
-      {"seconds", summary.seconds}};
+  const nlohmann::ordered_json json{{"frames", summary.frames},
+                                    {"sequences", summary.sequences},
+                                    {"instances", summary.instances},
+                                    {"losses", summary.losses},
+                                    {"tracked", summary.tracked},
+                                    {"doubtful", summary.doubtful},
+                                    {"lost", summary.lost},
+                                    {"failed", summary.failures},
+                                    {"device", device},
+                                    {"update_ms",
+                                     {{"median", percentile(summary.update_ms, 0.5)},
+                                      {"p99", percentile(summary.update_ms, 0.99)}}},
+                                    {"seconds", summary.seconds}};
   write_file_atomically(out_ / "summary.json", json.dump(2) + "\n");
 }
 

@@ -22,8 +22,8 @@ class TrackFiles {
   TrackFiles(const TrackFiles&) = delete;
   TrackFiles& operator=(const TrackFiles&) = delete;
 
-  // The rows of a frame, whole or not at all: a killed run leaves whole frames. InputError: the disk
-  // is full.
+  // The rows of a frame, whole or not at all: a killed run leaves whole frames. InputError: the
+  // disk is full.
   void add(const InputImage& input, double time_s, std::span<const Track> tracks);
   // results.csv and summary.json.
   void finish(const TrackSummary& summary, const std::string& device) const;

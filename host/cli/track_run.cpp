@@ -38,8 +38,7 @@ std::vector<std::vector<const InputImage*>> sequences_of(std::span<const InputIm
 class SequenceRunner {
  public:
   SequenceRunner(std::span<const InputImage> images, std::span<const TemplateSet> sets,
-                 std::span<const RegisterJob> starts, Backend& backend,
-                 const TrackRequest& request)
+                 std::span<const RegisterJob> starts, Backend& backend, const TrackRequest& request)
       : sets_(sets),
         models_(models_of(sets)),
         backend_(backend),
@@ -74,9 +73,7 @@ class SequenceRunner {
   TrackSummary summary;
 
  private:
-  GivenCamera given() const {
-    return {camera_, request_.calibration.file, request_.scale_camera};
-  }
+  GivenCamera given() const { return {camera_, request_.calibration.file, request_.scale_camera}; }
 
   void step(const InputImage& input, int frame, std::optional<Tracker>& tracker) {
     const auto image = std::make_shared<const Image>(read_image(input));
@@ -91,9 +88,8 @@ class SequenceRunner {
     if (request_.search && frame % request_.search_every == 0)
       tracker->search(at, backend_, limit_from_now(request_.max_seconds));
     const auto begin = Clock::now();
-    const std::vector<Track>& tracks = naming(input, [&]() -> decltype(auto) {
-      return tracker->update(at);
-    });
+    const std::vector<Track>& tracks =
+        naming(input, [&]() -> decltype(auto) { return tracker->update(at); });
     summary.update_ms.push_back(1000 * seconds_since(begin));
     count(tracks);
     files_.add(input, at.time_s, tracks);

@@ -25,7 +25,8 @@ std::vector<Se3> path_of_part(const MovingSceneOptions& options, const Camera& c
   pose.rotation = random.rotation();
   for (int frame = 0; frame < options.frames; ++frame) {
     const double angle = options.speed_px * frame / radius_px,
-                 jump_px = options.jump_frame >= 0 && frame >= options.jump_frame ? options.jump_px : 0;
+                 jump_px =
+                     options.jump_frame >= 0 && frame >= options.jump_frame ? options.jump_px : 0;
     pose.translation_m = {m_per_px * (radius_px * std::cos(angle) + jump_px),
                           m_per_px * radius_px * std::sin(angle),
                           distance_m * (1 + 0.06 * std::sin(0.4 * angle))};
@@ -86,8 +87,8 @@ MovingScene make_moving_scene(const Object& object, const MovingSceneOptions& op
       scene.placed.back().world_from_object = world_from_camera * board->camera_from_board[frame];
     scene.options.seed = options.render.seed + unsigned(frame);  // of the noise
     Rendering rendering = std::move(render(scene, pool)[0]);
-    moving.frames.push_back({std::move(rendering.image), path[frame],
-                             rendering.visible_fraction[0]});
+    moving.frames.push_back(
+        {std::move(rendering.image), path[frame], rendering.visible_fraction[0]});
   }
   return moving;
 }

@@ -11,7 +11,7 @@ namespace edgescout {
 namespace {
 
 constexpr double crop_margin = 0.5;  // of the object's radius, at every side
-constexpr int least_px = 64;    // of a crop's side: tensors of less hold too few edges
+constexpr int least_px = 64;         // of a crop's side: tensors of less hold too few edges
 
 struct Interval {
   int first, size;
@@ -41,8 +41,7 @@ std::optional<Crop> crop_around(const Image& image, const Camera& camera, const 
                                 const Se3& camera_from_object) {
   const Eigen::Vector3d center_m = camera_from_object * model.center_m;
   if (!(center_m.z() > model.radius_m)) return std::nullopt;
-  const Eigen::Vector2d middle_px =
-      pixel_seeing(camera, center_m.head<2>() / center_m.z());
+  const Eigen::Vector2d middle_px = pixel_seeing(camera, center_m.head<2>() / center_m.z());
   if (!middle_px.allFinite()) return std::nullopt;
   const double half_px =
       (1 + crop_margin) * model.radius_m / center_m.z() * std::max(camera.fx, camera.fy);
@@ -62,8 +61,7 @@ std::optional<Detection> register_in_crop(const Image& image, const Camera& came
                                           Backend& backend, const TrackOptions& options) {
   const std::optional<Crop> crop = crop_around(image, camera, model, starts.front());
   if (!crop) return std::nullopt;
-  const ObjectView view =
-      prepare_view(crop->image, crop->camera, Se3{}, backend, options.pipeline);
+  const ObjectView view = prepare_view(crop->image, crop->camera, Se3{}, backend, options.pipeline);
   std::vector<ObjectPose> poses;
   for (const Se3& start : starts) poses.push_back({0, start});
   const RegisterObjectsOptions registration{options.pipeline.tensor, options.refine, {}};

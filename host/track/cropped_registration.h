@@ -1,5 +1,5 @@
-// Registers a pose on the tensor of the object's surroundings alone: a fraction of the work that the
-// whole image takes.
+// Registers a pose on the tensor of the object's surroundings alone: a fraction of the work that
+// the whole image takes.
 #pragma once
 
 #include <optional>

@@ -54,8 +54,7 @@ NormalSearch EdgeFollower::search(const SearchedImage& image, const Se3& pose,
                                   double reach_px) const {
   std::vector<float> expected;
   if (earlier) expected = contrasts_at(earlier->image, earlier->camera_from_object, points);
-  return search_normals(image, pose, points, expected,
-                        {reach_px, float(options_.min_contrast)});
+  return search_normals(image, pose, points, expected, {reach_px, float(options_.min_contrast)});
 }
 
 FollowedPose EdgeFollower::follow_near(const SearchedImage& image, const Se3& start,

@@ -27,6 +27,12 @@ double agreement(float contrast, float expected) {
   return ratio <= 0 ? 0 : std::min(ratio, 1 / ratio);
 }
 
+// The weight of an edge by the agreement of its contrast.
+double trust_in(double agreement) {
+  constexpr double least = 0.3;
+  return least + (1 - least) * agreement;
+}
+
 // The edge of a point that explains it best, the point being displaced along the normal.
 struct Match {
   double distance_px, agreement;
@@ -58,19 +64,17 @@ struct System {
 
 System system_at(const NormalSearch& search, const Intrinsics& k, const Se3& camera_from_object,
                  double scale_px) {
-  constexpr double least_trust = 0.3;  // in an edge of unexpected contrast
   System sum;
   const Pose pose = to_pose(camera_from_object);
   for (const LinePoint& point : search.points) {
     const PosedPoint<double> posed = pose_point<double>(pose, point.model);
     if (!can_be_seen(posed.point)) continue;
     const ProjectedEdge<double> at = project_edge(posed, k);
-    const double displaced_px =
-        point.nx * (at.u - point.u_px) + point.ny * (at.v - point.v_px);
+    const double displaced_px = point.nx * (at.u - point.u_px) + point.ny * (at.v - point.v_px);
     const std::optional<Match> match = match_of(search, point, displaced_px);
     if (!match) continue;
-    const double weight = geman_mcclure_weight(match->distance_px, scale_px) *
-                          (least_trust + (1 - least_trust) * match->agreement);
+    const double weight =
+        geman_mcclure_weight(match->distance_px, scale_px) * trust_in(match->agreement);
     const Vector6d motion = image_motion(point.nx, point.ny, posed, k);
     sum.hessian += weight * motion * motion.transpose();
     sum.gradient += weight * match->distance_px * motion;
@@ -91,11 +95,11 @@ void add_prior(System& system, const Se3& pose, const PosePrior& prior) {
 class ShiftVotes {
  public:
   ShiftVotes(const NormalSearch& search, const LinePoint& point, int reach)
-      : votes_(std::size_t(2 * reach + 1)), reach_(reach) {
+      : votes_(2 * std::size_t(reach) + 1), reach_(reach) {
     for (const LineEdge& edge : search.edges_of(point))
       for (int s = -reach; s <= reach; ++s) {
         const double near = geman_mcclure_weight(s - edge.offset_px, matched_px) *
-                            (0.3 + 0.7 * agreement(edge.contrast, point.expected_contrast));
+                            trust_in(agreement(edge.contrast, point.expected_contrast));
         double& vote = votes_[std::size_t(s + reach)];
         vote = std::max(vote, near);
       }

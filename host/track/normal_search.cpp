@@ -47,7 +47,8 @@ Line line_through(const SearchedImage& searched, const PosedEdge& edge) {
     along = end - middle;
   }
   const Eigen::Vector2f sample_along = (along / step).cast<float>();
-  return {((middle.array() + 0.5) / step - 0.5).cast<float>(), sample_along,
+  return {((middle.array() + 0.5) / step - 0.5).cast<float>(),
+          sample_along,
           {-sample_along.y(), sample_along.x()}};
 }
 
@@ -83,9 +84,7 @@ float grey_on(const Image& image, const Line& line, int sample) {
 }
 
 // The derivative of the grey values, smoothed by [1 2 1] / 4.
-float derivative(const float* grey) {
-  return (grey[2] - grey[-2] + 2 * (grey[1] - grey[-1])) / 8;
-}
+float derivative(const float* grey) { return (grey[2] - grey[-2] + 2 * (grey[1] - grey[-1])) / 8; }
 
 class LineReader {
  public:
@@ -107,7 +106,8 @@ class LineReader {
  private:
   void differentiate(const Line& line) {
     const int first = -reach_ - line_margin;
-    for (int i = 0; i <= 2 * (reach_ + line_margin); ++i) grey_[i] = grey_on(image_, line, first + i);
+    for (int i = 0; i <= 2 * (reach_ + line_margin); ++i)
+      grey_[i] = grey_on(image_, line, first + i);
     for (int s = 0; s <= 2 * reach_; ++s) slopes_[s] = derivative(&grey_[s + line_margin]);
   }
 
@@ -162,7 +162,8 @@ std::vector<float> contrasts_at(const SearchedImage& image, const Se3& camera_fr
     const Line line = line_through(image, *edge);
     if (!is_inside(*image.image, line, line_margin)) continue;
     std::array<float, 2 * line_margin + 1> grey;
-    for (int s = -line_margin; s <= line_margin; ++s) grey[s + line_margin] = grey_on(*image.image, line, s);
+    for (int s = -line_margin; s <= line_margin; ++s)
+      grey[s + line_margin] = grey_on(*image.image, line, s);
     contrasts[i] = derivative(&grey[line_margin]);
   }
   return contrasts;

@@ -1,10 +1,10 @@
 // Edges of an image near the projected edges of a model, searched along the normals.
 //
 // Through every visible model point runs a line along the normal of its edge. The grey values on it
-// are differentiated; every local extremum is an edge at a signed distance. So a pose near the right
-// one is found from some hundred short lines, without edges or tensors of the whole image (Harris,
-// RAPID, 1990; Drummond and Cipolla, PAMI 2002). A line may cross several edges: all are kept
-// (Vacchetti et al., ISMAR 2004).
+// are differentiated; every local extremum is an edge at a signed distance. So a pose near the
+// right one is found from some hundred short lines, without edges or tensors of the whole image
+// (Harris, RAPID, 1990; Drummond and Cipolla, PAMI 2002). A line may cross several edges: all are
+// kept (Vacchetti et al., ISMAR 2004).
 //
 // Lines follow the lens: images are searched as they are, distances are those of the ideal image.
 #pragma once
@@ -21,8 +21,8 @@ namespace edgescout {
 // An image and its camera; of half the size where a search reaches far.
 struct SearchedImage {
   const Image* image = nullptr;
-  Camera camera;           // with its lens, of the full image
-  Camera ideal;            // undistorted(camera)
+  Camera camera;             // with its lens, of the full image
+  Camera ideal;              // undistorted(camera)
   double px_per_sample = 1;  // px of the full image per px of `image`
 };
 SearchedImage searched(const Image& image, const Camera& camera);
@@ -35,9 +35,9 @@ struct LineEdge {
 // A model point whose line lies in the image.
 struct LinePoint {
   ModelPoint model;
-  double u_px, v_px, nx, ny;      // ideal projection and normal at the pose of the search
+  double u_px, v_px, nx, ny;         // ideal projection and normal at the pose of the search
   std::uint32_t first = 0, end = 0;  // its edges: [first, end) of NormalSearch::edges
-  float expected_contrast = 0;    // of its edge; 0: unknown
+  float expected_contrast = 0;       // of its edge; 0: unknown
 };
 
 struct NormalSearch {
@@ -51,8 +51,8 @@ struct NormalSearch {
 };
 
 struct NormalSearchOptions {
-  double reach_px = 8;       // to both sides
-  float min_contrast = 3;    // levels per sample
+  double reach_px = 8;     // to both sides
+  float min_contrast = 3;  // levels per sample
 };
 
 // `expected_contrasts`: of every point, or empty.

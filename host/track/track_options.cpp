@@ -4,9 +4,9 @@ namespace edgescout {
 
 void describe(TrackOptions& o, OptionVisitor& visit) {
   visit.group("Tracking");
-  visit.number({"instances", "Number of instances of each object that are searched for",
-                OptionLevel::Basic},
-               o.instances, 1, 1000);
+  visit.number(
+      {"instances", "Number of instances of each object that are searched for", OptionLevel::Basic},
+      o.instances, 1, 1000);
   visit.number({"track-points", "Most points of an object that are searched along their normals"},
                o.max_points, 20, 100000);
   visit.number({"search-px", "Reach of the search to both sides of predicted edges, px"},
@@ -15,8 +15,8 @@ void describe(TrackOptions& o, OptionVisitor& visit) {
                 "Reach of the search in the image of half the size, where the first finds too "
                 "little, px"},
                o.far_search_px, 4.0, 100.0);
-  visit.number({"track-contrast", "Least contrast of an edge, grey levels per px"},
-               o.min_contrast, 0.5, 100.0);
+  visit.number({"track-contrast", "Least contrast of an edge, grey levels per px"}, o.min_contrast,
+               0.5, 100.0);
   visit.number({"tracked-above-chance",
                 "Share of the points on edges, above chance, from which a pose counts as tracked"},
                o.tracked_above_chance, 0.0, 1.0);
@@ -24,8 +24,9 @@ void describe(TrackOptions& o, OptionVisitor& visit) {
                 "Share of the points on edges, above chance, below which the predicted pose is "
                 "kept in place of the measured one"},
                o.lost_above_chance, 0.0, 1.0);
-  visit.off_flag({"no-register", "Do not register doubtful poses in a tensor of their surroundings"},
-                 o.register_doubtful);
+  visit.off_flag(
+      {"no-register", "Do not register doubtful poses in a tensor of their surroundings"},
+      o.register_doubtful);
   visit.number({"doubtful-frames", "Doubtful frames in a row after which an object is lost"},
                o.doubtful_frames, 0, 100000);
 }

@@ -36,7 +36,8 @@ Matrix6d unknown_covariance() {
   return Matrix6d::Constant(std::numeric_limits<double>::infinity());
 }
 
-// Whether the place of an object is known well enough to act on: edges of a few pixels fit anything.
+// Whether the place of an object is known well enough to act on: edges of a few pixels fit
+// anything.
 bool is_determined(const Track& track, const EdgeModel& model) {
   constexpr double most_of_diameter = 0.1;
   const double most_m = most_of_diameter * model.mesh.diameter_m;
@@ -67,7 +68,10 @@ std::string to_string(TrackState state) {
 struct Tracker::State {
   State(std::span<const TemplateSet> sets_, const Camera& camera_, Backend& backend_,
         const TrackOptions& options_)
-      : sets(sets_), models(models_of(sets_)), camera(camera_), backend(backend_),
+      : sets(sets_),
+        models(models_of(sets_)),
+        camera(camera_),
+        backend(backend_),
         options(options_) {}
 
   // What is known of an instance beyond what the caller sees.
@@ -157,8 +161,7 @@ bool Tracker::State::is_known(const ObjectPose& pose, std::span<const Track> kno
   return std::ranges::any_of(known, [&](const Track& track) {
     return track.object == pose.object && track.state != TrackState::Lost &&
            pose_distance_m(track.world_from_object, pose.world_from_object, set.model.mesh,
-                           set.symmetries) <
-               thresholds::NEAR_KNOWN * set.model.mesh.diameter_m;
+                           set.symmetries) < thresholds::NEAR_KNOWN * set.model.mesh.diameter_m;
   });
 }
 
@@ -221,8 +224,8 @@ std::shared_ptr<const Occluders> Tracker::State::occluders_of(const Instance& in
     if (!(other_m.z() > 0) || !(center_m.z() > 0) ||
         other_m.z() - other_radius_m > center_m.z() + radius_m)
       continue;
-    const double apart = (other_m.head<2>() / other_m.z() - center_m.head<2>() / center_m.z())
-                             .norm();
+    const double apart =
+        (other_m.head<2>() / other_m.z() - center_m.head<2>() / center_m.z()).norm();
     if (apart < radius_m / center_m.z() + other_radius_m / other_m.z())
       before.push_back({other.track.object, other.motion.predicted(time_s)});
   }
@@ -249,9 +252,8 @@ void Tracker::State::judge(Instance& instance, const FollowedPose& found, double
   const EdgeModel& model = models[std::size_t(track.object)];
   track.above_chance = found.fit.above_chance();
   const bool is_on_edges = track.above_chance >= options.tracked_above_chance;
-  const bool agrees =
-      track.above_chance >= options.lost_above_chance &&
-      is_near(found.camera_from_object, instance.motion.predicted(time_s), model);
+  const bool agrees = track.above_chance >= options.lost_above_chance &&
+                      is_near(found.camera_from_object, instance.motion.predicted(time_s), model);
   const bool is_measured = (is_on_edges || agrees) && found.fit.covariance.allFinite();
   if (is_measured)
     instance.motion.measured(found.camera_from_object, found.fit.covariance, time_s);
@@ -261,9 +263,9 @@ void Tracker::State::judge(Instance& instance, const FollowedPose& found, double
   track.covariance = instance.motion.covariance();
   instance.was_seen = is_on_edges && is_measured && is_determined(track, model);
   track.doubtful_frames = instance.was_seen ? 0 : track.doubtful_frames + 1;
-  track.state = instance.was_seen                                     ? TrackState::Tracked
+  track.state = instance.was_seen                                 ? TrackState::Tracked
                 : track.doubtful_frames > options.doubtful_frames ? TrackState::Lost
-                                                                      : TrackState::Doubtful;
+                                                                  : TrackState::Doubtful;
 }
 
 void Tracker::State::follow(Instance& instance, const TrackFrame& frame,

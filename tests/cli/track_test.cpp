@@ -42,7 +42,7 @@ struct Sequence {
     std::ofstream(folder.path() / "starts.json") << nlohmann::json{start};
     const Camera camera = scene.images[0].camera;
     std::ofstream(folder.path() / "camera.json") << nlohmann::json{
-        {"cx", camera.cx}, {"cy", camera.cy}, {"fx", camera.fx}, {"fy", camera.fy},
+        {"cx", camera.cx},       {"cy", camera.cy},         {"fx", camera.fx},   {"fy", camera.fy},
         {"width", camera.width}, {"height", camera.height}, {"depth_scale", 1.0}};
   }
   fs::path images() const { return folder.path() / "frames"; }
@@ -50,8 +50,8 @@ struct Sequence {
   Outcome track(const std::vector<std::string>& more = {}) const {
     return run_program(joined({{"track", images().string(), "--model", part_file(2), "--unit", "mm",
                                 "--camera", (folder.path() / "camera.json").string(), "--poses",
-                                (folder.path() / "starts.json").string(), "--no-search",
-                                "--device", "cpu", "--out", out().string()},
+                                (folder.path() / "starts.json").string(), "--no-search", "--device",
+                                "cpu", "--out", out().string()},
                                more}));
   }
   // Rows of tracks.csv without the header, split at commas.

@@ -12,9 +12,7 @@ namespace {
 
 const Object part = make_part("bearing_block");
 const EdgeModel model = make_edge_model(part.mesh);
-Se3 pose_at(double x_m, double z_m) {
-  return {so3_exp({0.6, -0.4, 0.3}), {x_m, 0.01, z_m}};
-}
+Se3 pose_at(double x_m, double z_m) { return {so3_exp({0.6, -0.4, 0.3}), {x_m, 0.01, z_m}}; }
 
 TEST(CroppedRegistration, PosesKeepTheirFrameInACrop) {
   Camera camera = test::flat_camera();

@@ -16,7 +16,7 @@ const Se3 pose{Eigen::Quaterniond::Identity(), {0, 0, 1}};
 // A model edge through the pixel (u, v), along the direction.
 ModelPoint point_at(double u, double v, double along_rad) {
   return {float((u - camera.cx) / camera.fx), float((v - camera.cy) / camera.fy), 0,
-          float(std::cos(along_rad)), float(std::sin(along_rad)), 0};
+          float(std::cos(along_rad)),         float(std::sin(along_rad)),         0};
 }
 
 // Grey rises across the line n x = distance from `dark` to `bright`, over about a pixel.
@@ -88,7 +88,8 @@ TEST(NormalSearch, SearchesFarInTheImageOfHalfTheSize) {
   Image half{100, 80, {}};
   for (int y = 0; y < 80; ++y)
     for (int x = 0; x < 100; ++x)
-      half.pixels.push_back(std::uint8_t((image.at(2 * x, 2 * y) + image.at(2 * x + 1, 2 * y)) / 2));
+      half.pixels.push_back(
+          std::uint8_t((image.at(2 * x, 2 * y) + image.at(2 * x + 1, 2 * y)) / 2));
   const ModelPoint point = point_at(100, 80, -std::numbers::pi / 2);
   const SearchedImage reduced{&half, camera, camera, 2};
   const NormalSearch search = search_normals(reduced, pose, {&point, 1}, {}, {24, 3});
@@ -109,12 +110,13 @@ TEST(NormalSearch, FollowsTheLens) {
       Eigen::Vector2d direction((x - lens.cx) / lens.fx, (y - lens.cy) / lens.fy);
       const Eigen::Vector2d seen = direction;
       for (int i = 0; i < 30; ++i) direction += seen - distorted(lens, direction);
-      image.pixels.push_back(
-          std::uint8_t(std::lround(60 + 80 / (1 + std::exp(-4 * (direction.x() - edge_x) * lens.fx)))));
+      image.pixels.push_back(std::uint8_t(
+          std::lround(60 + 80 / (1 + std::exp(-4 * (direction.x() - edge_x) * lens.fx)))));
     }
   for (const double v_px : {20.0, 80.0, 130.0}) {
     const ModelPoint point = point_at(u_px, v_px, -std::numbers::pi / 2);
-    const NormalSearch search = search_normals(searched(image, lens), pose, {&point, 1}, {}, {8, 3});
+    const NormalSearch search =
+        search_normals(searched(image, lens), pose, {&point, 1}, {}, {8, 3});
     ASSERT_EQ(search.edges.size(), 1u) << v_px;
     EXPECT_NEAR(search.edges[0].offset_px, offset_px, 0.2) << v_px;
   }
@@ -124,8 +126,7 @@ TEST(NormalSearch, ContrastsAreThoseThatTheSearchFinds) {
   Image image = flat();
   add_step(image, 0, 100, 70);
   const ModelPoint point = point_at(100, 80, -std::numbers::pi / 2);
-  const std::vector<float> contrasts =
-      contrasts_at(searched(image, camera), pose, {&point, 1});
+  const std::vector<float> contrasts = contrasts_at(searched(image, camera), pose, {&point, 1});
   EXPECT_NEAR(contrasts[0], edges_at(image, point)[0].contrast, 1.5);
 }
 

@@ -18,7 +18,9 @@ class PythonTracker {
  public:
   PythonTracker(GivenSets sets, const Camera& camera, const TrackOptions& options,
                 BackendPointer backend)
-      : given_(std::move(sets)), sets_(given_.sets()), camera_(camera),
+      : given_(std::move(sets)),
+        sets_(given_.sets()),
+        camera_(camera),
         backend_(std::move(backend)) {
     tracker_ = on_backend(backend_, {}, [&](const TimeLimit&, Backend& on) {
       return std::make_unique<Tracker>(sets_, camera, on, options);
@@ -50,10 +52,9 @@ class PythonTracker {
     if (backend == backend_ && backend)
       refuse("backend", "that of the tracker", "another one: update() goes on during a search");
     if (!backend && !own_) own_ = std::make_shared<SharedBackend>(make_backend("auto"));
-    return on_backend(backend ? backend : own_, max_seconds,
-                      [&](const TimeLimit& limit, Backend& on) {
-                        return tracker_->search(frame, on, limit);
-                      });
+    return on_backend(
+        backend ? backend : own_, max_seconds,
+        [&](const TimeLimit& limit, Backend& on) { return tracker_->search(frame, on, limit); });
   }
 
   std::vector<PythonTrack> tracks() const {
@@ -87,8 +88,7 @@ void add_tracks(py::module_& module) {
       .def_readonly("object_id", &PythonTrack::object_id)
       .def_readonly("state", &PythonTrack::state)
       .def_property_readonly(
-          "camera_from_object",
-          [](const PythonTrack& t) { return matrix_of(t.world_from_object); },
+          "camera_from_object", [](const PythonTrack& t) { return matrix_of(t.world_from_object); },
           "4x4, metres.")
       .def_property_readonly(
           "covariance", [](const PythonTrack& t) { return array_of(t.covariance); },
@@ -126,10 +126,11 @@ void add_tracker(py::module_& module) {
       .def("remove", &PythonTracker::remove, py::arg("id"), "Forgets an instance.")
       .def("update", &PythonTracker::update, py::arg("image"), py::arg("time_s"),
            "All instances in the next image. time_s: when it was taken, on any clock; it rises.")
-      .def("search", &PythonTracker::search, py::arg("image"), py::kw_only(),
-           py::arg("backend") = nullptr, py::arg("max_seconds") = std::nullopt,
-           "Looks for instances that are lost or not yet found, and returns how many it found. They "
-           "join at the next update(), which may go on in another thread meanwhile.")
+      .def(
+          "search", &PythonTracker::search, py::arg("image"), py::kw_only(),
+          py::arg("backend") = nullptr, py::arg("max_seconds") = std::nullopt,
+          "Looks for instances that are lost or not yet found, and returns how many it found. They "
+          "join at the next update(), which may go on in another thread meanwhile.")
       .def_property_readonly("tracks", &PythonTracker::tracks, "As of the last update().");
 }
 
