@@ -12,7 +12,8 @@
              crash. edgescout_free() frees each kind. An object that others still use (templates in
              a scout, a mesh in a call of another thread) lives on until they end.
    Structs   Begin with struct_size, which the caller sets to sizeof. What is 0 or NULL after it has
-             the default, so `edgescout_limit limit = {sizeof limit}` is one. A library that knows
+             the default, as after
+             `edgescout_limit limit = {.struct_size = sizeof limit}`. A library that knows
              more fields takes them as 0; one that knows fewer refuses fields that are not 0.
              A struct that the library fills has its struct_size set before by the caller, too.
    Strings   UTF-8. Those that a struct returns belong to the handle that was asked, and last as
@@ -200,7 +201,7 @@ enum {
 /* u = fx x + skew y + cx, v = fy y + cy of the distorted direction (x, y, 1). */
 typedef struct edgescout_camera_model {
   size_t struct_size;
-  int32_t width, height; /* px; 0 and 0: those of the image */
+  int32_t width, height; /* px. 0 and 0 of a file without a size: those of the image */
   double fx, fy, cx, cy, skew;
   int32_t lens; /* EDGESCOUT_BROWN_CONRADY, .. */
   int32_t reserved;
