@@ -175,11 +175,12 @@ OptionText& option_named(std::vector<OptionText>& options, const std::string& na
   std::ranges::replace(dashed, '_', '-');
   const auto known = std::ranges::find(options, dashed, &OptionText::name);
   if (known != options.end()) return *known;
-  const auto nearest = std::ranges::min_element(options, {}, [&](const OptionText& option) {
-    return edits_between(dashed, option.name);
-  });
+  const auto edits = [&](const OptionText& option) { return edits_between(dashed, option.name); };
+  const auto nearest = std::ranges::min_element(options, {}, edits);
+  const bool is_near =
+      nearest != options.end() && 3 * edits(*nearest) <= int(std::max<std::size_t>(dashed.size(), 3));
   throw InputError("options", prefix, "no option of the name " + quoted(name),
-                   nearest == options.end() ? "none" : "one such as " + nearest->name);
+                   is_near ? nearest->name : "one of its " + std::to_string(options.size()));
 }
 
 }  // namespace edgescout

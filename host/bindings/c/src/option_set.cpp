@@ -15,15 +15,15 @@ constexpr std::array<const char*, std::variant_size_v<OptionValues>> kinds{
 OptionValues defaults_of(std::int32_t kind) {
   switch (kind) {
     case EDGESCOUT_IMAGE_OPTIONS:
-      return ImageOptions{};
+      return OptionValues(std::in_place_type<ImageOptions>);
     case EDGESCOUT_TEMPLATE_OPTIONS:
-      return TemplateOptions{};
+      return OptionValues(std::in_place_type<TemplateOptions>);
     case EDGESCOUT_DETECT_OPTIONS:
-      return PipelineOptions{};
+      return OptionValues(std::in_place_type<PipelineOptions>);
     case EDGESCOUT_REGISTER_OPTIONS:
-      return RegisterOptions{};
+      return OptionValues(std::in_place_type<RegisterOptions>);
     case EDGESCOUT_SCOUT_OPTIONS:
-      return ScoutOptions{};
+      return OptionValues(std::in_place_type<ScoutOptions>);
     default:
       refuse(EDGESCOUT_BAD_INPUT, "kind", std::to_string(kind),
              "EDGESCOUT_IMAGE_OPTIONS or another kind of options");
@@ -95,12 +95,12 @@ edgescout_option OptionSet::shown(std::size_t index) const {
 
 template <typename Options>
 Options options_of(const edgescout_options* options) {
-  if (!options) return {};
+  if (!options) return Options();
   const auto given = shared(options);
   const auto* const values = std::get_if<Options>(&(*given)->values());
   if (!values)
     refuse(EDGESCOUT_WRONG_KIND, "options", std::string("those of ") + (*given)->kind(),
-           std::string("those of ") + kinds[OptionValues(Options{}).index()]);
+           std::string("those of ") + kinds[OptionValues(std::in_place_type<Options>).index()]);
   return *values;
 }
 template ImageOptions options_of(const edgescout_options*);

@@ -52,8 +52,8 @@ void write_struct(Struct value, Struct* to, const char* name) {
   const std::size_t size = struct_size_of(to, name);
   value.struct_size = size;
   std::memcpy(to, &value, std::min(size, sizeof value));
-  if (size > sizeof value)
-    std::memset(reinterpret_cast<unsigned char*>(to) + sizeof value, 0, size - sizeof value);
+  auto* const bytes = reinterpret_cast<unsigned char*>(to);
+  for (std::size_t i = sizeof value; i < size; ++i) bytes[i] = 0;
 }
 
 // An array of structs, all of one size. NULL with 0 of them is one.
