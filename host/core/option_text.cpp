@@ -82,8 +82,8 @@ int edits_between(const std::string& a, const std::string& b) {
 }  // namespace
 
 OptionText& OptionTexts::add(const OptionInfo& option, OptionType type, double low, double high) {
-  return options.emplace_back(OptionText{
-      option.name, option.help, group_, option.level, type, low, high, 0, {}, {}, {}});
+  return options.emplace_back(
+      OptionText{option.name, option.help, group_, option.level, type, low, high, 0, {}, {}, {}});
 }
 
 template <typename T>
@@ -138,9 +138,7 @@ void OptionTexts::numbers(const OptionInfo& option, std::vector<double>& field, 
 
 void OptionTexts::add_flag(const OptionInfo& option, bool& field, bool when_true) {
   OptionText& added = add(option, OptionType::Flag);
-  added.get = [&field, when_true] {
-    return std::string(field == when_true ? "true" : "false");
-  };
+  added.get = [&field, when_true] { return std::string(field == when_true ? "true" : "false"); };
   added.set = [&field, option, when_true, check = BoundsCheck(prefix_)](const std::string& text) {
     field = flag_of(option, text, check) == when_true;
   };
@@ -177,8 +175,8 @@ OptionText& option_named(std::vector<OptionText>& options, const std::string& na
   if (known != options.end()) return *known;
   const auto edits = [&](const OptionText& option) { return edits_between(dashed, option.name); };
   const auto nearest = std::ranges::min_element(options, {}, edits);
-  const bool is_near =
-      nearest != options.end() && 3 * edits(*nearest) <= int(std::max<std::size_t>(dashed.size(), 3));
+  const bool is_near = nearest != options.end() &&
+                       3 * edits(*nearest) <= int(std::max<std::size_t>(dashed.size(), 3));
   throw InputError("options", prefix, "no option of the name " + quoted(name),
                    is_near ? nearest->name : "one of its " + std::to_string(options.size()));
 }

@@ -16,8 +16,8 @@ namespace edgescout {
 namespace {
 
 struct FormatTraits {
-  int type;      // OpenCV's
-  int to_grey;   // OpenCV's code of a colour format; -1
+  int type;     // OpenCV's
+  int to_grey;  // OpenCV's code of a colour format; -1
   BayerPattern bayer;
 };
 
@@ -47,9 +47,9 @@ const FormatTraits& traits_of(PixelFormat format) {
 void require_pixels(const Pixels& pixels) {
   if (!pixels.first_row || pixels.width < 1 || pixels.height < 1)
     throw InputError("image", "pixels",
-                     pixels.first_row ? std::to_string(pixels.width) + "x" +
-                                            std::to_string(pixels.height)
-                                      : "none",
+                     pixels.first_row
+                         ? std::to_string(pixels.width) + "x" + std::to_string(pixels.height)
+                         : "none",
                      "a width and a height of at least 16 px");
   require_size({std::uint64_t(pixels.width), std::uint64_t(pixels.height)}, "image");
   const std::ptrdiff_t row_bytes = std::ptrdiff_t(pixels.width) * bytes_per_pixel(pixels.format);

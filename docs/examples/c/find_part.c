@@ -12,8 +12,7 @@ static void must(edgescout_status status) {
 
 int main(int argc, char** argv) {
   if (argc < 6) {
-    fprintf(stderr,
-            "usage: find_part IMAGE CAMERA_FILE MESH_MM DISTANCE_MIN DISTANCE_MAX [PNG]\n");
+    fprintf(stderr, "usage: find_part IMAGE CAMERA_FILE MESH_MM DISTANCE_MIN DISTANCE_MAX [PNG]\n");
     return 2;
   }
   must(edgescout_require_abi(EDGESCOUT_ABI));

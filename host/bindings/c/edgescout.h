@@ -11,11 +11,10 @@
              is null, freed, invented, of another kind or of another library is an error, not a
              crash. edgescout_free() frees each kind. An object that others still use (templates in
              a scout, a mesh in a call of another thread) lives on until they end.
-   Structs   Begin with struct_size, which the caller sets to sizeof. What is 0 or NULL after it has
-             the default, as after
-             `edgescout_limit limit = {.struct_size = sizeof limit}`. A library that knows
-             more fields takes them as 0; one that knows fewer refuses fields that are not 0.
-             A struct that the library fills has its struct_size set before by the caller, too.
+   Structs   Begin with struct_size, which the caller sets to sizeof, also where the library fills
+             the rest: `edgescout_limit limit = {.struct_size = sizeof limit};`. A field that is 0
+             or NULL has its default. So structs may grow: a newer library takes the fields of an
+             older struct, an older library refuses newer fields that are not 0.
    Strings   UTF-8. Those that a struct returns belong to the handle that was asked, and last as
              long as it does, if nothing else is said.
    Threads   All functions may be called from any thread. Handles that never change (mesh, camera,
@@ -23,8 +22,10 @@
              An options, a backend or a scout is used by one call at a time: a second one, from
              another thread or from a callback, returns EDGESCOUT_BUSY. Each function says whom it
              keeps busy, where it does. A call may take a second or more; edgescout_limit ends it.
-   Callbacks run on the thread that called, inside the call. They must return: no exception, no
-             longjmp. */
+   Callbacks run on the thread that called, inside the call. They must return: no longjmp. No
+             pthread_cancel of a thread in a call either.
+   Maths     M. Imperoli, A. Pretto, arXiv:1603.07022, with the changes that docs/architecture.md
+             lists. The scout is its Algorithm 2. */
 #ifndef EDGESCOUT_H
 #define EDGESCOUT_H
 
@@ -41,7 +42,7 @@
 extern "C" {
 #endif
 
-/* ---- Versions and errors ---------------------------------------------------------------------- */
+/* ---- Versions and errors ---- */
 
 /* Of this header. Another number: functions or the meaning of fields have changed. */
 #define EDGESCOUT_ABI 0
@@ -58,7 +59,7 @@ enum {
   EDGESCOUT_DEVICE = 7,        /* a call of the Vulkan device failed: make a new backend */
   EDGESCOUT_CANCELLED = 8,     /* the limit was over, and there is no part of a result */
   EDGESCOUT_OUT_OF_MEMORY = 9,
-  EDGESCOUT_INTERNAL = 10      /* a fault of the library */
+  EDGESCOUT_INTERNAL = 10 /* a fault of the library */
 };
 
 EDGESCOUT_API const char* edgescout_version(void); /* "0.2.0" */
@@ -77,7 +78,7 @@ typedef void (*edgescout_log_sink)(int32_t level, const char* message, void* use
    another thread may still reach the sink before. */
 EDGESCOUT_API edgescout_status edgescout_set_log_sink(edgescout_log_sink sink, void* user);
 
-/* ---- Handles ---------------------------------------------------------------------------------- */
+/* ---- Handles ---- */
 
 typedef struct edgescout_canceller edgescout_canceller;
 typedef struct edgescout_options edgescout_options;
@@ -95,7 +96,7 @@ EDGESCOUT_API edgescout_status edgescout_free(const void* handle);
 /* Of all kinds, in the process. A program that frees what it makes sees it constant. */
 EDGESCOUT_API size_t edgescout_handle_count(void);
 
-/* ---- Limits of long calls --------------------------------------------------------------------- */
+/* ---- Limits of long calls ---- */
 
 /* Cancels calls from another thread. Not from a signal handler: let `cancelled` read a flag. */
 EDGESCOUT_API edgescout_status edgescout_canceller_create(edgescout_canceller** out);
@@ -112,7 +113,7 @@ typedef struct edgescout_limit {
   void* user;
 } edgescout_limit;
 
-/* ---- Options ---------------------------------------------------------------------------------- */
+/* ---- Options ---- */
 
 enum {
   EDGESCOUT_IMAGE_OPTIONS = 0,    /* how stored values become 8-bit grey */
@@ -163,7 +164,7 @@ EDGESCOUT_API edgescout_status edgescout_options_count(const edgescout_options* 
 EDGESCOUT_API edgescout_status edgescout_options_at(const edgescout_options* options, size_t index,
                                                     edgescout_option* out);
 
-/* ---- Backends: where the work is done --------------------------------------------------------- */
+/* ---- Backends: where the work is done ---- */
 
 /* device: "auto" (a graphics card, else the processor), "cpu", "cpu-reference", "vulkan" or
    "vulkan:INDEX". threads: of "cpu", 0 for one a core; 0 with other devices. Detection, building,
@@ -188,7 +189,7 @@ EDGESCOUT_API edgescout_status edgescout_device_count(size_t* out);
 /* index: as in "vulkan:INDEX". */
 EDGESCOUT_API edgescout_status edgescout_device_at(size_t index, edgescout_device* out);
 
-/* ---- Cameras ---------------------------------------------------------------------------------- */
+/* ---- Cameras ---- */
 
 enum {
   EDGESCOUT_BROWN_CONRADY = 0,          /* OpenCV's: k1 k2 p1 p2 k3 .. k6 s1 .. s4 tau_x tau_y */
@@ -218,7 +219,7 @@ EDGESCOUT_API edgescout_status edgescout_camera_load(const char* file, const cha
 EDGESCOUT_API edgescout_status edgescout_camera_get(const edgescout_camera* camera,
                                                     edgescout_camera_model* out);
 
-/* ---- Images ----------------------------------------------------------------------------------- */
+/* ---- Images ---- */
 
 /* Bytes of a pixel in the order of the name; those of 16 bit and float as the machine orders them.
    Bayer patterns are named by the first two pixels of the first two rows. */
@@ -246,8 +247,8 @@ typedef struct edgescout_image {
   size_t struct_size;
   const void* pixels; /* the first pixel of the upper row; at any address */
   int32_t width, height;
-  int64_t row_stride_bytes;         /* may be negative; 0: rows follow one another */
-  int32_t format;                   /* EDGESCOUT_MONO8, .. */
+  int64_t row_stride_bytes; /* may be negative; 0: rows follow one another */
+  int32_t format;           /* EDGESCOUT_MONO8, .. */
   int32_t reserved;
   const edgescout_options* options; /* EDGESCOUT_IMAGE_OPTIONS; NULL: the defaults */
 } edgescout_image;
@@ -271,7 +272,7 @@ EDGESCOUT_API edgescout_status edgescout_picture_get(const edgescout_picture* pi
 EDGESCOUT_API edgescout_status edgescout_picture_save_png(const edgescout_picture* picture,
                                                           const char* file);
 
-/* ---- Meshes and templates --------------------------------------------------------------------- */
+/* ---- Meshes and templates ---- */
 
 typedef struct edgescout_mesh_info {
   size_t struct_size;
@@ -350,7 +351,7 @@ EDGESCOUT_API edgescout_status edgescout_templates_count(const edgescout_templat
 EDGESCOUT_API edgescout_status edgescout_templates_at(const edgescout_templates* templates,
                                                       size_t index, edgescout_templates_info* out);
 
-/* ---- Detection and registration --------------------------------------------------------------- */
+/* ---- Detection and registration ---- */
 
 /* One image, and where it was taken. */
 typedef struct edgescout_view {
@@ -382,8 +383,8 @@ EDGESCOUT_API edgescout_status edgescout_detect_jointly(const edgescout_request*
 /* Poses that are known to some 0.3 rad and a tenth of the object's size. */
 typedef struct edgescout_starts {
   size_t struct_size;
-  const double* world_from_object; /* 16 numbers each; of one view without pose: camera_from_object */
-  const int32_t* objects;          /* of each, the index of its part in the templates; NULL: all 0 */
+  const double* world_from_object; /* 16 numbers each; camera_from_object of a view without pose */
+  const int32_t* objects;          /* of each, the index of its part in the templates; NULL: 0 */
   size_t count;
 } edgescout_starts;
 /* Refines them over all views. The results are in the order of the starts; one that no view shows
@@ -409,16 +410,16 @@ typedef struct edgescout_detection {
      world's x y z through the object's origin, both applied from the left. Infinite where the edges
      do not hold the pose. docs/calibration.md says how well it fits the errors. */
   double covariance[36];
-  double probability;       /* that the pose is right, [0, 1] */
-  double psi;               /* mean cosine between image gradient and edge normals, [0, 1]: Eq. 10 of
-                               arXiv:1603.07022 */
-  double psi_z_score;       /* psi above chance, in standard errors */
-  double cost_px;           /* mean distance of visible edge points to image edges, with direction */
-  double matched_fraction;  /* of the visible edge points: those with an image edge near */
-  double unexplained_grey;  /* share of the contrast that the surface does not explain, [0, 1] */
-  const char* convergence;  /* why the refinement stopped */
-  size_t alternative_count; /* other poses that explain the same edges */
-  size_t supporting_image_count; /* of a scout: images that alone make the pose probable */
+  double probability;      /* that the pose is right, [0, 1] */
+  double psi;              /* mean cosine between image gradient and edge normals, [0, 1]: Eq. 10 of
+                              arXiv:1603.07022 */
+  double psi_z_score;      /* psi above chance, in standard errors */
+  double cost_px;          /* mean distance of visible edge points to image edges, with direction */
+  double matched_fraction; /* of the visible edge points: those with an image edge near */
+  double unexplained_grey; /* share of the contrast that the surface does not explain, [0, 1] */
+  const char* convergence; /* why the refinement stopped */
+  size_t alternative_count;         /* other poses that explain the same edges */
+  size_t supporting_image_count;    /* of a scout: images that alone make the pose probable */
   const int32_t* supporting_images; /* from 0 */
 } edgescout_detection;
 
@@ -461,13 +462,13 @@ EDGESCOUT_API edgescout_status edgescout_overlay(const edgescout_request* reques
                                                  const edgescout_detections* detections,
                                                  edgescout_picture** out);
 
-/* ---- The scout: which view to take next ------------------------------------------------------- */
+/* ---- The scout: which view to take next ---- */
 
 typedef struct edgescout_scout_plan {
   size_t struct_size;
   const edgescout_templates* templates;
-  const edgescout_camera* camera;   /* takes every image; has a size */
-  const double* camera_from_world;  /* where the camera may be sent: 16 numbers each */
+  const edgescout_camera* camera;  /* takes every image; has a size */
+  const double* camera_from_world; /* where the camera may be sent: 16 numbers each */
   size_t view_count;
   edgescout_backend* backend;       /* busy in each of the scout's long calls */
   const edgescout_options* options; /* EDGESCOUT_SCOUT_OPTIONS; NULL: the defaults */
@@ -557,13 +558,12 @@ EDGESCOUT_API edgescout_status edgescout_scout_detections(const edgescout_scout*
                                                           edgescout_detections** out);
 
 /* The whole state in a file, atomically. */
-EDGESCOUT_API edgescout_status edgescout_scout_save(const edgescout_scout* scout,
-                                                    const char* file);
+EDGESCOUT_API edgescout_status edgescout_scout_save(const edgescout_scout* scout, const char* file);
 /* Goes on from a file of the same parts, camera and views. limit: or NULL. */
 EDGESCOUT_API edgescout_status edgescout_scout_resume(edgescout_scout* scout, const char* file,
                                                       const edgescout_limit* limit);
 
-/* ---- Poses of cameras ------------------------------------------------------------------------- */
+/* ---- Poses of cameras ---- */
 
 /* camera_from_world of a camera at `eye_m` that looks at `target_m`, the world's z up in its
    image. */
@@ -579,8 +579,8 @@ typedef struct edgescout_hemisphere {
   int32_t elevation_count;
   const double* elevations_deg; /* of the rings; NULL: 35, 55 and 75 */
 } edgescout_hemisphere;
-/* 16 numbers each into `camera_from_world`, which has room for `capacity` poses; `count` is how many
-   there are. NULL and 0 only count. BAD_INPUT: too little room. */
+/* 16 numbers each into `camera_from_world`, which has room for `capacity` poses; `count` is how
+   many there are. NULL and 0 only count. BAD_INPUT: too little room. */
 EDGESCOUT_API edgescout_status edgescout_hemisphere_views(const edgescout_hemisphere* hemisphere,
                                                           double* camera_from_world,
                                                           size_t capacity, size_t* count);

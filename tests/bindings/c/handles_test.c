@@ -4,7 +4,18 @@
 
 #include "tests/bindings/c/scene.h"
 
-enum kind { CANCELLER, OPTIONS, BACKEND, CAMERA, PICTURE, MESH, TEMPLATES, DETECTIONS, SCOUT, KINDS };
+enum kind {
+  CANCELLER,
+  OPTIONS,
+  BACKEND,
+  CAMERA,
+  PICTURE,
+  MESH,
+  TEMPLATES,
+  DETECTIONS,
+  SCOUT,
+  KINDS
+};
 
 /* Set before calls of the functions below. */
 static struct scene scene;
@@ -93,8 +104,8 @@ WITH(register_backend) {
   return es_register(&request, &starts, &out);
 }
 WITH(part_backend) {
-  const edgescout_part part = {.struct_size = sizeof part, .mesh = scene.mesh, .backend = h,
-                               .camera = scene.camera};
+  const edgescout_part part = {
+      .struct_size = sizeof part, .mesh = scene.mesh, .backend = h, .camera = scene.camera};
   edgescout_templates* out;
   return es_templates_build(&part, &out);
 }
@@ -137,8 +148,8 @@ WITH(mesh_get) {
 }
 WITH(mesh_copy) { return es_mesh_copy(h, NULL, NULL); }
 WITH(part_mesh) {
-  const edgescout_part part = {.struct_size = sizeof part, .mesh = h, .backend = scene.backend,
-                               .camera = scene.camera};
+  const edgescout_part part = {
+      .struct_size = sizeof part, .mesh = h, .backend = scene.backend, .camera = scene.camera};
   edgescout_templates* out;
   return es_templates_build(&part, &out);
 }

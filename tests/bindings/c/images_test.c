@@ -15,8 +15,11 @@ static void make_grey(void) {
 }
 
 static edgescout_image image_of(const void* pixels, int32_t format) {
-  return (edgescout_image){.struct_size = sizeof(edgescout_image), .pixels = pixels,
-                           .width = WIDTH, .height = HEIGHT, .format = format};
+  return (edgescout_image){.struct_size = sizeof(edgescout_image),
+                           .pixels = pixels,
+                           .width = WIDTH,
+                           .height = HEIGHT,
+                           .format = format};
 }
 
 static int largest_difference(const edgescout_image* image, const uint8_t* expected) {

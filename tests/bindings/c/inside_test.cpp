@@ -23,8 +23,8 @@ struct Grown {
 }  // namespace
 
 template <>
-inline constexpr std::initializer_list<std::size_t> earlier_sizes<Grown>{
-    offsetof(Grown, second), offsetof(Grown, third)};
+inline constexpr std::initializer_list<std::size_t> earlier_sizes<Grown>{offsetof(Grown, second),
+                                                                         offsetof(Grown, third)};
 
 namespace {
 
@@ -42,8 +42,8 @@ TEST(CStructs, TakeThoseOfEarlierHeaders) {
   older.struct_size = offsetof(Grown, second) + 4;  // ends inside a field
   EXPECT_EQ(status_of([&] { read_struct(&older, "older"); }), EDGESCOUT_WRONG_VERSION);
   EXPECT_STREQ(edgescout_last_error(),
-               "older.struct_size: found 20, expected the struct's size, which is 32 in version "
-               EDGESCOUT_VERSION);
+               "older.struct_size: found 20, expected the struct's size, which is 32 in "
+               "version " EDGESCOUT_VERSION);
 }
 
 TEST(CStructs, FillThoseOfEarlierHeaders) {

@@ -18,10 +18,10 @@ static void* symbol(void* library, const char* name) {
 }
 
 /* C has no cast from an object's address to a function's. */
-#define LOAD_FUNCTION(name)                                          \
-  {                                                                  \
-    void* const address = symbol(library, "edgescout_" #name);       \
-    memcpy(&es_##name, &address, sizeof address);                    \
+#define LOAD_FUNCTION(name)                                    \
+  {                                                            \
+    void* const address = symbol(library, "edgescout_" #name); \
+    memcpy(&es_##name, &address, sizeof address);              \
   }
 
 void open_library(const char* file) {

@@ -68,8 +68,11 @@ static void expect_limits_of_detection(const struct scene* scene) {
 
 static void expect_limits_of_others(const struct scene* scene) {
   const edgescout_limit over = {.struct_size = sizeof over, .max_seconds = 1e-9};
-  edgescout_part part = {.struct_size = sizeof part, .mesh = scene->mesh,
-                         .backend = scene->backend, .camera = scene->camera, .limit = &over};
+  edgescout_part part = {.struct_size = sizeof part,
+                         .mesh = scene->mesh,
+                         .backend = scene->backend,
+                         .camera = scene->camera,
+                         .limit = &over};
   edgescout_templates* templates = NULL;
   EXPECT(EDGESCOUT_CANCELLED, es_templates_build(&part, &templates));
   CHECK(templates == NULL);
@@ -107,7 +110,7 @@ void test_limits(void) {
   close_scene(&scene);
 }
 
-/* ---- Handles in use --------------------------------------------------------------------------- */
+/* ---- Handles in use ---- */
 
 struct meeting {
   struct scene* scene;
@@ -245,7 +248,7 @@ void test_busy(void) {
   close_scene(&scene);
 }
 
-/* ---- Memory ----------------------------------------------------------------------------------- */
+/* ---- Memory ---- */
 
 static long resident_pages(void) {
   long all = 0, resident = 0;

@@ -1,5 +1,6 @@
 /* Meshes, cameras, templates, backends, poses of cameras. */
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,6 +38,9 @@ static void expect_meshes(const struct scene* scene) {
   vertices_m[0] = NAN;
   EXPECT(EDGESCOUT_BAD_INPUT, es_mesh_create(&arrays, &made));
   SAYS("finite");
+  arrays.vertex_count = SIZE_MAX;
+  EXPECT(EDGESCOUT_BAD_INPUT, es_mesh_create(&arrays, &made));
+  SAYS("arrays.vertex_count: found 18446744073709551615 items");
   EXPECT(EDGESCOUT_BAD_INPUT, es_mesh_load("no_such.stl", "mm", &made));
   SAYS("no_such.stl");
   EXPECT(EDGESCOUT_BAD_INPUT, es_mesh_load(EXAMPLE("parts/obj_000001.ply"), "feet", &made));
@@ -76,8 +80,11 @@ static void expect_cameras(void) {
 }
 
 static edgescout_part part_of(const struct scene* scene) {
-  return (edgescout_part){.struct_size = sizeof(edgescout_part), .mesh = scene->mesh,
-                          .backend = scene->backend, .camera = scene->camera, .object_id = 9};
+  return (edgescout_part){.struct_size = sizeof(edgescout_part),
+                          .mesh = scene->mesh,
+                          .backend = scene->backend,
+                          .camera = scene->camera,
+                          .object_id = 9};
 }
 
 static size_t symmetries_of(const edgescout_part* part) {

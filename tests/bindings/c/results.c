@@ -17,8 +17,8 @@ static void print_detection(const edgescout_detections* detections, size_t index
   printf(" object %d id %d %s, %s\n", d.object, d.object_id, d.name, d.convergence);
   print_numbers("pose", d.world_from_object, 16);
   print_numbers("covariance", d.covariance, 36);
-  const double scores[6] = {d.probability, d.psi,         d.psi_z_score,
-                            d.cost_px,     d.matched_fraction, d.unexplained_grey};
+  const double scores[6] = {d.probability,     d.psi, d.psi_z_score, d.cost_px, d.matched_fraction,
+                            d.unexplained_grey};
   print_numbers("scores", scores, 6);
   for (size_t i = 0; i < d.alternative_count; ++i) {
     edgescout_alternative other = {.struct_size = sizeof other};
@@ -90,9 +90,8 @@ void print_results(void) {
   struct scene scene;
   open_scene(&scene);
   print_one_view(&scene);
-  edgescout_templates* const parts[2] = {
-      templates_of_part(4, "0.37", "0.37", "1", scene.backend),
-      templates_of_part(6, "0.37", "0.37", "2", scene.backend)};
+  edgescout_templates* const parts[2] = {templates_of_part(4, "0.37", "0.37", "1", scene.backend),
+                                         templates_of_part(6, "0.37", "0.37", "2", scene.backend)};
   edgescout_templates* both = NULL;
   OK(es_templates_join((const edgescout_templates* const*)parts, 2, &both));
   OK(es_free(parts[0]));

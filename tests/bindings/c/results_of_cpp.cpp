@@ -19,8 +19,7 @@ const double view_rows[2][16] = {
      1},
     {0.44526554403801266, -0.887550367306008, -0.11829176128329066, 0.015646812010002343,
      -0.611204713057013, -0.20473230131862374, -0.7645348151220291, 0.009953504113119516,
-     0.6543450114652264, 0.4127214924034742, -0.6336352071017064, 0.3667710046368189, 0, 0, 0,
-     1}};
+     0.6543450114652264, 0.4127214924034742, -0.6336352071017064, 0.3667710046368189, 0, 0, 0, 1}};
 
 void print_numbers(const char* name, std::span<const double> numbers) {
   std::printf("  %s", name);
@@ -41,8 +40,8 @@ void print_detection(const Detection& d, std::span<const TemplateSet> sets) {
   print_pose("pose", d.world_from_object);
   const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> covariance = d.covariance;
   print_numbers("covariance", {covariance.data(), 36});
-  const double scores[] = {d.probability, d.psi,         d.psi_z_score,
-                           d.cost_px,     d.matched_fraction, d.unexplained_grey};
+  const double scores[] = {d.probability,     d.psi, d.psi_z_score, d.cost_px, d.matched_fraction,
+                           d.unexplained_grey};
   print_numbers("scores", scores);
   for (const AlternativePose& other : d.alternatives) {
     print_pose("alternative", other.world_from_object);
@@ -142,8 +141,7 @@ void print_two_views(Backend& backend) {
   std::printf("scout: %zu, completion 0\n", scout.state().detections.size());
   for (const ModeDetection& mode : scout.state().detections) {
     print_detection(mode.detection, sets);
-    for (const int image : mode.supporting_images)
-      std::printf("  supported by image %d\n", image);
+    for (const int image : mode.supporting_images) std::printf("  supported by image %d\n", image);
   }
 }
 

@@ -121,10 +121,10 @@ static void expect_versions(const char* name, edgescout_status (*call)(void*), c
 }
 
 #define READ(name, valid) expect_versions(#name, name, &(valid), sizeof(valid), 0)
-#define FILLED(name, type)                                       \
-  {                                                              \
-    const type empty = {.struct_size = sizeof empty};            \
-    expect_versions(#name, name, &empty, sizeof empty, 1);       \
+#define FILLED(name, type)                                 \
+  {                                                        \
+    const type empty = {.struct_size = sizeof empty};      \
+    expect_versions(#name, name, &empty, sizeof empty, 1); \
   }
 
 static void expect_versions_of_filled(void) {
@@ -155,8 +155,10 @@ static void expect_versions_of_read(void) {
   edgescout_options* one_template = NULL;
   OK(es_options_create(EDGESCOUT_TEMPLATE_OPTIONS, &one_template));
   OK(es_options_set(one_template, "viewpoints", "1"));
-  const edgescout_part what = {.struct_size = sizeof what, .mesh = scene.mesh,
-                               .backend = scene.backend, .options = one_template,
+  const edgescout_part what = {.struct_size = sizeof what,
+                               .mesh = scene.mesh,
+                               .backend = scene.backend,
+                               .options = one_template,
                                .camera = scene.camera};
   READ(part, what);
   OK(es_free(one_template));

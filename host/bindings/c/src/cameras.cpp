@@ -42,8 +42,8 @@ HemisphereOptions rings_of(const edgescout_hemisphere& given) {
   rings.radius_m = given.radius_m;
   rings.count = given.count;
   if (given.elevation_count < 0 || given.elevation_count > 10000)
-    refuse(EDGESCOUT_BAD_INPUT, "hemisphere.elevation_count",
-           std::to_string(given.elevation_count), "0 to 10000");
+    refuse(EDGESCOUT_BAD_INPUT, "hemisphere.elevation_count", std::to_string(given.elevation_count),
+           "0 to 10000");
   if (given.elevations_deg)
     rings.elevations_deg.assign(given.elevations_deg, given.elevations_deg + given.elevation_count);
   return rings;
@@ -77,8 +77,8 @@ edgescout_status edgescout_look_at(const double eye_m[3], const double target_m[
     require(eye_m, "eye_m");
     require(target_m, "target_m");
     require(camera_from_world, "camera_from_world");
-    const edgescout::Se3 pose = edgescout::look_at({eye_m[0], eye_m[1], eye_m[2]},
-                                                   {target_m[0], target_m[1], target_m[2]});
+    const edgescout::Se3 pose =
+        edgescout::look_at({eye_m[0], eye_m[1], eye_m[2]}, {target_m[0], target_m[1], target_m[2]});
     edgescout::write_rows(pose, std::span<double, 16>(camera_from_world, 16));
   });
 }

@@ -37,16 +37,15 @@ struct TakenImage {
 TakenImage taken_image(const edgescout_view& view) {
   TakenImage taken;
   taken.image = image_of(view.image);
-  taken.camera =
-      camera_for_image(*shared(view.camera), taken.image.width, taken.image.height, false, "camera");
+  taken.camera = camera_for_image(*shared(view.camera), taken.image.width, taken.image.height,
+                                  false, "camera");
   if (view.camera_from_world)
     taken.camera_from_world = pose_of(view.camera_from_world, "view.camera_from_world");
   return taken;
 }
 
 std::vector<TakenImage> taken_images(const edgescout_request& request) {
-  if (request.view_count == 0)
-    refuse(EDGESCOUT_BAD_INPUT, "request.view_count", "0", "at least 1");
+  if (request.view_count == 0) refuse(EDGESCOUT_BAD_INPUT, "request.view_count", "0", "at least 1");
   std::vector<TakenImage> taken;
   for (const edgescout_view& view :
        read_structs(request.views, request.view_count, "request.views")) {
@@ -142,9 +141,8 @@ edgescout_status edgescout_detect_jointly(const edgescout_request* request,
 
 edgescout_status edgescout_register(const edgescout_request* request,
                                     const edgescout_starts* starts, edgescout_detections** out) {
-  return create(out, [&] {
-    return register_in_all(Request(request), read_struct(starts, "starts"));
-  });
+  return create(out,
+                [&] { return register_in_all(Request(request), read_struct(starts, "starts")); });
 }
 
 edgescout_status edgescout_overlay(const edgescout_request* request,

@@ -1,19 +1,25 @@
 #include "host/bindings/c/src/handles.h"
 
+#include <chrono>
 #include <mutex>
-#include <random>
 #include <unordered_map>
 
 namespace edgescout::c {
 
 namespace {
 
-static_assert(sizeof(std::uintptr_t) == 8, "a handle has 20 bits of the library and 44 of a number");
+static_assert(sizeof(std::uintptr_t) == 8,
+              "a handle has 20 bits of the library and 44 of a number");
 constexpr int NUMBER_BITS = 44;  // a million a second for half a year
 
-// Of the bits of this library one is always set, so that small numbers are no handles.
+// Others where it is loaded elsewhere or at another time. One of them is always set, so that small
+// numbers are no handles.
 std::uintptr_t bits_of_this_library() {
-  return ((std::uintptr_t(std::random_device{}()) & 0x7ffff) | 0x80000) << NUMBER_BITS;
+  static const char place = 0;
+  const auto now = std::chrono::steady_clock::now().time_since_epoch().count();
+  const std::uintptr_t mixed =
+      (reinterpret_cast<std::uintptr_t>(&place) ^ std::uintptr_t(now)) * 0x9e3779b97f4a7c15u;
+  return (mixed >> NUMBER_BITS | 0x80000) << NUMBER_BITS;
 }
 
 struct Table {
@@ -89,7 +95,11 @@ edgescout_status edgescout_free(const void* handle) {
 }
 
 size_t edgescout_handle_count(void) {
-  Table& all = table();
-  const std::scoped_lock lock(all.mutex);
-  return all.live.size();
+  std::size_t count = 0;
+  guarded([&] {
+    Table& all = table();
+    const std::scoped_lock lock(all.mutex);
+    count = all.live.size();
+  });
+  return count;
 }

@@ -13,16 +13,17 @@ Image image_of(const edgescout_image* image) {
     refuse(EDGESCOUT_BAD_INPUT, "image.format", std::to_string(given.format),
            "EDGESCOUT_MONO8 or another format");
   require(given.pixels, "image.pixels");
-  return grey_image({given.pixels, given.width, given.height, given.row_stride_bytes,
-                     PixelFormat(given.format)},
-                    options_of<ImageOptions>(given.options));
+  return grey_image(
+      {given.pixels, given.width, given.height, given.row_stride_bytes, PixelFormat(given.format)},
+      options_of<ImageOptions>(given.options));
 }
 
 namespace {
 
 Image undistorted_image(const edgescout_image* image, const edgescout_camera* camera) {
   const Image grey = image_of(image);
-  return undistort(grey, camera_for_image(*shared(camera), grey.width, grey.height, false, "camera"));
+  return undistort(grey,
+                   camera_for_image(*shared(camera), grey.width, grey.height, false, "camera"));
 }
 
 edgescout_image shown_image(const std::variant<Image, RgbImage>& picture) {

@@ -18,14 +18,16 @@ namespace {
 Mesh mesh_of(const edgescout_mesh_arrays& given) {
   require(given.vertices_m, "arrays.vertices_m");
   require(given.triangles, "arrays.triangles");
+  require_count(given.vertex_count, "arrays.vertex_count");
+  require_count(given.triangle_count, "arrays.triangle_count");
   std::vector<Eigen::Vector3d> vertices_m;
   for (std::size_t i = 0; i < given.vertex_count; ++i)
     vertices_m.emplace_back(given.vertices_m[3 * i], given.vertices_m[3 * i + 1],
                             given.vertices_m[3 * i + 2]);
   std::vector<std::array<int, 3>> triangles;
   for (std::size_t i = 0; i < given.triangle_count; ++i)
-    triangles.push_back({given.triangles[3 * i], given.triangles[3 * i + 1],
-                         given.triangles[3 * i + 2]});
+    triangles.push_back(
+        {given.triangles[3 * i], given.triangles[3 * i + 1], given.triangles[3 * i + 2]});
   return make_mesh(given.name ? given.name : "mesh", std::move(vertices_m), std::move(triangles));
 }
 
@@ -95,6 +97,7 @@ PartTemplates templates_of(const edgescout_part& part) {
 
 PartTemplates joined(const edgescout_templates* const* parts, std::size_t count) {
   require(parts, "parts");
+  require_count(count, "part_count");
   PartTemplates all;
   for (std::size_t i = 0; i < count; ++i) {
     const auto part = shared(parts[i]);

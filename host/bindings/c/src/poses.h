@@ -17,6 +17,7 @@ inline Se3 pose_of(const double* rows, const char* name) {
 
 inline std::vector<Se3> poses_of(const double* rows, std::size_t count, const char* name) {
   require(rows, name);
+  require_count(count, name);
   std::vector<Se3> poses;
   for (std::size_t i = 0; i < count; ++i)
     poses.push_back(pose_of_rows(std::span<const double, 16>(rows + 16 * i, 16),

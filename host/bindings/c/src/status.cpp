@@ -48,6 +48,13 @@ void require_index(std::size_t index, std::size_t count, const char* name) {
     refuse(EDGESCOUT_BAD_INPUT, name, std::to_string(index), "below " + std::to_string(count));
 }
 
+void require_count(std::size_t count, const char* name) {
+  constexpr std::size_t most = 1 << 28;
+  if (count > most)
+    refuse(EDGESCOUT_BAD_INPUT, name, std::to_string(count) + " items",
+           "at most " + std::to_string(most));
+}
+
 edgescout_status status_of_exception() noexcept {
   try {
     throw;

@@ -31,6 +31,9 @@ void require(const void* pointer, const char* name);
 // EDGESCOUT_BAD_INPUT: `index` is not below `count`.
 void require_index(std::size_t index, std::size_t count, const char* name);
 
+// EDGESCOUT_BAD_INPUT: a number of items that no caller has, which would be read from anywhere.
+void require_count(std::size_t count, const char* name);
+
 // Keeps the message of the exception in flight for edgescout_last_error.
 edgescout_status status_of_exception() noexcept;
 

@@ -61,13 +61,15 @@ template <typename Struct>
 std::vector<Struct> read_structs(const Struct* given, std::size_t count, const char* name) {
   std::vector<Struct> result;
   if (count == 0) return result;
+  require_count(count, name);
   const std::size_t size = struct_size_of(given, name);
   const auto* const bytes = reinterpret_cast<const unsigned char*>(given);
   for (std::size_t i = 0; i < count; ++i) {
     result.push_back(read_struct(reinterpret_cast<const Struct*>(bytes + i * size), name));
     if (result.back().struct_size != size)
       refuse(EDGESCOUT_WRONG_VERSION, std::string(name) + ".struct_size",
-             std::to_string(result.back().struct_size), "that of the first, " + std::to_string(size));
+             std::to_string(result.back().struct_size),
+             "that of the first, " + std::to_string(size));
   }
   return result;
 }

@@ -111,8 +111,7 @@ std::vector<Se3> poses_of(const py::handle& value, const std::string& name) {
     refuse(name, found(matrices), "shape (n, 4, 4)");
   std::vector<Se3> poses;
   for (py::ssize_t i = 0; i < matrices.shape(0); ++i)
-    poses.push_back(
-        pose_of_rows(Rows(matrices.data(i, 0, 0), 16), fmt::format("{}[{}]", name, i)));
+    poses.push_back(pose_of_rows(Rows(matrices.data(i, 0, 0), 16), fmt::format("{}[{}]", name, i)));
   return poses;
 }
 
@@ -125,8 +124,7 @@ py::array_t<double> matrix_of(const Se3& pose) {
 py::array_t<double> matrices_of(const std::vector<Se3>& poses) {
   py::array_t<double> matrices({py::ssize_t(poses.size()), py::ssize_t(4), py::ssize_t(4)});
   for (std::size_t i = 0; i < poses.size(); ++i)
-    write_rows(poses[i],
-               std::span<double, 16>(matrices.mutable_data(py::ssize_t(i), 0, 0), 16));
+    write_rows(poses[i], std::span<double, 16>(matrices.mutable_data(py::ssize_t(i), 0, 0), 16));
   return matrices;
 }
 
