@@ -20,7 +20,6 @@ enum kind {
 /* Set before calls of the functions below. */
 static struct scene scene;
 static edgescout_scout_plan plan;
-static double poses[2][16];
 
 /* Each calls a function with `h` in place of one handle, with all else as it should be. */
 #define WITH(name) static edgescout_status name(void* h)
@@ -333,9 +332,6 @@ static void expect_random_ones_refused(void) {
 void test_handles(void) {
   open_scene(&scene);
   plan = example_plan(&scene);
-  for (int i = 0; i < 2; ++i)
-    for (int k = 0; k < 16; ++k) poses[i][k] = camera_from_world_views[i][k];
-  plan.camera_from_world = poses[0];
   void* live[KINDS];
   OK(es_canceller_create((edgescout_canceller**)&live[CANCELLER]));
   OK(es_options_create(EDGESCOUT_DETECT_OPTIONS, (edgescout_options**)&live[OPTIONS]));

@@ -5,21 +5,13 @@
 #include "host/active/scout.h"
 #include "host/core/pose_matrix.h"
 #include "host/edgescout.h"
+#include "tests/bindings/c/views.h"
 
 using namespace edgescout;
 
 namespace {
 
 std::string examples;
-
-const double view_rows[2][16] = {
-    {-0.9190735403093138, 0.3871345211111347, -0.07369321588421038, -0.01710887281610986,
-     0.34672560317035533, 0.7054766943926246, -0.6181294280124581, 0.01441869488709377,
-     -0.18731039375714778, -0.5936577264997969, -0.7826144134614661, 0.4157994342528477, 0, 0, 0,
-     1},
-    {0.44526554403801266, -0.887550367306008, -0.11829176128329066, 0.015646812010002343,
-     -0.611204713057013, -0.20473230131862374, -0.7645348151220291, 0.009953504113119516,
-     0.6543450114652264, 0.4127214924034742, -0.6336352071017064, 0.3667710046368189, 0, 0, 0, 1}};
 
 void print_numbers(const char* name, std::span<const double> numbers) {
   std::printf("  %s", name);
@@ -127,7 +119,8 @@ void print_one_view(Backend& backend) {
 void print_two_views(Backend& backend) {
   const std::vector<TemplateSet> sets{templates_of(4, 0.37, 1, backend),
                                       templates_of(6, 0.37, 2, backend)};
-  const std::vector<Se3> poses{pose_of_rows(view_rows[0], "0"), pose_of_rows(view_rows[1], "1")};
+  std::vector<Se3> poses;
+  for (const auto& rows : camera_from_world_views) poses.push_back(pose_of_rows(rows, "view"));
   const Camera camera = camera_of(scout_window);
   Scout scout(sets, camera, poses, quick_scout_options(), backend);
   std::vector<ObjectView> views;

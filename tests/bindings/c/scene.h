@@ -3,13 +3,11 @@
 #define EDGESCOUT_TESTS_SCENE_H
 
 #include "tests/bindings/c/library.h"
+#include "tests/bindings/c/views.h"
 
 extern const char* examples_folder; /* docs/examples */
 #define EXAMPLE(file) example_file(file)
 const char* example_file(const char* name); /* valid until the next call */
-
-#define SCOUT_VIEWS 2
-extern const double camera_from_world_views[SCOUT_VIEWS][16]; /* of scenes/000001 */
 
 /* A part of the images that shows the part: less to search. */
 struct window {

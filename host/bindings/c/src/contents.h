@@ -40,49 +40,45 @@ struct NamedBackend {
 
 class SteppedScout;  // scout.cpp
 
+template <typename T>
+struct Keeps {
+  using Type = T;
+};
+
 template <>
-struct Content<edgescout_canceller> {
-  using Type = std::unique_ptr<std::atomic<bool>>;
+struct Content<edgescout_canceller> : Keeps<std::unique_ptr<std::atomic<bool>>> {
   static constexpr const char* name = "canceller";
 };
 template <>
-struct Content<edgescout_options> {
-  using Type = std::unique_ptr<OptionSet>;
+struct Content<edgescout_options> : Keeps<std::unique_ptr<OptionSet>> {
   static constexpr const char* name = "options";
 };
 template <>
-struct Content<edgescout_backend> {
-  using Type = NamedBackend;
+struct Content<edgescout_backend> : Keeps<NamedBackend> {
   static constexpr const char* name = "backend";
 };
 template <>
-struct Content<edgescout_camera> {
-  using Type = Camera;
+struct Content<edgescout_camera> : Keeps<Camera> {
   static constexpr const char* name = "camera";
 };
 template <>
-struct Content<edgescout_picture> {
-  using Type = std::variant<Image, RgbImage>;
+struct Content<edgescout_picture> : Keeps<std::variant<Image, RgbImage>> {
   static constexpr const char* name = "picture";
 };
 template <>
-struct Content<edgescout_mesh> {
-  using Type = Mesh;
+struct Content<edgescout_mesh> : Keeps<Mesh> {
   static constexpr const char* name = "mesh";
 };
 template <>
-struct Content<edgescout_templates> {
-  using Type = PartTemplates;
+struct Content<edgescout_templates> : Keeps<PartTemplates> {
   static constexpr const char* name = "templates";
 };
 template <>
-struct Content<edgescout_detections> {
-  using Type = FoundObjects;
+struct Content<edgescout_detections> : Keeps<FoundObjects> {
   static constexpr const char* name = "detections";
 };
 template <>
-struct Content<edgescout_scout> {
-  using Type = std::shared_ptr<SteppedScout>;
+struct Content<edgescout_scout> : Keeps<std::shared_ptr<SteppedScout>> {
   static constexpr const char* name = "scout";
 };
 
