@@ -6,10 +6,11 @@
 set(EDGESCOUT_PUBLIC_HEADERS
   host/edgescout.h host/pipeline.h host/register_objects.h host/overlay.h
   host/core/camera.h host/core/camera_check.h host/core/grid.h host/core/lens.h host/core/log.h
-  host/core/option_names.h host/core/options.h host/core/pose_error.h host/core/se3.h
+  host/core/option_names.h host/core/option_text.h host/core/options.h host/core/pose_error.h
+  host/core/pose_matrix.h host/core/se3.h
   host/core/stopwatch.h host/core/time_limit.h host/core/types.h
   host/io/bop.h host/io/bop_targets.h host/io/camera_file.h host/io/image.h
-  host/io/image_options.h host/io/mesh.h
+  host/io/image_options.h host/io/mesh.h host/io/pixels.h
   host/io/poses.h host/io/results.h
   host/model/axis_symmetry.h host/model/edge_model.h host/model/mesh_quality.h
   host/model/template_cache.h host/model/template_set.h host/model/viewpoints.h

@@ -60,6 +60,7 @@ long_tests+='|cli\.Scout\.(DrawsRandomViews|DoesNotGoOnInAnotherCell|LetsModesCo
 long_tests+='|cli\.Scout\.(RemovesTheResultsOfARunBefore|KeepsToABoxInTheWorld)'
 long_tests+='|active\.Scout\.FlagsAGrosslyWrong'
 long_tests+='|active\.ScoutState\.Continues(PastViews|WithOccluders|BehindALens)'
+long_tests+='|c\.example_look_around'
 long_tests+='|python\.test_(examples|install)'
 long_tests+='|register\.EdgeIcp\.Regions(HoldErrorsInFaultyImages|OfCleanImages)'
 long_tests+='|scripts\.trust_symmetry)'

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "host/io/byte_numbers.h"
+#include "kernels/error.h"
 
 namespace edgescout {
 
@@ -232,6 +233,19 @@ Kind kind_of(std::string_view bytes) {
 }  // namespace
 
 bool begins_as_image(std::string_view bytes) { return kind_of(bytes) != Kind::Unknown; }
+
+std::string text_of_size(const StatedSize& size) {
+  return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+void require_size(const StatedSize& size, const std::string& source) {
+  constexpr std::uint64_t max_side_px = 1 << 20;  // OpenCV's
+  constexpr std::uint64_t max_pixels = 1 << 28;   // 256 MiB for each byte of a pixel
+  if (std::max(size.width, size.height) > max_side_px || size.width * size.height > max_pixels)
+    throw InputError(source, "image size", text_of_size(size),
+                     "at most " + std::to_string(max_pixels) + " pixels and sides of at most " +
+                         std::to_string(max_side_px));
+}
 
 std::optional<StatedSize> stated_size(std::string_view bytes) {
   const ByteNumbers big{bytes, true}, little{bytes, false};

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace edgescout {
@@ -11,6 +12,12 @@ namespace edgescout {
 struct StatedSize {
   std::uint64_t width = 0, height = 0;
 };
+
+// "640x480"
+std::string text_of_size(const StatedSize& size);
+
+// InputError naming `source`: more pixels than 2^28, or a side that OpenCV does not take.
+void require_size(const StatedSize& size, const std::string& source);
 
 // The size in the header of a PNG, JPEG, BMP, TIFF, WebP, JPEG 2000, OpenEXR, Sun raster, Radiance
 // or portable (PBM to PFM) file. Nothing for other files, and where the header is cut short.

@@ -23,8 +23,6 @@ namespace edgescout {
 
 namespace {
 
-constexpr std::uint64_t max_side_px = 1 << 20;  // OpenCV's
-constexpr std::uint64_t max_pixels = 1 << 28;   // 256 MiB for each byte of a pixel
 constexpr std::uintmax_t max_bytes = 1u << 31;  // OpenCV counts them in an int
 std::string an_image() {
   return "a PNG, JPEG or other image (" + option_name("raw-size") + " reads one without a header)";
@@ -46,17 +44,6 @@ bool is_out_of_memory(const std::exception& error) {
   const auto* of_opencv = dynamic_cast<const cv::Exception*>(&error);
   return (of_opencv && of_opencv->code == cv::Error::StsNoMem) ||
          dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-}
-
-std::string text_of_size(const StatedSize& size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
-void require_size(const StatedSize& size, const std::string& source) {
-  if (std::max(size.width, size.height) > max_side_px || size.width * size.height > max_pixels)
-    throw InputError(source, "image size", text_of_size(size),
-                     "at most " + std::to_string(max_pixels) + " pixels and sides of at most " +
-                         std::to_string(max_side_px));
 }
 
 // What a decoder says that is off by default is of use: it names what switches it on.

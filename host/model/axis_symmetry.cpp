@@ -80,4 +80,13 @@ Symmetries axis_symmetries(const Mesh& mesh, std::span<const std::string> words,
   return all;
 }
 
+Symmetries symmetries_of_transforms(std::vector<Se3> transforms) {
+  constexpr double same = 1e-6;  // m, rad
+  const Se3 identity;
+  if (transforms.empty() || angle_between_rad(transforms.front(), identity) > same ||
+      distance_between_m(transforms.front(), identity) > same)
+    transforms.insert(transforms.begin(), identity);
+  return {std::move(transforms)};
+}
+
 }  // namespace edgescout

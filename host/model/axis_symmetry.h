@@ -5,6 +5,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 #include "host/core/types.h"
 
@@ -18,5 +19,8 @@ namespace edgescout {
 // that generate no finite group.
 Symmetries axis_symmetries(const Mesh& mesh, std::span<const std::string> words,
                            int continuous_steps = 64);
+
+// Of transforms that map the object onto itself. The identity comes first, given or not.
+Symmetries symmetries_of_transforms(std::vector<Se3> transforms);
 
 }  // namespace edgescout

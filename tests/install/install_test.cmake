@@ -10,6 +10,17 @@ run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix)
 run(${CMAKE_COMMAND} -S ${CONSUMER_DIR} -B ${WORK_DIR}/build -G Ninja -DCMAKE_BUILD_TYPE=Release
     -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix -DCMAKE_CXX_COMPILER=${CXX_COMPILER} -DCMAKE_CXX_FLAGS=${CXX_FLAGS})
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
+# The C interface by its CMake package and by pkg-config, each from C.
+file(GLOB_RECURSE c_library ${WORK_DIR}/prefix/lib*/libedgescout_c.so)
+if(c_library)
+  run(${CMAKE_COMMAND} -S ${CONSUMER_DIR}/../c_consumer -B ${WORK_DIR}/c_build -G Ninja
+      -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix -DCMAKE_C_FLAGS=${CXX_FLAGS})
+  run(${CMAKE_COMMAND} --build ${WORK_DIR}/c_build)
+  run(${WORK_DIR}/c_build/by_package)
+  if(EXISTS ${WORK_DIR}/c_build/by_pkg_config)
+    run(${WORK_DIR}/c_build/by_pkg_config)
+  endif()
+endif()
 # The product needs nothing of the simulator, the laboratory and their packages.
 file(GLOB_RECURSE library ${WORK_DIR}/prefix/lib*/libedgescout.so)
 execute_process(COMMAND readelf -d ${library} OUTPUT_VARIABLE needed
@@ -32,13 +43,17 @@ run(${WORK_DIR}/build/find_part ${examples}/scenes/000000/gray/000000.png
 run(${WORK_DIR}/build/look_around ${examples}/scenes/000001 ${examples}/parts/obj_000001.ply)
 run(${WORK_DIR}/prefix/bin/edgescout --version)
 
-# The page on the API shows the program as it is.
-file(READ ${examples}/embedding/find_part.cpp program)
-file(READ ${examples}/../cpp_api.md page)
-string(FIND "${page}" "${program}" place)
-if(place EQUAL -1)
-  message(FATAL_ERROR "docs/cpp_api.md does not show docs/examples/embedding/find_part.cpp as it is")
-endif()
+# The pages on the interfaces show the programs as they are.
+foreach(shown "cpp_api.md;embedding/find_part.cpp" "c.md;c/find_part.c")
+  list(GET shown 0 page_file)
+  list(GET shown 1 program_file)
+  file(READ ${examples}/${program_file} program)
+  file(READ ${examples}/../${page_file} page)
+  string(FIND "${page}" "${program}" place)
+  if(place EQUAL -1)
+    message(FATAL_ERROR "docs/${page_file} does not show docs/examples/${program_file} as it is")
+  endif()
+endforeach()
 
 # The links of the installed README.
 file(GLOB readme ${WORK_DIR}/prefix/share/doc/*/README.md)

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "host/core/pose_matrix.h"
 #include "kernels/error.h"
 
 namespace edgescout::python {
@@ -39,23 +40,7 @@ py::array_t<std::uint8_t> copied(const std::vector<std::uint8_t>& pixels,
   return array;
 }
 
-Se3 pose_of(const double* m, const std::string& name) {
-  const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(m);
-  if (!matrix.allFinite()) refuse(name, "a value that is not finite", "finite numbers");
-  if (matrix.row(3) != Eigen::RowVector4d(0, 0, 0, 1)) refuse(name, "another last row", "0 0 0 1");
-  try {
-    return se3_from_matrix(matrix.topLeftCorner<3, 3>(), matrix.topRightCorner<3, 1>());
-  } catch (const InputError& error) {
-    throw py::value_error(name + ": " + error.what());
-  }
-}
-
-void write(const Se3& pose, double* to) {
-  Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(to);
-  matrix.setIdentity();
-  matrix.topLeftCorner<3, 3>() = pose.rotation.toRotationMatrix();
-  matrix.topRightCorner<3, 1>() = pose.translation_m;
-}
+using Rows = std::span<const double, 16>;
 
 }  // namespace
 
@@ -117,7 +102,7 @@ Se3 pose_of(const py::handle& value, const std::string& name) {
   const Doubles matrix = array_like<Doubles>(value, name);
   if (matrix.ndim() != 2 || matrix.shape(0) != 4 || matrix.shape(1) != 4)
     refuse(name, found(matrix), "shape (4, 4)");
-  return pose_of(matrix.data(), name);
+  return pose_of_rows(Rows(matrix.data(), 16), name);
 }
 
 std::vector<Se3> poses_of(const py::handle& value, const std::string& name) {
@@ -126,20 +111,20 @@ std::vector<Se3> poses_of(const py::handle& value, const std::string& name) {
     refuse(name, found(matrices), "shape (n, 4, 4)");
   std::vector<Se3> poses;
   for (py::ssize_t i = 0; i < matrices.shape(0); ++i)
-    poses.push_back(pose_of(matrices.data(i, 0, 0), fmt::format("{}[{}]", name, i)));
+    poses.push_back(pose_of_rows(Rows(matrices.data(i, 0, 0), 16), fmt::format("{}[{}]", name, i)));
   return poses;
 }
 
 py::array_t<double> matrix_of(const Se3& pose) {
   py::array_t<double> matrix({4, 4});
-  write(pose, matrix.mutable_data());
+  write_rows(pose, std::span<double, 16>(matrix.mutable_data(), 16));
   return matrix;
 }
 
 py::array_t<double> matrices_of(const std::vector<Se3>& poses) {
   py::array_t<double> matrices({py::ssize_t(poses.size()), py::ssize_t(4), py::ssize_t(4)});
   for (std::size_t i = 0; i < poses.size(); ++i)
-    write(poses[i], matrices.mutable_data(py::ssize_t(i), 0, 0));
+    write_rows(poses[i], std::span<double, 16>(matrices.mutable_data(py::ssize_t(i), 0, 0), 16));
   return matrices;
 }
 

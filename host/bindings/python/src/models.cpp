@@ -31,12 +31,7 @@ Symmetries symmetries_of(const py::object& given, const Mesh& mesh) {
     const auto words = py::cast<std::vector<std::string>>(given.attr("split")());
     return axis_symmetries(mesh, words);
   }
-  Symmetries symmetries{poses_of(given, "symmetries")};
-  const Se3 identity;
-  if (symmetries.discrete.empty() || angle_between_rad(symmetries.discrete[0], identity) > 1e-6 ||
-      distance_between_m(symmetries.discrete[0], identity) > 1e-6)
-    symmetries.discrete.insert(symmetries.discrete.begin(), identity);
-  return symmetries;
+  return symmetries_of_transforms(poses_of(given, "symmetries"));
 }
 
 // Thrown where a signal handler raised, whose exception replaces it.

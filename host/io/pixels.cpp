@@ -1,0 +1,100 @@
+#include "host/io/pixels.h"
+
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <opencv2/imgproc.hpp>
+
+#include "host/io/from_mat.h"
+#include "host/io/grey_levels.h"
+#include "host/io/image_header.h"
+#include "host/io/to_grey.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+struct FormatTraits {
+  int type;     // OpenCV's
+  int to_grey;  // OpenCV's code of a colour format; -1
+  BayerPattern bayer;
+};
+
+constexpr std::array<FormatTraits, PIXEL_FORMATS> traits_of_formats{{
+    {CV_8UC1, -1, BayerPattern::None},
+    {CV_16UC1, -1, BayerPattern::None},
+    {CV_32FC1, -1, BayerPattern::None},
+    {CV_8UC3, cv::COLOR_BGR2GRAY, BayerPattern::None},
+    {CV_8UC3, cv::COLOR_RGB2GRAY, BayerPattern::None},
+    {CV_8UC4, cv::COLOR_BGRA2GRAY, BayerPattern::None},
+    {CV_8UC4, cv::COLOR_RGBA2GRAY, BayerPattern::None},
+    {CV_8UC1, -1, BayerPattern::RGGB},
+    {CV_8UC1, -1, BayerPattern::BGGR},
+    {CV_8UC1, -1, BayerPattern::GRBG},
+    {CV_8UC1, -1, BayerPattern::GBRG},
+    {CV_16UC1, -1, BayerPattern::RGGB},
+    {CV_16UC1, -1, BayerPattern::BGGR},
+    {CV_16UC1, -1, BayerPattern::GRBG},
+    {CV_16UC1, -1, BayerPattern::GBRG},
+}};
+
+const FormatTraits& traits_of(PixelFormat format) {
+  check(std::size_t(format) < traits_of_formats.size(), "pixels: no such format");
+  return traits_of_formats[std::size_t(format)];
+}
+
+void require_pixels(const Pixels& pixels) {
+  if (!pixels.first_row || pixels.width < 1 || pixels.height < 1)
+    throw InputError("image", "pixels",
+                     pixels.first_row
+                         ? std::to_string(pixels.width) + "x" + std::to_string(pixels.height)
+                         : "none",
+                     "a width and a height of at least 16 px");
+  require_size({std::uint64_t(pixels.width), std::uint64_t(pixels.height)}, "image");
+  const std::ptrdiff_t row_bytes = std::ptrdiff_t(pixels.width) * bytes_per_pixel(pixels.format);
+  if (pixels.row_stride_bytes != 0 && std::abs(pixels.row_stride_bytes) < row_bytes)
+    throw InputError("image", "row stride", std::to_string(pixels.row_stride_bytes) + " bytes",
+                     "at least the " + std::to_string(row_bytes) + " of " +
+                         std::to_string(pixels.width) + " pixels");
+}
+
+// Copied row by row: the caller's need not be where their type may stand.
+cv::Mat packed(const Pixels& pixels, int type) {
+  cv::Mat rows(pixels.height, pixels.width, type);
+  const std::size_t row_bytes = std::size_t(pixels.width) * rows.elemSize();
+  const std::ptrdiff_t stride =
+      pixels.row_stride_bytes != 0 ? pixels.row_stride_bytes : std::ptrdiff_t(row_bytes);
+  for (int y = 0; y < rows.rows; ++y)
+    std::memcpy(rows.ptr(y), static_cast<const std::byte*>(pixels.first_row) + y * stride,
+                row_bytes);
+  return rows;
+}
+
+BayerPattern pattern_of(const FormatTraits& format, const ImageOptions& options) {
+  if (options.bayer == BayerPattern::None) return format.bayer;
+  if (format.bayer != BayerPattern::None || format.to_grey >= 0)
+    throw InputError("image", "format", "colours of its own", "grey pixels with the option bayer");
+  return options.bayer;
+}
+
+}  // namespace
+
+int bytes_per_pixel(PixelFormat format) { return int(CV_ELEM_SIZE(traits_of(format).type)); }
+
+Image grey_image(const Pixels& pixels, const ImageOptions& options) {
+  options.validate();
+  require_pixels(pixels);
+  const FormatTraits& format = traits_of(pixels.format);
+  const BayerPattern bayer = pattern_of(format, options);
+  cv::Mat image = packed(pixels, format.type);
+  require_least_size(image, "image");
+  if (format.to_grey >= 0) {
+    cv::Mat grey;
+    cv::cvtColor(image, grey, format.to_grey);
+    image = grey;
+  }
+  return from_mat(to_8_bit(to_grey(image, bayer, "image"), options, "image"));
+}
+
+}  // namespace edgescout

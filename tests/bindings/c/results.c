@@ -1,0 +1,102 @@
+/* What detection, joint detection, registration and the scout find, as exact numbers.
+   results_of_cpp.cpp prints the same by C++. */
+#include <stdio.h>
+#include <string.h>
+
+#include "tests/bindings/c/scene.h"
+
+static void print_numbers(const char* name, const double* numbers, int count) {
+  printf("  %s", name);
+  for (int i = 0; i < count; ++i) printf(" %a", numbers[i]);
+  printf("\n");
+}
+
+static void print_detection(const edgescout_detections* detections, size_t index) {
+  edgescout_detection d = {.struct_size = sizeof d};
+  OK(es_detections_at(detections, index, &d));
+  printf(" object %d id %d %s, %s\n", d.object, d.object_id, d.name, d.convergence);
+  print_numbers("pose", d.world_from_object, 16);
+  print_numbers("covariance", d.covariance, 36);
+  const double scores[6] = {d.probability,     d.psi, d.psi_z_score, d.cost_px, d.matched_fraction,
+                            d.unexplained_grey};
+  print_numbers("scores", scores, 6);
+  for (size_t i = 0; i < d.alternative_count; ++i) {
+    edgescout_alternative other = {.struct_size = sizeof other};
+    OK(es_detections_alternative(detections, index, i, &other));
+    print_numbers("alternative", other.world_from_object, 16);
+    print_numbers("probability", &other.probability, 1);
+  }
+  for (size_t i = 0; i < d.supporting_image_count; ++i)
+    printf("  supported by image %d\n", d.supporting_images[i]);
+}
+
+static void print_detections(const char* call, edgescout_detections* detections) {
+  edgescout_summary summary = {.struct_size = sizeof summary};
+  OK(es_detections_get(detections, &summary));
+  printf("%s: %zu, completion %d\n", call, summary.detection_count, summary.completion);
+  for (size_t i = 0; i < summary.stage_count; ++i) {
+    edgescout_stage stage = {.struct_size = sizeof stage};
+    OK(es_detections_stage(detections, i, &stage));
+    printf(" stage %s\n", stage.name);
+    CHECK(stage.seconds >= 0);
+  }
+  for (size_t i = 0; i < summary.detection_count; ++i) print_detection(detections, i);
+  OK(es_free(detections));
+}
+
+static void print_one_view(const struct scene* scene) {
+  edgescout_detections* found = NULL;
+  OK(es_options_set(scene->detect_options, "min-probability", "0.05"));
+  OK(es_detect(&scene->request, &found));
+  print_detections("detect", found);
+  const double starts[32] = {1, 0, 0, -0.11, 0, 1, 0, 0.01, 0, 0, 1, 0.33, 0, 0, 0, 1,
+                             1, 0, 0, 5,     0, 1, 0, 0.01, 0, 0, 1, 0.33, 0, 0, 0, 1};
+  const edgescout_starts two = {.struct_size = sizeof two, .world_from_object = starts, .count = 2};
+  edgescout_request request = scene->request;
+  request.options = NULL;
+  OK(es_register(&request, &two, &found));
+  print_detections("register", found);
+}
+
+static void print_two_views(const struct scene* scene, const edgescout_templates* parts) {
+  edgescout_picture* pictures[SCOUT_VIEWS];
+  edgescout_image images[SCOUT_VIEWS];
+  edgescout_view views[SCOUT_VIEWS];
+  edgescout_scout_plan plan = example_plan(scene);
+  plan.templates = parts;
+  edgescout_scout* scout = NULL;
+  OK(es_scout_create(&plan, &scout));
+  for (int i = 0; i < SCOUT_VIEWS; ++i) {
+    pictures[i] = picture_of_view(i, &images[i]);
+    views[i] = (edgescout_view){sizeof *views, &images[i], scene->scout_camera,
+                                camera_from_world_views[i]};
+    const edgescout_shot shot = {.struct_size = sizeof shot, .view = i, .image = &images[i]};
+    OK(es_scout_give(scout, &shot));
+  }
+  edgescout_request request = scene->request;
+  request.views = views;
+  request.view_count = SCOUT_VIEWS;
+  request.templates = parts;
+  edgescout_detections* found = NULL;
+  OK(es_detect_jointly(&request, &found));
+  print_detections("detect_jointly", found);
+  OK(es_scout_detections(scout, &found));
+  print_detections("scout", found);
+  OK(es_free(scout));
+  for (int i = 0; i < SCOUT_VIEWS; ++i) OK(es_free(pictures[i]));
+}
+
+void print_results(void) {
+  struct scene scene;
+  open_scene(&scene);
+  print_one_view(&scene);
+  edgescout_templates* const parts[2] = {templates_of_part(4, "0.37", "0.37", "1", scene.backend),
+                                         templates_of_part(6, "0.37", "0.37", "2", scene.backend)};
+  edgescout_templates* both = NULL;
+  OK(es_templates_join((const edgescout_templates* const*)parts, 2, &both));
+  OK(es_free(parts[0]));
+  OK(es_free(parts[1]));
+  print_two_views(&scene, both);
+  OK(es_free(both));
+  close_scene(&scene);
+}

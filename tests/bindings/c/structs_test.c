@@ -1,0 +1,233 @@
+/* Structs of another header: struct_size tells them apart. */
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "tests/bindings/c/scene.h"
+
+static struct scene scene;
+static edgescout_detections* detections;
+static edgescout_options* options;
+static edgescout_scout* scout;
+
+/* Each calls a function with `s` in place of one struct. */
+#define WITH(name) static edgescout_status name(void* s)
+
+WITH(limit) {
+  edgescout_request request = scene.request;
+  request.limit = s;
+  edgescout_detections* out;
+  const edgescout_status status = es_detect(&request, &out);
+  es_free(out);
+  return status;
+}
+WITH(option) { return es_options_at(options, 0, s); }
+WITH(camera_model) {
+  edgescout_camera* out;
+  const edgescout_status status = es_camera_create(s, &out);
+  es_free(out);
+  return status;
+}
+WITH(camera_model_out) { return es_camera_get(scene.camera, s); }
+WITH(image) {
+  edgescout_picture* out;
+  const edgescout_status status = es_picture_grey(s, &out);
+  es_free(out);
+  return status;
+}
+WITH(image_out) { return es_picture_get(scene.picture, s); }
+WITH(mesh_info) { return es_mesh_get(scene.mesh, s); }
+WITH(mesh_arrays) {
+  edgescout_mesh* out;
+  const edgescout_status status = es_mesh_create(s, &out);
+  es_free(out);
+  return status;
+}
+WITH(part) {
+  edgescout_templates* out;
+  const edgescout_status status = es_templates_build(s, &out);
+  es_free(out);
+  return status;
+}
+WITH(templates_info) { return es_templates_at(scene.templates, 0, s); }
+WITH(view) {
+  edgescout_request request = scene.request;
+  request.views = s;
+  edgescout_picture* out;
+  const edgescout_status status = es_overlay(&request, detections, &out);
+  es_free(out);
+  return status;
+}
+WITH(request) {
+  edgescout_picture* out;
+  const edgescout_status status = es_overlay(s, detections, &out);
+  es_free(out);
+  return status;
+}
+WITH(starts) {
+  edgescout_request plain = scene.request;
+  plain.options = NULL;
+  edgescout_detections* out;
+  const edgescout_status status = es_register(&plain, s, &out);
+  es_free(out);
+  return status;
+}
+WITH(detection) { return es_detections_at(detections, 0, s); }
+WITH(stage) { return es_detections_stage(detections, 0, s); }
+WITH(summary) { return es_detections_get(detections, s); }
+WITH(plan) {
+  edgescout_scout* out;
+  const edgescout_status status = es_scout_create(s, &out);
+  es_free(out);
+  return status;
+}
+WITH(proposal) { return es_scout_propose(scout, NULL, s); }
+WITH(expectation) { return es_scout_expectation(scout, 0, s); }
+WITH(state) { return es_scout_get(scout, s); }
+WITH(hemisphere) {
+  size_t count;
+  return es_hemisphere_views(s, NULL, 0, &count);
+}
+
+static unsigned char buffer[1 << 14];
+
+/* Copies the struct to where more lies behind it. `is_filled`: by the library. */
+static void expect_versions(const char* name, edgescout_status (*call)(void*), const void* valid,
+                            size_t size, int is_filled) {
+  const int failed_before = checks_failed;
+  const size_t wrong[] = {0, 1, 8, size - 8, size - 1, SIZE_MAX, (size_t)1 << 40, 65537};
+  for (size_t i = 0; i < sizeof wrong / sizeof *wrong; ++i) {
+    memcpy(buffer, valid, size);
+    memcpy(buffer, &wrong[i], sizeof wrong[i]);
+    if (wrong[i] != size) EXPECT(EDGESCOUT_WRONG_VERSION, call(buffer));
+    SAYS("struct_size: found ");
+  }
+  const size_t larger = size + 24;
+  memset(buffer, 0, sizeof buffer);
+  memcpy(buffer, valid, size);
+  memcpy(buffer, &larger, sizeof larger);
+  OK(call(buffer));
+  memset(buffer + size, 0xaa, 48);
+  if (is_filled) {
+    OK(call(buffer));
+    for (size_t i = size; i < larger; ++i) CHECK(buffer[i] == 0);
+    CHECK(buffer[larger] == 0xaa); /* not beyond its size */
+    CHECK(memcmp(buffer, &larger, sizeof larger) == 0);
+  } else {
+    EXPECT(EDGESCOUT_WRONG_VERSION, call(buffer));
+    SAYS("found fields that version ");
+  }
+  if (checks_failed != failed_before) fprintf(stderr, "  of %s\n", name);
+}
+
+#define READ(name, valid) expect_versions(#name, name, &(valid), sizeof(valid), 0)
+#define FILLED(name, type)                                 \
+  {                                                        \
+    const type empty = {.struct_size = sizeof empty};      \
+    expect_versions(#name, name, &empty, sizeof empty, 1); \
+  }
+
+static void expect_versions_of_filled(void) {
+  FILLED(option, edgescout_option)
+  FILLED(camera_model_out, edgescout_camera_model)
+  FILLED(image_out, edgescout_image)
+  FILLED(mesh_info, edgescout_mesh_info)
+  FILLED(templates_info, edgescout_templates_info)
+  FILLED(detection, edgescout_detection)
+  FILLED(stage, edgescout_stage)
+  FILLED(summary, edgescout_summary)
+  FILLED(proposal, edgescout_proposal)
+  FILLED(expectation, edgescout_expectation)
+  FILLED(state, edgescout_scout_state)
+}
+
+static void expect_versions_of_read(void) {
+  const edgescout_limit soon = {.struct_size = sizeof soon, .max_seconds = 1e-9};
+  READ(limit, soon);
+  edgescout_camera_model model = {.struct_size = sizeof model};
+  OK(es_camera_get(scene.camera, &model));
+  READ(camera_model, model);
+  READ(image, scene.image);
+  const double vertices_m[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  const int32_t triangles[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  const edgescout_mesh_arrays arrays = {sizeof arrays, "pyramid", vertices_m, 4, triangles, 4};
+  READ(mesh_arrays, arrays);
+  edgescout_options* one_template = NULL;
+  OK(es_options_create(EDGESCOUT_TEMPLATE_OPTIONS, &one_template));
+  OK(es_options_set(one_template, "viewpoints", "1"));
+  const edgescout_part what = {.struct_size = sizeof what,
+                               .mesh = scene.mesh,
+                               .backend = scene.backend,
+                               .options = one_template,
+                               .camera = scene.camera};
+  READ(part, what);
+  OK(es_free(one_template));
+  READ(view, scene.view);
+  READ(request, scene.request);
+  const edgescout_starts no_starts = {.struct_size = sizeof no_starts};
+  READ(starts, no_starts);
+  const edgescout_scout_plan valid_plan = example_plan(&scene);
+  READ(plan, valid_plan);
+  const edgescout_hemisphere rings = {.struct_size = sizeof rings, .radius_m = 1, .count = 8};
+  READ(hemisphere, rings);
+}
+
+/* Views of a newer header, one after the other. */
+static void expect_arrays_of_larger_structs(void) {
+  struct newer_view {
+    edgescout_view view;
+    size_t more;
+  } two[2] = {{scene.view, 0}, {scene.view, 0}};
+  const double same[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  for (int i = 0; i < 2; ++i) {
+    two[i].view.struct_size = sizeof *two;
+    two[i].view.camera_from_world = same;
+  }
+  const edgescout_limit soon = {.struct_size = sizeof soon, .max_seconds = 1e-9};
+  edgescout_request both = scene.request;
+  both.views = &two[0].view;
+  both.view_count = 2;
+  both.limit = &soon;
+  edgescout_detections* out = NULL;
+  OK(es_detect_jointly(&both, &out));
+  OK(es_free(out));
+  two[1].view.struct_size = sizeof two[1].view;
+  EXPECT(EDGESCOUT_WRONG_VERSION, es_detect_jointly(&both, &out));
+  SAYS("expected that of the first");
+}
+
+/* A change of these breaks programs that were compiled before: EDGESCOUT_ABI must then change. */
+static void expect_the_layout_of_this_abi(void) {
+  CHECK(EDGESCOUT_ABI == 0);
+  CHECK(sizeof(edgescout_limit) == 40 && sizeof(edgescout_option) == 88);
+  CHECK(sizeof(edgescout_device) == 536 && sizeof(edgescout_camera_model) == 184);
+  CHECK(sizeof(edgescout_image) == 48 && sizeof(edgescout_mesh_info) == 88);
+  CHECK(sizeof(edgescout_mesh_arrays) == 48 && sizeof(edgescout_part) == 88);
+  CHECK(sizeof(edgescout_templates_info) == 56 && sizeof(edgescout_view) == 32);
+  CHECK(sizeof(edgescout_request) == 56 && sizeof(edgescout_starts) == 32);
+  CHECK(sizeof(edgescout_detection) == 520 && sizeof(edgescout_alternative) == 144);
+  CHECK(sizeof(edgescout_stage) == 24 && sizeof(edgescout_summary) == 32);
+  CHECK(sizeof(edgescout_scout_plan) == 72 && sizeof(edgescout_proposal) == 144);
+  CHECK(sizeof(edgescout_expectation) == 48 && sizeof(edgescout_shot) == 40);
+  CHECK(sizeof(edgescout_scout_state) == 64 && sizeof(edgescout_scout_step) == 168);
+  CHECK(sizeof(edgescout_hemisphere) == 56);
+}
+
+void test_structs(void) {
+  expect_the_layout_of_this_abi();
+  open_scene(&scene);
+  OK(es_options_create(EDGESCOUT_DETECT_OPTIONS, &options));
+  const double start[16] = {1, 0, 0, -0.11, 0, 1, 0, 0.01, 0, 0, 1, 0.33, 0, 0, 0, 1};
+  const edgescout_starts one = {.struct_size = sizeof one, .world_from_object = start, .count = 1};
+  edgescout_request plain = scene.request;
+  plain.options = NULL;
+  OK(es_register(&plain, &one, &detections));
+  scout = example_scout(&scene);
+  expect_versions_of_filled();
+  expect_versions_of_read();
+  expect_arrays_of_larger_structs();
+  OK(es_free(scout));
+  OK(es_free(detections));
+  OK(es_free(options));
+  close_scene(&scene);
+}
