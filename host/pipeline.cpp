@@ -10,6 +10,14 @@
 
 namespace edgescout {
 
+void describe(PipelineOptions& o, OptionVisitor& visit) {
+  describe(o.edges, visit);
+  describe(o.tensor, visit);
+  describe(o.detect, visit);
+  describe(o.detect.scan.world, visit);
+  describe(o.detect.edge_claims, visit);
+}
+
 void PipelineOptions::validate() const {
   edges.validate();
   tensor.validate();

@@ -30,6 +30,10 @@ struct PipelineOptions {
   void validate() const;
 };
 
+// Every option of a detection, the one list for command line, bindings and bridges. The limit is
+// not among them: it holds for a call.
+void describe(PipelineOptions& options, OptionVisitor& visit);
+
 // Undistorts an image. The view has neither edges nor tensors yet. Needs no backend: it may run on
 // another thread while a backend is in use.
 ObjectView undistorted_view(const Image& image, const Camera& camera, const Se3& camera_from_world);

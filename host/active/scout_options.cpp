@@ -80,6 +80,17 @@ void describe_ablations(ScoutOptions& o, OptionVisitor& visit) {
                  o.detect_in_every_image);
 }
 
+void describe_scout(ScoutOptions& o, OptionVisitor& visit) {
+  describe_budget(o, visit);
+  describe_strategy(o.next_view, visit);
+  describe(o, visit);
+  describe(o.pipeline.edges, visit);
+  describe(o.pipeline.tensor, visit);
+  describe_search(o.pipeline.detect, visit);
+  describe(o.pipeline.detect.scan.world, visit);
+  describe(o.detections, visit);
+}
+
 void ScoutOptions::validate() const {
   combinations.validate();
   particles.validate();

@@ -79,8 +79,11 @@ struct ScoutOptions {
 
 // When the scout ends, and its first view.
 void describe_budget(ScoutOptions& options, OptionVisitor& visit);
-// The expected information and the belief. The pipeline and the detections have their own describe.
+// The expected information and the belief.
 void describe(ScoutOptions& options, OptionVisitor& visit);
+// Every option of a scout, the one list for command line, bindings and bridges: these, the strategy
+// and those of the pipeline and the detections.
+void describe_scout(ScoutOptions& options, OptionVisitor& visit);
 // Variants that the experiments compare with the defaults, of all parts.
 void describe_ablations(ScoutOptions& options, OptionVisitor& visit);
 

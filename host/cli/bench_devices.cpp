@@ -65,10 +65,7 @@ void add_bench_devices(CLI::App& bench, int& exit_code) {
             "Also time every kernel, against the device's copying speed (default)");
   CommandLineOptions add(*verb);
   describe(o.templates, add);
-  describe(o.pipeline.edges, add);
-  describe(o.pipeline.tensor, add);
-  describe(o.pipeline.detect, add);
-  describe(o.pipeline.detect.edge_claims, add);
+  describe(o.pipeline, add);
   verb->callback([request, verb, &exit_code] {
     run(*request, *verb);
     exit_code = exit_done;

@@ -75,11 +75,7 @@ void add_scale_camera(CLI::App& verb, bool& scale_camera) {
 void add_detection_options(CLI::App& verb, TemplateOptions& templates, PipelineOptions& pipeline) {
   CommandLineOptions add(verb);
   describe(templates, add);
-  describe(pipeline.edges, add);
-  describe(pipeline.tensor, add);
-  describe(pipeline.detect, add);
-  describe(pipeline.detect.scan.world, add);
-  describe(pipeline.detect.edge_claims, add);
+  describe(pipeline, add);
 }
 
 }  // namespace edgescout

@@ -224,23 +224,16 @@ void add_options(CLI::App& verb, ScoutRequest& r) {
             "Continue from DIR/scout.state, if it exists, with the same source and detection. "
             "Budget, next view and information may differ");
   CommandLineOptions add(verb);
-  describe_budget(r.options, add);
-  describe_strategy(r.options.next_view, add);
+  describe_scout(r.options, add);
   CLI::Option* sequence =
       verb.add_option("--sequence", r.sequence,
                       "Numbers of the views that strategy fixed takes, in order; default: all");
   sequence->group("Next view");
   mark_expert(verb, sequence);
-  describe(r.options, add);
   OptionTable(verb, "Belief", OptionLevel::Expert)
       .bounded("draws-seed", r.draws_seed, 0u, 4000000000u,
                "Seed of particles, combinations and the views of strategy random");
   describe(r.templates, add);
-  describe(r.options.pipeline.edges, add);
-  describe(r.options.pipeline.tensor, add);
-  describe_search(r.options.pipeline.detect, add);
-  describe(r.options.pipeline.detect.scan.world, add);
-  describe(r.options.detections, add);
 }
 
 }  // namespace

@@ -7,29 +7,6 @@
 
 namespace edgescout::python {
 
-namespace {
-
-void describe_detection(PipelineOptions& options, OptionVisitor& visit) {
-  describe(options.edges, visit);
-  describe(options.tensor, visit);
-  describe(options.detect, visit);
-  describe(options.detect.scan.world, visit);
-  describe(options.detect.edge_claims, visit);
-}
-
-void describe_scout(ScoutOptions& options, OptionVisitor& visit) {
-  describe_budget(options, visit);
-  describe_strategy(options.next_view, visit);
-  describe(options, visit);
-  describe(options.pipeline.edges, visit);
-  describe(options.pipeline.tensor, visit);
-  describe_search(options.pipeline.detect, visit);
-  describe(options.pipeline.detect.scan.world, visit);
-  describe(options.detections, visit);
-}
-
-}  // namespace
-
 void add_options(py::module_& module) {
   add_options_class<ImageOptions>(
       module, "ImageOptions",
@@ -45,12 +22,12 @@ void add_options(py::module_& module) {
       module, "DetectOptions",
       "Options of detection. Names are those of the command line with underscores; help() explains "
       "them.",
-      describe_detection);
+      [](PipelineOptions& options, OptionVisitor& visit) { describe(options, visit); });
   add_options_class<ScoutOptions>(
       module, "ScoutOptions",
       "Options of the scout. Names are those of the command line with underscores; help() explains "
       "them.",
-      describe_scout);
+      [](ScoutOptions& options, OptionVisitor& visit) { describe_scout(options, visit); });
 }
 
 }  // namespace edgescout::python
