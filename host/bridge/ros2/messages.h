@@ -16,8 +16,8 @@ struct Time {
 };
 
 struct Header {
-  Time stamp;
-  std::string frame_id;
+  Time stamp{};
+  std::string frame_id{};
 };
 
 struct Point {
@@ -30,33 +30,33 @@ struct Quaternion {
 };
 
 struct Pose {
-  Point position;
-  Quaternion orientation;
+  Point position{};
+  Quaternion orientation{};
 };
 
 struct PoseStamped {
-  Header header;
-  Pose pose;
+  Header header{};
+  Pose pose{};
 };
 
 struct PoseWithCovariance {
-  Pose pose;
+  Pose pose{};
   std::array<double, 36> covariance{};  // by row: x, y, z, rotations about the fixed axes x, y, z
 };
 
 struct Transform {
-  Vector3 translation;
-  Quaternion rotation;
+  Vector3 translation{};
+  Quaternion rotation{};
 };
 
 struct TransformStamped {
-  Header header;  // frame_id: the parent
-  std::string child_frame_id;
-  Transform transform;  // parent from child
+  Header header{};  // frame_id: the parent
+  std::string child_frame_id{};
+  Transform transform{};  // parent from child
 };
 
 struct TFMessage {
-  std::vector<TransformStamped> transforms;
+  std::vector<TransformStamped> transforms{};
 };
 
 struct ColorRGBA {
@@ -64,18 +64,18 @@ struct ColorRGBA {
 };
 
 struct Image {
-  Header header;
+  Header header{};
   std::uint32_t height = 0, width = 0;
-  std::string encoding;
+  std::string encoding{};
   std::uint8_t is_bigendian = 0;
   std::uint32_t step = 0;  // bytes of a row
-  std::vector<std::uint8_t> data;
+  std::vector<std::uint8_t> data{};
 };
 
 struct CompressedImage {
-  Header header;
-  std::string format;
-  std::vector<std::uint8_t> data;
+  Header header{};
+  std::string format{};
+  std::vector<std::uint8_t> data{};
 };
 
 struct RegionOfInterest {
@@ -84,71 +84,71 @@ struct RegionOfInterest {
 };
 
 struct CameraInfo {
-  Header header;
+  Header header{};
   std::uint32_t height = 0, width = 0;
-  std::string distortion_model;
-  std::vector<double> d;
+  std::string distortion_model{};
+  std::vector<double> d{};
   std::array<double, 9> k{}, r{};
   std::array<double, 12> p{};
   std::uint32_t binning_x = 0, binning_y = 0;
-  RegionOfInterest roi;
+  RegionOfInterest roi{};
 };
 
 struct KeyValue {
-  std::string key, value;
+  std::string key{}, value{};
 };
 
 struct DiagnosticStatus {
   std::uint8_t level = 0;  // 0 ok, 1 warning, 2 error, 3 stale
-  std::string name, message, hardware_id;
-  std::vector<KeyValue> values;
+  std::string name{}, message{}, hardware_id{};
+  std::vector<KeyValue> values{};
 };
 
 struct DiagnosticArray {
-  Header header;
-  std::vector<DiagnosticStatus> status;
+  Header header{};
+  std::vector<DiagnosticStatus> status{};
 };
 
 struct ObjectHypothesis {
-  std::string class_id;
+  std::string class_id{};
   double score = 0;
 };
 
 struct ObjectHypothesisWithPose {
-  ObjectHypothesis hypothesis;
-  PoseWithCovariance pose;
+  ObjectHypothesis hypothesis{};
+  PoseWithCovariance pose{};
 };
 
 struct BoundingBox3D {
-  Pose center;
-  Vector3 size;
+  Pose center{};
+  Vector3 size{};
 };
 
 struct Detection3D {
-  Header header;
-  std::vector<ObjectHypothesisWithPose> results;  // most probable first
-  BoundingBox3D bbox;
-  std::string id;
+  Header header{};
+  std::vector<ObjectHypothesisWithPose> results{};  // most probable first
+  BoundingBox3D bbox{};
+  std::string id{};
 };
 
 struct Detection3DArray {
-  Header header;
-  std::vector<Detection3D> detections;
+  Header header{};
+  std::vector<Detection3D> detections{};
 };
 
 // Textures and mesh files are left out: they are empty on the wire.
 struct Marker {
-  Header header;
-  std::string ns;
+  Header header{};
+  std::string ns{};
   std::int32_t id = 0, type = 0, action = 0;
-  Pose pose;
-  Vector3 scale;
-  ColorRGBA color;
-  std::vector<Point> points;
+  Pose pose{};
+  Vector3 scale{};
+  ColorRGBA color{};
+  std::vector<Point> points{};
 };
 
 struct MarkerArray {
-  std::vector<Marker> markers;
+  std::vector<Marker> markers{};
 };
 
 // Requests and results of the program's own, without what matches them to each other.
@@ -158,28 +158,28 @@ struct DetectRequest {
 };
 struct DetectResult {
   bool success = false;
-  std::string message;
-  Detection3DArray detections;
+  std::string message{};
+  Detection3DArray detections{};
 };
 
 struct CalibratedImage {
-  CameraInfo info;
-  Pose pose;  // of the camera in the world
-  Image image;
+  CameraInfo info{};
+  Pose pose{};  // of the camera in the world
+  Image image{};
 };
 struct PoseEstimate {
   std::uint64_t obj_id = 0;
   double score = 0;
-  Pose pose;
+  Pose pose{};
 };
 struct GetPoseEstimatesRequest {
-  std::vector<std::uint64_t> object_ids;
-  std::vector<CalibratedImage> cameras;
+  std::vector<std::uint64_t> object_ids{};
+  std::vector<CalibratedImage> cameras{};
 };
 struct GetPoseEstimatesResult {
   bool success = false;
-  std::string message;
-  std::vector<PoseEstimate> pose_estimates;
+  std::string message{};
+  std::vector<PoseEstimate> pose_estimates{};
 };
 
 struct ScoutProposeRequest {
@@ -187,30 +187,30 @@ struct ScoutProposeRequest {
 };
 struct ScoutProposeResult {
   bool success = false;
-  std::string message;
+  std::string message{};
   bool done = false;
-  std::string end;
+  std::string end{};
   std::int32_t view = -1;
-  PoseStamped camera_pose;
+  PoseStamped camera_pose{};
 };
 
 struct ScoutGiveRequest {
   std::int32_t view = 0;
   bool failed = false;
-  std::string reason;
+  std::string reason{};
 };
 struct ScoutGiveResult {
   bool success = false;
-  std::string message;
+  std::string message{};
 };
 
 struct ScoutStateRequest {};
 struct ScoutStateResult {
   bool success = false;
-  std::string message, end;
+  std::string message{}, end{};
   std::int32_t images = 0;
   double entropy_nats = 0;
-  Detection3DArray detections;
+  Detection3DArray detections{};
 };
 
 }  // namespace edgescout::ros2::msg

@@ -39,7 +39,7 @@ class FromWire {
     else
       fields(*this, plain, const_cast<Wire&>(wire));
   }
-  void operator()(std::string& plain, const char* wire) { plain = wire ? wire : ""; }
+  void operator()(std::string& plain, char* const& wire) { plain = wire ? wire : ""; }
   template <typename T, std::size_t N>
   void operator()(std::array<T, N>& plain, const T (&wire)[N]) {
     std::copy(wire, wire + N, plain.begin());
