@@ -13,10 +13,11 @@ namespace {
 
 // Loopback has no multicast: participants are asked one by one.
 constexpr char loopback_only[] =
-    "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
+    "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
     "<AllowMulticast>false</AllowMulticast></General>"
     "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32"
-    "</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery>";
+    "</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery>"
+    "</Domain></CycloneDDS>";
 
 dds_entity_t valid(dds_entity_t entity, const std::string& what, const std::string& expected) {
   if (entity < 0) throw InputError("DDS", what, dds_strretcode(entity), expected);
