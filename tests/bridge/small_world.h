@@ -6,10 +6,12 @@
 #include "host/bridge/ros2/bridge.h"
 #include "host/bridge/ros2/frames.h"
 #include "host/bridge/ros2/image_message.h"
+#include "host/io/mesh.h"
 #include "host/render/parts.h"
 #include "host/render/renderer.h"
 #include "kernels/thread_pool.h"
 #include "tests/bare_board.h"
+#include "tests/examples.h"
 
 namespace edgescout::ros2::test {
 
@@ -29,7 +31,9 @@ struct SmallWorld {
     options.in_plane_steps = 12;
     options.distance_min_m = 0.27;
     options.distance_max_m = 0.33;
-    sets.push_back(build_templates(parts[0], options, *backend));
+    const std::string file = edgescout::test::examples() / "parts/obj_000001.ply";
+    sets.push_back(
+        build_templates({1, load_mesh(file, LengthUnit::Millimetre), {}}, options, *backend));
   }
 
   const Image& image(std::size_t view = 0) const { return renderings[view].image; }
@@ -39,8 +43,10 @@ struct SmallWorld {
   // Few hits are followed; where the line of what is reported lies is fitted elsewhere.
   static PipelineOptions pipeline() {
     PipelineOptions options;
-    options.detect.coarse_poses = 600;
-    options.detect.min_probability = 0.1;
+    options.detect.coarse_poses = options.detect.coarse_poses_joint = 150;
+    options.detect.medium_poses = options.detect.medium_poses_joint = 30;
+    options.detect.candidates = 10;
+    options.detect.min_probability = 0.01;
     return options;
   }
 };
