@@ -1,5 +1,6 @@
 #include "host/bridge/ros2/bridge.h"
 
+#include <algorithm>
 #include <new>
 
 #include "host/bridge/ros2/frames.h"
@@ -89,7 +90,9 @@ void Bridge::take(const msg::TFMessage& transforms, bool is_static) {
 void Bridge::stop() { inbox_.stop(); }
 
 TimeLimit Bridge::limit_of(double max_seconds) const {
-  TimeLimit limit = max_seconds > 0 ? TimeLimit::after(max_seconds) : TimeLimit{};
+  constexpr double longest_s = 1e6;  // also of a request, which may hold any number
+  TimeLimit limit =
+      max_seconds > 0 ? TimeLimit::after(std::min(max_seconds, longest_s)) : TimeLimit{};
   limit.cancelled = [this] { return inbox_.is_stopped(); };
   return limit;
 }

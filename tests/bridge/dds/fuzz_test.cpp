@@ -47,6 +47,9 @@ struct FuzzedBridge {
   void take(const msg::GetPoseEstimatesRequest& m) {
     bridge.request(m, [this](const msg::GetPoseEstimatesResult&) { ++answers; });
   }
+  void take(const msg::DetectRequest& m) {
+    bridge.request(m, [this](const msg::DetectResult&) { ++answers; });
+  }
   void take(const msg::ScoutGiveRequest& m) {
     bridge.request(m, [this](const msg::ScoutGiveResult&) { ++answers; });
   }
@@ -145,18 +148,21 @@ TEST(Fuzz, WrongBytesEndNothing) {
       estimates(peer, "rq/eRequest", {{1}, {{tiny_info(), {}, image_message(tiny_image())}}});
   const FuzzedType<msg::ScoutGiveRequest, edgescout_msgs_msg_dds__ScoutGiveRequest_> give(
       peer, "rt/f", {0, true, "no path"});
+  const FuzzedType<msg::DetectRequest, edgescout_msgs_msg_dds__DetectRequest_> detect(peer, "rt/g",
+                                                                                      {0.5});
   FuzzedBridge fuzzed;
   fuzzed.bridge.take(tiny_info());
   Random random(3);
   long handed_over = 0;
   for (long i = 0; i < messages; ++i) {
     bool is_read = false;
-    switch (i % 6) {
+    switch (i % 7) {
       case 0: is_read = image.give_mutated(fuzzed, random); break;
       case 1: is_read = png_image.give_mutated(fuzzed, random); break;
       case 2: is_read = info.give_mutated(fuzzed, random); break;
       case 3: is_read = tf.give_mutated(fuzzed, random); break;
       case 4: is_read = estimates.give_mutated(fuzzed, random); break;
+      case 5: is_read = detect.give_mutated(fuzzed, random); break;
       default: is_read = give.give_mutated(fuzzed, random);
     }
     handed_over += is_read;
