@@ -84,10 +84,11 @@ struct Soak {
   }
 
   void print(double seconds, double mib, std::int64_t images) const {
-    std::printf("%6.0f s: %lld images sent, %zu answered, latency median %.1f ms, 99 %% %.1f ms, "
-                "memory %.1f MiB\n",
-                seconds, static_cast<long long>(images), latencies_ms.size(),
-                quantile(latencies_ms, 0.5), quantile(latencies_ms, 0.99), mib);
+    std::printf(
+        "%6.0f s: %lld images sent, %zu answered, latency median %.1f ms, 99 %% %.1f ms, "
+        "memory %.1f MiB\n",
+        seconds, static_cast<long long>(images), latencies_ms.size(), quantile(latencies_ms, 0.5),
+        quantile(latencies_ms, 0.99), mib);
     std::fflush(stdout);
   }
 };

@@ -48,8 +48,8 @@ struct PixelLayout {
   bool is_red_first = false;  // of 3 and 4; else blue is
   bool is_big_endian = false;
 };
-// The same of such pixels. The last row may lack its padding. InputError naming `source`: sides that
-// load_image refuses, rows that are shorter than their pixels, another number of bytes, other
+// The same of such pixels. The last row may lack its padding. InputError naming `source`: sides
+// that load_image refuses, rows that are shorter than their pixels, another number of bytes, other
 // channels.
 Image grey_image(std::span<const std::uint8_t> bytes, const PixelLayout& layout,
                  const std::string& source, const ImageOptions& options = {});

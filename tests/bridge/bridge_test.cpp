@@ -45,9 +45,7 @@ struct TestedBridge {
             },
             *small_world().backend, options, results) {}
 
-  void give_info(double seconds = 1) {
-    bridge.take(info_message(small_world().camera(), seconds));
-  }
+  void give_info(double seconds = 1) { bridge.take(info_message(small_world().camera(), seconds)); }
   void give_image(double seconds = 1, std::size_t view = 0) {
     bridge.take(ImageMessage(image_message(small_world().image(view), seconds)));
   }
@@ -230,8 +228,9 @@ TEST(Bridge, TooManyRequestsAreRefused) {
   TestedBridge tested;
   int refused = 0;
   for (int i = 0; i < 100; ++i) {
-    tested.bridge.request(msg::DetectRequest{},
-                          [&](const msg::DetectResult& r) { refused += holds(r.message, "too many"); });
+    tested.bridge.request(msg::DetectRequest{}, [&](const msg::DetectResult& r) {
+      refused += holds(r.message, "too many");
+    });
     tested.bridge.request(msg::ScoutStateRequest{}, [&](const msg::ScoutStateResult& r) {
       refused += holds(r.message, "too many");
     });
@@ -291,7 +290,8 @@ TEST(Bridge, PosesMayBeInTheWorld) {
   in_camera.give_info();
   in_camera.give_image(5);
   in_camera.bridge.work(0);
-  const msg::PoseWithCovariance& seen = in_camera.results.detections.at(0).detections.at(0).results[0].pose;
+  const msg::PoseWithCovariance& seen =
+      in_camera.results.detections.at(0).detections.at(0).results[0].pose;
   const msg::PoseWithCovariance& placed = found.detections[0].results[0].pose;
   const Se3 world_from_camera = inverse(small_world().camera_from_world());
   expect_same_pose(placed.pose, world_from_camera * pose_of(seen.pose, ""), 1e-9);
@@ -335,8 +335,8 @@ TEST(Bridge, EstimatesPosesOverSeveralCameras) {
   ASSERT_TRUE(answer.success) << answer.message;
   ASSERT_FALSE(answer.pose_estimates.empty());
   EXPECT_EQ(answer.pose_estimates[0].obj_id, 1u);
-  expect_same_pose(answer.pose_estimates[0].pose,
-                   small_world().scene.placed[0].world_from_object, 0.02);
+  expect_same_pose(answer.pose_estimates[0].pose, small_world().scene.placed[0].world_from_object,
+                   0.02);
   ask({{1}, {}});
   EXPECT_TRUE(holds(answer.message, "cameras: found none"));
   EXPECT_FALSE(answer.success);

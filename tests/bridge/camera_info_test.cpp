@@ -22,11 +22,13 @@ Camera read(const msg::CameraInfo& info, bool rectified = false) {
 TEST(CameraInfo, IsReadAsACalibrationFile) {
   msg::CameraInfo info = info_message(sensor());
   info.d = {-0.3, 0.1, 0.001, -0.002, 0.01};
-  const Camera of_file = cameras_in(
-      "image_width: 640\nimage_height: 480\ndistortion_model: plumb_bob\n"
-      "camera_matrix: {rows: 3, cols: 3, data: [700, 0, 320, 0, 710, 240, 0, 0, 1]}\n"
-      "distortion_coefficients: {rows: 1, cols: 5, data: [-0.3, 0.1, 0.001, -0.002, 0.01]}\n",
-      "file")[0].camera;
+  const Camera of_file =
+      cameras_in(
+          "image_width: 640\nimage_height: 480\ndistortion_model: plumb_bob\n"
+          "camera_matrix: {rows: 3, cols: 3, data: [700, 0, 320, 0, 710, 240, 0, 0, 1]}\n"
+          "distortion_coefficients: {rows: 1, cols: 5, data: [-0.3, 0.1, 0.001, -0.002, 0.01]}\n",
+          "file")[0]
+          .camera;
   EXPECT_TRUE(same_camera(read(info), of_file));
 }
 

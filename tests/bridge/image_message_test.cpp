@@ -93,11 +93,10 @@ TEST(ImageMessage, MosaicsAreThoseOfTheEncoding) {
     EXPECT_EQ(grey(mosaic).pixels, grey(plain, options).pixels) << encoding;
     EXPECT_NE(grey(mosaic).pixels, grey(plain).pixels) << encoding;
     // The pixels with their pattern in a file of image_transport's.
-    const msg::CompressedImage png{
-        {}, std::string(encoding) + "; png compressed ", [&] {
-          const std::string bytes = encode_png(grey(plain));
-          return std::vector<std::uint8_t>(bytes.begin(), bytes.end());
-        }()};
+    const msg::CompressedImage png{{}, std::string(encoding) + "; png compressed ", [&] {
+                                     const std::string bytes = encode_png(grey(plain));
+                                     return std::vector<std::uint8_t>(bytes.begin(), bytes.end());
+                                   }()};
     EXPECT_EQ(image_of(ImageMessage(png), "image").pixels, grey(mosaic).pixels) << encoding;
   }
 }
@@ -144,7 +143,8 @@ TEST(ImageMessage, RefusesWhatIsNoPicture) {
   };
   expect_input_error([&] { compressed("jpeg", {}); }, {"image: image: found an empty file"});
   expect_input_error([&] { compressed("jpeg", {1, 2, 3}); }, {"image", "no image decoder"});
-  expect_input_error([&] { compressed("16UC1; compressedDepth png", {1}); }, {"format", "distances"});
+  expect_input_error([&] { compressed("16UC1; compressedDepth png", {1}); },
+                     {"format", "distances"});
 }
 
 }  // namespace

@@ -38,10 +38,10 @@ TEST(RosArguments, ReadsAParameterFile) {
 TEST(RosArguments, LaterWordsCount) {
   const edgescout::test::TemporaryFolder folder;
   const std::string path = folder.write("p.yaml", file);
-  const RosArguments ros =
-      ros_arguments({"--unit", "mm", "--ros-args", "--params-file", path, "-p",
-                     "min_probability:=0.9", "-p", "center:=[0, 0.1, 2]", "-r", "__node:=finder",
-                     "-r", "image:=/cam/image_raw", "--remap", "__ns:=cell", "--", "--device", "cpu"});
+  const RosArguments ros = ros_arguments({"--unit", "mm", "--ros-args", "--params-file", path, "-p",
+                                          "min_probability:=0.9", "-p", "center:=[0, 0.1, 2]", "-r",
+                                          "__node:=finder", "-r", "image:=/cam/image_raw",
+                                          "--remap", "__ns:=cell", "--", "--device", "cpu"});
   EXPECT_EQ(ros.rest, (Words{"--unit", "mm", "--device", "cpu"}));
   EXPECT_EQ(ros.parameters.at("min_probability").values, Words{"0.9"});
   EXPECT_EQ(ros.parameters.at("center").values, (Words{"0", "0.1", "2"}));
@@ -65,8 +65,11 @@ TEST(RosArguments, RefusesOtherWords) {
   expect_input_error([] { ros_arguments({"--ros-args", "-x", "y"}); }, {"--ros-args: found -x"});
   expect_input_error([] { ros_arguments({"--ros-args", "-p"}); }, {"-p: found nothing after it"});
   expect_input_error([] { ros_arguments({"--ros-args", "-p", "a=3"}); }, {"found a=3", ":="});
-  expect_input_error([] { ros_arguments({"--ros-args", "--params-file", "none.yaml"}); },
-                     {"none.yaml"});
+  expect_input_error(
+      [] {
+        ros_arguments({"--ros-args", "--params-file", "none.yaml"});
+      },
+      {"none.yaml"});
   Parameters parameters;
   const auto add = [&](const std::string& text) {
     return [&parameters, text] { add_parameters(text, "f.yaml", "edgescout", parameters); };
@@ -75,7 +78,8 @@ TEST(RosArguments, RefusesOtherWords) {
   expect_input_error(add("- 1"), {"f.yaml: file: found no sections"});
   expect_input_error(add("/**: {a: 1}"), {"f.yaml: /**: found no map ros__parameters"});
   expect_input_error(add("/**: 3"), {"f.yaml: /**"});
-  expect_input_error(add("/**: {ros__parameters: {a: [[1]]}}"), {"f.yaml: a: found a list of lists"});
+  expect_input_error(add("/**: {ros__parameters: {a: [[1]]}}"),
+                     {"f.yaml: a: found a list of lists"});
   expect_input_error(add("/**: {ros__parameters: {a: []}}"), {"f.yaml: a: found no value"});
   expect_input_error(add("/**: {ros__parameters: {a: }}"), {"f.yaml: a: found no value"});
 }

@@ -13,9 +13,7 @@ namespace {
 
 using edgescout::test::expect_input_error;
 
-Se3 pose(double x, double turn_rad) {
-  return {so3_exp({0, 0, turn_rad}), {x, 0, 0.5}};
-}
+Se3 pose(double x, double turn_rad) { return {so3_exp({0, 0, turn_rad}), {x, 0, 0.5}}; }
 
 msg::Time at(double seconds) { return header_at(seconds).stamp; }
 
@@ -47,8 +45,7 @@ TEST(TfBuffer, FollowsTheTreeBothWays) {
   const Se3 world_from_camera = pose(1, 0.3) * pose(2, 1) * pose(0.1, 0.2);
   expect_same(arm.tf.lookup("world", "camera", at(11)), world_from_camera);
   expect_same(arm.tf.lookup("camera", "world", at(11)), inverse(world_from_camera));
-  expect_same(arm.tf.lookup("table", "camera", at(11)),
-              inverse(pose(-1, 2)) * world_from_camera);
+  expect_same(arm.tf.lookup("table", "camera", at(11)), inverse(pose(-1, 2)) * world_from_camera);
   expect_same(arm.tf.lookup("/camera", "camera", at(3)), Se3{});
   expect_same(arm.tf.lookup("world", "table", at(99)), pose(-1, 2));  // static alone: any time
 }

@@ -100,8 +100,7 @@ TimeLimit Bridge::limit_of(double max_seconds) const {
 template <typename Result, typename Work>
 void Bridge::add_job(const Answer<Result>& answer, const Work& work) {
   const bool is_taken = inbox_.put([answer, work] {
-    guarded([&] { answer(work()); },
-            [&](const std::string& why) { answer(failure<Result>(why)); });
+    guarded([&] { answer(work()); }, [&](const std::string& why) { answer(failure<Result>(why)); });
   });
   if (!is_taken) answer(failure<Result>(too_many));
 }
@@ -137,9 +136,8 @@ void Bridge::request(const msg::ScoutGiveRequest& request, Answer<msg::ScoutGive
     answer(failure<msg::ScoutGiveResult>(why));
   };
   const auto on_image = [this, answer, fail, request](const TakenImage& image) {
-    guarded(
-        [&] { answer(scout_.give(request, image, inverse(world_from_camera(image.header)))); },
-        fail);
+    guarded([&] { answer(scout_.give(request, image, inverse(world_from_camera(image.header)))); },
+            fail);
   };
   if (!inbox_.put({on_image, fail, {}, 0}, options_.request_seconds)) fail(too_many);
 }
@@ -297,11 +295,11 @@ msg::GetPoseEstimatesResult Bridge::estimate(const msg::GetPoseEstimatesRequest&
     Image image = image_of(ImageMessage(given.image), source, options_.images);
     Camera camera = camera_of(given.info, options_.rectified, source);
     camera.field_of_view_rad = options_.field_of_view_rad;
-    camera =
-        camera_for_image(camera, image.width, image.height, options_.scale_camera, source);
+    camera = camera_for_image(camera, image.width, image.height, options_.scale_camera, source);
     views.push_back({std::move(image), camera, inverse(pose_of(given.pose, source))});
   }
-  const Detections found = search_.in_views(views, request.object_ids, limit_of(options_.max_seconds));
+  const Detections found =
+      search_.in_views(views, request.object_ids, limit_of(options_.max_seconds));
   msg::GetPoseEstimatesResult result{true, "", {}};
   if (found.completion != Completion::Complete) result.message = to_string(found.completion);
   for (const Detection& detection : found.detections)

@@ -10,9 +10,9 @@ void describe(BridgeOptions& o, OptionVisitor& visit) {
               "Images are rectified: their camera is P of CameraInfo, without a lens (image_rect)",
               OptionLevel::Basic},
              o.rectified);
-  visit.flag({"on-request", "Detect when a request asks for it, not in every image",
-              OptionLevel::Basic},
-             o.on_request);
+  visit.flag(
+      {"on-request", "Detect when a request asks for it, not in every image", OptionLevel::Basic},
+      o.on_request);
   visit.choice({"without-camera",
                 "What becomes of images while no CameraInfo fits them. wait: the newest one waits "
                 "for it; drop: all are dropped"},

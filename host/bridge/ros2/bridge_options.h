@@ -19,7 +19,7 @@ struct BridgeOptions {
   std::string node = "edgescout";
   PipelineOptions pipeline;
   ImageOptions images;
-  double max_seconds = 0;       // of each image; 0: no limit
+  double max_seconds = 0;        // of each image; 0: no limit
   std::optional<Camera> camera;  // in place of CameraInfo
   std::string camera_file;       // where it stands
   double field_of_view_rad = 0;

@@ -85,9 +85,9 @@ void CameraInfos::add(const msg::CameraInfo& info) {
 
 const msg::CameraInfo* CameraInfos::for_image(const msg::Header& image) const {
   if (infos_.empty()) return nullptr;
-  const auto same_time = std::find_if(
-      infos_.rbegin(), infos_.rend(),
-      [&](const msg::CameraInfo& info) { return info.header.stamp == image.stamp; });
+  const auto same_time =
+      std::find_if(infos_.rbegin(), infos_.rend(),
+                   [&](const msg::CameraInfo& info) { return info.header.stamp == image.stamp; });
   return same_time == infos_.rend() ? &infos_.back() : &*same_time;
 }
 

@@ -24,9 +24,9 @@ std::array<double, 36> numbers_of(const Matrix6d& covariance) {
 msg::Detection3D message_of(const msg::Header& header, const Detection& detection,
                             const std::string& name, const Mesh& mesh) {
   msg::Detection3D message{.header = header};
-  message.results.push_back({{name, detection.probability},
-                             {ros2::message_of(detection.world_from_object),
-                              numbers_of(detection.covariance)}});
+  message.results.push_back(
+      {{name, detection.probability},
+       {ros2::message_of(detection.world_from_object), numbers_of(detection.covariance)}});
   for (const AlternativePose& other : detection.alternatives)
     message.results.push_back(
         {{name, other.probability}, {ros2::message_of(other.world_from_object), {}}});

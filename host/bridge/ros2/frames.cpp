@@ -52,7 +52,8 @@ std::string text_of(const msg::Time& stamp) {
 std::string shown(const std::string& text) {
   constexpr std::size_t longest = 80;
   std::string line = text.substr(0, longest);
-  std::ranges::replace_if(line, [](unsigned char c) { return c < 0x20 || c >= 0x7f; }, '?');
+  std::ranges::replace_if(
+      line, [](unsigned char c) { return c < 0x20 || c >= 0x7f; }, '?');
   return line.empty() ? "an empty name" : line;
 }
 

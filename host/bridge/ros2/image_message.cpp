@@ -51,7 +51,6 @@ constexpr Encoding encodings[] = {
     {"16UC4", 4, 2},
 };
 
-
 std::optional<Encoding> encoding_named(const std::string& name) {
   const auto found = std::ranges::find_if(
       encodings, [&](const Encoding& encoding) { return encoding.name == name; });

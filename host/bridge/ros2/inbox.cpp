@@ -120,12 +120,10 @@ Inbox::Work Inbox::next(double seconds) {
   } else if (is_image_ready()) {
     work.image = std::move(newest_);
     newest_.reset();
-    take(work.for_image, [&](const ImageRequest& request) {
-      return request.after < work.image->number;
-    });
+    take(work.for_image,
+         [&](const ImageRequest& request) { return request.after < work.image->number; });
   }
-  take(work.expired,
-       [](const ImageRequest& request) { return request.deadline <= Clock::now(); });
+  take(work.expired, [](const ImageRequest& request) { return request.deadline <= Clock::now(); });
   return work;
 }
 

@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 struct ArrivedImage {
   ImageMessage message;
   Clock::time_point time;
-  std::uint64_t number = 0;          // in the order of arrival
+  std::uint64_t number = 0;           // in the order of arrival
   std::uint64_t not_before_info = 0;  // worked on once so many calibrations have arrived
 };
 

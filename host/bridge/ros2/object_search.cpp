@@ -40,9 +40,8 @@ const ObjectSearch::Chosen& ObjectSearch::chosen(std::span<const std::uint64_t> 
   for (const TemplateSet& set : sets_)
     known += (known.empty() ? "" : ", ") + std::to_string(set.object_id);
   for (const std::uint64_t id : object_ids)
-    if (std::ranges::none_of(sets_, [&](const TemplateSet& set) {
-          return std::uint64_t(set.object_id) == id;
-        }))
+    if (std::ranges::none_of(
+            sets_, [&](const TemplateSet& set) { return std::uint64_t(set.object_id) == id; }))
       throw InputError("request", "object_ids", std::to_string(id), "one of " + known);
   for (std::size_t i = 0; i < sets_.size(); ++i)
     if (std::ranges::find(object_ids, std::uint64_t(sets_[i].object_id)) != object_ids.end()) {

@@ -31,14 +31,15 @@ RosArguments ros_arguments(const std::vector<std::string>& arguments);
 void add_parameters(const std::string& text, const std::string& source, const std::string& node,
                     Parameters& parameters);
 
-// The whole name of a topic or service, after the renaming of the command line: "image" -> "/image",
+// The whole name of a topic or service, after the renaming of the command line: "image" ->
+// "/image",
 // "~/detections" -> "/edgescout/detections".
 std::string full_name(const std::string& name, const RosArguments& arguments);
 // Of another topic in the same place: "/camera/image_raw" -> "/camera/camera_info".
 std::string beside(const std::string& topic, const std::string& name);
 
-// The parameters as arguments of the command line: {"--min-probability", "0.3"}. Those that stand in
-// `given` are left out. `prefix`: of those that are meant ("scout."), which they lose.
+// The parameters as arguments of the command line: {"--min-probability", "0.3"}. Those that stand
+// in `given` are left out. `prefix`: of those that are meant ("scout."), which they lose.
 std::vector<std::string> options_of(const Parameters& parameters, const std::string& prefix,
                                     const std::vector<std::string>& given);
 

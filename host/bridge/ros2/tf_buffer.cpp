@@ -33,8 +33,7 @@ Se3 interpolated(const std::map<std::int64_t, Se3>& poses, std::int64_t stamp_ns
                      "a time from " + text_of(time_of(poses.begin()->first)) + " to " +
                          text_of(time_of(poses.rbegin()->first)) + " s");
   const auto before = std::prev(after);
-  const double share =
-      double(stamp_ns - before->first) / double(after->first - before->first);
+  const double share = double(stamp_ns - before->first) / double(after->first - before->first);
   return between(before->second, after->second, share);
 }
 
@@ -91,9 +90,8 @@ void TfBuffer::drop_old(Link& link, std::int64_t stamp_ns) const {
 }
 
 bool TfBuffer::is_known(const std::string& frame) const {
-  return links_.contains(frame) || std::ranges::any_of(links_, [&](const auto& link) {
-           return link.second.parent == frame;
-         });
+  return links_.contains(frame) ||
+         std::ranges::any_of(links_, [&](const auto& link) { return link.second.parent == frame; });
 }
 
 void TfBuffer::require_known(const std::string& frame) const {

@@ -7,10 +7,10 @@
 
 #include "dds/ddsi/ddsi_serdata.h"
 #include "host/bridge/ros2/dds/dds_node.h"
-#include "tests/bridge/dds/dds_peer.h"
-#include "tests/bridge/small_world.h"
 #include "host/core/random.h"
 #include "kernels/error.h"
+#include "tests/bridge/dds/dds_peer.h"
+#include "tests/bridge/small_world.h"
 
 namespace edgescout::ros2::test {
 
@@ -157,13 +157,26 @@ TEST(Fuzz, WrongBytesEndNothing) {
   for (long i = 0; i < messages; ++i) {
     bool is_read = false;
     switch (i % 7) {
-      case 0: is_read = image.give_mutated(fuzzed, random); break;
-      case 1: is_read = png_image.give_mutated(fuzzed, random); break;
-      case 2: is_read = info.give_mutated(fuzzed, random); break;
-      case 3: is_read = tf.give_mutated(fuzzed, random); break;
-      case 4: is_read = estimates.give_mutated(fuzzed, random); break;
-      case 5: is_read = detect.give_mutated(fuzzed, random); break;
-      default: is_read = give.give_mutated(fuzzed, random);
+      case 0:
+        is_read = image.give_mutated(fuzzed, random);
+        break;
+      case 1:
+        is_read = png_image.give_mutated(fuzzed, random);
+        break;
+      case 2:
+        is_read = info.give_mutated(fuzzed, random);
+        break;
+      case 3:
+        is_read = tf.give_mutated(fuzzed, random);
+        break;
+      case 4:
+        is_read = estimates.give_mutated(fuzzed, random);
+        break;
+      case 5:
+        is_read = detect.give_mutated(fuzzed, random);
+        break;
+      default:
+        is_read = give.give_mutated(fuzzed, random);
     }
     handed_over += is_read;
     while (fuzzed.bridge.work(0)) continue;

@@ -25,9 +25,11 @@ using edgescout::test::part_file;
 
 // The options of SmallWorld.
 std::vector<std::string> bracket(const std::vector<std::string>& more = {}) {
-  return joined({{"--model", part_file(1), "--unit", "mm", "--device", "cpu", "--viewpoints", "3",
-                  "--in-plane-steps", "12", "--distance-min", "0.27", "--distance-max", "0.33",
-                  "--coarse-poses", "150", "--medium-poses", "30", "--candidates", "10",
+  return joined({{"--model",           part_file(1), "--unit",         "mm",
+                  "--device",          "cpu",        "--viewpoints",   "3",
+                  "--in-plane-steps",  "12",         "--distance-min", "0.27",
+                  "--distance-max",    "0.33",       "--coarse-poses", "150",
+                  "--medium-poses",    "30",         "--candidates",   "10",
                   "--min-probability", "0.01"},
                  more});
 }
@@ -35,8 +37,8 @@ std::vector<std::string> bracket(const std::vector<std::string>& more = {}) {
 // A camera on DDS, and what the program sends.
 struct CameraPeer : Peer {
   DdsWriter image = writer<sensor_msgs_msg_dds__Image_>("rt/image", {.is_reliable = false}),
-            info = writer<sensor_msgs_msg_dds__CameraInfo_>("rt/camera_info",
-                                                            {.is_reliable = false});
+            info =
+                writer<sensor_msgs_msg_dds__CameraInfo_>("rt/camera_info", {.is_reliable = false});
   std::vector<msg::Detection3DArray> detections;
   std::optional<msg::DiagnosticStatus> status;
 
@@ -49,14 +51,14 @@ struct CameraPeer : Peer {
         [this](const auto& wire) { status = plain_of<msg::DiagnosticArray>(wire).status.at(0); });
   }
   void send(double seconds) {
-    write<sensor_msgs_msg_dds__CameraInfo_>(info,
-                                            info_message(small_world().camera(), seconds));
+    write<sensor_msgs_msg_dds__CameraInfo_>(info, info_message(small_world().camera(), seconds));
     write<sensor_msgs_msg_dds__Image_>(image, image_message(small_world().image(), seconds));
   }
   std::string diagnostics() const {
     std::string text = status ? status->message : "no diagnostics";
     if (status)
-      for (const msg::KeyValue& value : status->values) text += "\n  " + value.key + ": " + value.value;
+      for (const msg::KeyValue& value : status->values)
+        text += "\n  " + value.key + ": " + value.value;
     return text + "\n";
   }
   // Sends images until one is answered.
@@ -75,7 +77,8 @@ struct CameraPeer : Peer {
   }
 };
 
-// A client of a service as rmw_cyclonedds makes it: the payload begins with the client and a number.
+// A client of a service as rmw_cyclonedds makes it: the payload begins with the client and a
+// number.
 template <typename RequestWire, typename ResultWire>
 struct Client {
   DdsWriter requests;
@@ -104,11 +107,11 @@ std::vector<std::array<double, 8>> found_by_command_line(const TemporaryFolder& 
                                                          const std::filesystem::path& image) {
   const Camera camera = small_world().camera();
   const std::string calibration = folder.write(
-      "camera.yaml",
-      "image_width: " + std::to_string(camera.width) + "\nimage_height: " +
-          std::to_string(camera.height) + "\ncamera_matrix: {rows: 3, cols: 3, data: [" +
-          std::to_string(camera.fx) + ", 0, " + std::to_string(camera.cx) + ", 0, " +
-          std::to_string(camera.fy) + ", " + std::to_string(camera.cy) + ", 0, 0, 1]}\n");
+      "camera.yaml", "image_width: " + std::to_string(camera.width) +
+                         "\nimage_height: " + std::to_string(camera.height) +
+                         "\ncamera_matrix: {rows: 3, cols: 3, data: [" + std::to_string(camera.fx) +
+                         ", 0, " + std::to_string(camera.cx) + ", 0, " + std::to_string(camera.fy) +
+                         ", " + std::to_string(camera.cy) + ", 0, 0, 1]}\n");
   const std::string out = folder.path() / "out";
   const edgescout::test::Outcome outcome = edgescout::test::run_program(
       joined({{"detect", image.string(), "--camera", calibration, "--out", out}, bracket()}));
@@ -118,8 +121,8 @@ std::vector<std::array<double, 8>> found_by_command_line(const TemporaryFolder& 
        load_image_result(folder.path() / "out" / (image.stem().string() + ".json")).detections) {
     const Se3& pose = d.world_from_object;
     rows.push_back({d.probability, pose.translation_m.x(), pose.translation_m.y(),
-                    pose.translation_m.z(), pose.rotation.x(), pose.rotation.y(),
-                    pose.rotation.z(), pose.rotation.w()});
+                    pose.translation_m.z(), pose.rotation.x(), pose.rotation.y(), pose.rotation.z(),
+                    pose.rotation.w()});
   }
   return rows;
 }
@@ -134,8 +137,8 @@ void expect_same(const std::array<double, 8>& a, const std::array<double, 8>& b)
 TEST(Program, AnswersTopicsAndServices) {
   RunningProgram program(bracket());
   CameraPeer peer;
-  using Detect = Client<edgescout_msgs_srv_dds__Detect_Request_,
-                        edgescout_msgs_srv_dds__Detect_Response_>;
+  using Detect =
+      Client<edgescout_msgs_srv_dds__Detect_Request_, edgescout_msgs_srv_dds__Detect_Response_>;
   using State = Client<edgescout_msgs_srv_dds__ScoutState_Request_,
                        edgescout_msgs_srv_dds__ScoutState_Response_>;
   Detect detect(peer, "/edgescout/detect");
@@ -147,8 +150,7 @@ TEST(Program, AnswersTopicsAndServices) {
 
   detect.ask({}, 0xabcdef0123456789, 41);
   state.ask({}, 7, 8);
-  ASSERT_TRUE(peer.send_until(
-      [&] { return !detect.answered.empty() && !state.answered.empty(); }))
+  ASSERT_TRUE(peer.send_until([&] { return !detect.answered.empty() && !state.answered.empty(); }))
       << peer.diagnostics();
   EXPECT_EQ(detect.answered[0], std::pair(std::uint64_t(0xabcdef0123456789), std::int64_t(41)));
   EXPECT_TRUE(detect.detections.at(0).success) << detect.messages[0];
@@ -239,10 +241,12 @@ TEST(Program, RefusesWrongRequestsInOneLine) {
   const Refusal refusals[] = {
       {bracket({"--ros-args", "--params-file", file}),
        {"p.yaml: minimum_probability: found an unknown parameter"}},
-      {bracket({"--ros-args", "--params-file", scout}), {"s.yaml: scout.max_view: found an unknown"}},
+      {bracket({"--ros-args", "--params-file", scout}),
+       {"s.yaml: scout.max_view: found an unknown"}},
       {{"--model", part_file(1), "--unit", "mm", "--ros-args", "--params-file", value},
        {"--candidates", "found 0, expected 1 to"}},
-      {bracket({"--ros-args", "-p", "tpyo:=1"}), {"command line: tpyo: found an unknown parameter"}},
+      {bracket({"--ros-args", "-p", "tpyo:=1"}),
+       {"command line: tpyo: found an unknown parameter"}},
       {{}, {"--model, --templates: found neither"}},
       {{"--model", "none.ply", "--unit", "mm"}, {"none.ply"}},
       {bracket({"--views", "none.json"}), {"none.json"}},
@@ -261,6 +265,15 @@ TEST(Program, RefusesWrongRequestsInOneLine) {
   const std::string log = program.log();
   EXPECT_TRUE(log.starts_with("edgescout_ros2: error: ")) << log;
   EXPECT_EQ(std::ranges::count(log, '\n'), 1) << log;
+}
+
+TEST(Program, TheExampleOfParametersIsOne) {
+  ProgramOptions options;
+  const std::string file = edgescout::test::examples() / "ros2/parameters.yaml";
+  EXPECT_EQ(read_options({"--ros-args", "--params-file", file}, options), "");
+  EXPECT_EQ(options.bridge.scout.max_views, 4);
+  EXPECT_EQ(options.templates.distance_min_m, 0.3);
+  EXPECT_NE(read_options({"--help"}, options).find("--on-request"), std::string::npos);
 }
 
 // Parameters mean what the options mean; the help lists them.

@@ -1,6 +1,6 @@
 // A camera and a reader of detections on Fast DDS, which shares no code with Cyclone DDS.
-//   fastdds_peer detect IMAGE.pgm FX FY CX CY     prints "score x y z qx qy qz qw" of each detection
-//   fastdds_peer mutate IMAGE.pgm COUNT SEED      sends messages with wrong bytes
+//   fastdds_peer detect IMAGE.pgm FX FY CX CY     prints "score x y z qx qy qz qw" of each
+//   detection fastdds_peer mutate IMAGE.pgm COUNT SEED      sends messages with wrong bytes
 // Domain: ROS_DOMAIN_ID. Only the loopback interface is used.
 #include <algorithm>
 #include <atomic>
@@ -20,6 +20,7 @@
 
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
+#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/publisher/DataWriter.hpp>
@@ -30,7 +31,6 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/dds/topic/TypeSupport.hpp>
-#include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 
 namespace {
 
@@ -263,7 +263,9 @@ int detect(const Picture& picture, const std::array<double, 4>& intrinsics) {
 
 // Wrong bytes, wrong lengths, or another encoding.
 void mutate(Bytes& bytes, std::mt19937& random) {
-  const auto below = [&](std::size_t end) { return std::size_t(random() % std::max<std::size_t>(end, 1)); };
+  const auto below = [&](std::size_t end) {
+    return std::size_t(random() % std::max<std::size_t>(end, 1));
+  };
   for (std::size_t changes = 1 + below(4); changes > 0; --changes) switch (below(5)) {
       case 0:
         if (!bytes.empty()) bytes[below(bytes.size())] = char(random());
@@ -283,7 +285,8 @@ void mutate(Bytes& bytes, std::mt19937& random) {
         if (bytes.size() > 1) bytes[1] = char(below(12));
         break;
       default:
-        bytes.insert(bytes.begin() + std::ptrdiff_t(below(bytes.size())), below(100), char(random()));
+        bytes.insert(bytes.begin() + std::ptrdiff_t(below(bytes.size())), below(100),
+                     char(random()));
     }
 }
 
@@ -330,8 +333,8 @@ int send_mutated(const Picture& picture, long count, unsigned seed) {
 int main(int argc, char** argv) {
   const std::string verb = argc > 2 ? argv[1] : "";
   if (verb == "detect" && argc == 7)
-    return detect(read_pgm(argv[2]), {std::atof(argv[3]), std::atof(argv[4]), std::atof(argv[5]),
-                                      std::atof(argv[6])});
+    return detect(read_pgm(argv[2]),
+                  {std::atof(argv[3]), std::atof(argv[4]), std::atof(argv[5]), std::atof(argv[6])});
   if (verb == "mutate" && argc == 5)
     return send_mutated(read_pgm(argv[2]), std::atol(argv[3]), unsigned(std::atol(argv[4])));
   std::fprintf(stderr, "usage: %s detect IMAGE.pgm FX FY CX CY | mutate IMAGE.pgm COUNT SEED\n",

@@ -65,10 +65,10 @@ struct ScoutStateWires {
 }  // namespace
 
 ResultTopics::ResultTopics(DdsNode& node, const RosArguments& ros)
-    : detections_(node.writer<vision_msgs_msg_dds__Detection3DArray_>(topic("~/detections", ros),
-                                                                      results)),
-      markers_(node.writer<visualization_msgs_msg_dds__MarkerArray_>(topic("~/markers", ros),
-                                                                     pictures)),
+    : detections_(
+          node.writer<vision_msgs_msg_dds__Detection3DArray_>(topic("~/detections", ros), results)),
+      markers_(
+          node.writer<visualization_msgs_msg_dds__MarkerArray_>(topic("~/markers", ros), pictures)),
       overlay_(node.writer<sensor_msgs_msg_dds__Image_>(topic("~/overlay", ros), pictures)),
       tf_(node.writer<tf2_msgs_msg_dds__TFMessage_>(topic("/tf", ros), transforms)),
       diagnostics_(node.writer<diagnostic_msgs_msg_dds__DiagnosticArray_>(
@@ -103,11 +103,11 @@ void InputTopics::add_images(const TopicOptions& options) {
   qos.is_reliable = options.is_image_reliable;
   const std::string image = full_name("image", ros_) + (options.is_compressed ? "/compressed" : "");
   if (options.is_compressed)
-    inputs_["image topic"] = {image, node_.subscribe<sensor_msgs_msg_dds__CompressedImage_>(
-                                         "rt" + image, qos, [this](const auto& wire) {
-                                           bridge_.take(ImageMessage(
-                                               plain_of<msg::CompressedImage>(wire)));
-                                         })};
+    inputs_["image topic"] = {
+        image, node_.subscribe<sensor_msgs_msg_dds__CompressedImage_>(
+                   "rt" + image, qos, [this](const auto& wire) {
+                     bridge_.take(ImageMessage(plain_of<msg::CompressedImage>(wire)));
+                   })};
   else
     inputs_["image topic"] = {image, node_.subscribe<sensor_msgs_msg_dds__Image_>(
                                          "rt" + image, qos, [this](const auto& wire) {
@@ -116,10 +116,10 @@ void InputTopics::add_images(const TopicOptions& options) {
   const std::string info = ros_.names.contains("camera_info")
                                ? full_name("camera_info", ros_)
                                : beside(full_name("image", ros_), "camera_info");
-  inputs_["camera_info topic"] = {
-      info, node_.subscribe<sensor_msgs_msg_dds__CameraInfo_>(
-                "rt" + info, qos,
-                [this](const auto& wire) { bridge_.take(plain_of<msg::CameraInfo>(wire)); })};
+  inputs_["camera_info topic"] = {info, node_.subscribe<sensor_msgs_msg_dds__CameraInfo_>(
+                                            "rt" + info, qos, [this](const auto& wire) {
+                                              bridge_.take(plain_of<msg::CameraInfo>(wire));
+                                            })};
 }
 
 void InputTopics::add_transforms() {
@@ -147,8 +147,7 @@ template <typename Request, typename Result, typename Wires>
 void InputTopics::add_request(const std::string& name) {
   add_service<Request, Result, typename Wires::ServiceRequest, typename Wires::ServiceResult>(
       full_name(name, ros_));
-  add_pair<Request, Result, typename Wires::Request, typename Wires::Result>(
-      full_name(name, ros_));
+  add_pair<Request, Result, typename Wires::Request, typename Wires::Result>(full_name(name, ros_));
 }
 
 template <typename Request, typename Result, typename RequestWire, typename ResultWire>
@@ -195,9 +194,10 @@ void InputTopics::check() const {
                                        " publishers, expected one: their messages mix");
     } else {
       const std::uint32_t apart = input.reader.incompatible_writers();
-      diagnostics.problem(
-          subject, apart == 0 ? input.name + ": found no publisher, expected one"
-                              : input.name + ": found publishers of sensor data only, expected a "
+      diagnostics.problem(subject, apart == 0
+                                       ? input.name + ": found no publisher, expected one"
+                                       : input.name +
+                                             ": found publishers of sensor data only, expected a "
                                              "reliable one, or image_qos: sensor_data");
     }
     diagnostics.set(subject + ", messages lost by the network",

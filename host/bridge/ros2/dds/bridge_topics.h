@@ -11,7 +11,7 @@
 namespace edgescout::ros2 {
 
 struct TopicOptions {
-  bool is_compressed = false;     // of the images: IMAGE/compressed in place of IMAGE
+  bool is_compressed = false;      // of the images: IMAGE/compressed in place of IMAGE
   bool is_image_reliable = false;  // false: sensor data
 };
 

@@ -13,7 +13,8 @@ namespace {
 
 // Loopback has no multicast: participants are asked one by one.
 constexpr char loopback_only[] =
-    "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
+    "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"lo\" "
+    "multicast=\"false\"/></Interfaces>"
     "<AllowMulticast>false</AllowMulticast></General>"
     "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32"
     "</MaxAutoParticipantIndex><Peers><Peer address=\"127.0.0.1\"/></Peers></Discovery>"
@@ -27,11 +28,11 @@ dds_entity_t valid(dds_entity_t entity, const std::string& what, const std::stri
 std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> qos_of(const Qos& qos) {
   std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> made(dds_create_qos(), &dds_delete_qos);
   constexpr std::int64_t longest_block_ms = 100;
-  dds_qset_reliability(
-      made.get(), qos.is_reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
-      DDS_MSECS(longest_block_ms));
-  dds_qset_durability(
-      made.get(), qos.is_transient_local ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+  dds_qset_reliability(made.get(),
+                       qos.is_reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
+                       DDS_MSECS(longest_block_ms));
+  dds_qset_durability(made.get(), qos.is_transient_local ? DDS_DURABILITY_TRANSIENT_LOCAL
+                                                         : DDS_DURABILITY_VOLATILE);
   dds_qset_history(made.get(), DDS_HISTORY_KEEP_LAST, qos.depth);
   dds_qset_writer_data_lifecycle(made.get(), false);
   return made;
@@ -94,8 +95,7 @@ DdsReader DdsNode::make_reader(const dds_topic_descriptor_t& type, const std::st
             topic, "a reader");
   subscriptions_.push_back(std::make_unique<Subscription>(reader, std::move(handle)));
   dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS);
-  dds_waitset_attach(waitset_, reader,
-                     reinterpret_cast<dds_attach_t>(subscriptions_.back().get()));
+  dds_waitset_attach(waitset_, reader, reinterpret_cast<dds_attach_t>(subscriptions_.back().get()));
   return DdsReader(reader);
 }
 

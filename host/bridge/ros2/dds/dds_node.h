@@ -15,7 +15,7 @@ namespace edgescout::ros2 {
 
 // The fields of rmw_qos_profile_t that differ between topics.
 struct Qos {
-  bool is_reliable = true;         // false: as sensor data, "best effort"
+  bool is_reliable = true;          // false: as sensor data, "best effort"
   bool is_transient_local = false;  // late readers get the last messages
   int depth = 10;
 };
@@ -35,8 +35,8 @@ class DdsWriter {
 class DdsReader {
  public:
   explicit DdsReader(dds_entity_t entity = 0) : entity_(entity) {}
-  std::uint32_t writers() const;              // that send to it at present
-  std::uint64_t lost() const;                 // messages that were sent and never came
+  std::uint32_t writers() const;               // that send to it at present
+  std::uint64_t lost() const;                  // messages that were sent and never came
   std::uint32_t incompatible_writers() const;  // whose QoS keeps them apart
   dds_entity_t entity() const { return entity_; }
 
@@ -61,9 +61,8 @@ class DdsNode {
   // `handle(const Wire&)` is called by spin().
   template <typename Wire, typename Handle>
   DdsReader subscribe(const std::string& topic, const Qos& qos, const Handle& handle) {
-    return make_reader(descriptor<Wire>(), topic, qos, [handle](const void* sample) {
-      handle(*static_cast<const Wire*>(sample));
-    });
+    return make_reader(descriptor<Wire>(), topic, qos,
+                       [handle](const void* sample) { handle(*static_cast<const Wire*>(sample)); });
   }
 
   // Waits so long for messages and handles those that are there. A message for which there is no

@@ -65,7 +65,8 @@ void add_options(CLI::App& app, ProgramOptions& o) {
 void require_known(const CLI::App& app, const Parameters& parameters, const std::string& prefix) {
   for (const auto& [name, parameter] : parameters) {
     const bool has_prefix = name.find('.') != std::string::npos;
-    if (prefix.empty() ? has_prefix && !name.starts_with(scout_prefix) : !name.starts_with(prefix)) {
+    if (prefix.empty() ? has_prefix && !name.starts_with(scout_prefix)
+                       : !name.starts_with(prefix)) {
       if (!prefix.empty()) continue;
       throw InputError(parameter.source, name, "an unknown parameter", "one of --help-all");
     }
@@ -81,7 +82,6 @@ void parse(CLI::App& app, std::vector<std::string> arguments) {
   std::ranges::reverse(arguments);  // what CLI11 asks for
   app.parse(std::move(arguments));
 }
-
 
 void finish(ProgramOptions& o) {
   BridgeOptions& bridge = o.bridge;
@@ -102,9 +102,10 @@ void finish(ProgramOptions& o) {
 
 std::string read_options(const std::vector<std::string>& arguments, ProgramOptions& options) {
   options.ros = ros_arguments(arguments);
-  CLI::App app{"Detection as a node of ROS 2, on Cyclone DDS. Parameters have the names of the "
-               "options, with underscores; those of the scout begin with \"scout.\"",
-               "edgescout_ros2"};
+  CLI::App app{
+      "Detection as a node of ROS 2, on Cyclone DDS. Parameters have the names of the "
+      "options, with underscores; those of the scout begin with \"scout.\"",
+      "edgescout_ros2"};
   CLI::App scout;
   add_help(app);
   app.set_version_flag("--version", "edgescout_ros2 " EDGESCOUT_VERSION);
