@@ -105,7 +105,7 @@ void Bridge::add_job(const Answer<Result>& answer, const Work& work) {
   if (!is_taken) answer(failure<Result>(too_many));
 }
 
-void Bridge::request(const msg::DetectRequest& request, Answer<msg::DetectResult> answer) {
+void Bridge::request(const msg::DetectRequest& request, const Answer<msg::DetectResult>& answer) {
   const auto fail = [answer](const std::string& why) { answer(failure<msg::DetectResult>(why)); };
   const double max_seconds = request.max_seconds > 0 ? request.max_seconds : options_.max_seconds;
   const auto on_image = [this, answer, fail, max_seconds](const TakenImage& image) {
@@ -121,16 +121,16 @@ void Bridge::request(const msg::DetectRequest& request, Answer<msg::DetectResult
 }
 
 void Bridge::request(msg::GetPoseEstimatesRequest request,
-                     Answer<msg::GetPoseEstimatesResult> answer) {
+                     const Answer<msg::GetPoseEstimatesResult>& answer) {
   add_job(answer, [this, request = std::move(request)] { return estimate(request); });
 }
 
 void Bridge::request(const msg::ScoutProposeRequest& request,
-                     Answer<msg::ScoutProposeResult> answer) {
+                     const Answer<msg::ScoutProposeResult>& answer) {
   add_job(answer, [this, request] { return scout_.propose(request, latest_camera()); });
 }
 
-void Bridge::request(const msg::ScoutGiveRequest& request, Answer<msg::ScoutGiveResult> answer) {
+void Bridge::request(const msg::ScoutGiveRequest& request, const Answer<msg::ScoutGiveResult>& answer) {
   if (request.failed) return add_job(answer, [this, request] { return scout_.fail(request); });
   const auto fail = [answer](const std::string& why) {
     answer(failure<msg::ScoutGiveResult>(why));
@@ -142,7 +142,7 @@ void Bridge::request(const msg::ScoutGiveRequest& request, Answer<msg::ScoutGive
   if (!inbox_.put({on_image, fail, {}, 0}, options_.request_seconds)) fail(too_many);
 }
 
-void Bridge::request(const msg::ScoutStateRequest&, Answer<msg::ScoutStateResult> answer) {
+void Bridge::request(const msg::ScoutStateRequest&, const Answer<msg::ScoutStateResult>& answer) {
   add_job(answer, [this] { return scout_.state(); });
 }
 

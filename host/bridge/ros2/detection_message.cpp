@@ -15,9 +15,7 @@ msg::Point point_of(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
 
 std::array<double, 36> numbers_of(const Matrix6d& covariance) {
   std::array<double, 36> numbers{};
-  for (int row = 0; row < 6; ++row)
-    for (int column = 0; column < 6; ++column)
-      numbers[std::size_t(6 * row + column)] = covariance(row, column);
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(numbers.data()) = covariance;
   return numbers;
 }
 
