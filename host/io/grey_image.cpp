@@ -36,7 +36,8 @@ void require_rows(std::size_t bytes, const PixelLayout& layout, const std::strin
                      std::to_string(layout.channels) + " channels of " +
                          std::to_string(layout.channel_bytes) + " bytes",
                      "1 to 4 channels of 1 or 2 bytes");
-  const std::size_t row = std::size_t(layout.width * layout.channels * layout.channel_bytes);
+  const auto pixel = std::size_t(layout.channels) * std::size_t(layout.channel_bytes);
+  const std::size_t row = std::size_t(layout.width) * pixel;
   if (layout.row_bytes < row || layout.row_bytes % std::size_t(layout.channel_bytes) != 0)
     throw InputError(source, "step", std::to_string(layout.row_bytes) + " bytes a row",
                      "at least " + std::to_string(row) + ", of whole values");
@@ -51,7 +52,7 @@ void require_rows(std::size_t bytes, const PixelLayout& layout, const std::strin
 // A copy whose 16-bit values have this machine's order of bytes.
 cv::Mat with_own_bytes(const cv::Mat& pixels) {
   cv::Mat swapped = pixels.clone();
-  const std::size_t row = std::size_t(swapped.cols * swapped.channels());
+  const std::size_t row = std::size_t(swapped.cols) * std::size_t(swapped.channels());
   for (int y = 0; y < swapped.rows; ++y) {
     auto* value = swapped.ptr<std::uint16_t>(y);
     for (std::size_t i = 0; i < row; ++i) value[i] = std::uint16_t(value[i] << 8 | value[i] >> 8);

@@ -130,7 +130,8 @@ void Bridge::request(const msg::ScoutProposeRequest& request,
   add_job(answer, [this, request] { return scout_.propose(request, latest_camera()); });
 }
 
-void Bridge::request(const msg::ScoutGiveRequest& request, const Answer<msg::ScoutGiveResult>& answer) {
+void Bridge::request(const msg::ScoutGiveRequest& request,
+                     const Answer<msg::ScoutGiveResult>& answer) {
   if (request.failed) return add_job(answer, [this, request] { return scout_.fail(request); });
   const auto fail = [answer](const std::string& why) {
     answer(failure<msg::ScoutGiveResult>(why));

@@ -35,8 +35,10 @@ class Bridge {
   // Each is answered once, by work(), or at once where too many requests wait. An error is an
   // answer without success whose message says what was found and expected.
   void request(const msg::DetectRequest& request, const Answer<msg::DetectResult>& answer);
-  void request(msg::GetPoseEstimatesRequest request, const Answer<msg::GetPoseEstimatesResult>& answer);
-  void request(const msg::ScoutProposeRequest& request, const Answer<msg::ScoutProposeResult>& answer);
+  void request(msg::GetPoseEstimatesRequest request,
+               const Answer<msg::GetPoseEstimatesResult>& answer);
+  void request(const msg::ScoutProposeRequest& request,
+               const Answer<msg::ScoutProposeResult>& answer);
   void request(const msg::ScoutGiveRequest& request, const Answer<msg::ScoutGiveResult>& answer);
   void request(const msg::ScoutStateRequest& request, const Answer<msg::ScoutStateResult>& answer);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <memory>
 #include <new>
 
 #include "kernels/error.h"
@@ -93,9 +94,9 @@ DdsReader DdsNode::make_reader(const dds_topic_descriptor_t& type, const std::st
   const dds_entity_t reader =
       valid(dds_create_reader(participant_, make_topic(type, topic), qos_of(qos).get(), nullptr),
             topic, "a reader");
-  subscriptions_.push_back(std::make_unique<Subscription>(reader, std::move(handle)));
+  dds_waitset_attach(waitset_, reader, dds_attach_t(subscriptions_.size()));
+  subscriptions_.push_back({reader, std::move(handle)});
   dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS);
-  dds_waitset_attach(waitset_, reader, reinterpret_cast<dds_attach_t>(subscriptions_.back().get()));
   return DdsReader(reader);
 }
 
@@ -124,7 +125,7 @@ void DdsNode::spin(double seconds) {
       dds_waitset_wait(waitset_, ready.data(), ready.size(), dds_duration_t(seconds * 1e9));
   const std::size_t reported = count < 0 ? 0 : std::min(std::size_t(count), ready.size());
   for (std::size_t i = 0; i < reported; ++i)
-    handle_all(*reinterpret_cast<const Subscription*>(ready[i]));
+    handle_all(subscriptions_[std::size_t(ready[i])]);
 }
 
 }  // namespace edgescout::ros2

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -85,7 +84,7 @@ class DdsNode {
   void handle_all(const Subscription& subscription);
 
   dds_entity_t domain_ = 0, participant_ = 0, waitset_ = 0;
-  std::vector<std::unique_ptr<Subscription>> subscriptions_;
+  std::vector<Subscription> subscriptions_;  // the waitset knows them by their index
   std::uint64_t left_out_ = 0;
 };
 
