@@ -59,8 +59,11 @@ export -f tidy_file
 say "preparing clang-tidy"
 cmake --preset dev > /dev/null
 # Headers that the build makes.
-cmake --build --preset dev -j "$jobs" \
-  --target edgescout_shader_headers edgescout_cli_commit edgescout_bench_commit > /dev/null
+made=(edgescout_shader_headers edgescout_arguments_commit edgescout_bench_commit)
+if ninja -C build/dev -t targets all | grep -q '^edgescout_ros2_types:'; then
+  made+=(edgescout_ros2_types)
+fi
+cmake --build --preset dev -j "$jobs" --target "${made[@]}" > /dev/null
 rm -rf "$logs"
 mkdir -p "$logs"
 

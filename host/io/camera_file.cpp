@@ -91,6 +91,12 @@ class CameraFinder {
   std::vector<FileCamera> cameras_;
 };
 
+std::vector<FileCamera> find_cameras(const std::string& text, const std::string& source,
+                                     bool is_json) {
+  return with_errors_of_one_line(
+      [&] { return CameraFinder(source).find(parse_camera_tree(text, source, is_json)); });
+}
+
 bool all_same(const std::vector<FileCamera>& cameras) {
   return std::ranges::all_of(cameras, [&](const FileCamera& other) {
     return same_camera(other.camera, cameras.front().camera);
@@ -115,11 +121,11 @@ bool is_named(const FileCamera& camera, const std::string& name) {
 }  // namespace
 
 std::vector<FileCamera> load_cameras(const std::filesystem::path& file) {
-  const std::string source = file.string();
-  return with_errors_of_one_line([&] {
-    const json tree = parse_camera_tree(read_file(file), source, file.extension() == ".json");
-    return CameraFinder(source).find(tree);
-  });
+  return find_cameras(read_file(file), file.string(), file.extension() == ".json");
+}
+
+std::vector<FileCamera> cameras_in(const std::string& text, const std::string& source) {
+  return find_cameras(text, source, false);
 }
 
 std::vector<FileCamera> cameras_named(const std::string& name,

@@ -26,6 +26,8 @@ struct FileCamera {
 // field: no camera, a field that looks like a lens or a region and is not understood, a value that
 // is not finite or has another form.
 std::vector<FileCamera> load_cameras(const std::filesystem::path& file);
+// The same of a file's content. `source` names it in errors.
+std::vector<FileCamera> cameras_in(const std::string& text, const std::string& source);
 
 // Those of the name, or of which it is the last part; all if it is empty. InputError: none.
 std::vector<FileCamera> cameras_named(const std::string& name,

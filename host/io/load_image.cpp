@@ -150,8 +150,14 @@ bool is_image_file(const std::filesystem::path& file) {
 }
 
 Image load_image(const std::filesystem::path& file, const ImageOptions& options) {
-  const std::string source = file.string();
-  const std::string bytes = read_bytes_of(file);
+  return decode_image(read_bytes_of(file), file.string(), options);
+}
+
+Image decode_image(const std::string& bytes, const std::string& source,
+                   const ImageOptions& options) {
+  if (bytes.size() >= max_bytes)
+    throw InputError(source, "image", std::to_string(bytes.size()) + " bytes",
+                     "less than " + std::to_string(max_bytes));
   const cv::Mat pixels = pixels_of(bytes, options, source);
   require_least_size(pixels, source);
   mention_orientation(bytes, source);

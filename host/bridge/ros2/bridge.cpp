@@ -1,0 +1,313 @@
+#include "host/bridge/ros2/bridge.h"
+
+#include <algorithm>
+#include <new>
+
+#include "host/bridge/ros2/frames.h"
+#include "host/core/camera_check.h"
+#include "host/io/camera_file.h"
+#include "host/io/one_line.h"
+#include "kernels/error.h"
+
+namespace edgescout::ros2 {
+
+namespace {
+
+constexpr char info_subject[] = "camera_info", image_subject[] = "image", tf_subject[] = "tf",
+               search_subject[] = "detection";
+
+template <typename Result>
+Result failure(const std::string& why) {
+  Result result;
+  result.success = false;
+  result.message = one_line(why);
+  return result;
+}
+
+// Whatever a message makes the library throw is an error of that message. A failed device is not.
+template <typename Work, typename OnError>
+void guarded(const Work& work, const OnError& on_error) {
+  try {
+    work();
+  } catch (const GpuError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    on_error("found more than there is memory for, expected less");
+  } catch (const std::exception& error) {
+    on_error(one_line(error.what()));
+  }
+}
+
+constexpr char too_many[] = "request: found too many that wait, expected fewer";
+
+ScoutOptions cancellable(ScoutOptions options, const Inbox& inbox) {
+  options.cancelled = [&inbox] { return inbox.is_stopped(); };
+  return options;
+}
+
+}  // namespace
+
+Bridge::Bridge(TemplateSource templates, Backend& backend, BridgeOptions options, Outbox& outbox)
+    : options_(std::move(options)),
+      outbox_(outbox),
+      diagnostics_(options_.node),
+      inbox_(!options_.on_request),
+      search_(std::move(templates), backend, options_.pipeline),
+      scout_(search_, cancellable(options_.scout, inbox_), options_.scout_views,
+             options_.world_frame) {
+  if (options_.camera) inbox_.put_calibration();
+}
+
+void Bridge::take(ImageMessage image) {
+  diagnostics_.count("images received");
+  if (inbox_.calibrations() == 0) {
+    diagnostics_.problem(info_subject, "camera_info: found no message, expected one of the camera");
+    if (options_.without_camera == WithoutCamera::Drop) {
+      diagnostics_.count("images dropped: no camera");
+      return;
+    }
+  }
+  if (inbox_.put(std::move(image))) diagnostics_.count("images dropped: a newer one came");
+}
+
+void Bridge::take(const msg::CameraInfo& info) {
+  diagnostics_.count("camera infos received");
+  if (options_.camera) return;
+  {
+    const std::scoped_lock lock(infos_mutex_);
+    infos_.add(info);
+  }
+  inbox_.put_calibration();
+}
+
+void Bridge::take(const msg::TFMessage& transforms, bool is_static) {
+  const std::vector<std::string> refused = tf_.add(transforms, is_static);
+  if (refused.empty()) return;
+  diagnostics_.count("transforms refused", refused.size());
+  diagnostics_.problem("tf message", refused.front());
+}
+
+void Bridge::stop() { inbox_.stop(); }
+
+TimeLimit Bridge::limit_of(double max_seconds) const {
+  constexpr double longest_s = 1e6;  // also of a request, which may hold any number
+  TimeLimit limit =
+      max_seconds > 0 ? TimeLimit::after(std::min(max_seconds, longest_s)) : TimeLimit{};
+  limit.cancelled = [this] { return inbox_.is_stopped(); };
+  return limit;
+}
+
+template <typename Result, typename Work>
+void Bridge::add_job(const Answer<Result>& answer, const Work& work) {
+  const bool is_taken = inbox_.put([answer, work] {
+    guarded([&] { answer(work()); }, [&](const std::string& why) { answer(failure<Result>(why)); });
+  });
+  if (!is_taken) answer(failure<Result>(too_many));
+}
+
+void Bridge::request(const msg::DetectRequest& request, const Answer<msg::DetectResult>& answer) {
+  const auto fail = [answer](const std::string& why) { answer(failure<msg::DetectResult>(why)); };
+  const double max_seconds = request.max_seconds > 0 ? request.max_seconds : options_.max_seconds;
+  const auto on_image = [this, answer, fail, max_seconds](const TakenImage& image) {
+    guarded(
+        [&] {
+          const Found found = detect(image, max_seconds);
+          answer({true, found.completion == Completion::Complete ? "" : to_string(found.completion),
+                  detections_message(found.header, found.detections, search_.objects())});
+        },
+        fail);
+  };
+  if (!inbox_.put({on_image, fail, {}, 0}, options_.request_seconds)) fail(too_many);
+}
+
+void Bridge::request(msg::GetPoseEstimatesRequest request,
+                     const Answer<msg::GetPoseEstimatesResult>& answer) {
+  add_job(answer, [this, request = std::move(request)] { return estimate(request); });
+}
+
+void Bridge::request(const msg::ScoutProposeRequest& request,
+                     const Answer<msg::ScoutProposeResult>& answer) {
+  add_job(answer, [this, request] { return scout_.propose(request, latest_camera()); });
+}
+
+void Bridge::request(const msg::ScoutGiveRequest& request,
+                     const Answer<msg::ScoutGiveResult>& answer) {
+  if (request.failed) return add_job(answer, [this, request] { return scout_.fail(request); });
+  const auto fail = [answer](const std::string& why) {
+    answer(failure<msg::ScoutGiveResult>(why));
+  };
+  const auto on_image = [this, answer, fail, request](const TakenImage& image) {
+    guarded([&] { answer(scout_.give(request, image, inverse(world_from_camera(image.header)))); },
+            fail);
+  };
+  if (!inbox_.put({on_image, fail, {}, 0}, options_.request_seconds)) fail(too_many);
+}
+
+void Bridge::request(const msg::ScoutStateRequest&, const Answer<msg::ScoutStateResult>& answer) {
+  add_job(answer, [this] { return scout_.state(); });
+}
+
+bool Bridge::work(double seconds) {
+  Inbox::Work work = inbox_.next(seconds);
+  for (const ImageRequest& request : work.expired) {
+    const std::string why = diagnostics_.problem_of(info_subject);
+    request.on_failure("request: found no image in time" + (why.empty() ? "" : " (" + why + ")") +
+                       ", expected one within " + std::to_string(options_.request_seconds) + " s");
+  }
+  if (work.job) work.job();
+  if (work.image) work_on(std::move(*work.image), std::move(work.for_image));
+  return work.is_any();
+}
+
+void Bridge::work_on(ArrivedImage arrived, std::vector<ImageRequest> requests) {
+  const std::optional<Image> image = decoded(arrived.message);
+  if (!image) return inbox_.put_back(std::move(requests));
+  const msg::Header header = header_of(arrived.message);
+  const std::optional<Camera> camera = camera_for(header, image->width, image->height);
+  if (!camera) return wait_for_calibration(std::move(arrived), std::move(requests));
+  const TakenImage taken{header, *image, *camera};
+  for (const ImageRequest& request : requests) request.on_image(taken);
+  if (requests.empty()) detect_without_request(taken);
+  diagnostics_.count("images worked on");
+  const std::chrono::duration<double, std::milli> latency = Clock::now() - arrived.time;
+  diagnostics_.set("latency of the last image, ms", std::to_string(latency.count()));
+}
+
+std::optional<Image> Bridge::decoded(const ImageMessage& message) {
+  std::optional<Image> image;
+  guarded(
+      [&] {
+        image = image_of(message, image_subject, options_.images);
+        diagnostics_.solved(image_subject);
+      },
+      [&](const std::string& why) {
+        diagnostics_.count("images refused");
+        diagnostics_.problem(image_subject, why);
+      });
+  return image;
+}
+
+std::optional<Camera> Bridge::camera_for(const msg::Header& header, int width, int height) {
+  std::optional<Camera> camera;
+  guarded(
+      [&] {
+        Camera calibration;
+        if (options_.camera) {
+          calibration = *options_.camera;
+        } else {
+          const std::scoped_lock lock(infos_mutex_);
+          calibration = camera_of(*infos_.for_image(header), options_.rectified, info_subject);
+        }
+        calibration.field_of_view_rad = options_.field_of_view_rad;
+        camera = camera_for_image(calibration, width, height, options_.scale_camera,
+                                  options_.camera ? options_.camera_file : info_subject);
+        diagnostics_.solved(info_subject);
+        warn_of(*camera);
+      },
+      [&](const std::string& why) { diagnostics_.problem(info_subject, why); });
+  return camera;
+}
+
+Camera Bridge::latest_camera() const {
+  Camera camera;
+  if (options_.camera) {
+    camera = *options_.camera;
+  } else {
+    const std::scoped_lock lock(infos_mutex_);
+    if (infos_.empty())
+      throw InputError(info_subject, "messages", "none", "one of the camera before");
+    camera = camera_of(*infos_.for_image({}), options_.rectified, info_subject);
+  }
+  camera.field_of_view_rad = options_.field_of_view_rad;
+  return camera;
+}
+
+// Values that are possible and hardly right: said once of each camera.
+void Bridge::warn_of(const Camera& camera) {
+  if (warned_of_ && same_camera(*warned_of_, camera)) return;
+  warned_of_ = camera;
+  const std::vector<std::string> doubts = implausible_in(camera);
+  if (doubts.empty()) return diagnostics_.solved("camera");
+  diagnostics_.problem("camera", std::string(info_subject) + ": " + doubts.front());
+}
+
+void Bridge::wait_for_calibration(ArrivedImage arrived, std::vector<ImageRequest> requests) {
+  inbox_.put_back(std::move(requests));
+  arrived.not_before_info = inbox_.calibrations() + 1;
+  if (options_.without_camera == WithoutCamera::Drop)
+    diagnostics_.count("images dropped: no camera");
+  else if (!inbox_.put_back(std::move(arrived)))
+    diagnostics_.count("images dropped: a newer one came");
+}
+
+Se3 Bridge::world_from_camera(const msg::Header& image) const {
+  if (options_.world_frame.empty())
+    throw InputError("tf", "world_frame", "nothing", "the option world_frame");
+  return tf_.lookup(options_.world_frame, image.frame_id, image.stamp, options_.tf_seconds);
+}
+
+Bridge::Found Bridge::detect(const TakenImage& image, double max_seconds) {
+  const bool in_world = !options_.world_frame.empty();
+  const Se3 world_from_image = in_world ? world_from_camera(image.header) : Se3{};
+  diagnostics_.solved(tf_subject);
+  const Detections found = search_.in_image({image.image, image.camera, inverse(world_from_image)},
+                                            limit_of(max_seconds));
+  Found result{image.header, {}, found.completion};
+  if (in_world) result.header.frame_id = options_.world_frame;
+  for (const Detection& detection : found.detections)
+    result.detections.push_back(in_world ? in_frame(world_from_image, detection) : detection);
+  if (found.completion != Completion::Complete) diagnostics_.count("images not worked on wholly");
+  publish(result, image.header, found.detections);
+  return result;
+}
+
+void Bridge::detect_without_request(const TakenImage& image) {
+  try {
+    guarded(
+        [&] {
+          detect(image, options_.max_seconds);
+          diagnostics_.solved(search_subject);
+        },
+        [&](const std::string& why) {
+          diagnostics_.count("images without a result");
+          diagnostics_.problem(why.starts_with("tf:") ? tf_subject : search_subject, why);
+        });
+  } catch (const GpuError& error) {
+    diagnostics_.problem(search_subject, error.what());
+    throw;
+  }
+}
+
+void Bridge::publish(const Found& found, const msg::Header& image,
+                     std::span<const Detection> in_camera) {
+  const DetectedObjects objects = search_.objects();
+  outbox_.send(detections_message(found.header, found.detections, objects));
+  if (options_.publish_tf) outbox_.send(frames_message(found.header, found.detections, objects));
+  if (outbox_.wants_markers())
+    outbox_.send(markers_message(found.header, found.detections, objects));
+  if (outbox_.wants_overlay()) outbox_.send(message_of(search_.overlay(in_camera), image));
+}
+
+msg::GetPoseEstimatesResult Bridge::estimate(const msg::GetPoseEstimatesRequest& request) {
+  std::vector<CameraView> views;
+  for (std::size_t i = 0; i < request.cameras.size(); ++i) {
+    const msg::CalibratedImage& given = request.cameras[i];
+    const std::string source = "cameras[" + std::to_string(i) + "]";
+    Image image = image_of(ImageMessage(given.image), source, options_.images);
+    Camera camera = camera_of(given.info, options_.rectified, source);
+    camera.field_of_view_rad = options_.field_of_view_rad;
+    camera = camera_for_image(camera, image.width, image.height, options_.scale_camera, source);
+    views.push_back({std::move(image), camera, inverse(pose_of(given.pose, source))});
+  }
+  const Detections found =
+      search_.in_views(views, request.object_ids, limit_of(options_.max_seconds));
+  msg::GetPoseEstimatesResult result{true, "", {}};
+  if (found.completion != Completion::Complete) result.message = to_string(found.completion);
+  for (const Detection& detection : found.detections)
+    result.pose_estimates.push_back(
+        {std::uint64_t(search_.objects().sets[std::size_t(detection.object)].object_id),
+         detection.probability, message_of(detection.world_from_object)});
+  return result;
+}
+
+}  // namespace edgescout::ros2

@@ -1,0 +1,90 @@
+// Holds what waits for work: the newest image, and requests.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "host/bridge/ros2/image_message.h"
+
+namespace edgescout::ros2 {
+
+using Clock = std::chrono::steady_clock;
+
+struct ArrivedImage {
+  ImageMessage message;
+  Clock::time_point time;
+  std::uint64_t number = 0;           // in the order of arrival
+  std::uint64_t not_before_info = 0;  // worked on once so many calibrations have arrived
+};
+
+// An image as it is worked on.
+struct TakenImage {
+  msg::Header header;
+  Image image;
+  Camera camera;
+};
+
+// A request that the next image answers.
+struct ImageRequest {
+  std::function<void(const TakenImage&)> on_image;
+  std::function<void(const std::string&)> on_failure;  // why there is none
+  Clock::time_point deadline;
+  std::uint64_t after = 0;  // number of the last image that had arrived before it
+};
+
+// One thread works, others put things in.
+class Inbox {
+ public:
+  // `always`: images are wanted without a request as well.
+  explicit Inbox(bool always) : always_(always) {}
+
+  // The newest image wins. Returns whether another one is dropped for it.
+  bool put(ImageMessage message);
+  // False: so many requests wait already that no further one is taken.
+  bool put(std::function<void()> job);
+  bool put(ImageRequest request, double wait_seconds);
+  // A calibration is there; images can be worked on from now on.
+  void put_calibration();
+  // Puts an image back until the next calibration. False: a newer one is there.
+  bool put_back(ArrivedImage image);
+  void stop();
+
+  struct Work {
+    std::function<void()> job;
+    std::optional<ArrivedImage> image;
+    std::vector<ImageRequest> for_image;  // of the image
+    std::vector<ImageRequest> expired;
+    bool is_any() const { return job || image || !expired.empty(); }
+  };
+  // Waits so long for work. Requests of the image leave the inbox with it.
+  Work next(double seconds);
+  // Requests whose image was of no use wait for the next one.
+  void put_back(std::vector<ImageRequest> requests);
+
+  std::uint64_t calibrations() const;
+  bool is_stopped() const;
+
+ private:
+  static constexpr std::size_t most_waiting = 64;
+
+  bool is_image_ready() const;
+  bool has_expired() const;
+  Clock::time_point next_deadline(Clock::time_point latest) const;
+
+  bool always_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<ArrivedImage> newest_;
+  std::deque<std::function<void()>> jobs_;
+  std::vector<ImageRequest> requests_;
+  std::uint64_t images_ = 0, calibrations_ = 0;
+  bool stopped_ = false;
+};
+
+}  // namespace edgescout::ros2

@@ -1,0 +1,135 @@
+#include "host/bridge/ros2/program/program_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <numbers>
+#include <sstream>
+
+#include "host/active/views.h"
+#include "host/cli/common_arguments.h"
+#include "host/cli/help.h"
+#include "host/cli/option_table.h"
+#include "host/cli/template_sets.h"
+#include "host/io/camera_file.h"
+#include "kernels/error.h"
+
+namespace edgescout::ros2 {
+
+namespace {
+
+constexpr char scout_prefix[] = "scout.";
+
+void add_topics(CLI::App& app, TopicOptions& topics) {
+  const auto choice = [&](const std::string& name, bool& field, const char* no, const char* yes,
+                          const std::string& help) {
+    app.add_option_function<std::string>(
+           name, [&field, yes](const std::string& word) { field = word == yes; }, help)
+        ->check(CLI::IsMember(std::vector<std::string>{no, yes}))
+        ->default_str(field ? yes : no)
+        ->group("ROS 2");
+  };
+  choice("--image-transport", topics.is_compressed, "raw", "compressed",
+         "Form of the images: raw, or compressed (IMAGE/compressed)");
+  choice("--image-qos", topics.is_image_reliable, "sensor_data", "reliable",
+         "Of images and CameraInfo: sensor_data takes them from every publisher; reliable misses "
+         "none, of reliable publishers");
+}
+
+void add_options(CLI::App& app, ProgramOptions& o) {
+  add_model_arguments(app, o.models);
+  add_camera(app, o.camera);
+  add_device(app, o.device);
+  app.add_option("--log-level", o.log_level,
+                 "Lowest level of messages on standard error: debug, info, warning or error")
+      ->check(CLI::IsMember({"debug", "info", "warning", "error"}))
+      ->capture_default_str();
+  add_topics(app, o.topics);
+  CommandLineOptions add(app);
+  describe(o.bridge, add);
+  app.add_option("--world-frame", o.bridge.world_frame,
+                 "Frame of the poses, by tf; default: that of the image")
+      ->type_name("FRAME")
+      ->group("ROS 2");
+  app.add_option("--views", o.views_file,
+                 "Where the scout may send the camera: [{camera_from_world: {R, t}} ..]")
+      ->type_name("FILE")
+      ->group("ROS 2");
+  add_max_seconds(app, o.bridge.max_seconds);
+  add_scale_camera(app, o.bridge.scale_camera);
+  describe(o.bridge.images, add);
+  add_detection_options(app, o.templates, o.bridge.pipeline);
+}
+
+// Names where a parameter stands that does not exist.
+void require_known(const CLI::App& app, const Parameters& parameters, const std::string& prefix) {
+  for (const auto& [name, parameter] : parameters) {
+    const bool has_prefix = name.find('.') != std::string::npos;
+    if (prefix.empty() ? has_prefix && !name.starts_with(scout_prefix)
+                       : !name.starts_with(prefix)) {
+      if (!prefix.empty()) continue;
+      throw InputError(parameter.source, name, "an unknown parameter", "one of --help-all");
+    }
+    if (has_prefix && prefix.empty()) continue;
+    std::string option = name.substr(prefix.size());
+    std::ranges::replace(option, '_', '-');
+    if (!app.get_option_no_throw("--" + option))
+      throw InputError(parameter.source, name, "an unknown parameter", "one of --help-all");
+  }
+}
+
+void parse(CLI::App& app, std::vector<std::string> arguments) {
+  std::ranges::reverse(arguments);  // what CLI11 asks for
+  app.parse(std::move(arguments));
+}
+
+void finish(ProgramOptions& o) {
+  BridgeOptions& bridge = o.bridge;
+  bridge.node = o.ros.node;
+  bridge.field_of_view_rad = o.camera.field_of_view_deg * std::numbers::pi / 180;
+  if (!o.camera.file.empty()) {
+    bridge.camera = load_camera(o.camera.file, o.camera.name);
+    bridge.camera_file = o.camera.file;
+  }
+  if (!o.views_file.empty()) bridge.scout_views = load_views(o.views_file);
+  bridge.pipeline.validate();
+  bridge.images.validate();
+  bridge.scout.validate();
+  o.templates.validate();
+}
+
+}  // namespace
+
+std::string read_options(const std::vector<std::string>& arguments, ProgramOptions& options) {
+  options.ros = ros_arguments(arguments);
+  CLI::App app{
+      "Detection as a node of ROS 2, on Cyclone DDS. Parameters have the names of the "
+      "options, with underscores; those of the scout begin with \"scout.\"",
+      "edgescout_ros2"};
+  CLI::App scout;
+  add_help(app);
+  app.set_version_flag("--version", "edgescout_ros2 " EDGESCOUT_VERSION);
+  add_options(app, options);
+  CommandLineOptions add_to_scout(scout);
+  describe_scout(options.bridge.scout, add_to_scout);
+  const Parameters& parameters = options.ros.parameters;
+  require_known(app, parameters, "");
+  require_known(scout, parameters, scout_prefix);
+  try {
+    std::vector<std::string> words = options_of(parameters, "", options.ros.rest);
+    words.insert(words.end(), options.ros.rest.begin(), options.ros.rest.end());
+    parse(app, words);
+    parse(scout, options_of(parameters, scout_prefix, {}));
+  } catch (const CLI::Success& text) {
+    std::ostringstream printed;
+    app.exit(text, printed, printed);
+    return printed.str();
+  } catch (const CLI::ParseError& error) {
+    throw InputError(error.what());
+  }
+  refuse_beside_templates(app);
+  finish(options);
+  return "";
+}
+
+}  // namespace edgescout::ros2

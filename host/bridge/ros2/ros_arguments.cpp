@@ -1,0 +1,182 @@
+#include "host/bridge/ros2/ros_arguments.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+
+#include "host/io/files.h"
+#include "host/io/one_line.h"
+#include "kernels/error.h"
+
+namespace edgescout::ros2 {
+
+namespace {
+
+constexpr char command_line[] = "command line";
+
+std::vector<std::string> values_of(const YAML::Node& node, const std::string& source,
+                                   const std::string& name) {
+  if (node.IsScalar()) return {node.Scalar()};
+  std::vector<std::string> values;
+  if (node.IsSequence())
+    for (const YAML::Node& element : node) {
+      if (!element.IsScalar()) throw InputError(source, name, "a list of lists", "a list");
+      values.push_back(element.Scalar());
+    }
+  if (values.empty()) throw InputError(source, name, "no value", "a value or a list of some");
+  return values;
+}
+
+// Every node has it. Stamps are carried through, whatever clock they are of.
+bool is_of_every_node(const std::string& name) { return name == "use_sim_time"; }
+
+void add_map(const YAML::Node& map, const std::string& source, const std::string& prefix,
+             Parameters& parameters) {
+  for (const auto& entry : map) {
+    const std::string name = prefix + entry.first.as<std::string>();
+    if (is_of_every_node(name)) continue;
+    if (entry.second.IsMap())
+      add_map(entry.second, source, name + ".", parameters);
+    else
+      parameters[name] = {source, values_of(entry.second, source, name)};
+  }
+}
+
+bool is_for(const std::string& section, const std::string& node) {
+  return section == "/**" || section == "**" || section == node || section == "/" + node ||
+         section == "/**/" + node;
+}
+
+// "a:=b" -> {"a", "b"}
+std::pair<std::string, std::string> assignment(const std::string& word) {
+  const std::size_t middle = word.find(":=");
+  if (middle == std::string::npos || middle == 0)
+    throw InputError(command_line, "--ros-args", word, "NAME:=VALUE");
+  return {word.substr(0, middle), word.substr(middle + 2)};
+}
+
+void add_parameter(const std::string& word, Parameters& parameters) {
+  const auto [name, value] = assignment(word);
+  if (is_of_every_node(name)) return;
+  try {
+    parameters[name] = {command_line, values_of(YAML::Load(value), command_line, name)};
+  } catch (const YAML::Exception&) {
+    parameters[name] = {command_line, {value}};
+  }
+}
+
+void add_name(const std::string& word, RosArguments& ros) {
+  const auto [from, to] = assignment(word);
+  if (from == "__node" || from == "__name")
+    ros.node = to;
+  else if (from == "__ns")
+    ros.space = to.starts_with('/') ? to : "/" + to;
+  else
+    ros.names[from] = to;
+}
+
+// One of the words after --ros-args, with the value that follows it.
+struct RosWord {
+  std::string word, value;
+};
+
+std::vector<RosWord> split(const std::vector<std::string>& arguments, RosArguments& ros) {
+  std::vector<RosWord> words;
+  bool is_ros = false;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& word = arguments[i];
+    if (word == "--ros-args" || (is_ros && word == "--")) {
+      is_ros = word == "--ros-args";
+    } else if (!is_ros) {
+      ros.rest.push_back(word);
+    } else {
+      if (i + 1 == arguments.size())
+        throw InputError(command_line, word, "nothing after it", "a value");
+      words.push_back({word, arguments[++i]});
+    }
+  }
+  return words;
+}
+
+}  // namespace
+
+RosArguments ros_arguments(const std::vector<std::string>& arguments) {
+  RosArguments ros;
+  const std::vector<RosWord> words = split(arguments, ros);
+  const auto is_any = [](const std::string& word, std::initializer_list<const char*> names) {
+    return std::ranges::find(names, word) != names.end();
+  };
+  for (const auto& [word, value] : words)  // first: sections of files name the node
+    if (is_any(word, {"-r", "--remap"})) add_name(value, ros);
+  for (const auto& [word, value] : words) {
+    if (is_any(word, {"-p", "--param"}))
+      add_parameter(value, ros.parameters);
+    else if (word == "--params-file")
+      add_parameters(read_file(value), value, ros.node, ros.parameters);
+    else if (!is_any(word, {"-r", "--remap", "--log-level"}))
+      throw InputError(command_line, "--ros-args", word, "-p, -r, --params-file or --log-level");
+  }
+  return ros;
+}
+
+void add_parameters(const std::string& text, const std::string& source, const std::string& node,
+                    Parameters& parameters) {
+  with_errors_of_one_line([&] {
+    try {
+      const YAML::Node root = YAML::Load(text);
+      if (!root.IsMap())
+        throw InputError(source, "file", "no sections", "\"/**:\" with ros__parameters in it");
+      for (const auto& section : root) {
+        const std::string name = section.first.as<std::string>();
+        if (!is_for(name, node)) continue;
+        const YAML::Node map = section.second.IsMap() ? section.second["ros__parameters"]
+                                                      : YAML::Node(YAML::NodeType::Undefined);
+        if (!map.IsDefined() || !map.IsMap())
+          throw InputError(source, name, "no map ros__parameters", "one");
+        add_map(map, source, "", parameters);
+      }
+    } catch (const YAML::Exception& error) {
+      throw InputError(source, "line " + std::to_string(error.mark.line + 1), error.msg, "YAML");
+    }
+    return 0;
+  });
+}
+
+std::string full_name(const std::string& name, const RosArguments& ros) {
+  const auto whole = [&](const std::string& part) {
+    const std::string space = ros.space == "/" ? "" : ros.space;
+    if (part.starts_with("~/")) return space + "/" + ros.node + part.substr(1);
+    return part.starts_with('/') ? part : space + "/" + part;
+  };
+  for (const auto& [from, to] : ros.names)
+    if (from == name || whole(from) == whole(name)) return whole(to);
+  return whole(name);
+}
+
+std::string beside(const std::string& topic, const std::string& name) {
+  return topic.substr(0, topic.rfind('/') + 1) + name;
+}
+
+std::vector<std::string> options_of(const Parameters& parameters, const std::string& prefix,
+                                    const std::vector<std::string>& given) {
+  std::vector<std::string> options;
+  for (const auto& [name, parameter] : parameters) {
+    const bool has_prefix = name.find('.') != std::string::npos;
+    if (prefix.empty() ? has_prefix : !name.starts_with(prefix)) continue;
+    std::string option = "--" + name.substr(prefix.size());
+    std::ranges::replace(option, '_', '-');
+    const bool is_given = std::ranges::any_of(given, [&](const std::string& word) {
+      return word == option || word.starts_with(option + "=");
+    });
+    if (is_given) continue;
+    if (parameter.values.size() == 1) {  // flags take a value in this form only
+      options.push_back(option + "=" + parameter.values[0]);
+    } else {
+      options.push_back(option);
+      options.insert(options.end(), parameter.values.begin(), parameter.values.end());
+    }
+  }
+  return options;
+}
+
+}  // namespace edgescout::ros2

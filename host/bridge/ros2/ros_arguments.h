@@ -1,0 +1,46 @@
+// What follows --ros-args on the command line of a ROS 2 node: parameters and other names.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace edgescout::ros2 {
+
+struct Parameter {
+  std::string source;               // the file or "command line", for errors
+  std::vector<std::string> values;  // of a list several
+};
+using Parameters = std::map<std::string, Parameter>;  // by name: "min_probability", "scout.radius"
+
+struct RosArguments {
+  std::string node = "edgescout", space = "/";  // __node, __ns
+  Parameters parameters;                        // of this node; later ones count
+  std::map<std::string, std::string> names;     // as stated: "image" -> "/camera/image_raw"
+  std::vector<std::string> rest;                // all other arguments
+};
+
+// Reads "--ros-args [-p NAME:=VALUE] [-r FROM:=TO] [--params-file FILE] [--]". Sections of a file
+// for other nodes are left out. InputError: a word that is none of these; a file that is no
+// parameter file, naming file and key.
+RosArguments ros_arguments(const std::vector<std::string>& arguments);
+
+// Adds the parameters of a file's text for a node: sections "/**", "edgescout", "/edgescout",
+// "/**/edgescout". InputError naming `source` and key.
+void add_parameters(const std::string& text, const std::string& source, const std::string& node,
+                    Parameters& parameters);
+
+// The whole name of a topic or service, after the renaming of the command line: "image" ->
+// "/image",
+// "~/detections" -> "/edgescout/detections".
+std::string full_name(const std::string& name, const RosArguments& arguments);
+// Of another topic in the same place: "/camera/image_raw" -> "/camera/camera_info".
+std::string beside(const std::string& topic, const std::string& name);
+
+// The parameters as arguments of the command line: {"--min-probability", "0.3"}. Those that stand
+// in `given` are left out. `prefix`: of those that are meant ("scout."), which they lose.
+std::vector<std::string> options_of(const Parameters& parameters, const std::string& prefix,
+                                    const std::vector<std::string>& given);
+
+}  // namespace edgescout::ros2

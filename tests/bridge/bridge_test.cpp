@@ -1,0 +1,415 @@
+#include "host/bridge/ros2/bridge.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/bridge/small_world.h"
+#include "tests/io/collected_log.h"
+
+namespace edgescout::ros2::test {
+
+namespace {
+
+using ::testing::Test;
+
+struct KeptResults : Outbox {
+  bool wants = false;
+  std::vector<msg::Detection3DArray> detections;
+  std::vector<msg::MarkerArray> markers;
+  std::vector<msg::Image> overlays;
+  std::vector<msg::TFMessage> frames;
+  bool wants_markers() const override { return wants; }
+  bool wants_overlay() const override { return wants; }
+  void send(const msg::Detection3DArray& message) override { detections.push_back(message); }
+  void send(const msg::MarkerArray& message) override { markers.push_back(message); }
+  void send(const msg::Image& message) override { overlays.push_back(message); }
+  void send(const msg::TFMessage& message) override { frames.push_back(message); }
+};
+
+BridgeOptions quick() {
+  BridgeOptions options;
+  options.pipeline = SmallWorld::pipeline();
+  options.tf_seconds = 0;
+  return options;
+}
+
+struct TestedBridge {
+  KeptResults results;
+  Bridge bridge;
+  int template_calls = 0;
+
+  explicit TestedBridge(const BridgeOptions& options = quick())
+      : bridge(
+            [this](const Camera&) {
+              ++template_calls;
+              return small_world().sets;
+            },
+            *small_world().backend, options, results) {}
+
+  void give_info(double seconds = 1) { bridge.take(info_message(small_world().camera(), seconds)); }
+  void give_image(double seconds = 1, std::size_t view = 0) {
+    bridge.take(ImageMessage(image_message(small_world().image(view), seconds)));
+  }
+  std::uint64_t count(const std::string& what) { return bridge.diagnostics().counted(what); }
+  std::string problem(const std::string& subject) {
+    return bridge.diagnostics().problem_of(subject);
+  }
+};
+
+void expect_same_pose(const msg::Pose& pose, const Se3& expected, double tolerance = 0) {
+  const Se3 found = pose_of(pose, "pose");
+  EXPECT_LE(distance_between_m(found, expected), tolerance);
+  EXPECT_LE(angle_between_rad(found, expected), 1e-7 + tolerance);
+}
+
+bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST(Bridge, DetectsWhatTheLibraryDetects) {
+  SmallWorld& world = small_world();
+  TestedBridge tested;
+  tested.give_info();
+  tested.give_image(12.5);
+  EXPECT_TRUE(tested.bridge.work(0));
+  const PipelineOptions options = SmallWorld::pipeline();
+  const ObjectView view = prepare_view(world.image(), world.camera(), {}, *world.backend, options);
+  const Detections found = detect_objects(view, world.sets, *world.backend, options);
+  ASSERT_EQ(tested.results.detections.size(), 1u);
+  const msg::Detection3DArray& message = tested.results.detections[0];
+  EXPECT_EQ(message.header.stamp, header_at(12.5).stamp);
+  EXPECT_EQ(message.header.frame_id, "camera");
+  ASSERT_EQ(message.detections.size(), found.detections.size());
+  ASSERT_FALSE(found.detections.empty());
+  for (std::size_t i = 0; i < found.detections.size(); ++i) {
+    const Detection& expected = found.detections[i];
+    const msg::Detection3D& detection = message.detections[i];
+    ASSERT_EQ(detection.results.size(), 1 + expected.alternatives.size());
+    EXPECT_EQ(detection.results[0].hypothesis.class_id, "obj_000001");
+    EXPECT_EQ(detection.results[0].hypothesis.score, expected.probability);
+    EXPECT_EQ(detection.results[0].pose.pose.position.x,
+              expected.world_from_object.translation_m.x());
+    EXPECT_EQ(detection.results[0].pose.pose.orientation.w,
+              expected.world_from_object.rotation.w());
+    EXPECT_EQ(detection.results[0].pose.covariance[7], expected.covariance(1, 1));
+    EXPECT_EQ(detection.results[0].pose.covariance[4], expected.covariance(0, 4));
+    EXPECT_EQ(detection.id, "obj_000001_" + std::to_string(i));
+    const Mesh& mesh = world.sets[0].model.mesh;
+    EXPECT_EQ(detection.bbox.size.z, mesh.box_max_m.z() - mesh.box_min_m.z());
+  }
+  EXPECT_TRUE(tested.results.markers.empty());  // nobody listens
+  EXPECT_TRUE(tested.results.frames.empty());
+}
+
+TEST(Bridge, TheNewestImageWins) {
+  TestedBridge tested;
+  tested.give_info();
+  for (double seconds : {1.0, 2.0, 3.0}) tested.give_image(seconds);
+  EXPECT_TRUE(tested.bridge.work(0));
+  EXPECT_FALSE(tested.bridge.work(0));
+  ASSERT_EQ(tested.results.detections.size(), 1u);
+  EXPECT_EQ(tested.results.detections[0].header.stamp, header_at(3).stamp);
+  EXPECT_EQ(tested.count("images received"), 3u);
+  EXPECT_EQ(tested.count("images dropped: a newer one came"), 2u);
+  EXPECT_EQ(tested.count("images worked on"), 1u);
+}
+
+TEST(Bridge, ImagesWaitForTheirCamera) {
+  const edgescout::test::CollectedLog log;
+  TestedBridge tested;
+  tested.give_image(1);
+  tested.give_image(2);
+  EXPECT_FALSE(tested.bridge.work(0));
+  EXPECT_TRUE(holds(tested.problem("camera_info"), "found no message"));
+  msg::CameraInfo info = info_message(small_world().camera());
+  info.k = {};
+  tested.bridge.take(info);
+  tested.bridge.work(0);
+  EXPECT_TRUE(holds(tested.problem("camera_info"), "uncalibrated"));
+  EXPECT_FALSE(tested.bridge.work(0));  // until the next calibration
+  info = info_message(small_world().camera());
+  info.width = 640;
+  tested.bridge.take(info);
+  tested.bridge.work(0);
+  EXPECT_TRUE(holds(tested.problem("camera_info"), "found 320x240, expected the calibration's"));
+  EXPECT_TRUE(tested.results.detections.empty());
+  tested.give_info(3);
+  EXPECT_TRUE(tested.bridge.work(0));
+  ASSERT_EQ(tested.results.detections.size(), 1u);
+  EXPECT_EQ(tested.results.detections[0].header.stamp, header_at(2).stamp);
+  EXPECT_EQ(tested.problem("camera_info"), "");
+  EXPECT_EQ(log.messages.size(), 1u);  // of this subject, in ten seconds
+}
+
+TEST(Bridge, ImagesWithoutACameraAreDroppedIfAsked) {
+  BridgeOptions options = quick();
+  options.without_camera = WithoutCamera::Drop;
+  TestedBridge tested(options);
+  tested.give_image(1);
+  tested.give_info();
+  EXPECT_FALSE(tested.bridge.work(0));
+  msg::CameraInfo info = info_message(small_world().camera());
+  info.k = {};
+  tested.bridge.take(info);
+  tested.give_image(2);
+  tested.bridge.work(0);
+  tested.give_info();
+  EXPECT_FALSE(tested.bridge.work(0));
+  EXPECT_EQ(tested.count("images dropped: no camera"), 2u);
+}
+
+TEST(Bridge, ACameraOfAFileNeedsNoMessage) {
+  BridgeOptions options = quick();
+  options.camera = small_world().camera();
+  TestedBridge tested(options);
+  tested.give_image();
+  EXPECT_TRUE(tested.bridge.work(0));
+  EXPECT_EQ(tested.results.detections.size(), 1u);
+}
+
+TEST(Bridge, BadImagesAreSaidAndLeftOut) {
+  TestedBridge tested;
+  tested.give_info();
+  msg::Image image = image_message(small_world().image());
+  image.data.resize(100);
+  tested.bridge.take(ImageMessage(image));
+  EXPECT_TRUE(tested.bridge.work(0));
+  EXPECT_TRUE(holds(tested.problem("image"), "image: data: found 100 bytes"));
+  const msg::DiagnosticArray said = tested.bridge.diagnostics().message({});
+  EXPECT_EQ(said.status.at(0).level, 1);
+  EXPECT_TRUE(holds(said.status.at(0).message, "100 bytes"));
+  EXPECT_EQ(tested.count("images refused"), 1u);
+  tested.give_image();
+  tested.bridge.work(0);
+  EXPECT_EQ(tested.bridge.diagnostics().message({}).status.at(0).message, "ok");
+}
+
+TEST(Bridge, ARequestIsAnsweredByTheNextImage) {
+  BridgeOptions options = quick();
+  options.on_request = true;
+  options.request_seconds = 30;
+  TestedBridge tested(options);
+  tested.give_info();
+  tested.give_image(1);
+  EXPECT_FALSE(tested.bridge.work(0));  // nobody asks
+  std::vector<msg::DetectResult> answers;
+  const auto keep = [&](const msg::DetectResult& result) { answers.push_back(result); };
+  tested.bridge.request(msg::DetectRequest{}, keep);
+  EXPECT_FALSE(tested.bridge.work(0));  // that image came before
+  msg::Image bad = image_message(small_world().image(), 2);
+  bad.encoding = "x";
+  tested.bridge.take(ImageMessage(bad));
+  tested.bridge.work(0);
+  EXPECT_TRUE(answers.empty());
+  tested.give_image(3);
+  EXPECT_TRUE(tested.bridge.work(0));
+  ASSERT_EQ(answers.size(), 1u);
+  EXPECT_TRUE(answers[0].success) << answers[0].message;
+  EXPECT_EQ(answers[0].detections.header.stamp, header_at(3).stamp);
+  EXPECT_FALSE(answers[0].detections.detections.empty());
+  EXPECT_EQ(tested.results.detections.size(), 1u);  // published as well
+  tested.give_image(4);
+  EXPECT_FALSE(tested.bridge.work(0));
+}
+
+TEST(Bridge, RequestsEndWithoutAnImage) {
+  BridgeOptions options = quick();
+  options.request_seconds = 0;
+  TestedBridge tested(options);
+  tested.give_image();
+  std::vector<std::string> answers;
+  tested.bridge.request(msg::DetectRequest{},
+                        [&](const msg::DetectResult& r) { answers.push_back(r.message); });
+  EXPECT_TRUE(tested.bridge.work(0));
+  ASSERT_EQ(answers.size(), 1u);
+  EXPECT_TRUE(holds(answers[0], "no image in time (camera_info: found no message")) << answers[0];
+}
+
+TEST(Bridge, TooManyRequestsAreRefused) {
+  TestedBridge tested;
+  int refused = 0;
+  for (int i = 0; i < 100; ++i) {
+    tested.bridge.request(msg::DetectRequest{}, [&](const msg::DetectResult& r) {
+      refused += holds(r.message, "too many");
+    });
+    tested.bridge.request(msg::ScoutStateRequest{}, [&](const msg::ScoutStateResult& r) {
+      refused += holds(r.message, "too many");
+    });
+  }
+  EXPECT_EQ(refused, 2 * (100 - 64));
+}
+
+TEST(Bridge, ALimitOfTimeIsKeptAndSaid) {
+  TestedBridge tested;
+  tested.give_info();
+  msg::DetectResult answer;
+  tested.bridge.request(msg::DetectRequest{1e-6}, [&](const msg::DetectResult& r) { answer = r; });
+  tested.give_image();
+  tested.bridge.work(0);
+  EXPECT_TRUE(answer.success);
+  EXPECT_EQ(answer.message, "deadline passed");
+  EXPECT_EQ(tested.count("images not worked on wholly"), 1u);
+}
+
+// The camera hangs on an arm: the world is where the scene says.
+struct ArmBridge : TestedBridge {
+  static BridgeOptions options() {
+    BridgeOptions options = quick();
+    options.world_frame = "world";
+    options.publish_tf = true;
+    options.scout.pipeline = options.pipeline;
+    options.scout.max_views = 2;
+    for (std::size_t view : {0, 1})
+      options.scout_views.push_back(small_world().camera_from_world(view));
+    return options;
+  }
+  ArmBridge() : TestedBridge(options()) { results.wants = true; }
+  // The camera's pose at a time.
+  void stand_at(std::size_t view, double seconds) {
+    bridge.take({{transform_message("world", "camera",
+                                    inverse(small_world().camera_from_world(view)), seconds)}},
+                false);
+  }
+};
+
+TEST(Bridge, PosesMayBeInTheWorld) {
+  ArmBridge tested;
+  tested.give_info();
+  tested.give_image(1);
+  tested.bridge.work(0);
+  EXPECT_TRUE(tested.results.detections.empty());
+  EXPECT_TRUE(holds(tested.problem("tf"), "found world, expected a known one: none"));
+  tested.stand_at(0, 5);
+  tested.give_image(5);
+  tested.bridge.work(0);
+  EXPECT_EQ(tested.problem("tf"), "");
+  ASSERT_EQ(tested.results.detections.size(), 1u);
+  const msg::Detection3DArray& found = tested.results.detections[0];
+  EXPECT_EQ(found.header.frame_id, "world");
+  ASSERT_FALSE(found.detections.empty());
+  TestedBridge in_camera;
+  in_camera.give_info();
+  in_camera.give_image(5);
+  in_camera.bridge.work(0);
+  const msg::PoseWithCovariance& seen =
+      in_camera.results.detections.at(0).detections.at(0).results[0].pose;
+  const msg::PoseWithCovariance& placed = found.detections[0].results[0].pose;
+  const Se3 world_from_camera = inverse(small_world().camera_from_world());
+  expect_same_pose(placed.pose, world_from_camera * pose_of(seen.pose, ""), 1e-9);
+  const auto turning = [](const msg::PoseWithCovariance& pose) {
+    return Eigen::Map<const Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(pose.covariance.data())
+        .bottomRightCorner<3, 3>();
+  };
+  const Eigen::Matrix3d turn = world_from_camera.rotation.toRotationMatrix();
+  EXPECT_LT((turning(placed) - turn * turning(seen) * turn.transpose()).norm(),
+            1e-9 * turning(seen).norm());
+  // Meshes, frames and the overlay of the same.
+  ASSERT_EQ(tested.results.markers.size(), 1u);
+  const std::vector<msg::Marker>& markers = tested.results.markers[0].markers;
+  ASSERT_EQ(markers.size(), 1 + found.detections.size());
+  EXPECT_EQ(markers[0].action, 3);  // the former ones go
+  EXPECT_EQ(markers[1].type, 11);
+  EXPECT_EQ(markers[1].points.size(), 3 * small_world().sets[0].model.mesh.triangles.size());
+  EXPECT_EQ(markers[1].header.frame_id, "world");
+  ASSERT_EQ(tested.results.frames.size(), 1u);
+  EXPECT_EQ(tested.results.frames[0].transforms[0].child_frame_id, "obj_000001_0");
+  ASSERT_EQ(tested.results.overlays.size(), 1u);
+  EXPECT_EQ(tested.results.overlays[0].encoding, "rgb8");
+  EXPECT_EQ(tested.results.overlays[0].header.frame_id, "camera");
+  EXPECT_EQ(tested.results.overlays[0].data.size(), 3u * 320 * 240);
+}
+
+msg::CalibratedImage calibrated(std::size_t view) {
+  return {info_message(small_world().camera()),
+          message_of(inverse(small_world().camera_from_world(view))),
+          image_message(small_world().image(view))};
+}
+
+TEST(Bridge, EstimatesPosesOverSeveralCameras) {
+  TestedBridge tested;
+  msg::GetPoseEstimatesResult answer;
+  const auto ask = [&](const msg::GetPoseEstimatesRequest& request) {
+    tested.bridge.request(request, [&](const msg::GetPoseEstimatesResult& r) { answer = r; });
+    EXPECT_TRUE(tested.bridge.work(0));
+  };
+  ask({{1}, {calibrated(0), calibrated(1)}});
+  ASSERT_TRUE(answer.success) << answer.message;
+  ASSERT_FALSE(answer.pose_estimates.empty());
+  EXPECT_EQ(answer.pose_estimates[0].obj_id, 1u);
+  expect_same_pose(answer.pose_estimates[0].pose, small_world().scene.placed[0].world_from_object,
+                   0.02);
+  ask({{1}, {}});
+  EXPECT_TRUE(holds(answer.message, "cameras: found none"));
+  EXPECT_FALSE(answer.success);
+  ask({{7}, {calibrated(0)}});
+  EXPECT_TRUE(holds(answer.message, "object_ids: found 7, expected one of 1"));
+  msg::CalibratedImage bad = calibrated(1);
+  bad.pose.orientation = {0, 0, 0, 0};
+  ask({{}, {calibrated(0), bad}});
+  EXPECT_TRUE(holds(answer.message, "cameras[1]")) << answer.message;
+  bad = calibrated(1);
+  bad.info.k = {};
+  ask({{}, {calibrated(0), bad}});
+  EXPECT_TRUE(holds(answer.message, "cameras[1]: k")) << answer.message;
+}
+
+// Asks and returns the answer of a request that needs no image.
+template <typename Result, typename Request>
+Result answer_of(TestedBridge& tested, const Request& request) {
+  Result answer;
+  tested.bridge.request(request, Answer<Result>([&](const Result& result) { answer = result; }));
+  tested.bridge.work(0);
+  return answer;
+}
+
+TEST(Bridge, ScoutsWithACameraOnAnArm) {
+  ArmBridge tested;
+  using Propose = msg::ScoutProposeResult;
+  using Give = msg::ScoutGiveResult;
+  using State = msg::ScoutStateResult;
+  EXPECT_TRUE(holds(answer_of<State>(tested, msg::ScoutStateRequest{}).message, "run: found none"));
+  EXPECT_TRUE(holds(answer_of<Propose>(tested, msg::ScoutProposeRequest{}).message,
+                    "camera_info: messages: found none"));
+  tested.give_info();
+  const Propose first = answer_of<Propose>(tested, msg::ScoutProposeRequest{});
+  ASSERT_TRUE(first.success) << first.message;
+  EXPECT_FALSE(first.done);
+  EXPECT_EQ(first.camera_pose.header.frame_id, "world");
+  expect_same_pose(first.camera_pose.pose,
+                   inverse(small_world().camera_from_world(std::size_t(first.view))), 1e-12);
+  EXPECT_TRUE(holds(answer_of<Give>(tested, msg::ScoutGiveRequest{9, true, "no path"}).message,
+                    "view: found 9, expected 0 to 1"));
+
+  Give given;
+  tested.bridge.request(msg::ScoutGiveRequest{first.view, false, ""},
+                        Answer<Give>([&](const Give& result) { given = result; }));
+  tested.stand_at(std::size_t(first.view), 7);
+  tested.give_image(7, std::size_t(first.view));
+  tested.bridge.work(0);
+  EXPECT_TRUE(given.success) << given.message;
+  const State state = answer_of<State>(tested, msg::ScoutStateRequest{});
+  EXPECT_EQ(state.images, 1);
+  EXPECT_EQ(state.detections.header.frame_id, "world");
+
+  const Propose second = answer_of<Propose>(tested, msg::ScoutProposeRequest{});
+  if (!second.done) {
+    EXPECT_NE(second.view, first.view);
+    EXPECT_TRUE(
+        answer_of<Give>(tested, msg::ScoutGiveRequest{second.view, true, "no path"}).success);
+  }
+  const Propose last = answer_of<Propose>(tested, msg::ScoutProposeRequest{});
+  EXPECT_TRUE(last.done);
+  EXPECT_NE(last.end, "");
+  EXPECT_FALSE(answer_of<Propose>(tested, msg::ScoutProposeRequest{true}).done);
+}
+
+TEST(Bridge, StopsWorkInProgress) {
+  TestedBridge tested;
+  tested.give_info();
+  tested.give_image();
+  tested.bridge.stop();
+  EXPECT_FALSE(tested.bridge.work(60));
+}
+
+}  // namespace
+
+}  // namespace edgescout::ros2::test
