@@ -59,7 +59,7 @@ struct IdealScene {
 // Resamples as a scout does, for a scene of l-brackets.
 std::vector<Particle> resampled(const auto& scene, std::span<const Particle> particles, int count,
                                 const Random& random) {
-  const std::vector<TemplateSet> sets{set_of(make_part("l_bracket"))};
+  const std::vector<TemplateSet> sets{without_views(make_part("l_bracket"))};
   const std::vector<Mode> modes =
       find_modes(particles, sets, scene.models, scene.options, scene.backend->threads());
   return resample(particles, modes, scene.models, count, scene.options, random);
