@@ -1,6 +1,7 @@
 // Tracking over rendered sequences of known poses.
 //
-//   edgescout_bench_tracking [--frames N] [--seed N] [--part NAME] [--points N] [--no-registration]
+//   edgescout_bench_tracking [--frames N] [--seed N] [--part NAME | --mesh-mm FILE]
+//   [--points N] [--no-registration]
 //
 // Prints a row for each part and kind of motion: the frames that are tracked, doubtful and lost; of
 // the tracked ones those that are wrong (MSSD above a tenth of the diameter); errors; the time of
@@ -17,6 +18,7 @@
 #include "host/core/pose_error.h"
 #include "host/core/stopwatch.h"
 #include "host/experiments/moving_scene.h"
+#include "host/io/mesh.h"
 #include "host/render/parts.h"
 #include "host/track/tracker.h"
 #include "kernels/thread_pool.h"
@@ -27,7 +29,7 @@ using namespace edgescout;
 
 struct Arguments {
   int frames = 60, seed = 1, points = TrackOptions{}.max_points;
-  std::string part;
+  std::string part, mesh_mm;
   bool no_registration = false;
 };
 
@@ -65,6 +67,14 @@ double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
   std::ranges::sort(values);
   return values[std::size_t(share * double(values.size() - 1))];
+}
+
+std::vector<Object> parts_of(const Arguments& a) {
+  if (!a.mesh_mm.empty()) return {{1, load_mesh(a.mesh_mm, LengthUnit::Millimetre), {}}};
+  std::vector<Object> parts;
+  for (const std::string& name : a.part.empty() ? part_names() : std::vector{a.part})
+    parts.push_back(make_part(name));
+  return parts;
 }
 
 struct Outcome {
@@ -142,6 +152,7 @@ int main(int argc, char** argv) try {
                          {"--seed", &a.seed},
                          {"--points", &a.points},
                          {"--part", &a.part},
+                         {"--mesh-mm", &a.mesh_mm},
                          {"--no-registration", &a.no_registration}});
   std::puts(
       "| part | motion | tracked | doubtful | lost | wrong of tracked | error, median, % of the "
@@ -149,11 +160,10 @@ int main(int argc, char** argv) try {
       "found again | frames searched | s of search |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   ThreadPool pool(0);
-  for (const std::string& name : a.part.empty() ? part_names() : std::vector{a.part}) {
-    const Object part = make_part(name);
+  for (const Object& part : parts_of(a))
     for (const Motion& motion : motions)
-      report(name, motion, follow(part, make_moving_scene(part, options_of(motion, a), pool), a));
-  }
+      report(part.mesh.name, motion,
+             follow(part, make_moving_scene(part, options_of(motion, a), pool), a));
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 2;

@@ -17,6 +17,10 @@ PROGRAMS = pathlib.Path(__file__).resolve().parents[3] / "docs/examples/python"
     ("two_views", "object 6: probability 0.9"),
     ("look_around", "end: no view left"),
     ("refine_pose", "probability 0.9"),
+    ("pick_part", ": grasp"),
+    ("scout_with_arm", "end: no view left"),
+    ("follow_part", "1 TRACKED"),
+    ("notebook", "back within 0."),
 ])
 def test_runs_and_draws(name, line, tmp_path):
     run = subprocess.run([sys.executable, PROGRAMS / f"{name}.py", tmp_path / "out.png"],
@@ -28,4 +32,4 @@ def test_runs_and_draws(name, line, tmp_path):
 
 
 def test_each_program_is_tested():
-    assert len(list(PROGRAMS.glob("*.py"))) == 4
+    assert len(list(PROGRAMS.glob("*.py"))) == 8

@@ -36,6 +36,7 @@ def test_follows_an_object_that_moves(scene, found, tracker):
         assert place_px(scene.camera, track) - first == pytest.approx(5 * frame, abs=1)
     assert [t.id for t in tracker.tracks] == [1]
     assert tracker.tracks[0].object_id == scene.templates.object_id
+    assert tracker.overlay(scene.image).shape == (*scene.image.shape, 3)
 
 
 def test_searches_in_another_thread(scene, found, tracker):

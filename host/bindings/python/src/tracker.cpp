@@ -3,6 +3,7 @@
 #include "host/bindings/python/src/found_objects.h"
 #include "host/bindings/python/src/parts.h"
 #include "host/bindings/python/src/shared_backend.h"
+#include "host/overlay.h"
 
 namespace edgescout::python {
 
@@ -55,6 +56,20 @@ class PythonTracker {
     return on_backend(
         backend ? backend : own_, max_seconds,
         [&](const TimeLimit& limit, Backend& on) { return tracker_->search(frame, on, limit); });
+  }
+
+  py::array_t<std::uint8_t> overlay(const py::array& image) {
+    const TrackFrame frame = frame_of(image, 0);
+    std::vector<OverlayPose> poses;
+    for (const Track& track : tracker_->tracks())
+      if (track.state != TrackState::Lost)
+        poses.push_back({track.object, track.world_from_object, track.above_chance,
+                         std::to_string(track.id) + " " + to_string(track.state)});
+    const std::vector<EdgeModel> models = models_of(sets_);
+    return array_of(on_backend(backend_, {}, [&](const TimeLimit&, Backend& on) {
+      return draw_overlay(undistort(*frame.image, camera_), undistorted(camera_), poses, models,
+                          nullptr, on);
+    }));
   }
 
   std::vector<PythonTrack> tracks() const {
@@ -131,6 +146,9 @@ void add_tracker(py::module_& module) {
           py::arg("backend") = nullptr, py::arg("max_seconds") = std::nullopt,
           "Looks for instances that are lost or not yet found, and returns how many it found. They "
           "join at the next update(), which may go on in another thread meanwhile.")
+      .def("overlay", &PythonTracker::overlay, py::arg("image"),
+           "The image with what is tracked or doubtful: (height, width, 3) uint8, red, green, blue. "
+           "The number is that of above_chance.")
       .def_property_readonly("tracks", &PythonTracker::tracks, "As of the last update().");
 }
 
