@@ -1,7 +1,6 @@
 #include "host/io/pixels.h"
 
 #include <array>
-#include <cstdlib>
 #include <cstring>
 #include <opencv2/imgproc.hpp>
 
@@ -52,11 +51,14 @@ void require_pixels(const Pixels& pixels) {
                          : "none",
                      "a width and a height of at least 16 px");
   require_size({std::uint64_t(pixels.width), std::uint64_t(pixels.height)}, "image");
-  const std::ptrdiff_t row_bytes = std::ptrdiff_t(pixels.width) * bytes_per_pixel(pixels.format);
-  if (pixels.row_stride_bytes != 0 && std::abs(pixels.row_stride_bytes) < row_bytes)
-    throw InputError("image", "row stride", std::to_string(pixels.row_stride_bytes) + " bytes",
+  const std::ptrdiff_t stride = pixels.row_stride_bytes,
+                       row_bytes = std::ptrdiff_t(pixels.width) * bytes_per_pixel(pixels.format);
+  constexpr std::ptrdiff_t most = std::ptrdiff_t(1) << 40;
+  const bool overlaps = stride != 0 && stride > -row_bytes && stride < row_bytes;
+  if (overlaps || stride < -most || stride > most)
+    throw InputError("image", "row stride", std::to_string(stride) + " bytes",
                      "at least the " + std::to_string(row_bytes) + " of " +
-                         std::to_string(pixels.width) + " pixels");
+                         std::to_string(pixels.width) + " pixels, at most 2^40");
 }
 
 // Copied row by row: the caller's need not be where their type may stand.

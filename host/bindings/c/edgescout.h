@@ -19,8 +19,8 @@
              long as it does, if nothing else is said.
    Threads   All functions may be called from any thread. Handles that never change (mesh, camera,
              templates, picture, detections) and cancellers may be used by several threads at once.
-             An options, a backend or a scout is used by one call at a time: a second one, from
-             another thread or from a callback, returns EDGESCOUT_BUSY. Each function says whom it
+             An options, a backend, a scout or a tracker is used by one call at a time: a second
+   one, from another thread or from a callback, returns EDGESCOUT_BUSY. Each function says whom it
              keeps busy, where it does. A call may take a second or more; edgescout_limit ends it.
    Callbacks run on the thread that called, inside the call. They must return: no longjmp. No
              pthread_cancel of a thread in a call either.
@@ -89,9 +89,10 @@ typedef struct edgescout_mesh edgescout_mesh;
 typedef struct edgescout_templates edgescout_templates;
 typedef struct edgescout_detections edgescout_detections;
 typedef struct edgescout_scout edgescout_scout;
+typedef struct edgescout_tracker edgescout_tracker;
 
 /* Frees a handle of any kind; NULL is nothing to do. EDGESCOUT_BUSY: a call uses the options,
-   backend or scout; it stays. */
+   backend, scout or tracker; it stays. */
 EDGESCOUT_API edgescout_status edgescout_free(const void* handle);
 /* Of all kinds, in the process. A program that frees what it makes sees it constant. */
 EDGESCOUT_API size_t edgescout_handle_count(void);
@@ -120,7 +121,8 @@ enum {
   EDGESCOUT_TEMPLATE_OPTIONS = 1, /* viewpoints and distances of an object's templates */
   EDGESCOUT_DETECT_OPTIONS = 2,
   EDGESCOUT_REGISTER_OPTIONS = 3,
-  EDGESCOUT_SCOUT_OPTIONS = 4
+  EDGESCOUT_SCOUT_OPTIONS = 4,
+  EDGESCOUT_TRACK_OPTIONS = 5
 };
 
 enum {
@@ -562,6 +564,70 @@ EDGESCOUT_API edgescout_status edgescout_scout_save(const edgescout_scout* scout
 /* Goes on from a file of the same parts, camera and views. limit: or NULL. */
 EDGESCOUT_API edgescout_status edgescout_scout_resume(edgescout_scout* scout, const char* file,
                                                       const edgescout_limit* limit);
+
+/* ---- The tracker: poses from image to image ---- */
+
+enum {
+  EDGESCOUT_TRACKED = 0,
+  EDGESCOUT_DOUBTFUL = 1, /* too few edges agree: the best pose found, or the predicted one */
+  EDGESCOUT_LOST = 2      /* doubtful for too long, or out of the image: the last pose */
+};
+
+typedef struct edgescout_tracker_plan {
+  size_t struct_size;
+  const edgescout_templates* templates;
+  const edgescout_camera* camera;   /* takes every image; has a size */
+  edgescout_backend* backend;       /* busy in update; "cpu" is the fastest for one object */
+  const edgescout_options* options; /* EDGESCOUT_TRACK_OPTIONS; NULL: the defaults */
+} edgescout_tracker_plan;
+EDGESCOUT_API edgescout_status edgescout_tracker_create(const edgescout_tracker_plan* plan,
+                                                        edgescout_tracker** out);
+
+/* Follows an object, given by the index of its part in the templates, from a pose that is known to
+   about 10 px in the next image. id: its number, which stays when it is lost and found again. */
+EDGESCOUT_API edgescout_status edgescout_tracker_add(edgescout_tracker* tracker, int32_t object,
+                                                     const double camera_from_object[16],
+                                                     int32_t* id);
+/* Forgets it. BAD_INPUT: no such id. */
+EDGESCOUT_API edgescout_status edgescout_tracker_remove(edgescout_tracker* tracker, int32_t id);
+
+typedef struct edgescout_frame {
+  size_t struct_size;
+  const edgescout_image* image;
+  double time_s; /* when it was taken, on any clock; later than the last one */
+} edgescout_frame;
+/* All instances in the new image; edgescout_tracker_at has them. Some milliseconds. */
+EDGESCOUT_API edgescout_status edgescout_tracker_update(edgescout_tracker* tracker,
+                                                        const edgescout_frame* frame);
+
+typedef struct edgescout_search {
+  size_t struct_size;
+  edgescout_frame frame;        /* with its struct_size */
+  edgescout_backend* backend;   /* busy meanwhile; another than the plan's, if update goes on */
+  const edgescout_limit* limit; /* or NULL */
+} edgescout_search;
+/* Looks for instances that are lost or not yet found; what it finds joins at the next update. It
+   may run in another thread while update goes on: it keeps other searches busy, not the tracker.
+   found: how many. */
+EDGESCOUT_API edgescout_status edgescout_tracker_search(edgescout_tracker* tracker,
+                                                        const edgescout_search* search,
+                                                        size_t* found);
+
+typedef struct edgescout_track {
+  size_t struct_size;
+  int32_t id;
+  int32_t object;          /* index of its part in the templates */
+  int32_t state;           /* EDGESCOUT_TRACKED, .. */
+  int32_t doubtful_frames; /* in a row */
+  double camera_from_object[16];
+  double covariance[36]; /* as that of edgescout_detection, in the camera frame */
+  double above_chance;   /* share of the edges found, above what chance gives, [0, 1] */
+} edgescout_track;
+/* As of the last update, in the order of their ids. */
+EDGESCOUT_API edgescout_status edgescout_tracker_count(const edgescout_tracker* tracker,
+                                                       size_t* out);
+EDGESCOUT_API edgescout_status edgescout_tracker_at(const edgescout_tracker* tracker, size_t index,
+                                                    edgescout_track* out);
 
 /* ---- Poses of cameras ---- */
 

@@ -14,6 +14,7 @@ enum kind {
   TEMPLATES,
   DETECTIONS,
   SCOUT,
+  TRACKER,
   KINDS
 };
 
@@ -226,6 +227,63 @@ WITH(scout_detections) {
 WITH(scout_save) { return es_scout_save(h, "/dev/null/none"); }
 WITH(scout_resume) { return es_scout_resume(h, "/dev/null/none", NULL); }
 
+static edgescout_tracker_plan plan_of_tracker(void) {
+  return (edgescout_tracker_plan){.struct_size = sizeof(edgescout_tracker_plan),
+                                  .templates = scene.templates,
+                                  .camera = scene.camera,
+                                  .backend = scene.backend};
+}
+static edgescout_status create_tracker(const edgescout_tracker_plan* with) {
+  edgescout_tracker* out;
+  return es_tracker_create(with, &out);
+}
+WITH(tracker_templates) {
+  edgescout_tracker_plan with = plan_of_tracker();
+  with.templates = h;
+  return create_tracker(&with);
+}
+WITH(tracker_camera) {
+  edgescout_tracker_plan with = plan_of_tracker();
+  with.camera = h;
+  return create_tracker(&with);
+}
+WITH(tracker_backend) {
+  edgescout_tracker_plan with = plan_of_tracker();
+  with.backend = h;
+  return create_tracker(&with);
+}
+WITH(tracker_options) {
+  edgescout_tracker_plan with = plan_of_tracker();
+  with.options = h;
+  return create_tracker(&with);
+}
+WITH(tracker_add) {
+  const double pose[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1};
+  int32_t id;
+  return es_tracker_add(h, 0, pose, &id);
+}
+WITH(tracker_remove) { return es_tracker_remove(h, 1); }
+WITH(tracker_update) {
+  const edgescout_frame frame = {.struct_size = sizeof frame, .image = &scene.image};
+  return es_tracker_update(h, &frame);
+}
+WITH(tracker_search) {
+  const edgescout_search search = {
+      .struct_size = sizeof search,
+      .frame = {.struct_size = sizeof search.frame, .image = &scene.image},
+      .backend = scene.backend};
+  size_t found;
+  return es_tracker_search(h, &search, &found);
+}
+WITH(tracker_count) {
+  size_t out;
+  return es_tracker_count(h, &out);
+}
+WITH(tracker_at) {
+  edgescout_track out = {.struct_size = sizeof out};
+  return es_tracker_at(h, 0, &out);
+}
+
 struct place {
   const char* name;
   enum kind kind;
@@ -281,7 +339,17 @@ static const struct place places[] = {
     {"scout_step_at", SCOUT, 0, scout_step},
     {"scout_detections", SCOUT, 0, scout_detections},
     {"scout_save", SCOUT, 0, scout_save},
-    {"scout_resume", SCOUT, 0, scout_resume}};
+    {"scout_resume", SCOUT, 0, scout_resume},
+    {"tracker's templates", TEMPLATES, 0, tracker_templates},
+    {"tracker's camera", CAMERA, 0, tracker_camera},
+    {"tracker's backend", BACKEND, 0, tracker_backend},
+    {"tracker's options", OPTIONS, 1, tracker_options},
+    {"tracker_add", TRACKER, 0, tracker_add},
+    {"tracker_remove", TRACKER, 0, tracker_remove},
+    {"tracker_update", TRACKER, 0, tracker_update},
+    {"tracker_search", TRACKER, 0, tracker_search},
+    {"tracker_count", TRACKER, 0, tracker_count},
+    {"tracker_at", TRACKER, 0, tracker_at}};
 
 static void expect(edgescout_status expected, const struct place* place, void* handle) {
   const edgescout_status found = place->call(handle);
@@ -342,6 +410,7 @@ void test_handles(void) {
   live[TEMPLATES] = scene.templates;
   live[DETECTIONS] = no_detections();
   live[SCOUT] = example_scout(&scene);
+  live[TRACKER] = example_tracker(&scene);
   edgescout_camera* const freed = camera_of(part_window);
   OK(es_free(freed));
   EXPECT(EDGESCOUT_BAD_HANDLE, es_free(freed));
@@ -369,5 +438,6 @@ void test_handles(void) {
   OK(es_free(live[OPTIONS]));
   OK(es_free(live[DETECTIONS]));
   OK(es_free(live[SCOUT]));
+  OK(es_free(live[TRACKER]));
   close_scene(&scene);
 }

@@ -44,10 +44,32 @@ static void print_detections(const char* call, edgescout_detections* detections)
   OK(es_free(detections));
 }
 
+/* Three updates by one image, from the best pose. */
+static void print_tracks(const struct scene* scene, const edgescout_detections* found) {
+  edgescout_detection best = {.struct_size = sizeof best};
+  OK(es_detections_at(found, 0, &best));
+  edgescout_tracker* const tracker = example_tracker(scene);
+  int32_t id = 0;
+  OK(es_tracker_add(tracker, best.object, best.world_from_object, &id));
+  for (int i = 1; i <= 3; ++i) {
+    const edgescout_frame frame = {
+        .struct_size = sizeof frame, .image = &scene->image, .time_s = i / 30.0};
+    OK(es_tracker_update(tracker, &frame));
+    edgescout_track track = {.struct_size = sizeof track};
+    OK(es_tracker_at(tracker, 0, &track));
+    printf("track %d of object %d: state %d\n", track.id, track.object, track.state);
+    print_numbers("pose", track.camera_from_object, 16);
+    print_numbers("covariance", track.covariance, 36);
+    print_numbers("above chance", &track.above_chance, 1);
+  }
+  OK(es_free(tracker));
+}
+
 static void print_one_view(const struct scene* scene) {
   edgescout_detections* found = NULL;
   OK(es_options_set(scene->detect_options, "min-probability", "0.05"));
   OK(es_detect(&scene->request, &found));
+  print_tracks(scene, found);
   print_detections("detect", found);
   const double starts[32] = {1, 0, 0, -0.11, 0, 1, 0, 0.01, 0, 0, 1, 0.33, 0, 0, 0, 1,
                              1, 0, 0, 5,     0, 1, 0, 0.01, 0, 0, 1, 0.33, 0, 0, 0, 1};

@@ -5,6 +5,7 @@
 #include "host/active/scout.h"
 #include "host/core/pose_matrix.h"
 #include "host/edgescout.h"
+#include "host/track/tracker.h"
 #include "tests/bindings/c/views.h"
 
 using namespace edgescout;
@@ -102,11 +103,30 @@ ScoutOptions quick_scout_options() {
   return options;
 }
 
+void print_tracks(const Image& image, const Detection& best, std::span<const TemplateSet> sets,
+                  Backend& backend) {
+  Tracker tracker(sets, camera_of(part_window), backend);
+  double rows[16];
+  write_rows(best.world_from_object, rows);  // C passes matrices
+  tracker.add(best.object, pose_of_rows(rows, "best"));
+  const auto shared = std::make_shared<const Image>(image);
+  for (int i = 1; i <= 3; ++i) {
+    const Track track = tracker.update({shared, i / 30.0}).front();
+    std::printf("track %d of object %d: state %d\n", track.id, track.object, int(track.state));
+    print_pose("pose", track.world_from_object);
+    const Eigen::Matrix<double, 6, 6, Eigen::RowMajor> covariance = track.covariance;
+    print_numbers("covariance", {covariance.data(), 36});
+    print_numbers("above chance", {&track.above_chance, 1});
+  }
+}
+
 void print_one_view(Backend& backend) {
   const std::vector<TemplateSet> sets{templates_of(1, 0.34, 2, backend)};
   const Image image = window_of("scenes/000000/gray/000000.png", part_window);
   const ObjectView view = prepare_view(image, camera_of(part_window), Se3{}, backend, {});
-  print_detections("detect", detect_objects(view, sets, backend, quick_options()), sets);
+  const Detections found = detect_objects(view, sets, backend, quick_options());
+  print_tracks(image, found.detections.front(), sets, backend);
+  print_detections("detect", found, sets);
   std::vector<ObjectPose> starts(2);
   starts[0].world_from_object.translation_m = {-0.11, 0.01, 0.33};
   starts[1].world_from_object.translation_m = {5, 0.01, 0.33};

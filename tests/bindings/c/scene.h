@@ -48,6 +48,9 @@ edgescout_templates* templates_of_part(int part, const char* distance_min, const
 edgescout_scout_plan example_plan(const struct scene* scene);
 edgescout_scout* example_scout(const struct scene* scene);
 
+/* Of the scene's templates and camera, with the usual options. */
+edgescout_tracker* example_tracker(const struct scene* scene);
+
 /* Tests, by their names on the command line. */
 void test_versions(void);
 void test_handles(void);
@@ -59,6 +62,7 @@ void test_models(void);
 void test_limits(void);
 void test_busy(void);
 void test_scout(void);
+void test_tracker(void);
 void test_memory(void);
 void test_log(void);
 /* Prints what the functions find, to be compared with what C++ finds. */

@@ -210,7 +210,9 @@ static void expect_the_layout_of_this_abi(void) {
   CHECK(sizeof(edgescout_scout_plan) == 72 && sizeof(edgescout_proposal) == 144);
   CHECK(sizeof(edgescout_expectation) == 48 && sizeof(edgescout_shot) == 40);
   CHECK(sizeof(edgescout_scout_state) == 64 && sizeof(edgescout_scout_step) == 168);
-  CHECK(sizeof(edgescout_hemisphere) == 56);
+  CHECK(sizeof(edgescout_hemisphere) == 56 && sizeof(edgescout_tracker_plan) == 40);
+  CHECK(sizeof(edgescout_frame) == 24 && sizeof(edgescout_search) == 48);
+  CHECK(sizeof(edgescout_track) == 448);
 }
 
 void test_structs(void) {

@@ -38,7 +38,8 @@ struct NamedBackend {
   std::string name;
 };
 
-class SteppedScout;  // scout.cpp
+class SteppedScout;      // scout.cpp
+class FollowingTracker;  // tracker.cpp
 
 template <typename T>
 struct Keeps {
@@ -76,6 +77,10 @@ struct Content<edgescout_templates> : Keeps<PartTemplates> {
 template <>
 struct Content<edgescout_detections> : Keeps<FoundObjects> {
   static constexpr const char* name = "detections";
+};
+template <>
+struct Content<edgescout_tracker> : Keeps<std::shared_ptr<FollowingTracker>> {
+  static constexpr const char* name = "tracker";
 };
 template <>
 struct Content<edgescout_scout> : Keeps<std::shared_ptr<SteppedScout>> {

@@ -10,7 +10,7 @@ namespace edgescout::c {
 namespace {
 
 constexpr std::array<const char*, std::variant_size_v<OptionValues>> kinds{
-    "images", "templates", "detect", "register", "scout"};
+    "images", "templates", "detect", "register", "scout", "track"};
 
 OptionValues defaults_of(std::int32_t kind) {
   switch (kind) {
@@ -24,6 +24,8 @@ OptionValues defaults_of(std::int32_t kind) {
       return OptionValues(std::in_place_type<RegisterOptions>);
     case EDGESCOUT_SCOUT_OPTIONS:
       return OptionValues(std::in_place_type<ScoutOptions>);
+    case EDGESCOUT_TRACK_OPTIONS:
+      return OptionValues(std::in_place_type<TrackOptions>);
     default:
       refuse(EDGESCOUT_BAD_INPUT, "kind", std::to_string(kind),
              "EDGESCOUT_IMAGE_OPTIONS or another kind of options");
@@ -36,6 +38,7 @@ void describe_all(RegisterOptions& options, OptionVisitor& visit) {
   describe(options.work.tensor, visit);
 }
 void describe_all(ScoutOptions& options, OptionVisitor& visit) { describe_scout(options, visit); }
+void describe_all(TrackOptions& options, OptionVisitor& visit) { describe_track(options, visit); }
 template <typename Options>
 void describe_all(Options& options, OptionVisitor& visit) {
   describe(options, visit);
@@ -108,6 +111,7 @@ template TemplateOptions options_of(const edgescout_options*);
 template PipelineOptions options_of(const edgescout_options*);
 template RegisterOptions options_of(const edgescout_options*);
 template ScoutOptions options_of(const edgescout_options*);
+template TrackOptions options_of(const edgescout_options*);
 
 }  // namespace edgescout::c
 

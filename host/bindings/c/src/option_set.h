@@ -11,6 +11,7 @@
 #include "host/io/image_options.h"
 #include "host/model/template_set.h"
 #include "host/register_objects.h"
+#include "host/track/track_options.h"
 
 namespace edgescout::c {
 
@@ -20,8 +21,8 @@ struct RegisterOptions {
 };
 
 // In the order of EDGESCOUT_IMAGE_OPTIONS and the others.
-using OptionValues =
-    std::variant<ImageOptions, TemplateOptions, PipelineOptions, RegisterOptions, ScoutOptions>;
+using OptionValues = std::variant<ImageOptions, TemplateOptions, PipelineOptions, RegisterOptions,
+                                  ScoutOptions, TrackOptions>;
 
 class OptionSet {
  public:

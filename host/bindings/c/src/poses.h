@@ -27,4 +27,9 @@ inline std::vector<Se3> poses_of(const double* rows, std::size_t count, const ch
 
 inline void write_pose(const Se3& pose, double (&to)[16]) { write_rows(pose, to); }
 
+inline void write_covariance(const Matrix6d& covariance, double (&to)[36]) {
+  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>> rows(to);
+  rows = covariance;
+}
+
 }  // namespace edgescout::c

@@ -25,7 +25,7 @@ edgescout_detection shown_detection(const FoundObject& found) {
   shown.object_id = found.object_id;
   shown.name = found.name.c_str();
   write_pose(found.world_from_object, shown.world_from_object);
-  Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(shown.covariance) = found.covariance;
+  write_covariance(found.covariance, shown.covariance);
   shown.probability = found.probability;
   shown.psi = found.psi;
   shown.psi_z_score = found.psi_z_score;

@@ -1,0 +1,117 @@
+/* The tracker: a part that stands still, found, hidden and lost. */
+#include <math.h>
+#include <string.h>
+
+#include "tests/bindings/c/scene.h"
+
+static const double near_pose[16] = {-0.6, 0.7, -0.3, -0.1139, 0.6, 0.7, 0.4, 0.0128,
+                                     0.5,  0.1, -0.9, 0.3355,  0,   0,   0,   1};
+
+edgescout_tracker* example_tracker(const struct scene* scene) {
+  const edgescout_tracker_plan plan = {.struct_size = sizeof plan,
+                                       .templates = scene->templates,
+                                       .camera = scene->camera,
+                                       .backend = scene->backend};
+  edgescout_tracker* tracker = NULL;
+  OK(es_tracker_create(&plan, &tracker));
+  return tracker;
+}
+
+static edgescout_track track_of(const edgescout_tracker* tracker) {
+  size_t count = 0;
+  OK(es_tracker_count(tracker, &count));
+  CHECK(count == 1);
+  edgescout_track track = {.struct_size = sizeof track};
+  OK(es_tracker_at(tracker, 0, &track));
+  return track;
+}
+
+static void update(edgescout_tracker* tracker, const edgescout_image* image, double time_s) {
+  const edgescout_frame frame = {.struct_size = sizeof frame, .image = image, .time_s = time_s};
+  OK(es_tracker_update(tracker, &frame));
+}
+
+/* The part is found by the search, joins at the next update and is followed. */
+static void expect_it_follows(const struct scene* scene, edgescout_tracker* tracker) {
+  edgescout_detections* detections = NULL;
+  OK(es_detect(&scene->request, &detections));
+  edgescout_detection best = {.struct_size = sizeof best};
+  OK(es_detections_at(detections, 0, &best));
+  int32_t id = 0;
+  OK(es_tracker_add(tracker, 0, best.world_from_object, &id));
+  CHECK(id == 1);
+  for (int i = 1; i <= 3; ++i) update(tracker, &scene->image, i / 30.0);
+  const edgescout_track track = track_of(tracker);
+  CHECK(track.id == 1 && track.object == 0 && track.state == EDGESCOUT_TRACKED);
+  CHECK(track.above_chance > 0.5 && track.covariance[0] > 0 && track.covariance[0] < 1e-4);
+  for (int i = 3; i < 12; i += 4)
+    CHECK(fabs(track.camera_from_object[i] - best.world_from_object[i]) < 0.003);
+  OK(es_free(detections));
+}
+
+static void expect_refusals(const struct scene* scene, edgescout_tracker* tracker) {
+  edgescout_frame frame = {.struct_size = sizeof frame, .image = &scene->image, .time_s = 0.05};
+  EXPECT(EDGESCOUT_BAD_INPUT, es_tracker_update(tracker, &frame)); /* not later */
+  frame.time_s = 1;
+  edgescout_image image = scene->image;
+  image.width = 100;
+  frame.image = &image;
+  EXPECT(EDGESCOUT_BAD_INPUT, es_tracker_update(tracker, &frame));
+  frame.image = NULL;
+  EXPECT(EDGESCOUT_NULL, es_tracker_update(tracker, &frame));
+  EXPECT(EDGESCOUT_NULL, es_tracker_update(tracker, NULL));
+  int32_t id = 0;
+  EXPECT(EDGESCOUT_BAD_INPUT, es_tracker_add(tracker, 1, near_pose, &id));
+  SAYS("object: found 1, expected one of 1 parts");
+  EXPECT(EDGESCOUT_NULL, es_tracker_add(tracker, 0, NULL, &id));
+  EXPECT(EDGESCOUT_NULL, es_tracker_add(tracker, 0, near_pose, NULL));
+  EXPECT(EDGESCOUT_BAD_INPUT, es_tracker_remove(tracker, 7));
+  SAYS("id: found 7");
+  edgescout_track track = {.struct_size = sizeof track};
+  EXPECT(EDGESCOUT_BAD_INPUT, es_tracker_at(tracker, 1, &track));
+  EXPECT(EDGESCOUT_NULL, es_tracker_at(tracker, 0, NULL));
+  EXPECT(EDGESCOUT_NULL, es_tracker_count(tracker, NULL));
+  EXPECT(EDGESCOUT_NULL, es_tracker_search(tracker, NULL, NULL));
+}
+
+/* A search whose limit is over finds nothing; the whole one what was forgotten. */
+static void expect_it_searches(const struct scene* scene, edgescout_tracker* tracker) {
+  OK(es_tracker_remove(tracker, 1));
+  update(tracker, &scene->image, 1.1);
+  size_t count = 1;
+  OK(es_tracker_count(tracker, &count));
+  CHECK(count == 0);
+  const edgescout_limit over = {.struct_size = sizeof over, .max_seconds = 1e-9};
+  edgescout_search search = {.struct_size = sizeof search, .backend = scene->backend};
+  search.frame =
+      (edgescout_frame){.struct_size = sizeof search.frame, .image = &scene->image, .time_s = 1.1};
+  search.limit = &over;
+  size_t found = 7;
+  OK(es_tracker_search(tracker, &search, &found));
+  CHECK(found == 0);
+  search.limit = NULL;
+  OK(es_tracker_search(tracker, &search, &found));
+  CHECK(found == 1);
+  update(tracker, &scene->image, 1.2);
+  CHECK(track_of(tracker).id == 2 && track_of(tracker).state == EDGESCOUT_TRACKED);
+}
+
+void test_tracker(void) {
+  struct scene scene;
+  open_scene(&scene);
+  edgescout_options* options = NULL;
+  OK(es_options_create(EDGESCOUT_TRACK_OPTIONS, &options));
+  OK(es_options_set(options, "coarse-poses", "500"));
+  OK(es_options_set(options, "medium-poses", "60"));
+  OK(es_options_set(options, "candidates", "5"));
+  const edgescout_tracker_plan plan = {sizeof plan, scene.templates, scene.camera, scene.backend,
+                                       options};
+  edgescout_tracker* tracker = NULL;
+  OK(es_tracker_create(&plan, &tracker));
+  OK(es_free(options));
+  expect_it_follows(&scene, tracker);
+  expect_refusals(&scene, tracker);
+  expect_it_searches(&scene, tracker);
+  OK(es_free(tracker));
+  close_scene(&scene);
+}
