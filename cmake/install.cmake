@@ -3,30 +3,25 @@
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/edgescout)
-install(TARGETS edgescout EXPORT edgescout-targets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(EXPORT edgescout-targets NAMESPACE edgescout:: DESTINATION ${package_dir})
+install(TARGETS edgescout EXPORT edgescout-targets 
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development)
+install(EXPORT edgescout-targets NAMESPACE edgescout:: DESTINATION ${package_dir} COMPONENT development)
 
 # Headers keep their paths, so that `#include "host/core/types.h"` reads the same inside and outside.
 include(cmake/public_headers.cmake)
 foreach(header IN LISTS EDGESCOUT_INSTALLED_HEADERS)
   get_filename_component(folder ${header} DIRECTORY)
-  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/edgescout/${folder})
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/edgescout/${folder} COMPONENT development)
 endforeach()
 
 configure_package_config_file(cmake/edgescout-config.cmake.in ${PROJECT_BINARY_DIR}/edgescout-config.cmake
                               INSTALL_DESTINATION ${package_dir})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/edgescout-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/edgescout-config.cmake ${PROJECT_BINARY_DIR}/edgescout-config-version.cmake
-        DESTINATION ${package_dir})
+        DESTINATION ${package_dir} COMPONENT development)
 # The documents keep their places to each other, so that their links work.
-install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
+install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 
-# `cpack` in the build folder makes a Debian package.
-set(CPACK_GENERATOR DEB)
-set(CPACK_PACKAGE_CONTACT "the edgescout authors")
-set(CPACK_DEBIAN_PACKAGE_MAINTAINER "the edgescout authors <edgescout@localhost>")
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "libeigen3-dev")
-set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-include(CPack)
+include(cmake/program_files.cmake)
+include(cmake/packages.cmake)

@@ -95,6 +95,7 @@ long_run() {
   step "address sanitizer: build and tests" build_and_test asan
   step "thread sanitizer: build and tests" build_and_test tsan
   step "fuzzer: 30 s a reader" scripts/fuzz.sh 30
+  step "packages in a fresh Debian" scripts/packages_test.sh
 }
 
 # Recorded data that lies beside the checkout; tests that need it are skipped elsewhere.

@@ -87,6 +87,7 @@ int run(int argc, char** argv) {
   add_register(app, exit_code);
   add_render(app, exit_code);
   add_scout(app, exit_code);
+  add_track(app, exit_code);
   try {
     app.parse(std::move(arguments));
   } catch (const CLI::Success& help) {

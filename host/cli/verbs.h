@@ -17,5 +17,6 @@ void add_model(CLI::App& app, int& exit_code);
 void add_register(CLI::App& app, int& exit_code);
 void add_render(CLI::App& app, int& exit_code);
 void add_scout(CLI::App& app, int& exit_code);
+void add_track(CLI::App& app, int& exit_code);
 
 }  // namespace edgescout

@@ -121,6 +121,10 @@ double viewing_distance_m(const TemplateOptions& options) {
 
 }  // namespace
 
+TemplateSet without_views(const Object& object) {
+  return {object.id, object.symmetries, {}, make_edge_model(object.mesh), {}};
+}
+
 TemplateSet build_templates(const Object& object, const TemplateOptions& options, Backend& backend,
                             const std::function<void(int, int)>& progress) {
   options.validate();

@@ -71,6 +71,10 @@ struct TemplateSet {
 TemplateSet build_templates(const Object& object, const TemplateOptions& options, Backend& backend,
                             const std::function<void(int, int)>& progress = {});
 
+// The set of an object that is registered or followed from given poses: it has no views, so it
+// cannot be searched for. InputError: the mesh shows no edge from anywhere.
+TemplateSet without_views(const Object& object);
+
 // One file: magic, version, length, checksum, payload. It holds the mesh, so a set needs no other
 // file. Saving is atomic. Loading throws InputError naming the file: cut short, of another version,
 // with a wrong checksum, or no template file.

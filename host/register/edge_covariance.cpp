@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "host/register/edge_covariance_weights.h"
 #include "host/register/lm_state.h"
@@ -13,6 +14,14 @@ double common_to_edges(double explained) {
       edge_covariance_weights::COMMON_TO_EDGES;
   const double share = std::clamp(explained, fitted.least_explained, fitted.most_explained);
   return fitted.of_all * std::pow(share, fitted.power);
+}
+
+std::uint64_t edge_number(std::size_t view, double theta_rad, double offset_px) {
+  constexpr double arc_rad = std::numbers::pi / 12, width_px = 4;
+  constexpr std::int64_t arcs = 16, offsets = 1 << 24;  // more than there are of either
+  const auto arc = std::int64_t(theta_rad / arc_rad),
+             offset = std::int64_t(std::floor(offset_px / width_px));
+  return std::uint64_t((std::int64_t(view) * arcs + arc) * offsets + offset + offsets / 2);
 }
 
 double EdgeCovariance::weight() const {

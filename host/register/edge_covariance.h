@@ -38,6 +38,11 @@ inline constexpr double EXPECTED_FROM_EDGES = 4;
 // (edge_covariance_weights.h). Falls with the share.
 double common_to_edges(double explained);
 
+// Numbers the edges of all views, from the orientation of a projected point and the signed distance
+// of its line from the image's origin. Points on one straight line of a view share a number. Points
+// on a curve share one per 15 degrees of the curve.
+std::uint64_t edge_number(std::size_t view, double theta_rad, double offset_px);
+
 class EdgeCovariance {
  public:
   // Adds a point at the signed distance `distance_px` from its edge, with a weight > 0. Points of

@@ -1,7 +1,6 @@
 #include "host/register/edge_icp.h"
 
 #include <algorithm>
-#include <numbers>
 
 #include <Eigen/Cholesky>
 
@@ -98,16 +97,6 @@ void add_points(LineSystem& sum, const ObjectView& view, const Se3& world_from_o
   sum.counts.matched += counts.matched;
 }
 
-// Numbers the edges of all views. Points on one straight line of a view share a number. Points on a
-// curve share one per 15 degrees of the curve.
-std::uint64_t line_number(std::size_t view, double theta_rad, double offset_px) {
-  constexpr double arc_rad = std::numbers::pi / 12, width_px = 4;
-  constexpr std::int64_t arcs = 16, offsets = 1 << 24;  // more than there are of either
-  const auto arc = std::int64_t(theta_rad / arc_rad),
-             offset = std::int64_t(std::floor(offset_px / width_px));
-  return std::uint64_t((std::int64_t(view) * arcs + arc) * offsets + offset + offsets / 2);
-}
-
 void set_covariance(PoseEstimate& estimate, std::span<const ObjectView> views,
                     std::span<const VisibleInView> visible, const EdgeIcpRound& round,
                     float max_turn_rad) {
@@ -120,7 +109,7 @@ void set_covariance(PoseEstimate& estimate, std::span<const ObjectView> views,
       const double theta = orientation(p.dx, p.dy), nx = -std::sin(theta), ny = std::cos(theta);
       // The edge's direction may have wrapped at pi where the point's has not.
       const double sign = r.nx * nx + r.ny * ny < 0 ? -1 : 1;
-      sum.add(line_number(v, theta, nx * p.u + ny * p.v), sign * r.value, weight,
+      sum.add(edge_number(v, theta, nx * p.u + ny * p.v), sign * r.value, weight,
               sign * to_camera.transpose() * r.jacobian);
     };
     in_image += match_points(views[v], estimate.world_from_object, visible[v].points, round,

@@ -11,7 +11,8 @@ import shutil
 import subprocess
 import sys
 
-from verbs import Folder, arguments_of, difference, files_in, finished_files, report
+from verbs import (Folder, arguments_of, difference, files_in, finished_files, half_a_frame,
+                   report)
 
 
 def kill_often(folder, verb, moments):
@@ -33,6 +34,8 @@ def kill_often(folder, verb, moments):
             lost = [name for name in before if after.get(name) != before[name]]
             if lost:
                 failures.append(f'lost after kill {kills}: {lost}')
+            if half_a_frame(out):
+                failures.append(f'half a frame after kill {kills}')
             before = after
             strays += out.exists() and any(name.endswith('.part') for name in files_in(out))
             continue

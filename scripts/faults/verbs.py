@@ -13,7 +13,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get('EDGESCOUT', str(ROOT / 'build/release/host/cli/edgescout'))
-VERBS = ['detect', 'register', 'scout', 'render', 'experiments']
+VERBS = ['detect', 'register', 'scout', 'track', 'render', 'experiments']
 FEW = ['--viewpoints', '1', '--in-plane-steps', '6', '--distance-min', '0.25', '--distance-max',
        '0.27', '--scan-hits', '200', '--coarse-poses', '8', '--medium-poses', '3']
 SMALL = ['--width', '160', '--height', '120', '--focal', '200']
@@ -45,11 +45,13 @@ class Folder:
             'scout': ['cell', *self.model, *FEW, '--objects', '2', '--seed', '3', *SMALL,
                       '--view-count', '6', '--max-views', '3', '--candidates', '5', '--particles',
                       '20', '--device', 'cpu'],
+            'track': [self.scenes, *self.model, '--poses', self.path / 'detect/results.csv',
+                      '--no-search', '--device', 'cpu'],
             'experiments': ['detection', '--scenes', '3', '--image-scale', '0.25', '--candidates',
                             '5', '--no-times', '--seed', '1'],
         }[verb]
         name = ['bench', 'experiments'] if verb == 'experiments' else [verb]
-        if resume and verb != 'render':
+        if resume and verb not in ('render', 'track'):
             work = work + ['--resume']
         return [PROGRAM, *name, *map(str, work), '--out', str(out)]
 
@@ -70,7 +72,7 @@ class Folder:
 
     def undisturbed(self, verb):
         """Runs the verb into FOLDER/VERB, once. Returns the folder and the seconds."""
-        if verb == 'register':
+        if verb in ('register', 'track'):
             self.undisturbed('detect')
         out = self.path / verb
         if not out.exists():
@@ -86,12 +88,18 @@ def files_in(folder):
 
 def finished_files(verb, folder):
     """Checksums of the files that must outlive whatever comes, by name."""
-    patterns = {'detect': ['0*.json'], 'register': ['0*.json'], 'scout': [],
+    patterns = {'detect': ['0*.json'], 'register': ['0*.json'], 'scout': [], 'track': [],
                 'render': ['*/gray/*.png', '*/scene_*.json', 'models/*'],
                 'experiments': ['cells/*/*.csv']}[verb]
     return {str(file.relative_to(folder)): hashlib.sha256(file.read_bytes()).hexdigest()
             for pattern in patterns for file in folder.glob(pattern)
             if not file.name.startswith('.')}
+
+
+def half_a_frame(folder):
+    """Whether a killed `track` left something else than whole rows."""
+    tracks = folder / 'tracks.csv'
+    return tracks.exists() and not tracks.read_text().endswith('\n')
 
 
 def scout_log(folder):
@@ -119,7 +127,8 @@ def difference(verb, folder, expected):
         return done.stdout if done.returncode else None
     if verb == 'scout':
         return None if scout_log(folder) == scout_log(expected) else 'scout.json or results differ'
-    for name in files_in(folder):
+    times = {'summary.json'} if verb == 'track' else set()
+    for name in files_in(folder) - times:
         if (folder / name).read_bytes() != (expected / name).read_bytes():
             return f'{name} differs'
     return None

@@ -10,14 +10,6 @@
 
 namespace edgescout::test {
 
-inline TemplateSet set_of(const Object& object) {
-  TemplateSet set;
-  set.object_id = object.id;
-  set.symmetries = object.symmetries;
-  set.model = make_edge_model(object.mesh);
-  return set;
-}
-
 struct RenderedScene {
   std::vector<Object> parts;
   SimulatedScene scene;
@@ -38,7 +30,7 @@ struct RenderedScene {
     scene = make_scene(parts, options);
     ThreadPool pool(2);
     renderings = render(scene, pool);
-    for (const Object& part : parts) sets.push_back(set_of(part));
+    for (const Object& part : parts) sets.push_back(without_views(part));
     for (const TemplateSet& set : sets) models.push_back(set.model);
   }
 

@@ -110,6 +110,16 @@ void add_models(py::module_& module) {
            "distances in the options the camera decides. symmetries: words such as \"z2\" or "
            "\"x4 z4\", or (n, 4, 4) transforms that map the object onto itself.")
       .def_static(
+          "without_views",
+          [](const Mesh& mesh, const py::object& symmetries, int object_id) {
+            return std::make_shared<TemplateSet>(
+                without_views({object_id, mesh, symmetries_of(symmetries, mesh)}));
+          },
+          py::arg("mesh"), py::kw_only(), py::arg("symmetries") = py::none(),
+          py::arg("object_id") = 1,
+          "Of an object that is registered or tracked from given poses: there is nothing to build, "
+          "and it cannot be searched for.")
+      .def_static(
           "load",
           [](const std::filesystem::path& file) {
             return std::make_shared<TemplateSet>(load_templates(file));

@@ -11,5 +11,6 @@ PYBIND11_MODULE(_core, module) {
   python::add_models(module);
   python::add_detection(module);
   python::add_scout(module);
+  python::add_tracker(module);
   module.attr("__version__") = EDGESCOUT_VERSION;
 }

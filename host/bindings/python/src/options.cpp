@@ -4,6 +4,7 @@
 #include "host/io/image_options.h"
 #include "host/model/template_set.h"
 #include "host/pipeline.h"
+#include "host/track/track_options.h"
 
 namespace edgescout::python {
 
@@ -28,6 +29,11 @@ void add_options(py::module_& module) {
       "Options of the scout. Names are those of the command line with underscores; help() explains "
       "them.",
       [](ScoutOptions& options, OptionVisitor& visit) { describe_scout(options, visit); });
+  add_options_class<TrackOptions>(
+      module, "TrackOptions",
+      "Options of the tracker. Names are those of the command line with underscores; help() "
+      "explains them.",
+      [](TrackOptions& options, OptionVisitor& visit) { describe_track(options, visit); });
 }
 
 }  // namespace edgescout::python

@@ -13,5 +13,6 @@ void add_backends(pybind11::module_& module);
 void add_options(pybind11::module_& module);
 void add_detection(pybind11::module_& module);
 void add_scout(pybind11::module_& module);
+void add_tracker(pybind11::module_& module);
 
 }  // namespace edgescout::python

@@ -1,0 +1,160 @@
+// Tracking over rendered sequences of known poses.
+//
+//   edgescout_bench_tracking [--frames N] [--seed N] [--part NAME] [--points N] [--no-registration]
+//
+// Prints a row for each part and kind of motion: the frames that are tracked, doubtful and lost; of
+// the tracked ones those that are wrong (MSSD above a tenth of the diameter); errors; the time of
+// an update. A lost part is searched for in every frame: how many frames and seconds of search from
+// the loss, or from the first frame in which half of the part is visible, until it is tracked
+// again.
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "bench/arguments.h"
+#include "host/core/pose_error.h"
+#include "host/core/stopwatch.h"
+#include "host/experiments/moving_scene.h"
+#include "host/render/parts.h"
+#include "host/track/tracker.h"
+#include "kernels/thread_pool.h"
+
+namespace {
+
+using namespace edgescout;
+
+struct Arguments {
+  int frames = 60, seed = 1, points = TrackOptions{}.max_points;
+  std::string part;
+  bool no_registration = false;
+};
+
+struct Motion {
+  const char* name;
+  double speed_px, turn_rad;
+  int hidden_frames = 0;
+  double jump_px = 0;
+};
+constexpr Motion motions[] = {{"slow", 2, 0.01},
+                              {"medium", 6, 0.03},
+                              {"fast", 15, 0.06},
+                              {"very fast", 30, 0.1},
+                              {"hidden 8 frames", 3, 0.01, 8},
+                              {"jump of 40 px", 3, 0.01, 0, 40}};
+
+MovingSceneOptions options_of(const Motion& motion, const Arguments& a) {
+  MovingSceneOptions options;
+  options.render.seed = unsigned(a.seed);
+  options.render.width = 640;
+  options.render.height = 480;
+  options.render.focal_px = 800;
+  options.render.supersampling = 1;
+  options.render.shadows = false;  // they take most of the time
+  options.frames = a.frames;
+  options.speed_px = motion.speed_px;
+  options.turn_rad = motion.turn_rad;
+  options.hidden_frames = motion.hidden_frames;
+  options.jump_frame = motion.jump_px > 0 ? a.frames / 2 : -1;
+  options.jump_px = motion.jump_px;
+  return options;
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  std::ranges::sort(values);
+  return values[std::size_t(share * double(values.size() - 1))];
+}
+
+struct Outcome {
+  int tracked = 0, doubtful = 0, lost = 0, wrong = 0;
+  std::vector<double> errors, above_chance_right, above_chance_wrong, update_ms;
+  int losses = 0, found_again = 0, frames_to_find = 0;
+  double search_seconds = 0;
+};
+
+TemplateSet set_of(const Object& part, const MovingScene& scene, Backend& backend) {
+  const double distance_m = scene.frames[0].camera_from_object.translation_m.norm();
+  TemplateOptions templates;
+  templates.distance_min_m = 0.9 * distance_m;
+  templates.distance_max_m = 1.1 * distance_m;
+  return build_templates(part, templates, backend);
+}
+
+Outcome follow(const Object& part, const MovingScene& scene, const Arguments& a) {
+  const std::unique_ptr<Backend> backend = make_backend("cpu");
+  const std::vector<TemplateSet> sets{set_of(part, scene, *backend)};
+  TrackOptions options;
+  options.max_points = a.points;
+  options.register_doubtful = !a.no_registration;
+  Tracker tracker(sets, scene.camera, *backend, options);
+  tracker.add(0, scene.frames[0].camera_from_object);
+  Outcome outcome;
+  bool was_lost = false;
+  for (std::size_t f = 0; f < scene.frames.size(); ++f) {
+    const TrackFrame frame{std::make_shared<const Image>(scene.frames[f].image), double(f)};
+    auto begin = std::chrono::steady_clock::now();
+    if (was_lost && scene.frames[f].visible > 0.5) {
+      tracker.search(frame, *backend);
+      outcome.search_seconds += seconds_since(begin);
+      ++outcome.frames_to_find;
+    }
+    begin = std::chrono::steady_clock::now();
+    const Track track = tracker.update(frame)[0];
+    outcome.update_ms.push_back(1000 * seconds_since(begin));
+    outcome.losses += track.state == TrackState::Lost && !was_lost;
+    outcome.found_again += track.state == TrackState::Tracked && was_lost;
+    was_lost = track.state == TrackState::Lost || (was_lost && track.state != TrackState::Tracked);
+    const double error = mssd_m(track.world_from_object, scene.frames[f].camera_from_object, part) /
+                         part.mesh.diameter_m;
+    const bool is_right = error < 0.1;
+    (is_right ? outcome.above_chance_right : outcome.above_chance_wrong)
+        .push_back(track.above_chance);
+    ++(track.state == TrackState::Tracked    ? outcome.tracked
+       : track.state == TrackState::Doubtful ? outcome.doubtful
+                                             : outcome.lost);
+    if (track.state != TrackState::Tracked) continue;
+    outcome.wrong += !is_right;
+    if (is_right) outcome.errors.push_back(error);
+  }
+  return outcome;
+}
+
+void report(const std::string& part, const Motion& motion, const Outcome& o) {
+  std::printf(
+      "| %s | %s | %d | %d | %d | %d | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f "
+      "| %d | %d | %d | %.1f |\n",
+      part.c_str(), motion.name, o.tracked, o.doubtful, o.lost, o.wrong,
+      100 * quantile(o.errors, 0.5), 100 * quantile(o.errors, 0.95),
+      quantile(o.above_chance_right, 0.05), quantile(o.above_chance_wrong, 0.95),
+      quantile(o.update_ms, 0.5), quantile(o.update_ms, 0.99), o.losses, o.found_again,
+      o.frames_to_find, o.search_seconds);
+  std::fflush(stdout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  Arguments a;
+  bench::read_arguments(argc, argv,
+                        {{"--frames", &a.frames},
+                         {"--seed", &a.seed},
+                         {"--points", &a.points},
+                         {"--part", &a.part},
+                         {"--no-registration", &a.no_registration}});
+  std::puts(
+      "| part | motion | tracked | doubtful | lost | wrong of tracked | error, median, % of the "
+      "diameter | 95 % | above chance, 5 % of right | 95 % of wrong | ms, median | 99 % | losses | "
+      "found again | frames searched | s of search |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+  ThreadPool pool(0);
+  for (const std::string& name : a.part.empty() ? part_names() : std::vector{a.part}) {
+    const Object part = make_part(name);
+    for (const Motion& motion : motions)
+      report(name, motion, follow(part, make_moving_scene(part, options_of(motion, a), pool), a));
+  }
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 2;
+}

@@ -1,0 +1,137 @@
+#include "host/track/tracker.h"
+
+#include "host/bindings/python/src/found_objects.h"
+#include "host/bindings/python/src/parts.h"
+#include "host/bindings/python/src/shared_backend.h"
+
+namespace edgescout::python {
+
+namespace {
+
+// A track with the identity of its object.
+struct PythonTrack : Track {
+  int object_id = 1;
+};
+
+// Keeps what a Tracker refers to.
+class PythonTracker {
+ public:
+  PythonTracker(GivenSets sets, const Camera& camera, const TrackOptions& options,
+                BackendPointer backend)
+      : given_(std::move(sets)),
+        sets_(given_.sets()),
+        camera_(camera),
+        backend_(std::move(backend)) {
+    tracker_ = on_backend(backend_, {}, [&](const TimeLimit&, Backend& on) {
+      return std::make_unique<Tracker>(sets_, camera, on, options);
+    });
+  }
+
+  int add(const py::object& camera_from_object, int object) {
+    if (object < 0 || std::size_t(object) >= sets_.size())
+      refuse("object", std::to_string(object),
+             "one of " + std::to_string(sets_.size()) + " templates");
+    return tracker_->add(object, pose_of(camera_from_object, "camera_from_object"));
+  }
+
+  void remove(int id) { tracker_->remove(id); }
+
+  std::vector<PythonTrack> update(const py::array& image, double time_s) {
+    const TrackFrame frame = frame_of(image, time_s);
+    on_backend(backend_, {}, [&](const TimeLimit&, Backend&) {
+      tracker_->update(frame);
+      return 0;
+    });
+    return tracks();
+  }
+
+  // On a backend of its own, so that another thread may update.
+  int search(const py::array& image, const BackendPointer& backend,
+             std::optional<double> max_seconds) {
+    const TrackFrame frame = frame_of(image, 0);
+    if (backend == backend_ && backend)
+      refuse("backend", "that of the tracker", "another one: update() goes on during a search");
+    if (!backend && !own_) own_ = std::make_shared<SharedBackend>(make_backend("auto"));
+    return on_backend(
+        backend ? backend : own_, max_seconds,
+        [&](const TimeLimit& limit, Backend& on) { return tracker_->search(frame, on, limit); });
+  }
+
+  std::vector<PythonTrack> tracks() const {
+    std::vector<PythonTrack> named;
+    for (const Track& track : tracker_->tracks())
+      named.push_back({track, sets_[std::size_t(track.object)].object_id});
+    return named;
+  }
+
+ private:
+  TrackFrame frame_of(const py::array& image, double time_s) const {
+    return {std::make_shared<const Image>(taken_image(image, camera_, {}).image), time_s};
+  }
+
+  GivenSets given_;
+  std::span<const TemplateSet> sets_;
+  Camera camera_;
+  BackendPointer backend_;
+  BackendPointer own_;  // of searches
+  std::unique_ptr<Tracker> tracker_;
+};
+
+void add_tracks(py::module_& module) {
+  py::enum_<TrackState>(module, "TrackState")
+      .value("TRACKED", TrackState::Tracked)
+      .value("DOUBTFUL", TrackState::Doubtful, "Too few edges agree, or too few are visible.")
+      .value("LOST", TrackState::Lost, "Doubtful for too long. Tracker.search() looks for it.");
+  py::class_<PythonTrack>(module, "Track", "An instance that is followed.")
+      .def_readonly("id", &PythonTrack::id, "From 1. It stays when the instance is found again.")
+      .def_readonly("object", &PythonTrack::object, "Index into the templates that were given.")
+      .def_readonly("object_id", &PythonTrack::object_id)
+      .def_readonly("state", &PythonTrack::state)
+      .def_property_readonly(
+          "camera_from_object", [](const PythonTrack& t) { return matrix_of(t.world_from_object); },
+          "4x4, metres.")
+      .def_property_readonly(
+          "covariance", [](const PythonTrack& t) { return array_of(t.covariance); },
+          "6x6: translation, m, then rotation, rad, along the camera's axes; the rotation is about "
+          "the object's origin.")
+      .def_readonly("above_chance", &PythonTrack::above_chance,
+                    "Share of the edges found, above what chance gives, 0 to 1.")
+      .def("__repr__", [](const PythonTrack& t) {
+        return py::str("Track({}, object {}, {}, {:.2f})")
+            .format(t.id, t.object_id, to_string(t.state), t.above_chance);
+      });
+}
+
+}  // namespace
+
+void add_tracker(py::module_& module) {
+  add_tracks(module);
+  py::class_<PythonTracker>(module, "Tracker",
+                            "Follows the poses of objects from image to image.\n\n"
+                            "    tracker = Tracker(templates, camera)\n"
+                            "    tracker.search(first_image)\n"
+                            "    for time_s, image in images:\n"
+                            "        for track in tracker.update(image, time_s): ...\n")
+      .def(py::init([](const py::object& templates, const Camera& camera,
+                       const TrackOptions* options, const BackendPointer& backend) {
+             return std::make_unique<PythonTracker>(GivenSets(templates), camera,
+                                                    options ? *options : TrackOptions{},
+                                                    backend_or_usual(backend));
+           }),
+           py::arg("templates"), py::arg("camera"), py::arg("options") = nullptr, py::kw_only(),
+           py::arg("backend") = nullptr,
+           "The camera needs a size. Templates without views are followed but not searched for.")
+      .def("add", &PythonTracker::add, py::arg("camera_from_object"), py::arg("object") = 0,
+           "Follows an object from a pose (4x4, metres) known to some 10 px; returns its id.")
+      .def("remove", &PythonTracker::remove, py::arg("id"), "Forgets an instance.")
+      .def("update", &PythonTracker::update, py::arg("image"), py::arg("time_s"),
+           "All instances in the next image. time_s: when it was taken, on any clock; it rises.")
+      .def(
+          "search", &PythonTracker::search, py::arg("image"), py::kw_only(),
+          py::arg("backend") = nullptr, py::arg("max_seconds") = std::nullopt,
+          "Looks for instances that are lost or not yet found, and returns how many it found. They "
+          "join at the next update(), which may go on in another thread meanwhile.")
+      .def_property_readonly("tracks", &PythonTracker::tracks, "As of the last update().");
+}
+
+}  // namespace edgescout::python

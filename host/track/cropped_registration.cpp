@@ -1,0 +1,73 @@
+#include "host/track/cropped_registration.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/core/lens.h"
+#include "host/register_objects.h"
+
+namespace edgescout {
+
+namespace {
+
+constexpr double crop_margin = 0.5;  // of the object's radius, at every side
+constexpr int least_px = 64;         // of a crop's side: tensors of less hold too few edges
+
+struct Interval {
+  int first, size;
+};
+
+// The whole pixels around `middle` that the image has; empty where it has none.
+Interval pixels_around(double middle_px, double half_px, int image_px) {
+  const double half = std::max(half_px, 0.5 * least_px);
+  const double low = std::clamp(std::floor(middle_px - half), 0.0, double(image_px)),
+               high = std::clamp(std::ceil(middle_px + half), 0.0, double(image_px));
+  return {int(low), int(high - low)};
+}
+
+Image cut_out(const Image& image, const Interval& columns, const Interval& rows) {
+  Image part{columns.size, rows.size, {}};
+  part.pixels.reserve(std::size_t(part.width) * part.height);
+  for (int y = rows.first; y < rows.first + rows.size; ++y) {
+    const auto row = image.pixels.begin() + std::ptrdiff_t(y) * image.width + columns.first;
+    part.pixels.insert(part.pixels.end(), row, row + columns.size);
+  }
+  return part;
+}
+
+}  // namespace
+
+std::optional<Crop> crop_around(const Image& image, const Camera& camera, const EdgeModel& model,
+                                const Se3& camera_from_object) {
+  const Eigen::Vector3d center_m = camera_from_object * model.center_m;
+  if (!(center_m.z() > model.radius_m)) return std::nullopt;
+  const Eigen::Vector2d middle_px = pixel_seeing(camera, center_m.head<2>() / center_m.z());
+  if (!middle_px.allFinite()) return std::nullopt;
+  const double half_px =
+      (1 + crop_margin) * model.radius_m / center_m.z() * std::max(camera.fx, camera.fy);
+  const Interval columns = pixels_around(middle_px.x(), half_px, camera.width),
+                 rows = pixels_around(middle_px.y(), half_px, camera.height);
+  if (std::min(columns.size, rows.size) < least_px / 2) return std::nullopt;
+  Crop crop{cut_out(image, columns, rows), camera};
+  crop.camera.width = columns.size;
+  crop.camera.height = rows.size;
+  crop.camera.cx -= columns.first;
+  crop.camera.cy -= rows.first;
+  return crop;
+}
+
+std::optional<Detection> register_in_crop(const Image& image, const Camera& camera,
+                                          const EdgeModel& model, std::span<const Se3> starts,
+                                          Backend& backend, const TrackOptions& options) {
+  const std::optional<Crop> crop = crop_around(image, camera, model, starts.front());
+  if (!crop) return std::nullopt;
+  const ObjectView view = prepare_view(crop->image, crop->camera, Se3{}, backend, options.pipeline);
+  std::vector<ObjectPose> poses;
+  for (const Se3& start : starts) poses.push_back({0, start});
+  const RegisterObjectsOptions registration{options.pipeline.tensor, options.refine, {}};
+  std::vector<Detection> found =
+      register_objects({&view, 1}, {&model, 1}, poses, backend, registration).detections;
+  return *std::ranges::max_element(found, {}, &Detection::probability);
+}
+
+}  // namespace edgescout

@@ -1,0 +1,77 @@
+#!/bin/bash
+# Makes the Debian packages, installs them in a fresh Debian 12 and detects the part of the example
+# scene there: by the program, from Python, from C++ and, where they are built, from C. Needs root.
+#   scripts/packages_test.sh [BUILD]   the build folder; default build/release
+# PACKAGES_ROOT=DIR keeps the installed system there.
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+build=$(realpath "${1:-build/release}")
+root=${PACKAGES_ROOT:-$(mktemp -d)}
+[ -n "${PACKAGES_ROOT:-}" ] || trap 'rm -rf --one-file-system "$root"' EXIT
+chmod 755 "$root"
+
+say "packages"
+cmake --build "$build"
+rm -f "$build"/*.deb
+(cd "$build" && cpack >cpack.log) || { cat "$build/cpack.log"; exit 1; }
+ls "$build"/*.deb
+
+say "a fresh Debian 12"
+mmdebstrap --quiet --variant=apt --include=ca-certificates bookworm "$root"
+in_root() { chroot "$root" env DEBIAN_FRONTEND=noninteractive PATH=/usr/sbin:/usr/bin:/sbin:/bin "$@"; }
+mkdir "$root/debs" "$root/work"
+cp "$build"/*.deb "$root/debs"
+cp -r docs/examples "$root/work/examples"
+# Compiler and build tools are what a user of libedgescout-dev has.
+in_root sh -c 'apt-get -qq update && apt-get -qq install --no-install-recommends -y g++ cmake make pkg-config /debs/*.deb' \
+  >"$root/install.log" 2>&1 || { tail -20 "$root/install.log"; exit 1; }
+say "installed: $(in_root dpkg-query -W -f '${Package} ' '*edgescout*')"
+
+scene=/work/examples/scenes/000000
+part="--model /work/examples/parts/obj_000001.ply --unit mm --distance-min 0.32 --distance-max 0.36"
+
+say "the program"
+# shellcheck disable=SC2086  # several words
+in_root edgescout detect $scene $part --device cpu --out /work/out
+in_root edgescout eval /work/out/results.csv $scene --model /work/examples/parts/obj_000001.ply --unit mm
+in_root test -s /work/out/results.csv
+in_root test -s /usr/share/man/man1/edgescout-detect.1.gz -o -s /usr/share/man/man1/edgescout-detect.1
+
+say "Python"
+in_root python3 - <<'END'
+import json
+import numpy as np
+import edgescout
+
+scene = "/work/examples/scenes/000000"
+image = edgescout.load_image(scene + "/gray/000000.png")
+matrix = np.reshape(json.load(open(scene + "/scene_camera.json"))["0"]["cam_K"], (3, 3))
+camera = edgescout.Camera(image.shape[1], image.shape[0], matrix)
+mesh = edgescout.load_mesh("/work/examples/parts/obj_000001.ply", "mm")
+templates = edgescout.Templates(mesh, edgescout.TemplateOptions(distance_min=0.32, distance_max=0.36))
+found = edgescout.detect(image, camera, templates, backend=edgescout.Backend("cpu"))
+rows = [row.split(",") for row in open("/work/out/results.csv").read().splitlines()[1:]]
+assert len(found) == len(rows) > 0, (len(found), len(rows))
+assert abs(found[0].probability - max(float(row[3]) for row in rows)) < 1e-6
+print(f"{len(found)} parts, the best of probability {found[0].probability:.2f}: as the program's")
+END
+
+say "C++"
+cp -r tests/install/consumer "$root/work/consumer"
+in_root sh -ec 'cmake -S /work/consumer -B /work/consumer/build >/dev/null; cmake --build /work/consumer/build >/dev/null
+  for program in /work/consumer/build/*; do [ -f "$program" ] && [ -x "$program" ] && "$program"; done; true'
+
+if [ -e "$root/usr/include/edgescout.h" ]; then
+  say "C"
+  cp docs/examples/c/find_part.c "$root/work/"
+  # shellcheck disable=SC2016  # for the shell in the root
+  in_root sh -ec 'cc -std=c11 /work/find_part.c -o /work/find_part $(pkg-config --cflags --libs edgescout-c) -lm
+    cd /work && ./find_part examples/scenes/000000/gray/000000.png examples/scenes/000000/scene_camera.json \
+      examples/parts/obj_000001.ply 0.32 0.36'
+fi
+
+if [ -x "$root/usr/bin/edgescout_ros2" ]; then
+  say "the ROS 2 node"
+  in_root edgescout_ros2 --version
+fi
+say "packages: all passed"

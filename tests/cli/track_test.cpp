@@ -1,0 +1,124 @@
+// edgescout track on the example image, moved by whole pixels from frame to frame.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "host/io/image.h"
+#include "tests/cli/example_scene.h"
+#include "tests/cli/program.h"
+
+namespace edgescout::test {
+namespace {
+
+constexpr int step_px = 4;
+
+Image moved(const Image& image, int by_px) {
+  Image result = image;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      result.pixels[std::size_t(y * image.width + x)] =
+          image.at((x - by_px + image.width) % image.width, y);
+  return result;
+}
+
+struct Sequence {
+  TemporaryFolder folder;
+  BopScene scene = load_bop_scene(one_view());
+  BopResult truth;  // of one bearing block in the first frame
+
+  explicit Sequence(int frames) {
+    const Image first = load_image(one_view() / "gray/000000.png");
+    fs::create_directory(images());
+    for (int f = 0; f < frames; ++f)
+      save_png(moved(first, f * step_px), images() / ("frame" + std::to_string(f) + ".png"));
+    for (const BopResult& result : true_results(scene, 0, 0.9))
+      if (result.object_id == 2) truth = result;
+    const Eigen::Matrix3d r = truth.camera_from_object.rotation.toRotationMatrix();
+    nlohmann::json start{{"image", "frame0.png"}, {"object", 2}};
+    for (int i = 0; i < 9; ++i) start["R"].push_back(r(i / 3, i % 3));
+    for (const double t : truth.camera_from_object.translation_m) start["t"].push_back(t);
+    std::ofstream(folder.path() / "starts.json") << nlohmann::json{start};
+    const Camera camera = scene.images[0].camera;
+    std::ofstream(folder.path() / "camera.json") << nlohmann::json{
+        {"cx", camera.cx},       {"cy", camera.cy},         {"fx", camera.fx},   {"fy", camera.fy},
+        {"width", camera.width}, {"height", camera.height}, {"depth_scale", 1.0}};
+  }
+  fs::path images() const { return folder.path() / "frames"; }
+  fs::path out() const { return folder.path() / "out"; }
+  Outcome track(const std::vector<std::string>& more = {}) const {
+    return run_program(joined({{"track", images().string(), "--model", part_file(2), "--unit", "mm",
+                                "--camera", (folder.path() / "camera.json").string(), "--poses",
+                                (folder.path() / "starts.json").string(), "--no-search", "--device",
+                                "cpu", "--out", out().string()},
+                               more}));
+  }
+  // Rows of tracks.csv without the header, split at commas.
+  std::vector<std::vector<std::string>> rows() const {
+    std::ifstream file(out() / "tracks.csv");
+    std::vector<std::vector<std::string>> rows;
+    std::string line, word;
+    std::getline(file, line);
+    while (std::getline(file, line)) {
+      std::istringstream words(line);
+      rows.emplace_back();
+      while (std::getline(words, word, ',')) rows.back().push_back(word);
+    }
+    return rows;
+  }
+  double u_px(const std::vector<std::string>& row) const {
+    const Camera& camera = scene.images[0].camera;
+    return camera.fx * std::stod(row[17]) / std::stod(row[19]) + camera.cx;
+  }
+};
+
+TEST(Track, FollowsAnObjectFromAGivenPose) {
+  const Sequence sequence(5);
+  const Outcome outcome = sequence.track();
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("5 frames, 1 instances: 5 poses tracked"), std::string::npos)
+      << outcome.out;
+  const auto rows = sequence.rows();
+  ASSERT_EQ(rows.size(), 5u);
+  for (std::size_t f = 0; f < rows.size(); ++f) {
+    ASSERT_EQ(rows[f].size(), 27u);
+    EXPECT_EQ(rows[f][6], "tracked") << f;
+    EXPECT_NEAR(sequence.u_px(rows[f]) - sequence.u_px(rows[0]), step_px * double(f), 0.7) << f;
+  }
+  EXPECT_EQ(load_bop_results(sequence.out() / "results.csv").size(), 5u);
+  EXPECT_EQ(load_image(sequence.out() / "frame4_overlay.png").width, 640);
+  const auto summary = nlohmann::json::parse(std::ifstream(sequence.out() / "summary.json"));
+  EXPECT_EQ(summary["tracked"], 5);
+  EXPECT_GT(summary["update_ms"]["median"], 0);
+}
+
+TEST(Track, GoesOnAfterAnImageThatCannotBeRead) {
+  const Sequence sequence(4);
+  std::ofstream(sequence.images() / "frame2.png") << "no image";
+  const Outcome outcome = sequence.track({"--no-overlays"});
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_NE(outcome.err.find("frame2.png"), std::string::npos) << outcome.err;
+  const auto rows = sequence.rows();
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[2][6], "tracked");
+  EXPECT_NEAR(sequence.u_px(rows[2]) - sequence.u_px(rows[0]), 3 * step_px, 0.7);
+  EXPECT_FALSE(fs::exists(sequence.out() / "frame0_overlay.png"));
+}
+
+TEST(Track, RefusesRequestsThatCannotBeMet) {
+  const Sequence sequence(1);
+  expect_refused({"track", sequence.images().string(), "--model", part_file(2), "--unit", "mm",
+                  "--camera", (sequence.folder.path() / "camera.json").string(), "--no-search",
+                  "--out", sequence.out().string()},
+                 {"--no-search"});
+  std::ofstream(sequence.folder.path() / "starts.json")
+      << R"([{"image": "other.png", "object": 2, "R": [1,0,0,0,1,0,0,0,1], "t": [0,0,1]}])";
+  const Outcome outcome = sequence.track();
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_NE(outcome.err.find("other.png"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(fs::exists(sequence.out())) << "nothing is written";
+}
+
+}  // namespace
+}  // namespace edgescout::test

@@ -1,0 +1,214 @@
+#include "host/track/tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <thread>
+
+#include "host/core/pose_error.h"
+#include "host/experiments/moving_scene.h"
+#include "host/render/parts.h"
+#include "kernels/error.h"
+#include "kernels/thread_pool.h"
+#include "tests/track/flat_images.h"
+
+namespace edgescout {
+namespace {
+
+const Object block = make_part("bearing_block");
+// Goes to the right and turns: some 4 px and 0.03 rad a frame.
+Se3 pose_at(int frame) {
+  return {so3_exp({0.5 + 0.01 * frame, -0.4 + 0.025 * frame, 0.3}),
+          {-0.06 + 0.004 * frame, 0.01, 0.4 + 0.002 * frame}};
+}
+
+class TrackerTest : public testing::Test {
+ protected:
+  TrackFrame frame(int number, int stripes_px = 0) {
+    return {std::make_shared<const Image>(flat_of(pose_at(number), stripes_px)), 0.1 * number};
+  }
+  TrackFrame empty(int number) const {
+    return {std::make_shared<const Image>(
+                Image{camera.width, camera.height, std::vector<std::uint8_t>(320 * 240, 35)}),
+            0.1 * number};
+  }
+  Image flat_of(const Se3& pose, int stripes_px = 0) {
+    return test::flat_image(block.mesh, pose, pool, camera, stripes_px);
+  }
+  static double error(const Track& track, const Se3& truth) {
+    return mssd_m(track.world_from_object, truth, block) / block.mesh.diameter_m;
+  }
+
+  ThreadPool pool{2};
+  Camera camera = test::flat_camera();
+  std::unique_ptr<Backend> backend = make_backend("cpu");
+  std::vector<TemplateSet> sets{without_views(block)};
+};
+
+TEST_F(TrackerTest, FollowsAPartThatMovesAndTurns) {
+  for (const int stripes_px : {0, 9}) {
+    Tracker tracker(sets, camera, *backend);
+    EXPECT_EQ(tracker.add(0, pose_at(0)), 1);
+    for (int f = 0; f < 25; ++f) {
+      const std::vector<Track>& tracks = tracker.update(frame(f, stripes_px));
+      ASSERT_EQ(tracks.size(), 1u);
+      EXPECT_EQ(tracks[0].state, TrackState::Tracked) << f << " " << tracks[0].above_chance;
+      EXPECT_LT(error(tracks[0], pose_at(f)), 0.04) << f;
+      EXPECT_LT(tracks[0].covariance.trace(), 1e-3) << f;
+    }
+  }
+}
+
+// The first pose is that of a person: 6 px off and turned.
+TEST_F(TrackerTest, StartsFromARoughPose) {
+  Tracker tracker(sets, camera, *backend);
+  Vector6d off;
+  off << 0.006, -0.004, 0.01, 0.06, -0.05, 0.05;
+  tracker.add(0, retract(pose_at(0), off));
+  tracker.update(frame(0));
+  EXPECT_LT(error(tracker.update(frame(1))[0], pose_at(1)), 0.03);
+}
+
+TEST_F(TrackerTest, IsDoubtfulThenLostWhereThePartIsGone) {
+  TrackOptions options;
+  options.doubtful_frames = 3;
+  Tracker tracker(sets, camera, *backend, options);
+  tracker.add(0, pose_at(0));
+  for (int f = 0; f < 5; ++f) tracker.update(frame(f));
+  double last = tracker.tracks()[0].covariance(0, 0);
+  for (int f = 5; f < 8; ++f) {
+    const Track track = tracker.update(empty(f))[0];
+    EXPECT_EQ(track.state, TrackState::Doubtful) << f;
+    EXPECT_GT(track.covariance(0, 0), last);
+    last = track.covariance(0, 0);
+    EXPECT_LT(error(track, pose_at(f)), 0.25) << f;  // predicted
+  }
+  EXPECT_EQ(tracker.update(empty(8))[0].state, TrackState::Lost);
+  // It returns near by: nobody looks for it.
+  EXPECT_EQ(tracker.update(frame(9))[0].state, TrackState::Lost);
+}
+
+TEST_F(TrackerTest, GoesOnWhereThePartReturnsInTime) {
+  Tracker tracker(sets, camera, *backend);
+  tracker.add(0, pose_at(0));
+  for (int f = 0; f < 5; ++f) tracker.update(frame(f));
+  for (int f = 5; f < 8; ++f) tracker.update(empty(f));
+  const Track track = tracker.update(frame(8))[0];
+  EXPECT_EQ(track.state, TrackState::Tracked) << track.above_chance;
+  EXPECT_LT(error(track, pose_at(8)), 0.03);
+}
+
+// Another thread looks for the lost part while update() goes on with new images.
+TEST_F(TrackerTest, FindsALostPartAgainInAnotherThread) {
+  TemplateOptions templates;
+  templates.distance_min_m = 0.36;
+  templates.distance_max_m = 0.5;
+  sets = {build_templates(block, templates, *backend)};
+  TrackOptions options;
+  options.doubtful_frames = 0;
+  Tracker tracker(sets, camera, *backend, options);
+  const int id = tracker.add(0, pose_at(0));
+  tracker.update(frame(0));
+  ASSERT_EQ(tracker.update(empty(1))[0].state, TrackState::Lost);
+  const TrackFrame seen = frame(2);
+  std::atomic<int> found = -1;
+  std::thread searching([&] {
+    const std::unique_ptr<Backend> own = make_backend("cpu");
+    found = tracker.search(seen, *own);
+  });
+  int frames = 0;
+  while (found < 0) {
+    tracker.update({seen.image, 0.2 + 0.001 * ++frames});
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  searching.join();
+  EXPECT_EQ(found, 1);
+  const Track track = tracker.update({seen.image, 1e6})[0];
+  EXPECT_EQ(track.id, id);
+  EXPECT_EQ(track.state, TrackState::Tracked);
+  EXPECT_LT(error(track, pose_at(2)), 0.03);
+  EXPECT_EQ(tracker.search({seen.image, 2e6}, *backend), 0) << "nothing is missing";
+  EXPECT_EQ(tracker.tracks().size(), 1u);
+}
+
+TEST_F(TrackerTest, ASearchEndsWithItsLimit) {
+  TemplateOptions templates;
+  templates.distance_min_m = 0.39;
+  templates.distance_max_m = 0.41;
+  sets = {build_templates(block, templates, *backend)};
+  Tracker tracker(sets, camera, *backend);
+  EXPECT_EQ(tracker.search(frame(0), *backend, {{}, [] { return true; }}), 0);
+}
+
+// The nearer part covers most of the other one, whose edges are looked for where they can be seen.
+TEST_F(TrackerTest, PartsHideEachOther) {
+  const auto far_pose = [](int f) {
+    return Se3{so3_exp({0.5, -0.4, 0.3}), {0.01 + 0.0002 * f, 0, 0.5}};
+  };
+  const auto near_pose = [](int f) {
+    return Se3{so3_exp({0.2, 0.5, 0.1}), {-0.09 + 0.004 * f, 0.012, 0.35}};
+  };
+  Tracker tracker(sets, camera, *backend);
+  tracker.add(0, far_pose(0));
+  tracker.add(0, near_pose(0));
+  for (int f = 0; f < 36; ++f) {
+    Image image = flat_of(far_pose(f));
+    const Image near = flat_of(near_pose(f));
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+      if (near.pixels[i] != 35) image.pixels[i] = near.pixels[i];
+    const std::vector<Track>& tracks =
+        tracker.update({std::make_shared<const Image>(image), 0.1 * f});
+    EXPECT_LT(error(tracks[0], far_pose(f)), 0.08) << f << " " << to_string(tracks[0].state);
+    EXPECT_LT(error(tracks[1], near_pose(f)), 0.04) << f;
+    EXPECT_NE(tracks[1].state, TrackState::Lost) << f;
+  }
+}
+
+TEST_F(TrackerTest, RefusesWhatIsNoNextFrame) {
+  Tracker tracker(sets, camera, *backend);
+  tracker.add(0, pose_at(0));
+  tracker.update(frame(3));
+  EXPECT_THROW(tracker.update(frame(3)), InputError) << "not later";
+  EXPECT_THROW(tracker.update({nullptr, 1}), LogicError);
+  EXPECT_THROW(tracker.update({frame(4).image, NAN}), InputError);
+  const auto small = std::make_shared<const Image>(Image{16, 16, std::vector<std::uint8_t>(256)});
+  EXPECT_THROW(tracker.update({small, 1}), InputError);
+  EXPECT_EQ(tracker.update(frame(4))[0].state, TrackState::Tracked) << "as before the errors";
+}
+
+TEST_F(TrackerTest, RefusesUnknownObjectsAndIds) {
+  Tracker tracker(sets, camera, *backend);
+  EXPECT_THROW(tracker.add(1, pose_at(0)), LogicError);
+  EXPECT_THROW(tracker.add(0, {Eigen::Quaterniond::Identity(), {NAN, 0, 1}}), LogicError);
+  EXPECT_THROW(tracker.remove(1), LogicError);
+  const int id = tracker.add(0, pose_at(0));
+  tracker.remove(id);
+  EXPECT_TRUE(tracker.tracks().empty());
+  EXPECT_THROW(tracker.search(frame(0), *backend), LogicError) << "no templates";
+  TrackOptions options;
+  options.search_px = 1000;
+  EXPECT_THROW(Tracker(sets, camera, *backend, options), InputError);
+}
+
+// The rendered image of a part with light, noise and a printed board.
+TEST_F(TrackerTest, FollowsARenderedPart) {
+  MovingSceneOptions moving;
+  moving.render.width = 320;
+  moving.render.height = 240;
+  moving.render.focal_px = 420;
+  moving.render.supersampling = 1;
+  moving.render.shadows = false;
+  moving.frames = 12;
+  const MovingScene scene = make_moving_scene(block, moving, pool);
+  Tracker tracker(sets, scene.camera, *backend);
+  tracker.add(0, scene.frames[0].camera_from_object);
+  for (std::size_t f = 0; f < scene.frames.size(); ++f) {
+    const Track track =
+        tracker.update({std::make_shared<const Image>(scene.frames[f].image), double(f)})[0];
+    EXPECT_EQ(track.state, TrackState::Tracked) << f;
+    EXPECT_LT(error(track, scene.frames[f].camera_from_object), 0.05) << f;
+  }
+}
+
+}  // namespace
+}  // namespace edgescout
