@@ -49,31 +49,31 @@ InputImage image_from(const JsonField& fields) {
 }  // namespace
 
 void save_shard(const ShardFile& file, const fs::path& folder) {
-  nlohmann::ordered_json json{{"edgescout_shard", SHARD_FILE_VERSION},
-                              {"version", file.batch.version},
-                              {"verb", file.batch.verb},
-                              {"shard", file.shard.index},
-                              {"shards", file.shard.count},
-                              {"by_scene", file.batch.by_scene},
-                              {"batch_images", file.batch.images},
-                              {"batch_checksum", file.batch.images_checksum}};
-  json["settings"] = nlohmann::ordered_json::object();
-  for (const auto& [name, value] : file.batch.settings) json["settings"][name] = value;
-  json["images"] = nlohmann::ordered_json::array();
+  nlohmann::ordered_json content{{"edgescout_shard", SHARD_FILE_VERSION},
+                                 {"version", file.batch.version},
+                                 {"verb", file.batch.verb},
+                                 {"shard", file.shard.index},
+                                 {"shards", file.shard.count},
+                                 {"by_scene", file.batch.by_scene},
+                                 {"batch_images", file.batch.images},
+                                 {"batch_checksum", file.batch.images_checksum}};
+  content["settings"] = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : file.batch.settings) content["settings"][name] = value;
+  content["images"] = nlohmann::ordered_json::array();
   for (const auto& [image, place, number] : file.images)
-    json["images"].push_back({{"number", number},
-                              {"name", image.name},
-                              {"file", image.file.string()},
-                              {"image", place.string()},
-                              {"scene_id", image.scene_id},
-                              {"image_id", image.image_id}});
-  write_file_atomically(shard_file(folder), json_text(json));
+    content["images"].push_back({{"number", number},
+                                 {"name", image.name},
+                                 {"file", image.file.string()},
+                                 {"image", place.string()},
+                                 {"scene_id", image.scene_id},
+                                 {"image_id", image.image_id}});
+  write_file_atomically(shard_file(folder), json_text(content));
 }
 
 ShardFile load_shard(const fs::path& folder) {
   const fs::path path = shard_file(folder);
-  const nlohmann::json json = read_json(path);
-  const JsonField fields{json, path.string(), ""};
+  const nlohmann::json content = read_json(path);
+  const JsonField fields{content, path.string(), ""};
   if (const int version = fields.at("edgescout_shard").integer(); version != SHARD_FILE_VERSION)
     fields.at("edgescout_shard").fail(std::to_string(version), std::to_string(SHARD_FILE_VERSION));
   ShardFile file;

@@ -124,8 +124,7 @@ void DdsNode::spin(double seconds) {
   const dds_return_t count =
       dds_waitset_wait(waitset_, ready.data(), ready.size(), dds_duration_t(seconds * 1e9));
   const std::size_t reported = count < 0 ? 0 : std::min(std::size_t(count), ready.size());
-  for (std::size_t i = 0; i < reported; ++i)
-    handle_all(subscriptions_[std::size_t(ready[i])]);
+  for (std::size_t i = 0; i < reported; ++i) handle_all(subscriptions_[std::size_t(ready[i])]);
 }
 
 }  // namespace edgescout::ros2
