@@ -38,22 +38,6 @@ Image grey_image(std::span<const std::uint16_t> values, int width, int height,
 Image grey_image(std::span<const float> values, int width, int height,
                  const ImageOptions& options = {});
 
-// How a camera's driver lays out pixels in memory, row by row.
-struct PixelLayout {
-  int width = 0, height = 0;
-  std::size_t row_bytes = 0;  // from one row to the next
-  int channels = 1;           // 1 grey or mosaic, 2 luma and chroma, 3 colour, 4 colour and other
-  int channel_bytes = 1;      // 1 or 2
-  bool is_luma_first = true;  // of 2 channels
-  bool is_red_first = false;  // of 3 and 4; else blue is
-  bool is_big_endian = false;
-};
-// The same of such pixels. The last row may lack its padding. InputError naming `source`: sides
-// that load_image refuses, rows that are shorter than their pixels, another number of bytes, other
-// channels.
-Image grey_image(std::span<const std::uint8_t> bytes, const PixelLayout& layout,
-                 const std::string& source, const ImageOptions& options = {});
-
 // Resamples an image of `camera` into an image of undistorted(camera), bicubic. Without distortion
 // the image is returned unchanged. Pixels that no ray of the original reaches repeat its border.
 // InputError: the number of pixels disagrees with the image's size, or an image with distortion has

@@ -36,6 +36,12 @@ constexpr std::array<FormatTraits, PIXEL_FORMATS> traits_of_formats{{
     {CV_16UC1, -1, BayerPattern::BGGR},
     {CV_16UC1, -1, BayerPattern::GRBG},
     {CV_16UC1, -1, BayerPattern::GBRG},
+    {CV_16UC3, cv::COLOR_BGR2GRAY, BayerPattern::None},
+    {CV_16UC3, cv::COLOR_RGB2GRAY, BayerPattern::None},
+    {CV_16UC4, cv::COLOR_BGRA2GRAY, BayerPattern::None},
+    {CV_16UC4, cv::COLOR_RGBA2GRAY, BayerPattern::None},
+    {CV_8UC2, cv::COLOR_YUV2GRAY_YUY2, BayerPattern::None},
+    {CV_8UC2, cv::COLOR_YUV2GRAY_UYVY, BayerPattern::None},
 }};
 
 const FormatTraits& traits_of(PixelFormat format) {
@@ -43,20 +49,20 @@ const FormatTraits& traits_of(PixelFormat format) {
   return traits_of_formats[std::size_t(format)];
 }
 
-void require_pixels(const Pixels& pixels) {
+void require_pixels(const Pixels& pixels, const std::string& source) {
   if (!pixels.first_row || pixels.width < 1 || pixels.height < 1)
-    throw InputError("image", "pixels",
+    throw InputError(source, "pixels",
                      pixels.first_row
                          ? std::to_string(pixels.width) + "x" + std::to_string(pixels.height)
                          : "none",
                      "a width and a height of at least 16 px");
-  require_size({std::uint64_t(pixels.width), std::uint64_t(pixels.height)}, "image");
+  require_size({std::uint64_t(pixels.width), std::uint64_t(pixels.height)}, source);
   const std::ptrdiff_t stride = pixels.row_stride_bytes,
                        row_bytes = std::ptrdiff_t(pixels.width) * bytes_per_pixel(pixels.format);
   constexpr std::ptrdiff_t most = std::ptrdiff_t(1) << 40;
   const bool overlaps = stride != 0 && stride > -row_bytes && stride < row_bytes;
   if (overlaps || stride < -most || stride > most)
-    throw InputError("image", "row stride", std::to_string(stride) + " bytes",
+    throw InputError(source, "row stride", std::to_string(stride) + " bytes",
                      "at least the " + std::to_string(row_bytes) + " of " +
                          std::to_string(pixels.width) + " pixels, at most 2^40");
 }
@@ -73,10 +79,19 @@ cv::Mat packed(const Pixels& pixels, int type) {
   return rows;
 }
 
-BayerPattern pattern_of(const FormatTraits& format, const ImageOptions& options) {
+void swap_bytes(cv::Mat& rows) {
+  const cv::Mat bytes(rows.rows, int(rows.step / 2), CV_8UC2, rows.data);
+  const int order[] = {0, 1, 1, 0};
+  cv::Mat swapped(bytes.size(), bytes.type());
+  cv::mixChannels(&bytes, 1, &swapped, 1, order, 2);
+  std::memcpy(rows.data, swapped.data, rows.total() * rows.elemSize());
+}
+
+BayerPattern pattern_of(const FormatTraits& format, const ImageOptions& options,
+                        const std::string& source) {
   if (options.bayer == BayerPattern::None) return format.bayer;
   if (format.bayer != BayerPattern::None || format.to_grey >= 0)
-    throw InputError("image", "format", "colours of its own", "grey pixels with the option bayer");
+    throw InputError(source, "format", "colours of its own", "grey pixels with the option bayer");
   return options.bayer;
 }
 
@@ -84,19 +99,20 @@ BayerPattern pattern_of(const FormatTraits& format, const ImageOptions& options)
 
 int bytes_per_pixel(PixelFormat format) { return int(CV_ELEM_SIZE(traits_of(format).type)); }
 
-Image grey_image(const Pixels& pixels, const ImageOptions& options) {
+Image grey_image(const Pixels& pixels, const ImageOptions& options, const std::string& source) {
   options.validate();
-  require_pixels(pixels);
+  require_pixels(pixels, source);
   const FormatTraits& format = traits_of(pixels.format);
-  const BayerPattern bayer = pattern_of(format, options);
+  const BayerPattern bayer = pattern_of(format, options, source);
   cv::Mat image = packed(pixels, format.type);
-  require_least_size(image, "image");
+  require_least_size(image, source);
+  if (pixels.has_swapped_bytes && image.depth() == CV_16U) swap_bytes(image);
   if (format.to_grey >= 0) {
     cv::Mat grey;
     cv::cvtColor(image, grey, format.to_grey);
     image = grey;
   }
-  return from_mat(to_8_bit(to_grey(image, bayer, "image"), options, "image"));
+  return from_mat(to_8_bit(to_grey(image, bayer, source), options, source));
 }
 
 }  // namespace edgescout

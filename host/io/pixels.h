@@ -4,14 +4,14 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "host/core/types.h"
 #include "host/io/image_options.h"
 
 namespace edgescout {
 
-// Bytes of a pixel in the order of its name. Those of 16 bit and of real numbers are as the machine
-// orders them. Bayer patterns are named by the first two pixels of the first two rows.
+// Bytes of a pixel in the order of its name. Of video formats (Y U Y V, U Y V Y) Y is used. Bayer patterns are named by the first two pixels of the first two rows.
 enum class PixelFormat {
   Mono8,
   Mono16,
@@ -28,8 +28,14 @@ enum class PixelFormat {
   BayerBggr16,
   BayerGrbg16,
   BayerGbrg16,
+  Bgr16,
+  Rgb16,
+  Bgra16,
+  Rgba16,
+  Yuyv8,
+  Uyvy8,
 };
-inline constexpr int PIXEL_FORMATS = 15;
+inline constexpr int PIXEL_FORMATS = 21;
 int bytes_per_pixel(PixelFormat format);
 
 // Pixels of the caller. Rows may be padded, begin at any address, or go upwards in memory (a
@@ -39,11 +45,14 @@ struct Pixels {
   int width = 0, height = 0;
   std::ptrdiff_t row_stride_bytes = 0;  // 0: rows follow one another
   PixelFormat format = PixelFormat::Mono8;
+  bool has_swapped_bytes = false;  // 16-bit values are not as this machine orders their bytes
 };
 
-// The image that load_image makes of a file of these pixels. InputError: no pixels, less than 16x16
+// The image that load_image makes of a file of these pixels. `source` names them in errors.
+// InputError: no pixels, less than 16x16
 // or more than 2^28 of them, a stride that is shorter than a row; a pattern in the options beside
 // one in the format.
-Image grey_image(const Pixels& pixels, const ImageOptions& options = {});
+Image grey_image(const Pixels& pixels, const ImageOptions& options = {},
+                 const std::string& source = "image");
 
 }  // namespace edgescout

@@ -240,7 +240,13 @@ enum {
   EDGESCOUT_BAYER_RGGB16 = 11,
   EDGESCOUT_BAYER_BGGR16 = 12,
   EDGESCOUT_BAYER_GRBG16 = 13,
-  EDGESCOUT_BAYER_GBRG16 = 14
+  EDGESCOUT_BAYER_GBRG16 = 14,
+  EDGESCOUT_BGR16 = 15,
+  EDGESCOUT_RGB16 = 16,
+  EDGESCOUT_BGRA16 = 17,
+  EDGESCOUT_RGBA16 = 18,
+  EDGESCOUT_YUYV8 = 19, /* of video formats, Y is used */
+  EDGESCOUT_UYVY8 = 20
 };
 
 /* Pixels of the caller, read during the call alone. Detection works on 8-bit grey: colour is

@@ -1,10 +1,12 @@
 #include "host/bridge/ros2/image_message.h"
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 #include <optional>
 
 #include "host/bridge/ros2/frames.h"
+#include "host/io/pixels.h"
 #include "kernels/error.h"
 
 namespace edgescout::ros2 {
@@ -13,42 +15,41 @@ namespace {
 
 struct Encoding {
   const char* name;
-  int channels, channel_bytes;
-  bool is_red_first = false;
-  bool is_luma_first = true;
-  BayerPattern bayer = BayerPattern::None;
+  PixelFormat format;
+  BayerPattern bayer = BayerPattern::None;  // of a mosaic
 };
 
 // sensor_msgs/image_encodings.hpp.
 constexpr Encoding encodings[] = {
-    {"mono8", 1, 1},
-    {"mono16", 1, 2},
-    {"bgr8", 3, 1},
-    {"rgb8", 3, 1, true},
-    {"bgra8", 4, 1},
-    {"rgba8", 4, 1, true},
-    {"bgr16", 3, 2},
-    {"rgb16", 3, 2, true},
-    {"bgra16", 4, 2},
-    {"rgba16", 4, 2, true},
-    {"bayer_rggb8", 1, 1, false, true, BayerPattern::RGGB},
-    {"bayer_bggr8", 1, 1, false, true, BayerPattern::BGGR},
-    {"bayer_gbrg8", 1, 1, false, true, BayerPattern::GBRG},
-    {"bayer_grbg8", 1, 1, false, true, BayerPattern::GRBG},
-    {"bayer_rggb16", 1, 2, false, true, BayerPattern::RGGB},
-    {"bayer_bggr16", 1, 2, false, true, BayerPattern::BGGR},
-    {"bayer_gbrg16", 1, 2, false, true, BayerPattern::GBRG},
-    {"bayer_grbg16", 1, 2, false, true, BayerPattern::GRBG},
-    {"yuv422", 2, 1, false, false},  // u y v y
-    {"uyvy", 2, 1, false, false},
-    {"yuv422_yuy2", 2, 1},
-    {"yuyv", 2, 1},
-    {"8UC1", 1, 1},  // OpenCV's: colours are in its own order
-    {"8UC3", 3, 1},
-    {"8UC4", 4, 1},
-    {"16UC1", 1, 2},
-    {"16UC3", 3, 2},
-    {"16UC4", 4, 2},
+    {"mono8", PixelFormat::Mono8},
+    {"mono16", PixelFormat::Mono16},
+    {"bgr8", PixelFormat::Bgr8},
+    {"rgb8", PixelFormat::Rgb8},
+    {"bgra8", PixelFormat::Bgra8},
+    {"rgba8", PixelFormat::Rgba8},
+    {"bgr16", PixelFormat::Bgr16},
+    {"rgb16", PixelFormat::Rgb16},
+    {"bgra16", PixelFormat::Bgra16},
+    {"rgba16", PixelFormat::Rgba16},
+    {"bayer_rggb8", PixelFormat::BayerRggb8, BayerPattern::RGGB},
+    {"bayer_bggr8", PixelFormat::BayerBggr8, BayerPattern::BGGR},
+    {"bayer_gbrg8", PixelFormat::BayerGbrg8, BayerPattern::GBRG},
+    {"bayer_grbg8", PixelFormat::BayerGrbg8, BayerPattern::GRBG},
+    {"bayer_rggb16", PixelFormat::BayerRggb16, BayerPattern::RGGB},
+    {"bayer_bggr16", PixelFormat::BayerBggr16, BayerPattern::BGGR},
+    {"bayer_gbrg16", PixelFormat::BayerGbrg16, BayerPattern::GBRG},
+    {"bayer_grbg16", PixelFormat::BayerGrbg16, BayerPattern::GRBG},
+    {"yuv422", PixelFormat::Uyvy8},
+    {"uyvy", PixelFormat::Uyvy8},
+    {"yuv422_yuy2", PixelFormat::Yuyv8},
+    {"yuyv", PixelFormat::Yuyv8},
+    {"8UC1", PixelFormat::Mono8},  // OpenCV's: colours are in its own order
+    {"8UC3", PixelFormat::Bgr8},
+    {"8UC4", PixelFormat::Bgra8},
+    {"16UC1", PixelFormat::Mono16},
+    {"16UC3", PixelFormat::Bgr16},
+    {"16UC4", PixelFormat::Bgra16},
+    {"32FC1", PixelFormat::MonoFloat32},
 };
 
 std::optional<Encoding> encoding_named(const std::string& name) {
@@ -63,22 +64,35 @@ ImageOptions with_pattern(ImageOptions options, BayerPattern pattern) {
   return options;
 }
 
+// The last row may lack its padding.
+void require_bytes(const msg::Image& message, PixelFormat format, const std::string& source) {
+  const std::uint64_t row = std::uint64_t(message.width) * std::uint64_t(bytes_per_pixel(format));
+  if (message.step < row)
+    throw InputError(source, "step", std::to_string(message.step) + " bytes a row",
+                     "at least " + std::to_string(row));
+  const std::uint64_t most = std::uint64_t(message.step) * message.height,
+                      least = most - (message.height > 0 ? message.step - row : 0);
+  if (message.data.size() < least || message.data.size() > most)
+    throw InputError(source, "data", std::to_string(message.data.size()) + " bytes",
+                     std::to_string(most) + " for " + std::to_string(message.width) + "x" +
+                         std::to_string(message.height) + " px");
+}
+
 Image image_of(const msg::Image& message, const std::string& source, const ImageOptions& options) {
   const std::optional<Encoding> encoding = encoding_named(message.encoding);
   if (!encoding)
     throw InputError(source, "encoding", shown(message.encoding),
                      "mono8, mono16, bgr8, rgb8, bgra8, rgba8, their 16-bit forms, bayer_..8 or "
-                     "..16, yuv422, yuv422_yuy2, 8UC1 to 8UC4 or 16UC1 to 16UC4");
+                     "..16, yuv422, yuv422_yuy2, 8UC1 to 8UC4, 16UC1 to 16UC4 or 32FC1");
+  require_bytes(message, encoding->format, source);
+  const bool is_big_endian_here = std::endian::native == std::endian::big;
+  ImageOptions used = options;
+  if (encoding->bayer != BayerPattern::None) used.bayer = BayerPattern::None;  // the format has it
   constexpr std::uint32_t longest_px = 1 << 30;
-  const PixelLayout layout{.width = int(std::min(message.width, longest_px)),
-                           .height = int(std::min(message.height, longest_px)),
-                           .row_bytes = message.step,
-                           .channels = encoding->channels,
-                           .channel_bytes = encoding->channel_bytes,
-                           .is_luma_first = encoding->is_luma_first,
-                           .is_red_first = encoding->is_red_first,
-                           .is_big_endian = message.is_bigendian != 0};
-  return grey_image(message.data, layout, source, with_pattern(options, encoding->bayer));
+  return grey_image({message.data.data(), int(std::min(message.width, longest_px)),
+                     int(std::min(message.height, longest_px)), std::ptrdiff_t(message.step),
+                     encoding->format, (message.is_bigendian != 0) != is_big_endian_here},
+                    used, source);
 }
 
 // "bayer_rggb8; png compressed": what image_transport compressed, and how. A JPEG of a mosaic is in
