@@ -11,7 +11,8 @@
 
 namespace edgescout {
 
-// Bytes of a pixel in the order of its name. Of video formats (Y U Y V, U Y V Y) Y is used. Bayer patterns are named by the first two pixels of the first two rows.
+// Bytes of a pixel in the order of its name. Of video formats (Y U Y V, U Y V Y) Y is used. Bayer
+// patterns are named by the first two pixels of the first two rows.
 enum class PixelFormat {
   Mono8,
   Mono16,

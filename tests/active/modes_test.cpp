@@ -36,7 +36,8 @@ Particle particle(int object, const Se3& pose, double weight, bool probable) {
 }
 
 struct Nuts {
-  std::vector<TemplateSet> sets{without_views(make_part("hex_nut")), without_views(make_part("l_bracket"))};
+  std::vector<TemplateSet> sets{without_views(make_part("hex_nut")),
+                                without_views(make_part("l_bracket"))};
   std::vector<EdgeModel> models{sets[0].model, sets[1].model};
   ParticleOptions options;
   mutable ThreadPool threads{1};

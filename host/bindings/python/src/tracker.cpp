@@ -146,9 +146,10 @@ void add_tracker(py::module_& module) {
           py::arg("backend") = nullptr, py::arg("max_seconds") = std::nullopt,
           "Looks for instances that are lost or not yet found, and returns how many it found. They "
           "join at the next update(), which may go on in another thread meanwhile.")
-      .def("overlay", &PythonTracker::overlay, py::arg("image"),
-           "The image with what is tracked or doubtful: (height, width, 3) uint8, red, green, blue. "
-           "The number is that of above_chance.")
+      .def(
+          "overlay", &PythonTracker::overlay, py::arg("image"),
+          "The image with what is tracked or doubtful: (height, width, 3) uint8, red, green, blue. "
+          "The number is that of above_chance.")
       .def_property_readonly("tracks", &PythonTracker::tracks, "As of the last update().");
 }
 
