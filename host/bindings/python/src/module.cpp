@@ -9,6 +9,7 @@ PYBIND11_MODULE(_core, module) {
   python::add_backends(module);
   python::add_options(module);
   python::add_models(module);
+  python::add_bop(module);
   python::add_detection(module);
   python::add_scout(module);
   python::add_tracker(module);

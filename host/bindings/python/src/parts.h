@@ -11,6 +11,7 @@ void add_images(pybind11::module_& module);
 void add_models(pybind11::module_& module);
 void add_backends(pybind11::module_& module);
 void add_options(pybind11::module_& module);
+void add_bop(pybind11::module_& module);
 void add_detection(pybind11::module_& module);
 void add_scout(pybind11::module_& module);
 void add_tracker(pybind11::module_& module);
