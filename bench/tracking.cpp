@@ -85,7 +85,8 @@ struct Outcome {
 };
 
 TemplateSet set_of(const Object& part, const MovingScene& scene, Backend& backend) {
-  const double distance_m = scene.frames[0].camera_from_object.translation_m.norm();
+  const double distance_m =
+      (scene.frames[0].camera_from_object * make_edge_model(part.mesh).center_m).norm();
   TemplateOptions templates;
   templates.distance_min_m = 0.9 * distance_m;
   templates.distance_max_m = 1.1 * distance_m;

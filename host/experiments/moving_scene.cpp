@@ -13,7 +13,7 @@ namespace edgescout {
 
 namespace {
 
-// Of the part in the camera frame, one pose a frame. It goes round a closed path about the middle
+// Of the part, with its origin in the middle of its box, in the camera frame: one pose a frame. It goes round a closed path about the middle
 // of the image.
 std::vector<Se3> path_of_part(const MovingSceneOptions& options, const Camera& camera,
                               double distance_m) {
@@ -74,6 +74,8 @@ MovingScene make_moving_scene(const Object& object, const MovingSceneOptions& op
   const Camera& camera = scene.views[0].camera;
   const Se3 world_from_camera = inverse(scene.views[0].camera_from_world);
   const std::vector<Se3> path = path_of_part(options, camera, distance_m);
+  const Se3 part_from_object{Eigen::Quaterniond::Identity(),
+                             -0.5 * (object.mesh.box_min_m + object.mesh.box_max_m)};
   std::optional<PassingBoard> board;
   if (options.hidden_frames > 0) {
     board.emplace(options, camera, distance_m, object.mesh.diameter_m, path);
@@ -82,13 +84,14 @@ MovingScene make_moving_scene(const Object& object, const MovingSceneOptions& op
   }
   MovingScene moving{undistorted(camera), {}};
   for (std::size_t frame = 0; frame < path.size(); ++frame) {
-    scene.placed[0].world_from_object = world_from_camera * path[frame];
+    const Se3 camera_from_object = path[frame] * part_from_object;
+    scene.placed[0].world_from_object = world_from_camera * camera_from_object;
     if (board)
       scene.placed.back().world_from_object = world_from_camera * board->camera_from_board[frame];
     scene.options.seed = options.render.seed + unsigned(frame);  // of the noise
     Rendering rendering = std::move(render(scene, pool)[0]);
     moving.frames.push_back(
-        {std::move(rendering.image), path[frame], rendering.visible_fraction[0]});
+        {std::move(rendering.image), camera_from_object, rendering.visible_fraction[0]});
   }
   return moving;
 }
