@@ -13,8 +13,8 @@ namespace edgescout {
 
 namespace {
 
-// Of the part, with its origin in the middle of its box, in the camera frame: one pose a frame. It goes round a closed path about the middle
-// of the image.
+// Of the part, with its origin in the middle of its box, in the camera frame: one pose a frame. It
+// goes round a closed path about the middle of the image.
 std::vector<Se3> path_of_part(const MovingSceneOptions& options, const Camera& camera,
                               double distance_m) {
   Random random = Random(options.render.seed).split("path");

@@ -63,9 +63,8 @@ void add_results(py::module_& module) {
       .def_readonly("image_id", &BopResult::image_id)
       .def_readonly("object_id", &BopResult::object_id)
       .def_readonly("score", &BopResult::score)
-      .def_property_readonly(
-          "camera_from_object",
-          [](const BopResult& row) { return matrix_of(row.camera_from_object); })
+      .def_property_readonly("camera_from_object",
+                             [](const BopResult& row) { return matrix_of(row.camera_from_object); })
       .def_readonly("time_s", &BopResult::time_s)
       .def_readonly("camera_name", &BopResult::camera_name);
   module.def("load_bop_results", &load_bop_results, py::arg("file"),
