@@ -19,21 +19,22 @@ ls "$build"/*.deb
 say "a fresh Debian 12"
 mmdebstrap --quiet --variant=apt --include=ca-certificates bookworm "$root"
 in_root() { chroot "$root" env DEBIAN_FRONTEND=noninteractive PATH=/usr/sbin:/usr/bin:/sbin:/bin "$@"; }
-mkdir "$root/debs" "$root/work"
+mkdir -p "$root/debs" "$root/work/docs" "$root/work/tests/install"
 cp "$build"/*.deb "$root/debs"
-cp -r docs/examples "$root/work/examples"
+cp -r docs/examples "$root/work/docs"
+cp -r tests/install/consumer "$root/work/tests/install"
 # Compiler and build tools are what a user of libedgescout-dev has.
 in_root sh -c 'apt-get -qq update && apt-get -qq install --no-install-recommends -y g++ cmake make pkg-config /debs/*.deb' \
   >"$root/install.log" 2>&1 || { tail -20 "$root/install.log"; exit 1; }
 say "installed: $(in_root dpkg-query -W -f '${Package} ' '*edgescout*')"
 
-scene=/work/examples/scenes/000000
-part="--model /work/examples/parts/obj_000001.ply --unit mm --distance-min 0.32 --distance-max 0.36"
+scene=/work/docs/examples/scenes/000000
+part="--model /work/docs/examples/parts/obj_000001.ply --unit mm --distance-min 0.32 --distance-max 0.36"
 
 say "the program"
 # shellcheck disable=SC2086  # several words
 in_root edgescout detect $scene $part --device cpu --out /work/out
-in_root edgescout eval /work/out/results.csv $scene --model /work/examples/parts/obj_000001.ply --unit mm
+in_root edgescout eval /work/out/results.csv $scene --model /work/docs/examples/parts/obj_000001.ply --unit mm
 in_root test -s /work/out/results.csv
 in_root test -s /usr/share/man/man1/edgescout-detect.1.gz -o -s /usr/share/man/man1/edgescout-detect.1
 
@@ -43,11 +44,11 @@ import json
 import numpy as np
 import edgescout
 
-scene = "/work/examples/scenes/000000"
+scene = "/work/docs/examples/scenes/000000"
 image = edgescout.load_image(scene + "/gray/000000.png")
 matrix = np.reshape(json.load(open(scene + "/scene_camera.json"))["0"]["cam_K"], (3, 3))
 camera = edgescout.Camera(image.shape[1], image.shape[0], matrix)
-mesh = edgescout.load_mesh("/work/examples/parts/obj_000001.ply", "mm")
+mesh = edgescout.load_mesh("/work/docs/examples/parts/obj_000001.ply", "mm")
 templates = edgescout.Templates(mesh, edgescout.TemplateOptions(distance_min=0.32, distance_max=0.36))
 found = edgescout.detect(image, camera, templates, backend=edgescout.Backend("cpu"))
 rows = [row.split(",") for row in open("/work/out/results.csv").read().splitlines()[1:]]
@@ -57,17 +58,17 @@ print(f"{len(found)} parts, the best of probability {found[0].probability:.2f}: 
 END
 
 say "C++"
-cp -r tests/install/consumer "$root/work/consumer"
-in_root sh -ec 'cmake -S /work/consumer -B /work/consumer/build >/dev/null; cmake --build /work/consumer/build >/dev/null
-  for program in /work/consumer/build/*; do [ -f "$program" ] && [ -x "$program" ] && "$program"; done; true'
+in_root sh -ec 'cmake -S /work/tests/install/consumer -B /work/build -DCMAKE_BUILD_TYPE=Release >/dev/null
+  cmake --build /work/build --target consumer >/dev/null
+  /work/build/consumer /work/docs/examples/scenes/000000 /work/docs/examples/parts/obj_000001.ply 1'
 
 if [ -e "$root/usr/include/edgescout.h" ]; then
   say "C"
   cp docs/examples/c/find_part.c "$root/work/"
   # shellcheck disable=SC2016  # for the shell in the root
   in_root sh -ec 'cc -std=c11 /work/find_part.c -o /work/find_part $(pkg-config --cflags --libs edgescout-c) -lm
-    cd /work && ./find_part examples/scenes/000000/gray/000000.png examples/scenes/000000/scene_camera.json \
-      examples/parts/obj_000001.ply 0.32 0.36'
+    cd /work && ./find_part docs/examples/scenes/000000/gray/000000.png docs/examples/scenes/000000/scene_camera.json \
+      docs/examples/parts/obj_000001.ply 0.32 0.36'
 fi
 
 if [ -x "$root/usr/bin/edgescout_ros2" ]; then
