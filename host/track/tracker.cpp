@@ -88,14 +88,13 @@ struct Tracker::State {
   TrackOptions options;
 
   std::vector<Instance> instances;
-  std::vector<Track> tracks;  // theirs
   std::shared_ptr<const Image> last_image;
   std::optional<double> last_time_s;
   int next_id = 1;
 
   std::mutex in_update, in_search;  // held by the calls, to find a second thread
   std::mutex shared;                // of what follows, for an instant
-  std::vector<Track> tracks_for_search;
+  std::vector<Track> tracks;        // of the instances; written by the thread of update() alone
   std::vector<ObjectPose> joining;  // found by search()
 
   void require(const TrackFrame& frame) const;
@@ -141,10 +140,9 @@ int Tracker::State::add(int object, const Se3& camera_from_object) {
 }
 
 void Tracker::State::publish() {
+  const std::lock_guard lock(shared);
   tracks.clear();
   for (const Instance& instance : instances) tracks.push_back(instance.track);
-  const std::lock_guard lock(shared);
-  tracks_for_search = tracks;
 }
 
 // How many instances of an object are neither tracked nor doubtful.
@@ -337,7 +335,7 @@ int Tracker::search(const TrackFrame& frame, Backend& backend, const TimeLimit& 
   std::vector<Track> tracks;
   {
     const std::lock_guard lock(state.shared);
-    tracks = state.tracks_for_search;
+    tracks = state.tracks;
   }
   PipelineOptions options = state.options.pipeline;
   options.limit = latched(limit);
