@@ -127,7 +127,7 @@ void Bridge::request(msg::GetPoseEstimatesRequest request,
 
 void Bridge::request(const msg::ScoutProposeRequest& request,
                      const Answer<msg::ScoutProposeResult>& answer) {
-  add_job(answer, [this, request] { return scout_.propose(request, latest_camera()); });
+  add_job(answer, [this, request] { return scout_.propose(request, calibration_of({})); });
 }
 
 void Bridge::request(const msg::ScoutGiveRequest& request,
@@ -191,15 +191,7 @@ std::optional<Camera> Bridge::camera_for(const msg::Header& header, int width, i
   std::optional<Camera> camera;
   guarded(
       [&] {
-        Camera calibration;
-        if (options_.camera) {
-          calibration = *options_.camera;
-        } else {
-          const std::scoped_lock lock(infos_mutex_);
-          calibration = camera_of(*infos_.for_image(header), options_.rectified, info_subject);
-        }
-        calibration.field_of_view_rad = options_.field_of_view_rad;
-        camera = camera_for_image(calibration, width, height, options_.scale_camera,
+        camera = camera_for_image(calibration_of(header), width, height, options_.scale_camera,
                                   options_.camera ? options_.camera_file : info_subject);
         diagnostics_.solved(info_subject);
         warn_of(*camera);
@@ -208,7 +200,7 @@ std::optional<Camera> Bridge::camera_for(const msg::Header& header, int width, i
   return camera;
 }
 
-Camera Bridge::latest_camera() const {
+Camera Bridge::calibration_of(const msg::Header& image) const {
   Camera camera;
   if (options_.camera) {
     camera = *options_.camera;
@@ -216,7 +208,7 @@ Camera Bridge::latest_camera() const {
     const std::scoped_lock lock(infos_mutex_);
     if (infos_.empty())
       throw InputError(info_subject, "messages", "none", "one of the camera before");
-    camera = camera_of(*infos_.for_image({}), options_.rectified, info_subject);
+    camera = camera_of(*infos_.for_image(image), options_.rectified, info_subject);
   }
   camera.field_of_view_rad = options_.field_of_view_rad;
   return camera;

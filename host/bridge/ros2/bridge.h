@@ -64,7 +64,8 @@ class Bridge {
   std::optional<TakenImage> taken(const ArrivedImage& arrived);
   std::optional<Image> decoded(const ImageMessage& message);
   std::optional<Camera> camera_for(const msg::Header& header, int width, int height);
-  Camera latest_camera() const;
+  // That of the image's time; with an empty header the latest. InputError: none came.
+  Camera calibration_of(const msg::Header& image) const;
   void warn_of(const Camera& camera);
   void wait_for_calibration(ArrivedImage arrived, std::vector<ImageRequest> requests);
   // Detects and publishes. InputError: a pose that tf does not know, what the library refuses.
