@@ -13,6 +13,7 @@
 #include "host/bridge/ros2/dds/dds_node.h"
 #include "host/bridge/ros2/frames.h"
 #include "host/bridge/ros2/image_message.h"
+#include "host/core/quantile.h"
 #include "host/io/camera_file.h"
 
 namespace edgescout::ros2 {
@@ -37,13 +38,6 @@ double memory_mib(const std::string& process) {
   for (std::string line; std::getline(status, line);)
     if (line.starts_with("VmRSS:")) return std::atof(line.c_str() + 6) / 1024;
   return 0;
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
 }
 
 struct Soak {

@@ -16,6 +16,7 @@
 
 #include "bench/arguments.h"
 #include "host/core/pose_error.h"
+#include "host/core/quantile.h"
 #include "host/core/stopwatch.h"
 #include "host/experiments/moving_scene.h"
 #include "host/io/mesh.h"
@@ -61,12 +62,6 @@ MovingSceneOptions options_of(const Motion& motion, const Arguments& a) {
   options.jump_frame = motion.jump_px > 0 ? a.frames / 2 : -1;
   options.jump_px = motion.jump_px;
   return options;
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::ranges::sort(values);
-  return values[std::size_t(share * double(values.size() - 1))];
 }
 
 std::vector<Object> parts_of(const Arguments& a) {

@@ -15,6 +15,7 @@
 
 #include "bench/arguments.h"
 #include "bench/visp_tracker.h"
+#include "host/core/quantile.h"
 #include "host/core/stopwatch.h"
 #include "host/io/image.h"
 #include "host/io/mesh.h"
@@ -112,12 +113,6 @@ double apart_px(const Se3& a, const Se3& b, const Sequence& sequence) {
   for (const Eigen::Vector3d& vertex : sequence.mesh.vertices_m)
     sum += (project(sequence.camera, a * vertex) - project(sequence.camera, b * vertex)).norm();
   return sum / double(sequence.mesh.vertices_m.size());
-}
-
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::ranges::sort(values);
-  return values[std::size_t(share * double(values.size() - 1))];
 }
 
 void print(const char* name, const Followed& followed, std::size_t frames) {

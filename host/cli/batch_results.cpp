@@ -120,6 +120,10 @@ void start_anew(const fs::path& out, std::span<const InputImage> images) {
     files.push_back(json_of(out, image));
     files.push_back(overlay_of(out, image));
   }
+  remove_files_of_run(std::move(files));
+}
+
+void remove_files_of_run(std::vector<fs::path> files) {
   std::error_code unknown;
   std::erase_if(files, [&](const fs::path& file) { return !fs::is_regular_file(file, unknown); });
   remove_earlier_files(files);

@@ -65,6 +65,9 @@ void require_no_other_results(const std::filesystem::path& out, std::span<const 
 // require_no_other_results before.
 void start_anew(const std::filesystem::path& out, std::span<const InputImage> images);
 
+// Removes those of the files that are there. What is no regular file stays.
+void remove_files_of_run(std::vector<std::filesystem::path> files);
+
 // Writes results.csv (of scenes with several cameras also results_CAMERA.csv), report.html and
 // summary.json (counts, throughput, mean time of every stage, failures, what is missing, and the
 // error that ended the batch). Counts in the summary the poses and those out of sight.

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "host/cli/batch_results.h"
+#include "host/core/quantile.h"
 #include "host/io/files.h"
 #include "kernels/error.h"
 
@@ -45,19 +45,10 @@ std::string row_of(const InputImage& input, double time_s, const Track& track, i
   return row + ',' + quoted(place_of(input).string()) + '\n';
 }
 
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
-  std::ranges::nth_element(values, at);
-  return *at;
-}
-
 void remove_earlier(const fs::path& out, std::span<const InputImage> images) {
   std::vector<fs::path> files{out / "tracks.csv", out / "results.csv", out / "summary.json"};
   for (const InputImage& image : images) files.push_back(overlay_of(out, image));
-  std::error_code unknown;
-  std::erase_if(files, [&](const fs::path& file) { return !fs::is_regular_file(file, unknown); });
-  remove_earlier_files(files);
+  remove_files_of_run(std::move(files));
 }
 
 }  // namespace
@@ -101,19 +92,19 @@ void TrackFiles::finish(const TrackSummary& summary, const std::string& device) 
   if (::fsync(descriptor_) != 0)
     throw InputError((out_ / "tracks.csv").string() + ": " + std::strerror(errno));
   save_bop_results(results_, out_ / "results.csv");
-  const nlohmann::ordered_json json{{"frames", summary.frames},
-                                    {"sequences", summary.sequences},
-                                    {"instances", summary.instances},
-                                    {"losses", summary.losses},
-                                    {"tracked", summary.tracked},
-                                    {"doubtful", summary.doubtful},
-                                    {"lost", summary.lost},
-                                    {"failed", summary.failures},
-                                    {"device", device},
-                                    {"update_ms",
-                                     {{"median", percentile(summary.update_ms, 0.5)},
-                                      {"p99", percentile(summary.update_ms, 0.99)}}},
-                                    {"seconds", summary.seconds}};
+  const nlohmann::ordered_json json{
+      {"frames", summary.frames},
+      {"sequences", summary.sequences},
+      {"instances", summary.instances},
+      {"losses", summary.losses},
+      {"tracked", summary.tracked},
+      {"doubtful", summary.doubtful},
+      {"lost", summary.lost},
+      {"failed", summary.failures},
+      {"device", device},
+      {"update_ms",
+       {{"median", quantile(summary.update_ms, 0.5)}, {"p99", quantile(summary.update_ms, 0.99)}}},
+      {"seconds", summary.seconds}};
   write_file_atomically(out_ / "summary.json", json.dump(2) + "\n");
 }
 

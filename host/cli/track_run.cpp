@@ -3,7 +3,8 @@
 #include <chrono>
 #include <iostream>
 #include <map>
-#include <set>
+#include <optional>
+#include <tuple>
 
 #include "host/cli/batch_results.h"
 #include "host/cli/progress.h"
@@ -12,7 +13,7 @@
 #include "host/core/log.h"
 #include "host/core/stopwatch.h"
 #include "host/io/image.h"
-#include "host/overlay.h"
+#include "host/track/track_overlay.h"
 
 namespace edgescout {
 
@@ -108,13 +109,7 @@ class SequenceRunner {
   }
 
   void draw(const InputImage& input, const Image& image, std::span<const Track> tracks) {
-    std::vector<OverlayPose> poses;
-    for (const Track& track : tracks)
-      if (track.state != TrackState::Lost)
-        poses.push_back({track.object, track.world_from_object, track.above_chance,
-                         std::to_string(track.id) + " " + to_string(track.state)});
-    save_png(draw_overlay(undistort(image, sequence_camera_), undistorted(sequence_camera_), poses,
-                          models_, nullptr, backend_),
+    save_png(draw_tracks(image, sequence_camera_, tracks, models_, backend_),
              overlay_of(request_.out, input));
   }
 

@@ -3,7 +3,7 @@
 #include "host/bindings/python/src/found_objects.h"
 #include "host/bindings/python/src/parts.h"
 #include "host/bindings/python/src/shared_backend.h"
-#include "host/overlay.h"
+#include "host/track/track_overlay.h"
 
 namespace edgescout::python {
 
@@ -60,15 +60,9 @@ class PythonTracker {
 
   py::array_t<std::uint8_t> overlay(const py::array& image) {
     const TrackFrame frame = frame_of(image, 0);
-    std::vector<OverlayPose> poses;
-    for (const Track& track : tracker_->tracks())
-      if (track.state != TrackState::Lost)
-        poses.push_back({track.object, track.world_from_object, track.above_chance,
-                         std::to_string(track.id) + " " + to_string(track.state)});
     const std::vector<EdgeModel> models = models_of(sets_);
     return array_of(on_backend(backend_, {}, [&](const TimeLimit&, Backend& on) {
-      return draw_overlay(undistort(*frame.image, camera_), undistorted(camera_), poses, models,
-                          nullptr, on);
+      return draw_tracks(*frame.image, camera_, tracker_->tracks(), models, on);
     }));
   }
 
