@@ -1,0 +1,22 @@
+// A depth image: what a sensor measured of the surfaces before a camera.
+//
+// Public header.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace edgescout {
+
+inline constexpr float DEPTH_MISSING = 0;  // of a pixel that was not measured
+
+// Row-major, without padding. Values are camera-frame z at the pixels' centres, m: the distance
+// along the camera's axis, not along the pixel's ray.
+struct DepthImage {
+  int width = 0;
+  int height = 0;
+  std::vector<float> z_m;  // finite; DEPTH_MISSING or positive
+  float at(int x, int y) const { return z_m[static_cast<std::size_t>(y) * width + x]; }
+};
+
+}  // namespace edgescout
