@@ -3,6 +3,7 @@
 #include <set>
 
 #include "host/edge/salient_edges.h"
+#include "host/register/occluders.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -58,6 +59,7 @@ void add_tensors(ObjectView& view, const std::set<double>& reductions, Backend& 
   view.tensor = backend.make_view(edges, camera.width, camera.height,
                                   {image.width, image.height, image.pixels.data()},
                                   intrinsics_of(camera), options);
+  if (view.depth) view.occluders = make_occluders({}, {}, view, backend);
   view.reduced.clear();
   const std::vector<EdgePoint> salient = salient_edges(edges, camera.width, camera.height);
   for (const double reduction : reductions) {

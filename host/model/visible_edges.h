@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "host/core/camera.h"
+#include "host/core/kernel_types.h"
 #include "host/model/edge_model.h"
 #include "kernels/backend.h"
 
@@ -33,9 +33,5 @@ std::vector<std::vector<ModelPoint>> visible_edges(const EdgeModel& model,
                                                    Backend& backend,
                                                    const VisibilityOptions& options = {},
                                                    std::vector<SilhouetteMarks>* marks = nullptr);
-
-// Conversions to the kernels' transform and camera.
-Pose to_pose(const Se3& b_from_a);
-Intrinsics intrinsics_of(const Camera& camera);
 
 }  // namespace edgescout
