@@ -194,6 +194,16 @@ class VulkanBackend : public Backend {
     run_poses("pose_score", scorer_, views, {points}, problems, options, out);
   }
 
+  DepthHandle make_depth(const DepthView&) override { throw LogicError("not yet"); }
+  SurfacePointsHandle make_surface_points(std::vector<SurfacePoint>) override {
+    throw LogicError("not yet");
+  }
+  void pose_depth(std::span<const DepthHandle>, const BackendSurfacePoints&,
+                  std::span<const PoseProblem>, const PoseDepthOptions&,
+                  std::span<PoseDepth>) override {
+    throw LogicError("not yet");
+  }
+
   void edge_support(std::span<const ViewHandle> views, std::span<const SupportPoint> points,
                     std::span<const SupportProblem> problems, std::span<EdgeSupport> out) override {
     std::vector<SupportMapView> maps;
