@@ -4,7 +4,8 @@
 // Three kinds: the plain CPU reference (single-threaded, the judge of the others), the fast CPU
 // path (SIMD and threads) and a Vulkan device. All answer alike, within the agreement each kernel's
 // header promises. A backend may be used by one thread at a time. Tensors, views, depth
-// images, points and cells outlive the call that made them and must be handed back to the same backend.
+// images, points and cells outlive the call that made them and must be handed back to the same
+// backend.
 //
 // Public header.
 #pragma once

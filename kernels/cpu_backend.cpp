@@ -85,11 +85,14 @@ class CpuView : public BackendView {
   std::vector<std::uint32_t> support_map;
 };
 
-class CpuPosePoints : public BackendPosePoints {
+template <class Handle, class Point>
+class CpuPoints : public Handle {
  public:
-  explicit CpuPosePoints(std::vector<ModelPoint> points) : points(std::move(points)) {}
-  std::vector<ModelPoint> points;
+  explicit CpuPoints(std::vector<Point> points) : points(std::move(points)) {}
+  std::vector<Point> points;
 };
+using CpuPosePoints = CpuPoints<BackendPosePoints, ModelPoint>;
+using CpuSurfacePoints = CpuPoints<BackendSurfacePoints, SurfacePoint>;
 
 class CpuDepth : public BackendDepth {
  public:
@@ -100,12 +103,6 @@ class CpuDepth : public BackendDepth {
   }
   DepthView depth_view() const { return {values, width, height, intrinsics}; }
   std::vector<float> values;
-};
-
-class CpuSurfacePoints : public BackendSurfacePoints {
- public:
-  explicit CpuSurfacePoints(std::vector<SurfacePoint> points) : points(std::move(points)) {}
-  std::vector<SurfacePoint> points;
 };
 
 class CpuModelPoints : public BackendModelPoints {

@@ -31,15 +31,15 @@
 // weight_sum and offset_m are over the points with a residual.
 //
 // Agreement: counts are equal but for points within 1e-3 px of a pixel's border, within 1e-3
-// relative or 2e-6 z of a band's border, or within 1e-4 of turning away (n . p, or n . ray about 0),
-// in total and of each kind. Sums over the other points agree to 1e-3 relative to the largest entry
-// of their kind in the same system, and to what a change of every residual by 4e-7 |p| / s makes.
-// (The reference accumulates in double, the others in float by groups of points. Float has p and q
-// to 2e-7 |p|; at grazing, n . ray = -0.1, offset to ten times that.)
-// LogicError: a point range or a view beyond the lists, outputs of another number, a depth image
-// without pixels or of another size than its values, noise_floor_m, noise_per_m, band_m, surface_m
-// or loss_scale that is not finite or negative; loss_scale must be positive, noise_floor_m at least
-// DEPTH_MIN_NOISE_M (else residuals leave float).
+// relative or 2e-6 z of a band's border, or within 1e-4 of turning away (n . p, or n . ray about
+// 0), in total and of each kind. Sums over the other points agree to 1e-3 relative to the largest
+// entry of their kind in the same system, and to what a change of every residual by 4e-7 |p| / s
+// makes. (The reference accumulates in double, the others in float by groups of points. Float has p
+// and q to 2e-7 |p|; at grazing, n . ray = -0.1, offset to ten times that.) LogicError: a point
+// range or a view beyond the lists, outputs of another number, a depth image without pixels or of
+// another size than its values, noise_floor_m, noise_per_m, band_m, surface_m or loss_scale that is
+// not finite or negative; loss_scale must be positive, noise_floor_m at least DEPTH_MIN_NOISE_M
+// (else residuals leave float).
 #ifndef EDGESCOUT_POSE_DEPTH_H
 #define EDGESCOUT_POSE_DEPTH_H
 
@@ -53,7 +53,7 @@ namespace edgescout {
 
 class ThreadPool;
 
-inline constexpr float MIN_FACING = 0.1f;   // cosine: more grazing surfaces are not compared
+inline constexpr float MIN_FACING = 0.1f;  // cosine: more grazing surfaces are not compared
 inline constexpr float DEPTH_MIN_NOISE_M = 1e-6f;
 inline constexpr float BAND_SIGMAS = 4.0f;  // of agreement, at least
 
@@ -82,9 +82,9 @@ struct PoseDepthOptions {
 struct PoseDepth {
   float hessian[21];
   float gradient[6];
-  float cost;        // sum of rho
-  float weight_sum;  // sum of w
-  float offset_m;    // sum of w * offset
+  float cost;                                      // sum of rho
+  float weight_sum;                                // sum of w
+  float offset_m;                                  // sum of w * offset
   float agreeing, contradicting, hidden, missing;  // numbers of points
 };
 

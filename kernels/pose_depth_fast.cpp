@@ -33,7 +33,7 @@ enum DepthSum {
 
 // `counted` is 1 or 0. What does not count has finite numbers all the same.
 struct DepthGroup {
-  DepthLanes counted, point[3], normal[3], facing;  // facing: n . p
+  DepthLanes counted, arm[3], point[3], normal[3];  // arm: from the object's origin
   DepthLanes column, row, depth;                    // of the nearest pixel; depth 0: missing
 };
 
@@ -48,7 +48,8 @@ inline __attribute__((always_inline)) void load_samples(const SurfacePoint* samp
   for (int r = 0; r < 3; ++r) {
     const float* row = pose.m + 4 * r;
     for (int i = 0; i < depth_lanes; ++i) {
-      g.point[r][i] = row[0] * m[0][i] + row[1] * m[1][i] + row[2] * m[2][i] + row[3];
+      g.arm[r][i] = row[0] * m[0][i] + row[1] * m[1][i] + row[2] * m[2][i];
+      g.point[r][i] = g.arm[r][i] + row[3];
       g.normal[r][i] = row[0] * m[3][i] + row[1] * m[4][i] + row[2] * m[5][i];
     }
   }
@@ -61,10 +62,10 @@ inline __attribute__((always_inline)) void load_samples(const SurfacePoint* samp
                       facing <= -MIN_FACING * std::sqrt(x * x + y * y + z * z) && i < count;
     g.counted[i] = seen ? 1.0f : 0.0f;
     for (int r = 0; r < 3; ++r) {
+      g.arm[r][i] = seen ? g.arm[r][i] : 1.0f;
       g.point[r][i] = seen ? g.point[r][i] : 1.0f;
       g.normal[r][i] = seen ? g.normal[r][i] : -1.0f;
     }
-    g.facing[i] = seen ? facing : -3.0f;
   }
 }
 
@@ -96,7 +97,6 @@ struct DepthTerms {
 
 // Residuals with their derivatives, and all sums that are no matrix.
 inline __attribute__((always_inline)) void compare(const DepthGroup& g, const Intrinsics& k,
-                                                   const Pose& pose,
                                                    const PoseDepthOptions& options,
                                                    DepthLanes* sums, DepthTerms& t) {
   const float surface2 = options.surface_m * options.surface_m;
@@ -106,9 +106,9 @@ inline __attribute__((always_inline)) void compare(const DepthGroup& g, const In
     const float towards = nx * ray_x + ny * ray_y + nz;
     const bool compared = g.counted[i] > 0 && d > 0 && towards < 0;
     const float slope = compared ? towards : -1.0f;
-    const float qx = d * ray_x, qy = d * ray_y;
-    const float along = nx * (qx - g.point[0][i]) + ny * (qy - g.point[1][i]) +
-                        nz * (d - g.point[2][i]);  // = slope * offset, better kept by float
+    const float to_x = d * ray_x - g.point[0][i], to_y = d * ray_y - g.point[1][i],
+                to_z = d - g.point[2][i];  // q - p
+    const float along = nx * to_x + ny * to_y + nz * to_z;
     const float offset = along / slope;
     const float sigma = std::max(options.noise_floor_m, options.noise_per_m * d * d);
     const float band = std::max(options.band_m, BAND_SIGMAS * sigma);
@@ -119,7 +119,7 @@ inline __attribute__((always_inline)) void compare(const DepthGroup& g, const In
     const float q = 1.0f / (1.0f + scaled * scaled), weight = used * q * q;
     t.r[i] = r;
     t.weight[i] = weight;
-    const float ax = qx - pose.m[3], ay = qy - pose.m[7], az = d - pose.m[11];
+    const float ax = to_x + g.arm[0][i], ay = to_y + g.arm[1][i], az = to_z + g.arm[2][i];
     t.jacobian[0][i] = -nx * inverse;
     t.jacobian[1][i] = -ny * inverse;
     t.jacobian[2][i] = -nz * inverse;
@@ -157,7 +157,7 @@ void sum_depths(const DepthView& view, std::span<const SurfacePoint> samples, co
     const int count = static_cast<int>(std::min<std::size_t>(depth_lanes, samples.size() - first));
     load_samples(samples.data() + first, count, pose, group);
     read_depths(view, group);
-    compare(group, view.intrinsics, pose, options, sums, terms);
+    compare(group, view.intrinsics, options, sums, terms);
     add_systems(terms, sums);
   }
   for (int e = 0; e < depth_sums; ++e) {
