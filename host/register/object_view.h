@@ -33,6 +33,7 @@ struct ObjectView {
   std::shared_ptr<const Image> image;      // undistorted; null: no shading
   std::shared_ptr<const MeasuredDepth> depth;  // of the same camera; null: nothing was measured
   std::shared_ptr<const EdgeIndex> edges;  // null: no edge ICP, no edge claims
+  DepthHandle depth_values;                // those of `depth`, set by add_tensors
   ViewHandle tensor;                       // of all edges, full resolution
   std::vector<ReducedTensors> reduced;     // by ascending reduction; views of a scene: equal ones
   std::shared_ptr<const Occluders> occluders;  // null: no known objects here
