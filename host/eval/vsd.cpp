@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/core/kernel_types.h"
 #include "kernels/depth_raster.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
@@ -32,15 +33,6 @@ DistanceWindow window_of(const std::vector<Eigen::Vector3d>& points_m, const Cam
   if (!(low <= high).all()) return {};
   const Eigen::Array2i from = low.cast<int>(), to = high.cast<int>();
   return {from.x(), from.y(), to.x() - from.x() + 1, to.y() - from.y() + 1, {}};
-}
-
-Pose pose_of(const Se3& camera_from_object) {
-  Eigen::Matrix<float, 3, 4, Eigen::RowMajor> matrix;
-  matrix << camera_from_object.rotation.toRotationMatrix().cast<float>(),
-      camera_from_object.translation_m.cast<float>();
-  Pose pose{};
-  std::copy_n(matrix.data(), 12, pose.m);
-  return pose;
 }
 
 // Both windows.
@@ -79,10 +71,10 @@ DistanceWindow VsdObject::seen_by(const Camera& camera, const Se3& camera_from_o
   DistanceWindow window = window_of(vertices_m_, camera, camera_from_object);
   if (window.width == 0) return window;
   window.distances_m.resize(static_cast<std::size_t>(window.width) * window.height);
-  const DepthJob job{pose_of(camera_from_object),
-                     {static_cast<float>(camera.fx), static_cast<float>(camera.fy),
-                      static_cast<float>(camera.cx - window.left),
-                      static_cast<float>(camera.cy - window.top)}};
+  Camera shown = camera;
+  shown.cx -= window.left;
+  shown.cy -= window.top;
+  const DepthJob job{to_pose(camera_from_object), intrinsics_of(shown)};
   ThreadPool alone(1);
   depth_raster_fast({coordinates_m_, triangles_}, {&job, 1}, window.width, window.height,
                     window.distances_m, alone);

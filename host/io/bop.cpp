@@ -29,7 +29,8 @@ std::map<int, BopImage> read_images(const fs::path& folder, const std::string& c
   const fs::path file = bop_file(folder, "scene_camera", camera_name);
   const json content = read_json(file);
   const JsonField root{content, file.string(), ""};
-  const ImageFiles files(folder, camera_name);
+  const ImageFiles files(folder, camera_name),
+      depth_files = ImageFiles::of_depth(folder, camera_name);
   ProjectedRotations projected;
   std::map<int, BopImage> images;
   for (const auto& [key, value] : content.items()) {
@@ -37,6 +38,8 @@ std::map<int, BopImage> read_images(const fs::path& folder, const std::string& c
     BopImage image;
     image.image_id = integer_key(key, root);
     image.file = files.of(image.image_id);
+    if (depth_files.has(image.image_id)) image.depth_file = depth_files.of(image.image_id);
+    if (entry.has("depth_scale")) image.depth_scale = entry.at("depth_scale").number();
     CameraFields fields(entry.value, entry.source, key);
     image.camera = read_camera(fields);
     Camera checked = image.camera;

@@ -40,7 +40,7 @@ void drop_highlights(DepthImage& depth, const SensedView& sensed, ThreadPool& po
   for_each_in_chunks(pool, depth.z_m.size(), 1024, [&](std::size_t i) {
     if (!sensed.is_part(i) || depth.z_m[i] == DEPTH_MISSING) return;
     const SeenSurface& seen = sensed.surfaces[i];
-    const ReceivedLight light = sensed.shading.lighting.at(surface_point(sensed.view, seen),
+    const ReceivedLight light = sensed.shading.lighting.at(shaded_point(sensed.view, seen),
                                                            material_of(sensed.view, seen));
     if (light.specular >= sensed.sensor().highlight) depth.z_m[i] = DEPTH_MISSING;
   });

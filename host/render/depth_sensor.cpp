@@ -57,8 +57,7 @@ void describe(DepthSensor& o, OptionVisitor& visit) {
   visit.flag({"depth", "Write depth images with a sensor's errors, registered to the grey ones",
               OptionLevel::Basic},
              o.on);
-  visit.number({"depth-unit", "Unit of the depth images' values, mm (depth_scale)"}, o.unit_mm,
-               0.001, 100.0);
+  visit.number({"depth-unit", "Length of one stored unit of depth, m"}, o.unit_m, 1e-6, 0.1);
   visit.range({"depth-range", "Depths that the sensor measures, m"}, o.range_m, 0.0, 100.0);
   describe_noise(o, visit);
   describe_holes(o, visit);

@@ -9,7 +9,7 @@ namespace edgescout {
 // host/render/measure_depth.h says in which order errors act.
 struct DepthSensor {
   bool on = false;
-  double unit_mm = 0.1;    // of the values in the files
+  double unit_m = 1e-4;    // of the values in the files
   Range range_m{0.1, 6};   // beyond it nothing is measured
   double noise_m = 0.001;  // standard deviation at 1 m; grows with the distance squared
   double noise_blur_px = 0;  // neighbouring pixels have like errors; 0: each has its own

@@ -7,7 +7,7 @@
 namespace edgescout {
 namespace {
 
-Eigen::Matrix3d surface_frame(const SurfacePoint& surface) {
+Eigen::Matrix3d surface_frame(const ShadedPoint& surface) {
   Eigen::Vector3d along = surface.grain - surface.grain.dot(surface.normal) * surface.normal;
   if (along.norm() < 1e-3) along = surface.normal.unitOrthogonal();
   Eigen::Matrix3d frame;
@@ -19,7 +19,7 @@ Eigen::Matrix3d surface_frame(const SurfacePoint& surface) {
 
 }  // namespace
 
-Microfacets::Microfacets(const SurfacePoint& surface, const Material& material)
+Microfacets::Microfacets(const ShadedPoint& surface, const Material& material)
     : at_normal_(material.reflectance), world_from_surface_(surface_frame(surface)) {
   // Burley, "Physically Based Shading at Disney", 2012.
   const double aspect = std::sqrt(1 - 0.9 * material.anisotropy);

@@ -51,7 +51,7 @@ double PixelShader::light_of(const SeenSurface& seen, const Pixel& pixel) {
   const Material& material = material_of(view_, seen);
   const double albedo =
       seen.triangle == PLANE ? shading_.plane.albedo(seen.point_m) : material.albedo;
-  const SurfacePoint surface = surface_point(view_, seen);
+  const ShadedPoint surface = shaded_point(view_, seen);
   const ReceivedLight direct = received(seen.triangle, surface, material);
   const double light = albedo * direct.diffuse + direct.specular;
   return material.reflectance > 0 ? light + reflected(surface, material, pixel) : light;
@@ -70,7 +70,7 @@ double PixelShader::light_of_background(const SeenSurface& seen, const Pixel& pi
   return shown * *lit_share_;
 }
 
-double PixelShader::reflected(const SurfacePoint& surface, const Material& material,
+double PixelShader::reflected(const ShadedPoint& surface, const Material& material,
                               const Pixel& pixel) const {
   const int n = view_.scene.options.supersampling;
   const int rays = rays_of(material);
@@ -81,7 +81,7 @@ double PixelShader::reflected(const SurfacePoint& surface, const Material& mater
   return sum / rays;
 }
 
-ReceivedLight PixelShader::received(int triangle, const SurfacePoint& surface,
+ReceivedLight PixelShader::received(int triangle, const ShadedPoint& surface,
                                     const Material& material) {
   for (const auto& [known, light] : received_)
     if (known == triangle) return light;

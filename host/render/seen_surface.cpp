@@ -38,8 +38,8 @@ const Material& material_of(const ViewRaster& view, const SeenSurface& seen) {
   return view.scene.placed[view.triangles.placed[seen.triangle]].material;
 }
 
-SurfacePoint surface_point(const ViewRaster& view, const SeenSurface& seen) {
-  SurfacePoint surface{seen.point_m, seen.normal, seen.to_viewer};
+ShadedPoint shaded_point(const ViewRaster& view, const SeenSurface& seen) {
+  ShadedPoint surface{seen.point_m, seen.normal, seen.to_viewer};
   if (seen.triangle >= 0)
     surface.grain =
         view.scene.placed[view.triangles.placed[seen.triangle]].world_from_object.rotation *

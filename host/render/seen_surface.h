@@ -34,6 +34,6 @@ SeenSurface seen_at(const ViewRaster& view, int x, int y);
 
 // Of a part or the plane.
 const Material& material_of(const ViewRaster& view, const SeenSurface& seen);
-SurfacePoint surface_point(const ViewRaster& view, const SeenSurface& seen);
+ShadedPoint shaded_point(const ViewRaster& view, const SeenSurface& seen);
 
 }  // namespace edgescout

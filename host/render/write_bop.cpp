@@ -65,8 +65,8 @@ void write_bop_scene(const SimulatedScene& scene, std::span<const Rendering> ren
                          renderings[v].visible_fraction[p]});
     save_png(renderings[v].image, image.file);
     if (const DepthSensor& sensor = scene.options.depth; sensor.on) {
-      image.depth_scale = sensor.unit_mm;
-      write_depth_png(renderings[v].measured_depth, 1e-3 * sensor.unit_mm,
+      image.depth_scale = 1e3 * sensor.unit_m;
+      write_depth_png(renderings[v].measured_depth, sensor.unit_m,
                       folder / "depth" / image.file.filename());
     }
     bop.images.push_back(image);
