@@ -37,11 +37,14 @@ DistanceWindow window_of(const std::vector<Eigen::Vector3d>& points_m, const Cam
 
 // Both windows.
 DistanceWindow around(const DistanceWindow& a, const DistanceWindow& b) {
-  if (a.width == 0) return {b.left, b.top, b.width, b.height, {}};
-  if (b.width == 0) return {a.left, a.top, a.width, a.height, {}};
   const int left = std::min(a.left, b.left), top = std::min(a.top, b.top);
   return {left, top, std::max(a.left + a.width, b.left + b.width) - left,
           std::max(a.top + a.height, b.top + b.height) - top, {}};
+}
+
+bool overlap(const DistanceWindow& a, const DistanceWindow& b) {
+  return a.left < b.left + b.width && b.left < a.left + a.width && a.top < b.top + b.height &&
+         b.top < a.top + a.height;
 }
 
 bool is_visible(float model_m, float measured_m, double delta_m) {
@@ -98,6 +101,9 @@ DepthImage distances_of(const DepthImage& depth, const Camera& camera) {
 
 VsdErrors vsd(const DistanceWindow& estimate, const DistanceWindow& truth,
               const DepthImage& measured_distances, double diameter_m, double delta_m) {
+  VsdErrors errors;
+  errors.fill(1);
+  if (!overlap(estimate, truth)) return errors;
   const DistanceWindow both = around(estimate, truth);
   int visible = 0, in_one = 0;
   std::array<int, VSD_TAUS> apart{};
@@ -114,8 +120,6 @@ VsdErrors vsd(const DistanceWindow& estimate, const DistanceWindow& truth,
       const double share = std::abs(of_truth - of_estimate) / diameter_m;
       for (int tau = 0; tau < VSD_TAUS; ++tau) apart[tau] += share >= 0.05 * (tau + 1);
     }
-  VsdErrors errors;
-  errors.fill(1);
   if (visible > 0)
     for (int tau = 0; tau < VSD_TAUS; ++tau)
       errors[tau] = static_cast<double>(apart[tau] + in_one) / visible;

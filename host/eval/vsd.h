@@ -21,6 +21,9 @@ namespace edgescout {
 
 inline constexpr int VSD_TAUS = 10;  // 5, 10 .. 50 % of the diameter
 using VsdErrors = std::array<double, VSD_TAUS>;
+// Of an image, by object: [estimate][truth], the best scores first, of as many estimates as there
+// are truths.
+using VsdTables = std::map<int, std::vector<VsdErrors>>;
 
 // What a camera would see of an object alone in the part of the image that can hold it.
 struct DistanceWindow {
