@@ -2,22 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace edgescout {
 namespace {
 
 constexpr double JUMP = 0.005;  // of the depth: what lies so far off a surface's plane is another one
 
-// The depth beyond the largest jump around a pixel; its own depth where there is none. A surface
-// that goes on follows its tangent plane.
-double depth_beyond(const SensedView& sensed, int x, int y) {
+// The depth beyond the largest jump around a pixel, if there is one. A surface that goes on follows
+// its tangent plane.
+std::optional<double> depth_beyond(const SensedView& sensed, int x, int y) {
   const int width = sensed.grey.width, height = sensed.grey.height;
   const double reach = sensed.sensor().border_px;
   const int r = static_cast<int>(std::floor(reach));
   const Eigen::Vector3d& eye = sensed.view.world_from_camera.translation_m;
   const SeenSurface& here = sensed.surfaces[static_cast<std::size_t>(y) * width + x];
   const double plane = here.normal.dot(here.point_m - eye);
-  double beyond = here.depth_m, largest = JUMP * here.depth_m;
+  double largest = JUMP * here.depth_m;
+  std::optional<double> beyond;
   for (int v = std::max(0, y - r); v <= std::min(height - 1, y + r); ++v)
     for (int u = std::max(0, x - r); u <= std::min(width - 1, x + r); ++u) {
       if (std::hypot(u - x, v - y) > reach) continue;
@@ -44,9 +46,8 @@ void smear_borders(DepthImage& depth, const SensedView& sensed) {
       const bool missing = row.uniform() < sensed.sensor().border_missing;
       const double share = row.uniform();
       if (z_m == DEPTH_MISSING) continue;
-      const double beyond = depth_beyond(sensed, x, y);
-      if (beyond == z_m) continue;
-      z_m = missing ? DEPTH_MISSING : static_cast<float>(z_m + share * (beyond - z_m));
+      if (const std::optional<double> beyond = depth_beyond(sensed, x, y))
+        z_m = missing ? DEPTH_MISSING : static_cast<float>(z_m + share * (*beyond - z_m));
     }
   }
 }

@@ -228,6 +228,17 @@ TEST(DepthSensor, SmearsOrMissesBorders) {
   EXPECT_GT(between, 500);
 }
 
+TEST(DepthSensor, FindsNoBordersOnASlope) {
+  DepthSensor sensor = without_errors();
+  sensor.border_px = 2;
+  SimulatedScene scene = box_scene(sensor);
+  scene.placed.clear();
+  scene.views[0].camera_from_world =
+      Se3{so3_exp({0.6, 0.2, 0}), {0, 0, 0}} * scene.views[0].camera_from_world;
+  const Rendering r = rendered(scene);
+  EXPECT_EQ(r.measured_depth.z_m, r.depth_m);
+}
+
 TEST(DepthSensor, MissesAShareOfThePartsInBlobs) {
   DepthSensor sensor = without_errors();
   sensor.holes = 1.0 / 3;
