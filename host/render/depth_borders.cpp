@@ -7,7 +7,8 @@
 namespace edgescout {
 namespace {
 
-constexpr double JUMP = 0.005;  // of the depth: what lies so far off a surface's plane is another one
+constexpr double JUMP =
+    0.005;  // of the depth: what lies so far off a surface's plane is another one
 
 // The depth beyond the largest jump around a pixel, if there is one. A surface that goes on follows
 // its tangent plane.

@@ -213,7 +213,9 @@ TEST(DepthSensor, SmearsOrMissesBorders) {
   int between = 0;
   for (int y = 2; y < 149; ++y)
     for (int x = 2; x < 199; ++x) {
-      const auto owner = [&](int u, int v) { return r.placed[static_cast<std::size_t>(v) * 201 + u]; };
+      const auto owner = [&](int u, int v) {
+        return r.placed[static_cast<std::size_t>(v) * 201 + u];
+      };
       bool border = false;
       for (int v = -2; v <= 2; ++v)
         for (int u = -2; u <= 2; ++u)
