@@ -79,8 +79,9 @@ inline __attribute__((always_inline)) void read_depths(const DepthView& view, De
     const float u = k.fx * g.point[0][i] * inverse + k.cx + 0.5f,
                 v = k.fy * g.point[1][i] * inverse + k.cy + 0.5f;
     inside[i] = u >= 0 && u < width && v >= 0 && v < height ? 1.0f : 0.0f;
-    const int x = int(std::min(std::max(u, 0.0f), width - 1)),
-              y = int(std::min(std::max(v, 0.0f), height - 1));
+    // In this order a NaN becomes 0.
+    const int x = int(std::min(std::max(0.0f, u), width - 1)),
+              y = int(std::min(std::max(0.0f, v), height - 1));
     pixel[i] = y * view.width + x;
     g.column[i] = float(x), g.row[i] = float(y);
   }
