@@ -79,8 +79,9 @@ inline __attribute__((always_inline)) void read_depths(const DepthView& view, De
     const float u = k.fx * g.point[0][i] * inverse + k.cx + 0.5f,
                 v = k.fy * g.point[1][i] * inverse + k.cy + 0.5f;
     inside[i] = u >= 0 && u < width && v >= 0 && v < height ? 1.0f : 0.0f;
-    const int x = int(std::min(std::max(u, 0.0f), width - 1)),
-              y = int(std::min(std::max(v, 0.0f), height - 1));
+    // In this order a NaN becomes 0.
+    const int x = int(std::min(std::max(0.0f, u), width - 1)),
+              y = int(std::min(std::max(0.0f, v), height - 1));
     pixel[i] = y * view.width + x;
     g.column[i] = float(x), g.row[i] = float(y);
   }
@@ -104,16 +105,17 @@ inline __attribute__((always_inline)) void compare(const DepthGroup& g, const In
     const float ray_x = (g.column[i] - k.cx) / k.fx, ray_y = (g.row[i] - k.cy) / k.fy;
     const float nx = g.normal[0][i], ny = g.normal[1][i], nz = g.normal[2][i], d = g.depth[i];
     const float towards = nx * ray_x + ny * ray_y + nz;
-    const bool compared = g.counted[i] > 0 && d > 0 && towards < 0;
-    const float slope = compared ? towards : -1.0f;
+    // Verdicts are 1 or 0: the compiler leaves loops with conditions of conditions.
+    const float compared = d > 0 && towards < 0 ? g.counted[i] : 0.0f;
+    const float slope = compared > 0 ? towards : -1.0f;
     const float to_x = d * ray_x - g.point[0][i], to_y = d * ray_y - g.point[1][i],
                 to_z = d - g.point[2][i];  // q - p
     const float along = nx * to_x + ny * to_y + nz * to_z;
     const float offset = along / slope;
     const float sigma = std::max(options.noise_floor_m, options.noise_per_m * d * d);
     const float band = std::max(options.band_m, BAND_SIGMAS * sigma);
-    const bool hidden = compared && offset < -band, beyond = compared && offset > band;
-    const float used = compared && !hidden ? 1.0f : 0.0f;
+    const float hidden = offset < -band ? compared : 0.0f, beyond = offset > band ? compared : 0.0f,
+                used = compared - hidden;
     const float s = std::sqrt(sigma * slope * (sigma * slope) + surface2), inverse = 1.0f / s;
     const float r = used * along * inverse, scaled = r / options.loss_scale;
     const float q = 1.0f / (1.0f + scaled * scaled), weight = used * q * q;
@@ -129,10 +131,10 @@ inline __attribute__((always_inline)) void compare(const DepthGroup& g, const In
     sums[depth_cost][i] += 0.5f * q * r * r;
     sums[depth_weight][i] += weight;
     sums[depth_offset][i] += weight * offset;
-    sums[depth_agreeing][i] += used - (beyond ? 1.0f : 0.0f);
-    sums[depth_contradicting][i] += beyond ? 1.0f : 0.0f;
-    sums[depth_hidden][i] += hidden ? 1.0f : 0.0f;
-    sums[depth_missing][i] += g.counted[i] - (compared ? 1.0f : 0.0f);
+    sums[depth_agreeing][i] += used - beyond;
+    sums[depth_contradicting][i] += beyond;
+    sums[depth_hidden][i] += hidden;
+    sums[depth_missing][i] += g.counted[i] - compared;
   }
 }
 

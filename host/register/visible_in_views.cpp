@@ -73,4 +73,13 @@ Grid<VisibleInView> marked_in_views(const Scene& scene, std::span<const ObjectPo
   return fill_all(scene, poses, {visibility, true});
 }
 
+Grid<std::vector<ModelPoint>> visible_points(const Scene& scene, std::span<const ObjectPose> poses,
+                                             const VisibilityOptions& visibility) {
+  Grid<VisibleInView> visible = visible_in_views(scene, poses, visibility);
+  Grid<std::vector<ModelPoint>> points(visible.rows(), visible.columns());
+  for (std::size_t i = 0; i < visible.values().size(); ++i)
+    points.values()[i] = std::move(visible.values()[i].points);
+  return points;
+}
+
 }  // namespace edgescout

@@ -26,4 +26,8 @@ Grid<VisibleInView> visible_in_views(const Scene& scene, std::span<const ObjectP
 Grid<VisibleInView> marked_in_views(const Scene& scene, std::span<const ObjectPose> poses,
                                     const VisibilityOptions& visibility = {});
 
+// The edge points alone.
+Grid<std::vector<ModelPoint>> visible_points(const Scene& scene, std::span<const ObjectPose> poses,
+                                             const VisibilityOptions& visibility = {});
+
 }  // namespace edgescout

@@ -65,7 +65,7 @@ inline DepthLook look_at(const DepthView& view, const CameraPoint& p,
   const auto pixel = pixel_under(view, at);
   if (!pixel) return look;
   const auto [x, y] = *pixel;
-  const Real depth = view.z_m[static_cast<std::size_t>(y * view.width + x)];
+  const Real depth = view.z_m[static_cast<std::size_t>(y) * view.width + x];
   if (depth <= 0 || depth >= POSE_MAX_RANGE_M) return look;
   const Intrinsics& k = view.intrinsics;
   const Real3 ray{(x - Real(k.cx)) / k.fx, (y - Real(k.cy)) / k.fy, 1};
