@@ -77,7 +77,7 @@ void add_visible_points(RoundProblem& at_pose, const Scene& scene, const HostVie
       visible_in_views({scene.models, {&view.view, 1}, scene.backend}, {&pose, 1}, visibility)(0, 0);
   add_edges(at_pose, view, thinned(visible.points, round.max_points));
   add_surface(at_pose, view.view, thinned(visible.surface, round.max_surface_points),
-              pose_depth_options(scene));
+              pose_depth_options(scene, REGISTRATION_BAND));
 }
 
 ceres::Solver::Options solver_options(const D2coRound& round, const D2coOptions& options) {

@@ -45,7 +45,10 @@ bool DepthCost::Evaluate(double const* const* parameters, double* residuals,
   const double z_m = q->z(), slope = n.dot(*q) / z_m, offset_m = z_m - n.dot(p) / slope;
   const double sigma_m =
       std::max(double(options_.noise_floor_m), options_.noise_per_m * z_m * z_m);
-  if (offset_m < -std::max(double(options_.band_m), BAND_SIGMAS * sigma_m)) return true;
+  if (offset_m < -std::max(double(options_.band_m), BAND_SIGMAS * sigma_m)) {
+    residuals[0] = HIDDEN_RESIDUAL;
+    return true;
+  }
   const double scale_m = std::hypot(sigma_m * slope, double(options_.surface_m));
   residuals[0] = n.dot(*q - p) / scale_m;
   if (!wants_jacobian) return true;

@@ -27,7 +27,7 @@ Grid<DepthEvidence> depth_evidence(const Scene& scene, std::span<const ObjectPos
   if (depths.empty()) return evidence;
   std::vector<PoseDepth> found(problems.size());
   scene.backend.pose_depth(depths, *scene.backend.make_surface_points(std::move(points)), problems,
-                           pose_depth_options(scene), found);
+                           pose_depth_options(scene, JUDGEMENT_BAND), found);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const PoseDepth& depth = found[i];
     const double mean_m = depth.weight_sum > 0 ? depth.offset_m / double(depth.weight_sum) : 0;

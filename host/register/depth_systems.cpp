@@ -9,7 +9,6 @@ namespace edgescout {
 
 namespace {
 
-constexpr double BAND = 0.04;  // of the object's diameter: nearer surfaces may be the same one
 constexpr double LEAST_BAND_M = 1.5e-3;
 
 }  // namespace
@@ -30,7 +29,7 @@ WorldSystem world_system(const PoseDepth& depth, const Se3& camera_from_world,
   return in_world;
 }
 
-PoseDepthOptions pose_depth_options(const Scene& scene) {
+PoseDepthOptions pose_depth_options(const Scene& scene, double band) {
   PoseDepthOptions options;
   options.noise_floor_m = options.noise_per_m = 0;
   for (const ObjectView& view : scene.views)
@@ -42,7 +41,7 @@ PoseDepthOptions pose_depth_options(const Scene& scene) {
   double diameter_m = 0;
   for (const EdgeModel& model : scene.models)
     diameter_m = std::max(diameter_m, model.mesh.diameter_m);
-  options.band_m = float(std::max(LEAST_BAND_M, BAND * diameter_m));
+  options.band_m = float(std::max(LEAST_BAND_M, band * diameter_m));
   return options;
 }
 
@@ -55,7 +54,7 @@ DepthSystems::DepthSystems(const Scene& scene, const SurfacesInViews& surfaces, 
       depths_.push_back(scene.views[v].depth_values);
     }
   if (views_.empty()) return;
-  options_ = pose_depth_options(scene);
+  options_ = pose_depth_options(scene, REGISTRATION_BAND);
   options_.loss_scale = float(loss_sigmas);
   ranges_ = Grid<Range>(surfaces.rows(), views_.size());
   std::vector<SurfacePoint> points;

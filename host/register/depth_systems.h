@@ -42,7 +42,11 @@ class DepthSystems {
 WorldSystem world_system(const PoseDepth& in_camera, const Se3& camera_from_world,
                          double loss_sigmas = PoseDepthOptions{}.loss_scale);
 
-// The options for the noise of the scene's depth and the size of its largest object.
-PoseDepthOptions pose_depth_options(const Scene& scene);
+// Within which part of the object's diameter a surface is the pose's own. Registration also pulls
+// poses whose surface would count as hidden when they are judged.
+inline constexpr double REGISTRATION_BAND = 0.1, JUDGEMENT_BAND = 0.04;
+
+// The options for the noise of the scene's depth and a band of the size of its largest object.
+PoseDepthOptions pose_depth_options(const Scene& scene, double band);
 
 }  // namespace edgescout

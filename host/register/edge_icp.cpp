@@ -251,7 +251,7 @@ void edge_icp(const Scene& scene, std::span<PoseEstimate> poses, const EdgeIcpOp
   Grid<VisibleInView> visible = visible_in_views(scene, object_poses(poses), options.visibility);
   for (VisibleInView& cell : visible.values())
     cell.points = thinned(cell.points, options.max_points);
-  const PoseDepthOptions depth = pose_depth_options(scene);
+  const PoseDepthOptions depth = pose_depth_options(scene, REGISTRATION_BAND);
   scene.backend.threads().for_each(poses.size(), [&](std::size_t p) {
     edge_icp_of_one(poses[p], {scene.views, visible.row(p), depth}, options);
   });

@@ -82,7 +82,7 @@ TEST(DepthRegistration, RefusesAnotherSize) {
   Camera camera = depth_camera();
   camera.width = 320;
   expect_input_error([&] { undistort_depth(wall_and_plate(nothing_near), camera); },
-                     {"160x120", "320x120", "depth-camera"});
+                     {"160x120", "320x120", "depth_camera"});
 }
 
 }  // namespace
