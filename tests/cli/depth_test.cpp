@@ -32,6 +32,18 @@ struct DepthScene {
   }
 };
 
+// Only the batch finds out: what it logs comes before the error.
+void expect_refused_in_the_batch(const std::vector<std::string>& arguments,
+                                 std::initializer_list<std::string> words) {
+  const Outcome outcome = run_program(arguments);
+  EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+  const std::size_t error = outcome.err.find("edgescout: error: ");
+  ASSERT_NE(error, std::string::npos) << outcome.err;
+  EXPECT_TRUE(is_one_line_error(outcome.err.substr(error))) << outcome.err;
+  for (const std::string& word : words)
+    EXPECT_NE(outcome.err.find(word, error), std::string::npos) << word << ": " << outcome.err;
+}
+
 TEST(DepthOption, WithoutAnyValueDetectionsAreThoseWithoutDepth) {
   const DepthScene t;
   t.write_depth(0, 320, 240);
@@ -56,21 +68,22 @@ TEST(DepthOption, PartsBehindAMeasuredSurfaceAreNotFound) {
 TEST(DepthOption, RefusesAnotherSize) {
   const DepthScene t;
   t.write_depth(0.3, 160, 120);
-  expect_refused(t.detect({"--depth", "scene"}), {"000000.png", "size", "depth-camera"});
+  expect_refused_in_the_batch(t.detect({"--depth", "scene"}), {"000000.png", "size", "depth-camera"});
 }
 
 TEST(DepthOption, RefusesAWrongUnit) {
   const DepthScene t;
   t.write_depth(0.3, 320, 240);
-  expect_refused(t.detect({"--depth", "scene", "--depth-unit", "0.1"}),
-                 {"000000.png", "values around 3000", "300 m", "depth-unit"});
+  expect_refused_in_the_batch(t.detect({"--depth", "scene", "--depth-unit", "0.1"}),
+                              {"000000.png", "values around 3000", "300 m", "depth-unit"});
 }
 
 TEST(DepthOption, RefusesDepthThatIsNotThere) {
   const DepthScene t;
   expect_refused(t.detect({"--depth", "scene"}), {"--depth", "scenes with depth/"});
   expect_refused(t.detect({"--depth", t.made.folder.path()}), {"--depth", "names of the images"});
-  expect_refused(t.detect({"--depth", t.made.folder.path() / "none.png"}), {"none.png"});
+  expect_refused_in_the_batch(t.detect({"--depth", t.made.folder.path() / "none.png"}),
+                              {"none.png"});
   expect_refused(t.detect({"--depth", "scene", "--depth-pose", "0", "0", "0", "0", "0", "0", "1"}),
                  {"--depth"});
 }
