@@ -17,6 +17,7 @@ VERBS = ['detect', 'register', 'scout', 'track', 'render', 'experiments', 'model
 NEEDS = {'register': ['detect'], 'track': ['detect'], 'eval': ['detect'],
          'merge': ['shard_1', 'shard_2']}  # runs whose files a verb reads
 CANNOT_RESUME = {'render', 'track', 'model', 'merge', 'eval'}
+LOCK_NO_FOLDER = {'model', 'eval'}  # they write one file
 FEW = ['--viewpoints', '1', '--in-plane-steps', '6', '--distance-min', '0.25', '--distance-max',
        '0.27', '--scan-hits', '200', '--coarse-poses', '8', '--medium-poses', '3']
 SMALL = ['--width', '160', '--height', '120', '--focal', '200']
@@ -106,6 +107,12 @@ def finished_files(verb, folder):
     return {str(file.relative_to(folder)): hashlib.sha256(file.read_bytes()).hexdigest()
             for pattern in patterns for file in folder.glob(pattern)
             if not file.name.startswith('.')}
+
+
+def age_parts(folder):
+    """A verb that locks no folder removes parts of files when they are older than 10 seconds."""
+    for part in folder.rglob('.*.part'):
+        os.utime(part, (time.time() - 11,) * 2)
 
 
 def half_a_frame(folder):
