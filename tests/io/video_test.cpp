@@ -57,7 +57,7 @@ TEST(Video, SaysThatItIsTurnedAndTakesThePixelsAsStored) {
   std::string bytes = content_of(lying);
   const std::size_t matrix = bytes.find("tkhd") + 44;  // nine numbers of four bytes
   ASSERT_EQ(bytes.substr(matrix, 4), std::string("\0\1\0\0", 4));
-  bytes.replace(matrix, 16, std::string("\0\0\0\0\0\1\0\0\0\0\0\0\xff\xff\0\0", 16));
+  bytes.replace(matrix, 20, std::string("\0\0\0\0\0\1\0\0\0\0\0\0\xff\xff\0\0\0\0\0\0", 20));
   const auto turned = folder.write("turned.mp4", bytes);
   CollectedLog log;
   const Image image = VideoReader().frame(turned, 1, {});
@@ -66,7 +66,7 @@ TEST(Video, SaysThatItIsTurnedAndTakesThePixelsAsStored) {
   EXPECT_NEAR(image.at(54, 24), 200, 6);
   EXPECT_EQ(count_frames(turned), 2);
   const auto is_of_turn = [](const auto& message) {
-    return message.second.find("turned.mp4: orientation: found 90 degrees") != std::string::npos;
+    return message.second.find("turned.mp4: orientation: found 270 degrees") != std::string::npos;
   };
   EXPECT_EQ(std::ranges::count_if(log.messages, is_of_turn), 1);
 }
