@@ -5,17 +5,20 @@
 # any version.
 set(EDGESCOUT_PUBLIC_HEADERS
   host/edgescout.h host/pipeline.h host/register_objects.h host/overlay.h
-  host/core/camera.h host/core/camera_check.h host/core/grid.h host/core/lens.h host/core/log.h
+  host/core/camera.h host/core/camera_check.h host/core/depth_image.h host/core/grid.h
+  host/core/kernel_types.h host/core/lens.h host/core/log.h
   host/core/option_names.h host/core/option_text.h host/core/options.h host/core/pose_error.h
   host/core/pose_matrix.h host/core/se3.h
   host/core/stopwatch.h host/core/time_limit.h host/core/types.h
-  host/io/bop.h host/io/bop_targets.h host/io/camera_file.h host/io/image.h
+  host/io/bop.h host/io/bop_targets.h host/io/camera_file.h host/io/depth_file.h
+  host/io/depth_options.h host/io/depth_registration.h host/io/image.h
   host/io/image_options.h host/io/mesh.h host/io/pixels.h
   host/io/poses.h host/io/results.h
   host/model/axis_symmetry.h host/model/edge_model.h host/model/mesh_quality.h
   host/model/template_cache.h host/model/template_set.h host/model/viewpoints.h
   host/edge/edges.h
-  host/register/d2co_options.h host/register/edge_icp_options.h host/register/object_view.h
+  host/register/d2co_options.h host/register/edge_icp_options.h
+  host/register/measured_depth.h host/register/object_view.h
   host/register/pose_classifier.h host/register/pose_estimate.h host/register/pose_features.h
   host/register/refine.h host/register/scene.h
   host/detect/detect_options.h host/detect/detect_trace.h host/detect/explain.h

@@ -6,6 +6,8 @@
 #include "host/core/log.h"
 #include "host/io/bop.h"
 #include "host/io/camera_file.h"
+#include "host/io/depth_file.h"
+#include "host/io/depth_registration.h"
 #include "host/io/image.h"
 #include "host/io/mesh.h"
 #include "host/io/poses.h"

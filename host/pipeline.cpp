@@ -6,7 +6,9 @@
 #include "host/detect/detect.h"
 #include "host/detect/joint.h"
 #include "host/detect/support_views.h"
+#include "host/io/depth_registration.h"
 #include "host/io/image.h"
+#include "host/register/measured_depth.h"
 
 namespace edgescout {
 
@@ -31,6 +33,12 @@ ObjectView undistorted_view(const Image& image, const Camera& camera,
   view.camera_from_world = camera_from_world;
   view.image = std::make_shared<Image>(undistort(image, camera));
   return view;
+}
+
+void add_depth(ObjectView& view, const DepthImage& depth, const Camera& camera,
+               const DepthNoise& noise) {
+  view.depth =
+      std::make_shared<const MeasuredDepth>(MeasuredDepth{undistort_depth(depth, camera), noise});
 }
 
 void add_edges(ObjectView& view, Backend& backend, const EdgesOptions& options) {

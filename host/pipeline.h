@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "host/core/depth_image.h"
 #include "host/core/stopwatch.h"
 #include "host/core/time_limit.h"
 #include "host/detect/detect_options.h"
@@ -37,6 +38,13 @@ void describe(PipelineOptions& options, OptionVisitor& visit);
 // Undistorts an image. The view has neither edges nor tensors yet. Needs no backend: it may run on
 // another thread while a backend is in use.
 ObjectView undistorted_view(const Image& image, const Camera& camera, const Se3& camera_from_world);
+
+// Gives a view the depth image that belongs to its grey one, before add_tensors or detect_objects.
+// `camera` is that of the grey image as it was taken, lens included; the depth image has the same
+// or is registered to it (io/depth_registration.h: register_depth gives one of the undistorted
+// camera, which is then `camera`). InputError: they differ in size.
+void add_depth(ObjectView& view, const DepthImage& depth, const Camera& camera,
+               const DepthNoise& noise = {});
 
 // Finds the edges of an undistorted view.
 void add_edges(ObjectView& view, Backend& backend, const EdgesOptions& options);

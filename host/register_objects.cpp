@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "host/detect/detect.h"
+#include "host/register/depth_start.h"
 #include "host/register/pose_classifier.h"
 
 namespace edgescout {
@@ -66,8 +67,10 @@ Detections register_objects(std::span<const ObjectView> prepared, std::span<cons
     add_tensors(view, reduction_for(smallest_size_px(starts, view, models)), backend,
                 options.tensor);
   watch.lap("tensors");
-  const std::vector<PoseEstimate> refined =
-      refine_poses({models, views, backend, &limit}, starts, options.refine);
+  const Scene scene{models, views, backend, &limit};
+  std::vector<ObjectPose> moved;
+  for (const ObjectPose& start : starts) moved.push_back(moved_onto_depth(scene, start));
+  const std::vector<PoseEstimate> refined = refine_poses(scene, moved, options.refine);
   watch.lap("registration");
   for (std::size_t i = 0; i < refined.size(); ++i) {
     Detection& found = result.detections.emplace_back(to_detection(refined[i]));

@@ -3,8 +3,9 @@
 //
 // Three kinds: the plain CPU reference (single-threaded, the judge of the others), the fast CPU
 // path (SIMD and threads) and a Vulkan device. All answer alike, within the agreement each kernel's
-// header promises. A backend may be used by one thread at a time. Tensors, views, model points
-// and cells outlive the call that made them and must be handed back to the same backend.
+// header promises. A backend may be used by one thread at a time. Tensors, views, depth
+// images, points and cells outlive the call that made them and must be handed back to the same
+// backend.
 //
 // Public header.
 #pragma once
@@ -23,6 +24,7 @@
 #include "kernels/edge_support.h"
 #include "kernels/mutual_information.h"
 #include "kernels/point_visibility.h"
+#include "kernels/pose_depth.h"
 #include "kernels/pose_normal_equations.h"
 #include "kernels/pose_score.h"
 #include "kernels/template_project.h"
@@ -59,6 +61,22 @@ class BackendPosePoints {
   virtual ~BackendPosePoints() = default;
 };
 using PosePointsHandle = std::shared_ptr<const BackendPosePoints>;
+
+// A depth image in the backend's own memory.
+class BackendDepth {
+ public:
+  virtual ~BackendDepth() = default;
+  int width = 0, height = 0;
+  Intrinsics intrinsics{};
+};
+using DepthHandle = std::shared_ptr<const BackendDepth>;
+
+// Samples of surfaces in the backend's own memory, as BackendPosePoints holds edge points.
+class BackendSurfacePoints {
+ public:
+  virtual ~BackendSurfacePoints() = default;
+};
+using SurfacePointsHandle = std::shared_ptr<const BackendSurfacePoints>;
 
 // The cells of one view's combination_chamfer, in the backend's own memory: particles *
 // combinations of them, too many to keep those of all views.
@@ -125,6 +143,12 @@ class Backend {
   virtual void pose_score(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
                           std::span<const PoseProblem> problems, const PoseScoreOptions& options,
                           std::span<PoseScore> out) = 0;
+  // Copies the values. InputError naming the size: too large for the memory or the device.
+  virtual DepthHandle make_depth(const DepthView& depth) = 0;
+  virtual SurfacePointsHandle make_surface_points(std::vector<SurfacePoint> points) = 0;
+  virtual void pose_depth(std::span<const DepthHandle> views, const BackendSurfacePoints& points,
+                          std::span<const PoseProblem> problems, const PoseDepthOptions& options,
+                          std::span<PoseDepth> out) = 0;
   virtual void edge_support(std::span<const ViewHandle> views, std::span<const SupportPoint> points,
                             std::span<const SupportProblem> problems,
                             std::span<EdgeSupport> out) = 0;

@@ -85,10 +85,24 @@ class CpuView : public BackendView {
   std::vector<std::uint32_t> support_map;
 };
 
-class CpuPosePoints : public BackendPosePoints {
+template <class Handle, class Point>
+class CpuPoints : public Handle {
  public:
-  explicit CpuPosePoints(std::vector<ModelPoint> points) : points(std::move(points)) {}
-  std::vector<ModelPoint> points;
+  explicit CpuPoints(std::vector<Point> points) : points(std::move(points)) {}
+  std::vector<Point> points;
+};
+using CpuPosePoints = CpuPoints<BackendPosePoints, ModelPoint>;
+using CpuSurfacePoints = CpuPoints<BackendSurfacePoints, SurfacePoint>;
+
+class CpuDepth : public BackendDepth {
+ public:
+  explicit CpuDepth(const DepthView& depth) : values(depth.z_m.begin(), depth.z_m.end()) {
+    width = depth.width;
+    height = depth.height;
+    intrinsics = depth.intrinsics;
+  }
+  DepthView depth_view() const { return {values, width, height, intrinsics}; }
+  std::vector<float> values;
 };
 
 class CpuModelPoints : public BackendModelPoints {
@@ -216,6 +230,33 @@ class CpuBackend : public Backend {
       pose_score_fast(scored, points, problems, options, out, pool_);
     else
       pose_score_reference(scored, points, problems, options, out);
+  }
+
+  DepthHandle make_depth(const DepthView& depth) override {
+    check_depth_view(depth);
+    return std::make_shared<CpuDepth>(depth);
+  }
+
+  SurfacePointsHandle make_surface_points(std::vector<SurfacePoint> points) override {
+    return std::make_shared<CpuSurfacePoints>(std::move(points));
+  }
+
+  void pose_depth(std::span<const DepthHandle> views, const BackendSurfacePoints& points,
+                  std::span<const PoseProblem> problems, const PoseDepthOptions& options,
+                  std::span<PoseDepth> out) override {
+    const auto* mine = dynamic_cast<const CpuSurfacePoints*>(&points);
+    check(mine != nullptr, "points of another backend");
+    const Timer timer(*this, "pose_depth");
+    std::vector<DepthView> images;
+    for (const DepthHandle& view : views) {
+      const auto* image = dynamic_cast<const CpuDepth*>(view.get());
+      check(image != nullptr, "a depth image of another backend");
+      images.push_back(image->depth_view());
+    }
+    if (fast_)
+      pose_depth_fast(images, mine->points, problems, options, out, pool_);
+    else
+      pose_depth_reference(images, mine->points, problems, options, out);
   }
 
   void edge_support(std::span<const ViewHandle> views, std::span<const SupportPoint> points,

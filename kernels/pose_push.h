@@ -29,12 +29,12 @@ struct PoseCamera {
   float cx;
   float cy;
   float min_depth_m;
-  float min_foreshortening;
 };
 
 struct PoseSystemPush {
   TensorGrid grid;
   PoseCamera camera;
+  float min_foreshortening;
   uint first_problem;
   uint parts;
   uint loss;

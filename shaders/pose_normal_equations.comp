@@ -21,7 +21,7 @@ shared float sums[POSE_SYSTEM_SUMS * STRIDE];
 // Derivative of the value by the pose: through the projection and through the orientation.
 float[6] jacobian_of(PosedPoint p, ProjectedEdge edge, vec3 slope) {
   const float z = p.point.z, norm2 = dot(edge.direction, edge.direction);
-  const float least = push.camera.min_foreshortening * push.camera.fx * z;
+  const float least = push.min_foreshortening * push.camera.fx * z;
   const float turn = norm2 > least * least ? slope.z / norm2 : 0.0;
   const vec2 along = turn * vec2(-edge.direction.y * push.camera.fx, edge.direction.x * push.camera.fy);
   const vec2 by_pixel = slope.xy * vec2(push.camera.fx, push.camera.fy) / z;

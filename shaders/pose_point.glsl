@@ -23,12 +23,6 @@ PosedPoint pose_point(mat3 rotation, vec3 translation_m, vec3 model_m, vec3 mode
   return PosedPoint(arm, arm + translation_m, rotation * model_tangent);
 }
 
-// Whether it is in front of the camera, and nowhere that arithmetic loses it.
-bool can_be_seen(vec3 point, PoseCamera camera) {
-  const float range = float(POSE_MAX_RANGE_M);
-  return point.z > camera.min_depth_m && point.z < range && abs(point.x) < range && abs(point.y) < range;
-}
-
 ProjectedEdge project_edge(PosedPoint p, PoseCamera camera) {
   const vec2 focal = vec2(camera.fx, camera.fy);
   return ProjectedEdge(focal * p.point.xy / p.point.z + vec2(camera.cx, camera.cy),

@@ -1,4 +1,4 @@
-// The pose of a PoseProblem. Included by the pose_* shaders after their buffer of problems.
+// The pose of a PoseProblem, and what it brings into sight. Included by the pose_* shaders after their buffer of problems.
 float word(uint problem, uint i) { return uintBitsToFloat(problems[problem * POSE_PROBLEM_WORDS + i]); }
 
 mat3 rotation_of(uint problem) {
@@ -14,4 +14,10 @@ bool is_somewhere(uint problem) {
   [[dont_unroll]] for (uint i = 0; i < 12u; ++i)
     if ((problems[problem * POSE_PROBLEM_WORDS + i] & 0x7f800000u) >= 0x5d800000u) return false;
   return true;
+}
+
+// Whether it is in front of the camera, and nowhere that arithmetic loses it.
+bool can_be_seen(vec3 point, PoseCamera camera) {
+  const float range = float(POSE_MAX_RANGE_M);
+  return point.z > camera.min_depth_m && point.z < range && abs(point.x) < range && abs(point.y) < range;
 }

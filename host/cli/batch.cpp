@@ -16,6 +16,7 @@
 #include "host/io/files.h"
 #include "host/io/image.h"
 #include "kernels/error.h"
+#include "kernels/thread_pool.h"
 
 namespace edgescout {
 
@@ -59,7 +60,10 @@ struct PreparedGroup {
 class Preparer {
  public:
   Preparer(const BatchOptions& options, const std::optional<Camera>& camera, bool finds_edges)
-      : options_(options), camera_(camera), backend_(finds_edges ? make_cpu_backend(1) : nullptr) {}
+      : options_(options),
+        camera_(camera),
+        depth_(options.depth),
+        backend_(finds_edges ? make_cpu_backend(1) : nullptr) {}
   PreparedGroup prepare(const Group& group) {
     PreparedGroup prepared;
     for (const InputImage* input : group.images) {
@@ -87,6 +91,7 @@ class Preparer {
                                      &prepared.stages)
                       : undistort(image, camera, camera_from_world, prepared.stages);
     });
+    prepared.view.depth = depth_.read(input, camera, depth_threads_);
     return prepared;
   }
 
@@ -100,6 +105,8 @@ class Preparer {
 
   const BatchOptions& options_;
   const std::optional<Camera>& camera_;
+  DepthReader depth_;
+  ThreadPool depth_threads_{1};
   std::unique_ptr<Backend> backend_;  // null: edges are left to the detector
 };
 

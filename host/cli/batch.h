@@ -18,6 +18,7 @@ namespace edgescout {
 struct BatchOptions {
   std::filesystem::path out;
   CameraArguments camera;
+  DepthArguments depth;
   bool scale_camera = false;
   bool resume = false;
   bool joint = false;  // all views of a BOP scene at once

@@ -55,6 +55,7 @@ LoadedTemplates load_templates_for(const DetectRequest& request, std::span<const
 
 int detect(DetectRequest& request) {
   request.batch.out = request.out;
+  request.batch.depth = request.reading.depth;
   request.batch.overlays = !request.no_overlays;
   request.batch.version = program_version();
   request.batch.pipeline.validate();
@@ -102,6 +103,7 @@ void add_options(CLI::App& verb, DetectRequest& request) {
   add_max_seconds(verb, request.batch.max_seconds);
   add_scale_camera(verb, request.batch.scale_camera);
   add_input_options(verb, request.reading);
+  add_depth(verb, request.reading.depth);
   add_detection_options(verb, request.templates, request.batch.pipeline);
 }
 
@@ -115,7 +117,7 @@ void add_detect(CLI::App& app, int& exit_code) {
   add_options(*verb, *request);
   verb->callback([request, &exit_code, verb] {
     refuse_beside_templates(*verb);
-    request->batch.settings = settings_of(*verb, {"Images", "Edges", "Tensor", "Detection"});
+    request->batch.settings = settings_of(*verb, {"Images", "Depth", "Edges", "Tensor", "Detection"});
     exit_code = detect(*request);
   });
 }

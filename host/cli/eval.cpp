@@ -19,10 +19,12 @@
 #include "host/core/log.h"
 #include "host/eval/average_precision.h"
 #include "host/eval/recall.h"
+#include "host/eval/vsd_tables.h"
 #include "host/io/files.h"
 #include "host/io/image.h"
 #include "host/io/json_text.h"
 #include "kernels/error.h"
+#include "kernels/thread_pool.h"
 
 namespace edgescout {
 
@@ -37,6 +39,8 @@ struct EvalRequest {
   DatasetArguments dataset;
   RecallOptions recall;
   int most_estimates = 100;
+  bool vsd = true;
+  double vsd_delta_m = VSD_DELTA_M;
 };
 
 // Each argument is a scene, a folder of scenes, or with a split a dataset.
@@ -160,6 +164,7 @@ struct Row {
 struct Evaluation {
   std::vector<Row> rows;   // by object, "all" last
   std::set<int> left_out;  // objects of the scenes without a model here
+  std::ptrdiff_t images_without_depth = 0;
 };
 
 // Removes the truths and estimates of objects without a model. Returns their ids. InputError: no
@@ -203,6 +208,12 @@ Evaluation evaluate_objects(const EvalRequest& request) {
   std::vector<EvaluationImage> images = load_images(request, results);
   Evaluation evaluation;
   evaluation.left_out = leave_out_others(images, objects, request);
+  evaluation.images_without_depth = std::ranges::count_if(
+      images, [](const EvaluationImage& image) { return image.depth_file.empty(); });
+  if (request.vsd && evaluation.images_without_depth == 0) {
+    ThreadPool pool;
+    add_vsd(images, objects, request.vsd_delta_m, pool);
+  }
   const std::map<int, AveragePrecision> precisions =
       average_precisions(images, objects, request.recall, request.most_estimates);
   for (const auto& [id, recalls] : evaluate_by_object(images, objects, request.recall)) {
@@ -219,9 +230,15 @@ Evaluation evaluate_objects(const EvalRequest& request) {
 nlohmann::ordered_json row_json(const Row& row) {
   const Recalls& r = row.recalls;
   const AveragePrecision& p = row.precision;
+  const auto of_vsd = [&](const auto& figure) {
+    return r.has_vsd ? nlohmann::ordered_json(figure) : nlohmann::ordered_json();
+  };
   return {{"images", r.images},
           {"truths", r.truths},
           {"estimates", r.estimates},
+          {"ar", of_vsd(r.ar())},
+          {"ar_vsd", of_vsd(r.ar_vsd)},
+          {"recalls_vsd", of_vsd(r.vsd)},
           {"ar_mssd_mspd", 0.5 * (r.ar_mssd + r.ar_mspd)},
           {"ar_mssd", r.ar_mssd},
           {"ar_mspd", r.ar_mspd},
@@ -255,6 +272,7 @@ void save_json(const Evaluation& evaluation, const EvalRequest& request) {
                               {"max_angle_rad", o.max_angle_rad},
                               {"max_distance_m", o.max_distance_m},
                               {"max_mspd_px", o.max_mspd_px},
+                              {"vsd_delta_m", request.vsd_delta_m},
                               {"symmetries", states_symmetries(request.models)},
                               {"objects_left_out", evaluation.left_out}};
   for (const Row& row : evaluation.rows)
@@ -273,6 +291,16 @@ void print_limits(const Evaluation& evaluation, const EvalRequest& request) {
     std::cout << "no symmetries without --models-info or --symmetry: a pose that looks the same as "
                  "the truth "
                  "counts as a miss\n";
+  const std::size_t images = static_cast<std::size_t>(evaluation.rows.back().recalls.images);
+  if (request.vsd && evaluation.images_without_depth > 0)
+    std::cout << fmt::format("no VSD: {} of {} images have no depth image\n",
+                             evaluation.images_without_depth, images);
+}
+
+std::string words_on_ar(bool has_vsd) {
+  return has_vsd ? "BOP's average recall (2019), the mean of VSD, MSSD and MSPD"
+                 : "mean of BOP's average recalls MSSD and MSPD; BOP's own AR has VSD in it, which "
+                   "needs depth";
 }
 
 void print_table(const std::vector<Row>& rows, const RecallOptions& o) {
@@ -281,20 +309,20 @@ void print_table(const std::vector<Row>& rows, const RecallOptions& o) {
                                     : fmt::format("estimates of score {} or more", o.min_score);
   std::cout << fmt::format(
       "{} images; truths seen by at least {:.0f} %; {}\n"
-      "AR: mean of BOP's average recalls MSSD and MSPD; BOP's own AR has VSD in it, which needs "
-      "depth\n"
+      "AR: {}\n"
       "AP: mean of BOP's average precisions (2024) MSSD and MSPD; of all: mean over the objects\n"
       "pose: below {} rad and {} mm; mspd: below {} px; fp: estimates that match no truth so, an "
       "image\n\n"
-      "{:>6}{:>7}{:>10}{:>7}{:>6}{:>6}{:>7}{:>6}{:>6}{:>7}{:>9}{:>6}{:>6}\n",
-      rows.back().recalls.images, 100 * o.min_visible_fraction, estimates, o.max_angle_rad,
-      1000 * o.max_distance_m, o.max_mspd_px, "object", "truths", "estimates", "AR", "MSSD", "MSPD",
-      "AP", "MSSD", "MSPD", "pose", "pose/sym", "mspd", "fp");
+      "{:>6}{:>7}{:>10}{:>7}{:>6}{:>6}{:>6}{:>7}{:>6}{:>6}{:>7}{:>9}{:>6}{:>6}\n",
+      rows.back().recalls.images, 100 * o.min_visible_fraction, estimates,
+      words_on_ar(rows.back().recalls.has_vsd), o.max_angle_rad, 1000 * o.max_distance_m,
+      o.max_mspd_px, "object", "truths", "estimates", "AR", "VSD", "MSSD", "MSPD", "AP", "MSSD", "MSPD", "pose", "pose/sym", "mspd", "fp");
   for (const auto& [object, r, p] : rows)
     std::cout << fmt::format(
-        "{:>6}{:>7}{:>10}{:>7.3f}{:>6.3f}{:>6.3f}{:>7.3f}{:>6.3f}{:>6.3f}{:>7.3f}{:>9.3f}"
+        "{:>6}{:>7}{:>10}{:>7.3f}{:>6}{:>6.3f}{:>6.3f}{:>7.3f}{:>6.3f}{:>6.3f}{:>7.3f}{:>9.3f}"
         "{:>6.3f}{:>6.2f}\n",
-        object, r.truths, r.estimates, 0.5 * (r.ar_mssd + r.ar_mspd), r.ar_mssd, r.ar_mspd,
+        object, r.truths, r.estimates, r.ar(), r.has_vsd ? fmt::format("{:.3f}", r.ar_vsd) : "-",
+        r.ar_mssd, r.ar_mspd,
         0.5 * (p.ap_mssd + p.ap_mspd), p.ap_mssd, p.ap_mspd, r.recall_raw, r.recall_symmetric,
         r.recall_mspd, r.false_positives_per_image);
 }
@@ -323,7 +351,12 @@ void add_options(CLI::App& verb, EvalRequest& request) {
       .bounded("max-mspd", o.max_mspd_px, 0.01, 10000.0, "Largest MSPD of a right pose, px")
       .bounded("max-estimates", request.most_estimates, 1, 1000000,
                "Estimates of an image that count for AP, best scores first. BOP: 100, of XYZ-IBD "
-               "200");
+               "200")
+      .flag("vsd,!--no-vsd", request.vsd,
+            "BOP's VSD where all images have depth images (default)")
+      .bounded("vsd-delta", request.vsd_delta_m, 1e-6, 10.0,
+               "By how much a surface may lie behind the measured one and count as visible, m. "
+               "BOP: 0.015, of ITODD 0.005");
 }
 
 }  // namespace

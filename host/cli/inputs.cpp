@@ -41,6 +41,12 @@ std::vector<fs::path> sorted_entries(const fs::path& folder) {
   return entries;
 }
 
+std::optional<DepthFile> depth_of(const BopImage& image) {
+  constexpr double metres_per_mm = 1e-3;
+  if (image.depth_file.empty()) return {};
+  return DepthFile{image.depth_file, metres_per_mm * image.depth_scale};
+}
+
 void add_scene(const fs::path& folder, SceneLoader& loader, std::vector<InputImage>& images) {
   for (const BopScene& scene : loader.load(folder)) {
     const std::string& camera = scene.camera_name;
@@ -55,7 +61,9 @@ void add_scene(const fs::path& folder, SceneLoader& loader, std::vector<InputIma
                         fmt::format("{}_{}{}{}", six_digits(scene.scene_id),
                                     six_digits(image.image_id), camera.empty() ? "" : "_", camera),
                         0,
-                        {}});
+                        {},
+                        {},
+                        depth_of(image)});
     if (scene.images.empty())
       throw InputError(bop_file(folder, "scene_camera", camera).string(), "images", "none",
                        "at least one");
@@ -178,6 +186,7 @@ std::vector<InputImage> list_images(const std::vector<std::string>& arguments,
   images = images_of_targets(images, dataset);
   make_names_unique(images);
   for (InputImage& image : images) image.reading = options.images;
+  find_depth(images, options.depth);
   for (InputImage& image : images)
     if (image.camera) image.camera->field_of_view_rad = field_of_view_rad(chosen);
   return images;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/cli/dataset.h"
+#include "host/cli/depth_input.h"
 #include "host/cli/template_cache_arguments.h"
 #include "host/core/types.h"
 #include "host/io/bop.h"
@@ -37,6 +38,7 @@ struct InputImage {
   int group = 0;
   std::map<int, int> wanted;
   ImageOptions reading = {};
+  std::optional<DepthFile> depth = {};  // of a BOP scene that has some, or by --depth
   // Of a frame of a video, whose `file` then is the video's with the frame's number:
   // "a.avi#000012".
   std::filesystem::path video = {};
@@ -52,6 +54,7 @@ struct InputOptions {
   ImageOptions images;
   int every = 1;
   int first_frame = 0, last_frame = 1'000'000'000;
+  DepthArguments depth;
 };
 
 // What --camera, --camera-name and --field-of-view say.

@@ -65,6 +65,7 @@ int register_all(RegisterRequest& request) {
   RegisterOptions& options = request.options;
   options.out = request.out;
   options.overlays = !request.no_overlays;
+  options.depth = request.reading.depth;
   options.version = program_version();
   options.pipeline.validate();
   options.refine.validate();
@@ -132,6 +133,7 @@ void add_options(CLI::App& verb, RegisterRequest& request) {
   add_max_seconds(verb, request.options.max_seconds);
   add_scale_camera(verb, request.options.scale_camera);
   add_input_options(verb, request.reading);
+  add_depth(verb, request.reading.depth);
   CommandLineOptions add(verb);
   describe(request.options.refine, add);
   describe(request.options.pipeline.edges, add);
@@ -148,7 +150,7 @@ void add_register(CLI::App& app, int& exit_code) {
   add_options(*verb, *request);
   verb->callback([request, &exit_code, verb] {
     refuse_beside_templates(*verb);
-    request->options.settings = settings_of(*verb, {"Registration", "Images", "Edges", "Tensor"});
+    request->options.settings = settings_of(*verb, {"Registration", "Images", "Depth", "Edges", "Tensor"});
     exit_code = register_all(*request);
   });
 }

@@ -19,6 +19,7 @@ struct RegisterOptions {
   std::filesystem::path out;
   std::optional<Camera> camera;  // absent: the camera of the BOP scene
   CameraArguments calibration;   // from which `camera` is read
+  DepthArguments depth;
   bool scale_camera = false;
   bool resume = false;
   bool overlays = true;

@@ -12,8 +12,8 @@ namespace edgescout {
 
 namespace {
 
-PreparedView prepare(const InputImage& input, bool is_single, Backend& backend,
-                     const RegisterOptions& options) {
+PreparedView prepare(const InputImage& input, bool is_single, const DepthReader& depth,
+                     Backend& backend, const RegisterOptions& options) {
   const Image image = read_image(input);
   const Camera camera = camera_of(input, image.width, image.height,
                                   {options.camera, options.calibration.file, options.scale_camera});
@@ -23,6 +23,7 @@ PreparedView prepare(const InputImage& input, bool is_single, Backend& backend,
     return prepare_view(image, camera, camera_from_world, backend, options.pipeline,
                         &prepared.stages);
   });
+  prepared.view.depth = depth.read(input, camera, backend.threads());
   return prepared;
 }
 
@@ -38,8 +39,9 @@ void warn_of_out_of_sight(const ReadyJob& ready, std::size_t start, const Regist
 
 ReadyJob prepare_job(const RegisterJob& job, Backend& backend, const RegisterOptions& options) {
   ReadyJob ready{&job, {}, {}};
+  const DepthReader depth(options.depth);
   for (const InputImage& view : job.views)
-    ready.views.push_back(prepare(view, job.views.size() == 1, backend, options));
+    ready.views.push_back(prepare(view, job.views.size() == 1, depth, backend, options));
   for (const RegisterJob::Start& start : job.starts)
     ready.starts.push_back({start.model, inverse(ready.views[start.view].view.camera_from_world) *
                                              start.camera_from_object});

@@ -181,6 +181,7 @@ void add_render(CLI::App& app, int& exit_code) {
   describe(request->options.surfaces, ranges);
   describe(request->options.light, ranges);
   describe(request->options.camera, ranges);
+  describe(request->options.depth, ranges);
   verb->callback([request, &exit_code] {
     render_scenes(*request);
     exit_code = exit_done;

@@ -1,9 +1,10 @@
-// What a prior in the world leaves of the search of one scale.
+// What a prior in the world and measured depth leave of the search of one scale.
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "host/detect/depth_prior.h"
 #include "host/detect/scan_regions.h"
 #include "host/detect/search_space.h"
 #include "host/detect/searched_scale.h"
@@ -19,8 +20,11 @@ class AdmittedSearch {
 
   bool admits(const ScoredTemplate& scored) const;
 
+  // What depth leaves of all places and distances, (0, 1].
+  double share() const { return depth_.share(); }
+
  private:
-  std::optional<ScanRegion> part_at(double distance_m, const ScanRegion& region) const;
+  std::optional<ScanRegion> part_at(std::size_t distance, const ScanRegion& region) const;
 
   // How far beside the pose that it stands for a hit may lie.
   SearchSlack slack_at(double distance_m) const;
@@ -28,6 +32,8 @@ class AdmittedSearch {
   const SearchedScale& scale_;
   int anchor_step_;
   SearchSpace space_;
+  DepthPrior depth_;
+  bool is_everywhere_;
 };
 
 }  // namespace edgescout

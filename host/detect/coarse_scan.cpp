@@ -228,8 +228,9 @@ std::vector<ScanHit> coarse_scan(const TemplateSet& set, const ObjectView& view,
   for (int scale = 0; scale < scales; ++scale) {
     const SearchedScale searched(set, scale, view);
     const std::vector<ScanRegion> regions = cut_into_regions(view, searched.level, options);
-    const std::size_t most = (of_scale + regions.size() - 1) / regions.size();
     const AdmittedSearch admitted(searched, view, options);
+    const auto of_admitted = std::size_t(std::ceil(double(of_scale) * admitted.share()));
+    const std::size_t most = (of_admitted + regions.size() - 1) / regions.size();
     for (const std::span<const ScanRegion> part : parts_between_checks(regions, limit)) {
       if (limit && limit->is_over()) return hits;
       const std::vector<ScanHit> of_part =

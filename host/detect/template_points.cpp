@@ -1,5 +1,7 @@
 #include "host/detect/template_points.h"
 
+#include <algorithm>
+
 #include "host/core/thinned.h"
 #include "host/register/occluders.h"
 #include "kernels/thread_pool.h"
@@ -21,16 +23,19 @@ class TemplatePoints {
                  ThreadPool& threads)
       : occlusion_tolerance_m_(occlusion_tolerance_m(set.model)),
         views_(views),
+        surface_(thinned_surface(set.model)),
         viewpoints_(set),
         threads_(threads) {
     for (const TemplateView& view : set.views) points_.push_back(thinned(view.points, most));
   }
 
-  Grid<std::vector<ModelPoint>> operator()(std::span<const ObjectPose> poses) const {
-    Grid<std::vector<ModelPoint>> visible(poses.size(), views_.size());
+  Grid<PointsInView> operator()(std::span<const ObjectPose> poses) const {
+    Grid<PointsInView> visible(poses.size(), views_.size());
     threads_.for_each(poses.size(), [&](std::size_t p) {
-      for (std::size_t v = 0; v < views_.size(); ++v)
-        visible(p, v) = visible_in(views_[v], poses[p].world_from_object);
+      for (std::size_t v = 0; v < views_.size(); ++v) {
+        visible(p, v).edges = visible_in(views_[v], poses[p].world_from_object);
+        if (views_[v].depth_values) visible(p, v).surface = surface_;
+      }
     });
     return visible;
   }
@@ -48,8 +53,16 @@ class TemplatePoints {
     return points;
   }
 
+  // A beginning of the samples is spread evenly (sample_surface). Half of them face away.
+  static std::vector<SurfacePoint> thinned_surface(const EdgeModel& model) {
+    constexpr std::size_t most = 120;
+    const std::vector<SurfacePoint>& all = model.surface_points;
+    return {all.begin(), all.begin() + std::ptrdiff_t(std::min(most, all.size()))};
+  }
+
   double occlusion_tolerance_m_;
   std::span<const ObjectView> views_;
+  std::vector<SurfacePoint> surface_;
   ViewpointIndex viewpoints_;
   std::vector<std::vector<ModelPoint>> points_;  // by viewpoint, thinned
   ThreadPool& threads_;

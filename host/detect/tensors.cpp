@@ -3,6 +3,8 @@
 #include <set>
 
 #include "host/edge/salient_edges.h"
+#include "host/register/measured_depth.h"
+#include "host/register/occluders.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -48,6 +50,15 @@ ViewHandle reduced_tensor(std::vector<EdgePoint> edges, const ReducedTensors& le
                            intrinsics_of(level.camera), options);
 }
 
+void add_depth(ObjectView& view, Backend& backend) {
+  const DepthImage& depth = view.depth->image;
+  check(depth.width == view.camera.width && depth.height == view.camera.height,
+        "add_tensors: depth and camera differ in size");
+  view.depth_values = backend.make_depth({depth.z_m, depth.width, depth.height,
+                                          intrinsics_of(view.camera)});
+  view.occluders = make_occluders({}, {}, view, backend);
+}
+
 void add_tensors(ObjectView& view, const std::set<double>& reductions, Backend& backend,
                  const TensorOptions& options) {
   check(is_finite(view.camera_from_world), "add_tensors: a camera pose that is not finite");
@@ -58,6 +69,7 @@ void add_tensors(ObjectView& view, const std::set<double>& reductions, Backend& 
   view.tensor = backend.make_view(edges, camera.width, camera.height,
                                   {image.width, image.height, image.pixels.data()},
                                   intrinsics_of(camera), options);
+  if (view.depth) add_depth(view, backend);
   view.reduced.clear();
   const std::vector<EdgePoint> salient = salient_edges(edges, camera.width, camera.height);
   for (const double reduction : reductions) {

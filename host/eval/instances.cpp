@@ -48,6 +48,14 @@ void add_pose_errors(Instances& pair, const OfObject& given, const Symmetries& s
     }
 }
 
+void add_vsd_errors(Instances& pair, const EvaluationImage& image) {
+  if (!image.vsd) return;
+  const auto table = image.vsd->find(pair.object_id);
+  if (table == image.vsd->end()) return;
+  for (const VsdErrors& errors : table->second)
+    for (int tau = 0; tau < VSD_TAUS; ++tau) pair.vsd[tau].push_back(errors[tau]);
+}
+
 Instances compare(const Object& object, const EvaluationImage& image, const OfObject& given,
                   const RecallOptions& options) {
   Instances pair;
@@ -68,6 +76,7 @@ Instances compare(const Object& object, const EvaluationImage& image, const OfOb
           mspd_px(e.camera_from_object, t.camera_from_object, object, image.camera));
     }
   }
+  add_vsd_errors(pair, image);
   return pair;
 }
 

@@ -17,6 +17,8 @@ struct Instances {
   std::vector<char> counts;            // per truth: to be found; differs where there are targets
   std::vector<double> mssd;            // of the diameter
   std::vector<double> mspd;            // px
+  // By tau, of as many of the best estimates as there are truths; empty: not computed.
+  std::array<std::vector<double>, VSD_TAUS> vsd;
   std::vector<double> raw, symmetric;  // largest of angle and distance, each over its bound
   double px_per_step = 0;              // of the thresholds of MSPD
   int counting() const;

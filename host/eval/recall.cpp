@@ -45,6 +45,9 @@ void count(const Instances& pair, const RecallOptions& options, Recalls& sums) {
     sums.mssd[step] += found_by_bop(pair, pair.mssd, 0.05 * (step + 1));
     sums.mspd[step] += found_by_bop(pair, pair.mspd, pair.px_per_step * (step + 1));
   }
+  for (int tau = 0; tau < VSD_TAUS; ++tau)
+    for (int step = 0; sums.has_vsd && step < RECALL_STEPS; ++step)
+      sums.vsd[tau][step] += found_by_bop(pair, pair.vsd[tau], 0.05 * (step + 1));
   sums.recall_raw += match(pair, pair.raw, 1.0).found;
   sums.recall_symmetric += match(pair, pair.symmetric, 1.0).found;
   const Matches seen = match(pair, pair.mspd, options.max_mspd_px);
@@ -68,6 +71,11 @@ void finish(Recalls& sums) {
     sums.ar_mssd += sums.mssd[step] / RECALL_STEPS;
     sums.ar_mspd += sums.mspd[step] / RECALL_STEPS;
   }
+  for (auto& of_tau : sums.vsd)
+    for (double& recall : of_tau) {
+      recall /= truths;
+      sums.ar_vsd += recall / (VSD_TAUS * RECALL_STEPS);
+    }
   sums.recall_raw /= truths;
   sums.recall_symmetric /= truths;
   sums.recall_mspd /= truths;
@@ -106,7 +114,11 @@ std::vector<EvaluationImage> evaluation_images(const BopScene& scene,
                        "no entry " + std::to_string(image.image_id), "the truth of " + name);
     if (image.camera.width < 1)
       throw InputError(name, "width", "none", "the image's size in its camera");
-    by_id[image.image_id] = {image.camera, scene.truth.at(image.image_id), {}, {}};
+    EvaluationImage& added = by_id[image.image_id];
+    added.camera = image.camera;
+    added.truth = scene.truth.at(image.image_id);
+    added.depth_file = image.depth_file;
+    added.depth_unit_m = 1e-3 * image.depth_scale;
   }
   for (const BopResult& result : results) {
     if (!is_of(scene, result)) continue;
@@ -126,6 +138,9 @@ Recalls evaluate(std::span<const EvaluationImage> images, const std::map<int, Ob
   options.validate();
   Recalls sums;
   sums.images = static_cast<int>(images.size());
+  sums.has_vsd = !images.empty() && std::ranges::all_of(images, [](const EvaluationImage& image) {
+    return image.vsd.has_value();
+  });
   for (const EvaluationImage& image : images) count_image(image, objects, options, sums);
   finish(sums);
   return sums;

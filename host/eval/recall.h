@@ -8,13 +8,16 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <limits>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "host/core/pose_error.h"
 #include "host/core/types.h"
+#include "host/eval/vsd.h"
 #include "host/io/bop.h"
 
 namespace edgescout {
@@ -27,6 +30,9 @@ struct EvaluationImage {
   // are the truths of the recalls, whatever is seen of them, and other objects are left out. Empty:
   // all objects, all truths that are seen enough.
   std::map<int, int> targets;
+  std::filesystem::path depth_file;  // empty: the image has none
+  double depth_unit_m = 1e-3;
+  std::optional<VsdTables> vsd;  // of this image's depth (eval/vsd_tables.h)
 };
 
 // Whether a result is of this scene and, where it names one, of this camera.
@@ -63,6 +69,15 @@ struct Recalls {
   std::array<double, RECALL_STEPS> mspd{};
   double ar_mssd = 0;  // mean over the thresholds
   double ar_mspd = 0;
+  // By tau, 5, 10 .. 50 % of the diameter, and by threshold of the error, 0.05, 0.1 .. 0.5. Zeros
+  // unless all images have `vsd`.
+  bool has_vsd = false;
+  std::array<std::array<double, RECALL_STEPS>, VSD_TAUS> vsd{};
+  double ar_vsd = 0;  // mean over both
+  // BOP's average recall; without VSD that of the other two.
+  double ar() const {
+    return has_vsd ? (ar_mssd + ar_mspd + ar_vsd) / 3 : (ar_mssd + ar_mspd) / 2;
+  }
   // Over all estimates:
   double recall_raw = 0;        // angle and distance without symmetries
   double recall_symmetric = 0;  // modulo the object's symmetries

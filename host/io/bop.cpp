@@ -29,7 +29,8 @@ std::map<int, BopImage> read_images(const fs::path& folder, const std::string& c
   const fs::path file = bop_file(folder, "scene_camera", camera_name);
   const json content = read_json(file);
   const JsonField root{content, file.string(), ""};
-  const ImageFiles files(folder, camera_name);
+  const ImageFiles files(folder, camera_name),
+      depth_files = ImageFiles::of_depth(folder, camera_name);
   ProjectedRotations projected;
   std::map<int, BopImage> images;
   for (const auto& [key, value] : content.items()) {
@@ -37,6 +38,8 @@ std::map<int, BopImage> read_images(const fs::path& folder, const std::string& c
     BopImage image;
     image.image_id = integer_key(key, root);
     image.file = files.of(image.image_id);
+    if (depth_files.has(image.image_id)) image.depth_file = depth_files.of(image.image_id);
+    if (entry.has("depth_scale")) image.depth_scale = entry.at("depth_scale").number();
     CameraFields fields(entry.value, entry.source, key);
     image.camera = read_camera(fields);
     Camera checked = image.camera;
@@ -101,7 +104,7 @@ json camera_entry(const BopImage& image) {
   const Camera& c = image.camera;
   check(c.lens == LensModel::BrownConrady && c.skew == 0 && c.field_of_view_rad == 0,
         "save_bop_scene: a lens that BOP has no field for");
-  json entry{{"cam_K", {c.fx, 0.0, c.cx, 0.0, c.fy, c.cy, 0.0, 0.0, 1.0}}, {"depth_scale", 1.0}};
+  json entry{{"cam_K", {c.fx, 0.0, c.cx, 0.0, c.fy, c.cy, 0.0, 0.0, 1.0}}, {"depth_scale", image.depth_scale}};
   if (c.has_distortion()) entry["dist"] = c.distortion;
   if (image.camera_from_world) {
     entry["cam_R_w2c"] = rotation_numbers(*image.camera_from_world);

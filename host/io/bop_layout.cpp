@@ -56,20 +56,28 @@ ImageFiles::ImageFiles(const fs::path& scene, const std::string& camera_name) {
   for (const char* kind : kinds_of_images)
     folders.push_back(camera_name.empty() ? kind : std::string(kind) + "_" + camera_name);
   if (!camera_name.empty()) folders.push_back(camera_name);
-  for (const std::string& folder : folders) {
-    if (!is_there(scene / folder)) continue;
-    if (folder_.empty()) folder_ = scene / folder;
-    std::map<int, fs::path> found;
-    for (const fs::path& file : entries_of(scene / folder)) {
-      const std::optional<int> id =
-          has_image_extension(file) ? number_in(file.stem().string()) : std::nullopt;
-      if (!id) continue;
-      const auto [place, is_new] = found.emplace(*id, file);
-      if (!is_new && is_preferred(file, place->second, *id)) place->second = file;
-    }
-    files_.merge(found);
-  }
+  for (const std::string& folder : folders) add_folder(scene / folder);
   if (folder_.empty()) folder_ = scene / (camera_name.empty() ? "rgb" : "rgb_" + camera_name);
+}
+
+ImageFiles ImageFiles::of_depth(const fs::path& scene, const std::string& camera_name) {
+  ImageFiles files;
+  files.add_folder(scene / (camera_name.empty() ? "depth" : "depth_" + camera_name));
+  return files;
+}
+
+void ImageFiles::add_folder(const fs::path& folder) {
+  if (!is_there(folder)) return;
+  if (folder_.empty()) folder_ = folder;
+  std::map<int, fs::path> found;
+  for (const fs::path& file : entries_of(folder)) {
+    const std::optional<int> id =
+        has_image_extension(file) ? number_in(file.stem().string()) : std::nullopt;
+    if (!id) continue;
+    const auto [place, is_new] = found.emplace(*id, file);
+    if (!is_new && is_preferred(file, place->second, *id)) place->second = file;
+  }
+  files_.merge(found);
 }
 
 fs::path ImageFiles::of(int image_id) const {

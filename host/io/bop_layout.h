@@ -15,11 +15,16 @@ bool is_there(const std::filesystem::path& path);  // false where it cannot be e
 class ImageFiles {
  public:
   ImageFiles(const std::filesystem::path& scene, const std::string& camera_name);
+  // Its depth images: in depth/ or depth_NAME/.
+  static ImageFiles of_depth(const std::filesystem::path& scene, const std::string& camera_name);
   // If there is none, the name that it would have, so that the error of reading it names the
   // missing file.
   std::filesystem::path of(int image_id) const;
+  bool has(int image_id) const { return files_.contains(image_id); }
 
  private:
+  ImageFiles() = default;
+  void add_folder(const std::filesystem::path& folder);
   std::map<int, std::filesystem::path> files_;
   std::filesystem::path folder_;  // in which a missing image is missed
 };

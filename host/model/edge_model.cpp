@@ -9,6 +9,7 @@
 #include "host/io/binary_file.h"
 #include "host/io/mesh_edges.h"
 #include "host/model/mesh_edge_kind.h"
+#include "host/model/surface_points.h"
 #include "host/model/template_parts.h"
 #include "host/model/union_find.h"
 #include "kernels/error.h"
@@ -56,6 +57,8 @@ std::vector<EdgeModel::Segment> drawn_edges(const Mesh& mesh, std::span<const Me
                        kind == MeshEdge::Kind::OpenBorder});
   return drawn;
 }
+
+constexpr int SURFACE_POINTS = 600;
 
 bool is_curved(const std::array<Eigen::Vector3d, 3>& normals) {
   constexpr double cos_flat = 1 - 1e-6;
@@ -114,6 +117,9 @@ EdgeModel edge_model_with(const Mesh& mesh, const EdgeModelOptions& options,
   if (model.crease_points.empty() && model.curved.empty())
     throw InputError(mesh.name, "edges", "none to draw",
                      "a mesh with creases, open borders or curved faces, a smaller raster step");
+  model.surface_points = sample_surface(
+      mesh, std::ranges::any_of(model.creases, &EdgeModel::Segment::is_open_border),
+      SURFACE_POINTS);
   model.occluding = std::move(occluding);
   return model;
 }

@@ -12,6 +12,7 @@
 #include "host/core/types.h"
 #include "host/model/occluding_surface.h"
 #include "kernels/depth_raster.h"
+#include "kernels/pose_depth.h"
 
 namespace edgescout {
 
@@ -42,6 +43,8 @@ struct EdgeModel {
   // only these can hold a contour.
   std::vector<std::array<Eigen::Vector3d, 3>> corner_normals;
   std::vector<int> curved;
+
+  std::vector<SurfacePoint> surface_points;  // surface_points.h: sample_surface
 
   Mesh mesh;
   double raster_step_m = 0;

@@ -61,13 +61,17 @@ void append_positions(std::span<const RasterPoint> points, std::vector<float>& p
 class Candidates {
  public:
   Candidates(const EdgeModel& model, std::span<const Se3> camera_from_object, Backend& backend,
-             const VisibilityOptions& options)
+             const VisibilityOptions& options, bool with_surfaces)
       : model_(model), contours_(camera_from_object.size()) {
     backend.threads().for_each(contours_.size(), [&](std::size_t i) {
       contours_[i] = contour_points(model, camera_from_object[i]);
     });
     std::vector<float> positions_m;
     append_positions(model.crease_points, positions_m);
+    if (with_surfaces)
+      for (const SurfacePoint& point : model.surface_points)
+        positions_m.insert(positions_m.end(), {point.x_m, point.y_m, point.z_m});
+    const auto shared = std::uint32_t(positions_m.size() / 3);
     std::vector<VisibilityJob> jobs;
     for (std::size_t i = 0; i < contours_.size(); ++i) {
       jobs.push_back({to_pose(camera_from_object[i]),
@@ -76,7 +80,7 @@ class Candidates {
                       std::uint32_t(positions_m.size() / 3), std::uint32_t(contours_[i].size())});
       append_positions(contours_[i], positions_m);
     }
-    const VisibilityPoints points{positions_m, std::uint32_t(model.crease_points.size())};
+    const VisibilityPoints points{positions_m, shared};
     flags_.resize(flag_count(points, jobs));
     backend.point_visibility(model.triangle_mesh(), points, jobs, options.depth_map_size_px,
                              flags_);
@@ -84,8 +88,9 @@ class Candidates {
       first_flags_.push_back(first_flags_.back() + points.shared + job.point_count);
   }
 
-  // Of the i-th pose. `marks` may be null.
-  std::vector<ModelPoint> visible(std::size_t i, SilhouetteMarks* marks) const {
+  // Of the i-th pose. `marks` and `surface` may be null; the latter is not without `with_surfaces`.
+  std::vector<ModelPoint> visible(std::size_t i, SilhouetteMarks* marks,
+                                  std::vector<SurfacePoint>* surface) const {
     std::vector<ModelPoint> points;
     const std::uint8_t* flags = flags_.data() + first_flags_[i];
     const auto add = [&](std::span<const RasterPoint> from) {
@@ -98,6 +103,9 @@ class Candidates {
       }
     };
     add(model_.crease_points);
+    if (surface)
+      for (const SurfacePoint& point : model_.surface_points)
+        if (*flags++ == POINT_VISIBLE) surface->push_back(point);
     add(contours_[i]);
     return points;
   }
@@ -111,20 +119,6 @@ class Candidates {
 
 }  // namespace
 
-Intrinsics intrinsics_of(const Camera& c) {
-  return {float(c.fx), float(c.fy), float(c.cx), float(c.cy)};
-}
-
-Pose to_pose(const Se3& b_from_a) {
-  const Eigen::Matrix3d r = b_from_a.rotation.toRotationMatrix();
-  Pose pose;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) pose.m[4 * i + j] = float(r(i, j));
-    pose.m[4 * i + 3] = float(b_from_a.translation_m[i]);
-  }
-  return pose;
-}
-
 void VisibilityOptions::validate() const {
   const BoundsCheck in("visibility");
   in.require("depth_map_size", depth_map_size_px, 8, 4096);
@@ -135,10 +129,12 @@ std::vector<std::vector<ModelPoint>> visible_edges(const EdgeModel& model,
                                                    std::span<const Se3> camera_from_object,
                                                    Backend& backend,
                                                    const VisibilityOptions& options,
-                                                   std::vector<SilhouetteMarks>* marks) {
+                                                   std::vector<SilhouetteMarks>* marks,
+                                                   VisibleSurfaces* surfaces) {
   options.validate();
   std::vector<std::vector<ModelPoint>> result(camera_from_object.size());
   if (marks) marks->assign(camera_from_object.size(), {});
+  if (surfaces) surfaces->assign(camera_from_object.size(), {});
   std::vector<std::size_t> in_front;
   for (std::size_t i = 0; i < camera_from_object.size(); ++i)
     if ((camera_from_object[i] * model.center_m).z() > model.radius_m * 0.05) in_front.push_back(i);
@@ -149,10 +145,11 @@ std::vector<std::vector<ModelPoint>> visible_edges(const EdgeModel& model,
         std::span(in_front).subspan(first, std::min(chunk, in_front.size() - first));
     std::vector<Se3> poses;
     for (const std::size_t i : indices) poses.push_back(camera_from_object[i]);
-    const Candidates candidates(model, poses, backend, options);
+    const Candidates candidates(model, poses, backend, options, surfaces != nullptr);
     backend.threads().for_each(indices.size(), [&](std::size_t k) {
       const std::size_t i = indices[k];
-      result[i] = candidates.visible(k, marks ? &(*marks)[i] : nullptr);
+      result[i] = candidates.visible(k, marks ? &(*marks)[i] : nullptr,
+                                     surfaces ? &(*surfaces)[i] : nullptr);
     });
   }
   return result;

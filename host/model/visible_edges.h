@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "host/core/camera.h"
+#include "host/core/kernel_types.h"
 #include "host/model/edge_model.h"
 #include "kernels/backend.h"
 
@@ -26,16 +26,17 @@ struct VisibilityOptions {
 // By point: 1 where one of the 3 x 3 pixels around it shows the background, else 0.
 using SilhouetteMarks = std::vector<std::uint8_t>;
 
+using VisibleSurfaces = std::vector<std::vector<SurfacePoint>>;  // by pose
+
 // Raster points in the object frame, one list per pose. The list is empty where the object is not
-// in front of the camera. `marks`, where given, receives the marks of each list.
+// in front of the camera. `marks`, where given, receives the marks of each list; `surfaces` the
+// samples of the surface that are visible and do not border the background. Samples that face away
+// are among them where the object is thin.
 std::vector<std::vector<ModelPoint>> visible_edges(const EdgeModel& model,
                                                    std::span<const Se3> camera_from_object,
                                                    Backend& backend,
                                                    const VisibilityOptions& options = {},
-                                                   std::vector<SilhouetteMarks>* marks = nullptr);
-
-// Conversions to the kernels' transform and camera.
-Pose to_pose(const Se3& b_from_a);
-Intrinsics intrinsics_of(const Camera& camera);
+                                                   std::vector<SilhouetteMarks>* marks = nullptr,
+                                                   VisibleSurfaces* surfaces = nullptr);
 
 }  // namespace edgescout

@@ -5,6 +5,7 @@
 
 #include "host/core/thinned.h"
 #include "host/register/d2co_ceres.h"
+#include "host/register/depth_systems.h"
 #include "host/register/lm_state.h"
 #include "host/register/visible_in_views.h"
 #include "kernels/error.h"
@@ -30,15 +31,11 @@ void for_poses(std::size_t count, ThreadPool& pool, const Body& body) {
   for_each_in_chunks(pool, count, 64, body);
 }
 
-PointSets collect_points(std::span<const ObjectPose> poses, std::size_t views,
-                         const PointsInViews& points, int most, ThreadPool& pool) {
-  const Grid<std::vector<ModelPoint>> in_views = points(poses);
-  check(in_views.rows() == poses.size() && in_views.columns() == views,
-        "register_points: one list of points a pose and view");
-  PointSets sets{{}, Grid<PointRange>(poses.size(), views)};
+PointSets collect_edges(const Grid<PointsInView>& in_views, int most, ThreadPool& pool) {
+  PointSets sets{{}, Grid<PointRange>(in_views.rows(), in_views.columns())};
   std::size_t total = 0;
   for (std::size_t i = 0; i < in_views.values().size(); ++i) {
-    const std::size_t kept = thinned_size(in_views.values()[i].size(), most);
+    const std::size_t kept = thinned_size(in_views.values()[i].edges.size(), most);
     sets.ranges.values()[i] = {static_cast<std::uint32_t>(total), static_cast<std::uint32_t>(kept)};
     total += kept;
   }
@@ -46,20 +43,23 @@ PointSets collect_points(std::span<const ObjectPose> poses, std::size_t views,
   for_poses(in_views.values().size(), pool, [&](std::size_t i) {
     const PointRange& range = sets.ranges.values()[i];
     thin_into<ModelPoint>(std::span(sets.points).subspan(range.first, range.count),
-                          in_views.values()[i]);
+                          in_views.values()[i].edges);
   });
   return sets;
 }
 
+SurfacesInViews collect_surfaces(Grid<PointsInView>& in_views) {
+  SurfacesInViews surfaces(in_views.rows(), in_views.columns());
+  for (std::size_t i = 0; i < in_views.values().size(); ++i)
+    surfaces.values()[i] = std::move(in_views.values()[i].surface);
+  return surfaces;
+}
+
 class Evaluator {
  public:
-  Evaluator(PointSets sets, const Scene& scene, const PoseLoss& loss)
-      : ranges_(std::move(sets.ranges)),
-        points_(scene.backend.make_pose_points(std::move(sets.points))),
-        scene_(scene),
-        loss_(loss) {
-    for (const ObjectView& view : scene.views) tensors_.push_back(view.tensor);
-  }
+  Evaluator(Grid<PointsInView> in_views, const Scene& scene, const D2coRound& round)
+      : Evaluator(collect_edges(in_views, round.max_points, scene.backend.threads()), scene, round,
+                  collect_surfaces(in_views)) {}
 
   // Systems at the trial poses of the active states, in the states' order. Those of inactive
   // states stay empty.
@@ -84,14 +84,37 @@ class Evaluator {
       for (std::size_t v = 0; v < views.size(); ++v)
         add_view(systems[active[i]], results_[i * views.size() + v], views[v].camera_from_world);
     });
+    add_depth(states, active, systems);
     return systems;
   }
 
  private:
+  Evaluator(PointSets sets, const Scene& scene, const D2coRound& round,
+            const SurfacesInViews& surfaces)
+      : ranges_(std::move(sets.ranges)),
+        points_(scene.backend.make_pose_points(std::move(sets.points))),
+        scene_(scene),
+        loss_{round.loss, float(round.scale_px)},
+        depth_(scene, surfaces, round.max_surface_points, round.depth_sigmas) {
+    for (const ObjectView& view : scene.views) tensors_.push_back(view.tensor);
+  }
+
+  void add_depth(std::span<const LmState> states, std::span<const std::size_t> active,
+                 std::span<WorldSystem> systems) const {
+    if (depth_.is_empty()) return;
+    std::vector<Se3> trials;
+    for (const std::size_t p : active) trials.push_back(states[p].trial);
+    std::vector<WorldSystem> of_active(active.size());
+    for (std::size_t i = 0; i < active.size(); ++i) of_active[i] = systems[active[i]];
+    depth_.add(active, trials, of_active);
+    for (std::size_t i = 0; i < active.size(); ++i) systems[active[i]] = of_active[i];
+  }
+
   Grid<PointRange> ranges_;
   PosePointsHandle points_;
   const Scene& scene_;
   PoseLoss loss_;
+  DepthSystems depth_;
   std::vector<ViewHandle> tensors_;
   std::vector<PoseProblem> problems_;
   std::vector<NormalEquations> results_;
@@ -140,7 +163,12 @@ std::vector<PoseEstimate> register_poses(const Scene& scene, std::span<const Obj
   if (options.solver == Solver::Ceres) return register_poses_ceres(scene, starts, options);
   check_problem(starts, scene.models.size(), scene.views);
   const auto points = [&](std::span<const ObjectPose> poses) {
-    return visible_points(scene, poses, options.visibility);
+    Grid<VisibleInView> visible = visible_in_views(scene, poses, options.visibility);
+    Grid<PointsInView> in_views(visible.rows(), visible.columns());
+    for (std::size_t i = 0; i < visible.values().size(); ++i)
+      in_views.values()[i] = {std::move(visible.values()[i].points),
+                              std::move(visible.values()[i].surface)};
+    return in_views;
   };
   return register_points(scene, starts, points, options);
 }
@@ -155,8 +183,10 @@ std::vector<PoseEstimate> register_points(const Scene& scene, std::span<const Ob
   for (std::size_t p = 0; p < starts.size(); ++p) states[p].pose = starts[p].world_from_object;
   for (const D2coRound& round : options.rounds) {
     for (std::size_t p = 0; p < poses.size(); ++p) poses[p].world_from_object = states[p].pose;
-    Evaluator evaluator(collect_points(poses, scene.views.size(), points, round.max_points, pool),
-                        scene, {round.loss, round.scale_px});
+    Grid<PointsInView> in_views = points(poses);
+    check(in_views.rows() == poses.size() && in_views.columns() == scene.views.size(),
+          "register_points: one list of points a pose and view");
+    Evaluator evaluator(std::move(in_views), scene, round);
     run_round(states, evaluator, round, options, scene);
     if (!scene.is_time_over()) continue;
     end_early(states);

@@ -5,7 +5,11 @@
 
 #include <ceres/ceres.h>
 
+#include "host/core/thinned.h"
+#include "host/register/depth_cost.h"
+#include "host/register/depth_systems.h"
 #include "host/register/lm_state.h"
+#include "host/register/measured_depth.h"
 #include "host/register/point_cost.h"
 #include "host/register/se3_manifold.h"
 #include "host/register/visible_in_views.h"
@@ -30,12 +34,15 @@ std::vector<HostView> download(std::span<const ObjectView> views) {
 
 // One round of one pose. The loss is declared before the problem because it must outlive it.
 struct RoundProblem {
-  std::unique_ptr<ceres::LossFunction> loss;
+  std::unique_ptr<ceres::LossFunction> loss, depth_loss;
+  std::vector<ceres::ResidualBlockId> edges, surface;  // the residuals of their points
   ceres::Problem problem{lent_loss()};
   PoseParameters pose;
 
-  RoundProblem(const Se3& start, const PoseLoss& chosen)
-      : loss(make_loss(chosen)), pose(to_parameters(start)) {
+  RoundProblem(const Se3& start, const D2coRound& round)
+      : loss(make_loss({round.loss, float(round.scale_px)})),
+        depth_loss(make_loss({LOSS_GEMAN_MCCLURE, float(round.depth_sigmas)})),
+        pose(to_parameters(start)) {
     problem.AddParameterBlock(pose.data(), 7, new Se3Manifold);
   }
   static ceres::Problem::Options lent_loss() {
@@ -45,18 +52,32 @@ struct RoundProblem {
   }
 };
 
-void add_visible_points(RoundProblem& round, const EdgeModel& model, const HostView& view,
-                        Backend& backend, const VisibilityOptions& visibility, int most) {
-  const Se3& camera_from_world = view.view.camera_from_world;
-  const ObjectPose pose{0, from_parameters(round.pose.data())};
-  const std::vector<ModelPoint> visible =
-      visible_in_views({{&model, 1}, {&view.view, 1}, backend}, {&pose, 1}, visibility)(0, 0)
-          .points;
-  const std::size_t kept = most > 0 ? std::min(visible.size(), std::size_t(most)) : visible.size();
-  for (std::size_t i = 0; i < kept; ++i)
-    round.problem.AddResidualBlock(
-        new PointCost(view.tensor_view(), camera_from_world, visible[i * visible.size() / kept]),
-        round.loss.get(), round.pose.data());
+void add_edges(RoundProblem& round, const HostView& view, std::span<const ModelPoint> points) {
+  for (const ModelPoint& point : points)
+    round.edges.push_back(round.problem.AddResidualBlock(
+        new PointCost(view.tensor_view(), view.view.camera_from_world, point), round.loss.get(),
+        round.pose.data()));
+}
+
+void add_surface(RoundProblem& round, const ObjectView& view,
+                 std::span<const SurfacePoint> surface, const PoseDepthOptions& options) {
+  if (!view.depth) return;
+  const DepthImage& depth = view.depth->image;
+  const DepthView measured{depth.z_m, depth.width, depth.height, intrinsics_of(view.camera)};
+  for (const SurfacePoint& sample : surface)
+    round.surface.push_back(round.problem.AddResidualBlock(
+        new DepthCost(measured, view.camera_from_world, sample, options), round.depth_loss.get(),
+        round.pose.data()));
+}
+
+void add_visible_points(RoundProblem& at_pose, const Scene& scene, const HostView& view,
+                        const ObjectPose& pose, const D2coRound& round,
+                        const VisibilityOptions& visibility) {
+  const VisibleInView visible =
+      visible_in_views({scene.models, {&view.view, 1}, scene.backend}, {&pose, 1}, visibility)(0, 0);
+  add_edges(at_pose, view, thinned(visible.points, round.max_points));
+  add_surface(at_pose, view.view, thinned(visible.surface, round.max_surface_points),
+              pose_depth_options(scene, REGISTRATION_BAND));
 }
 
 ceres::Solver::Options solver_options(const D2coRound& round, const D2coOptions& options) {
@@ -99,17 +120,19 @@ Convergence convergence_of(const ceres::Solver::Summary& summary) {
 
 // The weighted system at the solution, in the world's tangent. Empty where Ceres could not evaluate
 // all points.
-WorldSystem system_at_solution(RoundProblem& round) {
+WorldSystem system_of(RoundProblem& round, const std::vector<ceres::ResidualBlockId>& blocks,
+                      const ceres::LossFunction& loss) {
   ceres::Problem::EvaluateOptions bare;
   bare.apply_loss_function = false;
+  bare.residual_blocks = blocks;
   std::vector<double> residuals;
   ceres::CRSMatrix jacobian;
   WorldSystem system;
-  if (!round.problem.Evaluate(bare, nullptr, &residuals, nullptr, &jacobian)) return system;
+  if (blocks.empty() || !round.problem.Evaluate(bare, nullptr, &residuals, nullptr, &jacobian)) return system;
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     const Eigen::Map<const Vector6d> j(&jacobian.values[6 * i]);
     double rho[3];
-    round.loss->Evaluate(residuals[i] * residuals[i], rho);
+    loss.Evaluate(residuals[i] * residuals[i], rho);
     system.hessian += rho[1] * j * j.transpose();
     system.gradient += rho[1] * residuals[i] * j;
     system.cost += 0.5 * rho[0];
@@ -117,6 +140,15 @@ WorldSystem system_at_solution(RoundProblem& round) {
     system.weight_sum += rho[1];
     system.points += 1;
   }
+  return system;
+}
+
+// Of the surface only what determines the pose counts: points and cost are those of the edges.
+WorldSystem system_at_solution(RoundProblem& round) {
+  WorldSystem system = system_of(round, round.edges, *round.loss);
+  const WorldSystem surface = system_of(round, round.surface, *round.depth_loss);
+  system.hessian += surface.hessian;
+  system.gradient += surface.gradient;
   return system;
 }
 
@@ -130,11 +162,10 @@ void fill(PoseEstimate& result, const WorldSystem& system) {
 
 void solve_round(PoseEstimate& result, const Scene& scene, std::span<const HostView> views,
                  const D2coRound& round, const D2coOptions& options) {
-  const EdgeModel& model = scene.models[std::size_t(result.object)];
-  RoundProblem at_pose(result.world_from_object, {round.loss, round.scale_px});
+  RoundProblem at_pose(result.world_from_object, round);
   for (const HostView& view : views)
-    add_visible_points(at_pose, model, view, scene.backend, options.visibility, round.max_points);
-  if (at_pose.problem.NumResiduals() == 0) {
+    add_visible_points(at_pose, scene, view, result, round, options.visibility);
+  if (at_pose.edges.empty()) {
     result.convergence = Convergence::NoPoints;
     fill(result, {});
     return;

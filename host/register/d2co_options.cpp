@@ -35,6 +35,8 @@ void D2coOptions::validate() const {
     in.require("scale", round.scale_px, 1e-3, 1000);
     in.require("iterations", round.iterations, 1, 1000);
     in.require("max_points", round.max_points, 0, 1e6);
+    in.require("depth_sigmas", round.depth_sigmas, 1e-3, 1000);
+    in.require("max_surface_points", round.max_surface_points, 0, 1e6);
   }
   in.require("min_step_m", min_step_m, 0, 1e9);
   in.require("min_step_rad", min_step_rad, 0, 1e9);

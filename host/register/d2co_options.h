@@ -19,6 +19,8 @@ struct D2coRound {
   float scale_px = 4;
   int iterations = 10;  // of Levenberg-Marquardt
   int max_points = 0;   // per view, evenly thinned; 0: all
+  double depth_sigmas = 3;   // scale of the loss against measured depth, standard deviations
+  int max_surface_points = 150;  // compared with measured depth, per view
 };
 
 // Which implementation minimises the cost. Both end in the same minima.

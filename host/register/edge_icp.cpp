@@ -7,9 +7,11 @@
 #include "host/core/options.h"
 #include "host/core/thinned.h"
 #include "host/register/d2co.h"
+#include "host/register/depth_systems.h"
 #include "host/register/edge_covariance.h"
 #include "host/register/image_motion.h"
 #include "host/register/lm_state.h"
+#include "host/register/measured_depth.h"
 #include "host/register/thresholds.h"
 #include "host/register/visible_in_views.h"
 #include "kernels/error.h"
@@ -120,12 +122,53 @@ void set_covariance(PoseEstimate& estimate, std::span<const ObjectView> views,
   estimate.covariance = common_to_edges(estimate.explained) * sum.covariance();
 }
 
-LineSystem system_at(const Se3& pose, std::span<const ObjectView> views,
-                     std::span<const VisibleInView> visible, const EdgeIcpRound& round,
+// Measured depth counts as much as this many independent samples at most: the errors of neighbours
+// depend on each other.
+constexpr double INDEPENDENT_SAMPLES = 25;
+
+// Of one view, in the world's tangent, in standard deviations. On the host: the threads have a pose
+// each.
+LineSystem depth_system(const ObjectView& view, const Se3& world_from_object,
+                        std::span<const SurfacePoint> surface, const PoseDepthOptions& options) {
+  const DepthImage& depth = view.depth->image;
+  const DepthView measured{depth.z_m, depth.width, depth.height, intrinsics_of(view.camera)};
+  const PoseProblem problem{to_pose(view.camera_from_world * world_from_object), 0,
+                            std::uint32_t(surface.size()), 0};
+  PoseDepth found;
+  pose_depth_reference({&measured, 1}, surface, {&problem, 1}, options, {&found, 1});
+  const WorldSystem in_world = world_system(found, view.camera_from_world);
+  return {in_world.hessian, in_world.gradient, double(found.weight_sum), {}};
+}
+
+// The visible edges and surfaces of one pose.
+struct PoseInViews {
+  std::span<const ObjectView> views;
+  std::span<const VisibleInView> visible;
+  const PoseDepthOptions& depth;
+};
+
+LineSystem depth_system(const Se3& pose, const PoseInViews& in) {
+  LineSystem sum;
+  for (std::size_t v = 0; v < in.views.size(); ++v) {
+    if (!in.views[v].depth || in.visible[v].surface.empty()) continue;
+    const LineSystem of_view = depth_system(in.views[v], pose, in.visible[v].surface, in.depth);
+    sum.hessian += of_view.hessian;
+    sum.gradient += of_view.gradient;
+    sum.weight += of_view.weight;
+  }
+  return sum;
+}
+
+LineSystem system_at(const Se3& pose, const PoseInViews& in, const EdgeIcpRound& round,
                      float max_turn_rad) {
   LineSystem sum;
-  for (std::size_t v = 0; v < views.size(); ++v)
-    if (views[v].edges) add_points(sum, views[v], pose, visible[v].points, round, max_turn_rad);
+  for (std::size_t v = 0; v < in.views.size(); ++v)
+    if (in.views[v].edges)
+      add_points(sum, in.views[v], pose, in.visible[v].points, round, max_turn_rad);
+  const LineSystem depth = depth_system(pose, in);
+  sum.hessian += depth.hessian;
+  sum.gradient += depth.gradient;
+  sum.weight += depth.weight;
   return sum;
 }
 
@@ -141,13 +184,12 @@ struct Iterated {
   double last_step_px = 0;
 };
 
-Iterated iterate(const Se3& start, std::span<const ObjectView> views,
-                 std::span<const VisibleInView> visible, const EdgeIcpOptions& options) {
+Iterated iterate(const Se3& start, const PoseInViews& in, const EdgeIcpOptions& options) {
   Iterated at{start};
   for (const EdgeIcpRound& round : options.rounds) {
     at.convergence = Convergence::IterationLimit;
     for (int i = 0; i < round.iterations; ++i) {
-      LineSystem system = system_at(at.pose, views, visible, round, options.max_turn_rad);
+      LineSystem system = system_at(at.pose, in, round, options.max_turn_rad);
       if (!enough(system, options)) return {start};
       system.hessian.diagonal() *= 1 + 1e-4;  // no motion in directions that no edge determines
       const Vector6d step = -system.hessian.ldlt().solve(system.gradient);
@@ -160,20 +202,29 @@ Iterated iterate(const Se3& start, std::span<const ObjectView> views,
       }
     }
   }
-  const LineSystem end =
-      system_at(at.pose, views, visible, options.rounds.back(), options.max_turn_rad);
+  const LineSystem end = system_at(at.pose, in, options.rounds.back(), options.max_turn_rad);
   return enough(end, options) ? at : Iterated{start};
 }
 
-void edge_icp_of_one(PoseEstimate& estimate, std::span<const ObjectView> views,
-                     std::span<const VisibleInView> visible, const EdgeIcpOptions& options) {
-  const Iterated found = iterate(estimate.world_from_object, views, visible, options);
+// The information of depth adds to that of the edges.
+void add_depth(Matrix6d& covariance, const LineSystem& depth) {
+  if (!(depth.weight > 0) || !covariance.allFinite()) return;
+  const double share = std::min(1.0, INDEPENDENT_SAMPLES / depth.weight);
+  const Matrix6d information = covariance.inverse() + share * depth.hessian;
+  const Matrix6d joined = information.inverse();
+  if (joined.allFinite()) covariance = 0.5 * (joined + joined.transpose());
+}
+
+void edge_icp_of_one(PoseEstimate& estimate, const PoseInViews& in,
+                     const EdgeIcpOptions& options) {
+  const Iterated found = iterate(estimate.world_from_object, in, options);
   const bool is_kept = found.convergence == Convergence::TooFewEdges;
   if (!is_kept || estimate.points > 0) estimate.convergence = found.convergence;
   if (is_kept) return;
   estimate.last_step_px = found.last_step_px;
   estimate.world_from_object = found.pose;
-  set_covariance(estimate, views, visible, options.rounds.back(), options.max_turn_rad);
+  set_covariance(estimate, in.views, in.visible, options.rounds.back(), options.max_turn_rad);
+  add_depth(estimate.covariance, depth_system(found.pose, in));
 }
 
 }  // namespace
@@ -200,8 +251,9 @@ void edge_icp(const Scene& scene, std::span<PoseEstimate> poses, const EdgeIcpOp
   Grid<VisibleInView> visible = visible_in_views(scene, object_poses(poses), options.visibility);
   for (VisibleInView& cell : visible.values())
     cell.points = thinned(cell.points, options.max_points);
+  const PoseDepthOptions depth = pose_depth_options(scene, REGISTRATION_BAND);
   scene.backend.threads().for_each(poses.size(), [&](std::size_t p) {
-    edge_icp_of_one(poses[p], scene.views, visible.row(p), options);
+    edge_icp_of_one(poses[p], {scene.views, visible.row(p), depth}, options);
   });
 }
 

@@ -33,8 +33,7 @@ void accept_step(LmState& state, const WorldSystem& at_trial, double min_step_m,
                  double min_step_rad) {
   ++state.iterations;
   // Means, not sums: points that left through the camera plane must not count as progress.
-  const bool better = at_trial.points > 0 &&
-                      at_trial.cost / at_trial.points < state.system.cost / state.system.points;
+  const bool better = at_trial.points > 0 && at_trial.mean_cost() < state.system.mean_cost();
   if (better) {
     state.pose = state.trial;
     state.system = at_trial;
@@ -76,13 +75,23 @@ void add_view(WorldSystem& sum, const WorldSystem& in_camera, const Se3& camera_
   camera_from_world_tangent.topLeftCorner<3, 3>() = camera_from_world.rotation.toRotationMatrix();
   camera_from_world_tangent.bottomRightCorner<3, 3>() =
       camera_from_world_tangent.topLeftCorner<3, 3>();
-  sum.hessian +=
+  WorldSystem in_world = in_camera;
+  in_world.hessian =
       camera_from_world_tangent.transpose() * in_camera.hessian * camera_from_world_tangent;
-  sum.gradient += camera_from_world_tangent.transpose() * in_camera.gradient;
-  sum.cost += in_camera.cost;
-  sum.residual_sum += in_camera.residual_sum;
-  sum.weight_sum += in_camera.weight_sum;
-  sum.points += in_camera.points;
+  in_world.gradient = camera_from_world_tangent.transpose() * in_camera.gradient;
+  sum += in_world;
+}
+
+WorldSystem& WorldSystem::operator+=(const WorldSystem& other) {
+  hessian += other.hessian;
+  gradient += other.gradient;
+  cost += other.cost;
+  residual_sum += other.residual_sum;
+  weight_sum += other.weight_sum;
+  points += other.points;
+  depth_cost += other.depth_cost;
+  depth_points += other.depth_points;
+  return *this;
 }
 
 Matrix6d pose_covariance(const Matrix6d& hessian, double residual_variance) {

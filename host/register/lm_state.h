@@ -17,6 +17,11 @@ struct WorldSystem {
   double residual_sum = 0;
   double weight_sum = 0;
   double points = 0;
+  // Of samples of the surface against measured depth, in standard deviations squared; 0 without.
+  double depth_cost = 0;
+  double depth_points = 0;
+  WorldSystem& operator+=(const WorldSystem& other);
+  double mean_cost() const { return (cost + depth_cost) / (points + depth_points); }
 };
 
 // A step [dt, dw] in the world's tangent is [R dt, R dw] in the camera's, R being the rotation of

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host/register/measured_depth.h"
+
 namespace edgescout {
 
 namespace {
@@ -21,6 +23,29 @@ void draw(const EdgeModel& model, std::span<const Se3> camera_from_object, Occlu
     std::ranges::transform(depth_m, occluders.depth_m, occluders.depth_m.begin(),
                            [](float a, float b) { return std::min(a, b); });
   }
+}
+
+constexpr double OCCLUDING_SIGMAS = 3;
+
+// The farthest of the measured pixels of each pixel of the map: of noise and holes no occluder is
+// made. Empty where fewer than half of them are measured.
+void draw_measured(const MeasuredDepth& depth, Occluders& occluders) {
+  const Camera& map = occluders.camera;
+  const int side = int(REDUCTION);
+  for (int y = 0; y < map.height; ++y)
+    for (int x = 0; x < map.width; ++x) {
+      float farthest_m = DEPTH_MISSING;
+      int measured = 0;
+      for (int v = side * y; v < std::min(side * (y + 1), depth.image.height); ++v)
+        for (int u = side * x; u < std::min(side * (x + 1), depth.image.width); ++u) {
+          farthest_m = std::max(farthest_m, depth.image.at(u, v));
+          measured += depth.image.at(u, v) > 0;
+        }
+      if (2 * measured < side * side) continue;
+      float& nearest_m = occluders.depth_m[std::size_t(y) * std::size_t(map.width) + std::size_t(x)];
+      nearest_m = std::min(
+          nearest_m, farthest_m + float(OCCLUDING_SIGMAS * depth.noise.sigma_m(farthest_m)));
+    }
 }
 
 // How many of the 3 x 3 pixels around a point's projection show something nearer. 0 outside the
@@ -69,7 +94,7 @@ void remove_hidden(std::vector<ModelPoint>& points, const Occluders& occluders,
 std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> models,
                                                 std::span<const ObjectPose> known,
                                                 const ObjectView& view, Backend& backend) {
-  if (known.empty()) return nullptr;
+  if (known.empty() && !view.depth) return nullptr;
   auto occluders = std::make_shared<Occluders>();
   occluders->camera = scaled(view.camera, 1 / REDUCTION);
   occluders->depth_m.assign(
@@ -81,6 +106,7 @@ std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> model
         poses.push_back(view.camera_from_world * pose.world_from_object);
     draw(models[object], poses, *occluders, backend);
   }
+  if (view.depth) draw_measured(*view.depth, *occluders);
   return occluders;
 }
 

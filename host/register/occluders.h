@@ -1,4 +1,5 @@
-// A depth map of known objects in one view: everything behind it is hidden.
+// A depth map of what is known in one view, objects and measured surfaces: everything behind it is
+// hidden.
 //
 // visible_edges removes what an object hides of itself. In a pile its neighbours hide more, and
 // hidden edges count as missing: a right pose of a half covered part scores low. Where the
@@ -30,7 +31,9 @@ void remove_hidden(std::vector<ModelPoint>& points, const Occluders& occluders,
                    const Se3& camera_from_object, double tolerance_m,
                    SilhouetteMarks* marks = nullptr);
 
-// Null where `known` is empty. Ignores the view's own occluders.
+// Of the known objects and of the view's depth image: a measured surface is nearer by three of its
+// standard deviations than what it hides. Null where there is neither. Ignores the view's own
+// occluders.
 std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> models,
                                                 std::span<const ObjectPose> known,
                                                 const ObjectView& view, Backend& backend);

@@ -38,6 +38,24 @@ bool has_image(const PoseFeatures& features) {
   return features.support.log_ratio != 0 || features.shading.pixels > 0;
 }
 
+// Log-odds from the share of the measured surface that agrees. Fewer samples say less; hidden and
+// missing ones say nothing.
+double depth_log_odds(const DepthEvidence& depth) {
+  constexpr double enough = 20;
+  const double measured = depth.agreeing + depth.contradicting;
+  if (!(measured > 0)) return 0;
+  const weights::Depth& w = weights::DEPTH;
+  return std::min(1.0, measured / enough) * (w.bias + w.agreeing * depth.agreeing / measured);
+}
+
+void add(DepthEvidence& sum, const DepthEvidence& other) {
+  sum.agreeing += other.agreeing;
+  sum.contradicting += other.contradicting;
+  sum.hidden += other.hidden;
+  sum.missing += other.missing;
+  sum.offset_m += other.offset_m;
+}
+
 double weighted(const PoseFeatures& features, const weights::OneView& w) {
   const EdgeSupport& support = features.support;
   constexpr double min_psi_z_score = 0.5;  // all poses below are equally bad
@@ -45,7 +63,7 @@ double weighted(const PoseFeatures& features, const weights::OneView& w) {
          w.mean_px * features.mean_px + w.root_log_ratio * signed_root(support.log_ratio) +
          w.root_interior_log_ratio * signed_root(support.interior_log_ratio) +
          w.unexplained_grey * unexplained_grey(features.shading) +
-         w.best_displaced * support.best_displaced;
+         w.best_displaced * support.best_displaced + depth_log_odds(features.depth);
 }
 
 double log_logistic(double log_odds) {
@@ -103,6 +121,7 @@ PoseFeatures pool_over_views(std::span<const PoseFeatures> by_view) {
     sum.visible += f.visible;
     add(sum.shading, f.shading);
     add(sum.support, f.support, f.points);
+    add(sum.depth, f.depth);
   }
   if (sum.points > 0) {
     sum.psi /= sum.points, sum.mean_px /= sum.points, sum.matched /= sum.points;

@@ -18,6 +18,12 @@ struct SeveralViews {
   double bias, log_probability;
 };
 
+// Of the share of the measured surface that agrees with a pose, where a view has depth.
+struct Depth {
+  double bias, agreeing;
+};
+inline constexpr Depth DEPTH{.bias = -6.4, .agreeing = 8};
+
 // begin RANK_ONE_VIEW
 // Data: 36388 poses, 1033 right, of the 36 parts of set fit.
 // Date: 2026-11-26. Commit: dca21ce.

@@ -18,6 +18,16 @@ struct Shading {
   double unexplained = 0;  // the same from the best function of the normal
 };
 
+// The object's visible surface against measured depth (register/depth_evidence.h), in numbers of
+// its samples. All 0 where the view has no depth image.
+struct DepthEvidence {
+  double agreeing = 0;       // measured where the pose has its surface
+  double contradicting = 0;  // measured clearly behind: the surface cannot be there
+  double hidden = 0;         // measured clearly before: something hides it
+  double missing = 0;        // not measured, or outside the image
+  double offset_m = 0;       // sum over agreeing: measured minus the pose's, along the camera's axis
+};
+
 // What was measured of a pose in one view, or pooled over views (pose_features.h).
 struct PoseFeatures {
   double psi = 0;        // Eq. 10, mean over the visible points
@@ -29,6 +39,7 @@ struct PoseFeatures {
   double visible = 0;    // number of points inside the image or not, behind known objects or not
   Shading shading;       // zero where the view has no image
   EdgeSupport support;   // the same (edge_support.h)
+  DepthEvidence depth;   // zero where the view has no depth
 };
 
 // Why the last stage of a registration stopped.

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "host/register/d2co.h"
+#include "host/register/depth_evidence.h"
 #include "host/register/edge_support.h"
 #include "host/register/pose_classifier.h"
 #include "host/register/shading.h"
@@ -75,11 +76,13 @@ Grid<PoseFeatures> features_by_view(const Scene& scene, std::span<const ObjectPo
   scene.backend.pose_score(tensors, problems.points, problems.list, options.score, scores);
   const Grid<Shading> shadings = shading(scene, poses);
   const Grid<EdgeSupport> supports = edge_support(scene, poses, visible);
+  const Grid<DepthEvidence> depths = depth_evidence(scene, poses, visible);
   const std::span<PoseFeatures> cells = features.values();
   for (std::size_t i = 0; i < cells.size(); ++i) {
     add_score(cells[i], scores[i], options.score.cap_px);
     cells[i].shading = shadings.values()[i];
     cells[i].support = supports.values()[i];
+    cells[i].depth = depths.values()[i];
   }
   return features;
 }

@@ -6,7 +6,8 @@ namespace {
 
 constexpr int SMALL_DEPTH_MAP_PX = 96;  // cheaper to draw; its points are exact enough here
 
-// Columns: loss, scale px, iterations, points per view (0: all).
+// Columns: loss, scale px, iterations, points per view (0: all), scale of the loss against depth in
+// standard deviations, samples of the surface.
 D2coOptions with_rounds(std::vector<D2coRound> rounds) {
   D2coOptions options;
   options.rounds = std::move(rounds);
@@ -32,22 +33,22 @@ namespace schedules {
 
 D2coOptions search() {
   return on_small_depth_maps(
-      with_rounds({{LOSS_GEMAN_MCCLURE, 20, 8, 200}, {LOSS_GEMAN_MCCLURE, 6, 8, 250}}));
+      with_rounds({{LOSS_GEMAN_MCCLURE, 20, 8, 200, 12, 80}, {LOSS_GEMAN_MCCLURE, 6, 8, 250, 6, 100}}));
 }
 
 D2coOptions coarse() {
-  return with_rounds({{LOSS_GEMAN_MCCLURE, 12, 6, 120}, {LOSS_GEMAN_MCCLURE, 3, 6, 120}});
+  return with_rounds({{LOSS_GEMAN_MCCLURE, 12, 6, 120, 20, 60}, {LOSS_GEMAN_MCCLURE, 3, 6, 120, 8, 60}});
 }
 
 D2coOptions medium() {
   return on_small_depth_maps(
-      with_rounds({{LOSS_GEMAN_MCCLURE, 12, 6, 150}, {LOSS_GEMAN_MCCLURE, 5, 6, 200}}));
+      with_rounds({{LOSS_GEMAN_MCCLURE, 12, 6, 150, 10, 80}, {LOSS_GEMAN_MCCLURE, 5, 6, 200, 5, 100}}));
 }
 
 D2coOptions fine() {
-  return with_rounds({{LOSS_GEMAN_MCCLURE, 12, 8, 300},
-                      {LOSS_GEMAN_MCCLURE, 5, 8, 500},
-                      {LOSS_GEMAN_MCCLURE, 2, 8, 0}});
+  return with_rounds({{LOSS_GEMAN_MCCLURE, 12, 8, 300, 6},
+                      {LOSS_GEMAN_MCCLURE, 5, 8, 500, 4},
+                      {LOSS_GEMAN_MCCLURE, 2, 8, 0, 3, 300}});
 }
 
 D2coRound unsearched() { return {LOSS_GEMAN_MCCLURE, 30, 10, 300}; }

@@ -1,5 +1,6 @@
 #include "host/register/visible_in_views.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "host/register/occluders.h"
@@ -31,14 +32,18 @@ void fill_object(Grid<VisibleInView>& visible, const Scene& scene,
       cells.push_back({p, v});
     }
   std::vector<SilhouetteMarks> marks;
+  VisibleSurfaces surfaces;
+  const bool has_depth = std::ranges::any_of(
+      scene.views, [](const ObjectView& view) { return view.depth_values != nullptr; });
   std::vector<std::vector<ModelPoint>> points =
       visible_edges(model, camera_from_object, scene.backend, visibility.options,
-                    visibility.with_marks ? &marks : nullptr);
+                    visibility.with_marks ? &marks : nullptr, has_depth ? &surfaces : nullptr);
   for (std::size_t i = 0; i < cells.size(); ++i) {
     VisibleInView& cell = visible(cells[i].pose, cells[i].view);
     cell.points = std::move(points[i]);
     if (visibility.with_marks) cell.on_silhouette = std::move(marks[i]);
     cell.unoccluded = cell.points.size();
+    if (scene.views[cells[i].view].depth_values) cell.surface = std::move(surfaces[i]);
     if (const Occluders* occluders = scene.views[cells[i].view].occluders.get())
       remove_hidden(cell.points, *occluders, camera_from_object[i], occlusion_tolerance_m(model),
                     visibility.with_marks ? &cell.on_silhouette : nullptr);

@@ -14,6 +14,8 @@ struct VisibleInView {
   std::vector<ModelPoint> points;  // neither the object itself nor the view's occluders hide them
   SilhouetteMarks on_silhouette;   // of the points; empty where no marks were asked for
   std::size_t unoccluded = 0;      // how many there would be without occluders
+  // Samples of the surface that the object itself does not hide; empty where the view has no depth.
+  std::vector<SurfacePoint> surface;
 };
 
 // Rows are poses, columns views. Points project inside the image or not.
@@ -24,7 +26,7 @@ Grid<VisibleInView> visible_in_views(const Scene& scene, std::span<const ObjectP
 Grid<VisibleInView> marked_in_views(const Scene& scene, std::span<const ObjectPose> poses,
                                     const VisibilityOptions& visibility = {});
 
-// The points alone.
+// The edge points alone.
 Grid<std::vector<ModelPoint>> visible_points(const Scene& scene, std::span<const ObjectPose> poses,
                                              const VisibilityOptions& visibility = {});
 

@@ -10,6 +10,8 @@
 namespace edgescout {
 namespace {
 
+constexpr std::string_view LENS_RESIDUE = "lens residue";
+
 // One stream for each effect of an image. So a range that is switched on changes no other effect.
 class Draws {
  public:
@@ -28,7 +30,7 @@ class Draws {
 void pass_lens(cv::Mat& light, const RenderOptions& options, const Camera& camera,
                const Draws& drawn) {
   const CameraRanges& ranges = options.camera;
-  distort_radially(light, camera, drawn.of("lens residue", ranges.lens_residue_px));
+  distort_radially(light, camera, drawn.of(LENS_RESIDUE, ranges.lens_residue_px));
   defocus(light, drawn.of("defocus", ranges.defocus_px));
   blur_by_motion(light, drawn.of("motion blur", ranges.motion_px),
                  drawn.of("motion direction", {0, std::numbers::pi}));
@@ -40,6 +42,10 @@ void pass_lens(cv::Mat& light, const RenderOptions& options, const Camera& camer
 }
 
 }  // namespace
+
+double lens_residue_px(const RenderOptions& options, std::size_t view) {
+  return Draws(options.seed, view).of(LENS_RESIDUE, options.camera.lens_residue_px);
+}
 
 Image develop(cv::Mat light, const RenderOptions& options, const Camera& camera, std::size_t view) {
   const CameraRanges& ranges = options.camera;

@@ -12,4 +12,7 @@ namespace edgescout {
 // drawn from the options' seed and this number.
 Image develop(cv::Mat light, const RenderOptions& options, const Camera& camera, std::size_t view);
 
+// The shift of the image's corner that develop() draws for this image (optics.h).
+double lens_residue_px(const RenderOptions& options, std::size_t view);
+
 }  // namespace edgescout

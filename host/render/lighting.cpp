@@ -38,7 +38,7 @@ Eigen::Matrix<double, 3, 4> pixel_from_world(const SceneView& view) {
 }
 
 // Light towards the viewer.
-double blinn_phong(const SurfacePoint& surface, const Material& material,
+double blinn_phong(const ShadedPoint& surface, const Material& material,
                    const Eigen::Vector3d& to_light, double irradiance) {
   const double half =
       std::max(0.0, surface.normal.dot((to_light + surface.to_viewer).normalized()));
@@ -102,7 +102,7 @@ Lighting::Beam Lighting::shadowed_beam(std::size_t light, const Eigen::Vector3d&
   return beam;
 }
 
-ReceivedLight Lighting::at(const SurfacePoint& surface, const Material& material) const {
+ReceivedLight Lighting::at(const ShadedPoint& surface, const Material& material) const {
   ReceivedLight received;
   received.diffuse = scene_.ambient;
   const Microfacets facets(surface, material);

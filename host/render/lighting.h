@@ -19,7 +19,7 @@ class Lighting {
   // Draws one shadow map per light if the options ask for shadows. `scene` must outlive this.
   Lighting(const SimulatedScene& scene, const WorldTriangles& triangles, ThreadPool& pool);
 
-  ReceivedLight at(const SurfacePoint& surface, const Material& material) const;
+  ReceivedLight at(const ShadedPoint& surface, const Material& material) const;
   // The diffuse part alone.
   double diffuse(const Eigen::Vector3d& point_m, const Eigen::Vector3d& normal) const;
   // The same from an eighth of the lights, times eight. The mean over the eighths, 0 to 7, is

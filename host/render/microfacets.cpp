@@ -7,9 +7,7 @@
 namespace edgescout {
 namespace {
 
-constexpr double PI = std::numbers::pi;
-
-Eigen::Matrix3d surface_frame(const SurfacePoint& surface) {
+Eigen::Matrix3d surface_frame(const ShadedPoint& surface) {
   Eigen::Vector3d along = surface.grain - surface.grain.dot(surface.normal) * surface.normal;
   if (along.norm() < 1e-3) along = surface.normal.unitOrthogonal();
   Eigen::Matrix3d frame;
@@ -21,7 +19,7 @@ Eigen::Matrix3d surface_frame(const SurfacePoint& surface) {
 
 }  // namespace
 
-Microfacets::Microfacets(const SurfacePoint& surface, const Material& material)
+Microfacets::Microfacets(const ShadedPoint& surface, const Material& material)
     : at_normal_(material.reflectance), world_from_surface_(surface_frame(surface)) {
   // Burley, "Physically Based Shading at Disney", 2012.
   const double aspect = std::sqrt(1 - 0.9 * material.anisotropy);
@@ -36,7 +34,7 @@ Microfacets::Microfacets(const SurfacePoint& surface, const Material& material)
 double Microfacets::density(const Eigen::Vector3d& facet) const {
   const double x = facet.x() / alpha_x_, y = facet.y() / alpha_y_, z = facet.z();
   const double sum = x * x + y * y + z * z;
-  return 1 / (PI * alpha_x_ * alpha_y_ * sum * sum);
+  return 1 / (std::numbers::pi * alpha_x_ * alpha_y_ * sum * sum);
 }
 
 // Share of the facets that is not hidden from a direction (Smith).
@@ -59,8 +57,8 @@ Eigen::Vector3d Microfacets::visible_facet(double u, double v) const {
                                  ? Eigen::Vector3d(-stretched.y() / level, stretched.x() / level, 0)
                                  : Eigen::Vector3d(1, 0, 0);
   const Eigen::Vector3d t2 = stretched.cross(t1);
-  const double r = std::sqrt(u), a = r * std::cos(2 * PI * v), s = 0.5 * (1 + stretched.z());
-  const double b = (1 - s) * std::sqrt(1 - a * a) + s * r * std::sin(2 * PI * v);
+  const double r = std::sqrt(u), a = r * std::cos(2 * std::numbers::pi * v), s = 0.5 * (1 + stretched.z());
+  const double b = (1 - s) * std::sqrt(1 - a * a) + s * r * std::sin(2 * std::numbers::pi * v);
   const Eigen::Vector3d facet =
       a * t1 + b * t2 + std::sqrt(std::max(0.0, 1 - a * a - b * b)) * stretched;
   return Eigen::Vector3d(alpha_x_ * facet.x(), alpha_y_ * facet.y(), std::max(0.0, facet.z()))
@@ -83,7 +81,7 @@ double Microfacets::highlight(const Eigen::Vector3d& to_light) const {
   const Eigen::Vector3d light = world_from_surface_.transpose() * to_light;
   if (light.z() <= 0) return 0;
   const Eigen::Vector3d facet = (light + viewer_).normalized();
-  return PI * reflectance(std::clamp(viewer_.dot(facet), 0.0, 1.0)) * density(facet) *
+  return std::numbers::pi * reflectance(std::clamp(viewer_.dot(facet), 0.0, 1.0)) * density(facet) *
          share_seen(viewer_) * share_seen(light) / (4 * viewer_.z() * light.z());
 }
 

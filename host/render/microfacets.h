@@ -7,7 +7,7 @@ namespace edgescout {
 
 // A point that is seen. Unit vectors in the world frame; the first two lie on the same side of the
 // surface.
-struct SurfacePoint {
+struct ShadedPoint {
   Eigen::Vector3d point_m, normal, to_viewer;
   Eigen::Vector3d grain = Eigen::Vector3d::UnitX();  // brushed metal is smooth along it
 };
@@ -21,7 +21,7 @@ struct FacetSample {
 
 class Microfacets {
  public:
-  Microfacets(const SurfacePoint& surface, const Material& material);
+  Microfacets(const ShadedPoint& surface, const Material& material);
 
   // Draws a direction; `u` and `v` are spread over the unit square. The mean of weight times light
   // is what the viewer sees.

@@ -7,8 +7,8 @@
 namespace edgescout {
 namespace {
 
-double corner_distance_px(const cv::Mat& light, double cx, double cy) {
-  return std::hypot(std::max(cx, light.cols - 1 - cx), std::max(cy, light.rows - 1 - cy));
+double corner_distance_px(const cv::Size& size, double cx, double cy) {
+  return std::hypot(std::max(cx, size.width - 1 - cx), std::max(cy, size.height - 1 - cy));
 }
 
 // The radius that the distortion r -> r (1 + k r^2) moves to `distorted`.
@@ -35,17 +35,26 @@ void convolve(cv::Mat& light, const cv::Mat& kernel) {
 
 }  // namespace
 
+RadialDistortion::RadialDistortion(const Camera& camera, double corner_px)
+    : cx_(camera.cx), cy_(camera.cy) {
+  const double corner = corner_distance_px({camera.width, camera.height}, cx_, cy_);
+  k_ = corner_px / (corner * corner * corner);
+}
+
+Eigen::Vector2d RadialDistortion::before(double x, double y) const {
+  const double dx = x - cx_, dy = y - cy_, r = std::hypot(dx, dy);
+  const double back = r > 0 ? undistorted_radius(r, k_) / r : 1;
+  return {cx_ + back * dx, cy_ + back * dy};
+}
+
 void distort_radially(cv::Mat& light, const Camera& camera, double corner_px) {
   if (corner_px == 0) return;
-  const double corner = corner_distance_px(light, camera.cx, camera.cy);
-  const double k = corner_px / (corner * corner * corner);
+  const RadialDistortion distortion(camera, corner_px);
   cv::Mat map(light.size(), CV_32FC2);
   for (int y = 0; y < light.rows; ++y)
     for (int x = 0; x < light.cols; ++x) {
-      const double dx = x - camera.cx, dy = y - camera.cy, r = std::hypot(dx, dy);
-      const double back = r > 0 ? undistorted_radius(r, k) / r : 1;
-      map.at<cv::Vec2f>(y, x) = {static_cast<float>(camera.cx + back * dx),
-                                 static_cast<float>(camera.cy + back * dy)};
+      const Eigen::Vector2f from = distortion.before(x, y).cast<float>();
+      map.at<cv::Vec2f>(y, x) = {from.x(), from.y()};
     }
   cv::Mat moved;
   cv::remap(light, moved, map, {}, cv::INTER_CUBIC, cv::BORDER_REPLICATE);

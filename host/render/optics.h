@@ -11,6 +11,15 @@ namespace edgescout {
 
 // Radial distortion that moves the corner of the image by so many pixels away from the principal
 // point, and a point at a fraction f of the corner's distance by f^3 of that (k1 of Brown-Conrady).
+class RadialDistortion {
+ public:
+  RadialDistortion(const Camera& camera, double corner_px);
+  // Where a point of the distorted image lies without it.
+  Eigen::Vector2d before(double x, double y) const;
+
+ private:
+  double cx_, cy_, k_;
+};
 void distort_radially(cv::Mat& light, const Camera& camera, double corner_px);
 
 // Blurs by a disc of this radius. Below half a pixel nothing changes.

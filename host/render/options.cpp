@@ -43,6 +43,7 @@ void RenderOptions::validate() const {
   check_bounds(surfaces, "render.surfaces");
   check_bounds(light, "render.light");
   check_bounds(camera, "render.camera");
+  check_bounds(depth, "render.depth");
 }
 
 }  // namespace edgescout

@@ -48,10 +48,10 @@ double PixelShader::light_of(const SeenSurface& seen, const Pixel& pixel) {
   constexpr double HORIZON_LIGHT = 0.3;
   if (is_background(seen)) return light_of_background(seen, pixel);
   if (seen.triangle == HORIZON) return HORIZON_LIGHT;
-  const Material& material = material_of(seen);
+  const Material& material = material_of(view_, seen);
   const double albedo =
       seen.triangle == PLANE ? shading_.plane.albedo(seen.point_m) : material.albedo;
-  const SurfacePoint surface = surface_point(seen);
+  const ShadedPoint surface = shaded_point(view_, seen);
   const ReceivedLight direct = received(seen.triangle, surface, material);
   const double light = albedo * direct.diffuse + direct.specular;
   return material.reflectance > 0 ? light + reflected(surface, material, pixel) : light;
@@ -70,16 +70,7 @@ double PixelShader::light_of_background(const SeenSurface& seen, const Pixel& pi
   return shown * *lit_share_;
 }
 
-SurfacePoint PixelShader::surface_point(const SeenSurface& seen) const {
-  SurfacePoint surface{seen.point_m, seen.normal, seen.to_viewer};
-  if (seen.triangle >= 0)
-    surface.grain =
-        view_.scene.placed[shading_.triangles.placed[seen.triangle]].world_from_object.rotation *
-        Eigen::Vector3d::UnitX();
-  return surface;
-}
-
-double PixelShader::reflected(const SurfacePoint& surface, const Material& material,
+double PixelShader::reflected(const ShadedPoint& surface, const Material& material,
                               const Pixel& pixel) const {
   const int n = view_.scene.options.supersampling;
   const int rays = rays_of(material);
@@ -90,12 +81,7 @@ double PixelShader::reflected(const SurfacePoint& surface, const Material& mater
   return sum / rays;
 }
 
-const Material& PixelShader::material_of(const SeenSurface& seen) const {
-  if (seen.triangle == PLANE) return view_.scene.board_material;
-  return view_.scene.placed[shading_.triangles.placed[seen.triangle]].material;
-}
-
-ReceivedLight PixelShader::received(int triangle, const SurfacePoint& surface,
+ReceivedLight PixelShader::received(int triangle, const ShadedPoint& surface,
                                     const Material& material) {
   for (const auto& [known, light] : received_)
     if (known == triangle) return light;

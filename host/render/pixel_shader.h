@@ -41,10 +41,8 @@ class PixelShader {
   double light_of(const SeenSurface& seen, const Pixel& pixel);
   bool is_background(const SeenSurface& seen) const;
   double light_of_background(const SeenSurface& seen, const Pixel& pixel);
-  const Material& material_of(const SeenSurface& seen) const;
-  SurfacePoint surface_point(const SeenSurface& seen) const;
-  double reflected(const SurfacePoint& surface, const Material& material, const Pixel& pixel) const;
-  ReceivedLight received(int triangle, const SurfacePoint& surface, const Material& material);
+  double reflected(const ShadedPoint& surface, const Material& material, const Pixel& pixel) const;
+  ReceivedLight received(int triangle, const ShadedPoint& surface, const Material& material);
 
   const ViewRaster& view_;
   const SceneView& scene_view_;

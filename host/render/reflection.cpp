@@ -8,7 +8,7 @@ Reflections::Reflections(const SimulatedScene& scene, const WorldTriangles& tria
                          const Lighting& lighting)
     : scene_(scene), triangles_(triangles), lighting_(lighting), rays_(scene), plane_(scene) {}
 
-double Reflections::at(const SurfacePoint& surface, const Material& material,
+double Reflections::at(const ShadedPoint& surface, const Material& material,
                        const LobeSample& lobe) const {
   constexpr double OFF_SURFACE_M = 2e-5;  // so that a ray does not meet where it starts
   const FacetSample sample = Microfacets(surface, material).sample(lobe.u, lobe.v);

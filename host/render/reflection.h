@@ -27,7 +27,7 @@ class Reflections {
 
   // Light of one sample; the mean over a pixel's samples is what the pixel shows. Of rough surfaces
   // without lamps, whose highlights Lighting computes.
-  double at(const SurfacePoint& surface, const Material& material, const LobeSample& lobe) const;
+  double at(const ShadedPoint& surface, const Material& material, const LobeSample& lobe) const;
 
  private:
   // World frame; `direction`: unit.

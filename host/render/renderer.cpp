@@ -5,6 +5,7 @@
 #include <opencv2/core.hpp>
 
 #include "host/render/camera_effects.h"
+#include "host/render/measure_depth.h"
 #include "host/render/pixel_shader.h"
 #include "host/render/seen_surface.h"
 #include "kernels/thread_pool.h"
@@ -79,6 +80,8 @@ std::vector<Rendering> render(const SimulatedScene& scene, ThreadPool& pool) {
     Rendering out;
     out.image = develop(light, scene.options, scene_view.camera, v);
     read_truth(view, scene_view, out, pool);
+    if (scene.options.depth.on)
+      out.measured_depth = measure_depth(view, scene_view, shading, out.image, v, pool);
     renderings.push_back(std::move(out));
   }
   return renderings;

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "host/core/depth_image.h"
 #include "host/render/scene.h"
 
 namespace edgescout {
@@ -16,6 +17,7 @@ struct Rendering {
   std::vector<float> depth_m;
   // per placed object: visible pixels / pixels of its whole silhouette, also outside the image
   std::vector<double> visible_fraction;
+  DepthImage measured_depth;  // by RenderOptions::depth; empty where it is off
 };
 
 // Renders all views. The pixels depend only on the scene, not on the number of threads.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "host/core/types.h"
+#include "host/render/depth_sensor.h"
 #include "host/render/environment.h"
 #include "host/render/photographs.h"
 #include "host/render/ranges.h"
@@ -39,6 +40,7 @@ struct RenderOptions {
   SurfaceRanges surfaces;
   LightRanges light;
   CameraRanges camera;
+  DepthSensor depth;
   // Throws InputError naming the field and the violated bound.
   void validate() const;
 };

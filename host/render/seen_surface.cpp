@@ -33,4 +33,18 @@ SeenSurface seen_at(const ViewRaster& view, int x, int y) {
   return seen;
 }
 
+const Material& material_of(const ViewRaster& view, const SeenSurface& seen) {
+  if (seen.triangle == PLANE) return view.scene.board_material;
+  return view.scene.placed[view.triangles.placed[seen.triangle]].material;
+}
+
+ShadedPoint shaded_point(const ViewRaster& view, const SeenSurface& seen) {
+  ShadedPoint surface{seen.point_m, seen.normal, seen.to_viewer};
+  if (seen.triangle >= 0)
+    surface.grain =
+        view.scene.placed[view.triangles.placed[seen.triangle]].world_from_object.rotation *
+        Eigen::Vector3d::UnitX();
+  return surface;
+}
+
 }  // namespace edgescout

@@ -32,4 +32,8 @@ ViewRaster rasterize_view(const SimulatedScene& scene, const WorldTriangles& tri
 // (x, y): a pixel of the supersampled image.
 SeenSurface seen_at(const ViewRaster& view, int x, int y);
 
+// Of a part or the plane.
+const Material& material_of(const ViewRaster& view, const SeenSurface& seen);
+ShadedPoint shaded_point(const ViewRaster& view, const SeenSurface& seen);
+
 }  // namespace edgescout

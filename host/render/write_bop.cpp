@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/io/bop.h"
+#include "host/io/depth_png.h"
 #include "host/io/files.h"
 #include "host/io/image.h"
 #include "host/io/mesh.h"
@@ -47,6 +48,7 @@ void write_bop_scene(const SimulatedScene& scene, std::span<const Rendering> ren
                      const std::filesystem::path& folder) {
   check(renderings.size() == scene.views.size(), "write_bop_scene: one rendering a view");
   require_writable_folder(folder / "gray");
+  if (scene.options.depth.on) require_writable_folder(folder / "depth");
   BopScene bop;
   bop.folder = folder;
   for (std::size_t v = 0; v < scene.views.size(); ++v) {
@@ -62,6 +64,11 @@ void write_bop_scene(const SimulatedScene& scene, std::span<const Rendering> ren
                          scene.views[v].camera_from_world * part.world_from_object,
                          renderings[v].visible_fraction[p]});
     save_png(renderings[v].image, image.file);
+    if (const DepthSensor& sensor = scene.options.depth; sensor.on) {
+      image.depth_scale = 1e3 * sensor.unit_m;
+      write_depth_png(renderings[v].measured_depth, sensor.unit_m,
+                      folder / "depth" / image.file.filename());
+    }
     bop.images.push_back(image);
   }
   save_bop_scene(bop, folder);

@@ -3,6 +3,7 @@
 //   DATASET/models/obj_000001.ply ..   millimetres
 //   DATASET/models/models_info.json    diameter, box, symmetries
 //   DATASET/000000/gray/000000.png ..  one per view
+//   DATASET/000000/depth/000000.png .. of the same names, if the options have a depth sensor
 //   DATASET/000000/scene_camera.json, scene_gt.json, scene_gt_info.json
 #pragma once
 

@@ -184,6 +184,28 @@ std::vector<Case> pose_cases(Backend& backend, const Scale& s) {
            }}};
 }
 
+// Depths about those of the points, which face any direction.
+Case pose_depth_case(Backend& backend, const Scale& s) {
+  std::mt19937 rng(10);
+  std::uniform_real_distribution<float> depth(0.34f, 0.46f);
+  std::vector<float> depth_m(std::size_t(s.width) * std::size_t(s.height));
+  for (float& z : depth_m) z = depth(rng);
+  const Poses poses = random_poses(rng, s.problems, s.pose_points);
+  std::vector<SurfacePoint> points;
+  for (const ModelPoint& p : poses.points)
+    points.push_back({p.x_m, p.y_m, p.z_m, p.tx, p.ty, p.tz});
+  const std::vector<DepthHandle> views{
+      backend.make_depth({depth_m, s.width, s.height, camera_of(s)})};
+  const SurfacePointsHandle kept = backend.make_surface_points(points);
+  const auto found = std::make_shared<std::vector<PoseDepth>>(poses.problems.size());
+  constexpr std::size_t reads = sizeof(SurfacePoint) + sizeof(float);
+  return {"pose_depth",
+          std::to_string(s.problems) + " poses of " + std::to_string(s.pose_points) + " points",
+          reads * s.problems * s.pose_points, [&backend, views, kept, poses, found] {
+            backend.pose_depth(views, *kept, poses.problems, {}, *found);
+          }};
+}
+
 // Points all over the image, as many a pose as pose_cases has.
 Case support_case(Backend& backend, const Scale& s) {
   std::mt19937 rng(9);
@@ -316,6 +338,7 @@ std::vector<Case> make_cases(Backend& backend, Size size) {
                           template_case(backend, s, 16, 12),
                           scan_case(backend, s)};
   for (Case& c : pose_cases(backend, s)) cases.push_back(std::move(c));
+  cases.push_back(pose_depth_case(backend, s));
   cases.push_back(support_case(backend, s));
   cases.push_back(depth_case(backend, s));
   cases.push_back(visibility_case(backend, s));

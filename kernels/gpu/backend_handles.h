@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "kernels/gpu/batch.h"
 #include "kernels/gpu/combination_chamfer.h"
 #include "kernels/gpu/edge_support.h"
+#include "kernels/gpu/pose_depth.h"
 #include "kernels/gpu/pose_plan.h"
 #include "kernels/gpu/tensor.h"
 
@@ -60,20 +62,43 @@ class VulkanModelPoints : public BackendModelPoints {
   Buffer<float> planes;
 };
 
-// Too many for one binding stay with the host.
-class VulkanPosePoints : public BackendPosePoints {
+// Points of one kind. Too many for one binding stay with the host.
+template <class Handle, class Point>
+class VulkanPoints : public Handle {
  public:
-  VulkanPosePoints(std::shared_ptr<const Device> device, std::vector<ModelPoint> points)
+  VulkanPoints(std::shared_ptr<const Device> device, std::vector<Point> points)
       : device_(std::move(device)), host(std::move(points)) {}
   const Device& device() const { return *device_; }
-  PosePoints points() const { return {host, values.size() > 0 ? &values : nullptr}; }
+  PosePoints points() const {
+    return {std::as_bytes(std::span(host)), values.size() > 0 ? &values : nullptr};
+  }
 
  private:
   std::shared_ptr<const Device> device_;
 
  public:
-  std::vector<ModelPoint> host;
-  Buffer<ModelPoint> values;
+  std::vector<Point> host;
+  Buffer<Point> values;
+};
+using VulkanPosePoints = VulkanPoints<BackendPosePoints, ModelPoint>;
+using VulkanSurfacePoints = VulkanPoints<BackendSurfacePoints, SurfacePoint>;
+
+class VulkanDepth : public BackendDepth {
+ public:
+  VulkanDepth(std::shared_ptr<const Device> device, const DepthView& depth)
+      : device_(std::move(device)), values(depth_buffer(*device_, depth.width, depth.height)) {
+    width = depth.width;
+    height = depth.height;
+    intrinsics = depth.intrinsics;
+  }
+  const Device& device() const { return *device_; }
+  DepthImageView view() const { return {&values, width, height, intrinsics}; }
+
+ private:
+  std::shared_ptr<const Device> device_;
+
+ public:
+  Buffer<float> values;
 };
 
 class VulkanChamfer : public BackendChamfer {

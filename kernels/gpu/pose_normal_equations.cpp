@@ -23,13 +23,18 @@ std::size_t PoseNormalEquations::that_fit(std::span<const PoseProblem> problems)
 void PoseNormalEquations::record(Batch& batch, std::span<const PoseView> views,
                                  const PosePoints& points, std::span<const PoseProblem> problems,
                                  const PoseLoss& loss) {
-  plan_ = plan_poses(problems, points.host.size(), views.size(), min_groups_);
+  plan_ = plan_poses(problems, points.count(), views.size(), min_groups_);
   buffers_.upload(batch, plan_, points, problems, POSE_SYSTEM_SUMS);
   for (const PosePlan::Run& run : plan_.runs) {
     const PoseView& view = views[run.view];
     const DeviceTensor& t = *view.tensor;
-    const PoseSystemPush push{
-        t.grid(), pose_camera(view.intrinsics), run.first, plan_.parts, loss.kind, loss.scale_px};
+    const PoseSystemPush push{t.grid(),
+                              pose_camera(view.intrinsics),
+                              POSE_MIN_FORESHORTENING,
+                              run.first,
+                              plan_.parts,
+                              loss.kind,
+                              loss.scale_px};
     batch.dispatch(kernel_.of(t), {plan_.parts, run.count},
                    {t.band(0), t.band(1), t.band(2), t.band(3), buffers_.points(),
                     buffers_.problems(), buffers_.results()},

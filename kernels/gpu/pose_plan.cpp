@@ -5,13 +5,15 @@
 
 #include "kernels/error.h"
 #include "kernels/gpu/point_range.h"
+#include "kernels/pose_depth.h"
 #include "kernels/pose_problems.h"
 
 namespace edgescout::gpu {
 
 namespace {
 
-static_assert(sizeof(ModelPoint) == 4 * POSE_POINT_WORDS);
+static_assert(sizeof(ModelPoint) == PosePoints::point_bytes);
+static_assert(sizeof(SurfacePoint) == PosePoints::point_bytes);
 static_assert(sizeof(PoseProblem) == 4 * POSE_PROBLEM_WORDS);
 
 constexpr std::uint32_t max_run = 1u << 15;  // any device takes so many workgroups in y
@@ -30,7 +32,7 @@ std::size_t poses_that_fit(const Device& device, std::span<const PoseProblem> pr
   while (count < problems.size()) {
     range.include(problems[count].first_point, problems[count].point_count);
     const std::size_t results = (count + 1) * std::max(sizeof(PoseProblem), sums * sizeof(float));
-    if (count > 0 && std::max(results, range.size() * sizeof(ModelPoint)) > most) break;
+    if (count > 0 && std::max(results, range.size() * PosePoints::point_bytes) > most) break;
     ++count;
   }
   return count;
@@ -63,9 +65,7 @@ PosePlan plan_poses(std::span<const PoseProblem> problems, std::size_t points, s
   return plan;
 }
 
-PoseCamera pose_camera(const Intrinsics& k) {
-  return {k.fx, k.fy, k.cx, k.cy, POSE_MIN_DEPTH_M, POSE_MIN_FORESHORTENING};
-}
+PoseCamera pose_camera(const Intrinsics& k) { return {k.fx, k.fy, k.cx, k.cy, POSE_MIN_DEPTH_M}; }
 
 void PoseBuffers::upload(Batch& batch, const PosePlan& plan, const PosePoints& points,
                          std::span<const PoseProblem> problems, std::uint32_t sums) {
@@ -77,8 +77,8 @@ void PoseBuffers::upload(Batch& batch, const PosePlan& plan, const PosePoints& p
   }
   host_results_.assign(problems.size() * plan.parts * sums, 0.0f);
   if (!points.on_device) {
-    points_.reserve(device_, plan.point_count, "model points");
-    batch.upload(points_, points.host.subspan(plan.first_point, plan.point_count));
+    points_.reserve(device_, plan.point_count * PosePoints::point_bytes, "points of poses");
+    batch.upload(points_, points.part(plan.first_point, plan.point_count));
   }
   bound_points_ = points.on_device ? points.on_device : &points_;
   problems_.reserve(device_, sorted.size(), "pose problems");

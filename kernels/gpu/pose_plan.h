@@ -1,7 +1,8 @@
-// Many poses in many views as a few dispatches: what pose_normal_equations and pose_score have in
-// common.
+// Many poses in many views as a few dispatches: what pose_normal_equations, pose_score and
+// pose_depth have in common.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -19,11 +20,16 @@ struct PoseView {
   const RawBuffer* gradient_x2;
 };
 
-// The points that problems name: in the host's memory and, where they stay for several calls, on
-// the device.
+// The points that problems name, of POSE_POINT_WORDS words each: in the host's memory and, where
+// they stay for several calls, on the device.
 struct PosePoints {
-  std::span<const ModelPoint> host;
+  std::span<const std::byte> host;
   const RawBuffer* on_device = nullptr;
+  std::size_t count() const { return host.size() / point_bytes; }
+  std::span<const std::byte> part(std::size_t first, std::size_t points) const {
+    return host.subspan(first * point_bytes, points * point_bytes);
+  }
+  static constexpr std::size_t point_bytes = 4 * POSE_POINT_WORDS;
 };
 
 // Problems in the order of their views; a run of them is one dispatch. The device holds the points
@@ -69,7 +75,7 @@ class PoseBuffers {
 
  private:
   const Device& device_;
-  Buffer<ModelPoint> points_;  // of a call whose points do not stay
+  Buffer<std::byte> points_;  // of a call whose points do not stay
   const RawBuffer* bound_points_ = nullptr;
   Buffer<PoseProblem> problems_;
   Buffer<float> results_;

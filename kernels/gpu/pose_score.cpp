@@ -18,7 +18,7 @@ std::size_t PoseScorer::that_fit(std::span<const PoseProblem> problems) const {
 void PoseScorer::record(Batch& batch, std::span<const PoseView> views, const PosePoints& points,
                         std::span<const PoseProblem> problems, const PoseScoreOptions& options) {
   cap_px_ = options.cap_px;
-  plan_ = plan_poses(problems, points.host.size(), views.size(), min_groups_);
+  plan_ = plan_poses(problems, points.count(), views.size(), min_groups_);
   buffers_.upload(batch, plan_, points, problems, POSE_SCORE_SUMS);
   for (const PosePlan::Run& run : plan_.runs) {
     const PoseView& view = views[run.view];

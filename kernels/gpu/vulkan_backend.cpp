@@ -14,6 +14,7 @@
 #include "kernels/gpu/edge_support.h"
 #include "kernels/gpu/mutual_information.h"
 #include "kernels/gpu/point_visibility.h"
+#include "kernels/gpu/pose_depth.h"
 #include "kernels/gpu/pose_normal_equations.h"
 #include "kernels/gpu/pose_score.h"
 #include "kernels/gpu/support_map.h"
@@ -39,6 +40,7 @@ class VulkanBackend : public Backend {
         scanner_(*device_),
         systems_(*device_),
         scorer_(*device_),
+        depths_(*device_),
         mapper_(*device_),
         supporter_(*device_),
         raster_(*device_),
@@ -166,32 +168,51 @@ class VulkanBackend : public Backend {
   void pose_normal_equations(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
                              std::span<const PoseProblem> problems, const PoseLoss& loss,
                              std::span<NormalEquations> out) override {
-    run_poses("pose_normal_equations", systems_, views, {points}, problems, loss, out);
+    run_poses("pose_normal_equations", systems_, pose_views(views), {std::as_bytes(points)},
+              problems, loss, out);
   }
 
   PosePointsHandle make_pose_points(std::vector<ModelPoint> points) override {
-    auto made = std::make_shared<VulkanPosePoints>(device_, std::move(points));
-    const std::size_t bytes = made->host.size() * sizeof(ModelPoint);
-    if (bytes == 0 || bytes > device_->max_band_bytes()) return made;
-    made->values.reserve(*device_, made->host.size(), "points of poses");
-    Batch batch(*device_, "points upload");
-    batch.upload<ModelPoint>(made->values, made->host);
-    run(batch);
-    return made;
+    return keep_points<VulkanPosePoints>(std::move(points));
   }
 
   void pose_normal_equations(std::span<const ViewHandle> views, const BackendPosePoints& points,
                              std::span<const PoseProblem> problems, const PoseLoss& loss,
                              std::span<NormalEquations> out) override {
-    const auto* mine = dynamic_cast<const VulkanPosePoints*>(&points);
-    check(mine != nullptr && &mine->device() == device_.get(), "points of another backend");
-    run_poses("pose_normal_equations", systems_, views, mine->points(), problems, loss, out);
+    const auto& mine = own<VulkanPosePoints>(points, "points of another backend");
+    run_poses("pose_normal_equations", systems_, pose_views(views), mine.points(), problems, loss,
+              out);
   }
 
   void pose_score(std::span<const ViewHandle> views, std::span<const ModelPoint> points,
                   std::span<const PoseProblem> problems, const PoseScoreOptions& options,
                   std::span<PoseScore> out) override {
-    run_poses("pose_score", scorer_, views, {points}, problems, options, out);
+    run_poses("pose_score", scorer_, pose_views(views), {std::as_bytes(points)}, problems, options,
+              out);
+  }
+
+  DepthHandle make_depth(const DepthView& depth) override {
+    check_depth_view(depth);
+    auto made = std::make_shared<VulkanDepth>(device_, depth);
+    Batch batch(*device_, "depth upload");
+    batch.upload(made->values, depth.z_m);
+    run(batch);
+    return made;
+  }
+
+  SurfacePointsHandle make_surface_points(std::vector<SurfacePoint> points) override {
+    return keep_points<VulkanSurfacePoints>(std::move(points));
+  }
+
+  void pose_depth(std::span<const DepthHandle> views, const BackendSurfacePoints& points,
+                  std::span<const PoseProblem> problems, const PoseDepthOptions& options,
+                  std::span<PoseDepth> out) override {
+    const auto& mine = own<VulkanSurfacePoints>(points, "points of another backend");
+    check_pose_depth(views.size(), mine.host.size(), problems, options, out.size());
+    std::vector<DepthImageView> images;
+    for (const DepthHandle& view : views)
+      images.push_back(own<VulkanDepth>(*view, "a depth image of another backend").view());
+    run_poses("pose_depth", depths_, images, mine.points(), problems, options, out);
   }
 
   void edge_support(std::span<const ViewHandle> views, std::span<const SupportPoint> points,
@@ -268,10 +289,9 @@ class VulkanBackend : public Backend {
 
   double mutual_information(const BackendChamfer& chamfer, std::span<const ParticleBelief> beliefs,
                             const InformationOptions& options) override {
-    const auto* mine = dynamic_cast<const VulkanChamfer*>(&chamfer);
-    check(mine != nullptr && &mine->device() == device_.get(), "cells made by another backend");
+    const auto& mine = own<VulkanChamfer>(chamfer, "cells made by another backend");
     Batch batch(*device_, "mutual_information");
-    information_.record(batch, {&mine->values, 1}, chamfer.options.cap_px, beliefs, options);
+    information_.record(batch, {&mine.values, 1}, chamfer.options.cap_px, beliefs, options);
     run(batch);
     return information_.information()[0];
   }
@@ -333,16 +353,30 @@ class VulkanBackend : public Backend {
     return information_.information();
   }
 
-  const VulkanView& own(const BackendView& view) const {
-    const auto* mine = dynamic_cast<const VulkanView*>(&view);
-    check(mine != nullptr && &mine->device() == device_.get(), "a view made by another backend");
+  // LogicError with `message` where another backend made it.
+  template <class Mine, class Handle>
+  const Mine& own(const Handle& handle, const char* message) const {
+    const auto* mine = dynamic_cast<const Mine*>(&handle);
+    check(mine != nullptr && &mine->device() == device_.get(), message);
     return *mine;
   }
-
+  const VulkanView& own(const BackendView& view) const {
+    return own<VulkanView>(view, "a view made by another backend");
+  }
   const VulkanModelPoints& own(const BackendModelPoints& points) const {
-    const auto* mine = dynamic_cast<const VulkanModelPoints*>(&points);
-    check(mine != nullptr && &mine->device() == device_.get(), "model points of another backend");
-    return *mine;
+    return own<VulkanModelPoints>(points, "model points of another backend");
+  }
+
+  template <class Kept, class Point>
+  std::shared_ptr<const Kept> keep_points(std::vector<Point> points) {
+    auto made = std::make_shared<Kept>(device_, std::move(points));
+    const std::size_t bytes = made->host.size() * sizeof(Point);
+    if (bytes == 0 || bytes > device_->max_band_bytes()) return made;
+    made->values.reserve(*device_, made->host.size(), "points of poses");
+    Batch batch(*device_, "points upload");
+    batch.upload<Point>(made->values, made->host);
+    run(batch);
+    return made;
   }
 
   std::vector<PoseView> pose_views(std::span<const ViewHandle> views) const {
@@ -352,16 +386,15 @@ class VulkanBackend : public Backend {
   }
 
   // As many batches as the points of all problems take.
-  template <class Kernel, class Options, class Out>
-  void run_poses(const char* name, Kernel& kernel, std::span<const ViewHandle> views,
+  template <class Kernel, class View, class Options, class Out>
+  void run_poses(const char* name, Kernel& kernel, const std::vector<View>& views,
                  const PosePoints& points, std::span<const PoseProblem> problems,
                  const Options& options, std::span<Out> out) {
     check(out.size() == problems.size(), "poses: as many results as problems");
-    const std::vector<PoseView> own_views = pose_views(views);
     for (std::size_t first = 0, count = 0; first < problems.size(); first += count) {
       count = kernel.that_fit(problems.subspan(first));
       Batch batch(*device_, name);
-      kernel.record(batch, own_views, points, problems.subspan(first, count), options);
+      kernel.record(batch, views, points, problems.subspan(first, count), options);
       run(batch);
       kernel.collect(out.subspan(first, count));
     }
@@ -397,6 +430,7 @@ class VulkanBackend : public Backend {
   std::uint64_t views_made_ = 0;
   PoseNormalEquations systems_;
   PoseScorer scorer_;
+  PoseDepths depths_;
   SupportMapper mapper_;
   SupportScorer supporter_;
   DepthRaster raster_;

@@ -68,6 +68,15 @@ class FailingBackend : public Backend {
                   std::span<PoseScore> out) override {
     cpu_->pose_score(views, points, problems, options, out);
   }
+  DepthHandle make_depth(const DepthView& depth) override { return cpu_->make_depth(depth); }
+  SurfacePointsHandle make_surface_points(std::vector<SurfacePoint> points) override {
+    return cpu_->make_surface_points(std::move(points));
+  }
+  void pose_depth(std::span<const DepthHandle> views, const BackendSurfacePoints& points,
+                  std::span<const PoseProblem> problems, const PoseDepthOptions& options,
+                  std::span<PoseDepth> out) override {
+    cpu_->pose_depth(views, points, problems, options, out);
+  }
   void edge_support(std::span<const ViewHandle> views, std::span<const SupportPoint> points,
                     std::span<const SupportProblem> problems, std::span<EdgeSupport> out) override {
     cpu_->edge_support(views, points, problems, out);

@@ -3,6 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "host/io/depth_png.h"
+#include "host/io/image.h"
 #include "tests/cli/example_scene.h"
 
 namespace edgescout::test {
@@ -109,6 +111,31 @@ TEST(Eval, OfKnownMistakesIsWhatAHandWorksOut) {
   EXPECT_NEAR(all.at("ar_mssd").get<double>(), (6 + passed / 10.0) / 8, 1e-12);
   EXPECT_EQ(all.at("false_positives"), 1);
   EXPECT_DOUBLE_EQ(all.at("false_positives_per_image").get<double>(), 1);
+}
+
+// The example's scene gets depth: a wall behind all parts, so that nothing hides them.
+TEST(Eval, HasVsdWhereAllImagesHaveDepth) {
+  const TemporaryFolder folder;
+  const fs::path scene = folder.path() / "000000";
+  fs::copy(one_view(), scene, fs::copy_options::recursive);
+  fs::create_directory(scene / "depth");
+  const Image grey = load_image(scene / "gray/000000.png");
+  write_depth_png({grey.width, grey.height, std::vector<float>(grey.pixels.size(), 5.0f)}, 1e-3,
+                  scene / "depth/000000.png");
+  std::vector<BopResult> rows = true_results(load_bop_scene(scene), 0);
+  rows[0].camera_from_object.translation_m.x() += 0.5;  // a miss
+  const Evaluated with = evaluate_rows(rows, scene);
+  const auto all = with.figures.at("all");
+  EXPECT_NEAR(all.at("ar_vsd").get<double>(), 7.0 / 8, 1e-12);
+  EXPECT_NEAR(all.at("ar").get<double>(), 7.0 / 8, 1e-12);
+  EXPECT_EQ(with.outcome.out.find("no VSD"), std::string::npos) << with.outcome.out;
+  const Evaluated off = evaluate_rows(rows, scene, {"--no-vsd"});
+  EXPECT_TRUE(off.figures.at("all").at("ar").is_null());
+  const Evaluated without = evaluate_rows(rows, one_view());
+  EXPECT_TRUE(without.figures.at("all").at("ar_vsd").is_null());
+  EXPECT_NE(without.outcome.out.find("no VSD: 1 of 1 images have no depth image"),
+            std::string::npos)
+      << without.outcome.out;
 }
 
 TEST(Eval, DropsWhatIsHardlyVisibleOrUnlikely) {

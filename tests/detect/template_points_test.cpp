@@ -43,7 +43,11 @@ struct PosesInViews {
       poses.push_back({0, {random.rotation(), 0.01 * random.direction()}});
   }
   Grid<std::vector<ModelPoint>> points(int most) const {
-    return template_points(set, views, most, *backend)(poses);
+    const Grid<PointsInView> found = template_points(set, views, most, *backend)(poses);
+    Grid<std::vector<ModelPoint>> edges(found.rows(), found.columns());
+    for (std::size_t i = 0; i < found.values().size(); ++i)
+      edges.values()[i] = found.values()[i].edges;
+    return edges;
   }
 };
 

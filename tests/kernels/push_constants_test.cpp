@@ -33,12 +33,14 @@
 #include "kernels/edge_support_push.h"
 #include "kernels/information_push.h"
 #include "kernels/point_visibility.h"
+#include "kernels/pose_depth_push.h"
 #include "kernels/pose_push.h"
 #include "kernels/support_map_push.h"
 #include "kernels/template_project.h"
 #include "kernels/template_scan.h"
 #include "kernels/template_score_push.h"
 #include "point_visibility.spv.h"
+#include "pose_depth.spv.h"
 #include "pose_normal_equations.spv.h"
 #include "pose_score.spv.h"
 #include "support_map.spv.h"
@@ -134,7 +136,7 @@ class Module {
       MEMBER(planes.anchor_step)
 #define CAMERA_MEMBERS                                                        \
   MEMBER(camera.fx), MEMBER(camera.fy), MEMBER(camera.cx), MEMBER(camera.cy), \
-      MEMBER(camera.min_depth_m), MEMBER(camera.min_foreshortening)
+      MEMBER(camera.min_depth_m)
 
 // All members are 32 bits wide, so equal lists of the whole size leave no gap.
 template <class Push>
@@ -216,8 +218,8 @@ TEST(PushConstants, TemplateScore) {
 TEST(PushConstants, PoseNormalEquations) {
   using Push = PoseSystemPush;
   expect_members<Push>(pose_normal_equations_spv,
-                       {GRID_MEMBERS, CAMERA_MEMBERS, MEMBER(first_problem), MEMBER(parts),
-                        MEMBER(loss), MEMBER(scale_px)});
+                       {GRID_MEMBERS, CAMERA_MEMBERS, MEMBER(min_foreshortening),
+                        MEMBER(first_problem), MEMBER(parts), MEMBER(loss), MEMBER(scale_px)});
 }
 
 TEST(PushConstants, PoseScore) {
@@ -225,6 +227,15 @@ TEST(PushConstants, PoseScore) {
   expect_members<Push>(pose_score_spv,
                        {GRID_MEMBERS, CAMERA_MEMBERS, MEMBER(first_problem), MEMBER(parts),
                         MEMBER(has_gradient), MEMBER(min_gradient), MEMBER(match_px)});
+}
+
+TEST(PushConstants, PoseDepth) {
+  using Push = PoseDepthPush;
+  expect_members<Push>(
+      pose_depth_spv,
+      {CAMERA_MEMBERS, MEMBER(width), MEMBER(height), MEMBER(first_problem), MEMBER(parts),
+       MEMBER(min_facing), MEMBER(band_sigmas), MEMBER(noise_floor_m), MEMBER(noise_per_m),
+       MEMBER(surface_m), MEMBER(band_m), MEMBER(loss_scale)});
 }
 
 TEST(PushConstants, EdgeSupport) {

@@ -18,7 +18,11 @@ TEST(RegisterPoints, OnDrawnPointsIsRegisterPoses) {
   int calls = 0;
   const auto drawn = [&](std::span<const ObjectPose> poses) {
     ++calls;
-    return visible_points(scene.on(*backend), poses);
+    const Grid<std::vector<ModelPoint>> edges = visible_points(scene.on(*backend), poses);
+    Grid<PointsInView> points(edges.rows(), edges.columns());
+    for (std::size_t i = 0; i < edges.values().size(); ++i)
+      points.values()[i].edges = edges.values()[i];
+    return points;
   };
   const std::vector<ObjectPose> starts{scene.start, {0, scene.truth}};
   const std::vector<PoseEstimate> expected = register_poses(scene.on(*backend), starts);
@@ -40,7 +44,7 @@ TEST(RegisterPoints, PosesWithoutPointsStay) {
   const auto backend = make_cpu_backend(1);
   const PartScene scene("l_bracket", 2, random, *backend);
   const auto none = [&](std::span<const ObjectPose> poses) {
-    return Grid<std::vector<ModelPoint>>(poses.size(), 2);
+    return Grid<PointsInView>(poses.size(), 2);
   };
   const PoseEstimate found = register_points(scene.on(*backend), {&scene.start, 1}, none)[0];
   EXPECT_EQ(found.convergence, Convergence::NoPoints);
@@ -52,7 +56,7 @@ TEST(RegisterPoints, RefusesAnotherNumberOfLists) {
   Random random = test_random();
   const auto backend = make_cpu_backend(1);
   const PartScene scene("l_bracket", 2, random, *backend);
-  const auto one = [](std::span<const ObjectPose>) { return Grid<std::vector<ModelPoint>>(1, 1); };
+  const auto one = [](std::span<const ObjectPose>) { return Grid<PointsInView>(1, 1); };
   EXPECT_THROW(register_points(scene.on(*backend), {&scene.start, 1}, one), LogicError);
 }
 

@@ -29,7 +29,7 @@ struct Stage {
     scene.objects.push_back(box);
   }
   // Mean light of a surface of the given material.
-  double seen(const SurfacePoint& surface, const Material& material, int samples = 2000) const {
+  double seen(const ShadedPoint& surface, const Material& material, int samples = 2000) const {
     ThreadPool pool(1);
     const WorldTriangles triangles(scene);
     const Lighting lighting(scene, triangles, pool);
@@ -57,7 +57,7 @@ FarLight everywhere() {
   return [](const Eigen::Vector3d&) { return 1.0; };
 }
 
-SurfacePoint upward(const Eigen::Vector3d& to_viewer) {
+ShadedPoint upward(const Eigen::Vector3d& to_viewer) {
   return {{0, 0, 0.05}, Eigen::Vector3d::UnitZ(), to_viewer.normalized(), Eigen::Vector3d::UnitX()};
 }
 
@@ -91,7 +91,7 @@ TEST(Reflections, GlossGrowsTowardsGrazingView) {
 TEST(Reflections, RoughnessBlursABorder) {
   const Stage stage(bright_east(), 2);
   // Mirrored, just east of the border.
-  const SurfacePoint surface = upward({-0.1, 0, 1});
+  const ShadedPoint surface = upward({-0.1, 0, 1});
   EXPECT_NEAR(stage.seen(surface, metal(1, 0.05)), 3, 0.15);
   const Material rough = metal(1, 0.7);
   EXPECT_NEAR(stage.seen(surface, rough) / Stage(everywhere()).seen(surface, rough), 2, 0.25);
@@ -112,7 +112,7 @@ TEST(Reflections, TheEighthsOfTheLightsAreTogetherAllOfThem) {
   Stage stage(everywhere());
   stage.scene.options.shadows = false;
   for (int i = 0; i < 10; ++i) stage.scene.lights.push_back({{0.1 * i, 0.3, 1}, 0.01 * (i + 1)});
-  const SurfacePoint wall{
+  const ShadedPoint wall{
       {0, 0, 0.05}, Eigen::Vector3d::UnitX(), Eigen::Vector3d(1, 0, 1).normalized(), {0, 1, 0}};
   ThreadPool pool(1);
   const WorldTriangles triangles(stage.scene);
@@ -124,7 +124,7 @@ TEST(Reflections, TheEighthsOfTheLightsAreTogetherAllOfThem) {
 
 TEST(Reflections, AWallMirrorsTheDesk) {
   const Stage stage(bright_east(), 2);
-  const SurfacePoint wall{{0, 0, 0.05},
+  const ShadedPoint wall{{0, 0, 0.05},
                           Eigen::Vector3d::UnitX(),
                           Eigen::Vector3d(1, 0, 1).normalized(),
                           Eigen::Vector3d::UnitY()};
@@ -155,7 +155,7 @@ TEST(Reflections, AHighlightIsThatOfALampThatIsMirrored) {
   const Stage stage(lamp, irradiance);
   for (const double roughness : {0.3, 0.5})
     for (const double tilt : {0.0, 0.1, 0.3}) {
-      const SurfacePoint surface = upward({tilt, 0, 1});
+      const ShadedPoint surface = upward({tilt, 0, 1});
       const Material rough = metal(0.7, roughness);
       const double highlight =
           irradiance * Microfacets(surface, rough).highlight(Eigen::Vector3d::UnitZ());

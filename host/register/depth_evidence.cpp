@@ -1,0 +1,40 @@
+#include "host/register/depth_evidence.h"
+
+#include "host/register/depth_systems.h"
+
+namespace edgescout {
+
+Grid<DepthEvidence> depth_evidence(const Scene& scene, std::span<const ObjectPose> poses,
+                                   const Grid<VisibleInView>& visible) {
+  Grid<DepthEvidence> evidence(poses.size(), scene.views.size());
+  std::vector<DepthHandle> depths;
+  std::vector<SurfacePoint> points;
+  std::vector<PoseProblem> problems;
+  std::vector<DepthEvidence*> cells;
+  for (std::size_t v = 0; v < scene.views.size(); ++v) {
+    const ObjectView& view = scene.views[v];
+    if (!view.depth_values) continue;
+    for (std::size_t p = 0; p < poses.size(); ++p) {
+      const std::vector<SurfacePoint>& surface = visible(p, v).surface;
+      problems.push_back({to_pose(view.camera_from_world * poses[p].world_from_object),
+                          std::uint32_t(points.size()), std::uint32_t(surface.size()),
+                          std::uint32_t(depths.size())});
+      points.insert(points.end(), surface.begin(), surface.end());
+      cells.push_back(&evidence(p, v));
+    }
+    depths.push_back(view.depth_values);
+  }
+  if (depths.empty()) return evidence;
+  std::vector<PoseDepth> found(problems.size());
+  scene.backend.pose_depth(depths, *scene.backend.make_surface_points(std::move(points)), problems,
+                           pose_depth_options(scene, JUDGEMENT_BAND), found);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const PoseDepth& depth = found[i];
+    const double mean_m = depth.weight_sum > 0 ? depth.offset_m / double(depth.weight_sum) : 0;
+    *cells[i] = {depth.agreeing, depth.contradicting, depth.hidden, depth.missing,
+                 mean_m * depth.agreeing};
+  }
+  return evidence;
+}
+
+}  // namespace edgescout

@@ -1,0 +1,17 @@
+// Whether measured depth agrees with the surface that a pose shows.
+#pragma once
+
+#include <span>
+
+#include "host/register/pose_estimate.h"
+#include "host/register/scene.h"
+#include "host/register/visible_in_views.h"
+
+namespace edgescout {
+
+// Rows are poses, columns views; `visible` is that of the poses (visible_in_views). All zero where
+// the view has no depth.
+Grid<DepthEvidence> depth_evidence(const Scene& scene, std::span<const ObjectPose> poses,
+                                   const Grid<VisibleInView>& visible);
+
+}  // namespace edgescout

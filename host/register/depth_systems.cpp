@@ -1,0 +1,90 @@
+#include "host/register/depth_systems.h"
+
+#include <algorithm>
+
+#include "host/core/thinned.h"
+#include "host/register/measured_depth.h"
+
+namespace edgescout {
+
+namespace {
+
+constexpr double LEAST_BAND_M = 1.5e-3;
+
+}  // namespace
+
+WorldSystem world_system(const PoseDepth& depth, const Se3& camera_from_world,
+                         double loss_sigmas) {
+  WorldSystem system, in_world;
+  int entry = 0;
+  for (int a = 0; a < 6; ++a) {
+    for (int b = a; b < 6; ++b)
+      system.hessian(a, b) = system.hessian(b, a) = double(depth.hessian[entry++]);
+    system.gradient[a] = double(depth.gradient[a]);
+  }
+  // Hidden samples cost as much as a sample can: a pose must not gain by sinking into a surface.
+  system.depth_cost = depth.cost + 0.5 * loss_sigmas * loss_sigmas * depth.hidden;
+  system.depth_points = depth.agreeing + depth.contradicting + depth.hidden;
+  add_view(in_world, system, camera_from_world);
+  return in_world;
+}
+
+PoseDepthOptions pose_depth_options(const Scene& scene, double band) {
+  PoseDepthOptions options;
+  options.noise_floor_m = options.noise_per_m = 0;
+  for (const ObjectView& view : scene.views)
+    if (view.depth) {
+      options.noise_floor_m = std::max(options.noise_floor_m, float(view.depth->noise.floor_m));
+      options.noise_per_m = std::max(options.noise_per_m, float(view.depth->noise.at_one_metre_m));
+    }
+  options.noise_floor_m = std::max(options.noise_floor_m, DEPTH_MIN_NOISE_M);
+  double diameter_m = 0;
+  for (const EdgeModel& model : scene.models)
+    diameter_m = std::max(diameter_m, model.mesh.diameter_m);
+  options.band_m = float(std::max(LEAST_BAND_M, band * diameter_m));
+  return options;
+}
+
+DepthSystems::DepthSystems(const Scene& scene, const SurfacesInViews& surfaces, int most,
+                           double loss_sigmas)
+    : scene_(scene) {
+  for (std::size_t v = 0; v < scene.views.size(); ++v)
+    if (scene.views[v].depth_values) {
+      views_.push_back(v);
+      depths_.push_back(scene.views[v].depth_values);
+    }
+  if (views_.empty()) return;
+  options_ = pose_depth_options(scene, REGISTRATION_BAND);
+  options_.loss_scale = float(loss_sigmas);
+  ranges_ = Grid<Range>(surfaces.rows(), views_.size());
+  std::vector<SurfacePoint> points;
+  for (std::size_t p = 0; p < surfaces.rows(); ++p)
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      const std::vector<SurfacePoint> kept = thinned(surfaces(p, views_[i]), most);
+      ranges_(p, i) = {std::uint32_t(points.size()), std::uint32_t(kept.size())};
+      points.insert(points.end(), kept.begin(), kept.end());
+    }
+  points_ = scene.backend.make_surface_points(std::move(points));
+}
+
+void DepthSystems::add(std::span<const std::size_t> pose_numbers,
+                       std::span<const Se3> world_from_object,
+                       std::span<WorldSystem> systems) const {
+  if (is_empty()) return;
+  std::vector<PoseProblem> problems;
+  for (std::size_t i = 0; i < pose_numbers.size(); ++i)
+    for (std::size_t k = 0; k < views_.size(); ++k) {
+      const Range& range = ranges_(pose_numbers[i], k);
+      problems.push_back(
+          {to_pose(scene_.views[views_[k]].camera_from_world * world_from_object[i]), range.first,
+           range.count, std::uint32_t(k)});
+    }
+  std::vector<PoseDepth> results(problems.size());
+  scene_.backend.pose_depth(depths_, *points_, problems, options_, results);
+  for (std::size_t i = 0; i < results.size(); ++i)
+    systems[i / views_.size()] +=
+        world_system(results[i], scene_.views[views_[i % views_.size()]].camera_from_world,
+                     double(options_.loss_scale));
+}
+
+}  // namespace edgescout

@@ -1,0 +1,52 @@
+// What measured depth adds to the systems of a registration (kernels/pose_depth.h).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "host/core/grid.h"
+#include "host/register/lm_state.h"
+#include "host/register/scene.h"
+
+namespace edgescout {
+
+// Samples of the surfaces of poses, by pose and view.
+using SurfacesInViews = Grid<std::vector<SurfacePoint>>;
+
+// One standard deviation of a sample's distance counts as one pixel of an edge point's.
+class DepthSystems {
+ public:
+  // Surfaces are thinned to at most `most` samples. `loss_sigmas`: scale of the loss, standard
+  // deviations. Views without depth take no part.
+  DepthSystems(const Scene& scene, const SurfacesInViews& surfaces, int most, double loss_sigmas);
+
+  bool is_empty() const { return views_.empty(); }
+
+  // Adds to systems[i] that of the pose of row pose_numbers[i] at world_from_object[i].
+  void add(std::span<const std::size_t> pose_numbers, std::span<const Se3> world_from_object,
+           std::span<WorldSystem> systems) const;
+
+ private:
+  struct Range {
+    std::uint32_t first = 0, count = 0;
+  };
+  const Scene& scene_;
+  std::vector<std::size_t> views_;  // those with depth
+  std::vector<DepthHandle> depths_;
+  Grid<Range> ranges_;  // rows are poses, columns those of views_
+  SurfacePointsHandle points_;
+  PoseDepthOptions options_;
+};
+
+// The system of one view in the world's tangent, as LmState takes it.
+WorldSystem world_system(const PoseDepth& in_camera, const Se3& camera_from_world,
+                         double loss_sigmas = PoseDepthOptions{}.loss_scale);
+
+// Within which part of the object's diameter a surface is the pose's own. Registration also pulls
+// poses whose surface would count as hidden when they are judged.
+inline constexpr double REGISTRATION_BAND = 0.1, JUDGEMENT_BAND = 0.04;
+
+// The options for the noise of the scene's depth and a band of the size of its largest object.
+PoseDepthOptions pose_depth_options(const Scene& scene, double band);
+
+}  // namespace edgescout

@@ -1,0 +1,79 @@
+// --depth of detect and register.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/cli/small_scene.h"
+
+namespace edgescout::test {
+namespace {
+
+// The small scene with a depth image that is 0.1 mm a unit.
+struct DepthScene {
+  SmallScene made;
+  fs::path depth = made.scene / "depth";
+
+  // In metres; 0: nothing is measured.
+  void write_depth(double z_m, int width, int height) const {
+    fs::create_directories(depth);
+    cv::imwrite((depth / "000000.png").string(),
+                cv::Mat(height, width, CV_16U, cv::Scalar(z_m * 1e4)));
+    nlohmann::json cameras = nlohmann::json::parse(content_of(made.scene / "scene_camera.json"));
+    cameras["0"]["depth_scale"] = 0.1;
+    std::ofstream(made.scene / "scene_camera.json") << cameras;
+  }
+  std::vector<std::string> detect(const std::vector<std::string>& more) const {
+    return made.detect(made.scene, joined({bracket(), {"--no-overlays"}, more}));
+  }
+  nlohmann::json detections() const {
+    return nlohmann::json::parse(content_of(made.out / "000003_000000.json"))["detections"];
+  }
+};
+
+TEST(DepthOption, WithoutAnyValueDetectionsAreThoseWithoutDepth) {
+  const DepthScene t;
+  t.write_depth(0, 320, 240);
+  const Outcome with = run_program(t.detect({"--depth", "scene"}));
+  ASSERT_EQ(with.exit_code, 0) << with.err;
+  const nlohmann::json found = t.detections();
+  EXPECT_FALSE(found.empty());
+  fs::remove_all(t.made.out);
+  ASSERT_EQ(run_program(t.detect({})).exit_code, 0);
+  EXPECT_EQ(found, t.detections());
+}
+
+// A wall before all parts: none can be there.
+TEST(DepthOption, PartsBehindAMeasuredSurfaceAreNotFound) {
+  const DepthScene t;
+  t.write_depth(0.1, 320, 240);
+  const Outcome outcome = run_program(t.detect({"--depth", "scene"}));
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(t.detections().empty());
+}
+
+TEST(DepthOption, RefusesAnotherSize) {
+  const DepthScene t;
+  t.write_depth(0.3, 160, 120);
+  expect_refused(t.detect({"--depth", "scene"}), {"000000.png", "size", "depth-camera"});
+}
+
+TEST(DepthOption, RefusesAWrongUnit) {
+  const DepthScene t;
+  t.write_depth(0.3, 320, 240);
+  expect_refused(t.detect({"--depth", "scene", "--depth-unit", "0.1"}),
+                 {"000000.png", "values around 3000", "300 m", "depth-unit"});
+}
+
+TEST(DepthOption, RefusesDepthThatIsNotThere) {
+  const DepthScene t;
+  expect_refused(t.detect({"--depth", "scene"}), {"--depth", "scenes with depth/"});
+  expect_refused(t.detect({"--depth", t.made.folder.path()}), {"--depth", "names of the images"});
+  expect_refused(t.detect({"--depth", t.made.folder.path() / "none.png"}), {"none.png"});
+  expect_refused(t.detect({"--depth", "scene", "--depth-pose", "0", "0", "0", "0", "0", "0", "1"}),
+                 {"--depth"});
+}
+
+}  // namespace
+}  // namespace edgescout::test
