@@ -8,11 +8,13 @@
 #include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/option_table.h"
+#include "host/cli/output_file.h"
 #include "host/cli/verbs.h"
 #include "host/core/camera_check.h"
 #include "host/core/lens.h"
 #include "host/core/log.h"
 #include "host/io/camera_file.h"
+#include "host/io/files.h"
 #include "host/io/image.h"
 #include "kernels/error.h"
 
@@ -106,6 +108,7 @@ void draw_undistorted(const CameraRequest& request) {
   std::error_code not_there;
   if (std::filesystem::equivalent(out, input.file, not_there))
     throw InputError("command line", "--out", "the image itself", "another file");
+  require_writable_folder(parent_of_output(out));
   save_png(undistort(image, camera), out);
   std::cout << fmt::format("{}: undistorted, {}\n", out.string(), view_text(camera));
 }

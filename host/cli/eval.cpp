@@ -13,6 +13,7 @@
 #include "host/cli/exit_codes.h"
 #include "host/cli/inputs.h"
 #include "host/cli/option_table.h"
+#include "host/cli/output_file.h"
 #include "host/cli/symmetry_arguments.h"
 #include "host/cli/verbs.h"
 #include "host/core/log.h"
@@ -276,6 +277,7 @@ void save_json(const Evaluation& evaluation, const EvalRequest& request) {
                               {"objects_left_out", evaluation.left_out}};
   for (const Row& row : evaluation.rows)
     (row.object == "all" ? root["all"] : root["objects"][row.object]) = row_json(row);
+  require_writable_folder(parent_of_output(request.json_file));
   write_file_atomically(request.json_file, json_text(root));
 }
 
@@ -327,8 +329,10 @@ void print_table(const std::vector<Row>& rows, const RecallOptions& o) {
 
 void run_eval(EvalRequest& request) {
   take_models_of_dataset(request.models, request.scenes, request.dataset, true);
+  const bool writes_file = !request.json_file.empty();
+  if (writes_file) require_writable_place(parent_of_output(request.json_file));
   const Evaluation evaluation = evaluate_objects(request);
-  if (!request.json_file.empty()) save_json(evaluation, request);
+  if (writes_file) save_json(evaluation, request);
   print_limits(evaluation, request);
   print_table(evaluation.rows, request.recall);
 }

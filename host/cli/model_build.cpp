@@ -8,6 +8,7 @@
 #include "host/cli/inputs.h"
 #include "host/cli/model_verbs.h"
 #include "host/cli/option_table.h"
+#include "host/cli/output_file.h"
 #include "host/cli/progress.h"
 #include "host/cli/symmetry_arguments.h"
 #include "host/io/camera_file.h"
@@ -56,7 +57,7 @@ void build(const BuildRequest& request) {
   const Object object = load_object(request);
   const TemplateOptions options = with_distances(request, object.mesh.diameter_m);
   const std::filesystem::path out = request.out;
-  require_writable_folder(out.has_parent_path() ? out.parent_path() : ".");
+  require_writable_folder(parent_of_output(out));
   TemplateSet set;
   {
     Progress progress("templates of " + object.mesh.name, 100, std::cerr, stderr_is_terminal());

@@ -10,6 +10,8 @@
 #include "host/cli/exit_codes.h"
 #include "host/cli/model_verbs.h"
 #include "host/cli/option_table.h"
+#include "host/cli/output_file.h"
+#include "host/io/files.h"
 #include "host/io/mesh.h"
 #include "host/model/mesh_quality.h"
 #include "host/model/template_set.h"
@@ -114,6 +116,7 @@ void draw(const DrawRequest& request) {
     set.model = make_edge_model(load_mesh(request.file, unit_of(request.unit)), request.edges);
   warn_of_mesh(set.model);
   const Viewpoints viewpoints = set.views.empty() ? of_model(set.model) : of_templates(set);
+  require_writable_folder(parent_of_output(request.out));
   save_png(contact_sheet(set.model, viewpoints, request, *backend), request.out);
   std::cout << "wrote " << request.out << "\n";
 }

@@ -1,5 +1,7 @@
 #include "host/model/edge_model.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -63,6 +65,17 @@ bool is_curved(const std::array<Eigen::Vector3d, 3>& normals) {
   return normals[0].dot(normals[1]) < cos_flat || normals[1].dot(normals[2]) < cos_flat;
 }
 
+void require_few_points(const EdgeModel& model) {
+  constexpr double most = 1e6;
+  double length_m = 0;
+  for (const EdgeModel::Segment& crease : model.creases)
+    length_m += (crease.to_m - crease.from_m).norm();
+  if (!(length_m / model.raster_step_m <= most))
+    throw InputError(model.mesh.name, "raster step",
+                     fmt::format("{:g} m for edges of {:g} m", model.raster_step_m, length_m),
+                     fmt::format("at least {:g} m", length_m / most));
+}
+
 }  // namespace
 
 void describe(EdgeModelOptions& o, OptionVisitor& visit) {
@@ -95,6 +108,7 @@ EdgeModel edge_model_with(const Mesh& mesh, const EdgeModelOptions& options,
   for (const Eigen::Vector3d& vertex : mesh.vertices_m)
     model.radius_m = std::max(model.radius_m, (vertex - model.center_m).norm());
   model.creases = drawn_edges(mesh, edges);
+  require_few_points(model);
   for (const EdgeModel::Segment& crease : model.creases)
     add_raster_points(crease.from_m, crease.to_m, model.raster_step_m, model.crease_points);
   model.corner_normals = average_normals(mesh, edges);

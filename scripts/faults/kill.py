@@ -11,8 +11,8 @@ import shutil
 import subprocess
 import sys
 
-from verbs import (Folder, arguments_of, difference, files_in, finished_files, half_a_frame,
-                   report)
+from verbs import (LOCK_NO_FOLDER, Folder, age_parts, arguments_of, difference, files_in,
+                   finished_files, half_a_frame, report)
 
 
 def kill_often(folder, verb, moments):
@@ -37,6 +37,8 @@ def kill_often(folder, verb, moments):
             if half_a_frame(out):
                 failures.append(f'half a frame after kill {kills}')
             before = after
+            if verb in LOCK_NO_FOLDER:
+                age_parts(out)
             strays += out.exists() and any(name.endswith('.part') for name in files_in(out))
             continue
         ends += 1

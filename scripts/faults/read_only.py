@@ -13,7 +13,8 @@ import shutil
 import sys
 import time
 
-from verbs import Folder, arguments_of, difference, is_one_error_line, report
+from verbs import (LOCK_NO_FOLDER, Folder, age_parts, arguments_of, difference,
+                   is_one_error_line, report)
 
 NOBODY = 65534
 
@@ -55,6 +56,8 @@ def forbid(folder, verb, times):
                 failures.append(f'{number}: {process.returncode}: {errors[-300:]}')
         for entry in folders_in(out):
             entry.chmod(0o755)
+        if verb in LOCK_NO_FOLDER:
+            age_parts(out)
         again = folder.run(as_nobody(folder.call(verb, out, resume=True)))
         wrong = difference(verb, out, expected) if again.returncode < 2 else again.stderr
         if wrong:

@@ -13,7 +13,11 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get('EDGESCOUT', str(ROOT / 'build/release/host/cli/edgescout'))
-VERBS = ['detect', 'register', 'scout', 'track', 'render', 'experiments']
+VERBS = ['detect', 'register', 'scout', 'track', 'render', 'experiments', 'model', 'merge', 'eval']
+NEEDS = {'register': ['detect'], 'track': ['detect'], 'eval': ['detect'],
+         'merge': ['shard_1', 'shard_2']}  # runs whose files a verb reads
+CANNOT_RESUME = {'render', 'track', 'model', 'merge', 'eval'}
+LOCK_NO_FOLDER = {'model', 'eval'}  # they write one file
 FEW = ['--viewpoints', '1', '--in-plane-steps', '6', '--distance-min', '0.25', '--distance-max',
        '0.27', '--scan-hits', '200', '--coarse-poses', '8', '--medium-poses', '3']
 SMALL = ['--width', '160', '--height', '120', '--focal', '200']
@@ -35,25 +39,34 @@ class Folder:
 
     def call(self, verb, out, resume=False):
         """The arguments of the verb. One that cannot resume is run again from its beginning."""
+        detect = [self.scenes, *self.model, *FEW, '--candidates', '2', '--min-probability',
+                  '0.0001', '--device', 'cpu', '--out', out]
         work = {
             'render': ['--part', 'l_bracket', '--objects', '1', '--scenes', '2', '--views', '4',
-                       '--seed', '1', *SMALL],
-            'detect': [self.scenes, *self.model, *FEW, '--candidates', '2', '--min-probability',
-                       '0.0001', '--device', 'cpu'],
+                       '--seed', '1', *SMALL, '--out', out],
+            'detect': detect,
+            'shard_1': [*detect, '--shard', '1/2'],
+            'shard_2': [*detect, '--shard', '2/2'],
             'register': [self.scenes, *self.model, '--poses', self.path / 'detect/results.csv',
-                         '--device', 'cpu'],
+                         '--device', 'cpu', '--out', out],
             'scout': ['cell', *self.model, *FEW, '--objects', '2', '--seed', '3', *SMALL,
                       '--view-count', '6', '--max-views', '3', '--candidates', '5', '--particles',
-                      '20', '--device', 'cpu'],
+                      '20', '--device', 'cpu', '--out', out],
             'track': [self.scenes, *self.model, '--poses', self.path / 'detect/results.csv',
-                      '--no-search', '--device', 'cpu'],
+                      '--no-search', '--device', 'cpu', '--out', out],
             'experiments': ['detection', '--scenes', '3', '--image-scale', '0.25', '--candidates',
-                            '5', '--no-times', '--seed', '1'],
+                            '5', '--no-times', '--seed', '1', '--out', out],
+            'model': ['build', self.model[1], '--unit', 'mm', *FEW[:8], '--device', 'cpu', '--out',
+                      out / 'part.templates'],
+            'merge': [self.path / 'shard_1', self.path / 'shard_2', '--out', out],
+            'eval': [self.path / 'detect/results.csv', self.scenes, *self.model, '--json',
+                     out / 'figures.json'],
         }[verb]
-        name = ['bench', 'experiments'] if verb == 'experiments' else [verb]
-        if resume and verb not in ('render', 'track'):
+        name = {'experiments': ['bench', 'experiments'], 'shard_1': ['detect'],
+                'shard_2': ['detect']}.get(verb, [verb])
+        if resume and verb not in CANNOT_RESUME:
             work = work + ['--resume']
-        return [PROGRAM, *name, *map(str, work), '--out', str(out)]
+        return [PROGRAM, *name, *map(str, work)]
 
     def run(self, call, **more):
         return subprocess.run(call, env=self.environment, capture_output=True, text=True,
@@ -72,8 +85,8 @@ class Folder:
 
     def undisturbed(self, verb):
         """Runs the verb into FOLDER/VERB, once. Returns the folder and the seconds."""
-        if verb in ('register', 'track'):
-            self.undisturbed('detect')
+        for other in NEEDS.get(verb, []):
+            self.undisturbed(other)
         out = self.path / verb
         if not out.exists():
             self.must_end_well(self.call(verb, out))  # the next one finds the templates
@@ -88,12 +101,18 @@ def files_in(folder):
 
 def finished_files(verb, folder):
     """Checksums of the files that must outlive whatever comes, by name."""
-    patterns = {'detect': ['0*.json'], 'register': ['0*.json'], 'scout': [], 'track': [],
+    patterns = {'detect': ['0*.json'], 'register': ['0*.json'],
                 'render': ['*/gray/*.png', '*/scene_*.json', 'models/*'],
-                'experiments': ['cells/*/*.csv']}[verb]
+                'experiments': ['cells/*/*.csv']}.get(verb, [])
     return {str(file.relative_to(folder)): hashlib.sha256(file.read_bytes()).hexdigest()
             for pattern in patterns for file in folder.glob(pattern)
             if not file.name.startswith('.')}
+
+
+def age_parts(folder):
+    """A verb that locks no folder removes parts of files when they are older than 10 seconds."""
+    for part in folder.rglob('.*.part'):
+        os.utime(part, (time.time() - 11,) * 2)
 
 
 def half_a_frame(folder):
@@ -121,7 +140,7 @@ def difference(verb, folder, expected):
     strays = files_in(folder) ^ files_in(expected)
     if strays:
         return f'files of one run alone: {sorted(strays)}'
-    if verb in ('detect', 'register'):
+    if verb in ('detect', 'register', 'merge'):
         done = subprocess.run([ROOT / 'scripts/compare_batches.py', folder, expected],
                               capture_output=True, text=True, check=False)
         return done.stdout if done.returncode else None

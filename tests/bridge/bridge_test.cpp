@@ -318,12 +318,6 @@ TEST(Bridge, PosesMayBeInTheWorld) {
   EXPECT_EQ(tested.results.overlays[0].data.size(), 3u * 320 * 240);
 }
 
-msg::CalibratedImage calibrated(std::size_t view) {
-  return {info_message(small_world().camera()),
-          message_of(inverse(small_world().camera_from_world(view))),
-          image_message(small_world().image(view))};
-}
-
 TEST(Bridge, EstimatesPosesOverSeveralCameras) {
   TestedBridge tested;
   msg::GetPoseEstimatesResult answer;

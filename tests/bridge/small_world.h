@@ -77,6 +77,13 @@ inline msg::CameraInfo info_message(const Camera& camera, double seconds = 1) {
   return info;
 }
 
+// As a request gives it.
+inline msg::CalibratedImage calibrated(std::size_t view) {
+  return {info_message(small_world().camera()),
+          message_of(inverse(small_world().camera_from_world(view))),
+          image_message(small_world().image(view))};
+}
+
 inline msg::TransformStamped transform_message(const std::string& parent, const std::string& child,
                                                const Se3& parent_from_child, double seconds) {
   return {header_at(seconds, parent), child, transform_of(parent_from_child)};

@@ -13,7 +13,7 @@ struct CameraVerb {
   TemporaryFolder folder;
   fs::path file = folder.write("camera.yaml", text);
   fs::path image = folder.path() / "image.png";
-  fs::path out = folder.path() / "flat.png";
+  fs::path out = folder.path() / "new/flat.png";
 
   CameraVerb() {
     Image grey{64, 48, {}};

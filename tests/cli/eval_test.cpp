@@ -34,7 +34,7 @@ Evaluated evaluate_rows(const std::vector<BopResult>& rows, const fs::path& scen
                         const std::vector<std::string>& more = {}) {
   const TemporaryFolder folder;
   save_bop_results(rows, folder.path() / "r.csv");
-  const fs::path json = folder.path() / "r.json";
+  const fs::path json = folder.path() / "new/r.json";
   Evaluated evaluated{
       run_program(eval_of(folder.path() / "r.csv", scenes, joined({{"--json", json}, more}))), {}};
   EXPECT_EQ(evaluated.outcome.exit_code, 0) << evaluated.outcome.err;
@@ -187,7 +187,7 @@ TEST(Eval, RefusesWhatItCannotEvaluate) {
   fs::copy(one_view() / "scene_camera.json", folder.path() / "000000");
   expect_refused(eval_of(results(good), folder.path() / "000000", to_json), {"scene_gt.json"});
   EXPECT_FALSE(fs::exists(json));
-  expect_refused(eval_of(results(good), one_view(), {"--json", "/proc/r.json"}), {"/proc/r.json"});
+  expect_refused(eval_of(results(good), one_view(), {"--json", "/proc/r.json"}), {"/proc: "});
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ class MeshWithHoles : public testing::Test {
 TEST_F(MeshWithHoles, IsWarnedOfByTheVerbsOfModels) {
   expect_one_warning({"model", "inspect", file, "--unit", "mm"});
   expect_one_warning({"model", "draw", file, "--unit", "mm", "--tile", "64", "--out",
-                      folder.path() / "open.png", "--device", "cpu"});
+                      folder.path() / "new/open.png", "--device", "cpu"});
   expect_one_warning(
       joined({{"model", "build", file, "--unit", "mm", "--out", templates, "--device", "cpu"},
               few_templates()}));

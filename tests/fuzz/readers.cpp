@@ -8,6 +8,7 @@
 #include "host/cli/option_table.h"
 #include "host/core/camera_check.h"
 #include "host/io/bop.h"
+#include "host/io/bop_targets.h"
 #include "host/io/camera_file.h"
 #include "host/io/exif.h"
 #include "host/io/files.h"
@@ -76,10 +77,13 @@ void read_options(const fs::path& file) {
 constexpr FuzzedReader all[] = {
     {"stl", "x.stl", read_mesh},
     {"ply", "x.ply", read_mesh},
+    {"obj", "x.obj", read_mesh},
+    {"off", "x.off", read_mesh},
     {"cao", "x.cao", read_mesh},
     {"camera_text", "x.yaml", read_calibration},
     {"camera_json", "x.json", read_calibration},
     {"poses", "x.json", [](const fs::path& file) { load_start_poses(file); }},
+    {"targets", "x.json", [](const fs::path& file) { load_bop_targets(file); }},
     {"results", "x.csv", [](const fs::path& file) { load_bop_results(file); }},
     {"bop_camera", "scene_camera.json", read_scene},
     {"bop_truth", "scene_gt.json", read_scene_with_camera},

@@ -243,6 +243,52 @@ TEST(LoadImage, ReadsOneBitAndPalettes) {
   EXPECT_EQ(load_image(folder.path() / "bits.png").at(3, 3), 255);
 }
 
+// Grey by Rec. 601, from the colours that the indices mean.
+TEST(LoadImage, LooksUpColoursOfPalettes) {
+  const TemporaryFolder folder;
+  // 16x16, one bit: the left half has the colour (200, 30, 60), the right one (10, 240, 90).
+  constexpr char png[] =
+      "\x89\x50\x4e\x47\x0d\x0a\x1a\x0a\x00\x00\x00\x0d\x49\x48\x44\x52\x00\x00\x00\x10\x00\x00"
+      "\x00\x10\x01\x03\x00\x00\x00\x25\x3d\x6d\x22\x00\x00\x00\x06\x50\x4c\x54\x45\xc8\x1e\x3c"
+      "\x0a\xf0\x5a\xaf\x64\x97\x6d\x00\x00\x00\x0e\x49\x44\x41\x54\x78\xda\x63\x60\xf8\xcf\x40"
+      "\x0a\x02\x00\x76\xc7\x0f\xf1\xf9\xef\x6f\xae\x00\x00\x00\x00\x49\x45\x4e\x44\xae\x42\x60"
+      "\x82";
+  std::string bmp("BM\0\0\0\0\0\0\0\0\x3e\0\0\0\x28\0\0\0\x10\0\0\0\x10\0\0\0\x01\0\x01\0", 30);
+  bmp += std::string(16, '\0') + std::string("\x02\0\0\0\0\0\0\0", 8) +
+         std::string("\x3c\x1e\xc8\0\x5a\xf0\x0a\0", 8);
+  for (int y = 0; y < 16; ++y) bmp += std::string("\0\xff\0\0", 4);
+  for (const auto& file :
+       {folder.write("a.png", std::string(png, sizeof png - 1)), folder.write("a.bmp", bmp)}) {
+    const Image image = load_image(file);
+    EXPECT_NEAR(image.at(3, 9), 0.299 * 200 + 0.587 * 30 + 0.114 * 60, 1) << file;
+    EXPECT_NEAR(image.at(12, 9), 0.299 * 10 + 0.587 * 240 + 0.114 * 90, 1) << file;
+  }
+}
+
+// A TIFF of 16x16 pixels of one colour.
+TEST(LoadImage, ReadsInksAsTheColourTheyPrint) {
+  std::string tiff("II*\0\x08\0\0\0", 8);
+  const auto put = [&](std::uint32_t value, int bytes) {
+    for (int i = 0; i < bytes; ++i) tiff += char(value >> 8 * i);
+  };
+  constexpr std::uint32_t width = 256, height = 257, depth = 258, compression = 259, inks = 262,
+                          offset = 273, samples = 277, bytes_of_strip = 279, bits_at = 110;
+  const std::uint32_t fields[][4] = {{width, 3, 1, 16},      {height, 3, 1, 16},
+                                     {depth, 3, 4, bits_at}, {compression, 3, 1, 1},
+                                     {inks, 3, 1, 5},        {offset, 4, 1, bits_at + 8},
+                                     {samples, 3, 1, 4},     {bytes_of_strip, 4, 1, 1024}};
+  put(std::size(fields), 2);
+  for (const auto& [tag, type, count, value] : fields)
+    put(tag, 2), put(type, 2), put(count, 4), put(value, 4);
+  put(0, 4);
+  for (int i = 0; i < 4; ++i) put(8, 2);
+  for (int i = 0; i < 256; ++i) tiff += "\x0a\xc8\x64\x32";  // C, M, Y, K
+  const TemporaryFolder folder;
+  const double light = (255 - 50) / 255.0;
+  EXPECT_NEAR(load_image(folder.write("inks.tif", tiff)).at(5, 5),
+              light * (0.299 * (255 - 10) + 0.587 * (255 - 200) + 0.114 * (255 - 100)), 2);
+}
+
 TEST(LoadImage, RefusesHugeImagesBeforeItDecodesThem) {
   const TemporaryFolder folder;
   const auto refused = [&](const std::string& name, const std::string& bytes, const char* size) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <opencv2/videoio.hpp>
 
 #include "tests/io/collected_log.h"
@@ -41,6 +42,33 @@ TEST(Video, GivesTheFramesInAnyOrder) {
   options.black_white = {0, 2.0 * grey_of(3)};
   EXPECT_NEAR(reader.frame(other, 3, options).at(30, 20), 127, 6);
   EXPECT_EQ(name_of_frame("x/a.avi", 12), "x/a.avi#000012");
+}
+
+// Phones write upright videos as lying ones with a turn in the track's header.
+TEST(Video, SaysThatItIsTurnedAndTakesThePixelsAsStored) {
+  const TemporaryFolder folder;
+  const auto lying = (folder.path() / "lying.mp4").string();
+  cv::VideoWriter writer(lying, cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), 25,
+                         {64, 48});
+  cv::Mat left_dark(48, 64, CV_8UC3, cv::Scalar::all(200));
+  left_dark.colRange(0, 32) = cv::Scalar::all(20);
+  writer << left_dark << left_dark;
+  writer.release();
+  std::string bytes = content_of(lying);
+  const std::size_t matrix = bytes.find("tkhd") + 44;  // nine numbers of four bytes
+  ASSERT_EQ(bytes.substr(matrix, 4), std::string("\0\1\0\0", 4));
+  bytes.replace(matrix, 20, std::string("\0\0\0\0\0\1\0\0\0\0\0\0\xff\xff\0\0\0\0\0\0", 20));
+  const auto turned = folder.write("turned.mp4", bytes);
+  CollectedLog log;
+  const Image image = VideoReader().frame(turned, 1, {});
+  EXPECT_EQ(image.width, 64);
+  EXPECT_NEAR(image.at(10, 24), 20, 6);
+  EXPECT_NEAR(image.at(54, 24), 200, 6);
+  EXPECT_EQ(count_frames(turned), 2);
+  const auto is_of_turn = [](const auto& message) {
+    return message.second.find("turned.mp4: orientation: found 270 degrees") != std::string::npos;
+  };
+  EXPECT_EQ(std::ranges::count_if(log.messages, is_of_turn), 1);
 }
 
 TEST(Video, SaysWhatCouldBeReadOfABrokenOne) {

@@ -121,6 +121,15 @@ TEST(EdgeModel, RefusesOptionsOutOfRange) {
   }
 }
 
+TEST(EdgeModel, RefusesAStepThatMakesTooManyPoints) {
+  for (const double step_m : {1e-9, 1e-80}) {
+    EdgeModelOptions options;
+    options.raster_step_m = step_m;
+    test::expect_input_error([&] { make_edge_model(make_part("l_bracket").mesh, options); },
+                             {"l_bracket", "raster step", "m for edges of", "at least"});
+  }
+}
+
 TEST(EdgeModel, RejectsAMeshThatShowsNoEdge) {
   // So long a step puts no point on any of the box's edges.
   test::expect_input_error(

@@ -65,6 +65,20 @@ TEST_P(D2co, RecoversAPartInOneView) {
   }
 }
 
+// The time is over when it is asked for the third time.
+TEST_P(D2co, SaysThatTheTimeWasOver) {
+  Random random = test_random();
+  const PartScene part("l_bracket", 3, random, *backend);
+  Scene scene = part.on(*backend);
+  int asked = 0;
+  TimeLimit limit;
+  limit.cancelled = [&] { return ++asked >= 3; };
+  scene.limit = &limit;
+  EXPECT_EQ(solve(scene, std::span(&part.start, 1))[0].convergence, Convergence::OutOfTime);
+  EXPECT_NE(solve(part).convergence, Convergence::OutOfTime);
+  EXPECT_EQ(to_string(Convergence::OutOfTime), "out of time");
+}
+
 Eigen::Vector3d position_sigmas(const PoseEstimate& found, const Se3& camera_from_world) {
   const Eigen::Matrix3d r = camera_from_world.rotation.toRotationMatrix();
   return (r * found.covariance.topLeftCorner<3, 3>() * r.transpose()).diagonal().cwiseSqrt();

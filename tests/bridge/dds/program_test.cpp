@@ -11,96 +11,12 @@
 #include "host/cli/template_sets.h"
 #include "host/io/results.h"
 
-#include "tests/bridge/dds/dds_peer.h"
-#include "tests/bridge/small_world.h"
-#include "tests/cli/example_scene.h"
+#include "tests/bridge/dds/camera_peer.h"
 #include "tests/io/expect_input_error.h"
 
 namespace edgescout::ros2::test {
 
 namespace {
-
-using edgescout::test::joined;
-using edgescout::test::part_file;
-
-// The options of SmallWorld.
-std::vector<std::string> bracket(const std::vector<std::string>& more = {}) {
-  return joined({{"--model",           part_file(1), "--unit",         "mm",
-                  "--device",          "cpu",        "--viewpoints",   "3",
-                  "--in-plane-steps",  "12",         "--distance-min", "0.27",
-                  "--distance-max",    "0.33",       "--coarse-poses", "150",
-                  "--medium-poses",    "30",         "--candidates",   "10",
-                  "--min-probability", "0.01"},
-                 more});
-}
-
-// A camera on DDS, and what the program sends.
-struct CameraPeer : Peer {
-  DdsWriter image = writer<sensor_msgs_msg_dds__Image_>("rt/image", {.is_reliable = false}),
-            info =
-                writer<sensor_msgs_msg_dds__CameraInfo_>("rt/camera_info", {.is_reliable = false});
-  std::vector<msg::Detection3DArray> detections;
-  std::optional<msg::DiagnosticStatus> status;
-
-  CameraPeer() {
-    subscribe<vision_msgs_msg_dds__Detection3DArray_>(
-        "rt/edgescout/detections", {},
-        [this](const auto& wire) { detections.push_back(plain_of<msg::Detection3DArray>(wire)); });
-    subscribe<diagnostic_msgs_msg_dds__DiagnosticArray_>(
-        "rt/diagnostics", {},
-        [this](const auto& wire) { status = plain_of<msg::DiagnosticArray>(wire).status.at(0); });
-  }
-  void send(double seconds) {
-    write<sensor_msgs_msg_dds__CameraInfo_>(info, info_message(small_world().camera(), seconds));
-    write<sensor_msgs_msg_dds__Image_>(image, image_message(small_world().image(), seconds));
-  }
-  std::string diagnostics() const {
-    std::string text = status ? status->message : "no diagnostics";
-    if (status)
-      for (const msg::KeyValue& value : status->values)
-        text += "\n  " + value.key + ": " + value.value;
-    return text + "\n";
-  }
-  // Sends images until one is answered.
-  bool send_until(const std::function<bool()>& condition, double seconds = 30) {
-    double stamp = 1;
-    auto next = std::chrono::steady_clock::now();
-    return spin_until(
-        [&] {
-          if (std::chrono::steady_clock::now() > next) {
-            next += std::chrono::milliseconds(200);
-            send(stamp++);
-          }
-          return condition();
-        },
-        seconds);
-  }
-};
-
-// A client of a service as rmw_cyclonedds makes it: the payload begins with the client and a
-// number.
-template <typename RequestWire, typename ResultWire>
-struct Client {
-  DdsWriter requests;
-  std::vector<msg::DetectResult> detections;
-  std::vector<std::pair<std::uint64_t, std::int64_t>> answered;
-  std::vector<std::string> messages;
-
-  Client(Peer& peer, const std::string& service)
-      : requests(peer.writer<RequestWire>("rq" + service + "Request", {})) {
-    peer.subscribe<ResultWire>("rr" + service + "Reply", {}, [this](const ResultWire& wire) {
-      answered.emplace_back(wire.guid, wire.seq);
-      messages.emplace_back(wire.message);
-      if constexpr (requires { detections.push_back(plain_of<msg::DetectResult>(wire)); })
-        detections.push_back(plain_of<msg::DetectResult>(wire));
-    });
-  }
-  void ask(RequestWire request, std::uint64_t guid, std::int64_t seq) const {
-    request.guid = guid;
-    request.seq = seq;
-    requests.write(&request);
-  }
-};
 
 // "score x y z qx qy qz qw" of what `edgescout detect` finds in the picture.
 std::vector<std::array<double, 8>> found_by_command_line(const TemporaryFolder& folder,
@@ -134,31 +50,13 @@ void expect_same(const std::array<double, 8>& a, const std::array<double, 8>& b)
   for (std::size_t i = 4; i < 8; ++i) EXPECT_NEAR(a[i], sign * b[i], 1e-9);
 }
 
-TEST(Program, AnswersTopicsAndServices) {
+TEST(Program, DetectsInImagesAndNamesASecondCamera) {
   RunningProgram program(bracket());
   CameraPeer peer;
-  using Detect =
-      Client<edgescout_msgs_srv_dds__Detect_Request_, edgescout_msgs_srv_dds__Detect_Response_>;
-  using State = Client<edgescout_msgs_srv_dds__ScoutState_Request_,
-                       edgescout_msgs_srv_dds__ScoutState_Response_>;
-  Detect detect(peer, "/edgescout/detect");
-  State state(peer, "/edgescout/scout_state");
   ASSERT_TRUE(peer.send_until([&] { return !peer.detections.empty(); }))
       << peer.diagnostics() << program.log();
   EXPECT_EQ(peer.detections.front().header.frame_id, "camera");
   EXPECT_FALSE(peer.detections.front().detections.empty());
-
-  detect.ask({}, 0xabcdef0123456789, 41);
-  state.ask({}, 7, 8);
-  ASSERT_TRUE(peer.send_until([&] { return !detect.answered.empty() && !state.answered.empty(); }))
-      << peer.diagnostics();
-  EXPECT_EQ(detect.answered[0], std::pair(std::uint64_t(0xabcdef0123456789), std::int64_t(41)));
-  EXPECT_TRUE(detect.detections.at(0).success) << detect.messages[0];
-  EXPECT_FALSE(detect.detections[0].detections.detections.empty());
-  EXPECT_EQ(state.answered[0], std::pair(std::uint64_t(7), std::int64_t(8)));
-  EXPECT_NE(state.messages[0].find("run: found none"), std::string::npos) << state.messages[0];
-
-  // A second camera on the same topic.
   (void)peer.writer<sensor_msgs_msg_dds__Image_>("rt/image", {});
   EXPECT_TRUE(peer.spin_until([&] {
     return peer.status && peer.status->message.find("/image: found 2 publishers") == 0;
