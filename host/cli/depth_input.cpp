@@ -49,10 +49,11 @@ Se3 pose_of(const std::vector<double>& numbers) {
 }  // namespace
 
 void add_depth(CLI::App& verb, DepthArguments& depth) {
-  verb.add_option("--depth", depth.from,
-                  "Depth images beside the grey ones. scene: those of BOP scenes (depth/). A folder "
-                  "with files of the images' names, or the file of a single image: 16 bit, mm, or "
-                  "real numbers, m")
+  verb.add_option(
+          "--depth", depth.from,
+          "Depth images beside the grey ones. scene: those of BOP scenes (depth/). A folder "
+          "with files of the images' names, or the file of a single image: 16 bit, mm, or "
+          "real numbers, m")
       ->type_name("FROM")
       ->group("Depth");
   verb.add_option("--depth-camera", depth.camera,
@@ -90,9 +91,9 @@ void find_depth(std::span<InputImage> images, const DepthArguments& arguments) {
   const auto without = std::size_t(
       std::ranges::count_if(images, [](const InputImage& image) { return !image.depth; }));
   if (without == images.size())
-    throw InputError("command line", "--depth", arguments.from + " without any depth image",
-                     arguments.from == of_scenes ? "scenes with depth/"
-                                                 : "files with the names of the images");
+    throw InputError(
+        "command line", "--depth", arguments.from + " without any depth image",
+        arguments.from == of_scenes ? "scenes with depth/" : "files with the names of the images");
   if (without > 0)
     log(LogLevel::Warning,
         fmt::format("{} of {} images have no depth image", without, images.size()));

@@ -316,15 +316,15 @@ void print_table(const std::vector<Row>& rows, const RecallOptions& o) {
       "{:>6}{:>7}{:>10}{:>7}{:>6}{:>6}{:>6}{:>7}{:>6}{:>6}{:>7}{:>9}{:>6}{:>6}\n",
       rows.back().recalls.images, 100 * o.min_visible_fraction, estimates,
       words_on_ar(rows.back().recalls.has_vsd), o.max_angle_rad, 1000 * o.max_distance_m,
-      o.max_mspd_px, "object", "truths", "estimates", "AR", "VSD", "MSSD", "MSPD", "AP", "MSSD", "MSPD", "pose", "pose/sym", "mspd", "fp");
+      o.max_mspd_px, "object", "truths", "estimates", "AR", "VSD", "MSSD", "MSPD", "AP", "MSSD",
+      "MSPD", "pose", "pose/sym", "mspd", "fp");
   for (const auto& [object, r, p] : rows)
     std::cout << fmt::format(
         "{:>6}{:>7}{:>10}{:>7.3f}{:>6}{:>6.3f}{:>6.3f}{:>7.3f}{:>6.3f}{:>6.3f}{:>7.3f}{:>9.3f}"
         "{:>6.3f}{:>6.2f}\n",
         object, r.truths, r.estimates, r.ar(), r.has_vsd ? fmt::format("{:.3f}", r.ar_vsd) : "-",
-        r.ar_mssd, r.ar_mspd,
-        0.5 * (p.ap_mssd + p.ap_mspd), p.ap_mssd, p.ap_mspd, r.recall_raw, r.recall_symmetric,
-        r.recall_mspd, r.false_positives_per_image);
+        r.ar_mssd, r.ar_mspd, 0.5 * (p.ap_mssd + p.ap_mspd), p.ap_mssd, p.ap_mspd, r.recall_raw,
+        r.recall_symmetric, r.recall_mspd, r.false_positives_per_image);
 }
 
 void run_eval(EvalRequest& request) {
@@ -352,8 +352,7 @@ void add_options(CLI::App& verb, EvalRequest& request) {
       .bounded("max-estimates", request.most_estimates, 1, 1000000,
                "Estimates of an image that count for AP, best scores first. BOP: 100, of XYZ-IBD "
                "200")
-      .flag("vsd,!--no-vsd", request.vsd,
-            "BOP's VSD where all images have depth images (default)")
+      .flag("vsd,!--no-vsd", request.vsd, "BOP's VSD where all images have depth images (default)")
       .bounded("vsd-delta", request.vsd_delta_m, 1e-6, 10.0,
                "By how much a surface may lie behind the measured one and count as visible, m. "
                "BOP: 0.015, of ITODD 0.005");

@@ -20,10 +20,10 @@ struct DepthImage {
   float at(int x, int y) const { return z_m[static_cast<std::size_t>(y) * width + x]; }
 };
 
-// The error of a depth sensor. Structured light and stereo measure disparities, so it grows with the
-// distance squared (Khoshelham and Elberink, Sensors 2012).
+// The error of a depth sensor. Structured light and stereo measure disparities, so it grows with
+// the distance squared (Khoshelham and Elberink, Sensors 2012).
 struct DepthNoise {
-  double floor_m = 5e-4;      // standard deviation; the larger of both holds
+  double floor_m = 5e-4;         // standard deviation; the larger of both holds
   double at_one_metre_m = 1e-3;  // at 1 m
   double sigma_m(double z_m) const { return std::max(floor_m, at_one_metre_m * z_m * z_m); }
 };

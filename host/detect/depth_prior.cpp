@@ -26,8 +26,8 @@ float depth_around(const DepthImage& depth, const Eigen::Vector2d& pixel, double
     for (const double dx : {0.0, -1.0, 1.0}) {
       const Eigen::Vector2d place =
           (pixel + spread_px * Eigen::Vector2d(dx, dy)).array().round().matrix();
-      const bool is_inside = place.x() >= 0 && place.y() >= 0 && place.x() < depth.width &&
-                             place.y() < depth.height;
+      const bool is_inside =
+          place.x() >= 0 && place.y() >= 0 && place.x() < depth.width && place.y() < depth.height;
       const float z_m = is_inside ? depth.at(int(place.x()), int(place.y())) : DEPTH_MISSING;
       if (z_m > 0) return z_m;
     }
@@ -35,15 +35,14 @@ float depth_around(const DepthImage& depth, const Eigen::Vector2d& pixel, double
 }
 
 AnchorDepths depths_at_anchors(const DepthImage& depth, const ReducedTensors& level, int step) {
-  AnchorDepths anchors{(level.camera.width + step - 1) / step,
-                       (level.camera.height + step - 1) / step,
-                       {}};
+  AnchorDepths anchors{
+      (level.camera.width + step - 1) / step, (level.camera.height + step - 1) / step, {}};
   for (int row = 0; row < anchors.rows; ++row)
     for (int column = 0; column < anchors.columns; ++column) {
       const Eigen::Vector2d coarse(column * step, row * step);
-      anchors.z_m.push_back(depth_around(
-          depth, ((coarse.array() + 0.5) * level.reduction - 0.5).matrix(),
-          0.33 * step * level.reduction));
+      anchors.z_m.push_back(depth_around(depth,
+                                         ((coarse.array() + 0.5) * level.reduction - 0.5).matrix(),
+                                         0.33 * step * level.reduction));
     }
   return anchors;
 }
@@ -56,9 +55,9 @@ class AnchorSums {
       : columns_(columns), rows_(rows), sums_(std::size_t(columns + 1) * std::size_t(rows + 1)) {
     for (int row = 0; row < rows; ++row)
       for (int column = 0; column < columns; ++column)
-        at(row + 1, column + 1) = at(row, column + 1) + at(row + 1, column) - at(row, column) +
-                                  int(value(std::size_t(row) * std::size_t(columns) +
-                                            std::size_t(column)));
+        at(row + 1, column + 1) =
+            at(row, column + 1) + at(row + 1, column) - at(row, column) +
+            int(value(std::size_t(row) * std::size_t(columns) + std::size_t(column)));
   }
   // Around an anchor, as far as there are anchors.
   int around(int column, int row, int reach) const {

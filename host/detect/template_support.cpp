@@ -12,8 +12,7 @@ std::vector<PoseFeatures> template_support(const TemplateSet& set, const Scene& 
                                            const std::vector<PoseEstimate>& poses) {
   constexpr int most_points = 200;
   const std::vector<ObjectPose> placed = object_poses(poses);
-  Grid<PointsInView> points =
-      template_points(set, scene.views, most_points, scene.backend)(placed);
+  Grid<PointsInView> points = template_points(set, scene.views, most_points, scene.backend)(placed);
   Grid<VisibleInView> visible(poses.size(), scene.views.size());
   for_each_in_chunks(scene.backend.threads(), visible.values().size(), 64, [&](std::size_t i) {
     VisibleInView& cell = visible.values()[i];

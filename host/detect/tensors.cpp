@@ -54,8 +54,8 @@ void add_depth(ObjectView& view, Backend& backend) {
   const DepthImage& depth = view.depth->image;
   check(depth.width == view.camera.width && depth.height == view.camera.height,
         "add_tensors: depth and camera differ in size");
-  view.depth_values = backend.make_depth({depth.z_m, depth.width, depth.height,
-                                          intrinsics_of(view.camera)});
+  view.depth_values =
+      backend.make_depth({depth.z_m, depth.width, depth.height, intrinsics_of(view.camera)});
   view.occluders = make_occluders({}, {}, view, backend);
 }
 

@@ -12,11 +12,11 @@ namespace edgescout {
 struct Instances {
   int object_id = 0;
   int truths = 0;
-  std::vector<double> scores;          // of the estimates
-  std::vector<char> is_visible;        // per truth: seen enough
-  std::vector<char> counts;            // per truth: to be found; differs where there are targets
-  std::vector<double> mssd;            // of the diameter
-  std::vector<double> mspd;            // px
+  std::vector<double> scores;    // of the estimates
+  std::vector<char> is_visible;  // per truth: seen enough
+  std::vector<char> counts;      // per truth: to be found; differs where there are targets
+  std::vector<double> mssd;      // of the diameter
+  std::vector<double> mspd;      // px
   // By tau, of as many of the best estimates as there are truths; empty: not computed.
   std::array<std::vector<double>, VSD_TAUS> vsd;
   std::vector<double> raw, symmetric;  // largest of angle and distance, each over its bound

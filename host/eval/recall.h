@@ -75,9 +75,7 @@ struct Recalls {
   std::array<std::array<double, RECALL_STEPS>, VSD_TAUS> vsd{};
   double ar_vsd = 0;  // mean over both
   // BOP's average recall; without VSD that of the other two.
-  double ar() const {
-    return has_vsd ? (ar_mssd + ar_mspd + ar_vsd) / 3 : (ar_mssd + ar_mspd) / 2;
-  }
+  double ar() const { return has_vsd ? (ar_mssd + ar_mspd + ar_vsd) / 3 : (ar_mssd + ar_mspd) / 2; }
   // Over all estimates:
   double recall_raw = 0;        // angle and distance without symmetries
   double recall_symmetric = 0;  // modulo the object's symmetries

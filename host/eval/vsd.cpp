@@ -38,8 +38,11 @@ DistanceWindow window_of(const std::vector<Eigen::Vector3d>& points_m, const Cam
 // Both windows.
 DistanceWindow around(const DistanceWindow& a, const DistanceWindow& b) {
   const int left = std::min(a.left, b.left), top = std::min(a.top, b.top);
-  return {left, top, std::max(a.left + a.width, b.left + b.width) - left,
-          std::max(a.top + a.height, b.top + b.height) - top, {}};
+  return {left,
+          top,
+          std::max(a.left + a.width, b.left + b.width) - left,
+          std::max(a.top + a.height, b.top + b.height) - top,
+          {}};
 }
 
 bool overlap(const DistanceWindow& a, const DistanceWindow& b) {
@@ -48,8 +51,7 @@ bool overlap(const DistanceWindow& a, const DistanceWindow& b) {
 }
 
 bool is_visible(float model_m, float measured_m, double delta_m) {
-  return std::isfinite(model_m) &&
-         (measured_m == DEPTH_MISSING || model_m - measured_m <= delta_m);
+  return std::isfinite(model_m) && (measured_m == DEPTH_MISSING || model_m - measured_m <= delta_m);
 }
 
 }  // namespace
@@ -64,8 +66,7 @@ float DistanceWindow::at(int x, int y) const {
 VsdObject::VsdObject(const Object& object)
     : vertices_m_(object.mesh.vertices_m), diameter_m_(object.mesh.diameter_m) {
   for (const Eigen::Vector3d& vertex : vertices_m_)
-    for (int axis = 0; axis < 3; ++axis)
-      coordinates_m_.push_back(static_cast<float>(vertex[axis]));
+    for (int axis = 0; axis < 3; ++axis) coordinates_m_.push_back(static_cast<float>(vertex[axis]));
   for (const auto& corners : object.mesh.triangles)
     for (const int corner : corners) triangles_.push_back(static_cast<std::uint32_t>(corner));
 }

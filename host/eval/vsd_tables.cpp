@@ -53,8 +53,7 @@ std::vector<VsdErrors> table_of(const EvaluationImage& image, int object_id,
     return windows;
   };
   const std::vector<Se3> truths = true_poses(image, object_id);
-  const std::vector<DistanceWindow> estimates =
-      seen(best_poses(image, object_id, truths.size()));
+  const std::vector<DistanceWindow> estimates = seen(best_poses(image, object_id, truths.size()));
   if (estimates.empty()) return {};
   const std::vector<DistanceWindow> truth_windows = seen(truths);
   std::vector<VsdErrors> errors;

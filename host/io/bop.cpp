@@ -104,7 +104,8 @@ json camera_entry(const BopImage& image) {
   const Camera& c = image.camera;
   check(c.lens == LensModel::BrownConrady && c.skew == 0 && c.field_of_view_rad == 0,
         "save_bop_scene: a lens that BOP has no field for");
-  json entry{{"cam_K", {c.fx, 0.0, c.cx, 0.0, c.fy, c.cy, 0.0, 0.0, 1.0}}, {"depth_scale", image.depth_scale}};
+  json entry{{"cam_K", {c.fx, 0.0, c.cx, 0.0, c.fy, c.cy, 0.0, 0.0, 1.0}},
+             {"depth_scale", image.depth_scale}};
   if (c.has_distortion()) entry["dist"] = c.distortion;
   if (image.camera_from_world) {
     entry["cam_R_w2c"] = rotation_numbers(*image.camera_from_world);

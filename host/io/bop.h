@@ -20,8 +20,8 @@ struct BopImage {
   std::filesystem::path file;
   Camera camera;  // size 0 x 0 until the image is read; `dist` is read if given
   std::optional<Se3> camera_from_world;  // set if the file has cam_R_w2c and cam_t_w2c
-  std::filesystem::path depth_file;      // in depth/ or depth_NAME/; empty: the scene has none of it
-  double depth_scale = 1;                // mm per stored unit; 1 if the file does not state it
+  std::filesystem::path depth_file;  // in depth/ or depth_NAME/; empty: the scene has none of it
+  double depth_scale = 1;            // mm per stored unit; 1 if the file does not state it
 };
 
 struct BopTruth {

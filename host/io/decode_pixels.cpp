@@ -92,7 +92,7 @@ std::string read_image_bytes(const std::filesystem::path& file) {
 }
 
 cv::Mat decode_pixels(const std::string& bytes, const ImageOptions& options,
-                  const std::string& source) {
+                      const std::string& source) {
   if (bytes.size() >= max_bytes)
     throw InputError(source, "image", std::to_string(bytes.size()) + " bytes",
                      "less than " + std::to_string(max_bytes));

@@ -48,8 +48,8 @@ DepthImage in_metres(const cv::Mat& stored, const std::string& source, const Dep
                      std::optional<double> stated_m) {
   options.validate();
   const bool is_real = stored.depth() == CV_32F || stored.depth() == CV_64F;
-  const double unit_m = options.unit_m > 0 ? options.unit_m
-                                           : stated_m.value_or(is_real ? 1.0 : metres_per_mm);
+  const double unit_m =
+      options.unit_m > 0 ? options.unit_m : stated_m.value_or(is_real ? 1.0 : metres_per_mm);
   cv::Mat values;
   stored.convertTo(values, CV_32F);
   DepthImage depth{stored.cols, stored.rows, {}};

@@ -16,8 +16,8 @@ namespace edgescout {
 // Stored values are camera-frame z in units of options.unit_m, or where that is 0 of `stated_m`
 // (BOP's depth_scale), or else of 1 mm for whole numbers and 1 m for real ones. 0, NaN, infinity
 // and values outside options.range_m become DEPTH_MISSING. InputError naming the file: missing, no
-// image, several channels, 8 bit, or values none of which lies inside the range (the message names their median,
-// which tells a wrong unit). A depth image without any value is no error.
+// image, several channels, 8 bit, or values none of which lies inside the range (the message names
+// their median, which tells a wrong unit). A depth image without any value is no error.
 DepthImage load_depth(const std::filesystem::path& file, const DepthOptions& options = {},
                       std::optional<double> stated_m = {});
 

@@ -5,10 +5,11 @@ namespace edgescout {
 void describe(DepthOptions& o, OptionVisitor& visit) {
   constexpr double farthest_m = 1000;
   visit.group("Depth");
-  visit.number({"depth-unit",
-                "Length of one stored unit of depth, m. 0: that of the dataset, else 0.001 of whole "
-                "numbers and 1 of real numbers"},
-               o.unit_m, 0.0, farthest_m);
+  visit.number(
+      {"depth-unit",
+       "Length of one stored unit of depth, m. 0: that of the dataset, else 0.001 of whole "
+       "numbers and 1 of real numbers"},
+      o.unit_m, 0.0, farthest_m);
   visit.range({"depth-range", "Smallest and largest depth that counts as measured, m"}, o.range_m,
               0, farthest_m);
   visit.number({"depth-noise",

@@ -9,10 +9,10 @@
 namespace edgescout {
 
 struct DepthOptions {
-  double unit_m = 0;           // of stored values; 0: what the file or dataset says
-  Range range_m{0.05, 20.0};   // values outside count as not measured
-  DepthNoise noise;            // of the sensor
-  void validate() const;       // InputError naming the field
+  double unit_m = 0;          // of stored values; 0: what the file or dataset says
+  Range range_m{0.05, 20.0};  // values outside count as not measured
+  DepthNoise noise;           // of the sensor
+  void validate() const;      // InputError naming the field
 };
 
 void describe(DepthOptions& options, OptionVisitor& visit);

@@ -23,8 +23,8 @@ DepthImage undistort_depth(const DepthImage& depth, const Camera& camera);
 
 // Reprojects the surface that another camera measured: what the grey camera sees of it, the nearest
 // of several. The surface is that of triangles between neighbouring pixels, without those whose
-// corners differ by more than 2 % of their depth: there an object ends. Places that the depth camera
-// did not see are missing. InputError: depth and depth.camera differ in size.
+// corners differ by more than 2 % of their depth: there an object ends. Places that the depth
+// camera did not see are missing. InputError: depth and depth.camera differ in size.
 DepthImage register_depth(const DepthImage& depth, const DepthCamera& from, const Camera& grey,
                           ThreadPool& pool);
 

@@ -117,9 +117,9 @@ EdgeModel edge_model_with(const Mesh& mesh, const EdgeModelOptions& options,
   if (model.crease_points.empty() && model.curved.empty())
     throw InputError(mesh.name, "edges", "none to draw",
                      "a mesh with creases, open borders or curved faces, a smaller raster step");
-  model.surface_points = sample_surface(
-      mesh, std::ranges::any_of(model.creases, &EdgeModel::Segment::is_open_border),
-      SURFACE_POINTS);
+  model.surface_points =
+      sample_surface(mesh, std::ranges::any_of(model.creases, &EdgeModel::Segment::is_open_border),
+                     SURFACE_POINTS);
   model.occluding = std::move(occluding);
   return model;
 }

@@ -51,9 +51,8 @@ std::vector<SurfacePoint> sample_surface(const Mesh& mesh, bool has_open_borders
     const auto number = std::uint32_t(i);
     const auto chosen = std::ranges::upper_bound(sums, sums.back() * radical_inverse(number, 2));
     const auto triangle = std::size_t(std::min(chosen - sums.begin(), std::ssize(sums) - 1));
-    const Eigen::Vector3d point_m =
-        point_in(mesh, mesh.triangles[triangle], radical_inverse(number, 3),
-                 radical_inverse(number, 5));
+    const Eigen::Vector3d point_m = point_in(
+        mesh, mesh.triangles[triangle], radical_inverse(number, 3), radical_inverse(number, 5));
     points.push_back(point_of(point_m, mesh.face_normals[triangle]));
     if (has_open_borders) points.push_back(point_of(point_m, -mesh.face_normals[triangle]));
   }

@@ -3,9 +3,10 @@
 //
 // Minimises E(pose) = sum over views, points of rho(DT3_view(x_i, xi_i)) by Levenberg-Marquardt
 // over the tangent of core/se3.h at world_from_object (Eqs. 8 and 11). Views with depth add the
-// distances of the visible surface to what was measured (depth_systems.h). Projections and orientations
-// are recomputed at every evaluation; the visible points at the start of every round. All poses of
-// a call are refined side by side: one kernel call gives the systems of all of them in all views.
+// distances of the visible surface to what was measured (depth_systems.h). Projections and
+// orientations are recomputed at every evaluation; the visible points at the start of every round.
+// All poses of a call are refined side by side: one kernel call gives the systems of all of them in
+// all views.
 #pragma once
 
 #include <functional>
@@ -33,8 +34,9 @@ struct PointsInView {
 using PointsInViews = std::function<Grid<PointsInView>(std::span<const ObjectPose>)>;
 
 // As register_poses, with points that the caller looks up before every round. register_poses draws
-// depth maps to find them, which costs more than a short registration itself. Of scene.models only the
-// diameters count. Ignores D2coOptions::visibility and D2coOptions::solver. LogicError besides: a grid of another size.
+// depth maps to find them, which costs more than a short registration itself. Of scene.models only
+// the diameters count. Ignores D2coOptions::visibility and D2coOptions::solver. LogicError besides:
+// a grid of another size.
 std::vector<PoseEstimate> register_points(const Scene& scene, std::span<const ObjectPose> starts,
                                           const PointsInViews& points,
                                           const D2coOptions& options = {});

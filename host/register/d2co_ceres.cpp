@@ -59,8 +59,8 @@ void add_edges(RoundProblem& round, const HostView& view, std::span<const ModelP
         round.pose.data()));
 }
 
-void add_surface(RoundProblem& round, const ObjectView& view,
-                 std::span<const SurfacePoint> surface, const PoseDepthOptions& options) {
+void add_surface(RoundProblem& round, const ObjectView& view, std::span<const SurfacePoint> surface,
+                 const PoseDepthOptions& options) {
   if (!view.depth) return;
   const DepthImage& depth = view.depth->image;
   const DepthView measured{depth.z_m, depth.width, depth.height, intrinsics_of(view.camera)};
@@ -73,8 +73,8 @@ void add_surface(RoundProblem& round, const ObjectView& view,
 void add_visible_points(RoundProblem& at_pose, const Scene& scene, const HostView& view,
                         const ObjectPose& pose, const D2coRound& round,
                         const VisibilityOptions& visibility) {
-  const VisibleInView visible =
-      visible_in_views({scene.models, {&view.view, 1}, scene.backend}, {&pose, 1}, visibility)(0, 0);
+  const VisibleInView visible = visible_in_views({scene.models, {&view.view, 1}, scene.backend},
+                                                 {&pose, 1}, visibility)(0, 0);
   add_edges(at_pose, view, thinned(visible.points, round.max_points));
   add_surface(at_pose, view.view, thinned(visible.surface, round.max_surface_points),
               pose_depth_options(scene, REGISTRATION_BAND));
@@ -128,7 +128,8 @@ WorldSystem system_of(RoundProblem& round, const std::vector<ceres::ResidualBloc
   std::vector<double> residuals;
   ceres::CRSMatrix jacobian;
   WorldSystem system;
-  if (blocks.empty() || !round.problem.Evaluate(bare, nullptr, &residuals, nullptr, &jacobian)) return system;
+  if (blocks.empty() || !round.problem.Evaluate(bare, nullptr, &residuals, nullptr, &jacobian))
+    return system;
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     const Eigen::Map<const Vector6d> j(&jacobian.values[6 * i]);
     double rho[3];

@@ -17,9 +17,9 @@ namespace edgescout {
 struct D2coRound {
   std::uint32_t loss = LOSS_HUBER;
   float scale_px = 4;
-  int iterations = 10;  // of Levenberg-Marquardt
-  int max_points = 0;   // per view, evenly thinned; 0: all
-  double depth_sigmas = 3;   // scale of the loss against measured depth, standard deviations
+  int iterations = 10;           // of Levenberg-Marquardt
+  int max_points = 0;            // per view, evenly thinned; 0: all
+  double depth_sigmas = 3;       // scale of the loss against measured depth, standard deviations
   int max_surface_points = 150;  // compared with measured depth, per view
 };
 

@@ -43,8 +43,7 @@ bool DepthCost::Evaluate(double const* const* parameters, double* residuals,
   const std::optional<Eigen::Vector3d> q = measured_point(view_, p);
   if (!q || n.dot(*q) >= 0) return true;
   const double z_m = q->z(), slope = n.dot(*q) / z_m, offset_m = z_m - n.dot(p) / slope;
-  const double sigma_m =
-      std::max(double(options_.noise_floor_m), options_.noise_per_m * z_m * z_m);
+  const double sigma_m = std::max(double(options_.noise_floor_m), options_.noise_per_m * z_m * z_m);
   if (offset_m < -std::max(double(options_.band_m), BAND_SIGMAS * sigma_m)) {
     residuals[0] = HIDDEN_RESIDUAL;
     return true;

@@ -11,9 +11,9 @@
 
 namespace edgescout {
 
-// Parameters: world_from_object in the order of se3_manifold.h. The depth behind `view` must outlive
-// the cost. A sample that is turned away or not measured has a residual of 0, a hidden
-// one HIDDEN_RESIDUAL: a pose must not gain by sinking into a surface.
+// Parameters: world_from_object in the order of se3_manifold.h. The depth behind `view` must
+// outlive the cost. A sample that is turned away or not measured has a residual of 0, a hidden one
+// HIDDEN_RESIDUAL: a pose must not gain by sinking into a surface.
 inline constexpr double HIDDEN_RESIDUAL = 1e4;  // every loss has its largest value there
 
 class DepthCost : public ceres::SizedCostFunction<1, 7> {

@@ -18,8 +18,8 @@ std::vector<double> offsets_m(const EdgeModel& model, const Se3& camera_from_obj
   std::vector<double> offsets;
   const DepthImage& depth = view.depth->image;
   for (const SurfacePoint& sample : model.surface_points) {
-    const Eigen::Vector3d point_m =
-                              camera_from_object * Eigen::Vector3d(sample.x_m, sample.y_m, sample.z_m),
+    const Eigen::Vector3d point_m = camera_from_object *
+                                    Eigen::Vector3d(sample.x_m, sample.y_m, sample.z_m),
                           normal = camera_from_object.rotation *
                                    Eigen::Vector3d(sample.nx, sample.ny, sample.nz);
     if (!(point_m.z() > 0) || normal.dot(point_m) >= 0) continue;

@@ -13,8 +13,7 @@ constexpr double LEAST_BAND_M = 1.5e-3;
 
 }  // namespace
 
-WorldSystem world_system(const PoseDepth& depth, const Se3& camera_from_world,
-                         double loss_sigmas) {
+WorldSystem world_system(const PoseDepth& depth, const Se3& camera_from_world, double loss_sigmas) {
   WorldSystem system, in_world;
   int entry = 0;
   for (int a = 0; a < 6; ++a) {
@@ -75,9 +74,8 @@ void DepthSystems::add(std::span<const std::size_t> pose_numbers,
   for (std::size_t i = 0; i < pose_numbers.size(); ++i)
     for (std::size_t k = 0; k < views_.size(); ++k) {
       const Range& range = ranges_(pose_numbers[i], k);
-      problems.push_back(
-          {to_pose(scene_.views[views_[k]].camera_from_world * world_from_object[i]), range.first,
-           range.count, std::uint32_t(k)});
+      problems.push_back({to_pose(scene_.views[views_[k]].camera_from_world * world_from_object[i]),
+                          range.first, range.count, std::uint32_t(k)});
     }
   std::vector<PoseDepth> results(problems.size());
   scene_.backend.pose_depth(depths_, *points_, problems, options_, results);

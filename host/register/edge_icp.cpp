@@ -215,8 +215,7 @@ void add_depth(Matrix6d& covariance, const LineSystem& depth) {
   if (joined.allFinite()) covariance = 0.5 * (joined + joined.transpose());
 }
 
-void edge_icp_of_one(PoseEstimate& estimate, const PoseInViews& in,
-                     const EdgeIcpOptions& options) {
+void edge_icp_of_one(PoseEstimate& estimate, const PoseInViews& in, const EdgeIcpOptions& options) {
   const Iterated found = iterate(estimate.world_from_object, in, options);
   const bool is_kept = found.convergence == Convergence::TooFewEdges;
   if (!is_kept || estimate.points > 0) estimate.convergence = found.convergence;

@@ -1,7 +1,8 @@
 // One calibrated image: pixels, camera, edges, their DCD tensors and the occluders.
 //
-// A depth image may come with it. pipeline.h makes it in two steps: prepare_view undistorts the image and finds the edges,
-// add_tensors builds the tensors (paper, Sec. 3.3). Copies share all data.
+// A depth image may come with it. pipeline.h makes it in two steps: prepare_view undistorts the
+// image and finds the edges, add_tensors builds the tensors (paper, Sec. 3.3). Copies share all
+// data.
 //
 // Public header.
 #pragma once
@@ -28,14 +29,14 @@ struct ReducedTensors {
 };
 
 struct ObjectView {
-  Camera camera;                           // ideal: without distortion
-  Se3 camera_from_world;                   // identity where the world is the camera frame
-  std::shared_ptr<const Image> image;      // undistorted; null: no shading
+  Camera camera;                               // ideal: without distortion
+  Se3 camera_from_world;                       // identity where the world is the camera frame
+  std::shared_ptr<const Image> image;          // undistorted; null: no shading
   std::shared_ptr<const MeasuredDepth> depth;  // of the same camera; null: nothing was measured
-  std::shared_ptr<const EdgeIndex> edges;  // null: no edge ICP, no edge claims
-  DepthHandle depth_values;                // those of `depth`, set by add_tensors
-  ViewHandle tensor;                       // of all edges, full resolution
-  std::vector<ReducedTensors> reduced;     // by ascending reduction; views of a scene: equal ones
+  std::shared_ptr<const EdgeIndex> edges;      // null: no edge ICP, no edge claims
+  DepthHandle depth_values;                    // those of `depth`, set by add_tensors
+  ViewHandle tensor;                           // of all edges, full resolution
+  std::vector<ReducedTensors> reduced;  // by ascending reduction; views of a scene: equal ones
   std::shared_ptr<const Occluders> occluders;  // null: no known objects here
 };
 

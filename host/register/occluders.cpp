@@ -42,9 +42,10 @@ void draw_measured(const MeasuredDepth& depth, Occluders& occluders) {
           measured += depth.image.at(u, v) > 0;
         }
       if (2 * measured < side * side) continue;
-      float& nearest_m = occluders.depth_m[std::size_t(y) * std::size_t(map.width) + std::size_t(x)];
-      nearest_m = std::min(
-          nearest_m, farthest_m + float(OCCLUDING_SIGMAS * depth.noise.sigma_m(farthest_m)));
+      float& nearest_m =
+          occluders.depth_m[std::size_t(y) * std::size_t(map.width) + std::size_t(x)];
+      nearest_m = std::min(nearest_m,
+                           farthest_m + float(OCCLUDING_SIGMAS * depth.noise.sigma_m(farthest_m)));
     }
 }
 

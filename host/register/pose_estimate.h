@@ -25,7 +25,7 @@ struct DepthEvidence {
   double contradicting = 0;  // measured clearly behind: the surface cannot be there
   double hidden = 0;         // measured clearly before: something hides it
   double missing = 0;        // not measured, or outside the image
-  double offset_m = 0;       // sum over agreeing: measured minus the pose's, along the camera's axis
+  double offset_m = 0;  // sum over agreeing: measured minus the pose's, along the camera's axis
 };
 
 // What was measured of a pose in one view, or pooled over views (pose_features.h).

@@ -32,17 +32,18 @@ std::vector<D2coRound> D2coOptions::default_rounds() {
 namespace schedules {
 
 D2coOptions search() {
-  return on_small_depth_maps(
-      with_rounds({{LOSS_GEMAN_MCCLURE, 20, 8, 200, 12, 80}, {LOSS_GEMAN_MCCLURE, 6, 8, 250, 6, 100}}));
+  return on_small_depth_maps(with_rounds(
+      {{LOSS_GEMAN_MCCLURE, 20, 8, 200, 12, 80}, {LOSS_GEMAN_MCCLURE, 6, 8, 250, 6, 100}}));
 }
 
 D2coOptions coarse() {
-  return with_rounds({{LOSS_GEMAN_MCCLURE, 12, 6, 120, 20, 60}, {LOSS_GEMAN_MCCLURE, 3, 6, 120, 8, 60}});
+  return with_rounds(
+      {{LOSS_GEMAN_MCCLURE, 12, 6, 120, 20, 60}, {LOSS_GEMAN_MCCLURE, 3, 6, 120, 8, 60}});
 }
 
 D2coOptions medium() {
-  return on_small_depth_maps(
-      with_rounds({{LOSS_GEMAN_MCCLURE, 12, 6, 150, 10, 80}, {LOSS_GEMAN_MCCLURE, 5, 6, 200, 5, 100}}));
+  return on_small_depth_maps(with_rounds(
+      {{LOSS_GEMAN_MCCLURE, 12, 6, 150, 10, 80}, {LOSS_GEMAN_MCCLURE, 5, 6, 200, 5, 100}}));
 }
 
 D2coOptions fine() {

@@ -24,7 +24,8 @@ void drop_grazing(DepthImage& depth, const SensedView& sensed) {
     const SeenSurface& seen = sensed.surfaces[i];
     if (seen.triangle == HORIZON) continue;
     const double above = seen.normal.dot(seen.to_viewer) - sensor.grazing_cosine;
-    const double even = 0.5 * std::erfc(-noise.at<float>(static_cast<int>(i)) / std::numbers::sqrt2);
+    const double even =
+        0.5 * std::erfc(-noise.at<float>(static_cast<int>(i)) / std::numbers::sqrt2);
     if (above <= even * sensor.grazing_ramp) depth.z_m[i] = DEPTH_MISSING;
   }
 }
@@ -40,8 +41,8 @@ void drop_highlights(DepthImage& depth, const SensedView& sensed, ThreadPool& po
   for_each_in_chunks(pool, depth.z_m.size(), 1024, [&](std::size_t i) {
     if (!sensed.is_part(i) || depth.z_m[i] == DEPTH_MISSING) return;
     const SeenSurface& seen = sensed.surfaces[i];
-    const ReceivedLight light = sensed.shading.lighting.at(shaded_point(sensed.view, seen),
-                                                           material_of(sensed.view, seen));
+    const ReceivedLight light =
+        sensed.shading.lighting.at(shaded_point(sensed.view, seen), material_of(sensed.view, seen));
     if (light.specular >= sensed.sensor().highlight) depth.z_m[i] = DEPTH_MISSING;
   });
 }

@@ -4,9 +4,9 @@ namespace edgescout {
 namespace {
 
 void describe_noise(DepthSensor& o, OptionVisitor& visit) {
-  visit.number({"depth-noise",
-                "Standard deviation of depth at 1 m, m. Grows with the distance squared"},
-               o.noise_m, 0.0, 0.1);
+  visit.number(
+      {"depth-noise", "Standard deviation of depth at 1 m, m. Grows with the distance squared"},
+      o.noise_m, 0.0, 0.1);
   visit.number({"depth-noise-blur",
                 "Standard deviation of the blur of that noise, px. 0: each pixel has its own"},
                o.noise_blur_px, 0.0, 50.0);
@@ -25,9 +25,9 @@ void describe_holes(DepthSensor& o, OptionVisitor& visit) {
   visit.number({"depth-grazing",
                 "Cosine of normal and line of sight at and below which nothing is measured"},
                o.grazing_cosine, 0.0, 1.0);
-  visit.number({"depth-grazing-ramp",
-                "Range of the cosine above it in which some pixels are missing"},
-               o.grazing_ramp, 0.0, 1.0);
+  visit.number(
+      {"depth-grazing-ramp", "Range of the cosine above it in which some pixels are missing"},
+      o.grazing_ramp, 0.0, 1.0);
   visit.number({"depth-saturation", "Grey level from which nothing is measured. 0: not used"},
                o.saturation_grey, 0.0, 255.0);
   visit.number({"depth-highlight",

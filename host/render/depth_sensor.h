@@ -9,9 +9,9 @@ namespace edgescout {
 // host/render/measure_depth.h says in which order errors act.
 struct DepthSensor {
   bool on = false;
-  double unit_m = 1e-4;    // of the values in the files
-  Range range_m{0.1, 6};   // beyond it nothing is measured
-  double noise_m = 0.001;  // standard deviation at 1 m; grows with the distance squared
+  double unit_m = 1e-4;      // of the values in the files
+  Range range_m{0.1, 6};     // beyond it nothing is measured
+  double noise_m = 0.001;    // standard deviation at 1 m; grows with the distance squared
   double noise_blur_px = 0;  // neighbouring pixels have like errors; 0: each has its own
   double step_m = 0.0005;  // at 1 m: equal steps of disparity, which grow with the distance squared
   // Cosine of the angle between normal and line of sight. At the least one nothing is measured; the
@@ -23,9 +23,9 @@ struct DepthSensor {
   double baseline_m = 0.075;
   // Around jumps of depth, this far: a share is missing, the rest lies between both surfaces.
   double border_px = 1, border_missing = 0.5;
-  double holes = 0;      // share of the parts' pixels that is missing in blobs, beside all of this
-  double hole_px = 5;    // standard deviation of the blur that makes the blobs
-  double bias_m = 0;     // added to all depths
+  double holes = 0;    // share of the parts' pixels that is missing in blobs, beside all of this
+  double hole_px = 5;  // standard deviation of the blur that makes the blobs
+  double bias_m = 0;   // added to all depths
   double rotation_deg = 0;  // error of the calibration to the grey camera; the axis is random
 };
 void describe(DepthSensor& sensor, OptionVisitor& visit);

@@ -26,8 +26,8 @@ std::vector<SeenSurface> surfaces_through_lens(const ViewRaster& view, const Cam
   for_each_in_chunks(pool, surfaces.size(), 4096, [&](std::size_t i) {
     const int x = static_cast<int>(i % camera.width), y = static_cast<int>(i / camera.width);
     const Eigen::Vector2d ideal = lens.before(x, y);
-    surfaces[i] = seen_at(view, nearest(ideal.x(), view.fine.width),
-                          nearest(ideal.y(), view.fine.height));
+    surfaces[i] =
+        seen_at(view, nearest(ideal.x(), view.fine.width), nearest(ideal.y(), view.fine.height));
   });
   return surfaces;
 }
@@ -72,15 +72,15 @@ DepthImage turned(const DepthImage& depth, const Camera& camera,
   DepthImage out{depth.width, depth.height, std::vector<float>(depth.z_m.size(), DEPTH_MISSING)};
   for (int y = 0; y < depth.height; ++y)
     for (int x = 0; x < depth.width; ++x) {
-      const Eigen::Vector3d ray = turned_from_true.transpose() *
-                                  ray_through(camera, Eigen::Vector2d(x, y));
+      const Eigen::Vector3d ray =
+          turned_from_true.transpose() * ray_through(camera, Eigen::Vector2d(x, y));
       if (ray.z() <= 0) continue;
       const Eigen::Vector2d from = project(camera, ray).array().round();
       if (!(from.x() >= 0 && from.y() >= 0 && from.x() < depth.width && from.y() < depth.height))
         continue;
       const float z_m = depth.at(static_cast<int>(from.x()), static_cast<int>(from.y()));
-      out.z_m[static_cast<std::size_t>(y) * depth.width + x] = static_cast<float>(
-          z_m * (turned_from_true.row(2) * ray_through(camera, from)).value());
+      out.z_m[static_cast<std::size_t>(y) * depth.width + x] =
+          static_cast<float>(z_m * (turned_from_true.row(2) * ray_through(camera, from)).value());
     }
   return out;
 }
@@ -99,9 +99,9 @@ void miscalibrate(DepthImage& depth, const SensedView& sensed) {
 DepthImage measure_depth(const ViewRaster& view, const SceneView& scene_view,
                          const SceneShading& shading, const Image& grey, std::size_t number,
                          ThreadPool& pool) {
-  const SensedView sensed{view,   scene_view,
+  const SensedView sensed{view,    scene_view,
                           shading, grey,
-                          number, surfaces_through_lens(view, scene_view.camera, number, pool)};
+                          number,  surfaces_through_lens(view, scene_view.camera, number, pool)};
   DepthImage depth = true_depth(sensed);
   smear_borders(depth, sensed);
   add_noise(depth, sensed);

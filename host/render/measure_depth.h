@@ -1,8 +1,8 @@
 // Makes the depth image that a sensor measures of a view.
 //
 // In this order, from the true depth at the pixels' centres: borders are smeared, noise is added,
-// steps are taken, the bias is added; then come the holes, then the wrong rotation. Each error has a
-// random stream of its own: switching one on changes no other.
+// steps are taken, the bias is added; then come the holes, then the wrong rotation. Each error has
+// a random stream of its own: switching one on changes no other.
 #pragma once
 
 #include "host/core/depth_image.h"

@@ -57,7 +57,8 @@ Eigen::Vector3d Microfacets::visible_facet(double u, double v) const {
                                  ? Eigen::Vector3d(-stretched.y() / level, stretched.x() / level, 0)
                                  : Eigen::Vector3d(1, 0, 0);
   const Eigen::Vector3d t2 = stretched.cross(t1);
-  const double r = std::sqrt(u), a = r * std::cos(2 * std::numbers::pi * v), s = 0.5 * (1 + stretched.z());
+  const double r = std::sqrt(u), a = r * std::cos(2 * std::numbers::pi * v),
+               s = 0.5 * (1 + stretched.z());
   const double b = (1 - s) * std::sqrt(1 - a * a) + s * r * std::sin(2 * std::numbers::pi * v);
   const Eigen::Vector3d facet =
       a * t1 + b * t2 + std::sqrt(std::max(0.0, 1 - a * a - b * b)) * stretched;

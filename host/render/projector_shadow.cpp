@@ -51,8 +51,8 @@ std::vector<char> lit_by_projector(const ViewRaster& view, const SceneView& scen
     if (!(pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() < camera.width &&
           pixel.y() < camera.height))
       return;
-    const std::size_t j = static_cast<std::size_t>(pixel.y()) * camera.width +
-                          static_cast<std::size_t>(pixel.x());
+    const std::size_t j =
+        static_cast<std::size_t>(pixel.y()) * camera.width + static_cast<std::size_t>(pixel.x());
     lit[i] = raster.depth_m[j] >= x.z() - pixel_m;
   });
   return lit;

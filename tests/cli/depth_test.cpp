@@ -68,7 +68,8 @@ TEST(DepthOption, PartsBehindAMeasuredSurfaceAreNotFound) {
 TEST(DepthOption, RefusesAnotherSize) {
   const DepthScene t;
   t.write_depth(0.3, 160, 120);
-  expect_refused_in_the_batch(t.detect({"--depth", "scene"}), {"000000.png", "size", "depth-camera"});
+  expect_refused_in_the_batch(t.detect({"--depth", "scene"}),
+                              {"000000.png", "size", "depth-camera"});
 }
 
 TEST(DepthOption, RefusesAWrongUnit) {

@@ -61,7 +61,8 @@ TEST(Render, WritesDepthBesideTheGreyImages) {
   const DepthImage depth = load_depth(image.depth_file, {}, 1e-3 * image.depth_scale);
   ASSERT_EQ(depth.width, 64);
   ASSERT_EQ(depth.height, 48);
-  const double distance_m = load_bop_scene(scene).truth.at(0)[0].camera_from_object.translation_m.z();
+  const double distance_m =
+      load_bop_scene(scene).truth.at(0)[0].camera_from_object.translation_m.z();
   int near = 0;
   for (const float z_m : depth.z_m) near += std::abs(z_m - distance_m) < 0.1 * distance_m;
   EXPECT_GT(near, 200);

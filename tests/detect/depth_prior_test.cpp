@@ -39,8 +39,7 @@ struct PriorScene {
       const DepthPrior prior(searched, view, 2);
       for (std::size_t i = 0; i < searched.numbering.distances_m.size(); ++i)
         if (prior.fits(i, column, row))
-          farthest_m =
-              std::max(farthest_m, std::abs(searched.numbering.distances_m[i] - wall_m));
+          farthest_m = std::max(farthest_m, std::abs(searched.numbering.distances_m[i] - wall_m));
     }
     return farthest_m;
   }

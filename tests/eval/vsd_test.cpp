@@ -40,9 +40,7 @@ Camera plate_camera() {
 
 Se3 plate_at(double x_m, double z_m) { return {Eigen::Quaterniond::Identity(), {x_m, 0, z_m}}; }
 
-DepthImage nothing_measured() {
-  return {200, 200, std::vector<float>(40000, DEPTH_MISSING)};
-}
+DepthImage nothing_measured() { return {200, 200, std::vector<float>(40000, DEPTH_MISSING)}; }
 
 // Measured at one depth in the columns [from, to).
 DepthImage measured_in(int from, int to, float z_m) {
@@ -111,8 +109,8 @@ float cast_ray(const Mesh& mesh, const Se3& pose, const Eigen::Vector3d& ray) {
   for (const auto& [i, j, k] : mesh.triangles) {
     const Eigen::Vector3d a = pose * mesh.vertices_m[i], e1 = pose * mesh.vertices_m[j] - a,
                           e2 = pose * mesh.vertices_m[k] - a, n = ray.cross(e2), q = (-a).cross(e1);
-    const double determinant = e1.dot(n), u = -a.dot(n) / determinant,
-                 v = ray.dot(q) / determinant, t = e2.dot(q) / determinant;
+    const double determinant = e1.dot(n), u = -a.dot(n) / determinant, v = ray.dot(q) / determinant,
+                 t = e2.dot(q) / determinant;
     if (u >= 0 && v >= 0 && u + v <= 1 && t > 0) nearest = std::min(nearest, t * ray.norm());
   }
   return static_cast<float>(nearest);
@@ -142,16 +140,15 @@ SecondVsd vsd_by_rays(const Object& object, const Camera& camera, const Se3& est
   for (int tau = 0; tau < VSD_TAUS; ++tau) {
     const double bound_m = 0.05 * (tau + 1) * object.mesh.diameter_m;
     const auto wrong = std::ranges::count_if(differences, [&](double d) { return d >= bound_m; });
-    second.errors[tau] =
-        differences.empty() ? 1 : static_cast<double>(wrong) / second.visible;
+    second.errors[tau] = differences.empty() ? 1 : static_cast<double>(wrong) / second.visible;
   }
   return second;
 }
 
 Object tetrahedron() {
   Object object;
-  object.mesh.vertices_m = {{0.03, 0.03, 0.03}, {0.03, -0.03, -0.03}, {-0.03, 0.03, -0.03},
-                            {-0.03, -0.03, 0.03}};
+  object.mesh.vertices_m = {
+      {0.03, 0.03, 0.03}, {0.03, -0.03, -0.03}, {-0.03, 0.03, -0.03}, {-0.03, -0.03, 0.03}};
   object.mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
   object.mesh.diameter_m = 0.06 * std::sqrt(2.0);
   return object;
@@ -169,17 +166,18 @@ TEST(Vsd, AgreesWithRaysOnRandomCases) {
   Random random(7);
   double sum = 0;
   for (int trial = 0; trial < 30; ++trial) {
-    const Se3 truth{random.rotation(), {random.uniform(-0.05, 0.05), 0.01, random.uniform(0.3, 0.5)}};
+    const Se3 truth{random.rotation(),
+                    {random.uniform(-0.05, 0.05), 0.01, random.uniform(0.3, 0.5)}};
     Vector6d step;
     step << 0.01 * random.direction(), 0.3 * random.direction();
     const Se3 estimate = retract(truth, step);
     DepthImage depth{80, 60, {}};
     const float plane_m = static_cast<float>(truth.translation_m.z() + random.uniform(-0.05, 0.05));
     for (int i = 0; i < 80 * 60; ++i)
-      depth.z_m.push_back(random.uniform() < 0.3 ? DEPTH_MISSING : plane_m + 0.001f * (i % 80 - 40));
-    const VsdErrors errors =
-        vsd(drawn.seen_by(camera, estimate), drawn.seen_by(camera, truth),
-            distances_of(depth, camera), object.mesh.diameter_m, DELTA_M);
+      depth.z_m.push_back(random.uniform() < 0.3 ? DEPTH_MISSING
+                                                 : plane_m + 0.001f * (i % 80 - 40));
+    const VsdErrors errors = vsd(drawn.seen_by(camera, estimate), drawn.seen_by(camera, truth),
+                                 distances_of(depth, camera), object.mesh.diameter_m, DELTA_M);
     const SecondVsd second = vsd_by_rays(object, camera, estimate, truth, depth);
     for (int tau = 0; tau < VSD_TAUS; ++tau)  // a ray through an edge may slip to either side
       EXPECT_NEAR(errors[tau], second.errors[tau], 2.5 / std::max(1, second.visible))

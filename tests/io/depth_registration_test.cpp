@@ -71,7 +71,8 @@ TEST(DepthRegistration, DoesNotBridgeJumps) {
 TEST(DepthRegistration, UndistortsToTheNearestPixel) {
   Camera camera = depth_camera();
   camera.distortion = {-0.2};
-  const DepthImage found = undistort_depth(wall_and_plate([](int x, int) { return x < 80; }), camera);
+  const DepthImage found =
+      undistort_depth(wall_and_plate([](int x, int) { return x < 80; }), camera);
   EXPECT_EQ(found.at(79, 59), 0.5f);
   EXPECT_EQ(found.at(80, 59), 1.0f);
   for (const float z_m : found.z_m)

@@ -125,9 +125,9 @@ TEST(Reflections, TheEighthsOfTheLightsAreTogetherAllOfThem) {
 TEST(Reflections, AWallMirrorsTheDesk) {
   const Stage stage(bright_east(), 2);
   const ShadedPoint wall{{0, 0, 0.05},
-                          Eigen::Vector3d::UnitX(),
-                          Eigen::Vector3d(1, 0, 1).normalized(),
-                          Eigen::Vector3d::UnitY()};
+                         Eigen::Vector3d::UnitX(),
+                         Eigen::Vector3d(1, 0, 1).normalized(),
+                         Eigen::Vector3d::UnitY()};
   const double irradiance = stage.scene.ambient;
   EXPECT_NEAR(stage.seen(wall, metal(0.8, 0.02), 20), 0.8 * 0.9 * irradiance, 0.02);
 }
