@@ -2,8 +2,8 @@
 # Installs what is missing, builds, and runs what every change must pass.
 #   scripts/test.sh             formatting; links; the suite in the release preset without its
 #                               longest tests; the guard on recall and false poses; pages of the
-#                               C++ API; clang-tidy on recently changed files; the tests of kernels,
-#                               core and io, and the readers of files on the saved corpus of the
+#                               C++ API; clang-tidy on recently changed files; the tests of core
+#                               and io, and the readers of files on the saved corpus of the
 #                               fuzzer, under the address and undefined-behaviour sanitizers; the
 #                               kernels alone without Vulkan
 #   scripts/test.sh --long      clang-tidy on all files; the whole suite built by clang 16, under
@@ -73,8 +73,7 @@ kernels_alone() {
 }
 
 checked_parts() {
-  build_preset asan kernels_test core_test io_test fuzz_test &&
-    test_preset asan -R '^(kernels|core|io|fuzz)\.'
+  build_preset asan core_test io_test fuzz_test && test_preset asan -R '^(core|io|fuzz)\.'
 }
 
 api_pages() { cmake --build --preset release --target docs; }
@@ -86,7 +85,7 @@ every_change() {
   step "recall and false poses" scripts/guard.sh
   step "pages of the C++ API" api_pages
   report "clang-tidy, changed files" env TIDY_SECONDS="${TIDY_SECONDS:-60}" scripts/tidy.sh
-  step "address sanitizer: kernels, core, io, corpus" checked_parts
+  step "address sanitizer: core, io, corpus" checked_parts
   step "kernels alone, without Vulkan" kernels_alone
 }
 
