@@ -15,6 +15,7 @@ from ._core import (
     Camera as Camera,
     Detection as Detection,
     Detections as Detections,
+    DepthOptions as DepthOptions,
     DetectOptions as DetectOptions,
     Device as Device,
     DeviceError as DeviceError,

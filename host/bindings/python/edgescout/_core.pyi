@@ -12,6 +12,7 @@ __version__: str
 Path = Union[str, "os.PathLike[str]"]
 Image = npt.NDArray[np.uint8]
 AnyImage = Union[Image, npt.NDArray[np.uint16], npt.NDArray[np.float32]]
+Depth = Union[npt.NDArray[np.uint16], npt.NDArray[np.float32]]
 Matrix = npt.NDArray[np.float64]
 OptionValue = Union[bool, int, float, str, Tuple[float, float], Sequence[float]]
 
@@ -86,6 +87,13 @@ class ImageOptions:
     def __getattr__(self, name: str) -> Any: ...
     def __setattr__(self, name: str, value: OptionValue) -> None: ...
     def copy(self) -> ImageOptions: ...
+    def help(self) -> Dict[str, str]: ...
+
+class DepthOptions:
+    def __init__(self, **options: OptionValue) -> None: ...
+    def __getattr__(self, name: str) -> Any: ...
+    def __setattr__(self, name: str, value: OptionValue) -> None: ...
+    def copy(self) -> DepthOptions: ...
     def help(self) -> Dict[str, str]: ...
 
 class TemplateOptions:
@@ -271,6 +279,8 @@ def detect(
     templates: _Templates,
     options: Optional[DetectOptions] = ...,
     *,
+    depth: Optional[Depth] = ...,
+    depth_options: Optional[DepthOptions] = ...,
     backend: Optional[Backend] = ...,
     max_seconds: Optional[float] = ...,
 ) -> Detections: ...
@@ -281,6 +291,8 @@ def detect_jointly(
     templates: _Templates,
     options: Optional[DetectOptions] = ...,
     *,
+    depth: Optional[Sequence[Optional[Depth]]] = ...,
+    depth_options: Optional[DepthOptions] = ...,
     backend: Optional[Backend] = ...,
     max_seconds: Optional[float] = ...,
 ) -> Detections: ...
@@ -291,6 +303,8 @@ def register(
     camera_from_object: npt.ArrayLike,
     objects: Optional[Sequence[int]] = ...,
     *,
+    depth: Optional[Depth] = ...,
+    depth_options: Optional[DepthOptions] = ...,
     backend: Optional[Backend] = ...,
     max_seconds: Optional[float] = ...,
 ) -> Detections: ...
@@ -302,6 +316,8 @@ def register_jointly(
     world_from_object: npt.ArrayLike,
     objects: Optional[Sequence[int]] = ...,
     *,
+    depth: Optional[Sequence[Optional[Depth]]] = ...,
+    depth_options: Optional[DepthOptions] = ...,
     backend: Optional[Backend] = ...,
     max_seconds: Optional[float] = ...,
 ) -> Detections: ...

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "host/core/pose_matrix.h"
+#include "host/io/depth_file.h"
 #include "kernels/error.h"
 
 namespace edgescout::python {
@@ -88,6 +89,22 @@ Image image_of(const py::array& array, const ImageOptions& options) {
     image.pixels[i] = grey(colour[0], colour[1], colour[2]);
   }
   return image;
+}
+
+template <typename Value>
+DepthImage depth_of_values(const py::array& array, const DepthOptions& options) {
+  const auto packed = py::array_t<Value, py::array::c_style>::ensure(array);
+  return depth_image(std::span<const Value>(packed.data(), std::size_t(packed.size())),
+                     int(packed.shape(1)), int(packed.shape(0)), options);
+}
+
+DepthImage depth_of(const py::array& array, const DepthOptions& options) {
+  if (array.ndim() == 2 && array.size() > 0) {
+    if (py::isinstance<py::array_t<std::uint16_t>>(array))
+      return depth_of_values<std::uint16_t>(array, options);
+    if (py::isinstance<py::array_t<float>>(array)) return depth_of_values<float>(array, options);
+  }
+  refuse("depth", found(array), "uint16 (mm) or float32 (m) of shape (height, width)");
 }
 
 py::array_t<std::uint8_t> array_of(const Image& image) {

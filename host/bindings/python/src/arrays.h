@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "host/core/depth_image.h"
 #include "host/core/types.h"
+#include "host/io/depth_options.h"
 #include "host/io/image.h"
 
 namespace edgescout::python {
@@ -27,6 +29,10 @@ std::string found(const py::array& array);
 // green, blue; or of 16 bit or float32, (height, width), scaled to 8 bit by the options. Any
 // strides. ValueError: another type or shape.
 Image image_of(const py::array& array, const ImageOptions& options = {});
+
+// A depth image of an array of (height, width), uint16 or float32. Any strides. ValueError: another
+// type or shape; InputError: depth_image (io/depth_file.h) refuses the values.
+DepthImage depth_of(const py::array& array, const DepthOptions& options);
 
 // (height, width) and (height, width, 3); they own their memory.
 py::array_t<std::uint8_t> array_of(const Image& image);

@@ -16,16 +16,20 @@ PipelineOptions options_of(const PipelineOptions* given) {
 std::vector<ObjectView> prepared(std::span<const TakenImage> images, Backend& backend,
                                  const PipelineOptions& options) {
   std::vector<ObjectView> views;
-  for (const TakenImage& taken : images)
+  for (const TakenImage& taken : images) {
     views.push_back(
         prepare_view(taken.image, taken.camera, taken.camera_from_world, backend, options));
+    if (taken.depth) add_depth(views.back(), *taken.depth, taken.camera, taken.depth_noise);
+  }
   return views;
 }
 
 FoundObjects detect(const py::array& image, const Camera& camera, const py::object& templates,
-                    const PipelineOptions* options, const BackendPointer& backend,
+                    const PipelineOptions* options, const py::object& depth,
+                    const DepthOptions* depth_options, const BackendPointer& backend,
                     std::optional<double> max_seconds) {
-  const TakenImage taken = taken_image(image, camera, Se3{});
+  TakenImage taken = taken_image(image, camera, Se3{});
+  give_depth(taken, {depth, depth_options});
   const GivenSets given(templates);
   const std::span<const TemplateSet> sets = given.sets();
   PipelineOptions used = options_of(options);
@@ -38,9 +42,11 @@ FoundObjects detect(const py::array& image, const Camera& camera, const py::obje
 
 FoundObjects detect_in_all(const std::vector<py::array>& images, const Camera& camera,
                            const py::object& camera_from_world, const py::object& templates,
-                           const PipelineOptions* options, const BackendPointer& backend,
+                           const PipelineOptions* options, const py::object& depth,
+                           const DepthOptions* depth_options, const BackendPointer& backend,
                            std::optional<double> max_seconds) {
-  const std::vector<TakenImage> taken = taken_images(images, camera, camera_from_world);
+  std::vector<TakenImage> taken = taken_images(images, camera, camera_from_world);
+  give_depth(std::span(taken), {depth, depth_options});
   const GivenSets given(templates);
   const std::span<const TemplateSet> sets = given.sets();
   PipelineOptions used = options_of(options);
@@ -84,10 +90,13 @@ FoundObjects register_in(const std::vector<TakenImage>& taken, std::span<const T
 FoundObjects register_in_one(const py::array& image, const Camera& camera,
                              const py::object& templates, const py::object& camera_from_object,
                              const std::optional<std::vector<int>>& objects,
+                             const py::object& depth, const DepthOptions* depth_options,
                              const BackendPointer& backend, std::optional<double> max_seconds) {
   const GivenSets given(templates);
   const std::span<const TemplateSet> sets = given.sets();
-  return register_in({taken_image(image, camera, Se3{})}, sets,
+  TakenImage taken = taken_image(image, camera, Se3{});
+  give_depth(taken, {depth, depth_options});
+  return register_in({std::move(taken)}, sets,
                      starts_of(camera_from_object, "camera_from_object", objects, sets.size()),
                      backend, max_seconds);
 }
@@ -96,10 +105,13 @@ FoundObjects register_in_all(const std::vector<py::array>& images, const Camera&
                              const py::object& camera_from_world, const py::object& templates,
                              const py::object& world_from_object,
                              const std::optional<std::vector<int>>& objects,
+                             const py::object& depth, const DepthOptions* depth_options,
                              const BackendPointer& backend, std::optional<double> max_seconds) {
   const GivenSets given(templates);
   const std::span<const TemplateSet> sets = given.sets();
-  return register_in(taken_images(images, camera, camera_from_world), sets,
+  std::vector<TakenImage> taken = taken_images(images, camera, camera_from_world);
+  give_depth(std::span(taken), {depth, depth_options});
+  return register_in(taken, sets,
                      starts_of(world_from_object, "world_from_object", objects, sets.size()),
                      backend, max_seconds);
 }
@@ -132,25 +144,32 @@ py::array_t<std::uint8_t> overlay(const py::array& image, const Camera& camera,
 void add_detection(py::module_& module) {
   add_found_objects(module);
   module.def("detect", &detect, py::arg("image"), py::arg("camera"), py::arg("templates"),
-             py::arg("options") = nullptr, py::kw_only(), py::arg("backend") = nullptr,
+             py::arg("options") = nullptr, py::kw_only(), py::arg("depth") = py::none(),
+             py::arg("depth_options") = nullptr, py::arg("backend") = nullptr,
              py::arg("max_seconds") = std::nullopt,
              "Finds objects in one image.\n\nimage: uint8, (height, width) or (height, width, 3) "
              "in the order red, green, blue. templates: one or several. The world of the poses is "
-             "the camera frame. Ctrl-C ends it.");
+             "the camera frame. Ctrl-C ends it. depth: of the same camera and size, "
+             "(height, width), uint16 or float32, or None; depth_options say its unit and noise.");
   module.def("detect_jointly", &detect_in_all, py::arg("images"), py::arg("camera"),
              py::arg("camera_from_world"), py::arg("templates"), py::arg("options") = nullptr,
-             py::kw_only(), py::arg("backend") = nullptr, py::arg("max_seconds") = std::nullopt,
+             py::kw_only(), py::arg("depth") = py::none(),
+             py::arg("depth_options") = nullptr, py::arg("backend") = nullptr,
+             py::arg("max_seconds") = std::nullopt,
              "Finds objects in several images of one static scene.\n\ncamera_from_world: "
-             "(n, 4, 4), metres, one an image.");
+             "(n, 4, 4), metres, one an image. depth: of each image, or None.");
   module.def("register", &register_in_one, py::arg("image"), py::arg("camera"),
              py::arg("templates"), py::arg("camera_from_object"), py::arg("objects") = std::nullopt,
-             py::kw_only(), py::arg("backend") = nullptr, py::arg("max_seconds") = std::nullopt,
+             py::kw_only(), py::arg("depth") = py::none(),
+             py::arg("depth_options") = nullptr, py::arg("backend") = nullptr,
+             py::arg("max_seconds") = std::nullopt,
              "Refines given poses in one image.\n\ncamera_from_object: (n, 4, 4), metres, within "
              "some 0.3 rad and a tenth of the object's size. objects: of each, the index of its "
              "templates; needed where there are several. The result is in the order of the poses.");
   module.def("register_jointly", &register_in_all, py::arg("images"), py::arg("camera"),
              py::arg("camera_from_world"), py::arg("templates"), py::arg("world_from_object"),
-             py::arg("objects") = std::nullopt, py::kw_only(), py::arg("backend") = nullptr,
+             py::arg("objects") = std::nullopt, py::kw_only(), py::arg("depth") = py::none(),
+             py::arg("depth_options") = nullptr, py::arg("backend") = nullptr,
              py::arg("max_seconds") = std::nullopt,
              "Refines given poses over several images of one static scene.");
   module.def("overlay", &overlay, py::arg("image"), py::arg("camera"), py::arg("detections"),

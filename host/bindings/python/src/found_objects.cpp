@@ -13,7 +13,7 @@ GivenSets::GivenSets(const py::object& templates) {
 }
 
 TakenImage taken_image(const py::array& image, const Camera& camera, const Se3& camera_from_world) {
-  TakenImage shot{image_of(image), camera, camera_from_world};
+  TakenImage shot{image_of(image), camera, camera_from_world, {}, {}};
   if (camera.width == 0 && camera.height == 0) {
     shot.camera.width = shot.image.width;
     shot.camera.height = shot.image.height;
@@ -23,6 +23,29 @@ TakenImage taken_image(const py::array& image, const Camera& camera, const Se3& 
            std::to_string(shot.image.width) + "x" + std::to_string(shot.image.height) + " px",
            "the camera's " + std::to_string(camera.width) + "x" + std::to_string(camera.height));
   return shot;
+}
+
+void give_depth(TakenImage& taken, const GivenDepth& depth) {
+  if (depth.values.is_none()) return;
+  const DepthOptions options = depth.options ? *depth.options : DepthOptions{};
+  const auto array = py::array::ensure(depth.values);
+  if (!array) throw py::error_already_set();
+  taken.depth = depth_of(array, options);
+  taken.depth_noise = options.noise;
+  if (taken.depth->width != taken.camera.width || taken.depth->height != taken.camera.height)
+    refuse("depth",
+           std::to_string(taken.depth->width) + "x" + std::to_string(taken.depth->height) + " px",
+           "the image's " + std::to_string(taken.camera.width) + "x" +
+               std::to_string(taken.camera.height));
+}
+
+void give_depth(std::span<TakenImage> taken, const GivenDepth& depth) {
+  if (depth.values.is_none()) return;
+  const auto each = py::cast<std::vector<py::object>>(depth.values);
+  if (each.size() != taken.size())
+    refuse("depth", std::to_string(each.size()) + " depth images",
+           "one or None an image of " + std::to_string(taken.size()));
+  for (std::size_t i = 0; i < each.size(); ++i) give_depth(taken[i], {each[i], depth.options});
 }
 
 std::vector<TakenImage> taken_images(const std::vector<py::array>& images, const Camera& camera,

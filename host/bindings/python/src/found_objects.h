@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "host/bindings/python/src/arrays.h"
@@ -22,15 +23,28 @@ class GivenSets {
   std::vector<TemplateSet> several_;
 };
 
+// Depth that comes with a call: None, or an array; of several images a sequence of both.
+struct GivenDepth {
+  const py::object& values;
+  const DepthOptions* options = nullptr;  // null: the defaults
+};
+
 // What an image shows, and where it was taken.
 struct TakenImage {
   Image image;
   Camera camera;
   Se3 camera_from_world;
+  std::optional<DepthImage> depth;  // of the same camera
+  DepthNoise depth_noise;
 };
 
 // A camera without a size takes the image's. ValueError: they differ.
 TakenImage taken_image(const py::array& image, const Camera& camera, const Se3& camera_from_world);
+
+// ValueError: values that are no depth image, another size than the image's.
+void give_depth(TakenImage& taken, const GivenDepth& depth);
+// ValueError, beside that: not one depth an image.
+void give_depth(std::span<TakenImage> taken, const GivenDepth& depth);
 
 // ValueError: not one pose an image.
 std::vector<TakenImage> taken_images(const std::vector<py::array>& images, const Camera& camera,

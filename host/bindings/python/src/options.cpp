@@ -1,6 +1,7 @@
 #include "host/active/scout_options.h"
 #include "host/bindings/python/src/option_fields.h"
 #include "host/bindings/python/src/parts.h"
+#include "host/io/depth_options.h"
 #include "host/io/image_options.h"
 #include "host/model/template_set.h"
 #include "host/pipeline.h"
@@ -14,6 +15,11 @@ void add_options(py::module_& module) {
       "How stored values become 8-bit grey. Names are those of the command line with underscores; "
       "help() explains them.",
       [](ImageOptions& options, OptionVisitor& visit) { describe(options, visit); });
+  add_options_class<DepthOptions>(
+      module, "DepthOptions",
+      "How stored values become depth, and the sensor's noise. Names are those of the command line "
+      "with underscores; help() explains them.",
+      [](DepthOptions& options, OptionVisitor& visit) { describe(options, visit); });
   add_options_class<TemplateOptions>(
       module, "TemplateOptions",
       "Viewpoints and distances of an object's templates. Names are those of the command line with "
