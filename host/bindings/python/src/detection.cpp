@@ -153,16 +153,14 @@ void add_detection(py::module_& module) {
              "(height, width), uint16 or float32, or None; depth_options say its unit and noise.");
   module.def("detect_jointly", &detect_in_all, py::arg("images"), py::arg("camera"),
              py::arg("camera_from_world"), py::arg("templates"), py::arg("options") = nullptr,
-             py::kw_only(), py::arg("depth") = py::none(),
-             py::arg("depth_options") = nullptr, py::arg("backend") = nullptr,
-             py::arg("max_seconds") = std::nullopt,
+             py::kw_only(), py::arg("depth") = py::none(), py::arg("depth_options") = nullptr,
+             py::arg("backend") = nullptr, py::arg("max_seconds") = std::nullopt,
              "Finds objects in several images of one static scene.\n\ncamera_from_world: "
              "(n, 4, 4), metres, one an image. depth: of each image, or None.");
   module.def("register", &register_in_one, py::arg("image"), py::arg("camera"),
              py::arg("templates"), py::arg("camera_from_object"), py::arg("objects") = std::nullopt,
-             py::kw_only(), py::arg("depth") = py::none(),
-             py::arg("depth_options") = nullptr, py::arg("backend") = nullptr,
-             py::arg("max_seconds") = std::nullopt,
+             py::kw_only(), py::arg("depth") = py::none(), py::arg("depth_options") = nullptr,
+             py::arg("backend") = nullptr, py::arg("max_seconds") = std::nullopt,
              "Refines given poses in one image.\n\ncamera_from_object: (n, 4, 4), metres, within "
              "some 0.3 rad and a tenth of the object's size. objects: of each, the index of its "
              "templates; needed where there are several. The result is in the order of the poses.");
