@@ -87,7 +87,8 @@ DepthPrior::DepthPrior(const SearchedScale& scale, const ObjectView& view, int a
   const Camera& camera = scale.level.camera;
   const double radius_m = scale.set.model.radius_m;
   const AnchorSums measured(anchors.columns, anchors.rows,
-                            [&](std::size_t i) { return anchors.z_m[i] > 0; });
+                            [&](std::size_t i) { return anchors.z_m[i] > 0; }),
+      all(anchors.columns, anchors.rows, [](std::size_t) { return 1; });
   std::size_t fitting = 0;
   for (const double distance_m : scale.numbering.distances_m) {
     const double half_step_m = 0.5 * distance_m * (scale.set.options.distance_ratio - 1);
@@ -99,8 +100,7 @@ DepthPrior::DepthPrior(const SearchedScale& scale, const ObjectView& view, int a
       return z_m > 0 && std::abs(z_m - center_z_m) <=
                             radius_m + half_step_m + SIGMAS * view.depth->noise.sigma_m(z_m);
     };
-    const AnchorSums near(anchors.columns, anchors.rows, is_near),
-        all(anchors.columns, anchors.rows, [](std::size_t) { return 1; });
+    const AnchorSums near(anchors.columns, anchors.rows, is_near);
     const int reach =
         std::max(1, int(std::lround(WINDOW * camera.fx * radius_m / distance_m / anchor_step)));
     std::vector<std::uint8_t>& fits = fits_.emplace_back();

@@ -84,7 +84,7 @@ class Evaluator {
       for (std::size_t v = 0; v < views.size(); ++v)
         add_view(systems[active[i]], results_[i * views.size() + v], views[v].camera_from_world);
     });
-    add_depth(states, active, systems);
+    depth_.add_at_trials(states, systems);
     return systems;
   }
 
@@ -97,17 +97,6 @@ class Evaluator {
         loss_{round.loss, float(round.scale_px)},
         depth_(scene, surfaces, round.max_surface_points, round.depth_sigmas) {
     for (const ObjectView& view : scene.views) tensors_.push_back(view.tensor);
-  }
-
-  void add_depth(std::span<const LmState> states, std::span<const std::size_t> active,
-                 std::span<WorldSystem> systems) const {
-    if (depth_.is_empty()) return;
-    std::vector<Se3> trials;
-    for (const std::size_t p : active) trials.push_back(states[p].trial);
-    std::vector<WorldSystem> of_active(active.size());
-    for (std::size_t i = 0; i < active.size(); ++i) of_active[i] = systems[active[i]];
-    depth_.add(active, trials, of_active);
-    for (std::size_t i = 0; i < active.size(); ++i) systems[active[i]] = of_active[i];
   }
 
   Grid<PointRange> ranges_;

@@ -66,21 +66,24 @@ DepthSystems::DepthSystems(const Scene& scene, const SurfacesInViews& surfaces, 
   points_ = scene.backend.make_surface_points(std::move(points));
 }
 
-void DepthSystems::add(std::span<const std::size_t> pose_numbers,
-                       std::span<const Se3> world_from_object,
-                       std::span<WorldSystem> systems) const {
+void DepthSystems::add_at_trials(std::span<const LmState> states,
+                                 std::span<WorldSystem> systems) const {
   if (is_empty()) return;
   std::vector<PoseProblem> problems;
-  for (std::size_t i = 0; i < pose_numbers.size(); ++i)
+  std::vector<std::size_t> active;
+  for (std::size_t p = 0; p < states.size(); ++p) {
+    if (!states[p].active) continue;
+    active.push_back(p);
     for (std::size_t k = 0; k < views_.size(); ++k) {
-      const Range& range = ranges_(pose_numbers[i], k);
-      problems.push_back({to_pose(scene_.views[views_[k]].camera_from_world * world_from_object[i]),
+      const Range& range = ranges_(p, k);
+      problems.push_back({to_pose(scene_.views[views_[k]].camera_from_world * states[p].trial),
                           range.first, range.count, std::uint32_t(k)});
     }
+  }
   std::vector<PoseDepth> results(problems.size());
   scene_.backend.pose_depth(depths_, *points_, problems, options_, results);
   for (std::size_t i = 0; i < results.size(); ++i)
-    systems[i / views_.size()] +=
+    systems[active[i / views_.size()]] +=
         world_system(results[i], scene_.views[views_[i % views_.size()]].camera_from_world,
                      double(options_.loss_scale));
 }

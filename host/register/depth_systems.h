@@ -22,9 +22,9 @@ class DepthSystems {
 
   bool is_empty() const { return views_.empty(); }
 
-  // Adds to systems[i] that of the pose of row pose_numbers[i] at world_from_object[i].
-  void add(std::span<const std::size_t> pose_numbers, std::span<const Se3> world_from_object,
-           std::span<WorldSystem> systems) const;
+  // Adds to the systems of the active states those at their trial poses. States and systems are in
+  // the order of the poses.
+  void add_at_trials(std::span<const LmState> states, std::span<WorldSystem> systems) const;
 
  private:
   struct Range {
