@@ -126,11 +126,15 @@ std::vector<RegisterJob> jobs_of(const ExplainRequest& request, std::span<const 
 class Explainer {
  public:
   Explainer(const ExplainRequest& request, std::span<const TemplateSet> sets, Backend& backend)
-      : request_(request), sets_(sets), models_(models_of(sets)), backend_(backend) {}
+      : request_(request),
+        sets_(sets),
+        models_(models_of(sets)),
+        depth_(request.images.depth),
+        backend_(backend) {}
 
   // InputError: the image cannot be used.
   void explain(const RegisterJob& job) {
-    const ReadyJob ready = prepare_job(job, backend_, request_.images);
+    const ReadyJob ready = prepare_job(job, depth_, backend_, request_.images);
     ObjectView view = ready.views[0].view;
     view.camera_from_world = job.views[0].camera_from_world.value_or(Se3{});
     DetectTrace trace;
@@ -190,6 +194,7 @@ class Explainer {
   const ExplainRequest& request_;
   std::span<const TemplateSet> sets_;
   std::vector<EdgeModel> models_;
+  DepthReader depth_;
   Backend& backend_;
   std::vector<ExplainedPose> poses_;
   std::vector<std::string> failures_;

@@ -89,6 +89,7 @@ class Registrar {
         models_(models),
         backend_(backend),
         options_(options),
+        depth_(options.depth),
         settings_(settings_of(models, options)) {
     for (const RegisterModel& model : models) edge_models_.push_back(model.edges);
   }
@@ -103,7 +104,7 @@ class Registrar {
 
   // InputError: an image that cannot be used.
   std::pair<ReadyJob, Detections> refine(const RegisterJob& job) const {
-    ReadyJob ready = prepare_job(job, backend_, options_);
+    ReadyJob ready = prepare_job(job, depth_, backend_, options_);
     Detections found = refine_job(ready, models_, edge_models_, backend_, options_);
     return {std::move(ready), std::move(found)};
   }
@@ -150,6 +151,7 @@ class Registrar {
   std::span<const RegisterModel> models_;
   Backend& backend_;
   const RegisterOptions& options_;
+  DepthReader depth_;
   BatchSettings settings_;
   std::vector<EdgeModel> edge_models_;
 };

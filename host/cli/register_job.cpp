@@ -37,9 +37,9 @@ void warn_of_out_of_sight(const ReadyJob& ready, std::size_t start, const Regist
 
 }  // namespace
 
-ReadyJob prepare_job(const RegisterJob& job, Backend& backend, const RegisterOptions& options) {
+ReadyJob prepare_job(const RegisterJob& job, const DepthReader& depth, Backend& backend,
+                     const RegisterOptions& options) {
   ReadyJob ready{&job, {}, {}};
-  const DepthReader depth(options.depth);
   for (const InputImage& view : job.views)
     ready.views.push_back(prepare(view, job.views.size() == 1, depth, backend, options));
   for (const RegisterJob::Start& start : job.starts)

@@ -18,7 +18,8 @@ struct ReadyJob {
 };
 
 // InputError: an image or a camera that cannot be used.
-ReadyJob prepare_job(const RegisterJob& job, Backend& backend, const RegisterOptions& options);
+ReadyJob prepare_job(const RegisterJob& job, const DepthReader& depth, Backend& backend,
+                     const RegisterOptions& options);
 
 // Refines the starts in all views, in their order. A pose that no image shows gets OUT_OF_SIGHT and
 // a warning. `edge_models` are those of `models`. InputError: an image too large for the device.
