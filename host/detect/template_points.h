@@ -11,9 +11,9 @@ namespace edgescout {
 // Returns a function of poses of the set's object. It gives the points of the viewpoint nearest to
 // each view's, at most `most`, evenly thinned, without those that the view's occluders hide. Points
 // may project outside the image: they count as far from every edge. Otherwise poses that reach over
-// the border would have less to fit. Views with depth also get samples of
-// the whole surface, of which the far ones do not count: they face away. The set, the views and the
-// backend must outlive the function.
+// the border would have less to fit. Views with depth also get samples of the whole surface, of
+// which the far ones do not count: they face away. The set, the views and the backend must outlive
+// the function.
 PointsInViews template_points(const TemplateSet& set, std::span<const ObjectView> views, int most,
                               Backend& backend);
 
