@@ -18,8 +18,8 @@ struct SeveralViews {
   double bias, log_probability;
 };
 
-// Of the share of the measured surface that agrees with a pose, where a view has depth. Set by hand,
-// not fitted; no script writes them.
+// Of the share of the measured surface that agrees with a pose, where a view has depth. Set by
+// hand, not fitted; no script writes them.
 struct Depth {
   double bias, agreeing;
 };
