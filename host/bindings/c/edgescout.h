@@ -533,6 +533,10 @@ typedef struct edgescout_shot {
   const edgescout_image* image;
   const double* camera_from_world; /* as measured; NULL: as planned */
   const edgescout_limit* limit;    /* or NULL */
+  /* As in edgescout_view. */
+  const edgescout_image* depth;
+  const edgescout_camera* depth_camera;
+  const double* camera_from_depth;
 } edgescout_shot;
 EDGESCOUT_API edgescout_status edgescout_scout_give(edgescout_scout* scout,
                                                     const edgescout_shot* shot);

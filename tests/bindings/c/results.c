@@ -147,13 +147,15 @@ static void print_two_views(const struct scene* scene, const edgescout_templates
   plan.templates = parts;
   edgescout_scout* scout = NULL;
   OK(es_scout_create(&plan, &scout));
+  const edgescout_image depth = depth_of(EDGESCOUT_MONO32, scout_window.width, scout_window.height);
   for (int i = 0; i < SCOUT_VIEWS; ++i) {
     pictures[i] = picture_of_view(i, &images[i]);
     views[i] = (edgescout_view){.struct_size = sizeof *views,
                                 .image = &images[i],
                                 .camera = scene->scout_camera,
                                 .camera_from_world = camera_from_world_views[i]};
-    const edgescout_shot shot = {.struct_size = sizeof shot, .view = i, .image = &images[i]};
+    edgescout_shot shot = {.struct_size = sizeof shot, .view = i, .image = &images[i]};
+    if (i == 1) shot.depth = &depth;
     OK(es_scout_give(scout, &shot));
   }
   edgescout_request request = scene->request;
@@ -163,7 +165,6 @@ static void print_two_views(const struct scene* scene, const edgescout_templates
   edgescout_detections* found = NULL;
   OK(es_detect_jointly(&request, &found));
   print_detections("detect_jointly", found);
-  const edgescout_image depth = depth_of(EDGESCOUT_MONO32, scout_window.width, scout_window.height);
   views[1].depth = &depth;
   OK(es_detect_jointly(&request, &found));
   print_detections("detect_jointly with depth", found);

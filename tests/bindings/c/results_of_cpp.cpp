@@ -177,15 +177,19 @@ void print_two_views(Backend& backend) {
   for (const auto& rows : camera_from_world_views) poses.push_back(pose_of_rows(rows, "view"));
   const Camera camera = camera_of(scout_window);
   Scout scout(sets, camera, poses, quick_scout_options(), backend);
+  const auto depth = std::make_shared<const MeasuredDepth>(
+      MeasuredDepth{depth_of(scout_window.width, scout_window.height), {}});
   std::vector<ObjectView> views;
   for (int i = 0; i < 2; ++i) {
     const Image image =
         window_of("scenes/000001/gray/00000" + std::to_string(i) + ".png", scout_window);
     views.push_back(prepare_view(image, camera, poses[std::size_t(i)], backend, {}));
-    scout.give(i, image);
+    Shot shot{image, poses[std::size_t(i)]};
+    if (i == 1) shot.depth = depth;
+    scout.give(i, shot);
   }
   print_detections("detect_jointly", detect_jointly(views, sets, backend, quick_options()), sets);
-  add_depth(views[1], depth_of(scout_window.width, scout_window.height), camera);
+  views[1].depth = depth;
   print_detections("detect_jointly with depth",
                    detect_jointly(views, sets, backend, quick_options()), sets);
   std::printf("scout: %zu, completion 0\n", scout.state().detections.size());

@@ -209,7 +209,7 @@ static void expect_the_layout_of_this_abi(void) {
   CHECK(sizeof(edgescout_detection) == 520 && sizeof(edgescout_alternative) == 144);
   CHECK(sizeof(edgescout_stage) == 24 && sizeof(edgescout_summary) == 32);
   CHECK(sizeof(edgescout_scout_plan) == 72 && sizeof(edgescout_proposal) == 144);
-  CHECK(sizeof(edgescout_expectation) == 48 && sizeof(edgescout_shot) == 40);
+  CHECK(sizeof(edgescout_expectation) == 48 && sizeof(edgescout_shot) == 64);
   CHECK(sizeof(edgescout_scout_state) == 64 && sizeof(edgescout_scout_step) == 168);
   CHECK(sizeof(edgescout_hemisphere) == 56 && sizeof(edgescout_tracker_plan) == 40);
   CHECK(sizeof(edgescout_frame) == 24 && sizeof(edgescout_search) == 48);

@@ -1,11 +1,11 @@
 // Detection, registration and their pictures.
+#include "host/bindings/c/src/depth.h"
 #include "host/bindings/c/src/images.h"
 #include "host/bindings/c/src/limits.h"
 #include "host/bindings/c/src/poses.h"
 #include "host/bindings/c/src/results.h"
 #include "host/bindings/c/src/structs.h"
 #include "host/io/camera_file.h"
-#include "host/io/depth_registration.h"
 #include "host/overlay.h"
 #include "host/register_objects.h"
 
@@ -33,30 +33,8 @@ struct TakenImage {
   Image image;
   Camera camera;
   Se3 camera_from_world;
-  std::optional<MeasuredDepth> depth;  // as stored
-  std::optional<DepthCamera> depth_camera;
+  std::optional<TakenDepth> depth;
 };
-
-void take_depth(const edgescout_view& view, TakenImage& taken) {
-  if (!view.depth) {
-    if (view.depth_camera || view.camera_from_depth)
-      refuse(EDGESCOUT_BAD_INPUT, "view.depth", "NULL beside a depth camera", "its image");
-    return;
-  }
-  taken.depth = depth_of(view.depth);
-  if (view.depth_camera) {
-    const DepthImage& stored = taken.depth->image;
-    taken.depth_camera = DepthCamera{camera_for_image(*shared(view.depth_camera), stored.width,
-                                                      stored.height, false, "depth_camera"),
-                                     {}};
-    if (view.camera_from_depth)
-      taken.depth_camera->grey_from_depth =
-          pose_of(view.camera_from_depth, "view.camera_from_depth");
-  } else if (view.camera_from_depth) {
-    refuse(EDGESCOUT_BAD_INPUT, "view.depth_camera", "NULL beside camera_from_depth",
-           "the camera of the depth image");
-  }
-}
 
 TakenImage taken_image(const edgescout_view& view) {
   TakenImage taken;
@@ -65,7 +43,7 @@ TakenImage taken_image(const edgescout_view& view) {
                                   false, "camera");
   if (view.camera_from_world)
     taken.camera_from_world = pose_of(view.camera_from_world, "view.camera_from_world");
-  take_depth(view, taken);
+  taken.depth = take_depth({view.depth, view.depth_camera, view.camera_from_depth}, "view");
   return taken;
 }
 
@@ -85,11 +63,7 @@ std::vector<ObjectView> prepared(const Request& request, const PipelineOptions& 
   for (const TakenImage& taken : taken_images(request.given)) {
     ObjectView& view = views.emplace_back(
         prepare_view(taken.image, taken.camera, taken.camera_from_world, request.on(), options));
-    if (taken.depth)
-      view.depth = std::make_shared<const MeasuredDepth>(
-          MeasuredDepth{in_grey_camera(taken.depth->image, taken.depth_camera, taken.camera,
-                                       request.on().threads()),
-                        taken.depth->noise});
+    view.depth = in_camera(taken.depth, taken.camera, request.on().threads());
   }
   return views;
 }

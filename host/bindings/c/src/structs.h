@@ -17,6 +17,9 @@ inline constexpr std::initializer_list<std::size_t> earlier_sizes{};
 template <>
 inline constexpr std::initializer_list<std::size_t> earlier_sizes<edgescout_view>{
     offsetof(edgescout_view, depth)};
+template <>
+inline constexpr std::initializer_list<std::size_t> earlier_sizes<edgescout_shot>{
+    offsetof(edgescout_shot, depth)};
 
 // A newer struct ends below: a larger number is none of a size.
 inline constexpr std::size_t LARGEST_STRUCT = 1 << 16;
