@@ -6,7 +6,9 @@
 #include <chrono>
 #include <future>
 #include <iostream>
+#include <limits>
 
+#include "host/cli/depth_doubts.h"
 #include "host/cli/progress.h"
 #include "host/cli/shard_file.h"
 #include "host/cli/view_results.h"
@@ -30,6 +32,19 @@ BatchSettings settings_of(std::span<const TemplateSet> sets, std::span<const Inp
   for (auto& setting : settings_of(sets)) settings.common.push_back(std::move(setting));
   settings.camera = given_camera(options.camera, images);
   return settings;
+}
+
+// Where the surfaces of the objects may be, along the camera's axis.
+Range distances_of(std::span<const TemplateSet> sets) {
+  constexpr double at_the_border = 0.8;  // of a wide image: along the axis, not along the ray
+  Range distances{std::numeric_limits<double>::infinity(), 0};
+  for (const TemplateSet& set : sets) {
+    distances.low = std::min(
+        distances.low,
+        std::max(0.0, at_the_border * set.options.distance_min_m - set.model.radius_m));
+    distances.high = std::max(distances.high, set.options.distance_max_m + set.model.radius_m);
+  }
+  return distances;
 }
 
 // The images of one detection: one image, or all views of a scene.
@@ -131,6 +146,7 @@ class Detector {
         options_(options),
         settings_(settings) {
     for (const TemplateSet& set : sets) models_.push_back(set.model);
+    distances_ = distances_of(sets);
     summary.verb = "detect";
     summary.by_scene = options.joint;
     summary.images = static_cast<int>(images.size());
@@ -153,6 +169,8 @@ class Detector {
       views.push_back(std::move(prepared.views[i]));
     }
     if (views.empty()) return;
+    for (std::size_t i = 0; i < views.size(); ++i)
+      depth_doubts.look_at(good.images[i]->file.string(), views[i].view, distances_);
     const std::optional<Detections> found = detect(good, views);
     if (found) write(good, views, *found);
   }
@@ -164,6 +182,7 @@ class Detector {
   }
 
   BatchSummary summary;
+  DepthDoubts depth_doubts;
 
  private:
   // Returns why the view cannot have edges; nothing where it has them.
@@ -248,6 +267,7 @@ class Detector {
   const BatchOptions& options_;
   const BatchSettings& settings_;
   std::vector<EdgeModel> models_;
+  Range distances_;  // of surfaces, along the camera's axis
   int failed_ = 0;
   std::string last_failure_;
 };
@@ -323,6 +343,7 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
     write_ended(own, summary, backend.name(), options.out);
     throw;
   }
+  detector.depth_doubts.say();
   detector.require_any_usable();
   summary.seconds = seconds_since(start);
   write_tables(own, summary, backend.name(), options.out);

@@ -122,16 +122,15 @@ std::shared_ptr<const MeasuredDepth> DepthReader::read(const InputImage& input,
   const DepthImage stored = load_depth(input.depth->file, options_, input.depth->unit_m);
   return naming(input, [&] {
     return std::make_shared<const MeasuredDepth>(
-        MeasuredDepth{in_grey_camera(stored, camera, pool), options_.noise});
+        MeasuredDepth{in_grey_camera(stored, camera_of(stored), camera, pool), options_.noise});
   });
 }
 
-DepthImage DepthReader::in_grey_camera(const DepthImage& stored, const Camera& camera,
-                                       ThreadPool& pool) const {
-  if (!own_camera_) return undistort_depth(stored, camera);
-  const Camera of_size =
-      camera_for_image(own_camera_->camera, stored.width, stored.height, false, camera_file_);
-  return register_depth(stored, {of_size, own_camera_->grey_from_depth}, camera, pool);
+std::optional<DepthCamera> DepthReader::camera_of(const DepthImage& stored) const {
+  if (!own_camera_) return {};
+  return DepthCamera{
+      camera_for_image(own_camera_->camera, stored.width, stored.height, false, camera_file_),
+      own_camera_->grey_from_depth};
 }
 
 }  // namespace edgescout

@@ -52,7 +52,7 @@ class DepthReader {
                                             ThreadPool& pool) const;
 
  private:
-  DepthImage in_grey_camera(const DepthImage& stored, const Camera& camera, ThreadPool& pool) const;
+  std::optional<DepthCamera> camera_of(const DepthImage& stored) const;
 
   DepthOptions options_;
   std::optional<DepthCamera> own_camera_;

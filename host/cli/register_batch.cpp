@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <limits>
 
+#include "host/cli/depth_doubts.h"
 #include "host/cli/progress.h"
 #include "host/cli/register_job.h"
 #include "host/cli/shard_file.h"
@@ -80,6 +82,20 @@ bool has_joint_views(std::span<const RegisterJob> jobs) {
   return std::ranges::any_of(jobs, [](const RegisterJob& job) { return job.views.size() > 1; });
 }
 
+// Where the surfaces of objects at about these poses may be, along the camera's axis.
+Range distances_in(const Se3& camera_from_world, std::span<const ObjectPose> poses,
+                   std::span<const EdgeModel> models) {
+  constexpr double radii = 2;  // starts are not exact
+  Range distances{std::numeric_limits<double>::infinity(), 0};
+  for (const ObjectPose& pose : poses) {
+    const EdgeModel& model = models[std::size_t(pose.object)];
+    const double z_m = (camera_from_world * (pose.world_from_object * model.center_m)).z();
+    distances.low = std::min(distances.low, std::max(0.0, z_m - radii * model.radius_m));
+    distances.high = std::max(distances.high, z_m + radii * model.radius_m);
+  }
+  return distances;
+}
+
 // Runs the jobs of a batch one after the other.
 class Registrar {
  public:
@@ -103,8 +119,12 @@ class Registrar {
   }
 
   // InputError: an image that cannot be used.
-  std::pair<ReadyJob, Detections> refine(const RegisterJob& job) const {
+  std::pair<ReadyJob, Detections> refine(const RegisterJob& job) {
     ReadyJob ready = prepare_job(job, depth_, backend_, options_);
+    for (std::size_t v = 0; v < job.views.size(); ++v)
+      depth_doubts.look_at(job.views[v].file.string(), ready.views[v].view,
+                           distances_in(ready.views[v].view.camera_from_world, ready.starts,
+                                        edge_models_));
     Detections found = refine_job(ready, models_, edge_models_, backend_, options_);
     return {std::move(ready), std::move(found)};
   }
@@ -139,6 +159,7 @@ class Registrar {
   }
 
   RegisterSummary summary;
+  DepthDoubts depth_doubts;
 
  private:
   Settings settings_of_view(const RegisterJob& job, std::size_t view) const {
@@ -240,6 +261,7 @@ RegisterSummary run_register(std::span<const RegisterJob> all_jobs,
   };
   try {
     work_through(open, registrar, options.shard.has_value());
+    registrar.depth_doubts.say();
   } catch (const InputError& error) {  // if no image can be used, nothing is written
     if (!summary.finished.empty()) write_summary_of(error);
     throw;

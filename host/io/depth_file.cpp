@@ -8,6 +8,7 @@
 
 #include "host/core/option_names.h"
 #include "host/io/decode_pixels.h"
+#include "host/io/pixel_rows.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -103,6 +104,15 @@ DepthImage depth_image(std::span<const std::uint16_t> values, int width, int hei
 DepthImage depth_image(std::span<const float> values, int width, int height,
                        const DepthOptions& options, std::optional<double> stated_m) {
   return of_memory(values, width, height, CV_32F, options, stated_m);
+}
+
+DepthImage depth_image(const Pixels& pixels, const DepthOptions& options,
+                       const std::string& source) {
+  if (pixels.format != PixelFormat::Mono16 && pixels.format != PixelFormat::MonoUint32 &&
+      pixels.format != PixelFormat::MonoFloat32)
+    throw InputError(source, "format", "a picture",
+                     "distances: whole numbers of 16 or 32 bit or real numbers");
+  return in_metres(pixel_rows(pixels, source), source, options, {});
 }
 
 }  // namespace edgescout

@@ -10,6 +10,7 @@
 
 #include "host/core/depth_image.h"
 #include "host/io/depth_options.h"
+#include "host/io/pixels.h"
 
 namespace edgescout {
 
@@ -31,5 +32,11 @@ DepthImage depth_image(std::span<const std::uint16_t> values, int width, int hei
                        const DepthOptions& options = {}, std::optional<double> stated_m = {});
 DepthImage depth_image(std::span<const float> values, int width, int height,
                        const DepthOptions& options = {}, std::optional<double> stated_m = {});
+
+// The same of pixels in memory: Mono16, MonoUint32 or MonoFloat32, of any stride. `source` names
+// them in errors. InputError, beside those above: another format, a stride that is shorter than a
+// row.
+DepthImage depth_image(const Pixels& pixels, const DepthOptions& options = {},
+                       const std::string& source = "depth image");
 
 }  // namespace edgescout

@@ -85,4 +85,9 @@ DepthImage register_depth(const DepthImage& depth, const DepthCamera& from, cons
   return result;
 }
 
+DepthImage in_grey_camera(const DepthImage& depth, const std::optional<DepthCamera>& from,
+                          const Camera& grey, ThreadPool& pool) {
+  return from ? register_depth(depth, *from, grey, pool) : undistort_depth(depth, grey);
+}
+
 }  // namespace edgescout

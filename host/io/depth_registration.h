@@ -3,6 +3,8 @@
 // Public header.
 #pragma once
 
+#include <optional>
+
 #include "host/core/camera.h"
 #include "host/core/depth_image.h"
 #include "host/core/se3.h"
@@ -27,5 +29,9 @@ DepthImage undistort_depth(const DepthImage& depth, const Camera& camera);
 // camera did not see are missing. InputError: depth and depth.camera differ in size.
 DepthImage register_depth(const DepthImage& depth, const DepthCamera& from, const Camera& grey,
                           ThreadPool& pool);
+
+// register_depth, or undistort_depth where the depth image has the camera of the grey one.
+DepthImage in_grey_camera(const DepthImage& depth, const std::optional<DepthCamera>& from,
+                          const Camera& grey, ThreadPool& pool);
 
 }  // namespace edgescout

@@ -1,5 +1,6 @@
 #include "host/io/pixels.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <opencv2/imgproc.hpp>
@@ -7,6 +8,7 @@
 #include "host/io/from_mat.h"
 #include "host/io/grey_levels.h"
 #include "host/io/image_header.h"
+#include "host/io/pixel_rows.h"
 #include "host/io/to_grey.h"
 #include "kernels/error.h"
 
@@ -42,6 +44,7 @@ constexpr std::array<FormatTraits, PIXEL_FORMATS> traits_of_formats{{
     {CV_16UC4, cv::COLOR_RGBA2GRAY, BayerPattern::None},
     {CV_8UC2, cv::COLOR_YUV2GRAY_YUY2, BayerPattern::None},
     {CV_8UC2, cv::COLOR_YUV2GRAY_UYVY, BayerPattern::None},
+    {CV_32SC1, -1, BayerPattern::None},
 }};
 
 const FormatTraits& traits_of(PixelFormat format) {
@@ -80,11 +83,10 @@ cv::Mat packed(const Pixels& pixels, int type) {
 }
 
 void swap_bytes(cv::Mat& rows) {
-  const cv::Mat bytes(rows.rows, int(rows.step / 2), CV_8UC2, rows.data);
-  const int order[] = {0, 1, 1, 0};
-  cv::Mat swapped(bytes.size(), bytes.type());
-  cv::mixChannels(&bytes, 1, &swapped, 1, order, 2);
-  std::memcpy(rows.data, swapped.data, rows.total() * rows.elemSize());
+  const std::size_t size = rows.elemSize1();
+  for (uchar *value = rows.data, *end = value + rows.total() * rows.elemSize(); value < end;
+       value += size)
+    std::reverse(value, value + size);
 }
 
 BayerPattern pattern_of(const FormatTraits& format, const ImageOptions& options,
@@ -99,14 +101,21 @@ BayerPattern pattern_of(const FormatTraits& format, const ImageOptions& options,
 
 int bytes_per_pixel(PixelFormat format) { return int(CV_ELEM_SIZE(traits_of(format).type)); }
 
+cv::Mat pixel_rows(const Pixels& pixels, const std::string& source) {
+  require_pixels(pixels, source);
+  cv::Mat rows = packed(pixels, traits_of(pixels.format).type);
+  if (pixels.has_swapped_bytes) swap_bytes(rows);
+  return rows;
+}
+
 Image grey_image(const Pixels& pixels, const ImageOptions& options, const std::string& source) {
   options.validate();
-  require_pixels(pixels, source);
   const FormatTraits& format = traits_of(pixels.format);
+  if (pixels.format == PixelFormat::MonoUint32)
+    throw InputError(source, "format", "whole numbers of 32 bit", "a picture: these are distances");
   const BayerPattern bayer = pattern_of(format, options, source);
-  cv::Mat image = packed(pixels, format.type);
+  cv::Mat image = pixel_rows(pixels, source);
   require_least_size(image, source);
-  if (pixels.has_swapped_bytes && image.depth() == CV_16U) swap_bytes(image);
   if (format.to_grey >= 0) {
     cv::Mat grey;
     cv::cvtColor(image, grey, format.to_grey);

@@ -35,8 +35,9 @@ enum class PixelFormat {
   Rgba16,
   Yuyv8,
   Uyvy8,
+  MonoUint32,  // of depth images alone
 };
-inline constexpr int PIXEL_FORMATS = 21;
+inline constexpr int PIXEL_FORMATS = 22;
 int bytes_per_pixel(PixelFormat format);
 
 // Pixels of the caller. Rows may be padded, begin at any address, or go upwards in memory (a
@@ -46,13 +47,12 @@ struct Pixels {
   int width = 0, height = 0;
   std::ptrdiff_t row_stride_bytes = 0;  // 0: rows follow one another
   PixelFormat format = PixelFormat::Mono8;
-  bool has_swapped_bytes = false;  // 16-bit values are not as this machine orders their bytes
+  bool has_swapped_bytes = false;  // values are not as this machine orders their bytes
 };
 
 // The image that load_image makes of a file of these pixels. `source` names them in errors.
-// InputError: no pixels, less than 16x16
-// or more than 2^28 of them, a stride that is shorter than a row; a pattern in the options beside
-// one in the format.
+// InputError: no pixels, less than 16x16 or more than 2^28 of them, a stride that is shorter than a
+// row; a pattern in the options beside one in the format; a format of depth images alone.
 Image grey_image(const Pixels& pixels, const ImageOptions& options = {},
                  const std::string& source = "image");
 

@@ -1,6 +1,7 @@
 // A rendered part on a board, its templates, and messages of its images.
 #pragma once
 
+#include <cmath>
 #include <memory>
 
 #include "host/bridge/ros2/bridge.h"
@@ -62,6 +63,22 @@ inline msg::Header header_at(double seconds, const std::string& frame = "camera"
 
 inline msg::Image image_message(const Image& image, double seconds = 1) {
   return message_of(image, header_at(seconds));
+}
+
+// What SmallWorld's surfaces are away: 16UC1, mm, of whole rows.
+inline msg::Image depth_message(double seconds = 1, std::size_t view = 0) {
+  const Camera camera = small_world().camera();
+  msg::Image message{.header = header_at(seconds),
+                     .height = std::uint32_t(camera.height),
+                     .width = std::uint32_t(camera.width),
+                     .encoding = "16UC1",
+                     .step = std::uint32_t(2 * camera.width)};
+  for (const float z_m : small_world().renderings[view].depth_m) {
+    const auto mm = std::uint16_t(std::isfinite(z_m) ? std::lround(1000 * z_m) : 0);
+    message.data.push_back(std::uint8_t(mm & 0xff));
+    message.data.push_back(std::uint8_t(mm >> 8));
+  }
+  return message;
 }
 
 inline msg::CameraInfo info_message(const Camera& camera, double seconds = 1) {

@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/cli/small_scene.h"
@@ -18,9 +19,21 @@ struct DepthScene {
 
   // In metres; 0: nothing is measured.
   void write_depth(double z_m, int width, int height) const {
+    write(cv::Mat(height, width, CV_16U, cv::Scalar(z_m * 1e4)));
+  }
+  // What is there. `units`: of 0.1 mm; `is_mirrored`: as if it were another frame's.
+  void write_true_depth(double units = 1, bool is_mirrored = false) const {
+    const std::vector<Object> parts{make_part("l_bracket")};
+    ThreadPool pool(2);
+    std::vector<float> depth_m = render(make_scene(parts, bare_board(1, 1)), pool)[0].depth_m;
+    cv::Mat stored;
+    cv::Mat(240, 320, CV_32F, depth_m.data()).convertTo(stored, CV_16U, 1e4 * units);
+    if (is_mirrored) cv::flip(stored, stored, 1);
+    write(stored);
+  }
+  void write(const cv::Mat& stored) const {
     fs::create_directories(depth);
-    cv::imwrite((depth / "000000.png").string(),
-                cv::Mat(height, width, CV_16U, cv::Scalar(z_m * 1e4)));
+    cv::imwrite((depth / "000000.png").string(), stored);
     nlohmann::json cameras = nlohmann::json::parse(content_of(made.scene / "scene_camera.json"));
     cameras["0"]["depth_scale"] = 0.1;
     std::ofstream(made.scene / "scene_camera.json") << cameras;
@@ -78,6 +91,35 @@ TEST(DepthOption, RefusesAWrongUnit) {
   t.write_depth(0.3, 320, 240);
   expect_refused_in_the_batch(t.detect({"--depth", "scene", "--depth-unit", "0.1"}),
                               {"000000.png", "values around 3000", "300 m", "depth-unit"});
+}
+
+// What is said of depth that cannot be that of the images, by each verb.
+TEST(DepthOption, DoubtsAreSaidOnce) {
+  const DepthScene t;
+  const std::string starts = t.made.folder.write(
+      "starts.csv",
+      "scene_id,im_id,obj_id,score,R,t,time\n3,0,1,1,1 0 0 0 1 0 0 0 1,0 0 300,-1\n");
+  const std::vector<std::string> registers = {
+      "register", t.made.scene, "--poses",   starts, "--model", part_file(1),
+      "--unit",   "mm",         "--out",     t.made.out, "--device", "cpu",
+      "--depth",  "scene",      "--no-overlays"};
+  const std::string other = "is it the depth of another image?",
+                    unit = "is the depth of another unit (--depth-unit)?";
+  const auto expect_said = [&](const std::string& what) {
+    for (const auto& arguments : {t.detect({"--depth", "scene"}), registers}) {
+      fs::remove_all(t.made.out);
+      const Outcome outcome = run_program(arguments);
+      EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+      for (const std::string& doubt : {other, unit})
+        EXPECT_EQ(outcome.err.find(doubt) != std::string::npos, doubt == what) << outcome.err;
+    }
+  };
+  t.write_true_depth();
+  expect_said("");
+  t.write_true_depth(1, true);
+  expect_said(other);
+  t.write_true_depth(10);
+  expect_said(unit);
 }
 
 TEST(DepthOption, RefusesDepthThatIsNotThere) {

@@ -86,5 +86,20 @@ TEST(DepthFile, ValuesInMemoryAreReadAlike) {
   expect_input_error([&] { depth_image(whole, 20, 16); }, {"319", "20x16"});
 }
 
+// Padded rows, whole numbers of 32 bit, and the bytes of another machine.
+TEST(DepthFile, PixelsInMemoryAreReadAlike) {
+  std::vector<std::uint32_t> whole(16 * 23, 0xffffffff);
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 20; ++x) whole[std::size_t(23 * y + x)] = std::uint32_t(650 + x);
+  Pixels pixels{whole.data(), 20, 16, 23 * sizeof whole[0], PixelFormat::MonoUint32};
+  const DepthImage depth = depth_image(pixels);
+  EXPECT_FLOAT_EQ(depth.at(19, 15), 0.669f);
+  for (std::uint32_t& value : whole) value = __builtin_bswap32(value);
+  pixels.has_swapped_bytes = true;
+  EXPECT_EQ(depth_image(pixels).z_m, depth.z_m);
+  pixels.format = PixelFormat::Mono8;
+  expect_input_error([&] { depth_image(pixels, {}, "depth topic"); }, {"depth topic", "a picture"});
+}
+
 }  // namespace
 }  // namespace edgescout::test

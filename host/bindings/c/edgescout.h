@@ -122,7 +122,8 @@ enum {
   EDGESCOUT_DETECT_OPTIONS = 2,
   EDGESCOUT_REGISTER_OPTIONS = 3,
   EDGESCOUT_SCOUT_OPTIONS = 4,
-  EDGESCOUT_TRACK_OPTIONS = 5
+  EDGESCOUT_TRACK_OPTIONS = 5,
+  EDGESCOUT_DEPTH_OPTIONS = 6 /* unit and range of stored distances, noise of the sensor */
 };
 
 enum {
@@ -246,7 +247,8 @@ enum {
   EDGESCOUT_BGRA16 = 17,
   EDGESCOUT_RGBA16 = 18,
   EDGESCOUT_YUYV8 = 19, /* of video formats, Y is used */
-  EDGESCOUT_UYVY8 = 20
+  EDGESCOUT_UYVY8 = 20,
+  EDGESCOUT_MONO32 = 21 /* whole numbers; of depth images alone */
 };
 
 /* Pixels of the caller, read during the call alone. Detection works on 8-bit grey: colour is
@@ -258,7 +260,8 @@ typedef struct edgescout_image {
   int64_t row_stride_bytes; /* may be negative; 0: rows follow one another */
   int32_t format;           /* EDGESCOUT_MONO8, .. */
   int32_t reserved;
-  const edgescout_options* options; /* EDGESCOUT_IMAGE_OPTIONS; NULL: the defaults */
+  /* EDGESCOUT_IMAGE_OPTIONS, of a depth image EDGESCOUT_DEPTH_OPTIONS; NULL: the defaults */
+  const edgescout_options* options;
 } edgescout_image;
 
 /* An image that the library owns. */
@@ -367,6 +370,15 @@ typedef struct edgescout_view {
   const edgescout_image* image;
   const edgescout_camera* camera;  /* of the image's size, or without a size */
   const double* camera_from_world; /* 16 numbers; NULL: the world is the camera frame */
+  /* What a depth sensor measured at the time of the image, or NULL: MONO16 or MONO32 (mm) or
+     FLOAT32 (m), distances along the camera's axis. 0, NaN and what lies outside the range of its
+     options are missing (docs/depth.md). */
+  const edgescout_image* depth;
+  /* The camera that took it, where that is not the camera of the image, lens included: of the depth
+     image's size, or without a size. NULL: the same camera; then the sizes must be equal. */
+  const edgescout_camera* depth_camera;
+  /* 16 numbers: maps points of the depth camera's frame to the camera's. NULL: the same frame. */
+  const double* camera_from_depth;
 } edgescout_view;
 
 typedef struct edgescout_request {
@@ -521,6 +533,10 @@ typedef struct edgescout_shot {
   const edgescout_image* image;
   const double* camera_from_world; /* as measured; NULL: as planned */
   const edgescout_limit* limit;    /* or NULL */
+  /* As in edgescout_view. */
+  const edgescout_image* depth;
+  const edgescout_camera* depth_camera;
+  const double* camera_from_depth;
 } edgescout_shot;
 EDGESCOUT_API edgescout_status edgescout_scout_give(edgescout_scout* scout,
                                                     const edgescout_shot* shot);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <new>
 
+#include "host/bridge/ros2/depth_message.h"
 #include "host/bridge/ros2/frames.h"
 #include "host/core/camera_check.h"
 #include "host/io/camera_file.h"
@@ -14,7 +15,8 @@ namespace edgescout::ros2 {
 namespace {
 
 constexpr char info_subject[] = "camera_info", image_subject[] = "image", tf_subject[] = "tf",
-               search_subject[] = "detection";
+               search_subject[] = "detection", depth_subject[] = "depth",
+               depth_message_subject[] = "depth message";
 
 template <typename Result>
 Result failure(const std::string& why) {
@@ -38,7 +40,12 @@ void guarded(const Work& work, const OnError& on_error) {
   }
 }
 
+constexpr char dropped_for_newer[] = "images dropped: a newer one came";
 constexpr char too_many[] = "request: found too many that wait, expected fewer";
+
+std::optional<DepthWait> depth_wait(const BridgeOptions& options) {
+  return options.depth == DepthSource::None ? std::nullopt : std::optional(options.depth_wait);
+}
 
 ScoutOptions cancellable(ScoutOptions options, const Inbox& inbox) {
   options.cancelled = [&inbox] { return inbox.is_stopped(); };
@@ -51,7 +58,8 @@ Bridge::Bridge(TemplateSource templates, Backend& backend, BridgeOptions options
     : options_(std::move(options)),
       outbox_(outbox),
       diagnostics_(options_.node),
-      inbox_(!options_.on_request),
+      inbox_(!options_.on_request, depth_wait(options_)),
+      depth_(options_, tf_),
       search_(std::move(templates), backend, options_.pipeline),
       scout_(search_, cancellable(options_.scout, inbox_), options_.scout_views,
              options_.world_frame) {
@@ -67,8 +75,25 @@ void Bridge::take(ImageMessage image) {
       return;
     }
   }
-  if (inbox_.put(std::move(image))) diagnostics_.count("images dropped: a newer one came");
+  if (const std::size_t dropped = inbox_.put(std::move(image)))
+    diagnostics_.count(dropped_for_newer, dropped);
 }
+
+void Bridge::take_depth(msg::Image depth) {
+  diagnostics_.count("depth images received");
+  guarded(
+      [&] {
+        require_depth(depth, depth_subject);
+        diagnostics_.solved(depth_message_subject);
+        inbox_.put(std::make_shared<const msg::Image>(std::move(depth)));
+      },
+      [&](const std::string& why) {
+        diagnostics_.count("depth images refused");
+        diagnostics_.problem(depth_message_subject, why);
+      });
+}
+
+void Bridge::take_depth(const msg::CameraInfo& info) { depth_.add(info); }
 
 void Bridge::take(const msg::CameraInfo& info) {
   diagnostics_.count("camera infos received");
@@ -154,6 +179,7 @@ bool Bridge::work(double seconds) {
     request.on_failure("request: found no image in time" + (why.empty() ? "" : " (" + why + ")") +
                        ", expected one within " + std::to_string(options_.request_seconds) + " s");
   }
+  if (work.dropped > 0) diagnostics_.count(dropped_for_newer, work.dropped);
   if (work.job) work.job();
   if (work.image) work_on(std::move(*work.image), std::move(work.for_image));
   return work.is_any();
@@ -165,7 +191,7 @@ void Bridge::work_on(ArrivedImage arrived, std::vector<ImageRequest> requests) {
   const msg::Header header = header_of(arrived.message);
   const std::optional<Camera> camera = camera_for(header, image->width, image->height);
   if (!camera) return wait_for_calibration(std::move(arrived), std::move(requests));
-  const TakenImage taken{header, *image, *camera};
+  const TakenImage taken{header, *image, *camera, depth_for(arrived, *camera)};
   for (const ImageRequest& request : requests) request.on_image(taken);
   if (requests.empty()) detect_without_request(taken);
   diagnostics_.count("images worked on");
@@ -200,6 +226,29 @@ std::optional<Camera> Bridge::camera_for(const msg::Header& header, int width, i
   return camera;
 }
 
+std::shared_ptr<const MeasuredDepth> Bridge::depth_for(const ArrivedImage& arrived,
+                                                       const Camera& camera) {
+  if (options_.depth == DepthSource::None) return nullptr;
+  std::shared_ptr<const MeasuredDepth> depth;
+  const msg::Header& header = header_of(arrived.message);
+  guarded(
+      [&] {
+        if (!arrived.depth)
+          throw InputError(depth_subject, "of the image", "none",
+                           nanoseconds(header.stamp) == 0
+                               ? "an image with a stamp"
+                               : "one of its stamp (depth_tolerance) in time (depth_seconds)");
+        depth = depth_.of_topic(*arrived.depth, header, camera, search_.backend().threads());
+        diagnostics_.count("images worked on with depth");
+        diagnostics_.solved(depth_subject);
+      },
+      [&](const std::string& why) {
+        diagnostics_.count("images worked on without depth");
+        diagnostics_.problem(depth_subject, why);
+      });
+  return depth;
+}
+
 Camera Bridge::calibration_of(const msg::Header& image) const {
   Camera camera;
   if (options_.camera) {
@@ -229,7 +278,7 @@ void Bridge::wait_for_calibration(ArrivedImage arrived, std::vector<ImageRequest
   if (options_.without_camera == WithoutCamera::Drop)
     diagnostics_.count("images dropped: no camera");
   else if (!inbox_.put_back(std::move(arrived)))
-    diagnostics_.count("images dropped: a newer one came");
+    diagnostics_.count(dropped_for_newer);
 }
 
 Se3 Bridge::world_from_camera(const msg::Header& image) const {
@@ -242,8 +291,8 @@ Bridge::Found Bridge::detect(const TakenImage& image, double max_seconds) {
   const bool in_world = !options_.world_frame.empty();
   const Se3 world_from_image = in_world ? world_from_camera(image.header) : Se3{};
   diagnostics_.solved(tf_subject);
-  const Detections found = search_.in_image({image.image, image.camera, inverse(world_from_image)},
-                                            limit_of(max_seconds));
+  const Detections found = search_.in_image(
+      {image.image, image.camera, inverse(world_from_image), image.depth}, limit_of(max_seconds));
   Found result{image.header, {}, found.completion};
   if (in_world) result.header.frame_id = options_.world_frame;
   for (const Detection& detection : found.detections)
@@ -289,7 +338,8 @@ msg::GetPoseEstimatesResult Bridge::estimate(const msg::GetPoseEstimatesRequest&
     Camera camera = camera_of(given.info, options_.rectified, source);
     camera.field_of_view_rad = options_.field_of_view_rad;
     camera = camera_for_image(camera, image.width, image.height, options_.scale_camera, source);
-    views.push_back({std::move(image), camera, inverse(pose_of(given.pose, source))});
+    views.push_back({std::move(image), camera, inverse(pose_of(given.pose, source)),
+                     depth_.of_request(given.depth, camera, source + ".depth")});
   }
   const Detections found =
       search_.in_views(views, request.object_ids, limit_of(options_.max_seconds));

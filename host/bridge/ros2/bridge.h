@@ -11,6 +11,7 @@
 
 #include "host/bridge/ros2/bridge_options.h"
 #include "host/bridge/ros2/camera_info.h"
+#include "host/bridge/ros2/depth_for_image.h"
 #include "host/bridge/ros2/diagnostics.h"
 #include "host/bridge/ros2/inbox.h"
 #include "host/bridge/ros2/object_search.h"
@@ -30,6 +31,8 @@ class Bridge {
 
   void take(ImageMessage image);
   void take(const msg::CameraInfo& info);
+  void take_depth(msg::Image depth);
+  void take_depth(const msg::CameraInfo& info);  // of the depth camera
   void take(const msg::TFMessage& transforms, bool is_static);
 
   // Each is answered once, by work(), or at once where too many requests wait. An error is an
@@ -61,8 +64,9 @@ class Bridge {
   template <typename Result, typename Work>
   void add_job(const Answer<Result>& answer, const Work& work);
   void work_on(ArrivedImage arrived, std::vector<ImageRequest> requests);
-  std::optional<TakenImage> taken(const ArrivedImage& arrived);
   std::optional<Image> decoded(const ImageMessage& message);
+  // Null, and counted: the image has none that can be used.
+  std::shared_ptr<const MeasuredDepth> depth_for(const ArrivedImage& arrived, const Camera& camera);
   std::optional<Camera> camera_for(const msg::Header& header, int width, int height);
   // That of the image's time; with an empty header the latest. InputError: none came.
   Camera calibration_of(const msg::Header& image) const;
@@ -81,6 +85,7 @@ class Bridge {
   Diagnostics diagnostics_;
   Inbox inbox_;
   TfBuffer tf_;
+  DepthForImage depth_;
   mutable std::mutex infos_mutex_;
   CameraInfos infos_;
   ObjectSearch search_;

@@ -22,8 +22,22 @@ void describe(BridgeOptions& o, OptionVisitor& visit) {
              o.publish_tf);
   visit.number({"tf-seconds", "How long to wait for a transform of the image's time, s"},
                o.tf_seconds, 0.0, longest_seconds);
+  static constexpr const char* depth_sources[] = {"none", "aligned", "own_camera"};
+  visit.choice({"depth",
+                "Depth images on the topic depth. aligned: of the same camera and size as the "
+                "images; own_camera: of one with a CameraInfo beside the topic and a frame in tf",
+                OptionLevel::Basic},
+               o.depth, depth_sources);
+  visit.number({"depth-seconds",
+                "How long an image waits for its depth image, s; then it is worked on alone"},
+               o.depth_wait.seconds, 0.0, longest_seconds);
+  visit.number({"depth-tolerance",
+                "Largest difference of the stamps of an image and its depth image, s. 0: they are "
+                "equal"},
+               o.depth_wait.tolerance_s, 0.0, 1.0);
   visit.number({"request-seconds", "How long a request waits for an image, s"}, o.request_seconds,
                0.0, longest_seconds);
+  describe(o.depth_values, visit);
 }
 
 }  // namespace edgescout::ros2

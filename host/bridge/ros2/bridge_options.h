@@ -6,14 +6,19 @@
 #include <vector>
 
 #include "host/active/scout_options.h"
+#include "host/bridge/ros2/depth_matches.h"
 #include "host/core/camera.h"
 #include "host/core/options.h"
+#include "host/io/depth_options.h"
 #include "host/io/image_options.h"
 #include "host/pipeline.h"
 
 namespace edgescout::ros2 {
 
 enum class WithoutCamera { Wait, Drop };
+// Depth images: none, of the camera of the images, or of one with a CameraInfo and a frame of its
+// own.
+enum class DepthSource { None, Aligned, OwnCamera };
 
 struct BridgeOptions {
   std::string node = "edgescout";
@@ -30,6 +35,9 @@ struct BridgeOptions {
   bool rectified = false;
   bool on_request = false;
   WithoutCamera without_camera = WithoutCamera::Wait;
+  DepthSource depth = DepthSource::None;
+  DepthWait depth_wait;
+  DepthOptions depth_values;
   bool publish_tf = false;
   double tf_seconds = 0.2;
   double request_seconds = 5;

@@ -84,15 +84,9 @@ Image image_of(const msg::Image& message, const std::string& source, const Image
     throw InputError(source, "encoding", shown(message.encoding),
                      "mono8, mono16, bgr8, rgb8, bgra8, rgba8, their 16-bit forms, bayer_..8 or "
                      "..16, yuv422, yuv422_yuy2, 8UC1 to 8UC4, 16UC1 to 16UC4 or 32FC1");
-  require_bytes(message, encoding->format, source);
-  const bool is_big_endian_here = std::endian::native == std::endian::big;
   ImageOptions used = options;
   if (encoding->bayer != BayerPattern::None) used.bayer = BayerPattern::None;  // the format has it
-  constexpr std::uint32_t longest_px = 1 << 30;
-  return grey_image({message.data.data(), int(std::min(message.width, longest_px)),
-                     int(std::min(message.height, longest_px)), std::ptrdiff_t(message.step),
-                     encoding->format, (message.is_bigendian != 0) != is_big_endian_here},
-                    used, source);
+  return grey_image(pixels_of(message, encoding->format, source), used, source);
 }
 
 // "bayer_rggb8; png compressed": what image_transport compressed, and how. A JPEG of a mosaic is in
@@ -111,6 +105,18 @@ Image image_of(const msg::CompressedImage& message, const std::string& source,
 }
 
 }  // namespace
+
+Pixels pixels_of(const msg::Image& message, PixelFormat format, const std::string& source) {
+  require_bytes(message, format, source);
+  constexpr bool is_big_endian_here = std::endian::native == std::endian::big;
+  constexpr std::uint32_t longest_px = 1 << 30;
+  return {message.data.data(),
+          int(std::min(message.width, longest_px)),
+          int(std::min(message.height, longest_px)),
+          std::ptrdiff_t(message.step),
+          format,
+          (message.is_bigendian != 0) != is_big_endian_here};
+}
 
 const msg::Header& header_of(const ImageMessage& message) {
   return std::visit([](const auto& image) -> const msg::Header& { return image.header; }, message);

@@ -6,6 +6,7 @@
 #include "host/bridge/ros2/messages.h"
 #include "host/core/types.h"
 #include "host/io/image.h"
+#include "host/io/pixels.h"
 
 namespace edgescout::ros2 {
 
@@ -18,6 +19,10 @@ const msg::Header& header_of(const ImageMessage& message);
 // encoding that is no picture or unknown, another number of bytes than the size says.
 Image image_of(const ImageMessage& message, const std::string& source,
                const ImageOptions& options = {});
+
+// The message's data as pixels of the format that its encoding names; they stay in the message.
+// InputError naming `source` and the field: another number of bytes than the size says.
+Pixels pixels_of(const msg::Image& message, PixelFormat format, const std::string& source);
 
 msg::Image message_of(const RgbImage& image, const msg::Header& header);  // rgb8
 msg::Image message_of(const Image& image, const msg::Header& header);     // mono8

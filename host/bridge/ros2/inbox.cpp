@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "host/bridge/ros2/frames.h"
+
 namespace edgescout::ros2 {
 
 namespace {
@@ -14,15 +16,23 @@ Clock::time_point from_now(double seconds) {
 
 }  // namespace
 
-bool Inbox::put(ImageMessage message) {
-  bool drops = false;
+std::size_t Inbox::put(ImageMessage message) {
+  std::size_t dropped = 0;
   {
     const std::scoped_lock lock(mutex_);
-    drops = newest_.has_value();
-    newest_ = {std::move(message), Clock::now(), ++images_, 1};
+    waiting_.push_back({std::move(message), Clock::now(), ++arrived_, 1, nullptr});
+    for (; waiting_.size() > most_images(); ++dropped) waiting_.pop_front();
   }
   changed_.notify_all();
-  return drops;
+  return dropped;
+}
+
+void Inbox::put(DepthMessage depth) {
+  {
+    const std::scoped_lock lock(mutex_);
+    depths_.add(std::move(depth));
+  }
+  changed_.notify_all();
 }
 
 bool Inbox::put(std::function<void()> job) {
@@ -40,7 +50,7 @@ bool Inbox::put(ImageRequest request, double wait_seconds) {
     const std::scoped_lock lock(mutex_);
     if (requests_.size() >= most_waiting) return false;
     request.deadline = from_now(wait_seconds);
-    request.after = images_;
+    request.after = arrived_;
     requests_.push_back(std::move(request));
   }
   changed_.notify_all();
@@ -57,8 +67,8 @@ void Inbox::put_calibration() {
 
 bool Inbox::put_back(ArrivedImage image) {
   const std::scoped_lock lock(mutex_);
-  if (newest_) return false;
-  newest_ = std::move(image);
+  if (!waiting_.empty()) return false;
+  waiting_.push_back(std::move(image));
   return true;
 }
 
@@ -85,11 +95,39 @@ std::uint64_t Inbox::calibrations() const {
   return calibrations_;
 }
 
-bool Inbox::is_image_ready() const {
-  if (!newest_ || newest_->not_before_info > calibrations_) return false;
+bool Inbox::is_wanted(const ArrivedImage& image) const {
+  if (image.not_before_info > calibrations_) return false;
   return always_ || std::ranges::any_of(requests_, [&](const ImageRequest& request) {
-           return request.after < newest_->number;
+           return request.after < image.number;
          });
+}
+
+Clock::time_point Inbox::depth_deadline(const ArrivedImage& image) const {
+  return image.time + std::chrono::duration_cast<Clock::duration>(
+                          std::chrono::duration<double>(depth_wait_->seconds));
+}
+
+// No depth image belongs to an image without a stamp.
+bool Inbox::has_depth_or_waits_no_more(const ArrivedImage& image) const {
+  return !depth_wait_ || image.depth || nanoseconds(header_of(image.message).stamp) == 0 ||
+         depths_.of(header_of(image.message)) || depth_deadline(image) <= Clock::now();
+}
+
+Inbox::Images::iterator Inbox::ready_image() {
+  const auto found = std::find_if(waiting_.rbegin(), waiting_.rend(), [&](const auto& image) {
+    return is_wanted(image) && has_depth_or_waits_no_more(image);
+  });
+  return found == waiting_.rend() ? waiting_.end() : std::prev(found.base());
+}
+
+// The image goes, and so do the older ones.
+void Inbox::take_image(Images::iterator image, Work& work) {
+  work.dropped = std::size_t(image - waiting_.begin());
+  work.image = std::move(*image);
+  waiting_.erase(waiting_.begin(), image + 1);
+  const msg::Header& header = header_of(work.image->message);
+  if (depth_wait_ && !work.image->depth && nanoseconds(header.stamp) != 0)
+    work.image->depth = depths_.of(header);
 }
 
 bool Inbox::has_expired() const {
@@ -99,13 +137,17 @@ bool Inbox::has_expired() const {
 
 Clock::time_point Inbox::next_deadline(Clock::time_point latest) const {
   for (const ImageRequest& request : requests_) latest = std::min(latest, request.deadline);
+  if (!depth_wait_) return latest;
+  for (const ArrivedImage& image : waiting_)
+    if (is_wanted(image)) latest = std::min(latest, depth_deadline(image));
   return latest;
 }
 
 Inbox::Work Inbox::next(double seconds) {
   const Clock::time_point end = from_now(seconds);
   std::unique_lock lock(mutex_);
-  while (!stopped_ && jobs_.empty() && !is_image_ready() && !has_expired() && Clock::now() < end)
+  while (!stopped_ && jobs_.empty() && ready_image() == waiting_.end() && !has_expired() &&
+         Clock::now() < end)
     changed_.wait_until(lock, next_deadline(end));
   Work work;
   if (stopped_) return work;
@@ -117,9 +159,8 @@ Inbox::Work Inbox::next(double seconds) {
   if (!jobs_.empty()) {
     work.job = std::move(jobs_.front());
     jobs_.pop_front();
-  } else if (is_image_ready()) {
-    work.image = std::move(newest_);
-    newest_.reset();
+  } else if (const auto image = ready_image(); image != waiting_.end()) {
+    take_image(image, work);
     take(work.for_image,
          [&](const ImageRequest& request) { return request.after < work.image->number; });
   }

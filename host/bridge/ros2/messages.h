@@ -166,6 +166,7 @@ struct CalibratedImage {
   CameraInfo info{};
   Pose pose{};  // of the camera in the world
   Image image{};
+  Image depth{};  // of the same camera; without pixels: none
 };
 struct PoseEstimate {
   std::uint64_t obj_id = 0;

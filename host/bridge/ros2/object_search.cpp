@@ -16,11 +16,18 @@ std::span<const TemplateSet> ObjectSearch::sets(const Camera& camera) {
   return sets_;
 }
 
+ObjectView ObjectSearch::prepared(const CameraView& view, const PipelineOptions& options) {
+  ObjectView result =
+      prepare_view(view.image, view.camera, view.camera_from_world, backend_, options);
+  result.depth = view.depth;
+  return result;
+}
+
 Detections ObjectSearch::in_image(const CameraView& view, const TimeLimit& limit) {
   sets(view.camera);
   PipelineOptions options = options_;
   options.limit = limit;
-  last_view_ = prepare_view(view.image, view.camera, view.camera_from_world, backend_, options);
+  last_view_ = prepared(view, options);
   return detect_objects(last_view_, sets_, backend_, options);
 }
 
@@ -59,11 +66,9 @@ Detections ObjectSearch::in_views(std::span<const CameraView> views,
   const Chosen* some = object_ids.empty() ? nullptr : &chosen(object_ids);
   PipelineOptions options = options_;
   options.limit = limit;
-  std::vector<ObjectView> prepared;
-  for (const CameraView& view : views)
-    prepared.push_back(
-        prepare_view(view.image, view.camera, view.camera_from_world, backend_, options));
-  Detections found = detect_jointly(prepared, some ? some->sets : sets_, backend_, options);
+  std::vector<ObjectView> all;
+  for (const CameraView& view : views) all.push_back(prepared(view, options));
+  Detections found = detect_jointly(all, some ? some->sets : sets_, backend_, options);
   if (some)
     for (Detection& detection : found.detections)
       detection.object = some->index[std::size_t(detection.object)];

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "host/core/types.h"
 #include "host/io/image.h"
 #include "host/pipeline.h"
+#include "host/register/measured_depth.h"
 
 namespace edgescout::ros2 {
 
@@ -21,6 +23,7 @@ struct CameraView {
   Image image;
   Camera camera;
   Se3 camera_from_world;
+  std::shared_ptr<const MeasuredDepth> depth;  // null: none
 };
 
 class ObjectSearch {
@@ -48,6 +51,7 @@ class ObjectSearch {
     std::vector<TemplateSet> sets;
     std::vector<int> index;  // of each in all sets
   };
+  ObjectView prepared(const CameraView& view, const PipelineOptions& options);
   const Chosen& chosen(std::span<const std::uint64_t> object_ids);
 
   TemplateSource templates_;

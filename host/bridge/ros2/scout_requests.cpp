@@ -39,7 +39,7 @@ msg::ScoutGiveResult ScoutRequests::give(const msg::ScoutGiveRequest& request,
                                          const TakenImage& image, const Se3& camera_from_world) {
   Scout& scout = running();
   require_view(request.view);
-  scout.give(request.view, image.image, camera_from_world);
+  scout.give(request.view, Shot{image.image, camera_from_world, image.depth});
   return {true, ""};
 }
 

@@ -145,8 +145,10 @@ static void expect_refused(edgescout_image image, const char* message) {
 static void expect_refusals(void) {
   edgescout_image image = image_of(grey, -1);
   expect_refused(image, "image.format: found -1");
-  image.format = 21;
-  expect_refused(image, "image.format: found 21");
+  image.format = 22;
+  expect_refused(image, "image.format: found 22");
+  image = image_of(grey, EDGESCOUT_MONO32);
+  expect_refused(image, "image: format: found whole numbers of 32 bit, expected a picture");
   image = image_of(grey, EDGESCOUT_MONO8);
   image.width = -40;
   expect_refused(image, "pixels: found -40x30");

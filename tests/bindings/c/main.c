@@ -14,7 +14,7 @@ static const struct named_test tests[] = {
     {"structs", test_structs},   {"options", test_options}, {"images", test_images},
     {"models", test_models},     {"limits", test_limits},   {"busy", test_busy},
     {"scout", test_scout},       {"memory", test_memory},   {"log", test_log},
-    {"tracker", test_tracker},   {"results", print_results}};
+    {"tracker", test_tracker},   {"depth", test_depth},     {"results", print_results}};
 
 int main(int argc, char** argv) {
   if (argc != 4) {

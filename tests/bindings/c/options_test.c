@@ -13,7 +13,7 @@ static const char* value_of(const edgescout_options* options, const char* name) 
 
 /* Each option of each kind says what it is, and takes the value that it shows. */
 static void expect_lists(void) {
-  for (int32_t kind = EDGESCOUT_IMAGE_OPTIONS; kind <= EDGESCOUT_TRACK_OPTIONS; ++kind) {
+  for (int32_t kind = EDGESCOUT_IMAGE_OPTIONS; kind <= EDGESCOUT_DEPTH_OPTIONS; ++kind) {
     edgescout_options* options = NULL;
     OK(es_options_create(kind, &options));
     size_t count = 0;
@@ -40,7 +40,7 @@ static void expect_lists(void) {
     OK(es_free(options));
   }
   edgescout_options* none = NULL;
-  EXPECT(EDGESCOUT_BAD_INPUT, es_options_create(6, &none));
+  EXPECT(EDGESCOUT_BAD_INPUT, es_options_create(7, &none));
   EXPECT(EDGESCOUT_BAD_INPUT, es_options_create(-1, &none));
 }
 

@@ -1,8 +1,10 @@
 /* What detection, joint detection, registration and the scout find, as exact numbers.
    results_of_cpp.cpp prints the same by C++. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "tests/bindings/c/depth_values.h"
 #include "tests/bindings/c/scene.h"
 
 static void print_numbers(const char* name, const double* numbers, int count) {
@@ -80,6 +82,63 @@ static void print_one_view(const struct scene* scene) {
   print_detections("register", found);
 }
 
+/* Rows of 16 bit that go upwards in memory; whole and real numbers of 32 bit, without padding. */
+static edgescout_image depth_of(int32_t format, int32_t width, int32_t height) {
+  static uint16_t whole16[210][203];
+  static uint32_t whole32[210 * 320];
+  static float real[210 * 320];
+  edgescout_image depth = {
+      .struct_size = sizeof depth, .width = width, .height = height, .format = format};
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const unsigned mm = depth_mm_at(x, y);
+      if (format == EDGESCOUT_MONO16) whole16[height - 1 - y][x] = (uint16_t)mm;
+      whole32[y * width + x] = mm;
+      real[y * width + x] = mm == 0 ? (float)NAN : (float)mm / 1000.0f;
+    }
+  if (format == EDGESCOUT_MONO16) {
+    depth.pixels = whole16[height - 1];
+    depth.row_stride_bytes = -(int64_t)sizeof *whole16;
+  } else {
+    depth.pixels = format == EDGESCOUT_MONO32 ? (const void*)whole32 : real;
+  }
+  return depth;
+}
+
+static void print_with_depth(const struct scene* scene) {
+  edgescout_options* sensor = NULL;
+  OK(es_options_create(EDGESCOUT_DEPTH_OPTIONS, &sensor));
+  OK(es_options_set(sensor, "depth-noise", "0.002"));
+  edgescout_image depth = depth_of(EDGESCOUT_MONO16, part_window.width, part_window.height);
+  depth.options = sensor;
+  edgescout_view view = scene->view;
+  view.depth = &depth;
+  edgescout_request request = scene->request;
+  request.views = &view;
+  edgescout_detections* found = NULL;
+  OK(es_detect(&request, &found));
+  print_detections("detect with depth", found);
+
+  edgescout_camera_model model = {.struct_size = sizeof model};
+  model.width = DEPTH_WIDTH;
+  model.height = DEPTH_HEIGHT;
+  model.fx = model.fy = depth_focal_px;
+  model.cx = depth_center_px[0];
+  model.cy = depth_center_px[1];
+  edgescout_camera* camera = NULL;
+  OK(es_camera_create(&model, &camera));
+  depth = depth_of(EDGESCOUT_FLOAT32, DEPTH_WIDTH, DEPTH_HEIGHT);
+  view.depth_camera = camera;
+  view.camera_from_depth = camera_from_depth_rows;
+  request.options = NULL;
+  const double start[16] = {1, 0, 0, -0.11, 0, 1, 0, 0.01, 0, 0, 1, 0.33, 0, 0, 0, 1};
+  const edgescout_starts one = {.struct_size = sizeof one, .world_from_object = start, .count = 1};
+  OK(es_register(&request, &one, &found));
+  print_detections("register with a depth camera", found);
+  OK(es_free(camera));
+  OK(es_free(sensor));
+}
+
 static void print_two_views(const struct scene* scene, const edgescout_templates* parts) {
   edgescout_picture* pictures[SCOUT_VIEWS];
   edgescout_image images[SCOUT_VIEWS];
@@ -88,11 +147,15 @@ static void print_two_views(const struct scene* scene, const edgescout_templates
   plan.templates = parts;
   edgescout_scout* scout = NULL;
   OK(es_scout_create(&plan, &scout));
+  const edgescout_image depth = depth_of(EDGESCOUT_MONO32, scout_window.width, scout_window.height);
   for (int i = 0; i < SCOUT_VIEWS; ++i) {
     pictures[i] = picture_of_view(i, &images[i]);
-    views[i] = (edgescout_view){sizeof *views, &images[i], scene->scout_camera,
-                                camera_from_world_views[i]};
-    const edgescout_shot shot = {.struct_size = sizeof shot, .view = i, .image = &images[i]};
+    views[i] = (edgescout_view){.struct_size = sizeof *views,
+                                .image = &images[i],
+                                .camera = scene->scout_camera,
+                                .camera_from_world = camera_from_world_views[i]};
+    edgescout_shot shot = {.struct_size = sizeof shot, .view = i, .image = &images[i]};
+    if (i == 1) shot.depth = &depth;
     OK(es_scout_give(scout, &shot));
   }
   edgescout_request request = scene->request;
@@ -102,6 +165,9 @@ static void print_two_views(const struct scene* scene, const edgescout_templates
   edgescout_detections* found = NULL;
   OK(es_detect_jointly(&request, &found));
   print_detections("detect_jointly", found);
+  views[1].depth = &depth;
+  OK(es_detect_jointly(&request, &found));
+  print_detections("detect_jointly with depth", found);
   OK(es_scout_detections(scout, &found));
   print_detections("scout", found);
   OK(es_free(scout));
@@ -112,6 +178,7 @@ void print_results(void) {
   struct scene scene;
   open_scene(&scene);
   print_one_view(&scene);
+  print_with_depth(&scene);
   edgescout_templates* const parts[2] = {templates_of_part(4, "0.37", "0.37", "1", scene.backend),
                                          templates_of_part(6, "0.37", "0.37", "2", scene.backend)};
   edgescout_templates* both = NULL;

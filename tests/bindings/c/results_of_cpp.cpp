@@ -5,7 +5,12 @@
 #include "host/active/scout.h"
 #include "host/core/pose_matrix.h"
 #include "host/edgescout.h"
+#include "host/io/depth_file.h"
+#include "host/io/depth_registration.h"
+#include "host/register/measured_depth.h"
 #include "host/track/tracker.h"
+#include "kernels/backend.h"
+#include "tests/bindings/c/depth_values.h"
 #include "tests/bindings/c/views.h"
 
 using namespace edgescout;
@@ -136,6 +141,35 @@ void print_one_view(Backend& backend) {
                    sets);
 }
 
+DepthImage depth_of(int width, int height) {
+  std::vector<std::uint16_t> mm;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) mm.push_back(std::uint16_t(depth_mm_at(x, y)));
+  return depth_image(mm, width, height);
+}
+
+void print_with_depth(Backend& backend) {
+  const std::vector<TemplateSet> sets{templates_of(1, 0.34, 2, backend)};
+  const Image image = window_of("scenes/000000/gray/000000.png", part_window);
+  const Camera camera = camera_of(part_window);
+  ObjectView view = prepare_view(image, camera, Se3{}, backend, {});
+  DepthNoise noise;
+  noise.at_one_metre_m = 0.002;
+  add_depth(view, depth_of(part_window.width, part_window.height), camera, noise);
+  print_detections("detect with depth", detect_objects(view, sets, backend, quick_options()), sets);
+
+  const DepthCamera beside{{DEPTH_WIDTH, DEPTH_HEIGHT, depth_focal_px, depth_focal_px,
+                            depth_center_px[0], depth_center_px[1]},
+                           pose_of_rows(camera_from_depth_rows, "depth")};
+  add_depth(view,
+            register_depth(depth_of(DEPTH_WIDTH, DEPTH_HEIGHT), beside, camera, backend.threads()),
+            view.camera);
+  std::vector<ObjectPose> starts(1);
+  starts[0].world_from_object.translation_m = {-0.11, 0.01, 0.33};
+  print_detections("register with a depth camera",
+                   register_objects({&view, 1}, models_of(sets), starts, backend, {}), sets);
+}
+
 void print_two_views(Backend& backend) {
   const std::vector<TemplateSet> sets{templates_of(4, 0.37, 1, backend),
                                       templates_of(6, 0.37, 2, backend)};
@@ -143,14 +177,21 @@ void print_two_views(Backend& backend) {
   for (const auto& rows : camera_from_world_views) poses.push_back(pose_of_rows(rows, "view"));
   const Camera camera = camera_of(scout_window);
   Scout scout(sets, camera, poses, quick_scout_options(), backend);
+  const auto depth = std::make_shared<const MeasuredDepth>(
+      MeasuredDepth{depth_of(scout_window.width, scout_window.height), {}});
   std::vector<ObjectView> views;
   for (int i = 0; i < 2; ++i) {
     const Image image =
         window_of("scenes/000001/gray/00000" + std::to_string(i) + ".png", scout_window);
     views.push_back(prepare_view(image, camera, poses[std::size_t(i)], backend, {}));
-    scout.give(i, image);
+    Shot shot{image, poses[std::size_t(i)]};
+    if (i == 1) shot.depth = depth;
+    scout.give(i, shot);
   }
   print_detections("detect_jointly", detect_jointly(views, sets, backend, quick_options()), sets);
+  views[1].depth = depth;
+  print_detections("detect_jointly with depth",
+                   detect_jointly(views, sets, backend, quick_options()), sets);
   std::printf("scout: %zu, completion 0\n", scout.state().detections.size());
   for (const ModeDetection& mode : scout.state().detections) {
     print_detection(mode.detection, sets);
@@ -165,5 +206,6 @@ int main(int argc, char** argv) {
   examples = std::string(argv[1]) + "/";
   const auto backend = make_cpu_backend(2);
   print_one_view(*backend);
+  print_with_depth(*backend);
   print_two_views(*backend);
 }

@@ -58,6 +58,7 @@ void test_nulls(void);
 void test_structs(void);
 void test_options(void);
 void test_images(void);
+void test_depth(void);
 void test_models(void);
 void test_limits(void);
 void test_busy(void);

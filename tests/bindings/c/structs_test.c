@@ -1,4 +1,5 @@
 /* Structs of another header: struct_size tells them apart. */
+#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -203,16 +204,26 @@ static void expect_the_layout_of_this_abi(void) {
   CHECK(sizeof(edgescout_device) == 536 && sizeof(edgescout_camera_model) == 184);
   CHECK(sizeof(edgescout_image) == 48 && sizeof(edgescout_mesh_info) == 88);
   CHECK(sizeof(edgescout_mesh_arrays) == 48 && sizeof(edgescout_part) == 88);
-  CHECK(sizeof(edgescout_templates_info) == 56 && sizeof(edgescout_view) == 32);
+  CHECK(sizeof(edgescout_templates_info) == 56 && sizeof(edgescout_view) == 56);
   CHECK(sizeof(edgescout_request) == 56 && sizeof(edgescout_starts) == 32);
   CHECK(sizeof(edgescout_detection) == 520 && sizeof(edgescout_alternative) == 144);
   CHECK(sizeof(edgescout_stage) == 24 && sizeof(edgescout_summary) == 32);
   CHECK(sizeof(edgescout_scout_plan) == 72 && sizeof(edgescout_proposal) == 144);
-  CHECK(sizeof(edgescout_expectation) == 48 && sizeof(edgescout_shot) == 40);
+  CHECK(sizeof(edgescout_expectation) == 48 && sizeof(edgescout_shot) == 64);
   CHECK(sizeof(edgescout_scout_state) == 64 && sizeof(edgescout_scout_step) == 168);
   CHECK(sizeof(edgescout_hemisphere) == 56 && sizeof(edgescout_tracker_plan) == 40);
   CHECK(sizeof(edgescout_frame) == 24 && sizeof(edgescout_search) == 48);
   CHECK(sizeof(edgescout_track) == 448);
+}
+
+/* A program of the first header: its views end before `depth`, whatever lies behind them. */
+static void expect_views_without_depth(void) {
+  memset(buffer, 0xaa, sizeof buffer);
+  edgescout_view first = scene.view;
+  first.struct_size = offsetof(edgescout_view, depth);
+  CHECK(first.struct_size == 32);
+  memcpy(buffer, &first, first.struct_size);
+  OK(view(buffer));
 }
 
 void test_structs(void) {
@@ -228,6 +239,7 @@ void test_structs(void) {
   expect_versions_of_filled();
   expect_versions_of_read();
   expect_arrays_of_larger_structs();
+  expect_views_without_depth();
   OK(es_free(scout));
   OK(es_free(detections));
   OK(es_free(options));

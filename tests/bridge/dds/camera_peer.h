@@ -27,10 +27,12 @@ struct CameraPeer : Peer {
   DdsWriter image = writer<sensor_msgs_msg_dds__Image_>("rt/image", {.is_reliable = false}),
             info =
                 writer<sensor_msgs_msg_dds__CameraInfo_>("rt/camera_info", {.is_reliable = false}),
+            depth = writer<sensor_msgs_msg_dds__Image_>("rt/depth", {.is_reliable = false}),
             tf = writer<tf2_msgs_msg_dds__TFMessage_>("rt/tf", {});
   std::vector<msg::Detection3DArray> detections;
   std::optional<msg::DiagnosticStatus> status;
   std::size_t view = 0;  // of SmallWorld: where the camera stands
+  bool sends_depth = false;
 
   CameraPeer() {
     subscribe<vision_msgs_msg_dds__Detection3DArray_>(
@@ -47,6 +49,7 @@ struct CameraPeer : Peer {
         tf, msg::TFMessage{{transform_message("world", "camera", world_from_camera, now)}});
     write<sensor_msgs_msg_dds__CameraInfo_>(info, info_message(small_world().camera(), now));
     write<sensor_msgs_msg_dds__Image_>(image, image_message(small_world().image(view), now));
+    if (sends_depth) write<sensor_msgs_msg_dds__Image_>(depth, depth_message(now, view));
   }
   std::string diagnostics() const {
     std::string text = status ? status->message : "no diagnostics";

@@ -7,8 +7,10 @@
 #include <optional>
 #include <sstream>
 
+#include "host/bridge/ros2/depth_message.h"
 #include "host/bridge/ros2/program/program_options.h"
 #include "host/cli/template_sets.h"
+#include "host/io/depth_png.h"
 #include "host/io/results.h"
 
 #include "tests/bridge/dds/camera_peer.h"
@@ -19,8 +21,9 @@ namespace edgescout::ros2::test {
 namespace {
 
 // "score x y z qx qy qz qw" of what `edgescout detect` finds in the picture.
-std::vector<std::array<double, 8>> found_by_command_line(const TemporaryFolder& folder,
-                                                         const std::filesystem::path& image) {
+std::vector<std::array<double, 8>> found_by_command_line(
+    const TemporaryFolder& folder, const std::filesystem::path& image,
+    const std::vector<std::string>& more = {}) {
   const Camera camera = small_world().camera();
   const std::string calibration = folder.write(
       "camera.yaml", "image_width: " + std::to_string(camera.width) +
@@ -30,7 +33,7 @@ std::vector<std::array<double, 8>> found_by_command_line(const TemporaryFolder& 
                          ", " + std::to_string(camera.cy) + ", 0, 0, 1]}\n");
   const std::string out = folder.path() / "out";
   const edgescout::test::Outcome outcome = edgescout::test::run_program(
-      joined({{"detect", image.string(), "--camera", calibration, "--out", out}, bracket()}));
+      joined({{"detect", image.string(), "--camera", calibration, "--out", out}, bracket(more)}));
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   std::vector<std::array<double, 8>> rows;
   for (const Detection& d :
@@ -62,6 +65,31 @@ TEST(Program, DetectsInImagesAndNamesASecondCamera) {
     return peer.status && peer.status->message.find("/image: found 2 publishers") == 0;
   })) << peer.diagnostics();
   EXPECT_EQ(program.stop(), 0) << program.log();
+}
+
+TEST(Program, DetectsWithDepthWhatTheCommandLineDoes) {
+  RunningProgram program(bracket({"--depth", "aligned", "--depth-seconds", "60"}));
+  CameraPeer peer;
+  peer.sends_depth = true;
+  ASSERT_TRUE(peer.send_until([&] { return !peer.detections.empty(); }))
+      << peer.diagnostics() << program.log();
+  EXPECT_EQ(program.stop(), 0) << program.log();
+
+  const TemporaryFolder folder;
+  save_png(small_world().image(), folder.path() / "view.png");
+  const msg::Image message = depth_message();
+  write_depth_png(depth_of(message, {}, "depth"), 0.001, folder.path() / "depth.png");
+  const auto expected = found_by_command_line(folder, folder.path() / "view.png",
+                                              {"--depth", folder.path() / "depth.png"});
+  const std::vector<msg::Detection3D>& found = peer.detections.front().detections;
+  ASSERT_EQ(found.size(), expected.size());
+  ASSERT_FALSE(found.empty());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const msg::ObjectHypothesisWithPose& best = found[i].results.at(0);
+    const msg::Point& p = best.pose.pose.position;
+    const msg::Quaternion& q = best.pose.pose.orientation;
+    expect_same({best.hypothesis.score, p.x, p.y, p.z, q.x, q.y, q.z, q.w}, expected[i]);
+  }
 }
 
 TEST(Program, DetectsForAPeerOfAnotherVendor) {

@@ -1,4 +1,5 @@
 // Detection, registration and their pictures.
+#include "host/bindings/c/src/depth.h"
 #include "host/bindings/c/src/images.h"
 #include "host/bindings/c/src/limits.h"
 #include "host/bindings/c/src/poses.h"
@@ -27,11 +28,12 @@ struct Request {
   Backend& on() const { return *backend->backend; }
 };
 
-// Image, camera and pose of a view of the caller.
+// Image, camera and pose of a view of the caller, and what came beside the image.
 struct TakenImage {
   Image image;
   Camera camera;
   Se3 camera_from_world;
+  std::optional<TakenDepth> depth;
 };
 
 TakenImage taken_image(const edgescout_view& view) {
@@ -41,6 +43,7 @@ TakenImage taken_image(const edgescout_view& view) {
                                   false, "camera");
   if (view.camera_from_world)
     taken.camera_from_world = pose_of(view.camera_from_world, "view.camera_from_world");
+  taken.depth = take_depth({view.depth, view.depth_camera, view.camera_from_depth}, "view");
   return taken;
 }
 
@@ -57,9 +60,11 @@ std::vector<TakenImage> taken_images(const edgescout_request& request) {
 
 std::vector<ObjectView> prepared(const Request& request, const PipelineOptions& options) {
   std::vector<ObjectView> views;
-  for (const TakenImage& taken : taken_images(request.given))
-    views.push_back(
+  for (const TakenImage& taken : taken_images(request.given)) {
+    ObjectView& view = views.emplace_back(
         prepare_view(taken.image, taken.camera, taken.camera_from_world, request.on(), options));
+    view.depth = in_camera(taken.depth, taken.camera, request.on().threads());
+  }
   return views;
 }
 

@@ -3,19 +3,34 @@
 #include "host/bindings/c/src/contents.h"
 #include "host/bindings/c/src/structs.h"
 #include "host/io/camera_file.h"
+#include "host/io/depth_file.h"
 #include "host/io/pixels.h"
 
 namespace edgescout::c {
 
+namespace {
+
+// `name` is that of the caller's struct.
+Pixels pixels_of(const edgescout_image& given, const std::string& name) {
+  if (given.format < 0 || given.format >= PIXEL_FORMATS)
+    refuse(EDGESCOUT_BAD_INPUT, name + ".format", std::to_string(given.format),
+           "EDGESCOUT_MONO8 or another format");
+  require(given.pixels, (name + ".pixels").c_str());
+  return {given.pixels, given.width, given.height, given.row_stride_bytes,
+          PixelFormat(given.format)};
+}
+
+}  // namespace
+
 Image image_of(const edgescout_image* image) {
   const auto given = read_struct(image, "image");
-  if (given.format < 0 || given.format >= PIXEL_FORMATS)
-    refuse(EDGESCOUT_BAD_INPUT, "image.format", std::to_string(given.format),
-           "EDGESCOUT_MONO8 or another format");
-  require(given.pixels, "image.pixels");
-  return grey_image(
-      {given.pixels, given.width, given.height, given.row_stride_bytes, PixelFormat(given.format)},
-      options_of<ImageOptions>(given.options));
+  return grey_image(pixels_of(given, "image"), options_of<ImageOptions>(given.options));
+}
+
+MeasuredDepth depth_of(const edgescout_image* depth) {
+  const auto given = read_struct(depth, "depth");
+  const auto options = options_of<DepthOptions>(given.options);
+  return {depth_image(pixels_of(given, "depth"), options, "depth"), options.noise};
 }
 
 namespace {

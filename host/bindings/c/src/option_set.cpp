@@ -10,7 +10,7 @@ namespace edgescout::c {
 namespace {
 
 constexpr std::array<const char*, std::variant_size_v<OptionValues>> kinds{
-    "images", "templates", "detect", "register", "scout", "track"};
+    "images", "templates", "detect", "register", "scout", "track", "depth"};
 
 OptionValues defaults_of(std::int32_t kind) {
   switch (kind) {
@@ -26,6 +26,8 @@ OptionValues defaults_of(std::int32_t kind) {
       return OptionValues(std::in_place_type<ScoutOptions>);
     case EDGESCOUT_TRACK_OPTIONS:
       return OptionValues(std::in_place_type<TrackOptions>);
+    case EDGESCOUT_DEPTH_OPTIONS:
+      return OptionValues(std::in_place_type<DepthOptions>);
     default:
       refuse(EDGESCOUT_BAD_INPUT, "kind", std::to_string(kind),
              "EDGESCOUT_IMAGE_OPTIONS or another kind of options");
@@ -112,6 +114,7 @@ template PipelineOptions options_of(const edgescout_options*);
 template RegisterOptions options_of(const edgescout_options*);
 template ScoutOptions options_of(const edgescout_options*);
 template TrackOptions options_of(const edgescout_options*);
+template DepthOptions options_of(const edgescout_options*);
 
 }  // namespace edgescout::c
 

@@ -8,6 +8,7 @@
 #include "host/active/scout_options.h"
 #include "host/bindings/c/src/status.h"
 #include "host/core/option_text.h"
+#include "host/io/depth_options.h"
 #include "host/io/image_options.h"
 #include "host/model/template_set.h"
 #include "host/register_objects.h"
@@ -22,7 +23,7 @@ struct RegisterOptions {
 
 // In the order of EDGESCOUT_IMAGE_OPTIONS and the others.
 using OptionValues = std::variant<ImageOptions, TemplateOptions, PipelineOptions, RegisterOptions,
-                                  ScoutOptions, TrackOptions>;
+                                  ScoutOptions, TrackOptions, DepthOptions>;
 
 class OptionSet {
  public:

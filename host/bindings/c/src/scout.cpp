@@ -1,5 +1,6 @@
 #include "host/active/scout.h"
 
+#include "host/bindings/c/src/depth.h"
 #include "host/bindings/c/src/images.h"
 #include "host/bindings/c/src/limits.h"
 #include "host/bindings/c/src/poses.h"
@@ -21,9 +22,9 @@ class SteppedScout {
       };
     std::vector<Se3> views =
         poses_of(plan.camera_from_world, plan.view_count, "plan.camera_from_world");
-    const auto camera = shared(plan.camera);
+    camera_ = *shared(plan.camera);
     const Borrowed<edgescout_backend> on(backend_, Use::Exclusive);
-    scout_ = std::make_unique<Scout>(templates_->value.sets, *camera, std::move(views), options,
+    scout_ = std::make_unique<Scout>(templates_->value.sets, camera_, std::move(views), options,
                                      *on->backend);
   }
 
@@ -36,11 +37,16 @@ class SteppedScout {
 
   void give(const edgescout_shot& shot) {
     require_view(shot.view);
-    const Image image = image_of(shot.image);
-    const Se3 pose = shot.camera_from_world
+    Shot given{image_of(shot.image), {}};
+    const auto depth =
+        take_depth({shot.depth, shot.depth_camera, shot.camera_from_depth}, "shot");
+    given.camera_from_world = shot.camera_from_world
                          ? pose_of(shot.camera_from_world, "shot.camera_from_world")
                          : state().views[std::size_t(shot.view)];
-    within(shot.limit, [&](Scout& scout) { scout.give(shot.view, image, pose); });
+    within(shot.limit, [&](Scout& scout) {
+      given.depth = in_camera(depth, camera_, backend_->value.backend->threads());
+      scout.give(shot.view, given);
+    });
   }
 
   void unreachable(std::int32_t view, const char* reason) {
@@ -94,6 +100,7 @@ class SteppedScout {
 
   std::shared_ptr<Live<edgescout_templates>> templates_;
   std::shared_ptr<Live<edgescout_backend>> backend_;
+  Camera camera_;  // lens included
   const TimeLimit* limit_ = nullptr;  // of the call in progress
   std::unique_ptr<Scout> scout_;
   std::vector<ViewInformation> expected_;  // by the last proposal

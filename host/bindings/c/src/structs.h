@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -13,6 +14,12 @@ namespace edgescout::c {
 // The sizes that a struct had in earlier headers of this ABI, by which it grew.
 template <typename Struct>
 inline constexpr std::initializer_list<std::size_t> earlier_sizes{};
+template <>
+inline constexpr std::initializer_list<std::size_t> earlier_sizes<edgescout_view>{
+    offsetof(edgescout_view, depth)};
+template <>
+inline constexpr std::initializer_list<std::size_t> earlier_sizes<edgescout_shot>{
+    offsetof(edgescout_shot, depth)};
 
 // A newer struct ends below: a larger number is none of a size.
 inline constexpr std::size_t LARGEST_STRUCT = 1 << 16;

@@ -1,5 +1,7 @@
 #include "host/bridge/ros2/dds/bridge_topics.h"
 
+#include "kernels/error.h"
+
 namespace edgescout::ros2 {
 
 namespace {
@@ -113,13 +115,36 @@ void InputTopics::add_images(const TopicOptions& options) {
                                          "rt" + image, qos, [this](const auto& wire) {
                                            bridge_.take(ImageMessage(plain_of<msg::Image>(wire)));
                                          })};
-  const std::string info = ros_.names.contains("camera_info")
-                               ? full_name("camera_info", ros_)
-                               : beside(full_name("image", ros_), "camera_info");
+  const std::string info = info_topic("camera_info", "image");
   inputs_["camera_info topic"] = {info, node_.subscribe<sensor_msgs_msg_dds__CameraInfo_>(
                                             "rt" + info, qos, [this](const auto& wire) {
                                               bridge_.take(plain_of<msg::CameraInfo>(wire));
                                             })};
+  add_depth(options.depth, qos);
+}
+
+std::string InputTopics::info_topic(const std::string& name, const std::string& of) const {
+  return ros_.names.contains(name) ? full_name(name, ros_)
+                                   : beside(full_name(of, ros_), "camera_info");
+}
+
+void InputTopics::add_depth(DepthSource depth, const Qos& qos) {
+  if (depth == DepthSource::None) return;
+  const std::string image = full_name("depth", ros_);
+  inputs_["depth topic"] = {image, node_.subscribe<sensor_msgs_msg_dds__Image_>(
+                                       "rt" + image, qos, [this](const auto& wire) {
+                                         bridge_.take_depth(plain_of<msg::Image>(wire));
+                                       })};
+  if (depth != DepthSource::OwnCamera) return;
+  const std::string info = info_topic("depth_camera_info", "depth");
+  if (info == info_topic("camera_info", "image"))
+    throw InputError("depth", "camera_info", info + ", which is that of the images",
+                     "a topic of its own: -r depth_camera_info:=TOPIC");
+  inputs_["depth camera_info topic"] = {
+      info,
+      node_.subscribe<sensor_msgs_msg_dds__CameraInfo_>("rt" + info, qos, [this](const auto& wire) {
+        bridge_.take_depth(plain_of<msg::CameraInfo>(wire));
+      })};
 }
 
 void InputTopics::add_transforms() {

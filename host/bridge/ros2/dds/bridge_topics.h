@@ -13,6 +13,7 @@ namespace edgescout::ros2 {
 struct TopicOptions {
   bool is_compressed = false;      // of the images: IMAGE/compressed in place of IMAGE
   bool is_image_reliable = false;  // false: sensor data
+  DepthSource depth = DepthSource::None;
 };
 
 // Writes the bridge's results.
@@ -45,6 +46,9 @@ class InputTopics {
     DdsReader reader;
   };
   void add_images(const TopicOptions& options);
+  void add_depth(DepthSource depth, const Qos& qos);
+  // The CameraInfo beside the topic `of`, unless `name` is mapped.
+  std::string info_topic(const std::string& name, const std::string& of) const;
   void add_transforms();
   void add_requests();
   // A service and a pair of topics for one kind of request.

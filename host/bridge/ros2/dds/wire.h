@@ -214,7 +214,7 @@ void fields(Io& io, msg::MarkerArray& p, visualization_msgs_msg_dds__MarkerArray
 }
 template <typename Io>
 void fields(Io& io, msg::CalibratedImage& p, edgescout_msgs_msg_dds__CalibratedImage_& w) {
-  io(p.info, w.info), io(p.pose, w.pose), io(p.image, w.image);
+  io(p.info, w.info), io(p.pose, w.pose), io(p.image, w.image), io(p.depth, w.depth);
 }
 template <typename Io>
 void fields(Io& io, msg::PoseEstimate& p, edgescout_msgs_msg_dds__PoseEstimate_& w) {

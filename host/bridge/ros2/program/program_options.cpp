@@ -86,6 +86,7 @@ void parse(CLI::App& app, std::vector<std::string> arguments) {
 void finish(ProgramOptions& o) {
   BridgeOptions& bridge = o.bridge;
   bridge.node = o.ros.node;
+  o.topics.depth = bridge.depth;
   bridge.field_of_view_rad = o.camera.field_of_view_deg * std::numbers::pi / 180;
   if (!o.camera.file.empty()) {
     bridge.camera = load_camera(o.camera.file, o.camera.name);
@@ -94,6 +95,7 @@ void finish(ProgramOptions& o) {
   if (!o.views_file.empty()) bridge.scout_views = load_views(o.views_file);
   bridge.pipeline.validate();
   bridge.images.validate();
+  bridge.depth_values.validate();
   bridge.scout.validate();
   o.templates.validate();
 }

@@ -1,0 +1,94 @@
+#include "host/cli/depth_doubts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "host/core/log.h"
+#include "host/edge/depth_edges.h"
+#include "host/edge/edge_index.h"
+#include "host/register/measured_depth.h"
+
+namespace edgescout {
+
+namespace {
+
+std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
+
+// What to say of the place of jumps; empty: nothing.
+std::string doubt_of_place(const DepthEdges& edges) {
+  if (edges.fit == DepthFit::Elsewhere)
+    return fmt::format("{} of {} jumps of depth lie on edges, {} by chance",
+                       percent(edges.in_place), edges.jumps, percent(edges.by_chance));
+  if (edges.fit == DepthFit::Moved)
+    return fmt::format(
+        "{} of {} jumps of depth lie on edges, {} would if it were moved by ({}, {}) px",
+        percent(edges.in_place), edges.jumps, percent(edges.best), edges.dx_px, edges.dy_px);
+  return {};
+}
+
+std::vector<float> measured_values(const DepthImage& depth) {
+  std::vector<float> values;
+  std::ranges::copy_if(depth.z_m, std::back_inserter(values), [](float z_m) { return z_m > 0; });
+  return values;
+}
+
+// The power of ten by which the median lies inside the range; none: it cannot be the unit.
+std::optional<double> unit_that_fits(double median_m, const Range& distances_m) {
+  for (const double factor : {0.1, 10.0, 0.01, 100.0, 0.001, 1000.0})
+    if (median_m * factor >= distances_m.low && median_m * factor <= distances_m.high)
+      return factor;
+  return {};
+}
+
+std::string doubt_of_unit(const DepthImage& depth, const Range& distances_m) {
+  constexpr std::size_t fewest = 1000;
+  constexpr double least_share = 0.01;
+  std::vector<float> values = measured_values(depth);
+  if (values.size() < fewest) return {};
+  const auto inside = std::ranges::count_if(values, [&](float z_m) {
+    return z_m >= distances_m.low && z_m <= distances_m.high;
+  });
+  if (double(inside) > least_share * double(values.size())) return {};
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  const std::optional<double> factor = unit_that_fits(*middle, distances_m);
+  if (!factor) return {};
+  return fmt::format(
+      "depth has a median of {:.4g} m, objects are sought at {:.4g} to {:.4g} m: {:g} times the "
+      "unit would fit",
+      *middle, distances_m.low, distances_m.high, *factor);
+}
+
+}  // namespace
+
+void DepthDoubts::look_at(const std::string& image, const ObjectView& view,
+                          const Range& distances_m) {
+  if (!view.depth || !view.edges) return;
+  ++looked_at_;
+  const DepthImage& depth = view.depth->image;
+  add("is the depth of another unit (--depth-unit)?", image, doubt_of_unit(depth, distances_m));
+  const DepthEdges edges =
+      compare_depth_edges(depth, view.depth->noise, view.edges->points());
+  add(edges.fit == DepthFit::Moved
+          ? "is the pose of the depth camera wrong (--depth-pose), or its time?"
+          : "is it the depth of another image?",
+      image, doubt_of_place(edges));
+}
+
+void DepthDoubts::add(const std::string& kind, const std::string& image, const std::string& what) {
+  if (what.empty()) return;
+  log(LogLevel::Debug, image + ": " + what);
+  Doubt& doubt = doubts_[kind];
+  if (doubt.images++ == 0) doubt.first = image + ": " + what;
+}
+
+void DepthDoubts::say() const {
+  for (const auto& [kind, doubt] : doubts_)
+    log(LogLevel::Warning, fmt::format("{}; {} so in {} of {} images with depth", doubt.first, kind,
+                                       doubt.images, looked_at_));
+}
+
+}  // namespace edgescout

@@ -1,0 +1,60 @@
+// A bridge on SmallWorld, and what it sent.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/bridge/ros2/bridge.h"
+#include "tests/bridge/small_world.h"
+
+namespace edgescout::ros2::test {
+
+struct KeptResults : Outbox {
+  bool wants = false;
+  std::vector<msg::Detection3DArray> detections;
+  std::vector<msg::MarkerArray> markers;
+  std::vector<msg::Image> overlays;
+  std::vector<msg::TFMessage> frames;
+  bool wants_markers() const override { return wants; }
+  bool wants_overlay() const override { return wants; }
+  void send(const msg::Detection3DArray& message) override { detections.push_back(message); }
+  void send(const msg::MarkerArray& message) override { markers.push_back(message); }
+  void send(const msg::Image& message) override { overlays.push_back(message); }
+  void send(const msg::TFMessage& message) override { frames.push_back(message); }
+};
+
+inline BridgeOptions quick() {
+  BridgeOptions options;
+  options.pipeline = SmallWorld::pipeline();
+  options.tf_seconds = 0;
+  return options;
+}
+
+struct TestedBridge {
+  KeptResults results;
+  Bridge bridge;
+  int template_calls = 0;
+
+  explicit TestedBridge(const BridgeOptions& options = quick())
+      : bridge(
+            [this](const Camera&) {
+              ++template_calls;
+              return small_world().sets;
+            },
+            *small_world().backend, options, results) {}
+
+  void give_info(double seconds = 1) { bridge.take(info_message(small_world().camera(), seconds)); }
+  void give_image(double seconds = 1, std::size_t view = 0) {
+    bridge.take(ImageMessage(image_message(small_world().image(view), seconds)));
+  }
+  std::uint64_t count(const std::string& what) { return bridge.diagnostics().counted(what); }
+  std::string problem(const std::string& subject) {
+    return bridge.diagnostics().problem_of(subject);
+  }
+};
+
+inline bool holds(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace edgescout::ros2::test
