@@ -52,10 +52,13 @@ PoseDepthOptions pose_depth_options(const Scene& scene, double band) {
   return pose_depth_options(noise, diameter_m, band);
 }
 
+double independent_share(double weight_sum) {
+  return weight_sum > INDEPENDENT_SAMPLES ? INDEPENDENT_SAMPLES / weight_sum : 1;
+}
+
 void add_depth_information(Matrix6d& covariance, const Matrix6d& depth_hessian, double weight_sum) {
   if (!(weight_sum > 0) || !covariance.allFinite()) return;
-  const double share = std::min(1.0, INDEPENDENT_SAMPLES / weight_sum);
-  const Matrix6d information = covariance.inverse() + share * depth_hessian;
+  const Matrix6d information = covariance.inverse() + independent_share(weight_sum) * depth_hessian;
   const Matrix6d joined = information.inverse();
   if (joined.allFinite()) covariance = 0.5 * (joined + joined.transpose());
 }

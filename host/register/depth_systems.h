@@ -51,8 +51,11 @@ PoseDepthOptions pose_depth_options(const DepthNoise& noise, double diameter_m, 
 // The options for the noise of the scene's depth and a band of the size of its largest object.
 PoseDepthOptions pose_depth_options(const Scene& scene, double band);
 
-// Adds to a covariance by edges what measured depth informs: as much as 25 independent samples at
-// most, since the errors of neighbours depend on each other. In the same tangent. Unchanged where
+// The share of their information that samples with this sum of weights have: as much as 25
+// independent samples at most, since the errors of neighbours depend on each other.
+double independent_share(double weight_sum);
+
+// Adds to a covariance by edges what measured depth informs, in the same tangent. Unchanged where
 // nothing is measured, or edges do not determine the pose.
 void add_depth_information(Matrix6d& covariance, const Matrix6d& depth_hessian, double weight_sum);
 

@@ -27,8 +27,12 @@ PoseDepth SurfaceFit::compared(const Se3& camera_from_object, double band,
 }
 
 WorldSystem SurfaceFit::system_at(const Se3& camera_from_object, double loss_sigmas) const {
-  return world_system(compared(camera_from_object, REGISTRATION_BAND, loss_sigmas), Se3{},
-                      loss_sigmas);
+  const PoseDepth found = compared(camera_from_object, REGISTRATION_BAND, loss_sigmas);
+  WorldSystem system = world_system(found, Se3{}, loss_sigmas);
+  const double share = independent_share(double(found.weight_sum));
+  system.hessian *= share;
+  system.gradient *= share;
+  return system;
 }
 
 void SurfaceFit::add_information(Matrix6d& covariance, const Se3& camera_from_object) const {

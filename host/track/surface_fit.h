@@ -20,7 +20,8 @@ class SurfaceFit {
   SurfaceFit(const MeasuredDepth& depth, const Camera& ideal, const EdgeModel& model,
              std::vector<SurfacePoint> visible, ThreadPool& threads);
 
-  // One standard deviation of a sample counts as one pixel of an edge. `loss_sigmas`: scale of the
+  // One standard deviation of a sample counts as one pixel of an edge; all of them count as 25 at
+  // most, so that edges still hold a pose where the sensor is biased. `loss_sigmas`: scale of the
   // loss.
   WorldSystem system_at(const Se3& camera_from_object, double loss_sigmas) const;
   // Adds what was measured at a pose to the covariance by its edges.
