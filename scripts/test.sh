@@ -52,14 +52,16 @@ test_preset() {
 
 build_and_test() { build_preset "$1" && test_preset "$1"; }
 
-# What runs in the whole suites of --long alone. Each takes 20 s or more, and a shorter test runs
+# What runs in the whole suites of --long alone. Each takes 12 s or more, and a shorter test runs
 # most of the same code.
-long_tests='^(cli\.BenchExperiments\.(LetRandom|RunChosen|KilledAndResumed|WritesRows)'
-long_tests+='|cli\.BenchDevices\.TimesEveryStage'
-long_tests+='|cli\.Scout\.(DrawsRandomViews|DoesNotGoOnInAnotherCell|LetsModesCompete)'
-long_tests+='|cli\.Scout\.(RemovesTheResultsOfARunBefore|KeepsToABoxInTheWorld)'
-long_tests+='|active\.Scout\.FlagsAGrosslyWrong'
-long_tests+='|active\.ScoutState\.Continues(PastViews|WithOccluders|BehindALens)'
+long_tests='^(cli\.BenchExperiments\.(LetRandom|RunChosen|RunOnRealData|KilledAndResumed|WritesRows)'
+long_tests+='|cli\.BenchExperiments\.OnAFullDisk|cli\.BenchDevices\.(TimesEveryStage|SayTheTimes)'
+long_tests+='|cli\.LostDevice\.ListsNoOlderPoses|cli\.Templates\.DamagedFiles'
+long_tests+='|cli\.Scout\.(DrawsRandomViews|DoesNotGoOn(InAnotherCell|FromALog)|LetsModesCompete)'
+long_tests+='|cli\.Scout\.(RemovesTheResultsOfARunBefore|KeepsToABoxInTheWorld|FollowsTheSequence)'
+long_tests+='|cli\.Scout\.FindsTheCastle'
+long_tests+='|active\.Scout\.(FlagsAGrosslyWrong|EndsByEachOf|CanContinueAfterCancellation)'
+long_tests+='|active\.ScoutState\.Continues(FromASaved|PastViews|WithOccluders|BehindALens)'
 long_tests+='|c\.example_look_around'
 long_tests+='|python\.test_(examples|install)'
 long_tests+='|register\.EdgeIcp\.Regions(HoldErrorsInFaultyImages|OfCleanImages)'

@@ -70,7 +70,7 @@ class CandidatePainter {
       : scene_(scene), camera_(camera), backend_(backend), edges_(scene.maps.size()) {}
 
   void project_edges(const EdgeModel& model, const ObjectMaps& own,
-                     const VisibilityOptions& visibility);
+                     const CandidateSceneOptions& options);
   // Between the two: gives every map its place in the lists.
   void arrange();
   void draw_surfaces(const EdgeModel& model, const ObjectMaps& own);
@@ -86,12 +86,15 @@ class CandidatePainter {
 
 // Sets the window of every map of the object.
 void CandidatePainter::project_edges(const EdgeModel& model, const ObjectMaps& own,
-                                     const VisibilityOptions& visibility) {
+                                     const CandidateSceneOptions& options) {
   std::vector<std::vector<ModelPoint>> visible =
-      visible_edges(model, own.camera_from_object, backend_, visibility);
+      visible_edges(model, own.camera_from_object, backend_, options.visibility);
   backend_.threads().for_each(own.maps.size(), [&](std::size_t i) {
     Box box;
     if (!projected_box(model.mesh, own.camera_from_object[i], camera_, box)) return;
+    if (!options.measured.empty())
+      remove_hidden(visible[i], options.measured[own.maps[i] / scene_.candidates],
+                    own.camera_from_object[i], options.tolerance * model.mesh.diameter_m);
     // The points are ordered by kind: creases, borders, contours. Thinning keeps some of each.
     if (visible[i].size() > CANDIDATE_MAP_MAX_EDGES)
       visible[i] = thinned(visible[i], int(CANDIDATE_MAP_MAX_EDGES));
@@ -173,6 +176,8 @@ CandidateScene draw_candidates(std::span<const EdgeModel> models,
                                std::span<const Detection> candidates, const Camera& camera,
                                std::span<const Se3> camera_from_world, Backend& backend,
                                const CandidateSceneOptions& options) {
+  check(options.measured.empty() || options.measured.size() == camera_from_world.size(),
+        "draw_candidates: measured surfaces of every view");
   CandidateScene scene;
   scene.width = camera.width;
   scene.height = camera.height;
@@ -185,7 +190,7 @@ CandidateScene draw_candidates(std::span<const EdgeModel> models,
       maps_by_object(models.size(), candidates, camera_from_world);
   CandidatePainter painter(scene, camera, backend);
   for (std::size_t object = 0; object < models.size(); ++object)
-    painter.project_edges(models[object], by_object[object], options.visibility);
+    painter.project_edges(models[object], by_object[object], options);
   painter.arrange();
   for (std::size_t object = 0; object < models.size(); ++object)
     painter.draw_surfaces(models[object], by_object[object]);

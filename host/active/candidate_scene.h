@@ -8,6 +8,7 @@
 
 #include "host/core/types.h"
 #include "host/model/visible_edges.h"
+#include "host/register/occluders.h"
 
 namespace edgescout {
 
@@ -31,10 +32,13 @@ struct CandidateSceneOptions {
   // Fraction of a candidate's diameter: a candidate hides nothing that lies less than this behind
   // its surface.
   double tolerance = 0.1;
+  // What was measured hides candidates as well (measured_surface.h): one per view, or none.
+  std::span<const Occluders> measured = {};
 };
 
 // `camera` is that of the maps. Each kernel is called once per object for all views: the caller
-// bounds views times candidates. LogicError: more pixels than 32 bits can count.
+// bounds views times candidates. LogicError: more pixels than 32 bits can count, measured surfaces
+// of another number of views.
 CandidateScene draw_candidates(std::span<const EdgeModel> models,
                                std::span<const Detection> candidates, const Camera& camera,
                                std::span<const Se3> camera_from_world, Backend& backend,

@@ -22,7 +22,8 @@ std::vector<Detection> candidates_in_images(std::span<const TemplateSet> sets,
 
 // Registers candidates over all views of the scene (Eq. 11) and gives them the probability that
 // follows from all views (register/pose_classifier.h). Drops those that lie on no edge at all,
-// those that options.scan.world excludes by more than SAME_POSE, and duplicates. Keeps the
+// those that measured depth contradicts (is_contradicted), so that no combination has them, those
+// that options.scan.world excludes by more than SAME_POSE, and duplicates. Keeps the
 // best_non_colliding of the rest, most probable first.
 std::vector<Detection> refined_candidates(const Scene& scene, std::span<const TemplateSet> sets,
                                           std::span<const Detection> candidates, std::size_t most,

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "host/active/candidate_scene.h"
+#include "host/active/measured_surface.h"
 #include "host/active/seen_points.h"
 #include "host/active/views.h"
 #include "host/core/log.h"
@@ -61,14 +62,28 @@ struct ParticlePoints {
   std::vector<std::uint32_t> first{0};  // of each particle, and the end
 };
 
+// Removes the points behind what was measured.
+void remove_hidden(std::vector<ParticlePoint>& points, const Occluders& measured,
+                   double tolerance_m) {
+  std::erase_if(points, [&](const ParticlePoint& point) {
+    const Eigen::Vector3d ray = ray_through(measured.camera, {point.x_px, point.y_px});
+    return measured.hide(double(point.z_m) * ray, tolerance_m);
+  });
+}
+
+// `measured`: null where nothing was.
 ParticlePoints particle_points(const NextViewProblem& problem, const WeightedParticles& weighted,
-                               const Se3& camera_from_world, const Camera& map_camera) {
+                               const Se3& camera_from_world, const Camera& map_camera,
+                               const Occluders* measured, double tolerance) {
   ParticlePoints all;
   for (std::size_t i = 0; i < weighted.particles.size(); ++i) {
     const Particle& particle = *weighted.particles[i];
-    const std::vector<ParticlePoint> points = points_in_image(
+    std::vector<ParticlePoint> points = points_in_image(
         problem.tables[particle.object], camera_from_world * particle.world_from_object, map_camera,
         weighted.seen[i]);
+    if (measured)
+      remove_hidden(points, *measured,
+                    tolerance * problem.scene.models[particle.object].mesh.diameter_m);
     all.points.insert(all.points.end(), points.begin(), points.end());
     all.first.push_back(std::uint32_t(all.points.size()));
   }
@@ -105,12 +120,15 @@ std::vector<double> MutualInformation::of_block(std::span<const Se3> camera_from
   const ChamferOptions chamfer{float(options_.cap_px / options_.reduction)};
   const double sigma_px = options_.sigma_px / options_.reduction;
   const InformationOptions likelihood{2 * sigma_px * sigma_px, options_.use_paper_formula};
+  const std::vector<Occluders> measured =
+      measured_surfaces(problem_.scene.views, map_camera_, camera_from_world, backend);
   const CandidateScene candidates =
       draw_candidates(problem_.scene.models, problem_.candidates, map_camera_, camera_from_world,
-                      backend, {options_.visibility, options_.tolerance});
+                      backend, {options_.visibility, options_.tolerance, measured});
   std::vector<ParticlePoints> points(camera_from_world.size());
   backend.threads().for_each(points.size(), [&](std::size_t i) {
-    points[i] = particle_points(problem_, weighted_, camera_from_world[i], map_camera_);
+    points[i] = particle_points(problem_, weighted_, camera_from_world[i], map_camera_,
+                                measured.empty() ? nullptr : &measured[i], options_.tolerance);
   });
   std::vector<std::size_t> seeing;  // views into which some point projects
   std::vector<ChamferView> views;
@@ -216,6 +234,40 @@ double independent_share(const Eigen::Vector3d& direction, std::span<const Eigen
   return share;
 }
 
+double smallest_box_m3(std::span<const EdgeModel> models) {
+  double smallest_m3 = INFINITY;
+  for (const EdgeModel& model : models)
+    smallest_m3 =
+        std::min(smallest_m3, double((model.mesh.box_max_m - model.mesh.box_min_m).prod()));
+  return smallest_m3;
+}
+
+// v / (v + o) of NextViewOptions::exploration_correlation_angle_rad, one per open view. Empty where
+// no real view has depth or the workspace is not known.
+std::vector<double> unmeasured_shares(const NextViewProblem& problem,
+                                      std::span<const std::size_t> open,
+                                      const NextViewOptions& options) {
+  constexpr std::size_t block = 256;  // views whose surfaces are in memory at once
+  const std::span<const ObjectView> real = problem.scene.views;
+  if (!problem.workspace || std::ranges::none_of(real, has_measured_depth)) return {};
+  Backend& backend = problem.scene.backend;
+  const Camera map_camera = scaled(problem.camera, 0.5 / options.reduction);
+  const UnmeasuredSpace space = unmeasured_space(real, *problem.workspace, backend.threads());
+  const double object_m3 = smallest_box_m3(problem.scene.models);
+  std::vector<double> shares(open.size());
+  std::vector<Se3> cameras;
+  for (const std::size_t view : open) cameras.push_back(problem.possible_views[view]);
+  for (std::size_t first = 0; first < cameras.size(); first += block) {
+    const auto some = std::span(cameras).subspan(first, std::min(block, cameras.size() - first));
+    const std::vector<Occluders> surfaces = measured_surfaces(real, map_camera, some, backend);
+    backend.threads().for_each(some.size(), [&](std::size_t i) {
+      const double volume_m3 = volume_seen_m3(space, surfaces[i], some[i]);
+      shares[first + i] = volume_m3 / (volume_m3 + object_m3);
+    });
+  }
+  return shares;
+}
+
 // The fraction of a view's information that remains after visibility and correlation: of that about
 // candidates, and of the exploration bonus.
 struct Shares {
@@ -235,12 +287,15 @@ std::vector<Shares> remaining_shares(const NextViewProblem& problem,
                                      real = directions_to(taken, *center_m);
   const std::vector<double> free =
       free_line_of_sight(directions, direction_above(directions), options.visibility_exponent);
+  const std::vector<double> unmeasured = unmeasured_shares(problem, open, options);
   for (std::size_t i = 0; i < open.size(); ++i) {
-    const auto share = [&](double correlation_angle_rad) {
-      return free[open[i]] * independent_share(directions[open[i]], real, correlation_angle_rad);
+    const auto independent = [&](double correlation_angle_rad) {
+      return independent_share(directions[open[i]], real, correlation_angle_rad);
     };
-    shares[i] = {share(options.view_correlation_angle_rad),
-                 share(options.exploration_correlation_angle_rad)};
+    shares[i].candidates = free[open[i]] * independent(options.view_correlation_angle_rad);
+    shares[i].exploration =
+        free[open[i]] * (unmeasured.empty() ? independent(options.exploration_correlation_angle_rad)
+                                            : unmeasured[i]);
   }
   return shares;
 }

@@ -13,6 +13,7 @@
 
 #include "host/active/particles.h"
 #include "host/active/template_table.h"
+#include "host/active/unmeasured_space.h"
 #include "host/core/bit_matrix.h"
 
 namespace edgescout {
@@ -56,7 +57,10 @@ struct NextViewOptions {
   // 1000]. It is little against what a second view promises about the candidates, and decides once
   // they are certain. 0: only information about candidates counts, as in the paper.
   double exploration_bonus_nats = 0.5;
-  // As view_correlation_angle_rad, for the exploration bonus. rad, [0, 100].
+  // As view_correlation_angle_rad, for the exploration bonus. rad, [0, 100]. Where a real view has
+  // depth, it is known which space has not been looked at: a free view is expected to give the
+  // share v / (v + o) of the bonus, where v is the volume of unmeasured space (unmeasured_space.h)
+  // that it sees and o that of the smallest object's bounding box.
   double exploration_correlation_angle_rad = 1;
 
   // Costs of the motion from the last view's camera, nats per m and nats per rad; taken off the
@@ -90,6 +94,7 @@ struct NextViewProblem {
   std::span<const Detection> candidates;    // in the world
   const BitMatrix* combinations = nullptr;  // of the candidates; for Strategy::Information
   std::span<const Particle> particles;
+  std::optional<Workspace> workspace = {};  // where objects may be
 };
 
 // What is expected of one possible view.

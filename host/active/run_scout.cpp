@@ -10,7 +10,7 @@ namespace {
 std::optional<Shot> acquire(Scout& scout, ViewSource& source, int view) {
   try {
     Shot shot = source.acquire(view);
-    scout.require_fitting(shot.image, shot.camera_from_world);
+    scout.require_fitting(shot);
     return shot;
   } catch (const AcquisitionError& error) {
     scout.unreachable(view, error.what());
@@ -26,7 +26,7 @@ void run_scout(Scout& scout, ViewSource& source,
                const std::function<void(const ScoutState&)>& on_step) {
   while (const std::optional<ScoutDecision> proposal = scout.propose()) {
     if (const std::optional<Shot> shot = acquire(scout, source, proposal->view))
-      scout.give(proposal->view, shot->image, shot->camera_from_world);
+      scout.give(proposal->view, *shot);
     if (on_step) on_step(scout.state());
   }
 }

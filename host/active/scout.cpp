@@ -3,6 +3,8 @@
 // the parts of `give`.
 #include "host/active/scout.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "host/active/views.h"
@@ -31,6 +33,17 @@ std::vector<ScoutObject> objects_of(std::span<const TemplateSet> sets) {
     objects.push_back({set.object_id, checksum(bytes.bytes)});
   }
   return objects;
+}
+
+// `image`: grey or depth, with its number of pixels.
+void require_size(const std::string& name, const auto& image, std::size_t pixels,
+                  const Camera& camera) {
+  const std::string size = fmt::format("{}x{}", image.width, image.height);
+  if (pixels != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
+    throw InputError("scout", name, fmt::format("{} pixels", pixels), size);
+  if (image.width != camera.width || image.height != camera.height)
+    throw InputError("scout", name + " size", size,
+                     fmt::format("the camera's {}x{}", camera.width, camera.height));
 }
 
 }  // namespace
@@ -63,13 +76,17 @@ void Scout::give(int view, const Image& image) {
   give(view, image, state_.views[static_cast<std::size_t>(view)]);
 }
 
-// Works on a copy: an exception leaves everything as it was.
 void Scout::give(int view, const Image& image, const Se3& camera_from_world) {
+  give(view, Shot{image, camera_from_world});
+}
+
+// Works on a copy: an exception leaves everything as it was.
+void Scout::give(int view, const Shot& shot) {
   require_open(view);
-  require_fitting(image, camera_from_world);
+  require_fitting(shot);
   was_cancelled_ = false;
-  Update next = begin_update(view, camera_from_world);
-  add_image(next, image);  // edges and tensors: line 14
+  Update next = begin_update(view, shot.camera_from_world);
+  add_image(next, shot);  // edges and tensors: line 14
   std::vector<Mode> modes;
   bool more_known = true;
   while (more_known) {
@@ -100,12 +117,13 @@ void Scout::resume(ScoutState state, const std::string& source) {
   std::vector<StageSeconds> not_counted;  // the saved state has the times of the first run
   for (const ScoutStep& step : state.steps) {
     try {
-      require_fitting(step.image, step.camera_from_world);
+      require_fitting({step.image, step.camera_from_world, step.depth});
     } catch (const InputError& error) {
       throw InputError(source + ": " + error.what());
     }
     ObjectView view = prepare_view(step.image, undistorted(camera_), step.camera_from_world,
                                    backend_, options_.pipeline, &not_counted);
+    view.depth = step.depth;
     add_tensors(view, sets_, backend_, options_.pipeline.tensor);
     views.push_back({std::move(view), {}});
     throw_if_cancelled();
@@ -122,16 +140,11 @@ void Scout::require_open(int view) const {
                      "one neither taken nor given up");
 }
 
-void Scout::require_fitting(const Image& image, const Se3& camera_from_world) const {
-  if (image.pixels.size() !=
-      static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
-    throw InputError("scout", "image", std::to_string(image.pixels.size()) + " pixels",
-                     std::to_string(image.width) + "x" + std::to_string(image.height));
-  if (image.width != camera_.width || image.height != camera_.height)
-    throw InputError(
-        "scout", "image size", std::to_string(image.width) + "x" + std::to_string(image.height),
-        "the camera's " + std::to_string(camera_.width) + "x" + std::to_string(camera_.height));
-  validate_views({&camera_from_world, 1}, "scout: camera pose");
+void Scout::require_fitting(const Shot& shot) const {
+  require_size("image", shot.image, shot.image.pixels.size(), camera_);
+  if (shot.depth)
+    require_size("depth image", shot.depth->image, shot.depth->image.z_m.size(), camera_);
+  validate_views({&shot.camera_from_world, 1}, "scout: camera pose");
 }
 
 void Scout::discard_proposal() {

@@ -48,9 +48,10 @@ class Scout {
   // require_fitting refuses; LogicError: no such view.
   void give(int view, const Image& image);
   void give(int view, const Image& image, const Se3& camera_from_world);
-  // Checks whether `give` would accept the image. InputError: another size than the camera's,
-  // another number of pixels than its size says, a pose that is not rigid.
-  void require_fitting(const Image& image, const Se3& camera_from_world) const;
+  void give(int view, const Shot& shot);
+  // Checks whether `give` would accept the shot. InputError: image or depth of another size than
+  // the camera's, of another number of pixels than their size says, a pose that is not rigid.
+  void require_fitting(const Shot& shot) const;
   // The view failed; it is never proposed again. InputError: a view that was taken or failed
   // before; LogicError: no such view.
   void unreachable(int view, const std::string& reason);
@@ -71,7 +72,7 @@ class Scout {
 
   // The parts of `give`, in this order.
   Update begin_update(int view, const Se3& camera_from_world) const;
-  void add_image(Update& next, const Image& image) const;
+  void add_image(Update& next, const Shot& shot) const;
   void search_image(Update& next) const;
   std::vector<Mode> update_belief(Update& next) const;
   std::vector<ModeDetection> within_prior(std::vector<ModeDetection> found) const;

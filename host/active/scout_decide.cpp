@@ -51,15 +51,17 @@ ScoutDecision Scout::decide() const {
   }
   const std::vector<char> closed = state_.closed();
   const std::vector<ObjectView> views = views_of(views_);
-  decision.views = view_information({{models_, views, backend_},
-                                     tables_,
-                                     undistorted(camera_),
-                                     state_.views,
-                                     closed,
-                                     state_.candidates,
-                                     &combinations,
-                                     state_.particles},
-                                    options_.next_view);
+  decision.views = view_information(
+      {{models_, views, backend_},
+       tables_,
+       undistorted(camera_),
+       state_.views,
+       closed,
+       state_.candidates,
+       &combinations,
+       state_.particles,
+       workspace_of(options_.pipeline.detect.scan.world, state_.views, undistorted(camera_))},
+      options_.next_view);
   decision.view = best_view(decision.views).value_or(-1);
   record_stage(watch, "information");
   return decision;

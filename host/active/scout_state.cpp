@@ -9,7 +9,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 17, "scout state"};
+constexpr BinaryFormat format{{'E', 'S', 'C', 'O', 'U', 'T', 'S', 'T'}, 18, "scout state"};
 
 template <typename T>
 concept Number = std::is_arithmetic_v<T> || std::is_enum_v<T>;
@@ -29,6 +29,11 @@ class Put {
   }
   void put(const LensCoefficients& numbers) {
     for (const double number : numbers) out_.put(number);
+  }
+  template <typename T>
+  void put(const std::shared_ptr<const T>& maybe) {
+    put(maybe != nullptr);
+    if (maybe) put(*maybe);
   }
   template <typename T>
   void put(const std::vector<T>& list) {
@@ -58,6 +63,15 @@ class Get {
     for (double& number : numbers) number = in_.get<double>();
   }
   template <typename T>
+  void get(std::shared_ptr<const T>& maybe) {
+    bool is_there = false;
+    get(is_there);
+    if (!is_there) return;
+    T value;
+    get(value);
+    maybe = std::make_shared<const T>(std::move(value));
+  }
+  template <typename T>
   void get(std::vector<T>& list) {
     // Every element takes at least one byte of the file, but many take a thousand in memory.
     for (std::size_t i = in_.count(1); i > 0; --i) get(list.emplace_back());
@@ -83,7 +97,10 @@ void fields(auto& io, A<ExtrinsicsCheck> auto& x) {
 void fields(auto& io, A<PoseFeatures> auto& x) {
   io(x.psi, x.mean_px, x.matched, x.points, x.length_px, x.in_image, x.visible, x.shading.pixels,
      x.shading.squares, x.shading.unexplained, x.support.log_ratio, x.support.interior_log_ratio,
-     x.support.support, x.support.best_displaced);
+     x.support.support, x.support.best_displaced, x.depth);
+}
+void fields(auto& io, A<DepthEvidence> auto& x) {
+  io(x.agreeing, x.contradicting, x.hidden, x.missing, x.offset_m);
 }
 void fields(auto& io, A<ParticleUpdate> auto& x) { io(x.effective, x.reseeded, x.gained_nats); }
 void fields(auto& io, A<FailedView> auto& x) { io(x.view, x.reason, x.after_step, x.stages); }
@@ -92,6 +109,9 @@ void fields(auto& io, A<Camera> auto& x) {
   io(x.width, x.height, x.fx, x.fy, x.cx, x.cy, x.distortion, x.lens, x.skew, x.field_of_view_rad);
 }
 void fields(auto& io, A<Image> auto& x) { io(x.width, x.height, x.pixels); }
+void fields(auto& io, A<DepthImage> auto& x) { io(x.width, x.height, x.z_m); }
+void fields(auto& io, A<DepthNoise> auto& x) { io(x.floor_m, x.at_one_metre_m); }
+void fields(auto& io, A<MeasuredDepth> auto& x) { io(x.image, x.noise); }
 void fields(auto& io, A<ModeDetection> auto& x) { io(x.detection, x.weight, x.supporting_images); }
 void fields(auto& io, A<Detection> auto& x) {
   io(x.object, x.world_from_object, x.covariance, x.probability, x.psi, x.cost_px,
@@ -106,9 +126,9 @@ void fields(auto& io, A<ScoutDecision> auto& x) {
      x.stages);
 }
 void fields(auto& io, A<ScoutStep> auto& x) {
-  io(x.decision, x.camera_from_world, x.image, x.searches, x.new_candidates, x.before, x.after,
-     x.update, x.resampled, x.detections, x.extrinsics_checks, x.mode_probabilities, x.entropy_nats,
-     x.stages);
+  io(x.decision, x.camera_from_world, x.image, x.depth, x.searches, x.new_candidates, x.before,
+     x.after, x.update, x.resampled, x.detections, x.extrinsics_checks, x.mode_probabilities,
+     x.entropy_nats, x.stages);
 }
 void fields(auto& io, A<ScoutState> auto& x) {
   io(x.objects, x.camera, x.views, x.steps, x.failed, x.candidates, x.particles, x.unseen_px2,

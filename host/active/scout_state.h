@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -16,6 +17,7 @@
 #include "host/active/particles.h"
 #include "host/core/camera.h"
 #include "host/core/stopwatch.h"
+#include "host/register/measured_depth.h"
 
 namespace edgescout {
 
@@ -36,9 +38,10 @@ struct ScoutDecision {
 // One image and what it changed.
 struct ScoutStep {
   ScoutDecision decision;
-  Se3 camera_from_world;  // as given
-  Image image;            // undistorted
-  int searches = 0;       // of this image: ScoutOptions::max_searches
+  Se3 camera_from_world;                       // as given
+  Image image;                                 // undistorted
+  std::shared_ptr<const MeasuredDepth> depth;  // null: none was given
+  int searches = 0;                            // of this image: ScoutOptions::max_searches
   // Candidates near no particle and near no candidate that was known before this image.
   std::size_t new_candidates = 0;
   // The particles before this image was used, with those that were drawn around its new candidates.

@@ -18,11 +18,12 @@ Scout::Update Scout::begin_update(int view, const Se3& camera_from_world) const 
   return next;
 }
 
-void Scout::add_image(Update& next, const Image& image) const {
+void Scout::add_image(Update& next, const Shot& shot) const {
   ScoutStep& step = next.step;
-  ObjectView view = prepare_view(image, camera_, step.camera_from_world, backend_,
+  ObjectView view = prepare_view(shot.image, camera_, step.camera_from_world, backend_,
                                  options_.pipeline, &step.stages);
   step.image = *view.image;
+  step.depth = view.depth = shot.depth;
   Stopwatch watch(step.stages, backend_);
   add_tensors(view, sets_, backend_, options_.pipeline.tensor);
   next.views.push_back({std::move(view), {}});

@@ -8,11 +8,11 @@ namespace {
 
 constexpr float MAX_TURN_RAD = 0.35f;  // between the template's edge and that of the image
 
-bool is_in_image(double x, double y, const Camera& camera) {
-  return x >= -0.5 && y >= -0.5 && x < camera.width - 0.5 && y < camera.height - 0.5;
-}
-
 }  // namespace
+
+bool is_in_image(double x_px, double y_px, const Camera& camera) {
+  return x_px >= -0.5 && y_px >= -0.5 && x_px < camera.width - 0.5 && y_px < camera.height - 0.5;
+}
 
 SeenPoints points_seen_in(std::span<const ObjectView> real_views, const TemplateTable& table,
                           const Se3& world_from_object, double edge_px) {

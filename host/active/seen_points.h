@@ -10,6 +10,8 @@
 
 namespace edgescout {
 
+bool is_in_image(double x_px, double y_px, const Camera& camera);
+
 // Template points of one pose that were seen.
 struct SeenPoints {
   std::vector<char> by_id;  // of size TemplateTable::total

@@ -11,11 +11,13 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "host/core/types.h"
+#include "host/register/measured_depth.h"
 
 namespace edgescout {
 
@@ -28,6 +30,8 @@ class AcquisitionError : public std::runtime_error {
 struct Shot {
   Image image;            // as the camera saw it, distorted
   Se3 camera_from_world;  // where the camera stood, as far as the source knows
+  // Of undistorted(camera) (io/depth_registration.h); null: nothing was measured.
+  std::shared_ptr<const MeasuredDepth> depth = nullptr;
 };
 
 class ViewSource {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host/register/depth_evidence.h"
 #include "host/register/pose_classifier.h"
 #include "kernels/error.h"
 
@@ -40,8 +41,9 @@ bool is_seen_by_any(const Particle& particle, const ParticleOptions& options) {
 }
 
 bool keeps_weight(const Particle& particle, const ParticleOptions& options) {
-  return is_seen_by_any(particle, options) &&
-         pool_over_views(particle.features).mean_px <= options.dead_px;
+  if (!is_seen_by_any(particle, options)) return false;
+  const PoseFeatures pooled = pool_over_views(particle.features);
+  return pooled.mean_px <= options.dead_px && !is_contradicted(pooled.depth);
 }
 
 // At the current poses.

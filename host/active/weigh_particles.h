@@ -30,8 +30,9 @@ struct Weighing {
 };
 
 // Sets features in every view of the scene, Upsilon and normalised weights. A particle loses its
-// weight (log weight -infinity) where no view sees it, where its mean DCD is above dead_px, or
-// where its pose is not finite. Where no particle is left, all weights are equal and the gain is 0.
+// weight (log weight -infinity) where no view sees it, where its mean DCD is above dead_px, where
+// measured depth contradicts it, or where its pose is not finite. Where no particle is left, all
+// weights are equal and the gain is 0.
 //
 // `unseen_px2` has one entry per view so far: what the view adds to Upsilon of particles that it
 // does not see, NaN while it has seen none at all. It grows with the views, which must be given in

@@ -101,8 +101,12 @@ std::string names_text() {
   return text;
 }
 
-void add_bin_options(CLI::App& verb, ScoutOptions& o) {
+void add_bin_options(CLI::App& verb, ExperimentSettings& s) {
+  ScoutOptions& o = s.scout;
   OptionTable(verb, "Bins", OptionLevel::Expert)
+      .flag("depth", s.depth,
+            "Rendered bins have depth images, with a sensor's errors and a third of the parts "
+            "missing")
       .bounded("max-views", o.max_views, 1, 32, "Number of images of a bin")
       .bounded("registered", o.pipeline.detect.candidates, 1, 100000,
                "Number of candidates of each image and type that are registered in full");
@@ -220,7 +224,7 @@ void add_bench_experiments(CLI::App& bench, int& exit_code) {
   add_sizes(*verb, *request);
   add_method_options(*verb, *request);
   add_bin_choices(*verb, request->settings);
-  add_bin_options(*verb, request->settings.scout);
+  add_bin_options(*verb, request->settings);
   verb->callback([request, verb, &exit_code] {
     run(*request, *verb);
     exit_code = exit_done;

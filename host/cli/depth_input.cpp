@@ -8,6 +8,7 @@
 #include "host/cli/inputs.h"
 #include "host/cli/option_table.h"
 #include "host/core/log.h"
+#include "host/io/bop.h"
 #include "host/io/camera_file.h"
 #include "host/io/depth_file.h"
 #include "host/io/image.h"
@@ -18,8 +19,6 @@ namespace edgescout {
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr char of_scenes[] = "scene";
 
 void find_in_folder(std::span<InputImage> images, const fs::path& folder) {
   std::map<std::string, fs::path> by_stem;
@@ -70,12 +69,17 @@ void add_depth(CLI::App& verb, DepthArguments& depth) {
   describe(depth.options, add);
 }
 
+std::optional<DepthFile> depth_file_of(const BopImage& image) {
+  if (image.depth_file.empty()) return {};
+  return DepthFile{image.depth_file, image.depth_unit_m()};
+}
+
 void find_depth(std::span<InputImage> images, const DepthArguments& arguments) {
-  if (arguments.from != of_scenes)
+  if (arguments.from != DEPTH_OF_SCENES)
     for (InputImage& image : images) image.depth.reset();
   if (arguments.from.empty()) return;
   std::error_code unknown;
-  if (arguments.from == of_scenes) {
+  if (arguments.from == DEPTH_OF_SCENES) {
     for (InputImage& image : images)
       if (image.scene_folder.empty())
         throw InputError(image.file.string(), "--depth", "scene for an image of no BOP scene",
@@ -91,9 +95,9 @@ void find_depth(std::span<InputImage> images, const DepthArguments& arguments) {
   const auto without = std::size_t(
       std::ranges::count_if(images, [](const InputImage& image) { return !image.depth; }));
   if (without == images.size())
-    throw InputError(
-        "command line", "--depth", arguments.from + " without any depth image",
-        arguments.from == of_scenes ? "scenes with depth/" : "files with the names of the images");
+    throw InputError("command line", "--depth", arguments.from + " without any depth image",
+                     arguments.from == DEPTH_OF_SCENES ? "scenes with depth/"
+                                                       : "files with the names of the images");
   if (without > 0)
     log(LogLevel::Warning,
         fmt::format("{} of {} images have no depth image", without, images.size()));

@@ -15,10 +15,13 @@
 
 namespace edgescout {
 
+struct BopImage;
 struct InputImage;
 
+inline constexpr char DEPTH_OF_SCENES[] = "scene";
+
 struct DepthArguments {
-  std::string from;    // "scene": that of BOP scenes; a file; a folder; empty: there is no depth
+  std::string from;    // DEPTH_OF_SCENES: that of BOP scenes; a file; a folder; empty: no depth
   std::string camera;  // calibration file; empty: depth images have the camera of the grey ones
   std::vector<double> pose;  // camera_from_depth: x y z, m, and a quaternion x y z w
   DepthOptions options;
@@ -32,6 +35,7 @@ struct DepthFile {
   std::filesystem::path file;
   std::optional<double> unit_m;  // as the dataset states it
 };
+std::optional<DepthFile> depth_file_of(const BopImage& image);  // nothing where it has none
 
 // Sets InputImage::depth of all images that have some. InputError: a file for several images, a
 // folder that is not there, a BOP scene's depth for other images, no depth for any image.

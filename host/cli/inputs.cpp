@@ -41,12 +41,6 @@ std::vector<fs::path> sorted_entries(const fs::path& folder) {
   return entries;
 }
 
-std::optional<DepthFile> depth_of(const BopImage& image) {
-  constexpr double metres_per_mm = 1e-3;
-  if (image.depth_file.empty()) return {};
-  return DepthFile{image.depth_file, metres_per_mm * image.depth_scale};
-}
-
 void add_scene(const fs::path& folder, SceneLoader& loader, std::vector<InputImage>& images) {
   for (const BopScene& scene : loader.load(folder)) {
     const std::string& camera = scene.camera_name;
@@ -63,7 +57,7 @@ void add_scene(const fs::path& folder, SceneLoader& loader, std::vector<InputIma
                         0,
                         {},
                         {},
-                        depth_of(image)});
+                        depth_file_of(image)});
     if (scene.images.empty())
       throw InputError(bop_file(folder, "scene_camera", camera).string(), "images", "none",
                        "at least one");

@@ -1,6 +1,7 @@
 // Writes the log and the results of an active detection.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "host/cli/batch_settings.h"
@@ -65,6 +66,14 @@ json of_open_views(const std::vector<ViewInformation>& views, double ViewInforma
   return list;
 }
 
+// Share of the depth image's pixels that were measured; null without one.
+json measured_share(const ScoutStep& step) {
+  if (!step.depth) return {};
+  const std::vector<float>& z_m = step.depth->image.z_m;
+  const auto measured = std::ranges::count_if(z_m, [](float value) { return value > 0; });
+  return static_cast<double>(measured) / static_cast<double>(z_m.size());
+}
+
 json step_json(const ScoutStep& step, const ScoutReport& report) {
   json extrinsics_checks = json::array();
   for (const ExtrinsicsCheck& view : step.extrinsics_checks)
@@ -82,6 +91,7 @@ json step_json(const ScoutStep& step, const ScoutReport& report) {
           {"decision_ms", stages_json(step.decision.stages)},
           {"camera_from_world", pose_json(step.camera_from_world)},
           {"timings_ms", stages_json(step.stages)},
+          {"depth_measured", measured_share(step)},
           {"candidates_before", step.decision.candidates.size()},
           {"searches", step.searches},
           {"new_candidates", step.new_candidates},

@@ -30,11 +30,26 @@ std::vector<Se3> cell_views(const SourceRequest& request, const SimulatedScene& 
   return hemisphere_views(hemisphere);
 }
 
+// `--depth scene` switches the sensor on.
+DepthSensor cell_sensor(const SourceRequest& request) {
+  DepthSensor sensor = request.scene.depth;
+  const DepthArguments& depth = request.depth;
+  if (!depth.from.empty() && depth.from != DEPTH_OF_SCENES)
+    throw InputError("command line", "--depth", depth.from + " for a cell", DEPTH_OF_SCENES);
+  if (!depth.camera.empty() || !depth.pose.empty())
+    throw InputError("command line", "--depth-camera", "one for a cell", "none");
+  sensor.on = !depth.from.empty();
+  sensor.range_m = depth.options.range_m;
+  sensor.noise_m = depth.options.noise.at_one_metre_m;
+  return sensor;
+}
+
 ScoutSource make_cell(const SourceRequest& request, std::span<const Object> objects,
                       ThreadPool& pool) {
   if (!request.camera.file.empty())
     throw InputError("command line", "--camera", "one for a cell", "--width, --height and --focal");
   RenderOptions options = request.scene;
+  options.depth = cell_sensor(request);
   options.min_distance_m = options.max_distance_m = request.hemisphere.radius_m;
   const SimulatedScene scene = make_scene(objects, options);
   ArmNoise arm = request.arm;
@@ -86,7 +101,47 @@ std::string camera_of(const SourceRequest& request) {
   return "";
 }
 
-ScoutSource make_recorded(const SourceRequest& request) {
+// Recorded views with the depth images that belong to them.
+class ViewsWithDepth : public ViewSource {
+ public:
+  // `images`: one per view.
+  ViewsWithDepth(RecordedViews views, std::vector<InputImage> images,
+                 const DepthArguments& arguments, ThreadPool& pool)
+      : views_(std::move(views)), images_(std::move(images)), reader_(arguments), pool_(pool) {}
+  Camera camera() const override { return views_.camera(); }
+  std::vector<Se3> views() const override { return views_.views(); }
+  Shot acquire(int view) override {
+    Shot shot = views_.acquire(view);
+    try {
+      shot.depth = reader_.read(images_[static_cast<std::size_t>(view)], camera(), pool_);
+    } catch (const InputError& error) {
+      throw AcquisitionError(error.what());
+    }
+    return shot;
+  }
+
+ private:
+  RecordedViews views_;
+  std::vector<InputImage> images_;
+  DepthReader reader_;
+  ThreadPool& pool_;
+};
+
+std::unique_ptr<ViewSource> with_depth(RecordedViews views, std::span<const BopImage> of_scene,
+                                       const DepthArguments& arguments, ThreadPool& pool) {
+  if (arguments.from.empty()) return std::make_unique<RecordedViews>(std::move(views));
+  std::vector<InputImage> images;
+  for (const RecordedViews::Recording& recording : views.recordings())
+    images.emplace_back().file = recording.file;
+  for (std::size_t i = 0; i < of_scene.size(); ++i) {
+    images[i].scene_folder = of_scene[i].file.parent_path().parent_path();
+    images[i].depth = depth_file_of(of_scene[i]);
+  }
+  find_depth(images, arguments);
+  return std::make_unique<ViewsWithDepth>(std::move(views), std::move(images), arguments, pool);
+}
+
+ScoutSource make_recorded(const SourceRequest& request, ThreadPool& pool) {
   if (!request.views_file.empty())
     throw InputError("command line", "--views", "a list for recorded views", "their own poses");
   if (!std::filesystem::is_directory(request.source))
@@ -110,13 +165,12 @@ ScoutSource make_recorded(const SourceRequest& request) {
                              request.camera.file.empty() ? "its own" : text_of(request.camera));
   const std::string camera_name = camera_of(request);
   if (!camera_name.empty()) made.settings.emplace_back("camera's name", camera_name);
-  auto views =
-      std::make_unique<RecordedViews>(load_recorded_views(request.source, camera, camera_name));
-  for (const RecordedViews::Recording& recording : views->recordings())
+  RecordedViews views = load_recorded_views(request.source, camera, camera_name);
+  for (const RecordedViews::Recording& recording : views.recordings())
     made.image_files.push_back(recording.file);
-  made.source = std::move(views);
-  if (!is_bop_scene(request.source)) return made;
-  const BopScene scene = load_bop_images(request.source, camera_name);
+  BopScene scene;
+  if (is_bop_scene(request.source)) scene = load_bop_images(request.source, camera_name);
+  made.source = with_depth(std::move(views), scene.images, request.depth, pool);
   made.scene_id = scene.scene_id;
   for (const BopImage& image : scene.images) made.image_ids.push_back(image.image_id);
   return made;
@@ -155,6 +209,9 @@ void add_source_options(CLI::App& verb, SourceRequest& r) {
       ->required();
   add_camera(verb, r.camera);
   add_camera_names(verb, r.dataset);
+  add_depth(verb, r.depth);
+  CommandLineOptions sensor(verb);
+  describe_errors(r.scene.depth, sensor);
   add_hemisphere_options(verb, r);
   add_scene_options(verb, r.scene, OptionLevel::Expert);
   OptionTable(verb, "Arm", OptionLevel::Expert)
@@ -171,7 +228,8 @@ void refuse_unused(const CLI::App& verb) {
   for (const CLI::Option* option : verb.get_options()) {
     const std::string &name = option->get_name(), &group = option->get_group();
     if (option->count() == 0 || name == "--views") continue;
-    if (!is_cell && (group == "Scene" || group == "Image" || group == "Arm" || group == "Views"))
+    if (!is_cell && (group == "Scene" || group == "Image" || group == "Arm" || group == "Views" ||
+                     group == "Depth sensor"))
       throw InputError("command line", name, "together with recorded views", "it with a cell");
     if (has_list && group == "Views" && name != "--radius")  // which sizes the board as well
       throw InputError("command line", name, "together with --views", "one of the two");
@@ -181,7 +239,7 @@ void refuse_unused(const CLI::App& verb) {
 ScoutSource make_source(const SourceRequest& request, std::span<const Object> objects,
                         ThreadPool& pool) {
   ScoutSource made =
-      request.source == "cell" ? make_cell(request, objects, pool) : make_recorded(request);
+      request.source == "cell" ? make_cell(request, objects, pool) : make_recorded(request, pool);
   if (made.image_ids.empty()) {
     made.image_ids.resize(made.source->views().size());
     std::iota(made.image_ids.begin(), made.image_ids.end(), 0);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/active/views.h"
+#include "host/cli/depth_input.h"
 #include "host/cli/inputs.h"
 #include "host/cli/option_table.h"
 #include "host/cli/scout_report.h"
@@ -13,8 +14,9 @@ struct SourceRequest {
   std::string source;        // "cell", or a folder (load_recorded_views)
   CameraArguments camera;    // of recorded views
   DatasetArguments dataset;  // of recorded views: at most one camera
-  std::string views_file;    // of a cell, in place of the hemisphere
-  RenderOptions scene;       // of a cell
+  DepthArguments depth;
+  std::string views_file;  // of a cell, in place of the hemisphere
+  RenderOptions scene;     // of a cell
   ArmNoise arm;
   HemisphereOptions hemisphere{.radius_m = 0};  // 0: such that the parts fill the image
   std::vector<double> center_m{0, 0, 0};

@@ -118,7 +118,7 @@ std::vector<EvaluationImage> evaluation_images(const BopScene& scene,
     added.camera = image.camera;
     added.truth = scene.truth.at(image.image_id);
     added.depth_file = image.depth_file;
-    added.depth_unit_m = 1e-3 * image.depth_scale;
+    added.depth_unit_m = image.depth_unit_m();
   }
   for (const BopResult& result : results) {
     if (!is_of(scene, result)) continue;

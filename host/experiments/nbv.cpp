@@ -189,7 +189,7 @@ void run_search(Table& table, const ExperimentSettings& s, const Bin& bin, const
                  options_for(s, bin, search, detector, run), backend);
   };
   Scout first = scout_for({s.strategies[0], 0});
-  first.give(bin.first_view, bin.cell->acquire(bin.first_view).image);
+  first.give(bin.first_view, bin.cell->acquire(bin.first_view));
   for (const std::string& strategy : s.strategies)
     for (int draw = 0; draw < draws_of(s, strategy); ++draw) {
       const Run run{strategy, draw};
@@ -269,6 +269,7 @@ Notes options(const ExperimentSettings& s) {
       {"seen_px", number_text(o.next_view.seen_px)},
       {"formula", o.next_view.use_paper_formula ? "use_paper_formula" : "mutual information"},
       {"min_probability", number_text(o.detections.min_probability)}};
+  if (s.depth) notes.emplace_back("depth", "yes");
   if (!s.data.empty()) notes.emplace_back("data", data_mark(s.data));
   return notes;
 }

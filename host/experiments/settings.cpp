@@ -121,6 +121,8 @@ void ExperimentSettings::validate() const {
 RenderOptions bin_image_options(const ExperimentSettings& settings) {
   RenderOptions options;
   options.pile = 0.7;
+  options.depth.on = settings.depth;
+  options.depth.holes = 0.33;
   options.supersampling = settings.supersampling;
   set_camera(options, 640, 480, 760, settings.image_scale);
   return options;

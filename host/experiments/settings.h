@@ -49,6 +49,9 @@ struct ExperimentSettings {
   // Draws of the strategy Random per bin, since a single draw says little of its mean. Every draw
   // after the first takes one more view and ends.
   int random_draws = 1;
+  // Rendered bins come with depth images of a sensor, of which a third of the parts' pixels is
+  // missing beside its other holes.
+  bool depth = false;
   EdgeMethod edges = EdgeMethod::Gradient;  // for registration
   TensorOptions tensor;     // of all registration methods and FDCM; each method has its own lambda
   BaselineOptions methods;  // of the registration methods apart from edgescout

@@ -22,6 +22,7 @@ struct BopImage {
   std::optional<Se3> camera_from_world;  // set if the file has cam_R_w2c and cam_t_w2c
   std::filesystem::path depth_file;  // in depth/ or depth_NAME/; empty: the scene has none of it
   double depth_scale = 1;            // mm per stored unit; 1 if the file does not state it
+  double depth_unit_m() const { return 1e-3 * depth_scale; }
 };
 
 struct BopTruth {

@@ -38,4 +38,10 @@ Grid<DepthEvidence> depth_evidence(const Scene& scene, std::span<const ObjectPos
   return evidence;
 }
 
+bool is_contradicted(const DepthEvidence& evidence) {
+  constexpr double fewest = 20;  // of the some 300 samples that face a camera
+  const double measured = evidence.agreeing + evidence.contradicting;
+  return measured >= fewest && evidence.contradicting > 0.5 * measured;
+}
+
 }  // namespace edgescout

@@ -16,4 +16,9 @@ DepthEvidence evidence_of(const PoseDepth& compared);
 Grid<DepthEvidence> depth_evidence(const Scene& scene, std::span<const ObjectPose> poses,
                                    const Grid<VisibleInView>& visible);
 
+// Whether the surface cannot be where the pose has it: of the samples that were measured and that
+// nothing hides, at least twenty, the sensor saw behind more than half. Of one view, or pooled over
+// views.
+bool is_contradicted(const DepthEvidence& evidence);
+
 }  // namespace edgescout

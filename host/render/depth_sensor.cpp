@@ -3,10 +3,7 @@
 namespace edgescout {
 namespace {
 
-void describe_noise(DepthSensor& o, OptionVisitor& visit) {
-  visit.number(
-      {"depth-noise", "Standard deviation of depth at 1 m, m. Grows with the distance squared"},
-      o.noise_m, 0.0, 0.1);
+void describe_offsets(DepthSensor& o, OptionVisitor& visit) {
   visit.number({"depth-noise-blur",
                 "Standard deviation of the blur of that noise, px. 0: each pixel has its own"},
                o.noise_blur_px, 0.0, 50.0);
@@ -59,7 +56,15 @@ void describe(DepthSensor& o, OptionVisitor& visit) {
              o.on);
   visit.number({"depth-unit", "Length of one stored unit of depth, m"}, o.unit_m, 1e-6, 0.1);
   visit.range({"depth-range", "Depths that the sensor measures, m"}, o.range_m, 0.0, 100.0);
-  describe_noise(o, visit);
+  visit.number(
+      {"depth-noise", "Standard deviation of depth at 1 m, m. Grows with the distance squared"},
+      o.noise_m, 0.0, 0.1);
+  describe_errors(o, visit);
+}
+
+void describe_errors(DepthSensor& o, OptionVisitor& visit) {
+  visit.group("Depth sensor");
+  describe_offsets(o, visit);
   describe_holes(o, visit);
 }
 

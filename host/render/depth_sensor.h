@@ -29,5 +29,7 @@ struct DepthSensor {
   double rotation_deg = 0;  // error of the calibration to the grey camera; the axis is random
 };
 void describe(DepthSensor& sensor, OptionVisitor& visit);
+// Its errors but for the noise of each pixel.
+void describe_errors(DepthSensor& sensor, OptionVisitor& visit);
 
 }  // namespace edgescout

@@ -50,7 +50,12 @@ Shot SimulatedCell::acquire(int view) {
   SimulatedScene scene = scene_;
   scene.views = {{camera_, reached}};
   scene.options.seed += static_cast<unsigned>(view);  // each image has its own sensor noise
-  return {render(scene, pool_)[0].image, noise_.known ? reached : planned};
+  Rendering seen = std::move(render(scene, pool_)[0]);
+  Shot shot{std::move(seen.image), noise_.known ? reached : planned};
+  if (const DepthSensor& sensor = scene.options.depth; sensor.on)
+    shot.depth = std::make_shared<const MeasuredDepth>(
+        MeasuredDepth{std::move(seen.measured_depth), {.at_one_metre_m = sensor.noise_m}});
+  return shot;
 }
 
 }  // namespace edgescout

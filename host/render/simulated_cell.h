@@ -22,6 +22,7 @@ struct ArmNoise {
   void validate() const;  // InputError naming the field and the violated bound
 };
 
+// A shot has depth if the scene's options have a sensor (DepthSensor::on).
 // The image of a view depends only on the scene, the view and the seed, not on earlier calls. Not
 // safe for several threads at once.
 class SimulatedCell : public ViewSource {

@@ -1,4 +1,4 @@
-// --depth of detect and register.
+// --depth of detect, register and scout.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "tests/cli/small_scene.h"
+#include "tests/cli/small_scout.h"
 
 namespace edgescout::test {
 namespace {
@@ -87,6 +88,39 @@ TEST(DepthOption, RefusesDepthThatIsNotThere) {
                               {"none.png"});
   expect_refused(t.detect({"--depth", "scene", "--depth-pose", "0", "0", "0", "0", "0", "0", "1"}),
                  {"--depth"});
+}
+
+TEST(DepthOption, OfAScoutIsTheSensorOfACell) {
+  SmallScout t;
+  ASSERT_EQ(run_program(t.arguments({"--depth", "scene", "--depth-holes", "0.5", "--max-views", "2"}))
+                .exit_code,
+            0);
+  const nlohmann::json with = t.log();
+  ASSERT_EQ(with.at("steps").size(), 2u);
+  EXPECT_GT(with["steps"][0].at("depth_measured"), 0.5);
+  EXPECT_LT(with["steps"][0].at("depth_measured"), 1);
+  ASSERT_EQ(with.at("detections").size(), 1u);
+  EXPECT_TRUE(with["detections"][0].at("off_truth").at("right"));
+  expect_refused(t.arguments({"--depth", "folder"}), {"--depth", "folder for a cell", "scene"});
+}
+
+TEST(DepthOption, OfAScoutIsThatOfRecordedViews) {
+  const DepthScene t;
+  t.write_depth(0.3, 320, 240);
+  const auto scout = [&](const std::vector<std::string>& more) {
+    return joined({{"scout", t.made.scene, "--out", t.made.out, "--device", "cpu",
+                    "--coarse-poses", "200", "--max-views", "1"},
+                   bracket(),
+                   more});
+  };
+  ASSERT_EQ(run_program(scout({"--depth", "scene"})).exit_code, 0);
+  const auto log = [&] { return nlohmann::json::parse(content_of(t.made.out / "scout.json")); };
+  EXPECT_EQ(log()["steps"][0].at("depth_measured"), 1);
+  ASSERT_EQ(run_program(scout({})).exit_code, 0);
+  EXPECT_TRUE(log()["steps"][0].at("depth_measured").is_null());
+  expect_refused(scout({"--depth-bias", "0.01"}), {"--depth-bias", "recorded views"});
+  fs::remove_all(t.depth);
+  expect_refused(scout({"--depth", "scene"}), {"--depth", "depth/"});
 }
 
 }  // namespace

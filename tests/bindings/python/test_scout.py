@@ -78,6 +78,15 @@ def test_proposes_another_view_where_one_cannot_be_had(scene, recorded):
         scout.give(1, images[1][:100])
 
 
+def test_finds_nothing_behind_a_measured_wall(scene, recorded):
+    height, width = recorded.images[0].shape
+    scout = new_scout(scene, recorded)
+    with pytest.raises(ValueError, match="10x20 px"):
+        scout.give(0, recorded.images[0], depth=np.full((20, 10), 0.1, np.float32))
+    scout.give(0, recorded.images[0], depth=np.full((height, width), 100, np.uint16))
+    assert scout.images == 1 and not scout.detections
+
+
 def test_views_look_at_their_centre():
     views = edgescout.hemisphere_views([0.1, 0.2, 0.3], 0.5, 8)
     assert views.shape == (8, 4, 4)

@@ -1,5 +1,7 @@
 #include "host/bindings/python/src/found_objects.h"
 
+#include "host/io/depth_registration.h"
+
 namespace edgescout::python {
 
 GivenSets::GivenSets(const py::object& templates) {
@@ -46,6 +48,12 @@ void give_depth(std::span<TakenImage> taken, const GivenDepth& depth) {
     refuse("depth", std::to_string(each.size()) + " depth images",
            "one or None an image of " + std::to_string(taken.size()));
   for (std::size_t i = 0; i < each.size(); ++i) give_depth(taken[i], {each[i], depth.options});
+}
+
+std::shared_ptr<const MeasuredDepth> measured_depth(const TakenImage& taken) {
+  if (!taken.depth) return nullptr;
+  return std::make_shared<const MeasuredDepth>(
+      MeasuredDepth{undistort_depth(*taken.depth, taken.camera), taken.depth_noise});
 }
 
 std::vector<TakenImage> taken_images(const std::vector<py::array>& images, const Camera& camera,

@@ -7,6 +7,7 @@
 
 #include "host/bindings/python/src/arrays.h"
 #include "host/pipeline.h"
+#include "host/register/measured_depth.h"
 
 namespace edgescout::python {
 
@@ -45,6 +46,9 @@ TakenImage taken_image(const py::array& image, const Camera& camera, const Se3& 
 void give_depth(TakenImage& taken, const GivenDepth& depth);
 // ValueError, beside that: not one depth an image.
 void give_depth(std::span<TakenImage> taken, const GivenDepth& depth);
+
+// Its depth without the lens; null where it has none.
+std::shared_ptr<const MeasuredDepth> measured_depth(const TakenImage& taken);
 
 // ValueError: not one pose an image.
 std::vector<TakenImage> taken_images(const std::vector<py::array>& images, const Camera& camera,

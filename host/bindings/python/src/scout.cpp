@@ -54,13 +54,16 @@ class PythonScout {
     return proposal;
   }
 
-  void give(int view, const py::array& image, const py::object& camera_from_world) {
+  void give(int view, const py::array& image, const py::object& camera_from_world,
+            const py::object& depth, const DepthOptions* depth_options) {
     require_view(view);
-    const Image grey = image_of(image);
     const Se3 pose = camera_from_world.is_none() ? state().views[std::size_t(view)]
                                                  : pose_of(camera_from_world, "camera_from_world");
+    TakenImage taken = taken_image(image, state().camera, pose);
+    give_depth(taken, {depth, depth_options});
+    const Shot shot{std::move(taken.image), pose, measured_depth(taken)};
     call([&](Scout& scout) {
-      scout.give(view, grey, pose);
+      scout.give(view, shot);
       return 0;
     });
   }
@@ -148,9 +151,11 @@ void add_scout(py::module_& module) {
       .def("propose", &PythonScout::propose,
            "The next view, or None at the end. The same until an image or a failure is given.")
       .def("give", &PythonScout::give, py::arg("view"), py::arg("image"),
-           py::arg("camera_from_world") = py::none(),
+           py::arg("camera_from_world") = py::none(), py::kw_only(), py::arg("depth") = py::none(),
+           py::arg("depth_options") = nullptr,
            "Adds the image of a view, taken where it was planned or at the given (4, 4) pose. "
-           "Ctrl-C leaves the scout as it was.")
+           "depth: of the same camera and size, uint16 or float32, or None. Ctrl-C leaves the "
+           "scout as it was.")
       .def("unreachable", &PythonScout::unreachable, py::arg("view"), py::arg("reason"),
            "The view failed; another one is proposed.")
       .def_property_readonly("detections", &PythonScout::detections, "Most probable first.")
