@@ -4,12 +4,11 @@
 //   [--points N] [--no-registration] [--no-depth] [--noise M]
 //
 // Prints two rows for each part and kind of motion, without and with the depth image of a sensor
-// with errors and a third of the part's pixels missing: the frames that are tracked, doubtful and lost; of
-// the tracked ones those that are wrong (MSSD above a tenth of the diameter); errors of the right
-// ones, as MSSD and of the part's centre along the camera's axis; the time of
-// an update. A lost part is searched for in every frame: how many frames and seconds of search from
-// the loss, or from the first frame in which half of the part is visible, until it is tracked
-// again.
+// with errors and a third of the part's pixels missing: the frames that are tracked, doubtful and
+// lost; of the tracked ones those that are wrong (MSSD above a tenth of the diameter); errors of
+// the right ones, as MSSD and of the part's centre along the camera's axis; the time of an update.
+// A lost part is searched for in every frame: how many frames and seconds of search from the loss,
+// or from the first frame in which half of the part is visible, until it is tracked again.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -181,8 +180,10 @@ int main(int argc, char** argv) try {
                          {"--no-depth", &a.no_depth},
                          {"--noise", &a.noise_m}});
   std::puts(
-      "| part | motion | depth | tracked | doubtful | lost | wrong of tracked | error, median, % of the "
-      "diameter | 95 % | along the axis, median, mm | 95 % | above chance, 5 % of right | 95 % of wrong | ms, median | 99 % | losses | "
+      "| part | motion | depth | tracked | doubtful | lost | wrong of tracked | error, median, % "
+      "of the "
+      "diameter | 95 % | along the axis, median, mm | 95 % | above chance, 5 % of right | 95 % of "
+      "wrong | ms, median | 99 % | losses | "
       "found again | frames searched | s of search |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   ThreadPool pool(0);

@@ -8,7 +8,7 @@ images, all with a true pose) and `real` (30 images of a RealSense, a pose of th
 
     gray/ depth/ scene_camera.json     images, depth of its own camera
     depth_camera.json depth_pose.txt   what --depth-camera and --depth-pose take
-    scene_gt.json                      the poses
+    scene_gt.json start.json           the poses; the first one, for --poses
     castle.cao *.cao                   the model, m
 """
 import argparse
@@ -84,6 +84,11 @@ def pose_words(matrix):
     return ' '.join(f'{word:.9f}' for word in words)
 
 
+def start(number, matrix):
+    return [{'image': f'{number:06}.png', 'object': 1, 'R': [n for row in matrix for n in row[:3]],
+             't': [row[3] for row in matrix]}]
+
+
 def truth(matrix):
     return [{'obj_id': 1, 'cam_R_m2c': [n for row in matrix for n in row[:3]],
              'cam_t_m2c': [1000 * row[3] for row in matrix]}]
@@ -109,8 +114,11 @@ class Scene:
         fx, fy, cx, cy = self.grey
         self.cameras[str(number)] = {'cam_K': [fx, 0, cx, 0, fy, cy, 0, 0, 1],
                                      'depth_scale': 1000 * self.unit_m}
-        if camera_from_object:
-            self.truths[str(number)] = truth(camera_from_object)
+        if not camera_from_object:
+            return
+        if not self.truths:
+            (self.out / 'start.json').write_text(json.dumps(start(number, camera_from_object)))
+        self.truths[str(number)] = truth(camera_from_object)
 
     def finish(self):
         (self.out / 'scene_camera.json').write_text(json.dumps(self.cameras))
@@ -124,7 +132,7 @@ def copy_models(folders, out):
 
 
 def rendered(source, out):
-    camera = (700, 700, 320, 240)
+    camera = (700, 700, 319.5, 239.5)  # ViSP's file counts from the pixels' corners here
     scene = Scene(out, (camera, camera), 0.000030518,
                   [[1, 0, 0, 0.05], [0, 1, 0, 0], [0, 0, 1, 0]])
     copy_models([source / 'Models', source / 'Models/chateau_parts'], out)

@@ -136,9 +136,8 @@ MovingScene make_moving_scene(const Object& object, const MovingSceneOptions& op
           world_from_camera * hand->camera_from_hand[frame] * hand->hand_from_piece[i];
     scene.options.seed = options.render.seed + unsigned(frame);  // of the noise
     Rendering rendering = std::move(render(scene, pool)[0]);
-    moving.frames.push_back(
-        {std::move(rendering.image), std::move(rendering.measured_depth), camera_from_object,
-         rendering.visible_fraction[0]});
+    moving.frames.push_back({std::move(rendering.image), std::move(rendering.measured_depth),
+                             camera_from_object, rendering.visible_fraction[0]});
   }
   return moving;
 }

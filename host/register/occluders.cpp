@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "host/register/measured_depth.h"
 
@@ -53,38 +54,45 @@ void draw_measured(const MeasuredDepth& depth, Occluders& occluders) {
     }
 }
 
-// How many of the 3 x 3 pixels of a map around a point's projection show something nearer. 0
-// outside the image. `depth_m(x, y)`: of the map.
-template <typename DepthInMap>
-int nearer_around(const Camera& camera, const Eigen::Vector3d& in_camera, double tolerance_m,
-                  const DepthInMap& depth_m) {
-  if (in_camera.z() <= 0) return 0;
-  const Eigen::Vector2d pixel = project(camera, in_camera).array().round();
-  if (!(pixel.x() >= 1 && pixel.y() >= 1 && pixel.x() < camera.width - 1 &&
-        pixel.y() < camera.height - 1))
-    return 0;
-  const float limit = float(in_camera.z() - tolerance_m);
-  int nearer = 0;
-  for (int y = int(pixel.y()) - 1; y <= int(pixel.y()) + 1; ++y)
-    for (int x = int(pixel.x()) - 1; x <= int(pixel.x()) + 1; ++x) nearer += depth_m(x, y) < limit;
-  return nearer;
+struct MapPixel {
+  int x, y;
+};
+
+// The pixel of a map that shows a point; empty on the map's border and outside.
+std::optional<MapPixel> map_pixel(const Camera& map, const Eigen::Vector3d& in_camera) {
+  if (in_camera.z() <= 0) return {};
+  const Eigen::Vector2d pixel = project(map, in_camera).array().round();
+  if (!(pixel.x() >= 1 && pixel.y() >= 1 && pixel.x() < map.width - 1 &&
+        pixel.y() < map.height - 1))
+    return {};
+  return MapPixel{int(pixel.x()), int(pixel.y())};
 }
 
-int nearer_around(const Occluders& occluders, const Eigen::Vector3d& in_camera,
-                  double tolerance_m) {
-  return nearer_around(occluders.camera, in_camera, tolerance_m, [&](int x, int y) {
-    return occluders.depth_m[std::size_t(y) * std::size_t(occluders.camera.width) + std::size_t(x)];
-  });
+// Whether test(x, y) holds for one of the 3 x 3 pixels around.
+template <typename Test>
+bool any_around(const MapPixel& middle, const Test& test) {
+  for (int y = middle.y - 1; y <= middle.y + 1; ++y)
+    for (int x = middle.x - 1; x <= middle.x + 1; ++x)
+      if (test(x, y)) return true;
+  return false;
+}
+
+float depth_at_m(const Occluders& occluders, int x, int y) {
+  return occluders.depth_m[std::size_t(y) * std::size_t(occluders.camera.width) + std::size_t(x)];
 }
 
 }  // namespace
 
 bool Occluders::hide(const Eigen::Vector3d& in_camera, double tolerance_m) const {
-  return nearer_around(*this, in_camera, tolerance_m) == 9;
+  const std::optional<MapPixel> at = map_pixel(camera, in_camera);
+  const float limit = float(in_camera.z() - tolerance_m);
+  return at && !any_around(*at, [&](int x, int y) { return depth_at_m(*this, x, y) >= limit; });
 }
 
 bool Occluders::may_hide(const Eigen::Vector3d& in_camera, double tolerance_m) const {
-  return nearer_around(*this, in_camera, tolerance_m) > 0;
+  const std::optional<MapPixel> at = map_pixel(camera, in_camera);
+  const float limit = float(in_camera.z() - tolerance_m);
+  return at && any_around(*at, [&](int x, int y) { return depth_at_m(*this, x, y) < limit; });
 }
 
 void remove_hidden(std::vector<ModelPoint>& points, const Occluders& occluders,
@@ -107,9 +115,10 @@ void remove_hidden(std::vector<ModelPoint>& points, const MeasuredDepth& depth,
   std::erase_if(points, [&](const ModelPoint& point) {
     const Eigen::Vector3d in_camera =
         camera_from_object * Eigen::Vector3d(point.x_m, point.y_m, point.z_m);
-    return nearer_around(map, in_camera, tolerance_m, [&](int x, int y) {
-             return measured_in_map_m(depth, x, y);
-           }) == 9;
+    const std::optional<MapPixel> at = map_pixel(map, in_camera);
+    const float limit = float(in_camera.z() - tolerance_m);
+    return at &&
+           !any_around(*at, [&](int x, int y) { return measured_in_map_m(depth, x, y) >= limit; });
   });
 }
 

@@ -4,6 +4,7 @@
 
 #include "host/core/thinned.h"
 #include "host/model/visible_edges.h"
+#include "host/register/depth_evidence.h"
 #include "host/register/measured_depth.h"
 #include "host/register/occluders.h"
 
@@ -42,11 +43,13 @@ PosePrior near(const Se3& pose) {
 }  // namespace
 
 bool is_on_object(const NormalFit& fit, const TrackOptions& options) {
-  return fit.above_chance() >= options.tracked_above_chance && !fit.is_contradicted();
+  return fit.above_chance() >= options.tracked_above_chance && !is_contradicted(fit.depth);
 }
 
 bool is_better(const NormalFit& fit, const NormalFit& than) {
-  if (fit.is_contradicted() != than.is_contradicted()) return than.is_contradicted();
+  const bool is_excluded = is_contradicted(fit.depth),
+             than_is_excluded = is_contradicted(than.depth);
+  if (is_excluded != than_is_excluded) return than_is_excluded;
   return fit.above_chance() > than.above_chance();
 }
 

@@ -165,12 +165,6 @@ double NormalFit::above_chance() const {
   return by_chance < 1 ? std::max(0.0, (matched - by_chance) / (1 - by_chance)) : 0;
 }
 
-bool NormalFit::is_contradicted() const {
-  constexpr double least_samples = 20, most_of_measured = 0.5;
-  const double measured = depth.agreeing + depth.contradicting;
-  return measured >= least_samples && depth.contradicting > most_of_measured * measured;
-}
-
 NormalFit measure_fit(const NormalSearch& search, const Camera& ideal,
                       const Se3& camera_from_object, const SurfaceFit* surface) {
   NormalFit fit;

@@ -45,8 +45,6 @@ struct NormalFit {
   DepthEvidence depth;  // all 0 where nothing was measured
   // (matched - by_chance) / (1 - by_chance): 1 for a pose on its edges, about 0 for a random one.
   double above_chance() const;
-  // Most of the measured surface lies clearly behind the pose's, which cannot be there.
-  bool is_contradicted() const;
 };
 NormalFit measure_fit(const NormalSearch& search, const Camera& ideal,
                       const Se3& camera_from_object, const SurfaceFit* surface = nullptr);

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "host/detect/suppression.h"
+#include "host/register/depth_evidence.h"
 #include "host/register/occluders.h"
 #include "host/register/thresholds.h"
 #include "host/track/cropped_registration.h"
@@ -245,8 +246,7 @@ std::optional<FollowedPose> Tracker::State::registered(const Instance& instance,
                                                        const SearchedImage& image,
                                                        std::span<const Se3> starts) const {
   const EdgeModel& model = models[std::size_t(instance.track.object)];
-  const std::optional<Detection> found =
-      register_in_crop(image, model, starts, backend, options);
+  const std::optional<Detection> found = register_in_crop(image, model, starts, backend, options);
   if (!found || found->probability < options.min_probability) return std::nullopt;
   const EdgeFollower follower(model, backend, options, nullptr);
   return FollowedPose{found->world_from_object,
@@ -259,7 +259,7 @@ void Tracker::State::judge(Instance& instance, const FollowedPose& found, double
   track.above_chance = found.fit.above_chance();
   const bool is_found = is_on_object(found.fit, options);
   const bool agrees = track.above_chance >= options.lost_above_chance &&
-                      !found.fit.is_contradicted() &&
+                      !is_contradicted(found.fit.depth) &&
                       is_near(found.camera_from_object, instance.motion.predicted(time_s), model);
   const bool is_measured = (is_found || agrees) && found.fit.covariance.allFinite();
   if (is_measured)

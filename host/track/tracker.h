@@ -4,8 +4,8 @@
 // predicted ones (normal_search.h) and fits the pose to them (normal_fit.h). Only where that is
 // doubtful, the pose is registered on the tensor of the object's surroundings
 // (register_objects.h). Where depth was measured, the visible surface is fitted to it beside the
-// edges (surface_fit.h), and what lies clearly nearer hides edges. search() looks for objects that are lost, by detection in the whole image.
-// What it finds joins at the next update.
+// edges (surface_fit.h), and what lies clearly nearer hides edges. search() looks for objects that
+// are lost, by detection in the whole image. What it finds joins at the next update.
 //
 // The tracker starts no thread. search() may run in another thread, with a backend of its own,
 // while update() goes on.
@@ -31,7 +31,7 @@ enum class TrackState {
   // Too few edges agree, or measured depth contradicts: the pose is the best one found, or the
   // predicted one.
   Doubtful,
-  Lost,      // doubtful for too long, or out of the image: the pose is the last one
+  Lost,  // doubtful for too long, or out of the image: the pose is the last one
 };
 std::string to_string(TrackState state);  // "tracked", "doubtful", "lost"
 
@@ -75,7 +75,8 @@ class Tracker {
 
   // All instances in the new image, in the order of their ids. Objects hide each other as far as
   // their poses say. InputError: an image of another size than the camera's, or not later than the
-  // last one; depth of another size. LogicError: while another thread is in a call other than search().
+  // last one; depth of another size. LogicError: while another thread is in a call other than
+  // search().
   const std::vector<Track>& update(const TrackFrame& frame);
 
   // Looks for instances that are lost or not yet found, until the limit is over; returns how many

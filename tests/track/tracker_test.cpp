@@ -267,8 +267,8 @@ TEST_F(DepthTrackerTest, DoubtfulPosesAreRegisteredWithDepth) {
   const Se3 start = retract(truth, off);
   const Image image = flat_of(truth);
   const MeasuredDepth depth{depth_of(truth, 1), noise};
-  const std::optional<Detection> found = register_in_crop(
-      searched(image, camera, &depth), sets[0].model, {&start, 1}, *backend, {});
+  const std::optional<Detection> found =
+      register_in_crop(searched(image, camera, &depth), sets[0].model, {&start, 1}, *backend, {});
   ASSERT_TRUE(found);
   const double z_m = (found->world_from_object * sets[0].model.center_m).z();
   EXPECT_NEAR(z_m, (truth * sets[0].model.center_m).z(), 3e-4);

@@ -3,7 +3,6 @@
 #include "host/bindings/python/src/found_objects.h"
 #include "host/bindings/python/src/parts.h"
 #include "host/bindings/python/src/shared_backend.h"
-#include "host/io/depth_registration.h"
 #include "host/track/track_overlay.h"
 
 namespace edgescout::python {
@@ -79,11 +78,7 @@ class PythonTracker {
   TrackFrame frame_of(const py::array& image, double time_s, const GivenDepth& depth) const {
     TakenImage taken = taken_image(image, camera_, {});
     give_depth(taken, depth);
-    TrackFrame frame{std::make_shared<const Image>(std::move(taken.image)), time_s};
-    if (taken.depth)
-      frame.depth = std::make_shared<const MeasuredDepth>(
-          MeasuredDepth{undistort_depth(*taken.depth, taken.camera), taken.depth_noise});
-    return frame;
+    return {std::make_shared<const Image>(std::move(taken.image)), time_s, measured_depth(taken)};
   }
 
   GivenSets given_;
@@ -147,7 +142,8 @@ void add_tracker(py::module_& module) {
            "depth: as that of detect().")
       .def(
           "search", &PythonTracker::search, py::arg("image"), py::kw_only(),
-          py::arg("depth") = py::none(), py::arg("depth_options") = nullptr, py::arg("backend") = nullptr, py::arg("max_seconds") = std::nullopt,
+          py::arg("depth") = py::none(), py::arg("depth_options") = nullptr,
+          py::arg("backend") = nullptr, py::arg("max_seconds") = std::nullopt,
           "Looks for instances that are lost or not yet found, and returns how many it found. They "
           "join at the next update(), which may go on in another thread meanwhile.")
       .def(
