@@ -97,12 +97,10 @@ TEST(DepthOption, RefusesAWrongUnit) {
 TEST(DepthOption, DoubtsAreSaidOnce) {
   const DepthScene t;
   const std::string starts = t.made.folder.write(
-      "starts.csv",
-      "scene_id,im_id,obj_id,score,R,t,time\n3,0,1,1,1 0 0 0 1 0 0 0 1,0 0 300,-1\n");
+      "starts.csv", "scene_id,im_id,obj_id,score,R,t,time\n3,0,1,1,1 0 0 0 1 0 0 0 1,0 0 300,-1\n");
   const std::vector<std::string> registers = {
-      "register", t.made.scene, "--poses",   starts, "--model", part_file(1),
-      "--unit",   "mm",         "--out",     t.made.out, "--device", "cpu",
-      "--depth",  "scene",      "--no-overlays"};
+      "register", t.made.scene, "--poses",  starts, "--model", part_file(1), "--unit",       "mm",
+      "--out",    t.made.out,   "--device", "cpu",  "--depth", "scene",      "--no-overlays"};
   const std::string other = "is it the depth of another image?",
                     unit = "is the depth of another unit (--depth-unit)?";
   const auto expect_said = [&](const std::string& what) {
@@ -134,9 +132,10 @@ TEST(DepthOption, RefusesDepthThatIsNotThere) {
 
 TEST(DepthOption, OfAScoutIsTheSensorOfACell) {
   SmallScout t;
-  ASSERT_EQ(run_program(t.arguments({"--depth", "scene", "--depth-holes", "0.5", "--max-views", "2"}))
-                .exit_code,
-            0);
+  ASSERT_EQ(
+      run_program(t.arguments({"--depth", "scene", "--depth-holes", "0.5", "--max-views", "2"}))
+          .exit_code,
+      0);
   const nlohmann::json with = t.log();
   ASSERT_EQ(with.at("steps").size(), 2u);
   EXPECT_GT(with["steps"][0].at("depth_measured"), 0.5);
@@ -150,8 +149,8 @@ TEST(DepthOption, OfAScoutIsThatOfRecordedViews) {
   const DepthScene t;
   t.write_depth(0.3, 320, 240);
   const auto scout = [&](const std::vector<std::string>& more) {
-    return joined({{"scout", t.made.scene, "--out", t.made.out, "--device", "cpu",
-                    "--coarse-poses", "200", "--max-views", "1"},
+    return joined({{"scout", t.made.scene, "--out", t.made.out, "--device", "cpu", "--coarse-poses",
+                    "200", "--max-views", "1"},
                    bracket(),
                    more});
   };
