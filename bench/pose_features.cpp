@@ -1,15 +1,16 @@
 // Prints the training data of the probability and the rank of a pose
 // (host/register/pose_classifier.h).
 //
-//   edgescout_bench_pose_features SCENES [--joint] [--models FOLDER] [--set NAME] [--medium N]
-//   [--all-distances | --distance-min M --distance-max M] [--device D] > poses.csv
+//   edgescout_bench_pose_features SCENES [--joint] [--depth] [--models FOLDER] [--set NAME]
+//   [--medium N] [--all-distances | --distance-min M --distance-max M] [--device D] > poses.csv
 //   scripts/fit_probability.py poses.csv...
 //   scripts/fit_probability_over_views.py poses.csv...   (with --joint)
+//   scripts/fit_depth.py poses.csv...                    (with --depth)
 //
 // SCENES is a folder of BOP scenes; FOLDER (default: SCENES/models) has models_info.json and
 // obj_NNNNNN.ply in mm. NAME (default: the folder's) is the first column. Without distances the
 // range is that of the true poses, a tenth wider at both ends; with --all-distances it is detect's
-// default (with_default_distances).
+// default (with_default_distances). With --depth the images' depth images are used.
 //
 // Every image is searched for every object that it shows; with --joint all images of a scene
 // together. One row per pose and view in which its features are measured:
@@ -38,6 +39,7 @@
 #include "host/detect/support_views.h"
 #include "host/detect/suppression.h"
 #include "host/io/bop.h"
+#include "host/io/depth_file.h"
 #include "host/io/image.h"
 #include "host/pipeline.h"
 #include "host/register/pose_classifier.h"
@@ -52,7 +54,7 @@ struct Arguments {
   bench::BopSet set;
   std::string device = "cpu";
   int medium = 200;
-  bool joint = false, all_distances = false;
+  bool joint = false, depth = false, all_distances = false;
   double distance_min_m = 0, distance_max_m = 0;
 };
 
@@ -64,6 +66,7 @@ Arguments parse(int argc, char** argv) {
                          {"--set", &a.set.name},
                          {"--medium", &a.medium},
                          {"--joint", &a.joint},
+                         {"--depth", &a.depth},
                          {"--all-distances", &a.all_distances},
                          {"--distance-min", &a.distance_min_m},
                          {"--distance-max", &a.distance_max_m},
@@ -184,10 +187,14 @@ struct Printer {
   }
 
   static void print_features(const PoseFeatures& f) {
-    std::printf("%.5f,%.5f,%.5f,%.5f,%.5f,%.5f,%.5f,%.0f,%.4f,%.2f,%.5f,%d\n", psi_z_score(f),
+    PoseFeatures grey = f;
+    grey.depth = {};
+    std::printf("%.5f,%.5f,%.5f,%.5f,%.5f,%.5f,%.5f,%.0f,%.4f,%.2f,%.5f,%d,", psi_z_score(f),
                 f.mean_px, unexplained_grey(f.shading), f.support.log_ratio,
                 f.support.interior_log_ratio, f.support.support, f.support.best_displaced, f.points,
                 f.in_image, f.length_px, PoseClassifier::log_odds(f), int(is_informative(f)));
+    std::printf("%.5f,%.0f,%.0f,%.0f,%.0f\n", PoseClassifier::log_odds(grey), f.depth.agreeing,
+                f.depth.contradicting, f.depth.hidden, f.depth.missing);
   }
 };
 
@@ -226,7 +233,8 @@ class Collector {
     std::puts(
         "set,part,image,stage,pose,view,truth,visible,mspd_px,angle_rad,distance_m,rank,"
         "probability,psi_z_score,mean_px,unexplained_grey,log_ratio,interior_log_ratio,support,"
-        "best_displaced,points,in_image,length_px,log_odds,informative");
+        "best_displaced,points,in_image,length_px,log_odds,informative,grey_log_odds,agreeing,"
+        "contradicting,hidden,missing");
     for (const BopScene& scene : scenes_)
       if (arguments_.joint)
         print_scene(scene);
@@ -238,8 +246,11 @@ class Collector {
  private:
   ObjectView prepare(const BopImage& image, const Se3& camera_from_world) const {
     const Image pixels = load_image(image.file);
-    return prepare_view(pixels, bench::camera_of(image, pixels), camera_from_world, backend_,
-                        options_);
+    const Camera camera = bench::camera_of(image, pixels);
+    ObjectView view = prepare_view(pixels, camera, camera_from_world, backend_, options_);
+    if (arguments_.depth && !image.depth_file.empty())
+      add_depth(view, load_depth(image.depth_file, {}, image.depth_unit_m()), camera);
+    return view;
   }
 
   std::string begin_of_rows(int object_id, const std::string& image) const {

@@ -1,13 +1,14 @@
 // Tracking over rendered sequences of known poses.
 //
 //   edgescout_bench_tracking [--frames N] [--seed N] [--part NAME | --mesh-mm FILE]
-//   [--points N] [--no-registration]
+//   [--points N] [--no-registration] [--no-depth] [--noise M]
 //
-// Prints a row for each part and kind of motion: the frames that are tracked, doubtful and lost; of
-// the tracked ones those that are wrong (MSSD above a tenth of the diameter); errors; the time of
-// an update. A lost part is searched for in every frame: how many frames and seconds of search from
-// the loss, or from the first frame in which half of the part is visible, until it is tracked
-// again.
+// Prints two rows for each part and kind of motion, without and with the depth image of a sensor
+// with errors and a third of the part's pixels missing: the frames that are tracked, doubtful and
+// lost; of the tracked ones those that are wrong (MSSD above a tenth of the diameter); errors of
+// the right ones, as MSSD and of the part's centre along the camera's axis; the time of an update.
+// A lost part is searched for in every frame: how many frames and seconds of search from the loss,
+// or from the first frame in which half of the part is visible, until it is tracked again.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -31,7 +32,8 @@ using namespace edgescout;
 struct Arguments {
   int frames = 60, seed = 1, points = TrackOptions{}.max_points;
   std::string part, mesh_mm;
-  bool no_registration = false;
+  bool no_registration = false, no_depth = false;
+  double noise_m = DepthNoise{}.at_one_metre_m;  // that the tracker is told
 };
 
 struct Motion {
@@ -39,13 +41,16 @@ struct Motion {
   double speed_px, turn_rad;
   int hidden_frames = 0;
   double jump_px = 0;
+  double hand_covers = 0;
 };
 constexpr Motion motions[] = {{"slow", 2, 0.01},
                               {"medium", 6, 0.03},
                               {"fast", 15, 0.06},
                               {"very fast", 30, 0.1},
                               {"hidden 8 frames", 3, 0.01, 8},
-                              {"jump of 40 px", 3, 0.01, 0, 40}};
+                              {"jump of 40 px", 3, 0.01, 0, 40},
+                              {"a hand covers a half", 3, 0.01, 0, 0, 0.5},
+                              {"a hand covers 0.8", 3, 0.01, 0, 0, 0.8}};
 
 MovingSceneOptions options_of(const Motion& motion, const Arguments& a) {
   MovingSceneOptions options;
@@ -55,12 +60,15 @@ MovingSceneOptions options_of(const Motion& motion, const Arguments& a) {
   options.render.focal_px = 800;
   options.render.supersampling = 1;
   options.render.shadows = false;  // they take most of the time
+  options.render.depth.on = !a.no_depth;
+  options.render.depth.holes = 1.0 / 3;
   options.frames = a.frames;
   options.speed_px = motion.speed_px;
   options.turn_rad = motion.turn_rad;
   options.hidden_frames = motion.hidden_frames;
   options.jump_frame = motion.jump_px > 0 ? a.frames / 2 : -1;
   options.jump_px = motion.jump_px;
+  options.hand_covers = motion.hand_covers;
   return options;
 }
 
@@ -74,7 +82,7 @@ std::vector<Object> parts_of(const Arguments& a) {
 
 struct Outcome {
   int tracked = 0, doubtful = 0, lost = 0, wrong = 0;
-  std::vector<double> errors, above_chance_right, above_chance_wrong, update_ms;
+  std::vector<double> errors, axis_errors_mm, above_chance_right, above_chance_wrong, update_ms;
   int losses = 0, found_again = 0, frames_to_find = 0;
   double search_seconds = 0;
 };
@@ -88,7 +96,22 @@ TemplateSet set_of(const Object& part, const MovingScene& scene, Backend& backen
   return build_templates(part, templates, backend);
 }
 
-Outcome follow(const Object& part, const MovingScene& scene, const Arguments& a) {
+TrackFrame frame_of(const MovingScene& scene, std::size_t f, const DepthNoise* noise) {
+  TrackFrame frame{std::make_shared<const Image>(scene.frames[f].image), double(f)};
+  if (noise)
+    frame.depth =
+        std::make_shared<const MeasuredDepth>(MeasuredDepth{scene.frames[f].depth, *noise});
+  return frame;
+}
+
+double axis_error_mm(const Se3& found, const Se3& truth, const Object& part) {
+  const Eigen::Vector3d center_m = 0.5 * (part.mesh.box_min_m + part.mesh.box_max_m);
+  return 1000 * std::abs((found * center_m).z() - (truth * center_m).z());
+}
+
+// `noise` null: without depth.
+Outcome follow(const Object& part, const MovingScene& scene, const Arguments& a,
+               const DepthNoise* noise) {
   const std::unique_ptr<Backend> backend = make_backend("cpu");
   const std::vector<TemplateSet> sets{set_of(part, scene, *backend)};
   TrackOptions options;
@@ -99,7 +122,7 @@ Outcome follow(const Object& part, const MovingScene& scene, const Arguments& a)
   Outcome outcome;
   bool was_lost = false;
   for (std::size_t f = 0; f < scene.frames.size(); ++f) {
-    const TrackFrame frame{std::make_shared<const Image>(scene.frames[f].image), double(f)};
+    const TrackFrame frame = frame_of(scene, f, noise);
     auto begin = std::chrono::steady_clock::now();
     if (was_lost && scene.frames[f].visible > 0.5) {
       tracker.search(frame, *backend);
@@ -122,17 +145,21 @@ Outcome follow(const Object& part, const MovingScene& scene, const Arguments& a)
                                              : outcome.lost);
     if (track.state != TrackState::Tracked) continue;
     outcome.wrong += !is_right;
-    if (is_right) outcome.errors.push_back(error);
+    if (!is_right) continue;
+    outcome.errors.push_back(error);
+    outcome.axis_errors_mm.push_back(
+        axis_error_mm(track.world_from_object, scene.frames[f].camera_from_object, part));
   }
   return outcome;
 }
 
-void report(const std::string& part, const Motion& motion, const Outcome& o) {
+void report(const std::string& part, const Motion& motion, bool has_depth, const Outcome& o) {
   std::printf(
-      "| %s | %s | %d | %d | %d | %d | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f "
+      "| %s | %s | %s | %d | %d | %d | %d | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f | %.2f "
       "| %d | %d | %d | %.1f |\n",
-      part.c_str(), motion.name, o.tracked, o.doubtful, o.lost, o.wrong,
+      part.c_str(), motion.name, has_depth ? "yes" : "no", o.tracked, o.doubtful, o.lost, o.wrong,
       100 * quantile(o.errors, 0.5), 100 * quantile(o.errors, 0.95),
+      quantile(o.axis_errors_mm, 0.5), quantile(o.axis_errors_mm, 0.95),
       quantile(o.above_chance_right, 0.05), quantile(o.above_chance_wrong, 0.95),
       quantile(o.update_ms, 0.5), quantile(o.update_ms, 0.99), o.losses, o.found_again,
       o.frames_to_find, o.search_seconds);
@@ -149,17 +176,24 @@ int main(int argc, char** argv) try {
                          {"--points", &a.points},
                          {"--part", &a.part},
                          {"--mesh-mm", &a.mesh_mm},
-                         {"--no-registration", &a.no_registration}});
+                         {"--no-registration", &a.no_registration},
+                         {"--no-depth", &a.no_depth},
+                         {"--noise", &a.noise_m}});
   std::puts(
-      "| part | motion | tracked | doubtful | lost | wrong of tracked | error, median, % of the "
-      "diameter | 95 % | above chance, 5 % of right | 95 % of wrong | ms, median | 99 % | losses | "
+      "| part | motion | depth | tracked | doubtful | lost | wrong of tracked | error, median, % "
+      "of the "
+      "diameter | 95 % | along the axis, median, mm | 95 % | above chance, 5 % of right | 95 % of "
+      "wrong | ms, median | 99 % | losses | "
       "found again | frames searched | s of search |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
   ThreadPool pool(0);
+  const DepthNoise noise{DepthNoise{}.floor_m, a.noise_m};
   for (const Object& part : parts_of(a))
-    for (const Motion& motion : motions)
-      report(part.mesh.name, motion,
-             follow(part, make_moving_scene(part, options_of(motion, a), pool), a));
+    for (const Motion& motion : motions) {
+      const MovingScene scene = make_moving_scene(part, options_of(motion, a), pool);
+      report(part.mesh.name, motion, false, follow(part, scene, a, nullptr));
+      if (!a.no_depth) report(part.mesh.name, motion, true, follow(part, scene, a, &noise));
+    }
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 2;

@@ -63,6 +63,7 @@ int track(TrackArguments& arguments) {
     throw InputError("command line", "--no-search", "no --poses", "poses to follow");
   request.out = arguments.out;
   request.search = !arguments.no_search;
+  request.depth = arguments.reading.depth;
   request.overlays = !arguments.no_overlays;
   request.tracking.min_probability = request.tracking.pipeline.detect.min_probability;
   request.tracking.validate();
@@ -94,6 +95,7 @@ void add_files(CLI::App& verb, TrackArguments& arguments) {
                   "them they are searched for")
       ->type_name("FILE");
   add_camera(verb, arguments.request.calibration);
+  add_depth(verb, arguments.reading.depth);
   add_results_folder(verb, arguments.out);
   add_device(verb, arguments.device);
 }

@@ -45,6 +45,7 @@ class SequenceRunner {
         backend_(backend),
         request_(request),
         camera_(given_camera(request.calibration, images)),
+        depth_(request.depth),
         files_(request.out, images, sets),
         progress_("track", images.size(), std::cerr, stderr_is_terminal()) {
     for (const RegisterJob& job : starts) starts_[job.views[0].name] = &job.starts;
@@ -82,7 +83,8 @@ class SequenceRunner {
       sequence_camera_ = camera_of(input, image->width, image->height, given());
       tracker.emplace(sets_, sequence_camera_, backend_, request_.tracking);
     }
-    const TrackFrame at{image, frame / request_.frame_rate};
+    const TrackFrame at{image, frame / request_.frame_rate,
+                        depth_.read(input, sequence_camera_, backend_.threads())};
     if (const auto starts = starts_.find(input.name); starts != starts_.end())
       for (const RegisterJob::Start& start : *starts->second)
         tracker->add(start.model, start.camera_from_object);
@@ -119,6 +121,7 @@ class SequenceRunner {
   const TrackRequest& request_;
   std::optional<Camera> camera_;
   Camera sequence_camera_;
+  DepthReader depth_;
   TrackFiles files_;
   Progress progress_;
   std::map<std::string, const std::vector<RegisterJob::Start>*> starts_;  // by name of image

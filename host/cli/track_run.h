@@ -21,6 +21,7 @@ struct TrackRequest {
   int search_every = 15;   // frames
   double max_seconds = 0;  // of each search; 0: no limit
   double frame_rate = 30;  // Hz
+  DepthArguments depth;
   TrackOptions tracking;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <span>
 
@@ -61,6 +62,43 @@ struct PassingBoard {
   }
 };
 
+// Fingers and a palm in a plane before the part. They follow it, as the hand that carries it would.
+struct Hand {
+  std::vector<Object> pieces;
+  std::vector<Se3> hand_from_piece;
+  std::vector<Se3> camera_from_hand;
+
+  void add(const Mesh& mesh, const Se3& placed) {
+    pieces.push_back({int(pieces.size()) + 2, mesh, {}});
+    hand_from_piece.push_back(placed);
+  }
+
+  // The tips of the fingers are at the hand's origin; they point along -x.
+  Hand(const MovingSceneOptions& options, double distance_m, double diameter_m,
+       std::span<const Se3> path) {
+    const double radius_m = 0.07 * diameter_m, length_m = 0.8 * diameter_m;
+    const Eigen::Quaterniond along_x = so3_exp({0, 0.5 * std::numbers::pi, 0});
+    for (const double y : {-0.3, -0.1, 0.1, 0.3})
+      add(make_bar(radius_m, length_m), {along_x, {0.5 * length_m, y * diameter_m, 0}});
+    add(make_box({0.6 * diameter_m, 0.8 * diameter_m, 2 * radius_m}),
+        {Eigen::Quaterniond::Identity(), {length_m + 0.3 * diameter_m, 0, 0}});
+    const double nearer = 1 - 0.65 * diameter_m / distance_m;
+    for (int frame = 0; frame < options.frames; ++frame) {
+      const double reach = std::sin(std::numbers::pi * frame / options.frames);
+      Se3 pose;
+      pose.translation_m = nearer * path[std::size_t(frame)].translation_m;
+      pose.translation_m.x() += (0.6 - (0.1 + options.hand_covers) * reach) * diameter_m;
+      camera_from_hand.push_back(pose);
+    }
+  }
+};
+
+// Appends something to a scene, at no pose yet.
+void place(SimulatedScene& scene, const Object& object) {
+  scene.placed.push_back({int(scene.objects.size()), {}, {}, false, true});
+  scene.objects.push_back(object);
+}
+
 }  // namespace
 
 MovingScene make_moving_scene(const Object& object, const MovingSceneOptions& options,
@@ -79,19 +117,27 @@ MovingScene make_moving_scene(const Object& object, const MovingSceneOptions& op
   std::optional<PassingBoard> board;
   if (options.hidden_frames > 0) {
     board.emplace(options, camera, distance_m, object.mesh.diameter_m, path);
-    scene.placed.push_back({int(scene.objects.size()), {}, {}, false, true});
-    scene.objects.push_back(board->object);
+    place(scene, board->object);
+  }
+  std::optional<Hand> hand;
+  const std::size_t first_of_hand = scene.placed.size();
+  if (options.hand_covers > 0) {
+    hand.emplace(options, distance_m, object.mesh.diameter_m, path);
+    for (const Object& piece : hand->pieces) place(scene, piece);
   }
   MovingScene moving{undistorted(camera), {}};
   for (std::size_t frame = 0; frame < path.size(); ++frame) {
     const Se3 camera_from_object = path[frame] * part_from_object;
     scene.placed[0].world_from_object = world_from_camera * camera_from_object;
     if (board)
-      scene.placed.back().world_from_object = world_from_camera * board->camera_from_board[frame];
+      scene.placed[1].world_from_object = world_from_camera * board->camera_from_board[frame];
+    for (std::size_t i = 0; hand && i < hand->pieces.size(); ++i)
+      scene.placed[first_of_hand + i].world_from_object =
+          world_from_camera * hand->camera_from_hand[frame] * hand->hand_from_piece[i];
     scene.options.seed = options.render.seed + unsigned(frame);  // of the noise
     Rendering rendering = std::move(render(scene, pool)[0]);
-    moving.frames.push_back(
-        {std::move(rendering.image), camera_from_object, rendering.visible_fraction[0]});
+    moving.frames.push_back({std::move(rendering.image), std::move(rendering.measured_depth),
+                             camera_from_object, rendering.visible_fraction[0]});
   }
   return moving;
 }

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "host/core/depth_image.h"
 #include "host/core/types.h"
 #include "host/render/scene.h"
 
@@ -20,10 +21,14 @@ struct MovingSceneOptions {
   double jump_px = 60;       // by so much
   // A bar passes before the part and hides all of it for so many frames in the middle; 0: none.
   int hidden_frames = 0;
+  // A hand of four fingers reaches over the part, close before it, and covers so much of the part's
+  // diameter in the middle of the sequence; 0: none.
+  double hand_covers = 0;
 };
 
 struct MovingFrame {
   Image image;
+  DepthImage depth;  // as measured by render.depth; empty where that is off
   Se3 camera_from_object;
   double visible = 0;  // share of the part's silhouette, also outside the image
 };

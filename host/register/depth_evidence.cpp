@@ -4,6 +4,12 @@
 
 namespace edgescout {
 
+DepthEvidence evidence_of(const PoseDepth& depth) {
+  const double mean_m = depth.weight_sum > 0 ? depth.offset_m / double(depth.weight_sum) : 0;
+  return {depth.agreeing, depth.contradicting, depth.hidden, depth.missing,
+          mean_m * depth.agreeing};
+}
+
 Grid<DepthEvidence> depth_evidence(const Scene& scene, std::span<const ObjectPose> poses,
                                    const Grid<VisibleInView>& visible) {
   Grid<DepthEvidence> evidence(poses.size(), scene.views.size());
@@ -28,12 +34,7 @@ Grid<DepthEvidence> depth_evidence(const Scene& scene, std::span<const ObjectPos
   std::vector<PoseDepth> found(problems.size());
   scene.backend.pose_depth(depths, *scene.backend.make_surface_points(std::move(points)), problems,
                            pose_depth_options(scene, JUDGEMENT_BAND), found);
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const PoseDepth& depth = found[i];
-    const double mean_m = depth.weight_sum > 0 ? depth.offset_m / double(depth.weight_sum) : 0;
-    *cells[i] = {depth.agreeing, depth.contradicting, depth.hidden, depth.missing,
-                 mean_m * depth.agreeing};
-  }
+  for (std::size_t i = 0; i < found.size(); ++i) *cells[i] = evidence_of(found[i]);
   return evidence;
 }
 

@@ -9,6 +9,8 @@
 
 namespace edgescout {
 
+DepthEvidence evidence_of(const PoseDepth& compared);
+
 // Rows are poses, columns views; `visible` is that of the poses (visible_in_views). All zero where
 // the view has no depth.
 Grid<DepthEvidence> depth_evidence(const Scene& scene, std::span<const ObjectPose> poses,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <Eigen/LU>
+
 #include "host/core/thinned.h"
 #include "host/register/measured_depth.h"
 
@@ -10,6 +12,7 @@ namespace edgescout {
 namespace {
 
 constexpr double LEAST_BAND_M = 1.5e-3;
+constexpr double INDEPENDENT_SAMPLES = 25;
 
 }  // namespace
 
@@ -28,20 +31,36 @@ WorldSystem world_system(const PoseDepth& depth, const Se3& camera_from_world, d
   return in_world;
 }
 
-PoseDepthOptions pose_depth_options(const Scene& scene, double band) {
+PoseDepthOptions pose_depth_options(const DepthNoise& noise, double diameter_m, double band) {
   PoseDepthOptions options;
-  options.noise_floor_m = options.noise_per_m = 0;
+  options.noise_floor_m = std::max(float(noise.floor_m), DEPTH_MIN_NOISE_M);
+  options.noise_per_m = float(noise.at_one_metre_m);
+  options.band_m = float(std::max(LEAST_BAND_M, band * diameter_m));
+  return options;
+}
+
+PoseDepthOptions pose_depth_options(const Scene& scene, double band) {
+  DepthNoise noise{0, 0};
   for (const ObjectView& view : scene.views)
     if (view.depth) {
-      options.noise_floor_m = std::max(options.noise_floor_m, float(view.depth->noise.floor_m));
-      options.noise_per_m = std::max(options.noise_per_m, float(view.depth->noise.at_one_metre_m));
+      noise.floor_m = std::max(noise.floor_m, view.depth->noise.floor_m);
+      noise.at_one_metre_m = std::max(noise.at_one_metre_m, view.depth->noise.at_one_metre_m);
     }
-  options.noise_floor_m = std::max(options.noise_floor_m, DEPTH_MIN_NOISE_M);
   double diameter_m = 0;
   for (const EdgeModel& model : scene.models)
     diameter_m = std::max(diameter_m, model.mesh.diameter_m);
-  options.band_m = float(std::max(LEAST_BAND_M, band * diameter_m));
-  return options;
+  return pose_depth_options(noise, diameter_m, band);
+}
+
+double independent_share(double weight_sum) {
+  return weight_sum > INDEPENDENT_SAMPLES ? INDEPENDENT_SAMPLES / weight_sum : 1;
+}
+
+void add_depth_information(Matrix6d& covariance, const Matrix6d& depth_hessian, double weight_sum) {
+  if (!(weight_sum > 0) || !covariance.allFinite()) return;
+  const Matrix6d information = covariance.inverse() + independent_share(weight_sum) * depth_hessian;
+  const Matrix6d joined = information.inverse();
+  if (joined.allFinite()) covariance = 0.5 * (joined + joined.transpose());
 }
 
 DepthSystems::DepthSystems(const Scene& scene, const SurfacesInViews& surfaces, int most,

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "host/core/depth_image.h"
 #include "host/core/grid.h"
 #include "host/register/lm_state.h"
 #include "host/register/scene.h"
@@ -46,7 +47,16 @@ WorldSystem world_system(const PoseDepth& in_camera, const Se3& camera_from_worl
 // poses whose surface would count as hidden when they are judged.
 inline constexpr double REGISTRATION_BAND = 0.1, JUDGEMENT_BAND = 0.04;
 
+PoseDepthOptions pose_depth_options(const DepthNoise& noise, double diameter_m, double band);
 // The options for the noise of the scene's depth and a band of the size of its largest object.
 PoseDepthOptions pose_depth_options(const Scene& scene, double band);
+
+// The share of their information that samples with this sum of weights have: as much as 25
+// independent samples at most, since the errors of neighbours depend on each other.
+double independent_share(double weight_sum);
+
+// Adds to a covariance by edges what measured depth informs, in the same tangent. Unchanged where
+// nothing is measured, or edges do not determine the pose.
+void add_depth_information(Matrix6d& covariance, const Matrix6d& depth_hessian, double weight_sum);
 
 }  // namespace edgescout

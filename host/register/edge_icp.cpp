@@ -122,10 +122,6 @@ void set_covariance(PoseEstimate& estimate, std::span<const ObjectView> views,
   estimate.covariance = common_to_edges(estimate.explained) * sum.covariance();
 }
 
-// Measured depth counts as much as this many independent samples at most: the errors of neighbours
-// depend on each other.
-constexpr double INDEPENDENT_SAMPLES = 25;
-
 // Of one view, in the world's tangent, in standard deviations. On the host: the threads have a pose
 // each.
 LineSystem depth_system(const ObjectView& view, const Se3& world_from_object,
@@ -206,15 +202,6 @@ Iterated iterate(const Se3& start, const PoseInViews& in, const EdgeIcpOptions& 
   return enough(end, options) ? at : Iterated{start};
 }
 
-// The information of depth adds to that of the edges.
-void add_depth(Matrix6d& covariance, const LineSystem& depth) {
-  if (!(depth.weight > 0) || !covariance.allFinite()) return;
-  const double share = std::min(1.0, INDEPENDENT_SAMPLES / depth.weight);
-  const Matrix6d information = covariance.inverse() + share * depth.hessian;
-  const Matrix6d joined = information.inverse();
-  if (joined.allFinite()) covariance = 0.5 * (joined + joined.transpose());
-}
-
 void edge_icp_of_one(PoseEstimate& estimate, const PoseInViews& in, const EdgeIcpOptions& options) {
   const Iterated found = iterate(estimate.world_from_object, in, options);
   const bool is_kept = found.convergence == Convergence::TooFewEdges;
@@ -223,7 +210,8 @@ void edge_icp_of_one(PoseEstimate& estimate, const PoseInViews& in, const EdgeIc
   estimate.last_step_px = found.last_step_px;
   estimate.world_from_object = found.pose;
   set_covariance(estimate, in.views, in.visible, options.rounds.back(), options.max_turn_rad);
-  add_depth(estimate.covariance, depth_system(found.pose, in));
+  const LineSystem depth = depth_system(found.pose, in);
+  add_depth_information(estimate.covariance, depth.hessian, depth.weight);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "host/register/measured_depth.h"
 
@@ -27,55 +28,71 @@ void draw(const EdgeModel& model, std::span<const Se3> camera_from_object, Occlu
 
 constexpr double OCCLUDING_SIGMAS = 3;
 
-// The farthest of the measured pixels of each pixel of the map: of noise and holes no occluder is
-// made. Empty where fewer than half of them are measured.
+// The measured surface in one pixel of the map: the farthest of its pixels in the image, farther by
+// the sensor's error. Of noise and holes no occluder is made: DEPTH_EMPTY where fewer than half of
+// them are measured.
+float measured_in_map_m(const MeasuredDepth& depth, int x, int y) {
+  const int side = int(REDUCTION);
+  float farthest_m = DEPTH_MISSING;
+  int measured = 0;
+  for (int v = side * y; v < std::min(side * (y + 1), depth.image.height); ++v)
+    for (int u = side * x; u < std::min(side * (x + 1), depth.image.width); ++u) {
+      farthest_m = std::max(farthest_m, depth.image.at(u, v));
+      measured += depth.image.at(u, v) > 0;
+    }
+  if (2 * measured < side * side) return DEPTH_EMPTY;
+  return farthest_m + float(OCCLUDING_SIGMAS * depth.noise.sigma_m(farthest_m));
+}
+
 void draw_measured(const MeasuredDepth& depth, Occluders& occluders) {
   const Camera& map = occluders.camera;
-  const int side = int(REDUCTION);
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x) {
-      float farthest_m = DEPTH_MISSING;
-      int measured = 0;
-      for (int v = side * y; v < std::min(side * (y + 1), depth.image.height); ++v)
-        for (int u = side * x; u < std::min(side * (x + 1), depth.image.width); ++u) {
-          farthest_m = std::max(farthest_m, depth.image.at(u, v));
-          measured += depth.image.at(u, v) > 0;
-        }
-      if (2 * measured < side * side) continue;
       float& nearest_m =
           occluders.depth_m[std::size_t(y) * std::size_t(map.width) + std::size_t(x)];
-      nearest_m = std::min(nearest_m,
-                           farthest_m + float(OCCLUDING_SIGMAS * depth.noise.sigma_m(farthest_m)));
+      nearest_m = std::min(nearest_m, measured_in_map_m(depth, x, y));
     }
 }
 
-// How many of the 3 x 3 pixels around a point's projection show something nearer. 0 outside the
-// image.
-int nearer_around(const Occluders& occluders, const Eigen::Vector3d& in_camera,
-                  double tolerance_m) {
-  const Camera& camera = occluders.camera;
-  if (in_camera.z() <= 0) return 0;
-  const Eigen::Vector2d pixel = project(camera, in_camera).array().round();
-  if (!(pixel.x() >= 1 && pixel.y() >= 1 && pixel.x() < camera.width - 1 &&
-        pixel.y() < camera.height - 1))
-    return 0;
-  const float limit = float(in_camera.z() - tolerance_m);
-  const std::size_t width = std::size_t(camera.width),
-                    middle = std::size_t(pixel.y()) * width + std::size_t(pixel.x());
-  int nearer = 0;
-  for (const std::size_t row : {middle - width, middle, middle + width})
-    for (const std::size_t i : {row - 1, row, row + 1}) nearer += occluders.depth_m[i] < limit;
-  return nearer;
+struct MapPixel {
+  int x, y;
+};
+
+// The pixel of a map that shows a point; empty on the map's border and outside.
+std::optional<MapPixel> map_pixel(const Camera& map, const Eigen::Vector3d& in_camera) {
+  if (in_camera.z() <= 0) return {};
+  const Eigen::Vector2d pixel = project(map, in_camera).array().round();
+  if (!(pixel.x() >= 1 && pixel.y() >= 1 && pixel.x() < map.width - 1 &&
+        pixel.y() < map.height - 1))
+    return {};
+  return MapPixel{int(pixel.x()), int(pixel.y())};
+}
+
+// Whether test(x, y) holds for one of the 3 x 3 pixels around.
+template <typename Test>
+bool any_around(const MapPixel& middle, const Test& test) {
+  for (int y = middle.y - 1; y <= middle.y + 1; ++y)
+    for (int x = middle.x - 1; x <= middle.x + 1; ++x)
+      if (test(x, y)) return true;
+  return false;
+}
+
+float depth_at_m(const Occluders& occluders, int x, int y) {
+  return occluders.depth_m[std::size_t(y) * std::size_t(occluders.camera.width) + std::size_t(x)];
 }
 
 }  // namespace
 
 bool Occluders::hide(const Eigen::Vector3d& in_camera, double tolerance_m) const {
-  return nearer_around(*this, in_camera, tolerance_m) == 9;
+  const std::optional<MapPixel> at = map_pixel(camera, in_camera);
+  const float limit = float(in_camera.z() - tolerance_m);
+  return at && !any_around(*at, [&](int x, int y) { return depth_at_m(*this, x, y) >= limit; });
 }
 
 bool Occluders::may_hide(const Eigen::Vector3d& in_camera, double tolerance_m) const {
-  return nearer_around(*this, in_camera, tolerance_m) > 0;
+  const std::optional<MapPixel> at = map_pixel(camera, in_camera);
+  const float limit = float(in_camera.z() - tolerance_m);
+  return at && any_around(*at, [&](int x, int y) { return depth_at_m(*this, x, y) < limit; });
 }
 
 void remove_hidden(std::vector<ModelPoint>& points, const Occluders& occluders,
@@ -90,6 +107,19 @@ void remove_hidden(std::vector<ModelPoint>& points, const Occluders& occluders,
   }
   points.resize(kept);
   if (marks) marks->resize(kept);
+}
+
+void remove_hidden(std::vector<ModelPoint>& points, const MeasuredDepth& depth,
+                   const Camera& camera, const Se3& camera_from_object, double tolerance_m) {
+  const Camera map = scaled(camera, 1 / REDUCTION);
+  std::erase_if(points, [&](const ModelPoint& point) {
+    const Eigen::Vector3d in_camera =
+        camera_from_object * Eigen::Vector3d(point.x_m, point.y_m, point.z_m);
+    const std::optional<MapPixel> at = map_pixel(map, in_camera);
+    const float limit = float(in_camera.z() - tolerance_m);
+    return at &&
+           !any_around(*at, [&](int x, int y) { return measured_in_map_m(depth, x, y) >= limit; });
+  });
 }
 
 std::shared_ptr<const Occluders> make_occluders(std::span<const EdgeModel> models,

@@ -31,6 +31,11 @@ void remove_hidden(std::vector<ModelPoint>& points, const Occluders& occluders,
                    const Se3& camera_from_object, double tolerance_m,
                    SilhouetteMarks* marks = nullptr);
 
+// Removes those that a measured surface hides, without a map of the whole image: for few points.
+// `camera` is that of the depth image.
+void remove_hidden(std::vector<ModelPoint>& points, const MeasuredDepth& depth,
+                   const Camera& camera, const Se3& camera_from_object, double tolerance_m);
+
 // Of the known objects and of the view's depth image: a measured surface is nearer by three of its
 // standard deviations than what it hides. Null where there is neither. Ignores the view's own
 // occluders.

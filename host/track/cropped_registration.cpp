@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/core/lens.h"
+#include "host/register/measured_depth.h"
 #include "host/register_objects.h"
 
 namespace edgescout {
@@ -35,10 +36,27 @@ Image cut_out(const Image& image, const Interval& columns, const Interval& rows)
   return part;
 }
 
+// What the nearest pixels of another ideal camera at the same place measured.
+std::shared_ptr<const MeasuredDepth> seen_from(const MeasuredDepth& depth, const Camera& measured,
+                                               const Camera& ideal) {
+  MeasuredDepth part{{ideal.width, ideal.height, {}}, depth.noise};
+  for (int y = 0; y < ideal.height; ++y)
+    for (int x = 0; x < ideal.width; ++x) {
+      const Eigen::Vector2d at =
+          project(measured, ray_through(ideal, Eigen::Vector2d(x, y))).array().round();
+      const bool is_inside =
+          at.x() >= 0 && at.y() >= 0 && at.x() < measured.width && at.y() < measured.height;
+      part.image.z_m.push_back(is_inside ? depth.image.at(int(at.x()), int(at.y()))
+                                         : DEPTH_MISSING);
+    }
+  return std::make_shared<const MeasuredDepth>(std::move(part));
+}
+
 }  // namespace
 
-std::optional<Crop> crop_around(const Image& image, const Camera& camera, const EdgeModel& model,
+std::optional<Crop> crop_around(const SearchedImage& image, const EdgeModel& model,
                                 const Se3& camera_from_object) {
+  const Camera& camera = image.camera;
   const Eigen::Vector3d center_m = camera_from_object * model.center_m;
   if (!(center_m.z() > model.radius_m)) return std::nullopt;
   const Eigen::Vector2d middle_px = pixel_seeing(camera, center_m.head<2>() / center_m.z());
@@ -48,7 +66,7 @@ std::optional<Crop> crop_around(const Image& image, const Camera& camera, const 
   const Interval columns = pixels_around(middle_px.x(), half_px, camera.width),
                  rows = pixels_around(middle_px.y(), half_px, camera.height);
   if (std::min(columns.size, rows.size) < least_px / 2) return std::nullopt;
-  Crop crop{cut_out(image, columns, rows), camera};
+  Crop crop{cut_out(*image.image, columns, rows), camera};
   crop.camera.width = columns.size;
   crop.camera.height = rows.size;
   crop.camera.cx -= columns.first;
@@ -56,12 +74,13 @@ std::optional<Crop> crop_around(const Image& image, const Camera& camera, const 
   return crop;
 }
 
-std::optional<Detection> register_in_crop(const Image& image, const Camera& camera,
-                                          const EdgeModel& model, std::span<const Se3> starts,
-                                          Backend& backend, const TrackOptions& options) {
-  const std::optional<Crop> crop = crop_around(image, camera, model, starts.front());
+std::optional<Detection> register_in_crop(const SearchedImage& image, const EdgeModel& model,
+                                          std::span<const Se3> starts, Backend& backend,
+                                          const TrackOptions& options) {
+  const std::optional<Crop> crop = crop_around(image, model, starts.front());
   if (!crop) return std::nullopt;
-  const ObjectView view = prepare_view(crop->image, crop->camera, Se3{}, backend, options.pipeline);
+  ObjectView view = prepare_view(crop->image, crop->camera, Se3{}, backend, options.pipeline);
+  if (image.depth) view.depth = seen_from(*image.depth, image.ideal, view.camera);
   std::vector<ObjectPose> poses;
   for (const Se3& start : starts) poses.push_back({0, start});
   const RegisterObjectsOptions registration{options.pipeline.tensor, options.refine, {}};

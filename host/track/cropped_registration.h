@@ -7,6 +7,7 @@
 
 #include "host/core/types.h"
 #include "host/register/refine.h"
+#include "host/track/normal_search.h"
 #include "host/track/track_options.h"
 #include "kernels/backend.h"
 
@@ -18,13 +19,13 @@ struct Crop {
   Image image;
   Camera camera;
 };
-std::optional<Crop> crop_around(const Image& image, const Camera& camera, const EdgeModel& model,
+std::optional<Crop> crop_around(const SearchedImage& image, const EdgeModel& model,
                                 const Se3& camera_from_object);
 
 // The most probable of the poses registered from the starts (all in the camera frame) in the
 // surroundings of the first one. Empty where the object is not in the image.
-std::optional<Detection> register_in_crop(const Image& image, const Camera& camera,
-                                          const EdgeModel& model, std::span<const Se3> starts,
-                                          Backend& backend, const TrackOptions& options);
+std::optional<Detection> register_in_crop(const SearchedImage& image, const EdgeModel& model,
+                                          std::span<const Se3> starts, Backend& backend,
+                                          const TrackOptions& options);
 
 }  // namespace edgescout

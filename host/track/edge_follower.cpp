@@ -4,6 +4,8 @@
 
 #include "host/core/thinned.h"
 #include "host/model/visible_edges.h"
+#include "host/register/depth_evidence.h"
+#include "host/register/measured_depth.h"
 #include "host/register/occluders.h"
 
 namespace edgescout {
@@ -11,6 +13,7 @@ namespace edgescout {
 namespace {
 
 constexpr double near_reach_px = 4;
+constexpr int most_surface_samples = 200;
 
 // Both share one size: odd rows and columns at the end are left out.
 Image half_of(const Image& image) {
@@ -39,14 +42,35 @@ PosePrior near(const Se3& pose) {
 
 }  // namespace
 
-std::vector<ModelPoint> EdgeFollower::visible_points(const Se3& camera_from_object) const {
+bool is_on_object(const NormalFit& fit, const TrackOptions& options) {
+  return fit.above_chance() >= options.tracked_above_chance && !is_contradicted(fit.depth);
+}
+
+bool is_better(const NormalFit& fit, const NormalFit& than) {
+  const bool is_excluded = is_contradicted(fit.depth),
+             than_is_excluded = is_contradicted(than.depth);
+  if (is_excluded != than_is_excluded) return than_is_excluded;
+  return fit.above_chance() > than.above_chance();
+}
+
+VisibleObject EdgeFollower::visible_at(const SearchedImage& image,
+                                       const Se3& camera_from_object) const {
   VisibilityOptions visibility;
   visibility.depth_map_size_px = 96;
-  std::vector<ModelPoint> points =
-      std::move(visible_edges(model_, {&camera_from_object, 1}, backend_, visibility)[0]);
-  if (occluders_)
-    remove_hidden(points, *occluders_, camera_from_object, occlusion_tolerance_m(model_));
-  return thinned(points, options_.max_points);
+  VisibleObject visible;
+  VisibleSurfaces surfaces;
+  std::vector<ModelPoint> edges =
+      std::move(visible_edges(model_, {&camera_from_object, 1}, backend_, visibility, nullptr,
+                              image.depth ? &surfaces : nullptr)[0]);
+  const double tolerance_m = occlusion_tolerance_m(model_);
+  if (occluders_) remove_hidden(edges, *occluders_, camera_from_object, tolerance_m);
+  if (image.depth) {
+    remove_hidden(edges, *image.depth, image.ideal, camera_from_object, tolerance_m);
+    visible.surface.emplace(*image.depth, image.ideal, model_,
+                            thinned(surfaces[0], most_surface_samples), backend_.threads());
+  }
+  visible.edges = thinned(edges, options_.max_points);
+  return visible;
 }
 
 NormalSearch EdgeFollower::search(const SearchedImage& image, const Se3& pose,
@@ -59,31 +83,34 @@ NormalSearch EdgeFollower::search(const SearchedImage& image, const Se3& pose,
 
 FollowedPose EdgeFollower::follow_near(const SearchedImage& image, const Se3& start,
                                        const SeenObject* earlier) const {
-  std::vector<ModelPoint> points = visible_points(start);
-  NormalSearch lines = search(image, start, points, earlier, options_.search_px);
-  Se3 pose = fit_to_edges(lines, image.ideal, start, 0.5 * options_.search_px, 5, near(start));
-  pose = fit_to_edges(lines, image.ideal, pose, 1.5, 5, near(pose));
-  if (has_turned(start, pose)) points = visible_points(pose);
-  lines = search(image, pose, points, earlier, near_reach_px);
-  pose = fit_to_edges(lines, image.ideal, pose, 1.5, 4, near(pose));
-  pose = fit_to_edges(lines, image.ideal, pose, 0.8, 4, near(pose));
-  lines = search(image, pose, points, earlier, options_.search_px);
-  return {pose, measure_fit(lines, image.ideal, pose)};
+  VisibleObject seen = visible_at(image, start);
+  const auto fitted = [&](const NormalSearch& lines, const Se3& pose, const FitRound& round) {
+    return fit_to_edges(lines, image.ideal, pose, round, near(pose), seen.measured());
+  };
+  NormalSearch lines = search(image, start, seen.edges, earlier, options_.search_px);
+  Se3 pose = fitted(lines, start, {0.5 * options_.search_px, 5, 10});
+  pose = fitted(lines, pose, {1.5, 5, 5});
+  if (has_turned(start, pose)) seen = visible_at(image, pose);
+  lines = search(image, pose, seen.edges, earlier, near_reach_px);
+  pose = fitted(lines, pose, {1.5, 4, 3});
+  pose = fitted(lines, pose, {0.8, 4, 3});
+  lines = search(image, pose, seen.edges, earlier, options_.search_px);
+  return {pose, measure_fit(lines, image.ideal, pose, seen.measured())};
 }
 
 Se3 EdgeFollower::follow_far(const SearchedImage& half, const Se3& start,
                              const SeenObject* earlier) const {
-  const std::vector<ModelPoint> points = visible_points(start);
-  const NormalSearch lines = search(half, start, points, earlier, options_.far_search_px);
+  const VisibleObject seen = visible_at(half, start);
+  const NormalSearch lines = search(half, start, seen.edges, earlier, options_.far_search_px);
   const Se3 shifted = shifted_to_edges(lines, half.ideal, start);
-  return fit_to_edges(lines, half.ideal, shifted, 6, 6, near(shifted));
+  return fit_to_edges(lines, half.ideal, shifted, {6, 6, 20}, near(shifted), seen.measured());
 }
 
 NormalFit EdgeFollower::measure(const SearchedImage& image, const Se3& camera_from_object,
                                 const SeenObject* earlier) const {
-  const std::vector<ModelPoint> points = visible_points(camera_from_object);
-  return measure_fit(search(image, camera_from_object, points, earlier, options_.search_px),
-                     image.ideal, camera_from_object);
+  const VisibleObject seen = visible_at(image, camera_from_object);
+  return measure_fit(search(image, camera_from_object, seen.edges, earlier, options_.search_px),
+                     image.ideal, camera_from_object, seen.measured());
 }
 
 FollowedPose EdgeFollower::follow(const SearchedImage& image, std::span<const Se3> starts,
@@ -91,13 +118,13 @@ FollowedPose EdgeFollower::follow(const SearchedImage& image, std::span<const Se
   FollowedPose best;
   const auto is_tracked = [&](const Se3& start) {
     const FollowedPose found = follow_near(image, start, earlier);
-    if (best.fit.points == 0 || found.fit.above_chance() > best.fit.above_chance()) best = found;
-    return best.fit.above_chance() >= options_.tracked_above_chance;
+    if (best.fit.points == 0 || is_better(found.fit, best.fit)) best = found;
+    return is_on_object(best.fit, options_);
   };
   for (const Se3& start : starts)
     if (is_tracked(start)) return best;
   const Image half = half_of(*image.image);
-  const SearchedImage reduced{&half, image.camera, image.ideal, 2};
+  const SearchedImage reduced{&half, image.camera, image.ideal, 2, image.depth};
   for (const Se3& start : starts)
     if (is_tracked(follow_far(reduced, start, earlier))) return best;
   return best;

@@ -1,6 +1,7 @@
 // Finds the pose of an object in the next image, near where it is expected.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "host/model/edge_model.h"
@@ -20,10 +21,22 @@ struct SeenObject {
   Se3 camera_from_object;
 };
 
+// What can be seen of an object in a pose.
+struct VisibleObject {
+  std::vector<ModelPoint> edges;
+  std::optional<SurfaceFit> surface;  // where depth was measured
+  const SurfaceFit* measured() const { return surface ? &*surface : nullptr; }
+};
+
 struct FollowedPose {
   Se3 camera_from_object;
   NormalFit fit;
 };
+
+// Whether a pose lies on the object's edges, and measured depth does not contradict it.
+bool is_on_object(const NormalFit& fit, const TrackOptions& options);
+// By edges; a pose that measured depth contradicts is worse than any other.
+bool is_better(const NormalFit& fit, const NormalFit& than);
 
 class EdgeFollower {
  public:
@@ -46,7 +59,7 @@ class EdgeFollower {
   FollowedPose follow_near(const SearchedImage& image, const Se3& start,
                            const SeenObject* earlier) const;
   Se3 follow_far(const SearchedImage& half, const Se3& start, const SeenObject* earlier) const;
-  std::vector<ModelPoint> visible_points(const Se3& camera_from_object) const;
+  VisibleObject visible_at(const SearchedImage& image, const Se3& camera_from_object) const;
   NormalSearch search(const SearchedImage& image, const Se3& pose,
                       std::span<const ModelPoint> points, const SeenObject* earlier,
                       double reach_px) const;

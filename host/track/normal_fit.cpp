@@ -83,6 +83,11 @@ System system_at(const NormalSearch& search, const Intrinsics& k, const Se3& cam
   return sum;
 }
 
+void add_surface(System& system, const WorldSystem& surface) {
+  system.hessian += surface.hessian;
+  system.gradient += surface.gradient;
+}
+
 void add_prior(System& system, const Se3& pose, const PosePrior& prior) {
   Vector6d weight;
   weight << Eigen::Vector3d::Constant(1 / (prior.sigma_m * prior.sigma_m)),
@@ -117,13 +122,14 @@ class ShiftVotes {
 }  // namespace
 
 Se3 fit_to_edges(const NormalSearch& search, const Camera& ideal, const Se3& camera_from_object,
-                 double scale_px, int iterations, const PosePrior& prior) {
+                 const FitRound& round, const PosePrior& prior, const SurfaceFit* surface) {
   constexpr double min_step_m = 2e-6, min_step_rad = 2e-5;
   const Intrinsics k = intrinsics_of(ideal);
   Se3 pose = camera_from_object;
-  for (int i = 0; i < iterations; ++i) {
-    System system = system_at(search, k, pose, scale_px);
+  for (int i = 0; i < round.iterations; ++i) {
+    System system = system_at(search, k, pose, round.scale_px);
     if (system.matched < thresholds::MIN_POINTS) return camera_from_object;
+    if (surface) add_surface(system, surface->system_at(pose, round.depth_sigmas));
     add_prior(system, pose, prior);
     const Vector6d step = -system.hessian.ldlt().solve(system.gradient);
     if (!step.allFinite()) return camera_from_object;
@@ -160,7 +166,7 @@ double NormalFit::above_chance() const {
 }
 
 NormalFit measure_fit(const NormalSearch& search, const Camera& ideal,
-                      const Se3& camera_from_object) {
+                      const Se3& camera_from_object, const SurfaceFit* surface) {
   NormalFit fit;
   EdgeCovariance covariance;
   const Intrinsics k = intrinsics_of(ideal);
@@ -188,6 +194,9 @@ NormalFit measure_fit(const NormalSearch& search, const Camera& ideal,
   fit.by_chance = by_chance / fit.points;
   fit.explained = std::min(1.0, covariance.weight() / fit.points);
   fit.covariance = common_to_edges(fit.explained) * covariance.covariance();
+  if (!surface) return fit;
+  surface->add_information(fit.covariance, camera_from_object);
+  fit.depth = surface->evidence_at(camera_from_object);
   return fit;
 }
 

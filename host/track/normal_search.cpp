@@ -123,8 +123,8 @@ int reach_in_samples(const SearchedImage& image, double reach_px) {
 
 }  // namespace
 
-SearchedImage searched(const Image& image, const Camera& camera) {
-  return {&image, camera, undistorted(camera), 1};
+SearchedImage searched(const Image& image, const Camera& camera, const MeasuredDepth* depth) {
+  return {&image, camera, undistorted(camera), 1, depth};
 }
 
 NormalSearch search_normals(const SearchedImage& image, const Se3& camera_from_object,

@@ -18,14 +18,18 @@
 
 namespace edgescout {
 
+struct MeasuredDepth;  // register/measured_depth.h
+
 // An image and its camera; of half the size where a search reaches far.
 struct SearchedImage {
   const Image* image = nullptr;
-  Camera camera;             // with its lens, of the full image
-  Camera ideal;              // undistorted(camera)
-  double px_per_sample = 1;  // px of the full image per px of `image`
+  Camera camera;                         // with its lens, of the full image
+  Camera ideal;                          // undistorted(camera)
+  double px_per_sample = 1;              // px of the full image per px of `image`
+  const MeasuredDepth* depth = nullptr;  // of `ideal`; null: nothing was measured
 };
-SearchedImage searched(const Image& image, const Camera& camera);
+SearchedImage searched(const Image& image, const Camera& camera,
+                       const MeasuredDepth* depth = nullptr);
 
 struct LineEdge {
   float offset_px;  // along the normal, ideal image

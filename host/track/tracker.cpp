@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "host/detect/suppression.h"
+#include "host/register/depth_evidence.h"
 #include "host/register/occluders.h"
 #include "host/register/thresholds.h"
 #include "host/track/cropped_registration.h"
@@ -51,6 +52,11 @@ bool is_near(const Se3& pose, const Se3& predicted, const EdgeModel& model) {
   constexpr double most_of_diameter = 0.15;
   return pose_distance_m(pose, predicted, model.mesh, {}) <
          most_of_diameter * model.mesh.diameter_m;
+}
+
+bool fits(const DepthImage& depth, const Camera& camera) {
+  return depth.width == camera.width && depth.height == camera.height &&
+         depth.z_m.size() == std::size_t(depth.width) * std::size_t(depth.height);
 }
 
 bool fits(const Image& image, const Camera& camera) {
@@ -108,10 +114,9 @@ struct Tracker::State {
   int keep_found(std::span<const Detection> detections, int object, int most,
                  std::span<const Track> known);
   std::shared_ptr<const Occluders> occluders_of(const Instance& instance, double time_s) const;
-  void follow(Instance& instance, const TrackFrame& frame, const SearchedImage& image);
+  void follow(Instance& instance, const SearchedImage& image, double time_s);
   void judge(Instance& instance, const FollowedPose& found, double time_s);
-  std::optional<FollowedPose> registered(const Instance& instance, const TrackFrame& frame,
-                                         const SearchedImage& image,
+  std::optional<FollowedPose> registered(const Instance& instance, const SearchedImage& image,
                                          std::span<const Se3> starts) const;
   void publish();
 };
@@ -122,6 +127,11 @@ void Tracker::State::require(const TrackFrame& frame) const {
     throw InputError("frame", "size",
                      fmt::format("{} x {}, {} pixels", frame.image->width, frame.image->height,
                                  frame.image->pixels.size()),
+                     fmt::format("{} x {}, the camera's", camera.width, camera.height));
+  if (frame.depth && !fits(frame.depth->image, camera))
+    throw InputError("frame", "depth's size",
+                     fmt::format("{} x {}, {} values", frame.depth->image.width,
+                                 frame.depth->image.height, frame.depth->image.z_m.size()),
                      fmt::format("{} x {}, the camera's", camera.width, camera.height));
   if (!std::isfinite(frame.time_s))
     throw InputError("frame", "time", fmt::format("{}", frame.time_s), "a number");
@@ -233,12 +243,10 @@ std::shared_ptr<const Occluders> Tracker::State::occluders_of(const Instance& in
 }
 
 std::optional<FollowedPose> Tracker::State::registered(const Instance& instance,
-                                                       const TrackFrame& frame,
                                                        const SearchedImage& image,
                                                        std::span<const Se3> starts) const {
   const EdgeModel& model = models[std::size_t(instance.track.object)];
-  const std::optional<Detection> found =
-      register_in_crop(*frame.image, camera, model, starts, backend, options);
+  const std::optional<Detection> found = register_in_crop(image, model, starts, backend, options);
   if (!found || found->probability < options.min_probability) return std::nullopt;
   const EdgeFollower follower(model, backend, options, nullptr);
   return FollowedPose{found->world_from_object,
@@ -249,39 +257,39 @@ void Tracker::State::judge(Instance& instance, const FollowedPose& found, double
   Track& track = instance.track;
   const EdgeModel& model = models[std::size_t(track.object)];
   track.above_chance = found.fit.above_chance();
-  const bool is_on_edges = track.above_chance >= options.tracked_above_chance;
+  const bool is_found = is_on_object(found.fit, options);
   const bool agrees = track.above_chance >= options.lost_above_chance &&
+                      !is_contradicted(found.fit.depth) &&
                       is_near(found.camera_from_object, instance.motion.predicted(time_s), model);
-  const bool is_measured = (is_on_edges || agrees) && found.fit.covariance.allFinite();
+  const bool is_measured = (is_found || agrees) && found.fit.covariance.allFinite();
   if (is_measured)
     instance.motion.measured(found.camera_from_object, found.fit.covariance, time_s);
   else
     instance.motion.coast(time_s);
   track.world_from_object = instance.motion.pose();
   track.covariance = instance.motion.covariance();
-  instance.was_seen = is_on_edges && is_measured && is_determined(track, model);
+  instance.was_seen = is_found && is_measured && is_determined(track, model);
   track.doubtful_frames = instance.was_seen ? 0 : track.doubtful_frames + 1;
   track.state = instance.was_seen                                 ? TrackState::Tracked
                 : track.doubtful_frames > options.doubtful_frames ? TrackState::Lost
                                                                   : TrackState::Doubtful;
 }
 
-void Tracker::State::follow(Instance& instance, const TrackFrame& frame,
-                            const SearchedImage& image) {
+void Tracker::State::follow(Instance& instance, const SearchedImage& image, double time_s) {
   const EdgeModel& model = models[std::size_t(instance.track.object)];
-  const std::shared_ptr<const Occluders> occluders = occluders_of(instance, frame.time_s);
+  const std::shared_ptr<const Occluders> occluders = occluders_of(instance, time_s);
   const EdgeFollower follower(model, backend, options, occluders.get());
-  const std::array starts{instance.motion.predicted(frame.time_s), instance.motion.pose()};
+  const std::array starts{instance.motion.predicted(time_s), instance.motion.pose()};
   std::optional<SeenObject> earlier;
   if (instance.was_seen && last_image)
     earlier = SeenObject{searched(*last_image, camera), instance.track.world_from_object};
   FollowedPose found = follower.follow(image, starts, earlier ? &*earlier : nullptr);
-  if (options.register_doubtful && found.fit.above_chance() < options.tracked_above_chance) {
+  if (options.register_doubtful && !is_on_object(found.fit, options)) {
     const std::array from{starts[0], starts[1], found.camera_from_object};
-    const std::optional<FollowedPose> better = registered(instance, frame, image, from);
-    if (better && better->fit.above_chance() > found.fit.above_chance()) found = *better;
+    const std::optional<FollowedPose> better = registered(instance, image, from);
+    if (better && is_better(better->fit, found.fit)) found = *better;
   }
-  judge(instance, found, frame.time_s);
+  judge(instance, found, time_s);
 }
 
 Tracker::Tracker(std::span<const TemplateSet> sets, const Camera& camera, Backend& backend,
@@ -318,10 +326,10 @@ const std::vector<Track>& Tracker::update(const TrackFrame& frame) {
   if (state.last_time_s && !(frame.time_s > *state.last_time_s))
     throw InputError("frame", "time", fmt::format("{} s", frame.time_s),
                      fmt::format("later than the last frame, {} s", *state.last_time_s));
-  const SearchedImage image = searched(*frame.image, state.camera);
+  const SearchedImage image = searched(*frame.image, state.camera, frame.depth.get());
   state.join_found();
   for (State::Instance& instance : state.instances)
-    if (instance.track.state != TrackState::Lost) state.follow(instance, frame, image);
+    if (instance.track.state != TrackState::Lost) state.follow(instance, image, frame.time_s);
   state.last_image = frame.image;
   state.last_time_s = frame.time_s;
   state.publish();
@@ -347,7 +355,10 @@ int Tracker::search(const TrackFrame& frame, Backend& backend, const TimeLimit& 
     if (missing == 0 || options.limit.is_over()) continue;
     const std::span<const TemplateSet> set = state.sets.subspan(std::size_t(object), 1);
     check(!set[0].views.empty(), "search: an object without templates");
-    if (!view) view = prepare_view(*frame.image, state.camera, Se3{}, backend, options);
+    if (!view) {
+      view = prepare_view(*frame.image, state.camera, Se3{}, backend, options);
+      view->depth = frame.depth;
+    }
     found += state.keep_found(detect_objects(*view, set, backend, options).detections, object,
                               missing, tracks);
   }

@@ -3,8 +3,9 @@
 // update() predicts each pose by its motion, searches the image's edges along the normals of the
 // predicted ones (normal_search.h) and fits the pose to them (normal_fit.h). Only where that is
 // doubtful, the pose is registered on the tensor of the object's surroundings
-// (register_objects.h). search() looks for objects that are lost, by detection in the whole image.
-// What it finds joins at the next update.
+// (register_objects.h). Where depth was measured, the visible surface is fitted to it beside the
+// edges (surface_fit.h), and what lies clearly nearer hides edges. search() looks for objects that
+// are lost, by detection in the whole image. What it finds joins at the next update.
 //
 // The tracker starts no thread. search() may run in another thread, with a backend of its own,
 // while update() goes on.
@@ -19,6 +20,7 @@
 
 #include "host/core/time_limit.h"
 #include "host/model/template_set.h"
+#include "host/register/measured_depth.h"
 #include "host/track/track_options.h"
 #include "kernels/backend.h"
 
@@ -26,8 +28,10 @@ namespace edgescout {
 
 enum class TrackState {
   Tracked,
-  Doubtful,  // too few edges agree: the pose is the best one found, or the predicted one
-  Lost,      // doubtful for too long, or out of the image: the pose is the last one
+  // Too few edges agree, or measured depth contradicts: the pose is the best one found, or the
+  // predicted one.
+  Doubtful,
+  Lost,  // doubtful for too long, or out of the image: the pose is the last one
 };
 std::string to_string(TrackState state);  // "tracked", "doubtful", "lost"
 
@@ -42,10 +46,14 @@ struct Track : ObjectPose {
   int doubtful_frames = 0;  // in a row
 };
 
-// A grey image and when it was taken, s on any clock.
+// A grey image, when it was taken, s on any clock, and the depth that was measured with it. What
+// depth lacks never counts against a pose.
 struct TrackFrame {
   std::shared_ptr<const Image> image;
   double time_s = 0;
+  // Of the camera without its lens (io/depth_registration.h: undistort_depth or register_depth);
+  // null: nothing was measured.
+  std::shared_ptr<const MeasuredDepth> depth = {};
 };
 
 class Tracker {
@@ -67,7 +75,8 @@ class Tracker {
 
   // All instances in the new image, in the order of their ids. Objects hide each other as far as
   // their poses say. InputError: an image of another size than the camera's, or not later than the
-  // last one. LogicError: while another thread is in a call other than search().
+  // last one; depth of another size. LogicError: while another thread is in a call other than
+  // search().
   const std::vector<Track>& update(const TrackFrame& frame);
 
   // Looks for instances that are lost or not yet found, until the limit is over; returns how many

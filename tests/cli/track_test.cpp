@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "host/io/image.h"
@@ -104,6 +105,40 @@ TEST(Track, GoesOnAfterAnImageThatCannotBeRead) {
   EXPECT_EQ(rows[2][6], "tracked");
   EXPECT_NEAR(sequence.u_px(rows[2]) - sequence.u_px(rows[0]), 3 * step_px, 0.7);
   EXPECT_FALSE(fs::exists(sequence.out() / "frame0_overlay.png"));
+}
+
+// Where nothing was measured all stays; a wall before the part hides its edges.
+TEST(Track, TakesDepthImagesBesideTheGreyOnes) {
+  const Sequence sequence(2);
+  ASSERT_EQ(sequence.track({"--no-overlays"}).exit_code, 0);
+  const auto plain = sequence.rows();
+  const fs::path depth = sequence.folder.path() / "depth";
+  fs::create_directory(depth);
+  const auto track_with = [&](double z_m) {
+    for (int f = 0; f < 2; ++f)
+      cv::imwrite((depth / ("frame" + std::to_string(f) + ".png")).string(),
+                  cv::Mat(480, 640, CV_16U, cv::Scalar(1000 * z_m)));
+    EXPECT_EQ(sequence.track({"--no-overlays", "--depth", depth.string()}).exit_code, 0);
+    return sequence.rows();
+  };
+  const auto nothing = track_with(0);
+  ASSERT_EQ(nothing.size(), plain.size());
+  for (std::size_t f = 0; f < plain.size(); ++f) EXPECT_EQ(nothing[f], plain[f]);
+  const auto behind_a_wall = track_with(0.2);
+  ASSERT_EQ(behind_a_wall.size(), plain.size());
+  EXPECT_EQ(behind_a_wall[1][6], "doubtful");
+}
+
+TEST(Track, RefusesDepthThatDoesNotFit) {
+  const Sequence sequence(1);
+  const Outcome no_files = sequence.track({"--depth", sequence.folder.path().string()});
+  EXPECT_EQ(no_files.exit_code, 2);
+  EXPECT_NE(no_files.err.find("--depth"), std::string::npos) << no_files.err;
+  const fs::path small = sequence.folder.path() / "small.png";
+  cv::imwrite(small.string(), cv::Mat(24, 32, CV_16U, cv::Scalar(400)));
+  const Outcome other_size = sequence.track({"--depth", small.string()});
+  EXPECT_EQ(other_size.exit_code, 2);
+  EXPECT_NE(other_size.err.find("depth-camera"), std::string::npos) << other_size.err;
 }
 
 TEST(Track, RefusesRequestsThatCannotBeMet) {

@@ -20,7 +20,7 @@ TEST(CroppedRegistration, PosesKeepTheirFrameInACrop) {
   ThreadPool pool(1);
   const Se3 pose = pose_at(0.06, 0.5);
   const Image image = test::flat_image(part.mesh, pose, pool);
-  const std::optional<Crop> crop = crop_around(image, camera, model, pose);
+  const std::optional<Crop> crop = crop_around(searched(image, camera), model, pose);
   ASSERT_TRUE(crop);
   EXPECT_LT(crop->camera.width * crop->camera.height, camera.width * camera.height);
   const Eigen::Vector2d in_image = pixel_seeing(camera, {0.13, 0.02}),
@@ -32,8 +32,9 @@ TEST(CroppedRegistration, PosesKeepTheirFrameInACrop) {
 
 TEST(CroppedRegistration, AnObjectOutsideOfTheImageHasNoCrop) {
   const Image image{320, 240, std::vector<std::uint8_t>(320 * 240, 50)};
-  EXPECT_FALSE(crop_around(image, test::flat_camera(), model, pose_at(3, 0.5)));
-  EXPECT_FALSE(crop_around(image, test::flat_camera(), model, pose_at(0, -0.5)));
+  const SearchedImage given = searched(image, test::flat_camera());
+  EXPECT_FALSE(crop_around(given, model, pose_at(3, 0.5)));
+  EXPECT_FALSE(crop_around(given, model, pose_at(0, -0.5)));
 }
 
 TEST(CroppedRegistration, FindsThePoseFromOneTurnedAndShifted) {
@@ -45,7 +46,7 @@ TEST(CroppedRegistration, FindsThePoseFromOneTurnedAndShifted) {
   const Se3 start = retract(truth, off);
   const auto backend = make_backend("cpu");
   const std::optional<Detection> found =
-      register_in_crop(image, test::flat_camera(), model, {&start, 1}, *backend, {});
+      register_in_crop(searched(image, test::flat_camera()), model, {&start, 1}, *backend, {});
   ASSERT_TRUE(found);
   EXPECT_LT(mssd_m(found->world_from_object, truth, part), 0.05 * part.mesh.diameter_m);
   EXPECT_GT(found->probability, 0.4);

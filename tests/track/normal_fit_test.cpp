@@ -59,8 +59,8 @@ Vector6d off_by(double metres, double radians) {
 
 TEST(NormalFit, FindsThePoseOfTheEdges) {
   const PartAndEdges t = make_case(1, off_by(0.002, 0.02), 0, 12);
-  Se3 pose = fit_to_edges(t.search, t.camera, t.start, 6, 8, wide(t.start));
-  pose = fit_to_edges(t.search, t.camera, pose, 1, 8, wide(pose));
+  Se3 pose = fit_to_edges(t.search, t.camera, t.start, {6, 8}, wide(t.start));
+  pose = fit_to_edges(t.search, t.camera, pose, {1, 8}, wide(pose));
   EXPECT_LT(distance_between_m(pose, t.truth), 3e-4);
   EXPECT_LT(angle_between_rad(pose, t.truth), 3e-3);
 }
@@ -68,8 +68,8 @@ TEST(NormalFit, FindsThePoseOfTheEdges) {
 TEST(NormalFit, AThirdOfWrongEdgesDoNotMoveIt) {
   for (unsigned seed = 1; seed < 6; ++seed) {
     const PartAndEdges t = make_case(seed, off_by(0.0015, 0.015), 0.33, 12);
-    Se3 pose = fit_to_edges(t.search, t.camera, t.start, 4, 8, wide(t.start));
-    pose = fit_to_edges(t.search, t.camera, pose, 1, 8, wide(pose));
+    Se3 pose = fit_to_edges(t.search, t.camera, t.start, {4, 8}, wide(t.start));
+    pose = fit_to_edges(t.search, t.camera, pose, {1, 8}, wide(pose));
     EXPECT_LT(distance_between_m(pose, t.truth), 2e-3) << seed;
     EXPECT_LT(angle_between_rad(pose, t.truth), 0.012) << seed;
   }
@@ -78,7 +78,7 @@ TEST(NormalFit, AThirdOfWrongEdgesDoNotMoveIt) {
 TEST(NormalFit, StaysWhereTooFewEdgesAreFound) {
   PartAndEdges t = make_case(1, off_by(0.002, 0.02), 0, 12);
   t.search.points.resize(8);
-  const Se3 pose = fit_to_edges(t.search, t.camera, t.start, 6, 8, wide(t.start));
+  const Se3 pose = fit_to_edges(t.search, t.camera, t.start, {6, 8}, wide(t.start));
   EXPECT_EQ(distance_between_m(pose, t.start), 0);
 }
 

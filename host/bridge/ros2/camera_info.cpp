@@ -67,14 +67,14 @@ json file_of(const msg::CameraInfo& info, bool rectified, const std::string& sou
   return file;
 }
 
-std::string text_of(const json& file) {
+std::string file_text(const json& file) {
   return file.dump(-1, ' ', true, json::error_handler_t::replace);
 }
 
 }  // namespace
 
 Camera camera_of(const msg::CameraInfo& info, bool rectified, const std::string& source) {
-  return cameras_in(text_of(file_of(info, rectified, source)), source).at(0).camera;
+  return cameras_in(file_text(file_of(info, rectified, source)), source).at(0).camera;
 }
 
 void CameraInfos::add(const msg::CameraInfo& info) {

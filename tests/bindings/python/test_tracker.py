@@ -72,6 +72,34 @@ def test_refuses_what_is_no_next_image(scene, found, tracker):
         tracker.search(scene.image, backend=scene.backend)
 
 
+def test_depth_draws_the_pose_to_the_measured_surface(scene, found):
+    """A plane 2 mm before and behind that of the part's middle; without any value no difference."""
+    pose = found[0].world_from_object
+
+    def followed(depth):
+        tracker = edgescout.Tracker(scene.templates, scene.camera, backend=scene.backend)
+        tracker.add(pose)
+        for frame in range(3):
+            track, = tracker.update(scene.image, frame, depth=depth)
+        return track
+
+    plain = followed(None)
+    empty = followed(np.zeros(scene.image.shape, np.uint16))
+    np.testing.assert_array_equal(empty.camera_from_object, plain.camera_from_object)
+    np.testing.assert_array_equal(empty.covariance, plain.covariance)
+    near, far = (followed(np.full(scene.image.shape, pose[2, 3] + moved, np.float32))
+                 for moved in (-0.004, 0.004))
+    assert near.camera_from_object[2, 3] < far.camera_from_object[2, 3]
+    assert near.covariance[2, 2] < plain.covariance[2, 2]
+
+
+def test_refuses_depth_of_another_size(scene, tracker):
+    with pytest.raises(ValueError, match="320x240 px, expected the image's 640x480"):
+        tracker.update(scene.image, 0, depth=np.full((240, 320), 400, np.uint16))
+    with pytest.raises(ValueError, match="320x240 px, expected the image's 640x480"):
+        tracker.search(scene.image, depth=np.full((240, 320), 400, np.uint16))
+
+
 def test_a_mesh_alone_is_followed_but_not_searched_for(scene, found):
     alone = edgescout.Templates.without_views(edgescout.load_mesh(scene.part, "mm"))
     tracker = edgescout.Tracker(alone, scene.camera, backend=scene.backend)

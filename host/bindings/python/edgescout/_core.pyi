@@ -420,11 +420,20 @@ class Tracker:
     ) -> None: ...
     def add(self, camera_from_object: npt.ArrayLike, object: int = ...) -> int: ...
     def remove(self, id: int) -> None: ...
-    def update(self, image: AnyImage, time_s: float) -> List[Track]: ...
+    def update(
+        self,
+        image: AnyImage,
+        time_s: float,
+        *,
+        depth: Optional[Depth] = ...,
+        depth_options: Optional[DepthOptions] = ...,
+    ) -> List[Track]: ...
     def search(
         self,
         image: AnyImage,
         *,
+        depth: Optional[Depth] = ...,
+        depth_options: Optional[DepthOptions] = ...,
         backend: Optional[Backend] = ...,
         max_seconds: Optional[float] = ...,
     ) -> int: ...

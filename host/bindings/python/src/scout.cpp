@@ -59,7 +59,7 @@ class PythonScout {
     require_view(view);
     const Se3 pose = camera_from_world.is_none() ? state().views[std::size_t(view)]
                                                  : pose_of(camera_from_world, "camera_from_world");
-    TakenImage taken = taken_image(image, state().camera, pose);
+    TakenImage taken{image_of(image), state().camera, pose, {}, {}};
     give_depth(taken, {depth, depth_options});
     const Shot shot{std::move(taken.image), pose, measured_depth(taken)};
     call([&](Scout& scout) {

@@ -37,8 +37,9 @@ class PythonTracker {
 
   void remove(int id) { tracker_->remove(id); }
 
-  std::vector<PythonTrack> update(const py::array& image, double time_s) {
-    const TrackFrame frame = frame_of(image, time_s);
+  std::vector<PythonTrack> update(const py::array& image, double time_s, const py::object& depth,
+                                  const DepthOptions* depth_options) {
+    const TrackFrame frame = frame_of(image, time_s, {depth, depth_options});
     on_backend(backend_, {}, [&](const TimeLimit&, Backend&) {
       tracker_->update(frame);
       return 0;
@@ -47,9 +48,9 @@ class PythonTracker {
   }
 
   // On a backend of its own, so that another thread may update.
-  int search(const py::array& image, const BackendPointer& backend,
-             std::optional<double> max_seconds) {
-    const TrackFrame frame = frame_of(image, 0);
+  int search(const py::array& image, const py::object& depth, const DepthOptions* depth_options,
+             const BackendPointer& backend, std::optional<double> max_seconds) {
+    const TrackFrame frame = frame_of(image, 0, {depth, depth_options});
     if (backend == backend_ && backend)
       refuse("backend", "that of the tracker", "another one: update() goes on during a search");
     if (!backend && !own_) own_ = std::make_shared<SharedBackend>(make_backend("auto"));
@@ -59,7 +60,7 @@ class PythonTracker {
   }
 
   py::array_t<std::uint8_t> overlay(const py::array& image) {
-    const TrackFrame frame = frame_of(image, 0);
+    const TrackFrame frame = frame_of(image, 0, {py::none()});
     const std::vector<EdgeModel> models = models_of(sets_);
     return array_of(on_backend(backend_, {}, [&](const TimeLimit&, Backend& on) {
       return draw_tracks(*frame.image, camera_, tracker_->tracks(), models, on);
@@ -74,8 +75,10 @@ class PythonTracker {
   }
 
  private:
-  TrackFrame frame_of(const py::array& image, double time_s) const {
-    return {std::make_shared<const Image>(taken_image(image, camera_, {}).image), time_s};
+  TrackFrame frame_of(const py::array& image, double time_s, const GivenDepth& depth) const {
+    TakenImage taken = taken_image(image, camera_, {});
+    give_depth(taken, depth);
+    return {std::make_shared<const Image>(std::move(taken.image)), time_s, measured_depth(taken)};
   }
 
   GivenSets given_;
@@ -133,10 +136,13 @@ void add_tracker(py::module_& module) {
       .def("add", &PythonTracker::add, py::arg("camera_from_object"), py::arg("object") = 0,
            "Follows an object from a pose (4x4, metres) known to some 10 px; returns its id.")
       .def("remove", &PythonTracker::remove, py::arg("id"), "Forgets an instance.")
-      .def("update", &PythonTracker::update, py::arg("image"), py::arg("time_s"),
-           "All instances in the next image. time_s: when it was taken, on any clock; it rises.")
+      .def("update", &PythonTracker::update, py::arg("image"), py::arg("time_s"), py::kw_only(),
+           py::arg("depth") = py::none(), py::arg("depth_options") = nullptr,
+           "All instances in the next image. time_s: when it was taken, on any clock; it rises. "
+           "depth: as that of detect().")
       .def(
           "search", &PythonTracker::search, py::arg("image"), py::kw_only(),
+          py::arg("depth") = py::none(), py::arg("depth_options") = nullptr,
           py::arg("backend") = nullptr, py::arg("max_seconds") = std::nullopt,
           "Looks for instances that are lost or not yet found, and returns how many it found. They "
           "join at the next update(), which may go on in another thread meanwhile.")
