@@ -39,9 +39,9 @@ Range distances_of(std::span<const TemplateSet> sets) {
   constexpr double at_the_border = 0.8;  // of a wide image: along the axis, not along the ray
   Range distances{std::numeric_limits<double>::infinity(), 0};
   for (const TemplateSet& set : sets) {
-    distances.low = std::min(
-        distances.low,
-        std::max(0.0, at_the_border * set.options.distance_min_m - set.model.radius_m));
+    distances.low =
+        std::min(distances.low,
+                 std::max(0.0, at_the_border * set.options.distance_min_m - set.model.radius_m));
     distances.high = std::max(distances.high, set.options.distance_max_m + set.model.radius_m);
   }
   return distances;
@@ -172,7 +172,11 @@ class Detector {
     for (std::size_t i = 0; i < views.size(); ++i)
       depth_doubts.look_at(good.images[i]->file.string(), views[i].view, distances_);
     const std::optional<Detections> found = detect(good, views);
-    if (found) write(good, views, *found);
+    if (!found) return;
+    for (std::size_t i = 0; i < views.size(); ++i)
+      depth_doubts.compare(good.images[i]->file.string(), {models_, {&views[i].view, 1}, backend_},
+                           found->detections);
+    write(good, views, *found);
   }
 
   // If no image can be used, throws the error of the last one. Another shard may have good ones.

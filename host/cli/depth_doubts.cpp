@@ -29,6 +29,12 @@ std::string doubt_of_place(const DepthEdges& edges) {
   return {};
 }
 
+double middle_of(std::vector<double> values) {
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 std::vector<float> measured_values(const DepthImage& depth) {
   std::vector<float> values;
   std::ranges::copy_if(depth.z_m, std::back_inserter(values), [](float z_m) { return z_m > 0; });
@@ -48,9 +54,8 @@ std::string doubt_of_unit(const DepthImage& depth, const Range& distances_m) {
   constexpr double least_share = 0.01;
   std::vector<float> values = measured_values(depth);
   if (values.size() < fewest) return {};
-  const auto inside = std::ranges::count_if(values, [&](float z_m) {
-    return z_m >= distances_m.low && z_m <= distances_m.high;
-  });
+  const auto inside = std::ranges::count_if(
+      values, [&](float z_m) { return z_m >= distances_m.low && z_m <= distances_m.high; });
   if (double(inside) > least_share * double(values.size())) return {};
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
   std::ranges::nth_element(values, middle);
@@ -70,12 +75,30 @@ void DepthDoubts::look_at(const std::string& image, const ObjectView& view,
   ++looked_at_;
   const DepthImage& depth = view.depth->image;
   add("is the depth of another unit (--depth-unit)?", image, doubt_of_unit(depth, distances_m));
-  const DepthEdges edges =
-      compare_depth_edges(depth, view.depth->noise, view.edges->points());
-  add(edges.fit == DepthFit::Moved
-          ? "is the pose of the depth camera wrong (--depth-pose), or its time?"
-          : "is it the depth of another image?",
+  const DepthEdges edges = compare_depth_edges(depth, view.depth->noise, view.edges->points());
+  add(edges.fit == DepthFit::Moved ? "is the pose of the depth camera wrong (--depth-pose)?"
+                                   : "is it the depth of another image?",
       image, doubt_of_place(edges));
+}
+
+void DepthDoubts::compare(const std::string& image, const Scene& scene,
+                          std::span<const Detection> found) {
+  constexpr double least_probability = 0.5;
+  constexpr std::size_t most_poses = 8;  // the most probable: enough, and little work
+  const ObjectView& view = scene.views.front();
+  if (!view.depth || !view.edges) return;
+  std::vector<ObjectPose> poses;
+  for (const Detection& detection : found)
+    if (detection.probability >= least_probability && poses.size() < most_poses)
+      poses.push_back(detection);
+  const std::vector<DepthOffset> offsets = depth_offsets(scene.models, view, scene.backend, poses);
+  std::string shown;
+  for (const DepthOffset& offset : offsets)
+    shown += fmt::format(" {:.2f}+-{:.2f}", 1e3 * offset.offset_m, 1e3 * offset.sigma_m);
+  if (!offsets.empty())
+    log(LogLevel::Debug,
+        fmt::format("{}: poses with depth are farther than by edges alone, mm:{}", image, shown));
+  offsets_.insert(offsets_.end(), offsets.begin(), offsets.end());
 }
 
 void DepthDoubts::add(const std::string& kind, const std::string& image, const std::string& what) {
@@ -85,7 +108,31 @@ void DepthDoubts::add(const std::string& kind, const std::string& image, const s
   if (doubt.images++ == 0) doubt.first = image + ": " + what;
 }
 
+// Several poses, since the edges of one hold its distance badly. Errors that all poses share, such
+// as bright surfaces that look larger, do not average out: the offset must be as large as the
+// poses' spread.
+std::string DepthDoubts::doubt_of_bias() const {
+  constexpr std::size_t fewest = 5;
+  constexpr double least_errors = 4, of_normal = 1.4826, of_median = 1.2533;
+  if (offsets_.size() < fewest) return {};
+  std::vector<double> values, deviations;
+  for (const DepthOffset& offset : offsets_) values.push_back(offset.offset_m);
+  const double offset_m = middle_of(values);
+  for (const double value : values) deviations.push_back(std::abs(value - offset_m));
+  const double spread_m = of_normal * middle_of(deviations),
+               error_m = of_median * spread_m / std::sqrt(double(values.size()));
+  if (std::abs(offset_m) <= std::max(least_errors * error_m, spread_m)) return {};
+  return fmt::format(
+      "depth moves poses {:.2f} +- {:.2f} mm {} the camera than their edges alone, in the median "
+      "of {}: is the sensor biased?",
+      1e3 * std::abs(offset_m), 1e3 * error_m, offset_m > 0 ? "farther from" : "nearer to",
+      values.size());
+}
+
 void DepthDoubts::say() const {
+  const std::string bias = doubt_of_bias();
+  if (!bias.empty()) log(LogLevel::Warning, bias);
+
   for (const auto& [kind, doubt] : doubts_)
     log(LogLevel::Warning, fmt::format("{}; {} so in {} of {} images with depth", doubt.first, kind,
                                        doubt.images, looked_at_));

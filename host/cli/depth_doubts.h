@@ -2,10 +2,12 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "host/core/options.h"
+#include "host/register/depth_offset.h"
 #include "host/register/object_view.h"
 
 namespace edgescout {
@@ -15,6 +17,8 @@ class DepthDoubts {
   // Logs what is in doubt for debugging. `view` has edges, and may have depth. `distances_m`: where
   // objects may be, along the camera's axis.
   void look_at(const std::string& image, const ObjectView& view, const Range& distances_m);
+  // Compares poses that were found with depth with where their edges alone hold them.
+  void compare(const std::string& image, const Scene& scene, std::span<const Detection> found);
   // One warning of each kind of doubt.
   void say() const;
 
@@ -25,6 +29,9 @@ class DepthDoubts {
   };
   void add(const std::string& kind, const std::string& image, const std::string& what);
 
+  std::string doubt_of_bias() const;
+
+  std::vector<DepthOffset> offsets_;     // of all images
   std::map<std::string, Doubt> doubts_;  // by kind: what it may come from
   int looked_at_ = 0;
 };

@@ -122,10 +122,13 @@ class Registrar {
   std::pair<ReadyJob, Detections> refine(const RegisterJob& job) {
     ReadyJob ready = prepare_job(job, depth_, backend_, options_);
     for (std::size_t v = 0; v < job.views.size(); ++v)
-      depth_doubts.look_at(job.views[v].file.string(), ready.views[v].view,
-                           distances_in(ready.views[v].view.camera_from_world, ready.starts,
-                                        edge_models_));
+      depth_doubts.look_at(
+          job.views[v].file.string(), ready.views[v].view,
+          distances_in(ready.views[v].view.camera_from_world, ready.starts, edge_models_));
     Detections found = refine_job(ready, models_, edge_models_, backend_, options_);
+    for (std::size_t v = 0; v < job.views.size(); ++v)
+      depth_doubts.compare(job.views[v].file.string(),
+                           {edge_models_, {&ready.views[v].view, 1}, backend_}, found.detections);
     return {std::move(ready), std::move(found)};
   }
 

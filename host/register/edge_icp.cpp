@@ -47,7 +47,7 @@ Counts match_points(const ObjectView& view, const Se3& world_from_object,
                     std::span<const ModelPoint> points, const EdgeIcpRound& round,
                     float max_turn_rad, const Visit& visit) {
   const Pose pose = to_pose(view.camera_from_world * world_from_object);
-  const Intrinsics& k = view.tensor->intrinsics;
+  const Intrinsics k = intrinsics_of(view.camera);
   Counts counts;
   for (const ModelPoint& model : points) {
     const PosedPoint<double> posed = pose_point<double>(pose, model);

@@ -97,12 +97,10 @@ TEST(DepthOption, RefusesAWrongUnit) {
 TEST(DepthOption, DoubtsAreSaidOnce) {
   const DepthScene t;
   const std::string starts = t.made.folder.write(
-      "starts.csv",
-      "scene_id,im_id,obj_id,score,R,t,time\n3,0,1,1,1 0 0 0 1 0 0 0 1,0 0 300,-1\n");
+      "starts.csv", "scene_id,im_id,obj_id,score,R,t,time\n3,0,1,1,1 0 0 0 1 0 0 0 1,0 0 300,-1\n");
   const std::vector<std::string> registers = {
-      "register", t.made.scene, "--poses",   starts, "--model", part_file(1),
-      "--unit",   "mm",         "--out",     t.made.out, "--device", "cpu",
-      "--depth",  "scene",      "--no-overlays"};
+      "register", t.made.scene, "--poses",  starts, "--model", part_file(1), "--unit",       "mm",
+      "--out",    t.made.out,   "--device", "cpu",  "--depth", "scene",      "--no-overlays"};
   const std::string other = "is it the depth of another image?",
                     unit = "is the depth of another unit (--depth-unit)?";
   const auto expect_said = [&](const std::string& what) {
@@ -148,8 +146,8 @@ TEST(DepthOption, OfAScoutIsThatOfRecordedViews) {
   const DepthScene t;
   t.write_depth(0.3, 320, 240);
   const auto scout = [&](const std::vector<std::string>& more) {
-    return joined({{"scout", t.made.scene, "--out", t.made.out, "--device", "cpu",
-                    "--coarse-poses", "200", "--max-views", "1"},
+    return joined({{"scout", t.made.scene, "--out", t.made.out, "--device", "cpu", "--coarse-poses",
+                    "200", "--max-views", "1"},
                    bracket(),
                    more});
   };

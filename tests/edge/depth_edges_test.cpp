@@ -14,7 +14,7 @@ constexpr int width_px = 160, height_px = 120;
 
 // Boxes on a plane, as a depth camera sees them and as edges.
 struct Boxes {
-  DepthImage depth{width_px, height_px, std::vector<float>(width_px * height_px, 0.6f)};
+  DepthImage depth{width_px, height_px, std::vector<float>(width_px* height_px, 0.6f)};
   std::vector<EdgePoint> edges;
 
   explicit Boxes(Random& random) {
@@ -22,8 +22,8 @@ struct Boxes {
       add(int(random.uniform(5, 110)), int(random.uniform(5, 80)), int(random.uniform(15, 40)),
           int(random.uniform(15, 30)), float(random.uniform(0.5, 0.58)));
     for (int i = 0; i < 300; ++i)  // texture
-      edges.push_back({float(random.uniform(0, width_px - 1)),
-                       float(random.uniform(0, height_px - 1)), 0, 50});
+      edges.push_back(
+          {float(random.uniform(0, width_px - 1)), float(random.uniform(0, height_px - 1)), 0, 50});
   }
   void add(int x0, int y0, int w, int h, float z_m) {
     for (int y = y0; y < y0 + h; ++y)

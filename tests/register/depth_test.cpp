@@ -3,6 +3,7 @@
 
 #include "host/register/depth_cost.h"
 #include "host/register/depth_evidence.h"
+#include "host/register/depth_offset.h"
 #include "host/register/depth_start.h"
 #include "host/register/depth_systems.h"
 #include "host/register/pose_classifier.h"
@@ -54,6 +55,22 @@ TEST(Depth, AContradictedPoseIsLessProbableAnAgreeingOneMore) {
   contradicted.depth = evidence_of(scene, scene.moved_m(-0.03), *backend);
   EXPECT_GT(PoseClassifier::log_odds(features), PoseClassifier::log_odds(blind) + 1);
   EXPECT_LT(PoseClassifier::log_odds(contradicted), PoseClassifier::log_odds(blind) - 3);
+}
+
+// A pose that biased depth has moved returns to its edges.
+TEST(Depth, OffsetsShowABias) {
+  const auto backend = make_cpu_backend(2);
+  Random random = test_random();
+  const DepthScene scene("l_bracket", random, *backend);
+  for (const double bias_m : {0.0, 0.005, -0.005}) {
+    const ObjectPose pose = scene.moved_m(bias_m);
+    const std::vector<DepthOffset> offsets =
+        depth_offsets({&scene.model, 1}, scene.views[0], *backend, {&pose, 1});
+    ASSERT_EQ(offsets.size(), 1u);
+    EXPECT_GT(offsets[0].sigma_m, 0);
+    EXPECT_LT(offsets[0].sigma_m, 0.003);
+    EXPECT_NEAR(offsets[0].offset_m, bias_m, 4 * offsets[0].sigma_m);
+  }
 }
 
 // What was not measured never counts against a pose.
