@@ -141,7 +141,10 @@ int main(int argc, char** argv) {
     edgescout_picture* picture = take_image(argv[1], 0);
     edgescout_image image = {.struct_size = sizeof image};
     must(edgescout_picture_get(picture, &image));
-    edgescout_view view = {sizeof view, &image, camera, camera_from_world[0]};
+    edgescout_view view = {.struct_size = sizeof view};
+    view.image = &image;
+    view.camera = camera;
+    view.camera_from_world = camera_from_world[0];
     edgescout_request request = {.struct_size = sizeof request};
     request.views = &view;
     request.view_count = 1;
