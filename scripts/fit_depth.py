@@ -1,14 +1,14 @@
 #!/usr/bin/python3
 """Fits what measured depth says of a pose, beside its edges and shading, and prints how well the sum judges.
 
-PoseClassifier (host/register/pose_classifier.h) adds it to the log-odds of one view.
+PoseClassifier (host/register/pose_classifier.h) adds such a term to the log-odds of one view. Its weights are set by
+hand; this shows how far a fit would change them (docs/research/probability.md).
 
-    edgescout render --depth ...    (docs/calibration.md has the parts and ranges)
+    edgescout render --depth ...
     for part in SCENES/*; do edgescout_bench_pose_features $part --depth > $(basename $part).csv; done
     scripts/fit_depth.py *.csv
-    scripts/fit_depth.py --write host/register/pose_classifier_weights.h *.csv
 
-The log-odds of edges and shading are the present ones and stay; this fit comes after that of scripts/fit_probability.py.
+The log-odds of edges and shading are the present ones and stay.
 Of the samples of the surface that were measured and that nothing hides, some agree with the pose and the rest contradict
 it. The share that agrees has a weight that is not negative; with fewer than twenty samples bias and weight count less.
 
@@ -23,7 +23,6 @@ import numpy as np
 from scipy.optimize import minimize
 
 from fit_probability import load, of_stage, print_recall, print_reliability, right
-from pose_classifier_weights import write_weights
 
 ENOUGH = 20  # samples, as in host/register/pose_classifier.cpp
 RIDGE = 0.1
@@ -70,12 +69,10 @@ def cross_validated(poses):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--write", metavar="FILE", help="header whose section gets the weights")
     parser.add_argument("files", nargs="+", type=Path, metavar="CSV")
     arguments = parser.parse_args()
     poses = Poses(of_stage(load(arguments.files), "reported"))
-    parts = len(np.unique(poses.part))
-    if parts < 2:
+    if len(np.unique(poses.part)) < 2:
         raise SystemExit("fit_depth: found one part with depth, expected two or more to validate by part")
     for name, log_odds in {"edges and shading alone": poses.grey, "present weights": poses.columns["log_odds"],
                            "fit": cross_validated(poses)}.items():
@@ -84,9 +81,6 @@ def main():
         print_reliability(poses.right, log_odds)
     weights = dict(zip(["bias", "agreeing"], fit(poses, np.ones(len(poses.right), bool))))
     print("\nweights: " + ", ".join(f"{field} {weight:.4g}" for field, weight in weights.items()))
-    if arguments.write:
-        data = f"{len(poses.right)} poses, {int(poses.right.sum())} right, of {parts} parts of set fit."
-        write_weights(arguments.write, "DEPTH", "Depth", weights, data)
 
 
 if __name__ == "__main__":

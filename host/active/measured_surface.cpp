@@ -10,8 +10,8 @@ namespace edgescout {
 
 namespace {
 
-constexpr int BLOCK_PX = 8;         // of the depth image, along both sides, for one measurement
-constexpr float STEEPEST = 3;       // change of depth over the distance across the line of sight
+constexpr int BLOCK_PX = 8;    // of the depth image, along both sides, for one measurement
+constexpr float STEEPEST = 3;  // change of depth over the distance across the line of sight
 
 // The median of the measured pixels of one block; DEPTH_MISSING where fewer than half are.
 float median_of_block(const DepthImage& depth, int x, int y, std::vector<float>& values) {
@@ -86,8 +86,7 @@ bool has_measured_depth(const ObjectView& view) {
 }
 
 std::vector<Occluders> measured_surfaces(std::span<const ObjectView> views, const Camera& camera,
-                                         std::span<const Se3> camera_from_world,
-                                         Backend& backend) {
+                                         std::span<const Se3> camera_from_world, Backend& backend) {
   SurfaceMesh surface;
   for (const ObjectView& view : views)
     if (has_measured_depth(view)) surface.add(view);

@@ -14,15 +14,14 @@ namespace edgescout {
 
 // Where objects may be: a box, cut to a ball where there is one.
 struct Workspace {
-  Eigen::AlignedBox3d box_m;       // in a frame of its own
+  Eigen::AlignedBox3d box_m;  // in a frame of its own
   Se3 world_from_box;
   std::optional<double> radius_m;  // of the ball about the box's middle
 };
 // The box of the prior. Without one the ball about the point that the views look at that all of
 // them see whole; nothing where they look at none.
 std::optional<Workspace> workspace_of(const WorldPrior& prior,
-                                      std::span<const Se3> camera_from_world,
-                                      const Camera& camera);
+                                      std::span<const Se3> camera_from_world, const Camera& camera);
 
 // Cells of the workspace, equal cubes.
 struct UnmeasuredSpace {

@@ -40,10 +40,8 @@ struct Jumps {
 
 std::vector<cv::Point> jumps_of(const DepthImage& depth, const DepthNoise& noise) {
   Jumps jumps;
-  for (int y = 0; y < depth.height; ++y)
-    jumps.add_line(depth, noise, {0, y}, {1, 0}, depth.width);
-  for (int x = 0; x < depth.width; ++x)
-    jumps.add_line(depth, noise, {x, 0}, {0, 1}, depth.height);
+  for (int y = 0; y < depth.height; ++y) jumps.add_line(depth, noise, {0, y}, {1, 0}, depth.width);
+  for (int x = 0; x < depth.width; ++x) jumps.add_line(depth, noise, {x, 0}, {0, 1}, depth.height);
   const std::size_t every = jumps.at.size() / MOST_JUMPS + 1;
   std::vector<cv::Point> some;
   for (std::size_t i = 0; i < jumps.at.size(); i += every) some.push_back(jumps.at[i]);

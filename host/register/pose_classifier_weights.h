@@ -19,7 +19,7 @@ struct SeveralViews {
 };
 
 // Of the share of the measured surface that agrees with a pose, where a view has depth. Set by
-// hand, not fitted; no script writes them.
+// hand: what scripts/fit_depth.py fits judges no better (docs/research/probability.md).
 struct Depth {
   double bias, agreeing;
 };

@@ -104,9 +104,8 @@ TEST(UnmeasuredSpace, IsBehindWhatWasMeasured) {
   const WallAndFloor t;
   ThreadPool pool(2);
   const ObjectView measured = t.view(t.from_above);
-  const Workspace workspace{{Eigen::Vector3d(-0.1, -0.1, -0.1), Eigen::Vector3d(0.1, 0.1, 0.1)},
-                            {},
-                            {}};
+  const Workspace workspace{
+      {Eigen::Vector3d(-0.1, -0.1, -0.1), Eigen::Vector3d(0.1, 0.1, 0.1)}, {}, {}};
   const UnmeasuredSpace space = unmeasured_space({&measured, 1}, workspace, pool);
   // Below the wall; from straight above the border throws no shadow at x = 0.
   const double volume_m3 = double(space.middle_m.size()) * std::pow(space.cell_m, 3);
@@ -125,9 +124,8 @@ TEST(UnmeasuredSpace, IsSeenBesideTheSurfaceThatHidesIt) {
   const WallAndFloor t;
   ThreadPool pool(2);
   const ObjectView measured = t.view(t.from_above);
-  const Workspace workspace{{Eigen::Vector3d(-0.1, -0.1, -0.1), Eigen::Vector3d(0.1, 0.1, 0.1)},
-                            {},
-                            {}};
+  const Workspace workspace{
+      {Eigen::Vector3d(-0.1, -0.1, -0.1), Eigen::Vector3d(0.1, 0.1, 0.1)}, {}, {}};
   const UnmeasuredSpace space = unmeasured_space({&measured, 1}, workspace, pool);
   const auto seen_m3 = [&](const Se3& view) {
     const Occluders surfaces =

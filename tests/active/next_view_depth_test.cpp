@@ -75,7 +75,8 @@ TEST(ViewInformation, IsDiscoveryWhereNothingWasMeasured) {
   const std::vector<ViewInformation> behind_wall = information(t, *t.backend);
   double least = 1, most = 0;
   for (std::size_t v = 1; v < t.views.size(); ++v) {
-    least = std::min(least, behind_wall[v].discovery), most = std::max(most, behind_wall[v].discovery);
+    least = std::min(least, behind_wall[v].discovery),
+    most = std::max(most, behind_wall[v].discovery);
   }
   EXPECT_GT(most, 0.8);
   EXPECT_LT(least, most);

@@ -34,7 +34,8 @@ DepthImage expected_depth() {
 
 Detections found_with(const std::shared_ptr<const MeasuredDepth>& depth) {
   SmallWorld& world = small_world();
-  ObjectView view = prepare_view(world.image(), world.camera(), {}, *world.backend, quick().pipeline);
+  ObjectView view =
+      prepare_view(world.image(), world.camera(), {}, *world.backend, quick().pipeline);
   view.depth = depth;
   return detect_objects(view, world.sets, *world.backend, quick().pipeline);
 }
@@ -47,7 +48,8 @@ void expect_published(const TestedBridge& tested, const Detections& expected) {
   for (std::size_t i = 0; i < found.size(); ++i) {
     const msg::ObjectHypothesisWithPose& best = found[i].results.at(0);
     EXPECT_EQ(best.hypothesis.score, expected.detections[i].probability);
-    EXPECT_EQ(best.pose.pose.position.z, expected.detections[i].world_from_object.translation_m.z());
+    EXPECT_EQ(best.pose.pose.position.z,
+              expected.detections[i].world_from_object.translation_m.z());
   }
 }
 
@@ -209,7 +211,8 @@ TEST(BridgeDepth, UnusableDepthIsSaid) {
   half.data.resize(half.data.size() / 2);
   EXPECT_TRUE(holds(said(half), "depth: size: found 320x120, expected 320x240"));
   msg::Image metres = depth_message();
-  for (std::size_t i = 0; i < metres.data.size(); i += 2) metres.data[i] = 1, metres.data[i + 1] = 0;
+  for (std::size_t i = 0; i < metres.data.size(); i += 2)
+    metres.data[i] = 1, metres.data[i + 1] = 0;
   EXPECT_TRUE(holds(said(metres), "depth: found values around 1, which are 0.001 m"));
   msg::Image none = depth_message();
   std::ranges::fill(none.data, std::uint8_t(0));

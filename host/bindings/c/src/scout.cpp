@@ -38,11 +38,10 @@ class SteppedScout {
   void give(const edgescout_shot& shot) {
     require_view(shot.view);
     Shot given{image_of(shot.image), {}};
-    const auto depth =
-        take_depth({shot.depth, shot.depth_camera, shot.camera_from_depth}, "shot");
+    const auto depth = take_depth({shot.depth, shot.depth_camera, shot.camera_from_depth}, "shot");
     given.camera_from_world = shot.camera_from_world
-                         ? pose_of(shot.camera_from_world, "shot.camera_from_world")
-                         : state().views[std::size_t(shot.view)];
+                                  ? pose_of(shot.camera_from_world, "shot.camera_from_world")
+                                  : state().views[std::size_t(shot.view)];
     within(shot.limit, [&](Scout& scout) {
       given.depth = in_camera(depth, camera_, backend_->value.backend->threads());
       scout.give(shot.view, given);
@@ -100,7 +99,7 @@ class SteppedScout {
 
   std::shared_ptr<Live<edgescout_templates>> templates_;
   std::shared_ptr<Live<edgescout_backend>> backend_;
-  Camera camera_;  // lens included
+  Camera camera_;                     // lens included
   const TimeLimit* limit_ = nullptr;  // of the call in progress
   std::unique_ptr<Scout> scout_;
   std::vector<ViewInformation> expected_;  // by the last proposal
