@@ -262,7 +262,7 @@ std::vector<double> unmeasured_shares(const NextViewProblem& problem,
     const std::vector<Occluders> surfaces = measured_surfaces(real, map_camera, some, backend);
     backend.threads().for_each(some.size(), [&](std::size_t i) {
       const double volume_m3 = volume_seen_m3(space, surfaces[i], some[i]);
-      shares[first + i] = volume_m3 / (volume_m3 + object_m3);
+      if (volume_m3 > 0) shares[first + i] = volume_m3 / (volume_m3 + object_m3);
     });
   }
   return shares;
@@ -293,9 +293,8 @@ std::vector<Shares> remaining_shares(const NextViewProblem& problem,
       return independent_share(directions[open[i]], real, correlation_angle_rad);
     };
     shares[i].candidates = free[open[i]] * independent(options.view_correlation_angle_rad);
-    shares[i].exploration =
-        free[open[i]] * (unmeasured.empty() ? independent(options.exploration_correlation_angle_rad)
-                                            : unmeasured[i]);
+    shares[i].exploration = free[open[i]] * independent(options.exploration_correlation_angle_rad) *
+                            (unmeasured.empty() ? 1 : unmeasured[i]);
   }
   return shares;
 }

@@ -58,9 +58,9 @@ struct NextViewOptions {
   // they are certain. 0: only information about candidates counts, as in the paper.
   double exploration_bonus_nats = 0.5;
   // As view_correlation_angle_rad, for the exploration bonus. rad, [0, 100]. Where a real view has
-  // depth, it is known which space has not been looked at: a free view is expected to give the
-  // share v / (v + o) of the bonus, where v is the volume of unmeasured space (unmeasured_space.h)
-  // that it sees and o that of the smallest object's bounding box.
+  // depth, some of the space has nothing more to find: of the bonus the share v / (v + o) is left,
+  // where v is the volume of unmeasured space (unmeasured_space.h) that the view sees and o that of
+  // the smallest object's bounding box.
   double exploration_correlation_angle_rad = 1;
 
   // Costs of the motion from the last view's camera, nats per m and nats per rad; taken off the

@@ -14,6 +14,7 @@ namespace edgescout {
 namespace {
 
 constexpr double CELLS = 32768;
+constexpr double MOST_ALONG_A_SIDE = 128;  // of flat and thin boxes
 
 // Whether the image measured the place itself or something behind it.
 bool is_measured(const ObjectView& view, const Eigen::Vector3d& middle_m, double cell_m) {
@@ -55,7 +56,7 @@ UnmeasuredSpace unmeasured_space(std::span<const ObjectView> views, const Worksp
                                  ThreadPool& pool) {
   UnmeasuredSpace space;
   const Eigen::Vector3d size_m = workspace.box_m.sizes();
-  space.cell_m = std::cbrt(size_m.prod() / CELLS);
+  space.cell_m = std::max(std::cbrt(size_m.prod() / CELLS), size_m.maxCoeff() / MOST_ALONG_A_SIDE);
   const Eigen::Array3i cells = (size_m.array() / space.cell_m).ceil().cast<int>().max(1);
   const auto keep_unmeasured = [&](int x, int y, int z, std::vector<Eigen::Vector3d>& kept) {
     const Eigen::Vector3d in_box =

@@ -173,8 +173,8 @@ class Detector {
       depth_doubts.look_at(good.images[i]->file.string(), views[i].view, distances_);
     const std::optional<Detections> found = detect(good, views);
     if (!found) return;
-    for (std::size_t i = 0; i < views.size(); ++i)
-      depth_doubts.compare(good.images[i]->file.string(), {models_, {&views[i].view, 1}, backend_},
+    if (views.size() == 1)
+      depth_doubts.compare(good.images[0]->file.string(), {models_, {&views[0].view, 1}, backend_},
                            found->detections);
     write(good, views, *found);
   }

@@ -41,11 +41,18 @@ std::vector<float> measured_values(const DepthImage& depth) {
   return values;
 }
 
-// The power of ten by which the median lies inside the range; none: it cannot be the unit.
-std::optional<double> unit_that_fits(double median_m, const Range& distances_m) {
+double share_inside(std::span<const float> values, const Range& distances_m, double factor) {
+  const auto inside = std::ranges::count_if(values, [&](float z_m) {
+    return z_m * factor >= distances_m.low && z_m * factor <= distances_m.high;
+  });
+  return double(inside) / double(values.size());
+}
+
+// The power of ten by which most values lie inside the range; none: it cannot be the unit.
+std::optional<double> unit_that_fits(std::span<const float> values, const Range& distances_m) {
+  constexpr double most = 0.5;
   for (const double factor : {0.1, 10.0, 0.01, 100.0, 0.001, 1000.0})
-    if (median_m * factor >= distances_m.low && median_m * factor <= distances_m.high)
-      return factor;
+    if (share_inside(values, distances_m, factor) > most) return factor;
   return {};
 }
 
@@ -54,12 +61,10 @@ std::string doubt_of_unit(const DepthImage& depth, const Range& distances_m) {
   constexpr double least_share = 0.01;
   std::vector<float> values = measured_values(depth);
   if (values.size() < fewest) return {};
-  const auto inside = std::ranges::count_if(
-      values, [&](float z_m) { return z_m >= distances_m.low && z_m <= distances_m.high; });
-  if (double(inside) > least_share * double(values.size())) return {};
+  if (share_inside(values, distances_m, 1) > least_share) return {};
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
   std::ranges::nth_element(values, middle);
-  const std::optional<double> factor = unit_that_fits(*middle, distances_m);
+  const std::optional<double> factor = unit_that_fits(values, distances_m);
   if (!factor) return {};
   return fmt::format(
       "depth has a median of {:.4g} m, objects are sought at {:.4g} to {:.4g} m: {:g} times the "

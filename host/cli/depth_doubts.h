@@ -17,7 +17,8 @@ class DepthDoubts {
   // Logs what is in doubt for debugging. `view` has edges, and may have depth. `distances_m`: where
   // objects may be, along the camera's axis.
   void look_at(const std::string& image, const ObjectView& view, const Range& distances_m);
-  // Compares poses that were found with depth with where their edges alone hold them.
+  // Compares poses that were found in one view, with its depth, with where its edges alone hold
+  // them.
   void compare(const std::string& image, const Scene& scene, std::span<const Detection> found);
   // One warning of each kind of doubt.
   void say() const;

@@ -126,9 +126,9 @@ class Registrar {
           job.views[v].file.string(), ready.views[v].view,
           distances_in(ready.views[v].view.camera_from_world, ready.starts, edge_models_));
     Detections found = refine_job(ready, models_, edge_models_, backend_, options_);
-    for (std::size_t v = 0; v < job.views.size(); ++v)
-      depth_doubts.compare(job.views[v].file.string(),
-                           {edge_models_, {&ready.views[v].view, 1}, backend_}, found.detections);
+    if (job.views.size() == 1)
+      depth_doubts.compare(job.views[0].file.string(),
+                           {edge_models_, {&ready.views[0].view, 1}, backend_}, found.detections);
     return {std::move(ready), std::move(found)};
   }
 

@@ -37,7 +37,10 @@ DepthSensor cell_sensor(const SourceRequest& request) {
   if (!depth.from.empty() && depth.from != DEPTH_OF_SCENES)
     throw InputError("command line", "--depth", depth.from + " for a cell", DEPTH_OF_SCENES);
   if (!depth.camera.empty() || !depth.pose.empty())
-    throw InputError("command line", "--depth-camera", "one for a cell", "none");
+    throw InputError("command line", depth.camera.empty() ? "--depth-pose" : "--depth-camera",
+                     "one for a cell", "none");
+  if (depth.options.unit_m > 0)
+    throw InputError("command line", "--depth-unit", "one for a cell", "none");
   sensor.on = !depth.from.empty();
   sensor.range_m = depth.options.range_m;
   sensor.noise_m = depth.options.noise.at_one_metre_m;

@@ -83,11 +83,11 @@ class SequenceRunner {
       sequence_camera_ = camera_of(input, image->width, image->height, given());
       tracker.emplace(sets_, sequence_camera_, backend_, request_.tracking);
     }
-    const TrackFrame at{image, frame / request_.frame_rate,
-                        depth_.read(input, sequence_camera_, backend_.threads())};
     if (const auto starts = starts_.find(input.name); starts != starts_.end())
       for (const RegisterJob::Start& start : *starts->second)
         tracker->add(start.model, start.camera_from_object);
+    const TrackFrame at{image, frame / request_.frame_rate,
+                        depth_.read(input, sequence_camera_, backend_.threads())};
     if (request_.search && frame % request_.search_every == 0)
       tracker->search(at, backend_, limit_from_now(request_.max_seconds));
     const auto begin = Clock::now();

@@ -2,7 +2,10 @@
 
 #include <cmath>
 
+#include "host/register/depth_evidence.h"
 #include "host/register/edge_icp.h"
+#include "host/register/measured_depth.h"
+#include "host/register/visible_in_views.h"
 
 namespace edgescout {
 
@@ -16,11 +19,24 @@ double variance_along(const Eigen::Vector3d& ray, const PoseEstimate& pose,
   return jacobian.dot(pose.covariance * jacobian);
 }
 
+// A view that has not been through a detection has no values on the backend yet.
+Grid<DepthEvidence> evidence_in(std::span<const EdgeModel> models, const ObjectView& view,
+                                Backend& backend, std::span<const ObjectPose> poses) {
+  ObjectView measured = view;
+  const DepthImage& depth = view.depth->image;
+  measured.depth_values =
+      backend.make_depth({depth.z_m, depth.width, depth.height, intrinsics_of(view.camera)});
+  const Scene scene{models, {&measured, 1}, backend};
+  return depth_evidence(scene, poses, visible_in_views(scene, poses));
+}
+
 }  // namespace
 
 std::vector<DepthOffset> depth_offsets(std::span<const EdgeModel> models, const ObjectView& view,
                                        Backend& backend, std::span<const ObjectPose> poses) {
   constexpr double most_moved = 0.2, most_turned_rad = 0.2;  // of the diameter
+  constexpr double fewest_samples = 20;
+  const Grid<DepthEvidence> evidence = evidence_in(models, view, backend, poses);
   ObjectView edges_alone = view;
   edges_alone.depth = nullptr;
   edges_alone.depth_values = nullptr;
@@ -39,7 +55,8 @@ std::vector<DepthOffset> depth_offsets(std::span<const EdgeModel> models, const 
     const bool is_held = by_edges.convergence == Convergence::Converged ||
                          by_edges.convergence == Convergence::NoDecrease ||
                          by_edges.convergence == Convergence::IterationLimit;
-    if (!is_held || !std::isfinite(variance) ||
+    const double samples = evidence(i, 0).agreeing + evidence(i, 0).contradicting;
+    if (!is_held || samples < fewest_samples || !std::isfinite(variance) ||
         moved_m.norm() > most_moved * model.mesh.diameter_m ||
         angle_between_rad(poses[i].world_from_object, by_edges.world_from_object) > most_turned_rad)
       continue;

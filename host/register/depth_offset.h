@@ -15,8 +15,9 @@ struct DepthOffset {
   double sigma_m = 0;  // of the pose by edges alone, standard deviation
 };
 
-// Of poses that were registered with depth, in one view that has edges. Poses whose edges do not
-// hold them, or lead to another pose, are left out.
+// Of poses that were registered in one view, which has depth and edges. Poses of which the depth
+// has measured fewer than twenty samples are left out, and those whose edges do not hold them or
+// lead to another pose.
 std::vector<DepthOffset> depth_offsets(std::span<const EdgeModel> models, const ObjectView& view,
                                        Backend& backend, std::span<const ObjectPose> poses);
 

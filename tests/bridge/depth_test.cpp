@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstring>
+#include <thread>
 
 #include "host/bridge/ros2/depth_message.h"
 #include "host/io/depth_file.h"
@@ -169,6 +171,34 @@ TEST(BridgeDepth, KeepsEightImagesAndEightDepthImages) {
     matches.add(std::make_shared<const msg::Image>(msg::Image{.header = header_at(i)}));
   EXPECT_FALSE(matches.of(header_at(12)));
   EXPECT_TRUE(matches.of(header_at(13)));
+}
+
+// So many images come that eight are newer before the first has waited for its depth.
+TEST(BridgeDepth, FastImagesWithoutDepthAreWorkedOn) {
+  BridgeOptions options = with_depth();
+  options.depth_wait.seconds = 0.05;
+  TestedBridge tested(options);
+  tested.give_info();
+  bool worked = false;
+  const Clock::time_point end = Clock::now() + std::chrono::seconds(5);
+  for (double seconds = 1; !worked && Clock::now() < end; seconds += 0.001) {
+    tested.give_image(seconds);
+    worked = tested.bridge.work(0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  EXPECT_TRUE(worked);
+}
+
+// The worker is busy for longer than depth images are kept.
+TEST(BridgeDepth, AnImageKeepsTheDepthThatCameInTime) {
+  TestedBridge tested(with_depth());
+  tested.give_info();
+  tested.give_image(1);
+  tested.bridge.take_depth(depth_message(1));
+  for (int i = 1; i <= 20; ++i) tested.bridge.take_depth(depth_message(1 + i));
+  EXPECT_TRUE(tested.bridge.work(0));
+  EXPECT_EQ(tested.count(with), 1u);
+  EXPECT_EQ(tested.count(alone), 0u);
 }
 
 TEST(BridgeDepth, MatchesStampsWithinTheTolerance) {

@@ -11,15 +11,18 @@ void DepthMatches::add(DepthMessage depth) {
   if (kept_.size() > most_kept) kept_.pop_front();
 }
 
+std::optional<double> DepthMatches::apart_s(const msg::Image& depth,
+                                            const msg::Header& image) const {
+  const double seconds =
+      1e-9 * std::abs(double(nanoseconds(depth.header.stamp) - nanoseconds(image.stamp)));
+  return seconds <= tolerance_s_ ? std::optional(seconds) : std::nullopt;
+}
+
 DepthMessage DepthMatches::of(const msg::Header& image) const {
   DepthMessage nearest;
-  double least_s = tolerance_s_;
   for (const DepthMessage& depth : kept_) {
-    const double apart_s =
-        1e-9 * std::abs(double(nanoseconds(depth->header.stamp) - nanoseconds(image.stamp)));
-    if (apart_s > least_s) continue;
-    least_s = apart_s;
-    nearest = depth;
+    const std::optional<double> apart = apart_s(*depth, image);
+    if (apart && (!nearest || *apart <= *apart_s(*nearest, image))) nearest = depth;
   }
   return nearest;
 }

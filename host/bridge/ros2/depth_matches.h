@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 
 #include "host/bridge/ros2/messages.h"
 
@@ -21,6 +22,8 @@ class DepthMatches {
 
   explicit DepthMatches(double tolerance_s) : tolerance_s_(tolerance_s) {}
 
+  // Between the stamps; nothing where they are farther apart than the tolerance.
+  std::optional<double> apart_s(const msg::Image& depth, const msg::Header& image) const;
   // In any order of stamps; the earliest to come goes.
   void add(DepthMessage depth);
   // The nearest in time, within the tolerance; of several the last to come. Null: none.

@@ -14,14 +14,20 @@ Clock::time_point from_now(double seconds) {
          std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
+bool has_stamp(const msg::Header& header) { return nanoseconds(header.stamp) != 0; }
+
 }  // namespace
 
 std::size_t Inbox::put(ImageMessage message) {
   std::size_t dropped = 0;
   {
     const std::scoped_lock lock(mutex_);
-    waiting_.push_back({std::move(message), Clock::now(), ++arrived_, 1, nullptr});
-    for (; waiting_.size() > most_images(); ++dropped) waiting_.pop_front();
+    const msg::Header& header = header_of(message);
+    DepthMessage depth = has_stamp(header) ? depths_.of(header) : nullptr;
+    waiting_.push_back({std::move(message), Clock::now(), ++arrived_, 1, std::move(depth)});
+    // The first one must be able to end its wait for depth, however fast others come.
+    for (; waiting_.size() > most_images(); ++dropped)
+      waiting_.erase(waiting_.begin() + (most_images() > 1));
   }
   changed_.notify_all();
   return dropped;
@@ -30,9 +36,22 @@ std::size_t Inbox::put(ImageMessage message) {
 void Inbox::put(DepthMessage depth) {
   {
     const std::scoped_lock lock(mutex_);
+    give_depth(depth);
     depths_.add(std::move(depth));
   }
   changed_.notify_all();
+}
+
+// To the images that wait, unless they have one nearer in time: a worker may be busy for longer
+// than depth images are kept.
+void Inbox::give_depth(const DepthMessage& depth) {
+  for (ArrivedImage& image : waiting_) {
+    const msg::Header& header = header_of(image.message);
+    const std::optional<double> apart_s = depths_.apart_s(*depth, header);
+    if (apart_s && has_stamp(header) &&
+        (!image.depth || *apart_s <= *depths_.apart_s(*image.depth, header)))
+      image.depth = depth;
+  }
 }
 
 bool Inbox::put(std::function<void()> job) {
@@ -109,8 +128,8 @@ Clock::time_point Inbox::depth_deadline(const ArrivedImage& image) const {
 
 // No depth image belongs to an image without a stamp.
 bool Inbox::has_depth_or_waits_no_more(const ArrivedImage& image) const {
-  return !depth_wait_ || image.depth || nanoseconds(header_of(image.message).stamp) == 0 ||
-         depths_.of(header_of(image.message)) || depth_deadline(image) <= Clock::now();
+  return !depth_wait_ || image.depth || !has_stamp(header_of(image.message)) ||
+         depth_deadline(image) <= Clock::now();
 }
 
 Inbox::Images::iterator Inbox::ready_image() {
@@ -125,9 +144,6 @@ void Inbox::take_image(Images::iterator image, Work& work) {
   work.dropped = std::size_t(image - waiting_.begin());
   work.image = std::move(*image);
   waiting_.erase(waiting_.begin(), image + 1);
-  const msg::Header& header = header_of(work.image->message);
-  if (depth_wait_ && !work.image->depth && nanoseconds(header.stamp) != 0)
-    work.image->depth = depths_.of(header);
 }
 
 bool Inbox::has_expired() const {

@@ -87,6 +87,7 @@ class Inbox {
   using Images = std::deque<ArrivedImage>;  // the newest last
 
   std::size_t most_images() const { return depth_wait_ ? DepthMatches::most_kept : 1; }
+  void give_depth(const DepthMessage& depth);
   bool is_wanted(const ArrivedImage& image) const;
   bool has_depth_or_waits_no_more(const ArrivedImage& image) const;
   Clock::time_point depth_deadline(const ArrivedImage& image) const;
