@@ -178,8 +178,8 @@ TEST(ScoutState, OfAnotherVersionIsRefusedInOneLine) {
   const TemporaryFolder folder;
   save_scout_state({}, folder.path() / "state");
   const std::string current = content_of(folder.path() / "state");
-  ASSERT_EQ(current[8], 17);
-  for (const char version : {16, 18}) {
+  ASSERT_EQ(current[8], 18);
+  for (const char version : {17, 19}) {
     std::string other = current;
     other[8] = version;
     const std::string file = folder.write("other.state", other);
@@ -188,7 +188,7 @@ TEST(ScoutState, OfAnotherVersionIsRefusedInOneLine) {
       ADD_FAILURE() << int(version);
     } catch (const InputError& error) {
       EXPECT_EQ(error.what(),
-                file + ": version: found " + std::to_string(int(version)) + ", expected 17");
+                file + ": version: found " + std::to_string(int(version)) + ", expected 18");
     }
   }
 }

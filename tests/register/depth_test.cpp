@@ -61,11 +61,20 @@ TEST(Depth, AContradictedPoseIsLessProbableAnAgreeingOneMore) {
 TEST(Depth, OffsetsShowABias) {
   const auto backend = make_cpu_backend(2);
   Random random = test_random();
-  const DepthScene scene("l_bracket", random, *backend);
+  DepthScene scene("l_bracket", random, *backend);
+  ObjectView& view = scene.views[0];
+  const std::vector<EdgePoint> edges = ideal_edges(part_model("l_bracket", 2e-4), view.camera,
+                                                   view.camera_from_world * scene.truth, *backend);
+  view.edges = std::make_shared<const EdgeIndex>(edges, view.camera.width, view.camera.height);
+  const DepthImage right = view.depth->image;
   for (const double bias_m : {0.0, 0.005, -0.005}) {
+    DepthImage biased = right;
+    for (float& z_m : biased.z_m)
+      if (z_m > 0) z_m += float(bias_m);
+    set_depth(view, biased, scene.noise, *backend);
     const ObjectPose pose = scene.moved_m(bias_m);
     const std::vector<DepthOffset> offsets =
-        depth_offsets({&scene.model, 1}, scene.views[0], *backend, {&pose, 1});
+        depth_offsets({&scene.model, 1}, view, *backend, {&pose, 1});
     ASSERT_EQ(offsets.size(), 1u);
     EXPECT_GT(offsets[0].sigma_m, 0);
     EXPECT_LT(offsets[0].sigma_m, 0.003);
