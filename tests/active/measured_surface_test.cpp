@@ -21,6 +21,7 @@ struct WallAndFloor {
   Camera camera{320, 240, 300, 300, 159.5, 119.5, {}};
   std::unique_ptr<Backend> backend = make_cpu_backend(2);
   Se3 from_above = look_at({0, 0, 1}, {0, 0, 0});
+  Workspace workspace{{Eigen::Vector3d(-0.1, -0.1, -0.1), Eigen::Vector3d(0.1, 0.1, 0.1)}, {}, {}};
 
   double depth_along(const Se3& camera_from_world, const Eigen::Vector2d& pixel) const {
     const Se3 world_from_camera = inverse(camera_from_world);
@@ -104,9 +105,7 @@ TEST(UnmeasuredSpace, IsBehindWhatWasMeasured) {
   const WallAndFloor t;
   ThreadPool pool(2);
   const ObjectView measured = t.view(t.from_above);
-  const Workspace workspace{
-      {Eigen::Vector3d(-0.1, -0.1, -0.1), Eigen::Vector3d(0.1, 0.1, 0.1)}, {}, {}};
-  const UnmeasuredSpace space = unmeasured_space({&measured, 1}, workspace, pool);
+  const UnmeasuredSpace space = unmeasured_space({&measured, 1}, t.workspace, pool);
   // Below the wall; from straight above the border throws no shadow at x = 0.
   const double volume_m3 = double(space.middle_m.size()) * std::pow(space.cell_m, 3);
   EXPECT_NEAR(volume_m3, 0.1 * 0.2 * 0.1, 2e-4);
@@ -115,7 +114,7 @@ TEST(UnmeasuredSpace, IsBehindWhatWasMeasured) {
     EXPECT_LT(middle_m.z(), 0);
   }
   const ObjectView nothing = t.view_without_values();
-  EXPECT_NEAR(double(unmeasured_space({&nothing, 1}, workspace, pool).middle_m.size()) *
+  EXPECT_NEAR(double(unmeasured_space({&nothing, 1}, t.workspace, pool).middle_m.size()) *
                   std::pow(space.cell_m, 3),
               0.008, 1e-6);
 }
@@ -124,9 +123,7 @@ TEST(UnmeasuredSpace, IsSeenBesideTheSurfaceThatHidesIt) {
   const WallAndFloor t;
   ThreadPool pool(2);
   const ObjectView measured = t.view(t.from_above);
-  const Workspace workspace{
-      {Eigen::Vector3d(-0.1, -0.1, -0.1), Eigen::Vector3d(0.1, 0.1, 0.1)}, {}, {}};
-  const UnmeasuredSpace space = unmeasured_space({&measured, 1}, workspace, pool);
+  const UnmeasuredSpace space = unmeasured_space({&measured, 1}, t.workspace, pool);
   const auto seen_m3 = [&](const Se3& view) {
     const Occluders surfaces =
         measured_surfaces({&measured, 1}, t.camera, {&view, 1}, *t.backend)[0];
