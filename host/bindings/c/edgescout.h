@@ -617,6 +617,10 @@ typedef struct edgescout_frame {
   size_t struct_size;
   const edgescout_image* image;
   double time_s; /* when it was taken, on any clock; later than the last one */
+  /* As in edgescout_view. */
+  const edgescout_image* depth;
+  const edgescout_camera* depth_camera;
+  const double* camera_from_depth;
 } edgescout_frame;
 /* All instances in the new image; edgescout_tracker_at has them. Some milliseconds. */
 EDGESCOUT_API edgescout_status edgescout_tracker_update(edgescout_tracker* tracker,

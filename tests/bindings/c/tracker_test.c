@@ -1,8 +1,12 @@
 /* The tracker: a part that stands still, found, hidden and lost. */
 #include <math.h>
+#include <stddef.h>
+#include <stdint.h>
 #include <string.h>
 
 #include "tests/bindings/c/scene.h"
+
+enum { WIDTH = 200, HEIGHT = 210 }; /* of part_window */
 
 static const double near_pose[16] = {-0.6, 0.7, -0.3, -0.1139, 0.6, 0.7, 0.4, 0.0128,
                                      0.5,  0.1, -0.9, 0.3355,  0,   0,   0,   1};
@@ -96,6 +100,86 @@ static void expect_it_searches(const struct scene* scene, edgescout_tracker* tra
   CHECK(track_of(tracker).id == 2 && track_of(tracker).state == EDGESCOUT_TRACKED);
 }
 
+/* The part after an image with the same distance everywhere, followed from its pose. */
+static edgescout_track track_before_wall(const struct scene* scene, const double pose[16],
+                                         uint16_t wall_mm, const edgescout_camera* depth_camera) {
+  static uint16_t values[WIDTH * HEIGHT];
+  for (int i = 0; i < WIDTH * HEIGHT; ++i) values[i] = wall_mm;
+  const edgescout_image depth = {.struct_size = sizeof depth,
+                                 .pixels = values,
+                                 .width = WIDTH,
+                                 .height = HEIGHT,
+                                 .format = EDGESCOUT_MONO16};
+  edgescout_tracker* tracker = example_tracker(scene);
+  int32_t id = 0;
+  OK(es_tracker_add(tracker, 0, pose, &id));
+  const edgescout_frame frame = {.struct_size = sizeof frame,
+                                 .image = &scene->image,
+                                 .time_s = 1,
+                                 .depth = &depth,
+                                 .depth_camera = depth_camera};
+  OK(es_tracker_update(tracker, &frame));
+  const edgescout_track track = track_of(tracker);
+  OK(es_free(tracker));
+  return track;
+}
+
+/* The part lies some 0.33 m away. */
+static void expect_depth_to_count(const struct scene* scene, const double pose[16]) {
+  const edgescout_track grey = track_before_wall(scene, pose, 0, NULL);
+  CHECK(grey.state == EDGESCOUT_TRACKED);
+  CHECK(track_before_wall(scene, pose, 800, NULL).state == EDGESCOUT_DOUBTFUL);
+  const edgescout_track beside = track_before_wall(scene, pose, 0, scene->camera);
+  CHECK(memcmp(beside.camera_from_object, grey.camera_from_object,
+               sizeof grey.camera_from_object) == 0);
+  CHECK(track_before_wall(scene, pose, 800, scene->camera).state == EDGESCOUT_DOUBTFUL);
+}
+
+static void expect_refusals_of_depth(const struct scene* scene, edgescout_tracker* tracker) {
+  edgescout_image depth = scene->image;
+  edgescout_frame frame = {
+      .struct_size = sizeof frame, .image = &scene->image, .time_s = 2, .depth = &depth};
+  EXPECT(EDGESCOUT_BAD_INPUT, es_tracker_update(tracker, &frame));
+  SAYS("depth: format: found a picture");
+  static const uint16_t values[WIDTH * HEIGHT] = {330};
+  depth = (edgescout_image){.struct_size = sizeof depth,
+                            .pixels = values,
+                            .width = WIDTH,
+                            .height = HEIGHT - 1,
+                            .format = EDGESCOUT_MONO16};
+  EXPECT(EDGESCOUT_BAD_INPUT, es_tracker_update(tracker, &frame));
+  SAYS("found 200x209, expected 200x210");
+  frame.depth = NULL;
+  frame.camera_from_depth = near_pose;
+  EXPECT(EDGESCOUT_BAD_INPUT, es_tracker_update(tracker, &frame));
+  SAYS("frame.depth: found NULL");
+}
+
+/* A program of the first header: its frames end before `depth`, and what follows a frame in a
+   search lies there. */
+static void expect_it_knows_the_first_header(const struct scene* scene,
+                                             edgescout_tracker* tracker) {
+  struct {
+    size_t struct_size;
+    struct {
+      size_t struct_size;
+      const edgescout_image* image;
+      double time_s;
+    } frame;
+    edgescout_backend* backend;
+    const edgescout_limit* limit;
+  } first = {sizeof first, {sizeof first.frame, &scene->image, 2}, scene->backend, NULL};
+  CHECK(sizeof first == 48 && sizeof first.frame == offsetof(edgescout_frame, depth));
+  OK(es_tracker_update(tracker, (const edgescout_frame*)(const void*)&first.frame));
+  CHECK(track_of(tracker).state == EDGESCOUT_TRACKED);
+  OK(es_tracker_remove(tracker, track_of(tracker).id));
+  first.frame.time_s = 2.1;
+  OK(es_tracker_update(tracker, (const edgescout_frame*)(const void*)&first.frame));
+  size_t found = 0;
+  OK(es_tracker_search(tracker, (const edgescout_search*)(const void*)&first, &found));
+  CHECK(found == 1);
+}
+
 void test_tracker(void) {
   struct scene scene;
   open_scene(&scene);
@@ -112,6 +196,10 @@ void test_tracker(void) {
   expect_it_follows(&scene, tracker);
   expect_refusals(&scene, tracker);
   expect_it_searches(&scene, tracker);
+  const edgescout_track found = track_of(tracker);
+  expect_depth_to_count(&scene, found.camera_from_object);
+  expect_refusals_of_depth(&scene, tracker);
+  expect_it_knows_the_first_header(&scene, tracker);
   OK(es_free(tracker));
   close_scene(&scene);
 }

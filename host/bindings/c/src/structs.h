@@ -20,6 +20,15 @@ inline constexpr std::initializer_list<std::size_t> earlier_sizes<edgescout_view
 template <>
 inline constexpr std::initializer_list<std::size_t> earlier_sizes<edgescout_shot>{
     offsetof(edgescout_shot, depth)};
+template <>
+inline constexpr std::initializer_list<std::size_t> earlier_sizes<edgescout_frame>{
+    offsetof(edgescout_frame, depth)};
+// It has a frame inside: what lies behind that moved (tracker.cpp).
+inline constexpr std::size_t FIRST_SEARCH_SIZE =
+    sizeof(edgescout_search) - (sizeof(edgescout_frame) - offsetof(edgescout_frame, depth));
+template <>
+inline constexpr std::initializer_list<std::size_t> earlier_sizes<edgescout_search>{
+    FIRST_SEARCH_SIZE};
 
 // A newer struct ends below: a larger number is none of a size.
 inline constexpr std::size_t LARGEST_STRUCT = 1 << 16;

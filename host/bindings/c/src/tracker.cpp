@@ -1,7 +1,9 @@
 #include "host/track/tracker.h"
 
+#include <cstring>
 #include <mutex>
 
+#include "host/bindings/c/src/depth.h"
 #include "host/bindings/c/src/images.h"
 #include "host/bindings/c/src/limits.h"
 #include "host/bindings/c/src/poses.h"
@@ -13,8 +15,42 @@ namespace edgescout::c {
 
 namespace {
 
-TrackFrame frame_of(const edgescout_frame& frame) {
-  return {std::make_shared<const Image>(image_of(frame.image)), frame.time_s};
+// A frame of the caller. What it points to may be gone once a call waits for a backend.
+struct TakenFrame {
+  explicit TakenFrame(const edgescout_frame& given)
+      : frame{std::make_shared<const Image>(image_of(given.image)), given.time_s},
+        depth(take_depth({given.depth, given.depth_camera, given.camera_from_depth}, "frame")) {}
+
+  // With depth in the frame of an image of this camera.
+  TrackFrame in(const Camera& camera, ThreadPool& pool) const {
+    TrackFrame result = frame;
+    result.depth = in_camera(depth, camera, pool);
+    return result;
+  }
+
+  TrackFrame frame;
+  std::optional<TakenDepth> depth;
+};
+
+// The search of the first header: its frame ends before `depth`.
+struct FirstSearch {
+  std::size_t struct_size;
+  unsigned char frame[offsetof(edgescout_frame, depth)];
+  edgescout_backend* backend;
+  const edgescout_limit* limit;
+};
+static_assert(sizeof(FirstSearch) == FIRST_SEARCH_SIZE);
+
+edgescout_search read_search(const edgescout_search* given) {
+  edgescout_search search = read_struct(given, "search");
+  if (search.struct_size != FIRST_SEARCH_SIZE) return search;
+  FirstSearch first;
+  std::memcpy(&first, given, sizeof first);
+  search.frame = {};
+  std::memcpy(&search.frame, first.frame, sizeof first.frame);
+  search.backend = first.backend;
+  search.limit = first.limit;
+  return search;
 }
 
 }  // namespace
@@ -25,7 +61,8 @@ class FollowingTracker {
   explicit FollowingTracker(const edgescout_tracker_plan& plan)
       : templates_(live(plan.templates)),
         backend_(live(plan.backend)),
-        tracker_(templates_->value.sets, *shared(plan.camera), *backend_->value.backend,
+        camera_(*shared(plan.camera)),
+        tracker_(templates_->value.sets, camera_, *backend_->value.backend,
                  options_of<TrackOptions>(plan.options)) {}
 
   int add(std::int32_t object, const double* camera_from_object) {
@@ -44,20 +81,20 @@ class FollowingTracker {
   }
 
   void update(const edgescout_frame& frame) {
-    const TrackFrame taken = frame_of(frame);
+    const TakenFrame taken(frame);
     const Borrowed<edgescout_backend> on(backend_, Use::Exclusive);
-    tracker_.update(taken);
+    tracker_.update(taken.in(camera_, on->backend->threads()));
   }
 
   // Beside calls of other threads.
   int search(const edgescout_search& search) {
     const TimeLimit limit = limit_of(search.limit);
-    const TrackFrame taken = frame_of(read_struct(&search.frame, "search.frame"));
+    const TakenFrame taken(read_struct(&search.frame, "search.frame"));
     const auto on = exclusive(search.backend);
     const std::unique_lock lock(searching_, std::try_to_lock);
     if (!lock)
       refuse(EDGESCOUT_BUSY, "tracker", "one that another search uses", "one search at a time");
-    return tracker_.search(taken, *on->backend, limit);
+    return tracker_.search(taken.in(camera_, on->backend->threads()), *on->backend, limit);
   }
 
   const std::vector<Track>& tracks() const { return tracker_.tracks(); }
@@ -65,6 +102,7 @@ class FollowingTracker {
  private:
   std::shared_ptr<Live<edgescout_templates>> templates_;
   std::shared_ptr<Live<edgescout_backend>> backend_;
+  Camera camera_;  // lens included
   Tracker tracker_;
   std::mutex searching_;
 };
@@ -117,7 +155,7 @@ edgescout_status edgescout_tracker_search(edgescout_tracker* tracker,
   return guarded([&] {
     const auto given = live(tracker);
     require(found, "found");
-    *found = std::size_t(given->value->search(read_struct(search, "search")));
+    *found = std::size_t(given->value->search(read_search(search)));
   });
 }
 
