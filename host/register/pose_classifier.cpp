@@ -66,6 +66,14 @@ double weighted(const PoseFeatures& features, const weights::OneView& w) {
          w.best_displaced * support.best_displaced + depth_log_odds(features.depth);
 }
 
+// Of the measured surface, what nothing nearer hides. Hidden edges count neither for nor against a
+// pose: below the floor a few chance edges would make it probable. 1 without depth.
+double unhidden_share(const DepthEvidence& depth) {
+  constexpr double few = 2;
+  const double seen = few + depth.agreeing + depth.contradicting;
+  return seen / (seen + depth.hidden);
+}
+
 double log_logistic(double log_odds) {
   return log_odds > 0 ? -std::log1p(std::exp(-log_odds))
                       : log_odds - std::log1p(std::exp(log_odds));
@@ -74,7 +82,8 @@ double log_logistic(double log_odds) {
 double weighted(std::span<const PoseFeatures> informative_views, const weights::SeveralViews& w) {
   double sum = 0;
   for (const PoseFeatures& f : informative_views)
-    sum += std::max(log_logistic(PoseClassifier::log_odds(f)), MIN_LOG_PROBABILITY);
+    sum += std::max(log_logistic(PoseClassifier::log_odds(f)) + std::log(unhidden_share(f.depth)),
+                    MIN_LOG_PROBABILITY);
   return w.bias + w.log_probability * sum / double(informative_views.size());
 }
 

@@ -52,8 +52,9 @@ struct PoseClassifier {
   static double probability(const PoseFeatures& features);
   // The same from all views of a pose. Its log-odds are linear in the mean over the informative
   // views of the log-probability in one view, which lies in [-10, 0]. So they are bounded, a view
-  // that contradicts counts more than one that agrees, and the same views again add nothing. One
-  // informative view: as above; none: 0.
+  // that contradicts counts more than one that agrees, and the same views again add nothing. Where
+  // a view has depth, its probability is that times the share of the measured surface that nothing
+  // hides. One informative view: as above; none: 0.
   static double probability(std::span<const PoseFeatures> by_view);
 };
 

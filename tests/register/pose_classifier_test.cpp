@@ -169,6 +169,26 @@ TEST(ProbabilityOverViews, AHiddenViewCostsABoundedAmount) {
   EXPECT_NEAR(log_odds_of({hidden, good, good, good}), with, 1e-9);
 }
 
+// A pose below the floor: measured surfaces hide it from everywhere, and the few edges left meet
+// others by chance. What hides a pose from one view alone costs it little.
+TEST(ProbabilityOverViews, APoseThatMeasuredSurfacesHideEverywhereIsImprobable) {
+  PoseFeatures few_edges = with_psi(0.72);
+  few_edges.in_image = 0.3;
+  few_edges.support = {12, 8, 0.6f, 0.4f};
+  few_edges.shading = {1000, 1e6, 6e5};
+  PoseFeatures below = few_edges;
+  below.depth = {.agreeing = 5, .hidden = 150, .missing = 50};
+  const double p = PoseClassifier::probability(std::vector(3, few_edges));
+  EXPECT_GT(p, 0.5);
+  EXPECT_LT(PoseClassifier::probability(std::vector(3, below)), 0.3 * p);
+
+  PoseFeatures shown = with_psi(0.95), hidden = shown;
+  shown.depth = {.agreeing = 150};
+  hidden.depth = {.agreeing = 20, .hidden = 130};
+  EXPECT_GT(PoseClassifier::probability(std::vector{shown, shown, hidden}),
+            0.97 * PoseClassifier::probability(std::vector{shown, shown, shown}));
+}
+
 TEST(ProbabilityOverViews, IgnoresViewsThatAreNotInformative) {
   const PoseFeatures fair = with_psi(0.85);
   PoseFeatures few = fair, outside = fair;
