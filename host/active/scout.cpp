@@ -3,11 +3,10 @@
 // the parts of `give`.
 #include "host/active/scout.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "host/active/views.h"
+#include "host/core/image_size.h"
 #include "host/core/log.h"
 #include "host/io/binary_file.h"
 #include "kernels/error.h"
@@ -33,17 +32,6 @@ std::vector<ScoutObject> objects_of(std::span<const TemplateSet> sets) {
     objects.push_back({set.object_id, checksum(bytes.bytes)});
   }
   return objects;
-}
-
-// `image`: grey or depth, with its number of pixels.
-void require_size(const std::string& name, const auto& image, std::size_t pixels,
-                  const Camera& camera) {
-  const std::string size = fmt::format("{}x{}", image.width, image.height);
-  if (pixels != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
-    throw InputError("scout", name, fmt::format("{} pixels", pixels), size);
-  if (image.width != camera.width || image.height != camera.height)
-    throw InputError("scout", name + " size", size,
-                     fmt::format("the camera's {}x{}", camera.width, camera.height));
 }
 
 }  // namespace
@@ -141,9 +129,8 @@ void Scout::require_open(int view) const {
 }
 
 void Scout::require_fitting(const Shot& shot) const {
-  require_size("image", shot.image, shot.image.pixels.size(), camera_);
-  if (shot.depth)
-    require_size("depth image", shot.depth->image, shot.depth->image.z_m.size(), camera_);
+  require_size_of(camera_, shot.image, "scout");
+  if (shot.depth) require_size_of(camera_, shot.depth->image, "scout");
   validate_views({&shot.camera_from_world, 1}, "scout: camera pose");
 }
 

@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "host/core/option_names.h"
+#include "host/core/quantile.h"
 #include "host/io/decode_pixels.h"
 #include "host/io/pixel_rows.h"
 #include "kernels/error.h"
@@ -26,10 +27,7 @@ double median_of_stored(const cv::Mat& stored) {
       const float value = stored.at<float>(y, x);
       if (std::isfinite(value) && value != 0) values.push_back(value);
     }
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
+  return double(upper_median(std::move(values)));
 }
 
 [[noreturn]] void fail_without_depth(const cv::Mat& stored, double unit_m, const DepthOptions& o,

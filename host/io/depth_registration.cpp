@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdint>
 #include <opencv2/imgproc.hpp>
 
+#include "host/core/depth_surface.h"
 #include "host/core/kernel_types.h"
 #include "host/core/option_names.h"
 #include "host/io/pixel_map.h"
@@ -25,38 +25,6 @@ void require_size(const DepthImage& depth, const Camera& camera) {
                                  camera.height, option_name("depth-camera")));
 }
 
-// The triangles between neighbouring pixels of one surface.
-class MeasuredSurface {
- public:
-  MeasuredSurface(const DepthImage& depth, const Camera& ideal) : depth_(depth) {
-    for (int y = 0; y < depth.height; ++y)
-      for (int x = 0; x < depth.width; ++x) {
-        const Eigen::Vector3d point_m = double(depth.at(x, y)) * ray_through(ideal, {x, y});
-        for (const double coordinate : point_m) vertices_m_.push_back(float(coordinate));
-      }
-    for (int y = 0; y + 1 < depth.height; ++y)
-      for (int x = 0; x + 1 < depth.width; ++x) {
-        add(number(x, y), number(x + 1, y), number(x, y + 1));
-        add(number(x + 1, y), number(x + 1, y + 1), number(x, y + 1));
-      }
-  }
-  TriangleMesh mesh() const { return {vertices_m_, triangles_}; }
-
- private:
-  std::uint32_t number(int x, int y) const {
-    return std::uint32_t(y) * std::uint32_t(depth_.width) + std::uint32_t(x);
-  }
-  void add(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const auto [low, high] = std::minmax({depth_.z_m[a], depth_.z_m[b], depth_.z_m[c]});
-    if (low > 0 && high - low <= MOST_RELATIVE_STEP * high)
-      triangles_.insert(triangles_.end(), {a, b, c});
-  }
-
-  const DepthImage& depth_;
-  std::vector<float> vertices_m_;
-  std::vector<std::uint32_t> triangles_;
-};
-
 }  // namespace
 
 DepthImage undistort_depth(const DepthImage& depth, const Camera& camera) {
@@ -74,7 +42,8 @@ DepthImage undistort_depth(const DepthImage& depth, const Camera& camera) {
 DepthImage register_depth(const DepthImage& depth, const DepthCamera& from, const Camera& grey,
                           ThreadPool& pool) {
   const DepthImage ideal_depth = undistort_depth(depth, from.camera);
-  const MeasuredSurface surface(ideal_depth, undistorted(from.camera));
+  DepthSurface surface;
+  surface.add(ideal_depth, undistorted(from.camera), Se3{}, MOST_RELATIVE_STEP);
   const Camera target = undistorted(grey);
   const DepthJob job{to_pose(from.grey_from_depth), intrinsics_of(target)};
   DepthImage result{target.width, target.height,

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <optional>
 
+#include "host/core/image_size.h"
 #include "host/detect/suppression.h"
 #include "host/register/depth_evidence.h"
 #include "host/register/occluders.h"
@@ -52,16 +53,6 @@ bool is_near(const Se3& pose, const Se3& predicted, const EdgeModel& model) {
   constexpr double most_of_diameter = 0.15;
   return pose_distance_m(pose, predicted, model.mesh, {}) <
          most_of_diameter * model.mesh.diameter_m;
-}
-
-bool fits(const DepthImage& depth, const Camera& camera) {
-  return depth.width == camera.width && depth.height == camera.height &&
-         depth.z_m.size() == std::size_t(depth.width) * std::size_t(depth.height);
-}
-
-bool fits(const Image& image, const Camera& camera) {
-  return image.width == camera.width && image.height == camera.height &&
-         image.pixels.size() == std::size_t(image.width) * image.height;
 }
 
 }  // namespace
@@ -123,16 +114,8 @@ struct Tracker::State {
 
 void Tracker::State::require(const TrackFrame& frame) const {
   check(frame.image != nullptr, "tracker: a frame without an image");
-  if (!fits(*frame.image, camera))
-    throw InputError("frame", "size",
-                     fmt::format("{} x {}, {} pixels", frame.image->width, frame.image->height,
-                                 frame.image->pixels.size()),
-                     fmt::format("{} x {}, the camera's", camera.width, camera.height));
-  if (frame.depth && !fits(frame.depth->image, camera))
-    throw InputError("frame", "depth's size",
-                     fmt::format("{} x {}, {} values", frame.depth->image.width,
-                                 frame.depth->image.height, frame.depth->image.z_m.size()),
-                     fmt::format("{} x {}, the camera's", camera.width, camera.height));
+  require_size_of(camera, *frame.image, "frame");
+  if (frame.depth) require_size_of(camera, frame.depth->image, "frame");
   if (!std::isfinite(frame.time_s))
     throw InputError("frame", "time", fmt::format("{}", frame.time_s), "a number");
 }

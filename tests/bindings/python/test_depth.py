@@ -65,7 +65,7 @@ def test_a_wall_before_the_part_hides_it(scene):
 @pytest.mark.parametrize("depth, message", [
     (np.ones((480, 640)), "depth: found float64 of shape (480, 640)"),
     (np.ones((480, 640, 1), np.uint16), "depth: found uint16 of shape (480, 640, 1)"),
-    (np.full((240, 320), 400, np.uint16), "320x240 px, expected the image's 640x480"),
+    (np.full((240, 320), 400, np.uint16), "320x240, expected the camera's 640x480"),
     (np.full((480, 640), 400, np.float32), "which are 400 m"),
 ])
 def test_refuses_what_is_no_depth(scene, depth, message):

@@ -93,9 +93,9 @@ def test_a_pose_that_depth_contradicts_is_doubtful(scene, found):
 
 
 def test_refuses_depth_of_another_size(scene, tracker):
-    with pytest.raises(ValueError, match="320x240 px, expected the image's 640x480"):
+    with pytest.raises(ValueError, match="320x240, expected the camera's 640x480"):
         tracker.update(scene.image, 0, depth=np.full((240, 320), 400, np.uint16))
-    with pytest.raises(ValueError, match="320x240 px, expected the image's 640x480"):
+    with pytest.raises(ValueError, match="320x240, expected the camera's 640x480"):
         tracker.search(scene.image, depth=np.full((240, 320), 400, np.uint16))
 
 

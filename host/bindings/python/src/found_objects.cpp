@@ -1,5 +1,6 @@
 #include "host/bindings/python/src/found_objects.h"
 
+#include "host/core/image_size.h"
 #include "host/io/depth_registration.h"
 
 namespace edgescout::python {
@@ -34,11 +35,7 @@ void give_depth(TakenImage& taken, const GivenDepth& depth) {
   if (!array) throw py::error_already_set();
   taken.depth = depth_of(array, options);
   taken.depth_noise = options.noise;
-  if (taken.depth->width != taken.camera.width || taken.depth->height != taken.camera.height)
-    refuse("depth",
-           std::to_string(taken.depth->width) + "x" + std::to_string(taken.depth->height) + " px",
-           "the image's " + std::to_string(taken.camera.width) + "x" +
-               std::to_string(taken.camera.height));
+  require_size_of(taken.camera, *taken.depth, "depth", "image");
 }
 
 void give_depth(std::span<TakenImage> taken, const GivenDepth& depth) {
