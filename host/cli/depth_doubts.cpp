@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "host/core/log.h"
+#include "host/core/quantile.h"
 #include "host/edge/depth_edges.h"
 #include "host/edge/edge_index.h"
 #include "host/register/measured_depth.h"
@@ -27,12 +28,6 @@ std::string doubt_of_place(const DepthEdges& edges) {
         "{} of {} jumps of depth lie on edges, {} would if it were moved by ({}, {}) px",
         percent(edges.in_place), edges.jumps, percent(edges.best), edges.dx_px, edges.dy_px);
   return {};
-}
-
-double middle_of(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::ranges::nth_element(values, middle);
-  return *middle;
 }
 
 std::vector<float> measured_values(const DepthImage& depth) {
@@ -59,20 +54,39 @@ std::optional<double> unit_that_fits(std::span<const float> values, const Range&
 std::string doubt_of_unit(const DepthImage& depth, const Range& distances_m) {
   constexpr std::size_t fewest = 1000;
   constexpr double least_share = 0.01;
-  std::vector<float> values = measured_values(depth);
+  const std::vector<float> values = measured_values(depth);
   if (values.size() < fewest) return {};
   if (share_inside(values, distances_m, 1) > least_share) return {};
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::ranges::nth_element(values, middle);
   const std::optional<double> factor = unit_that_fits(values, distances_m);
   if (!factor) return {};
   return fmt::format(
       "depth has a median of {:.4g} m, objects are sought at {:.4g} to {:.4g} m: {:g} times the "
       "unit would fit",
-      *middle, distances_m.low, distances_m.high, *factor);
+      upper_median(values), distances_m.low, distances_m.high, *factor);
 }
 
 }  // namespace
+
+// Several poses, since the edges of one hold its distance badly. Errors that all poses share, such
+// as bright surfaces that look larger, do not average out: the offset must be as large as the
+// poses' spread.
+std::string doubt_of_bias(std::span<const DepthOffset> offsets) {
+  constexpr std::size_t fewest = 5;
+  constexpr double least_errors = 4, of_normal = 1.4826, of_median = 1.2533;
+  if (offsets.size() < fewest) return {};
+  std::vector<double> values, deviations;
+  for (const DepthOffset& offset : offsets) values.push_back(offset.offset_m);
+  const double offset_m = upper_median(values);
+  for (const double value : values) deviations.push_back(std::abs(value - offset_m));
+  const double spread_m = of_normal * upper_median(deviations),
+               error_m = of_median * spread_m / std::sqrt(double(values.size()));
+  if (std::abs(offset_m) <= std::max(least_errors * error_m, spread_m)) return {};
+  return fmt::format(
+      "depth moves poses {:.2f} +- {:.2f} mm {} the camera than their edges alone, in the median "
+      "of {}: is the sensor biased?",
+      1e3 * std::abs(offset_m), 1e3 * error_m, offset_m > 0 ? "farther from" : "nearer to",
+      values.size());
+}
 
 void DepthDoubts::look_at(const std::string& image, const ObjectView& view,
                           const Range& distances_m) {
@@ -113,29 +127,8 @@ void DepthDoubts::add(const std::string& kind, const std::string& image, const s
   if (doubt.images++ == 0) doubt.first = image + ": " + what;
 }
 
-// Several poses, since the edges of one hold its distance badly. Errors that all poses share, such
-// as bright surfaces that look larger, do not average out: the offset must be as large as the
-// poses' spread.
-std::string DepthDoubts::doubt_of_bias() const {
-  constexpr std::size_t fewest = 5;
-  constexpr double least_errors = 4, of_normal = 1.4826, of_median = 1.2533;
-  if (offsets_.size() < fewest) return {};
-  std::vector<double> values, deviations;
-  for (const DepthOffset& offset : offsets_) values.push_back(offset.offset_m);
-  const double offset_m = middle_of(values);
-  for (const double value : values) deviations.push_back(std::abs(value - offset_m));
-  const double spread_m = of_normal * middle_of(deviations),
-               error_m = of_median * spread_m / std::sqrt(double(values.size()));
-  if (std::abs(offset_m) <= std::max(least_errors * error_m, spread_m)) return {};
-  return fmt::format(
-      "depth moves poses {:.2f} +- {:.2f} mm {} the camera than their edges alone, in the median "
-      "of {}: is the sensor biased?",
-      1e3 * std::abs(offset_m), 1e3 * error_m, offset_m > 0 ? "farther from" : "nearer to",
-      values.size());
-}
-
 void DepthDoubts::say() const {
-  const std::string bias = doubt_of_bias();
+  const std::string bias = doubt_of_bias(offsets_);
   if (!bias.empty()) log(LogLevel::Warning, bias);
 
   for (const auto& [kind, doubt] : doubts_)

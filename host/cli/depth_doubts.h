@@ -12,6 +12,9 @@
 
 namespace edgescout {
 
+// What to say of a sensor by whose depth poses were moved so; empty: nothing.
+std::string doubt_of_bias(std::span<const DepthOffset> offsets);
+
 class DepthDoubts {
  public:
   // Logs what is in doubt for debugging. `view` has edges, and may have depth. `distances_m`: where
@@ -29,8 +32,6 @@ class DepthDoubts {
     int images = 0;
   };
   void add(const std::string& kind, const std::string& image, const std::string& what);
-
-  std::string doubt_of_bias() const;
 
   std::vector<DepthOffset> offsets_;     // of all images
   std::map<std::string, Doubt> doubts_;  // by kind: what it may come from

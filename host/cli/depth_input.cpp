@@ -69,6 +69,15 @@ void add_depth(CLI::App& verb, DepthArguments& depth) {
   describe(depth.options, add);
 }
 
+void refuse_options_without_depth(const CLI::App& verb) {
+  if (verb.count("--depth") > 0) return;
+  for (const CLI::Option* option : verb.get_options()) {
+    const std::string& group = option->get_group();
+    if (option->count() > 0 && (group == "Depth" || group == "Depth sensor"))
+      throw InputError("command line", option->get_name(), "it without --depth", "--depth");
+  }
+}
+
 std::optional<DepthFile> depth_file_of(const BopImage& image) {
   if (image.depth_file.empty()) return {};
   return DepthFile{image.depth_file, image.depth_unit_m()};

@@ -29,6 +29,8 @@ struct DepthArguments {
 
 // --depth, --depth-camera, --depth-pose and the options of the struct.
 void add_depth(CLI::App& verb, DepthArguments& depth);
+// InputError: an option of the groups "Depth" and "Depth sensor" was given, and not --depth.
+void refuse_options_without_depth(const CLI::App& verb);
 
 // The depth image of one input image.
 struct DepthFile {

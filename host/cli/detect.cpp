@@ -117,6 +117,7 @@ void add_detect(CLI::App& app, int& exit_code) {
   add_options(*verb, *request);
   verb->callback([request, &exit_code, verb] {
     refuse_beside_templates(*verb);
+    refuse_options_without_depth(*verb);
     request->batch.settings =
         settings_of(*verb, {"Images", "Depth", "Edges", "Tensor", "Detection"});
     exit_code = detect(*request);

@@ -150,6 +150,7 @@ void add_register(CLI::App& app, int& exit_code) {
   add_options(*verb, *request);
   verb->callback([request, &exit_code, verb] {
     refuse_beside_templates(*verb);
+    refuse_options_without_depth(*verb);
     request->options.settings =
         settings_of(*verb, {"Registration", "Images", "Depth", "Edges", "Tensor"});
     exit_code = register_all(*request);

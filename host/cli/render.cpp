@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "host/cli/common_arguments.h"
+#include "host/cli/depth_input.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/help.h"
 #include "host/cli/progress.h"
@@ -182,7 +183,8 @@ void add_render(CLI::App& app, int& exit_code) {
   describe(request->options.light, ranges);
   describe(request->options.camera, ranges);
   describe(request->options.depth, ranges);
-  verb->callback([request, &exit_code] {
+  verb->callback([request, verb, &exit_code] {
+    refuse_options_without_depth(*verb);
     render_scenes(*request);
     exit_code = exit_done;
   });

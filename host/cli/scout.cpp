@@ -255,6 +255,7 @@ void add_scout(CLI::App& app, int& exit_code) {
     request->source.settings = settings_of(*verb, groups);
     request->planning = settings_of(*verb, {"Information", "Next view", "Budget"});
     refuse_unused(*verb);
+    refuse_options_without_depth(*verb);
     refuse_beside_templates(*verb);
     exit_code = scout(*request, *verb);
   });

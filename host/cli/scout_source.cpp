@@ -44,6 +44,7 @@ DepthSensor cell_sensor(const SourceRequest& request) {
   sensor.on = !depth.from.empty();
   sensor.range_m = depth.options.range_m;
   sensor.noise_m = depth.options.noise.at_one_metre_m;
+  sensor.noise_floor_m = depth.options.noise.floor_m;
   return sensor;
 }
 

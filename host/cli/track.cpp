@@ -126,6 +126,7 @@ void add_track(CLI::App& app, int& exit_code) {
   add_options(*verb, *arguments);
   verb->callback([arguments, &exit_code, verb] {
     refuse_beside_templates(*verb);
+    refuse_options_without_depth(*verb);
     exit_code = track(*arguments);
   });
 }

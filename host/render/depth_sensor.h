@@ -9,10 +9,11 @@ namespace edgescout {
 // host/render/measure_depth.h says in which order errors act.
 struct DepthSensor {
   bool on = false;
-  double unit_m = 1e-4;      // of the values in the files
-  Range range_m{0.1, 6};     // beyond it nothing is measured
-  double noise_m = 0.001;    // standard deviation at 1 m; grows with the distance squared
-  double noise_blur_px = 0;  // neighbouring pixels have like errors; 0: each has its own
+  double unit_m = 1e-4;         // of the values in the files
+  Range range_m{0.1, 6};        // beyond it nothing is measured
+  double noise_m = 0.001;       // standard deviation at 1 m; grows with the distance squared
+  double noise_floor_m = 5e-4;  // the least that it states of its noise (SimulatedCell)
+  double noise_blur_px = 0;     // neighbouring pixels have like errors; 0: each has its own
   double step_m = 0.0005;  // at 1 m: equal steps of disparity, which grow with the distance squared
   // Cosine of the angle between normal and line of sight. At the least one nothing is measured; the
   // probability of a measurement grows over the ramp to 1.

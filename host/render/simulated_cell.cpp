@@ -54,7 +54,7 @@ Shot SimulatedCell::acquire(int view) {
   Shot shot{std::move(seen.image), noise_.known ? reached : planned};
   if (const DepthSensor& sensor = scene.options.depth; sensor.on)
     shot.depth = std::make_shared<const MeasuredDepth>(
-        MeasuredDepth{std::move(seen.measured_depth), {.at_one_metre_m = sensor.noise_m}});
+        MeasuredDepth{std::move(seen.measured_depth), {sensor.noise_floor_m, sensor.noise_m}});
   return shot;
 }
 

@@ -12,30 +12,36 @@
 namespace edgescout::test {
 namespace {
 
-// The small scene with a depth image that is 0.1 mm a unit.
+// The small scene with depth images that are 0.1 mm a unit.
 struct DepthScene {
+  int views;
   SmallScene made;
   fs::path depth = made.scene / "depth";
 
+  explicit DepthScene(int count = 1) : views(count), made(count) {}
+
   // In metres; 0: nothing is measured.
   void write_depth(double z_m, int width, int height) const {
-    write(cv::Mat(height, width, CV_16U, cv::Scalar(z_m * 1e4)));
+    write(0, cv::Mat(height, width, CV_16U, cv::Scalar(z_m * 1e4)));
   }
   // What is there. `units`: of 0.1 mm; `is_mirrored`: as if it were another frame's.
   void write_true_depth(double units = 1, bool is_mirrored = false) const {
     const std::vector<Object> parts{make_part("l_bracket")};
     ThreadPool pool(2);
-    std::vector<float> depth_m = render(make_scene(parts, bare_board(1, 1)), pool)[0].depth_m;
-    cv::Mat stored;
-    cv::Mat(240, 320, CV_32F, depth_m.data()).convertTo(stored, CV_16U, 1e4 * units);
-    if (is_mirrored) cv::flip(stored, stored, 1);
-    write(stored);
+    std::vector<Rendering> seen = render(make_scene(parts, bare_board(1, views)), pool);
+    for (int i = 0; i < views; ++i) {
+      cv::Mat stored;
+      cv::Mat(240, 320, CV_32F, seen[std::size_t(i)].depth_m.data())
+          .convertTo(stored, CV_16U, 1e4 * units);
+      if (is_mirrored) cv::flip(stored, stored, 1);
+      write(i, stored);
+    }
   }
-  void write(const cv::Mat& stored) const {
+  void write(int image, const cv::Mat& stored) const {
     fs::create_directories(depth);
-    cv::imwrite((depth / "000000.png").string(), stored);
+    cv::imwrite((depth / ("00000" + std::to_string(image) + ".png")).string(), stored);
     nlohmann::json cameras = nlohmann::json::parse(content_of(made.scene / "scene_camera.json"));
-    cameras["0"]["depth_scale"] = 0.1;
+    cameras[std::to_string(image)]["depth_scale"] = 0.1;
     std::ofstream(made.scene / "scene_camera.json") << cameras;
   }
   std::vector<std::string> detect(const std::vector<std::string>& more) const {
@@ -94,10 +100,12 @@ TEST(DepthOption, RefusesAWrongUnit) {
 }
 
 // What is said of depth that cannot be that of the images, by each verb.
-TEST(DepthOption, DoubtsAreSaidOnce) {
-  const DepthScene t;
-  const std::string starts = t.made.folder.write(
-      "starts.csv", "scene_id,im_id,obj_id,score,R,t,time\n3,0,1,1,1 0 0 0 1 0 0 0 1,0 0 300,-1\n");
+TEST(DepthOption, DoubtsAreSaidOnceWithTheirNumber) {
+  const DepthScene t(2);
+  const std::string starts = t.made.folder.write("starts.csv",
+                                                 "scene_id,im_id,obj_id,score,R,t,time\n"
+                                                 "3,0,1,1,1 0 0 0 1 0 0 0 1,0 0 300,-1\n"
+                                                 "3,1,1,1,1 0 0 0 1 0 0 0 1,0 0 300,-1\n");
   const std::vector<std::string> registers = {
       "register", t.made.scene, "--poses",  starts, "--model", part_file(1), "--unit",       "mm",
       "--out",    t.made.out,   "--device", "cpu",  "--depth", "scene",      "--no-overlays"};
@@ -109,7 +117,9 @@ TEST(DepthOption, DoubtsAreSaidOnce) {
       const Outcome outcome = run_program(arguments);
       EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
       for (const std::string& doubt : {other, unit})
-        EXPECT_EQ(outcome.err.find(doubt) != std::string::npos, doubt == what) << outcome.err;
+        EXPECT_EQ(count_of(outcome.err, doubt), doubt == what ? 1u : 0u) << outcome.err;
+      EXPECT_EQ(count_of(outcome.err, "so in 2 of 2 images with depth"), what.empty() ? 0u : 1u)
+          << outcome.err;
     }
   };
   t.write_true_depth();
@@ -122,6 +132,7 @@ TEST(DepthOption, DoubtsAreSaidOnce) {
 
 TEST(DepthOption, RefusesDepthThatIsNotThere) {
   const DepthScene t;
+  expect_refused(t.detect({"--depth-noise", "0.01"}), {"--depth-noise", "it without --depth"});
   expect_refused(t.detect({"--depth", "scene"}), {"--depth", "scenes with depth/"});
   expect_refused(t.detect({"--depth", t.made.folder.path()}), {"--depth", "names of the images"});
   expect_refused_in_the_batch(t.detect({"--depth", t.made.folder.path() / "none.png"}),
@@ -140,6 +151,7 @@ TEST(DepthOption, OfAScoutIsTheSensorOfACell) {
   ASSERT_EQ(with.at("detections").size(), 1u);
   EXPECT_TRUE(with["detections"][0].at("off_truth").at("right"));
   expect_refused(t.arguments({"--depth", "folder"}), {"--depth", "folder for a cell", "scene"});
+  expect_refused(t.arguments({"--depth-holes", "0.5"}), {"--depth-holes", "it without --depth"});
 }
 
 TEST(DepthOption, OfAScoutIsThatOfRecordedViews) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host/active/views.h"
+#include "host/register/measured_depth.h"
 #include "host/render/renderer.h"
 #include "kernels/thread_pool.h"
 #include "tests/active/tiny_scene.h"
@@ -70,6 +71,18 @@ TEST(SimulatedCell, AnArmWithoutEncodersReportsThePlanAndSeesTheTruth) {
   EXPECT_GT(distance_between_m(reached.camera_from_world, t.views[1]), 0.001);
   EXPECT_EQ(planned.image.pixels, reached.image.pixels);
   EXPECT_NE(planned.image.pixels, t.with({}).acquire(1).image.pixels);
+}
+
+TEST(SimulatedCell, StatesTheNoiseOfItsDepth) {
+  Cell t;
+  EXPECT_EQ(t.with({}).acquire(1).depth, nullptr);
+  t.scene.options.depth.on = true;
+  t.scene.options.depth.noise_m = 0.003;
+  t.scene.options.depth.noise_floor_m = 0.007;
+  const Shot shot = t.with({}).acquire(1);
+  ASSERT_TRUE(shot.depth);
+  EXPECT_EQ(shot.depth->noise.at_one_metre_m, 0.003);
+  EXPECT_EQ(shot.depth->noise.floor_m, 0.007);
 }
 
 TEST(SimulatedCell, RefusesNoiseOutOfBounds) {
