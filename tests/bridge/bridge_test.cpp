@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "host/bridge/ros2/depth_message.h"
 #include "tests/bridge/tested_bridge.h"
 #include "tests/io/collected_log.h"
 
@@ -212,7 +213,9 @@ struct ArmBridge : TestedBridge {
       options.scout_views.push_back(small_world().camera_from_world(view));
     return options;
   }
-  ArmBridge() : TestedBridge(options()) { results.wants = true; }
+  explicit ArmBridge(const BridgeOptions& with = options()) : TestedBridge(with) {
+    results.wants = true;
+  }
   // The camera's pose at a time.
   void stand_at(std::size_t view, double seconds) {
     bridge.take({{transform_message("world", "camera",
@@ -344,6 +347,36 @@ TEST(Bridge, ScoutsWithACameraOnAnArm) {
   EXPECT_TRUE(last.done);
   EXPECT_NE(last.end, "");
   EXPECT_FALSE(answer_of<Propose>(tested, msg::ScoutProposeRequest{true}).done);
+}
+
+TEST(Bridge, AScoutTakesTheDepthOfItsImage) {
+  BridgeOptions options = ArmBridge::options();
+  options.depth = DepthSource::Aligned;
+  ArmBridge tested(options);
+  tested.give_info();
+  const auto view =
+      std::size_t(answer_of<msg::ScoutProposeResult>(tested, msg::ScoutProposeRequest{}).view);
+  msg::ScoutGiveResult given;
+  tested.bridge.request(msg::ScoutGiveRequest{std::int32_t(view), false, ""},
+                        Answer<msg::ScoutGiveResult>([&](const auto& result) { given = result; }));
+  tested.stand_at(view, 7);
+  tested.give_image(7, view);
+  tested.bridge.take_depth(depth_message(7, view));
+  tested.bridge.work(0);
+  EXPECT_TRUE(given.success) << given.message;
+  const double entropy_nats =
+      answer_of<msg::ScoutStateResult>(tested, msg::ScoutStateRequest{}).entropy_nats;
+
+  SmallWorld& world = small_world();
+  const auto by_library = [&](std::shared_ptr<const MeasuredDepth> depth) {
+    Scout scout(world.sets, world.camera(), options.scout_views, options.scout, *world.backend);
+    scout.give(int(view), Shot{world.image(view), options.scout_views[view], std::move(depth)});
+    return scout.state().entropy_nats;
+  };
+  const auto measured = std::make_shared<const MeasuredDepth>(
+      MeasuredDepth{depth_of(depth_message(7, view), {}, "depth"), {}});
+  EXPECT_NEAR(entropy_nats, by_library(measured), 1e-6);
+  EXPECT_GT(std::abs(entropy_nats - by_library(nullptr)), 1e-3);
 }
 
 TEST(Bridge, StopsWorkInProgress) {
