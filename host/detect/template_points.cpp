@@ -102,9 +102,10 @@ PointsInViews<SurfacePoint> surface(const EdgeModel& model, std::span<const Obje
                                     std::size_t poses, int most) {
   constexpr std::size_t beginning = 120;
   const std::vector<SurfacePoint>& all = model.surface_points;
-  const std::vector<SurfacePoint> first{
-      all.begin(), all.begin() + std::ptrdiff_t(std::min(beginning, all.size()))};
-  PointsInViews<SurfacePoint> found{thinned(first, most), {poses, views.size()}};
+  const auto first = std::span(all).first(std::min(beginning, all.size()));
+  PointsInViews<SurfacePoint> found{Unfilled<SurfacePoint>(thinned_size(first.size(), most)),
+                                    {poses, views.size()}};
+  thin_into<SurfacePoint>(found.points, first);
   for (std::size_t v = 0; v < views.size(); ++v)
     if (views[v].depth_values)
       for (std::size_t p = 0; p < poses; ++p)

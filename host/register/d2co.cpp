@@ -31,9 +31,9 @@ class Evaluator {
     for (const ObjectView& view : scene.views) tensors_.push_back(view.tensor);
   }
 
-  // Systems at the trial poses of the active states, in the states' order. Those of inactive
-  // states stay empty.
-  std::vector<WorldSystem> at_trials(std::span<const LmState> states) {
+  // Systems at the trial poses of the active states, in the states' order; those of inactive states
+  // mean nothing. They hold until the next call.
+  std::span<const WorldSystem> at_trials(std::span<const LmState> states) {
     const std::span<const ObjectView> views = scene_.views;
     std::vector<std::size_t> active;
     for (std::size_t p = 0; p < states.size(); ++p)
@@ -49,13 +49,15 @@ class Evaluator {
       }
     });
     scene_.backend.pose_normal_equations(tensors_, *points_, problems_, loss_, results_);
-    std::vector<WorldSystem> systems(states.size());
+    systems_.resize(states.size());
     for_poses(active.size(), scene_.backend.threads(), [&](std::size_t i) {
+      WorldSystem& system = systems_[active[i]];
+      system = {};
       for (std::size_t v = 0; v < views.size(); ++v)
-        add_view(systems[active[i]], results_[i * views.size() + v], views[v].camera_from_world);
+        add_view(system, results_[i * views.size() + v], views[v].camera_from_world);
     });
-    depth_.add_at_trials(states, systems);
-    return systems;
+    depth_.add_at_trials(states, systems_);
+    return systems_;
   }
 
  private:
@@ -67,6 +69,7 @@ class Evaluator {
   std::vector<ViewHandle> tensors_;
   std::vector<PoseProblem> problems_;
   std::vector<NormalEquations> results_;
+  std::vector<WorldSystem> systems_;
 };
 
 void check_ranges(const Grid<PointRange>& ranges, std::size_t poses, const Scene& scene) {
@@ -82,7 +85,7 @@ void run_round(std::span<LmState> states, Evaluator& evaluator, const D2coRound&
                const D2coOptions& options, const Scene& scene) {
   ThreadPool& pool = scene.backend.threads();
   for (LmState& state : states) restart(state);
-  std::vector<WorldSystem> systems = evaluator.at_trials(states);
+  std::span<const WorldSystem> systems = evaluator.at_trials(states);
   for_poses(states.size(), pool, [&](std::size_t p) { initialize(states[p], systems[p]); });
   for (int i = 0; i < round.iterations; ++i) {
     if (std::ranges::none_of(states, [](const LmState& state) { return state.active; })) return;

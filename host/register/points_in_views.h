@@ -9,6 +9,7 @@
 #include "host/core/grid.h"
 #include "host/core/thinned.h"
 #include "kernels/thread_pool.h"
+#include "kernels/unfilled.h"
 
 namespace edgescout {
 
@@ -19,14 +20,14 @@ struct PointRange {
 // Rows are poses, columns views. Pairs may share a part.
 template <typename T>
 struct PointsInViews {
-  std::vector<T> points;
+  Unfilled<T> points;
   Grid<PointRange> ranges;
 };
 
 // Lists one after the other, and where each lies.
 template <typename T>
 struct JoinedLists {
-  std::vector<T> values;
+  Unfilled<T> values;
   std::vector<PointRange> ranges;
 };
 
