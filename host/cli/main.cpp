@@ -14,6 +14,7 @@
 #include "host/cli/help.h"
 #include "host/cli/renamed_options.h"
 #include "host/cli/verbs.h"
+#include "host/core/freed_memory.h"
 #include "host/core/log.h"
 #include "host/core/option_names.h"
 #include "kernels/error.h"
@@ -125,6 +126,7 @@ int run_and_catch(int argc, char** argv) {
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file-size limit is then an error of write(), as a full disk is
+  edgescout::keep_freed_memory();
   edgescout::name_options_as_typed();
   edgescout::send_log_to_stderr();
   return edgescout::run_and_catch(argc, argv);
