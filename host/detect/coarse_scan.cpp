@@ -234,9 +234,12 @@ std::vector<ScanHit> coarse_scan(const TemplateSet& set, const ObjectView& view,
     const std::size_t most = (of_admitted + regions.size() - 1) / regions.size();
     for (const std::span<const ScanRegion> part : parts_between_checks(regions, limit)) {
       if (limit && limit->is_over()) return hits;
-      const std::vector<ScanHit> of_part =
+      std::vector<ScanHit> of_part =
           RegionScan(searched, admitted, part, backend, options, of_templates).best(most);
-      hits.insert(hits.end(), of_part.begin(), of_part.end());
+      if (hits.empty())
+        hits = std::move(of_part);
+      else
+        hits.insert(hits.end(), of_part.begin(), of_part.end());
     }
   }
   return hits;
