@@ -26,10 +26,13 @@ def scene():
     matrix = json.loads((SCENE / "scene_camera.json").read_text())["0"]["cam_K"]
     backend = edgescout.Backend("cpu", threads=2)
     camera = edgescout.Camera(image.shape[1], image.shape[0], np.reshape(matrix, (3, 3)))
-    options = edgescout.TemplateOptions(distance_min=0.32, distance_max=0.36)
+    few = {"distance_min": 0.32, "distance_max": 0.36, "viewpoints": 3, "in_plane_steps": 12}
+    options = edgescout.TemplateOptions(**few)
     templates = edgescout.Templates(edgescout.load_mesh(PART, "mm"), options, backend=backend)
     return SimpleNamespace(image=image, camera=camera, templates=templates, backend=backend,
-                           file=SCENE / "gray/000000.png", part=PART)
+                           file=SCENE / "gray/000000.png", part=PART,
+                           template_arguments=[word for name, value in few.items() for word in
+                                               ("--" + name.replace("_", "-"), str(value))])
 
 
 @pytest.fixture(scope="session")

@@ -24,7 +24,7 @@ def test_equals_the_program(scene, depth_mm, program, tmp_path):
     file.write_bytes(b"Pf\n640 480\n-1.0\n" + depth_m[::-1].astype("<f4").tobytes())
     subprocess.run(
         [program, "detect", scene.file, "--depth", file, "--depth-noise", "0.002", "--model",
-         scene.part, "--unit", "mm", "--distance-min", "0.32", "--distance-max", "0.36", "--camera",
+         scene.part, "--unit", "mm", *scene.template_arguments, "--camera",
          scene.file.parents[1] / "scene_camera.json", "--device", "cpu", "--no-overlays",
          "--min-probability", "0.001", "--out",
          tmp_path / "out"], check=True, capture_output=True)

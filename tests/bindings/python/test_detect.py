@@ -12,8 +12,8 @@ import edgescout
 
 def test_equals_the_program_bit_for_bit(scene, found, program, tmp_path):
     subprocess.run(
-        [program, "detect", scene.file, "--model", scene.part, "--unit", "mm", "--distance-min",
-         "0.32", "--distance-max", "0.36", "--camera", scene.file.parents[1] / "scene_camera.json",
+        [program, "detect", scene.file, "--model", scene.part, "--unit", "mm",
+         *scene.template_arguments, "--camera", scene.file.parents[1] / "scene_camera.json",
          "--device", "cpu", "--no-overlays", "--out", tmp_path], check=True, capture_output=True)
     (result,) = [json.loads(file.read_text()) for file in tmp_path.rglob("*.json")
                  if "edgescout_result" in file.read_text()]
