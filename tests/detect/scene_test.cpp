@@ -53,10 +53,13 @@ INSTANTIATE_TEST_SUITE_P(Parts, DetectParts,
 // At distances of two scales.
 TEST(DetectObjects, FindsNearAndFarPartsWithoutARange) {
   const auto backend = make_cpu_backend(2);
+  TemplateOptions few;
+  few.frequency = 3;
+  few.in_plane_steps = 12;
   for (const double distance_m : {0.15, 0.5}) {
     RenderedPart t("u_channel", 1, 1, distance_m);
     t.sets = {build_templates(
-        t.part, with_default_distances({}, t.part.mesh.diameter_m, t.scene.views[0].camera),
+        t.part, with_default_distances(few, t.part.mesh.diameter_m, t.scene.views[0].camera),
         *backend)};
     const Detections found = t.detect(0, *backend);
     ASSERT_FALSE(found.detections.empty()) << distance_m;
