@@ -30,6 +30,7 @@
 #include "kernels/template_project.h"
 #include "kernels/template_scan.h"
 #include "kernels/template_score.h"
+#include "kernels/unfilled.h"
 
 namespace edgescout {
 
@@ -135,7 +136,7 @@ class Backend {
                                      std::span<const ModelPoint> points,
                                      std::span<const PoseProblem> problems, const PoseLoss& loss,
                                      std::span<NormalEquations> out) = 0;
-  virtual PosePointsHandle make_pose_points(std::vector<ModelPoint> points) = 0;
+  virtual PosePointsHandle make_pose_points(Unfilled<ModelPoint> points) = 0;
   virtual void pose_normal_equations(std::span<const ViewHandle> views,
                                      const BackendPosePoints& points,
                                      std::span<const PoseProblem> problems, const PoseLoss& loss,
@@ -145,7 +146,7 @@ class Backend {
                           std::span<PoseScore> out) = 0;
   // Copies the values. InputError naming the size: too large for the memory or the device.
   virtual DepthHandle make_depth(const DepthView& depth) = 0;
-  virtual SurfacePointsHandle make_surface_points(std::vector<SurfacePoint> points) = 0;
+  virtual SurfacePointsHandle make_surface_points(Unfilled<SurfacePoint> points) = 0;
   virtual void pose_depth(std::span<const DepthHandle> views, const BackendSurfacePoints& points,
                           std::span<const PoseProblem> problems, const PoseDepthOptions& options,
                           std::span<PoseDepth> out) = 0;

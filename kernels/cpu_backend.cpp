@@ -88,8 +88,8 @@ class CpuView : public BackendView {
 template <class Handle, class Point>
 class CpuPoints : public Handle {
  public:
-  explicit CpuPoints(std::vector<Point> points) : points(std::move(points)) {}
-  std::vector<Point> points;
+  explicit CpuPoints(Unfilled<Point> points) : points(std::move(points)) {}
+  Unfilled<Point> points;
 };
 using CpuPosePoints = CpuPoints<BackendPosePoints, ModelPoint>;
 using CpuSurfacePoints = CpuPoints<BackendSurfacePoints, SurfacePoint>;
@@ -206,7 +206,7 @@ class CpuBackend : public Backend {
       pose_normal_equations_reference(tensors, points, problems, loss, out);
   }
 
-  PosePointsHandle make_pose_points(std::vector<ModelPoint> points) override {
+  PosePointsHandle make_pose_points(Unfilled<ModelPoint> points) override {
     return std::make_shared<CpuPosePoints>(std::move(points));
   }
 
@@ -237,7 +237,7 @@ class CpuBackend : public Backend {
     return std::make_shared<CpuDepth>(depth);
   }
 
-  SurfacePointsHandle make_surface_points(std::vector<SurfacePoint> points) override {
+  SurfacePointsHandle make_surface_points(Unfilled<SurfacePoint> points) override {
     return std::make_shared<CpuSurfacePoints>(std::move(points));
   }
 

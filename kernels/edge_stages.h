@@ -71,6 +71,7 @@ EDGESCOUT_CONST(EDGE_REACH_ACROSS, 2);  // px
 #include <vector>
 
 #include "kernels/edge_detect.h"
+#include "kernels/unfilled.h"
 
 namespace edgescout {
 
@@ -95,7 +96,7 @@ struct EdgePixel {
 // EDGE_WINDOW pixels on all sides.
 struct EdgePlanes {
   int width = 0, height = 0;
-  std::vector<std::int16_t> gx, gy;
+  Unfilled<std::int16_t> gx, gy;
   std::vector<std::uint8_t> candidates;
   EdgePlanes(int image_width, int image_height);
   std::size_t stride() const { return std::size_t(width) + 2 * EDGE_WINDOW; }

@@ -6,6 +6,7 @@
 #include "kernels/error.h"
 #include "kernels/pose_normal_equations.h"
 #include "kernels/thread_pool.h"
+#include "kernels/unfilled.h"
 
 namespace edgescout {
 
@@ -69,8 +70,8 @@ class FastScan {
   const TemplateScan& scan_;
   ThreadPool& pool_;
   std::size_t points_of_one_;
-  std::vector<TemplatePoint> points_;  // points_of_one_ of each template
-  std::vector<TemplateJob> jobs_;
+  Unfilled<TemplatePoint> points_;  // points_of_one_ of each template
+  Unfilled<TemplateJob> jobs_;
   std::vector<char> is_drawn_;
 };
 

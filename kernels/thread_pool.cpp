@@ -40,46 +40,42 @@ void ThreadPool::for_each(std::size_t count, const std::function<void(std::size_
   {
     std::lock_guard lock(mutex_);
     body_ = &body;
-    count_ = unfinished_ = count;
+    count_ = count;
     next_ = 0;
     failure_ = nullptr;
   }
   wake_.notify_all();
   drain();
   std::unique_lock lock(mutex_);
-  done_.wait(lock, [this] { return unfinished_ == 0; });
+  done_.wait(lock, [this] { return busy_workers_ == 0; });
   body_ = nullptr;
   if (failure_) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
+// Of a loop that does not end before this returns.
 void ThreadPool::drain() {
   inside_loop = true;
-  std::unique_lock lock(mutex_);
-  while (body_ && next_ < count_) {
-    const std::size_t i = next_++;
-    const auto* body = body_;
-    lock.unlock();
-    std::exception_ptr failure;
+  for (std::size_t i = next_++; i < count_; i = next_++) {
     try {
-      (*body)(i);
+      (*body_)(i);
     } catch (...) {
-      failure = std::current_exception();
+      std::lock_guard lock(mutex_);
+      if (!failure_) failure_ = std::current_exception();
     }
-    lock.lock();
-    if (failure && !failure_) failure_ = failure;
-    if (--unfinished_ == 0) done_.notify_all();
   }
   inside_loop = false;
 }
 
 void ThreadPool::work() {
+  std::unique_lock lock(mutex_);
   for (;;) {
-    {
-      std::unique_lock lock(mutex_);
-      wake_.wait(lock, [this] { return stop_ || (body_ && next_ < count_); });
-      if (stop_) return;
-    }
+    wake_.wait(lock, [this] { return stop_ || has_work(); });
+    if (stop_) return;
+    ++busy_workers_;
+    lock.unlock();
     drain();
+    lock.lock();
+    if (--busy_workers_ == 0) done_.notify_all();
   }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
@@ -30,14 +31,17 @@ class ThreadPool {
  private:
   void work();
   void drain();
+  bool has_work() const { return body_ && next_ < count_; }
   void stop();
 
   std::vector<std::thread> workers_;
   std::mutex loop_mutex_;  // held for the length of one loop
-  std::mutex mutex_;       // guards everything below
+  // Taken without the mutex: bodies are short, and many threads would wait for it.
+  std::atomic<std::size_t> next_ = 0;
+  std::mutex mutex_;  // guards everything below; body_ and count_ stay while a worker is busy
   std::condition_variable wake_, done_;
-  const std::function<void(std::size_t)>* body_ = nullptr;
-  std::size_t count_ = 0, next_ = 0, unfinished_ = 0;
+  const std::function<void(std::size_t)>* body_ = nullptr;  // null between loops
+  std::size_t count_ = 0, busy_workers_ = 0;
   std::exception_ptr failure_;
   bool stop_ = false;
 };

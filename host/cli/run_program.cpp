@@ -15,6 +15,7 @@
 #include "host/cli/help.h"
 #include "host/cli/renamed_options.h"
 #include "host/cli/verbs.h"
+#include "host/core/freed_memory.h"
 #include "host/core/log.h"
 #include "host/core/option_names.h"
 #include "kernels/error.h"
@@ -124,6 +125,7 @@ int run_and_catch(int argc, char** argv) {
 int run_program(int argc, char** argv) {
   std::signal(SIGXFSZ,
               SIG_IGN);  // a file-size limit is then an error of write(), as a full disk is
+  keep_freed_memory();
   name_options_as_typed();
   send_log_to_stderr();
   return run_and_catch(argc, argv);

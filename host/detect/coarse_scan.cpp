@@ -12,6 +12,7 @@
 #include "host/register/coarse_registration.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
+#include "kernels/unfilled.h"
 
 namespace edgescout {
 
@@ -42,7 +43,7 @@ class RegionScan {
   // `hits` is memory that the scans of an image share.
   RegionScan(const SearchedScale& scale, const AdmittedSearch& admitted,
              std::span<const ScanRegion> regions, Backend& backend, const ScanOptions& options,
-             std::vector<TemplateHit>& hits)
+             Unfilled<TemplateHit>& hits)
       : scale_(scale), admitted_(admitted), backend_(backend), options_(options), hits_(hits) {
     for (const double distance_m : scale.numbering.distances_m)
       distances_m_.push_back(float(distance_m));
@@ -173,7 +174,7 @@ class RegionScan {
   const AdmittedSearch& admitted_;
   Backend& backend_;
   const ScanOptions& options_;
-  std::vector<TemplateHit>& hits_;  // of the last scan and, behind them, of longer ones
+  Unfilled<TemplateHit>& hits_;  // of the last scan and, behind them, of longer ones
   std::vector<float> distances_m_;
   std::vector<Eigen::Vector2d> middles_;  // of the regions, coarse px
   std::vector<TemplateRegion> regions_;
@@ -223,7 +224,7 @@ std::vector<ScanHit> coarse_scan(const TemplateSet& set, const ObjectView& view,
   check(options.quick_points >= 1 && options.quick_kept >= 1, "coarse_scan: first pass");
   const int scales = int(distance_scales(set.options).size());
   const std::size_t of_scale = share_of_scale(std::size_t(options.num_kept), set);
-  std::vector<TemplateHit> of_templates;
+  Unfilled<TemplateHit> of_templates;
   std::vector<ScanHit> hits;
   for (int scale = 0; scale < scales; ++scale) {
     const SearchedScale searched(set, scale, view);

@@ -15,9 +15,6 @@ namespace edgescout {
 
 namespace {
 
-// Of a template, before known objects hide some of them.
-constexpr int COARSE_POINTS = 120;
-
 template <typename T>
 std::vector<T> entries_at(const std::vector<std::size_t>& indices, const std::vector<T>& entries) {
   std::vector<T> chosen;
@@ -75,8 +72,9 @@ class Cascade {
       for (const ScanHit& hit : hits)
         if (std::size_t(hit.scale) == scale) poses.add(hit.pose.world_from_object, hit.rank);
       // Several images show the distance, in which starts of one image hardly differ.
-      for (const std::size_t i : is_joint() ? poses.best_distinct_of(set_, most)
-                                            : poses.best_distinct_starts_of(set_, most))
+      for (const std::size_t i :
+           is_joint() ? poses.best_distinct_of(set_, most)
+                      : poses.best_distinct_starts_of(set_, most, backend_.threads()))
         starts.push_back({0, poses.poses[i]});
     }
     return starts;
@@ -85,9 +83,11 @@ class Cascade {
   // Aligns the starts' templates on the coarse tensors.
   std::vector<PoseEstimate> coarse(std::span<const ObjectPose> starts) const {
     return register_coarsely(scene_of(views_), starts, [&](const Scene& on_level, auto poses) {
-      return register_points(on_level, poses,
-                             template_points(set_, on_level.views, COARSE_POINTS, backend_),
-                             options_.coarse);
+      const auto find_points = [&](std::span<const ObjectPose> at, const D2coRound& round) {
+        return template_points(set_, on_level.views, at,
+                               {round.max_points, round.max_surface_points}, backend_);
+      };
+      return register_points(on_level, poses, find_points, options_.coarse);
     });
   }
 

@@ -113,8 +113,11 @@ class LostPose {
     scan.mean_px = search_.hits[*best].mean_px;
     const Index start = best_near_start();
     const KeyedPoses better = hits.better_than(*best);
-    scan.rank =
-        start ? *start + 1 : 1 + better.best_distinct_starts_of(set_, better.poses.size()).size();
+    scan.rank = start ? *start + 1
+                      : 1 + better
+                                .best_distinct_starts_of(set_, better.poses.size(),
+                                                         scene_.backend.threads())
+                                .size();
     return scan;
   }
 

@@ -31,9 +31,10 @@ struct KeyedPoses {
   // The same of hits that are aligned in one image, in the frame of its camera. Registration brings
   // starts to one optimum that differ in what the image hardly shows: the distance by a step of the
   // templates.
-  std::vector<std::size_t> best_distinct_starts_of(const TemplateSet& set, std::size_t most) const {
+  std::vector<std::size_t> best_distinct_starts_of(const TemplateSet& set, std::size_t most,
+                                                   ThreadPool& threads) const {
     return best_distinct_in_view(poses, keys, set.model.mesh, set.symmetries,
-                                 thresholds::SAME_START, most);
+                                 {thresholds::SAME_START, most}, threads);
   }
 };
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numeric>
 
 #include "kernels/error.h"
+#include "kernels/thread_pool.h"
 
 namespace edgescout {
 
@@ -70,6 +72,10 @@ class BoxesInView {
  public:
   explicit BoxesInView(double largest_radius) : cell_(largest_radius) {}
   void add(const ScaledBox& box) { cells_[cell_of(box, 0, 0)].push_back(box); }
+  void add(const BoxesInView& others) {
+    for (const auto& [cell, boxes] : others.cells_)
+      cells_[cell].insert(cells_[cell].end(), boxes.begin(), boxes.end());
+  }
   bool any_within(double radius, const ScaledBox& box) const {
     for (int dx = -1; dx <= 1; ++dx)
       for (int dy = -1; dy <= 1; ++dy) {
@@ -89,6 +95,45 @@ class BoxesInView {
   }
   double cell_;
   std::map<std::pair<int, int>, std::vector<ScaledBox>> cells_;
+};
+
+// Those that are compared with the kept ones at once.
+constexpr std::size_t CHUNK_POSES = 1024;
+
+// Poses of one object in the frame of a camera.
+class PosesInView {
+ public:
+  PosesInView(std::span<const Se3> camera_from_object, const Mesh& mesh,
+              const Symmetries& symmetries, double fraction)
+      : camera_from_object_(camera_from_object),
+        symmetries_(symmetries.discrete),
+        center_m_(0.5 * (mesh.box_min_m + mesh.box_max_m)),
+        corners_m_(box_corners(mesh)),
+        radius_m_(fraction * mesh.diameter_m) {}
+
+  double largest_radius() const {
+    double largest = 0;
+    for (std::size_t i = 0; i < camera_from_object_.size(); ++i)
+      largest = std::max(largest, radius(i));
+    return largest;
+  }
+  ScaledBox box(std::size_t i) const { return {camera_from_object_[i], center_m_, corners_m_}; }
+  bool is_near(std::size_t i, const BoxesInView& boxes) const {
+    return std::ranges::any_of(symmetries_, [&](const Se3& symmetry) {
+      return boxes.any_within(radius(i),
+                              {camera_from_object_[i] * symmetry, center_m_, corners_m_});
+    });
+  }
+
+ private:
+  double radius(std::size_t i) const {
+    return radius_m_ / (camera_from_object_[i] * center_m_).norm();
+  }
+
+  std::span<const Se3> camera_from_object_, symmetries_;
+  Eigen::Vector3d center_m_;
+  std::array<Eigen::Vector3d, 8> corners_m_;
+  double radius_m_;
 };
 
 }  // namespace
@@ -129,28 +174,26 @@ std::vector<std::size_t> best_distinct(std::span<const Se3> poses, std::span<con
 
 std::vector<std::size_t> best_distinct_in_view(std::span<const Se3> camera_from_object,
                                                std::span<const double> keys, const Mesh& mesh,
-                                               const Symmetries& symmetries, double fraction,
-                                               std::size_t most) {
+                                               const Symmetries& symmetries,
+                                               const DistinctInView& limits, ThreadPool& threads) {
   check(camera_from_object.size() == keys.size(), "best_distinct_in_view: one key a pose");
-  const std::array<Eigen::Vector3d, 8> corners_m = box_corners(mesh);
-  const Eigen::Vector3d center_m = 0.5 * (mesh.box_min_m + mesh.box_max_m);
-  const auto radius_of = [&](const Se3& pose) {
-    return fraction * mesh.diameter_m / (pose * center_m).norm();
-  };
-  double largest_radius = 0;
-  for (const Se3& pose : camera_from_object)
-    largest_radius = std::max(largest_radius, radius_of(pose));
-  BoxesInView kept(largest_radius);
+  const PosesInView poses(camera_from_object, mesh, symmetries, limits.fraction);
+  const std::vector<std::size_t> order = by_key(keys);
   std::vector<std::size_t> best;
-  for (const std::size_t i : by_key(keys)) {
-    if (best.size() == most) break;
-    const Se3& pose = camera_from_object[i];
-    const auto is_kept = [&, radius = radius_of(pose)](const Se3& symmetry) {
-      return kept.any_within(radius, {pose * symmetry, center_m, corners_m});
-    };
-    if (std::ranges::any_of(symmetries.discrete, is_kept)) continue;
-    kept.add({pose, center_m, corners_m});
-    best.push_back(i);
+  BoxesInView kept(poses.largest_radius());
+  for (std::size_t first = 0; first < order.size() && best.size() < limits.most;
+       first += CHUNK_POSES) {
+    const auto chunk = std::span(order).subspan(first, std::min(CHUNK_POSES, order.size() - first));
+    std::vector<std::uint8_t> is_near(chunk.size());
+    for_each_in_chunks(threads, chunk.size(), 16,
+                       [&](std::size_t i) { is_near[i] = poses.is_near(chunk[i], kept); });
+    BoxesInView of_chunk(poses.largest_radius());
+    for (std::size_t i = 0; i < chunk.size() && best.size() < limits.most; ++i) {
+      if (is_near[i] || poses.is_near(chunk[i], of_chunk)) continue;
+      of_chunk.add(poses.box(chunk[i]));
+      best.push_back(chunk[i]);
+    }
+    kept.add(of_chunk);
   }
   return best;
 }

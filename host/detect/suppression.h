@@ -9,6 +9,8 @@
 
 namespace edgescout {
 
+class ThreadPool;
+
 // Largest distance, m, between corresponding corners of the object's bounding box under two poses:
 // the minimum over symmetries of the maximum over the eight corners. A cheap upper bound on MSSD.
 // It is zero only for equal poses, modulo symmetry.
@@ -26,14 +28,20 @@ std::vector<std::size_t> best_distinct(std::span<const Se3> poses, std::span<con
                                        const Mesh& mesh, const Symmetries& symmetries,
                                        double radius_m, std::size_t most);
 
+struct DistinctInView {
+  double fraction;   // of the object's diameter
+  std::size_t most;  // that are kept
+};
+
 // As best_distinct, for poses in the frame of the camera that searches them. Their distance counts
 // by the size that it gives the object alone: both poses are scaled about the camera until their
-// centres are 1 m away. Kept is what then lies further than `fraction` of the object's diameter,
-// scaled as the pose is, from all kept ones. Every centre lies before the camera.
+// centres are 1 m away. Kept is what then lies further than the fraction of the object's diameter,
+// scaled as the pose is, from all kept ones. Every centre lies before the camera. The number of
+// threads changes nothing.
 std::vector<std::size_t> best_distinct_in_view(std::span<const Se3> camera_from_object,
                                                std::span<const double> keys, const Mesh& mesh,
-                                               const Symmetries& symmetries, double fraction,
-                                               std::size_t most);
+                                               const Symmetries& symmetries,
+                                               const DistinctInView& limits, ThreadPool& threads);
 
 // Known poses of one object, in any one frame.
 class KnownPoses {

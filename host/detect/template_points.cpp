@@ -1,8 +1,9 @@
 #include "host/detect/template_points.h"
 
 #include <algorithm>
+#include <limits>
 
-#include "host/core/thinned.h"
+#include "host/model/viewpoint_index.h"
 #include "host/register/occluders.h"
 #include "kernels/thread_pool.h"
 
@@ -17,62 +18,108 @@ ModelPoint transformed(const Se3& to_from_object, const ModelPoint& p) {
           float(tangent.x()),  float(tangent.y()),  float(tangent.z())};
 }
 
-class TemplatePoints {
+// Which list each pair of a pose and a view shows, and the first pair that shows each list.
+struct SharedLists {
+  std::vector<std::size_t> of_pair, first_pair;
+};
+
+class EdgeLookup {
  public:
-  TemplatePoints(const TemplateSet& set, std::span<const ObjectView> views, int most,
-                 ThreadPool& threads)
-      : occlusion_tolerance_m_(occlusion_tolerance_m(set.model)),
+  EdgeLookup(const TemplateSet& set, std::span<const ObjectView> views,
+             std::span<const ObjectPose> poses, ThreadPool& threads)
+      : set_(set),
         views_(views),
-        surface_(thinned_surface(set.model)),
+        poses_(poses),
+        threads_(threads),
         viewpoints_(set),
-        threads_(threads) {
-    for (const TemplateView& view : set.views) points_.push_back(thinned(view.points, most));
+        nearest_(poses.size() * views.size()) {
+    for_each_in_chunks(threads, nearest_.size(), 64, [&](std::size_t pair) {
+      nearest_[pair] = viewpoints_.nearest(camera_from_object(pair));
+    });
   }
 
-  Grid<PointsInView> operator()(std::span<const ObjectPose> poses) const {
-    Grid<PointsInView> visible(poses.size(), views_.size());
-    threads_.for_each(poses.size(), [&](std::size_t p) {
-      for (std::size_t v = 0; v < views_.size(); ++v) {
-        visible(p, v).edges = visible_in(views_[v], poses[p].world_from_object);
-        if (views_[v].depth_values) visible(p, v).surface = surface_;
-      }
+  PointsInViews<ModelPoint> points(int most) const {
+    const SharedLists shared = share_lists();
+    std::vector<std::vector<ModelPoint>> lists(shared.first_pair.size());
+    for_each_in_chunks(threads_, lists.size(), 16, [&](std::size_t l) {
+      lists[l] = points_of_pair(shared.first_pair[l], most);
     });
-    return visible;
+    JoinedLists<ModelPoint> joined = join_lists(
+        lists.size(), [&](std::size_t l) -> const auto& { return lists[l]; }, 0, threads_);
+    PointsInViews<ModelPoint> found{std::move(joined.values), {poses_.size(), views_.size()}};
+    for (std::size_t pair = 0; pair < nearest_.size(); ++pair)
+      found.ranges.values()[pair] = joined.ranges[shared.of_pair[pair]];
+    return found;
   }
 
  private:
-  std::vector<ModelPoint> visible_in(const ObjectView& view, const Se3& world_from_object) const {
-    const Se3 camera_from_object = view.camera_from_world * world_from_object;
-    const ViewpointIndex::Nearest nearest = viewpoints_.nearest(camera_from_object);
-    const Se3& symmetry = viewpoints_.symmetry(nearest.symmetry);
-    std::vector<ModelPoint> points;
-    for (const ModelPoint& point : points_[nearest.viewpoint])
-      points.push_back(transformed(symmetry, point));
-    if (view.occluders)
-      remove_hidden(points, *view.occluders, camera_from_object, occlusion_tolerance_m_);
+  const ObjectView& view_of(std::size_t pair) const { return views_[pair % views_.size()]; }
+  Se3 camera_from_object(std::size_t pair) const {
+    return view_of(pair).camera_from_world * poses_[pair / views_.size()].world_from_object;
+  }
+
+  // What occluders hide differs from pair to pair.
+  SharedLists share_lists() const {
+    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+    std::vector<std::size_t> known(set_.views.size() * set_.symmetries.discrete.size(), none);
+    SharedLists lists;
+    for (std::size_t pair = 0; pair < nearest_.size(); ++pair) {
+      std::size_t own = none;
+      std::size_t& list =
+          view_of(pair).occluders
+              ? own
+              : known[nearest_[pair].symmetry * set_.views.size() + nearest_[pair].viewpoint];
+      if (list == none) {
+        list = lists.first_pair.size();
+        lists.first_pair.push_back(pair);
+      }
+      lists.of_pair.push_back(list);
+    }
+    return lists;
+  }
+
+  std::vector<ModelPoint> points_of_pair(std::size_t pair, int most) const {
+    std::vector<ModelPoint> points = thinned(set_.views[nearest_[pair].viewpoint].points, most);
+    for (ModelPoint& point : points)
+      point = transformed(viewpoints_.symmetry(nearest_[pair].symmetry), point);
+    if (view_of(pair).occluders)
+      remove_hidden(points, *view_of(pair).occluders, camera_from_object(pair),
+                    occlusion_tolerance_m(set_.model));
     return points;
   }
 
-  // A beginning of the samples is spread evenly (sample_surface). Half of them face away.
-  static std::vector<SurfacePoint> thinned_surface(const EdgeModel& model) {
-    constexpr std::size_t most = 120;
-    const std::vector<SurfacePoint>& all = model.surface_points;
-    return {all.begin(), all.begin() + std::ptrdiff_t(std::min(most, all.size()))};
-  }
-
-  double occlusion_tolerance_m_;
+  const TemplateSet& set_;
   std::span<const ObjectView> views_;
-  std::vector<SurfacePoint> surface_;
-  ViewpointIndex viewpoints_;
-  std::vector<std::vector<ModelPoint>> points_;  // by viewpoint, thinned
+  std::span<const ObjectPose> poses_;
   ThreadPool& threads_;
+  ViewpointIndex viewpoints_;
+  std::vector<ViewpointIndex::Nearest> nearest_;  // by pair
 };
+
+// The same of all poses. A beginning of the samples is spread evenly (sample_surface); half of them
+// face away.
+PointsInViews<SurfacePoint> surface(const EdgeModel& model, std::span<const ObjectView> views,
+                                    std::size_t poses, int most) {
+  constexpr std::size_t beginning = 120;
+  const std::vector<SurfacePoint>& all = model.surface_points;
+  const auto first = std::span(all).first(std::min(beginning, all.size()));
+  PointsInViews<SurfacePoint> found{Unfilled<SurfacePoint>(thinned_size(first.size(), most)),
+                                    {poses, views.size()}};
+  thin_into<SurfacePoint>(found.points, first);
+  for (std::size_t v = 0; v < views.size(); ++v)
+    if (views[v].depth_values)
+      for (std::size_t p = 0; p < poses; ++p)
+        found.ranges(p, v) = {0, std::uint32_t(found.points.size())};
+  return found;
+}
 
 }  // namespace
 
-PointsInViews template_points(const TemplateSet& set, std::span<const ObjectView> views, int most,
+VisiblePoints template_points(const TemplateSet& set, std::span<const ObjectView> views,
+                              std::span<const ObjectPose> poses, const MostPoints& most,
                               Backend& backend) {
-  return TemplatePoints(set, views, most, backend.threads());
+  return {EdgeLookup(set, views, poses, backend.threads()).points(most.edges),
+          surface(set.model, views, poses.size(), most.surface)};
 }
 
 }  // namespace edgescout

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "host/core/thinned.h"
 #include "host/register/d2co_ceres.h"
 #include "host/register/depth_systems.h"
 #include "host/register/lm_state.h"
@@ -15,55 +14,26 @@ namespace edgescout {
 
 namespace {
 
-struct PointRange {
-  std::uint32_t first = 0, count = 0;
-};
-
-// The points of every pose and view in one list, as the kernel takes them.
-struct PointSets {
-  std::vector<ModelPoint> points;
-  Grid<PointRange> ranges;  // rows are poses, columns views
-};
-
 // Calls body(p) for the poses on all threads. They do not know of each other.
 template <typename Body>
 void for_poses(std::size_t count, ThreadPool& pool, const Body& body) {
   for_each_in_chunks(pool, count, 64, body);
 }
 
-PointSets collect_edges(const Grid<PointsInView>& in_views, int most, ThreadPool& pool) {
-  PointSets sets{{}, Grid<PointRange>(in_views.rows(), in_views.columns())};
-  std::size_t total = 0;
-  for (std::size_t i = 0; i < in_views.values().size(); ++i) {
-    const std::size_t kept = thinned_size(in_views.values()[i].edges.size(), most);
-    sets.ranges.values()[i] = {static_cast<std::uint32_t>(total), static_cast<std::uint32_t>(kept)};
-    total += kept;
-  }
-  sets.points.resize(total);
-  for_poses(in_views.values().size(), pool, [&](std::size_t i) {
-    const PointRange& range = sets.ranges.values()[i];
-    thin_into<ModelPoint>(std::span(sets.points).subspan(range.first, range.count),
-                          in_views.values()[i].edges);
-  });
-  return sets;
-}
-
-SurfacesInViews collect_surfaces(Grid<PointsInView>& in_views) {
-  SurfacesInViews surfaces(in_views.rows(), in_views.columns());
-  for (std::size_t i = 0; i < in_views.values().size(); ++i)
-    surfaces.values()[i] = std::move(in_views.values()[i].surface);
-  return surfaces;
-}
-
 class Evaluator {
  public:
-  Evaluator(Grid<PointsInView> in_views, const Scene& scene, const D2coRound& round)
-      : Evaluator(collect_edges(in_views, round.max_points, scene.backend.threads()), scene, round,
-                  collect_surfaces(in_views)) {}
+  Evaluator(VisiblePoints visible, const Scene& scene, const D2coRound& round)
+      : ranges_(std::move(visible.edges.ranges)),
+        points_(scene.backend.make_pose_points(std::move(visible.edges.points))),
+        scene_(scene),
+        loss_{round.loss, float(round.scale_px)},
+        depth_(scene, std::move(visible.surface), round.depth_sigmas) {
+    for (const ObjectView& view : scene.views) tensors_.push_back(view.tensor);
+  }
 
-  // Systems at the trial poses of the active states, in the states' order. Those of inactive
-  // states stay empty.
-  std::vector<WorldSystem> at_trials(std::span<const LmState> states) {
+  // Systems at the trial poses of the active states, in the states' order; those of inactive states
+  // mean nothing. They hold until the next call.
+  std::span<const WorldSystem> at_trials(std::span<const LmState> states) {
     const std::span<const ObjectView> views = scene_.views;
     std::vector<std::size_t> active;
     for (std::size_t p = 0; p < states.size(); ++p)
@@ -79,26 +49,18 @@ class Evaluator {
       }
     });
     scene_.backend.pose_normal_equations(tensors_, *points_, problems_, loss_, results_);
-    std::vector<WorldSystem> systems(states.size());
+    systems_.resize(states.size());
     for_poses(active.size(), scene_.backend.threads(), [&](std::size_t i) {
+      WorldSystem& system = systems_[active[i]];
+      system = {};
       for (std::size_t v = 0; v < views.size(); ++v)
-        add_view(systems[active[i]], results_[i * views.size() + v], views[v].camera_from_world);
+        add_view(system, results_[i * views.size() + v], views[v].camera_from_world);
     });
-    depth_.add_at_trials(states, systems);
-    return systems;
+    depth_.add_at_trials(states, systems_);
+    return systems_;
   }
 
  private:
-  Evaluator(PointSets sets, const Scene& scene, const D2coRound& round,
-            const SurfacesInViews& surfaces)
-      : ranges_(std::move(sets.ranges)),
-        points_(scene.backend.make_pose_points(std::move(sets.points))),
-        scene_(scene),
-        loss_{round.loss, float(round.scale_px)},
-        depth_(scene, surfaces, round.max_surface_points, round.depth_sigmas) {
-    for (const ObjectView& view : scene.views) tensors_.push_back(view.tensor);
-  }
-
   Grid<PointRange> ranges_;
   PosePointsHandle points_;
   const Scene& scene_;
@@ -107,7 +69,13 @@ class Evaluator {
   std::vector<ViewHandle> tensors_;
   std::vector<PoseProblem> problems_;
   std::vector<NormalEquations> results_;
+  std::vector<WorldSystem> systems_;
 };
+
+void check_ranges(const Grid<PointRange>& ranges, std::size_t poses, const Scene& scene) {
+  check(ranges.rows() == poses && ranges.columns() == scene.views.size(),
+        "register_points: one range of points a pose and view");
+}
 
 void end_early(std::span<LmState> states) {
   for (LmState& state : states) state.convergence = Convergence::OutOfTime;
@@ -117,8 +85,8 @@ void run_round(std::span<LmState> states, Evaluator& evaluator, const D2coRound&
                const D2coOptions& options, const Scene& scene) {
   ThreadPool& pool = scene.backend.threads();
   for (LmState& state : states) restart(state);
-  std::vector<WorldSystem> systems = evaluator.at_trials(states);
-  for (std::size_t p = 0; p < states.size(); ++p) initialize(states[p], systems[p]);
+  std::span<const WorldSystem> systems = evaluator.at_trials(states);
+  for_poses(states.size(), pool, [&](std::size_t p) { initialize(states[p], systems[p]); });
   for (int i = 0; i < round.iterations; ++i) {
     if (std::ranges::none_of(states, [](const LmState& state) { return state.active; })) return;
     if (scene.is_time_over()) return;
@@ -151,19 +119,19 @@ std::vector<PoseEstimate> register_poses(const Scene& scene, std::span<const Obj
                                          const D2coOptions& options) {
   if (options.solver == Solver::Ceres) return register_poses_ceres(scene, starts, options);
   check_problem(starts, scene.models.size(), scene.views);
-  const auto points = [&](std::span<const ObjectPose> poses) {
-    Grid<VisibleInView> visible = visible_in_views(scene, poses, options.visibility);
-    Grid<PointsInView> in_views(visible.rows(), visible.columns());
-    for (std::size_t i = 0; i < visible.values().size(); ++i)
-      in_views.values()[i] = {std::move(visible.values()[i].points),
-                              std::move(visible.values()[i].surface)};
-    return in_views;
+  const auto find_visible = [&](std::span<const ObjectPose> poses, const D2coRound& round) {
+    const Grid<VisibleInView> visible = visible_in_views(scene, poses, options.visibility);
+    ThreadPool& threads = scene.backend.threads();
+    return VisiblePoints{
+        points_of(visible, &VisibleInView::points, round.max_points, threads),
+        points_of(visible, &VisibleInView::surface, round.max_surface_points, threads)};
   };
-  return register_points(scene, starts, points, options);
+  return register_points(scene, starts, find_visible, options);
 }
 
 std::vector<PoseEstimate> register_points(const Scene& scene, std::span<const ObjectPose> starts,
-                                          const PointsInViews& points, const D2coOptions& options) {
+                                          const FindPoints& find_points,
+                                          const D2coOptions& options) {
   options.validate();
   check_problem(starts, std::numeric_limits<std::size_t>::max(), scene.views);
   std::vector<ObjectPose> poses(starts.begin(), starts.end());
@@ -172,10 +140,10 @@ std::vector<PoseEstimate> register_points(const Scene& scene, std::span<const Ob
   for (std::size_t p = 0; p < starts.size(); ++p) states[p].pose = starts[p].world_from_object;
   for (const D2coRound& round : options.rounds) {
     for (std::size_t p = 0; p < poses.size(); ++p) poses[p].world_from_object = states[p].pose;
-    Grid<PointsInView> in_views = points(poses);
-    check(in_views.rows() == poses.size() && in_views.columns() == scene.views.size(),
-          "register_points: one list of points a pose and view");
-    Evaluator evaluator(std::move(in_views), scene, round);
+    VisiblePoints visible = find_points(poses, round);
+    check_ranges(visible.edges.ranges, poses.size(), scene);
+    check_ranges(visible.surface.ranges, poses.size(), scene);
+    Evaluator evaluator(std::move(visible), scene, round);
     run_round(states, evaluator, round, options, scene);
     if (!scene.is_time_over()) continue;
     end_early(states);

@@ -13,8 +13,8 @@
 #include <span>
 #include <vector>
 
-#include "host/core/grid.h"
 #include "host/register/d2co_options.h"
+#include "host/register/points_in_views.h"
 #include "host/register/pose_estimate.h"
 #include "host/register/scene.h"
 
@@ -25,20 +25,21 @@ namespace edgescout {
 std::vector<PoseEstimate> register_poses(const Scene& scene, std::span<const ObjectPose> starts,
                                          const D2coOptions& options = {});
 
-// What is visible of a pose in a view, object frame.
-struct PointsInView {
-  std::vector<ModelPoint> edges;
-  std::vector<SurfacePoint> surface;  // compared with measured depth; ignored in views without it
+// What is visible of poses in views, object frame.
+struct VisiblePoints {
+  PointsInViews<ModelPoint> edges;
+  PointsInViews<SurfacePoint> surface;  // compared with measured depth; ignored in views without it
 };
-// Rows are poses, columns views.
-using PointsInViews = std::function<Grid<PointsInView>(std::span<const ObjectPose>)>;
+// Looks points up, of each pose and view at most as many as the round takes.
+using FindPoints =
+    std::function<VisiblePoints(std::span<const ObjectPose> poses, const D2coRound& round)>;
 
 // As register_poses, with points that the caller looks up before every round. register_poses draws
 // depth maps to find them, which costs more than a short registration itself. Of scene.models only
 // the diameters count. Ignores D2coOptions::visibility and D2coOptions::solver. LogicError besides:
-// a grid of another size.
+// ranges of another number of poses or views.
 std::vector<PoseEstimate> register_points(const Scene& scene, std::span<const ObjectPose> starts,
-                                          const PointsInViews& points,
+                                          const FindPoints& find_points,
                                           const D2coOptions& options = {});
 
 // LogicError: no view, a view or a start whose pose is not finite, an object without a model.

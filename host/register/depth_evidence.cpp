@@ -11,31 +11,34 @@ DepthEvidence evidence_of(const PoseDepth& depth) {
 }
 
 Grid<DepthEvidence> depth_evidence(const Scene& scene, std::span<const ObjectPose> poses,
-                                   const Grid<VisibleInView>& visible) {
+                                   PointsInViews<SurfacePoint> surface) {
   Grid<DepthEvidence> evidence(poses.size(), scene.views.size());
   std::vector<DepthHandle> depths;
-  std::vector<SurfacePoint> points;
   std::vector<PoseProblem> problems;
   std::vector<DepthEvidence*> cells;
   for (std::size_t v = 0; v < scene.views.size(); ++v) {
     const ObjectView& view = scene.views[v];
     if (!view.depth_values) continue;
     for (std::size_t p = 0; p < poses.size(); ++p) {
-      const std::vector<SurfacePoint>& surface = visible(p, v).surface;
-      problems.push_back({to_pose(view.camera_from_world * poses[p].world_from_object),
-                          std::uint32_t(points.size()), std::uint32_t(surface.size()),
-                          std::uint32_t(depths.size())});
-      points.insert(points.end(), surface.begin(), surface.end());
+      const PointRange& range = surface.ranges(p, v);
+      problems.push_back({to_pose(view.camera_from_world * poses[p].world_from_object), range.first,
+                          range.count, std::uint32_t(depths.size())});
       cells.push_back(&evidence(p, v));
     }
     depths.push_back(view.depth_values);
   }
   if (depths.empty()) return evidence;
   std::vector<PoseDepth> found(problems.size());
-  scene.backend.pose_depth(depths, *scene.backend.make_surface_points(std::move(points)), problems,
-                           pose_depth_options(scene, JUDGEMENT_BAND), found);
+  scene.backend.pose_depth(depths, *scene.backend.make_surface_points(std::move(surface.points)),
+                           problems, pose_depth_options(scene, JUDGEMENT_BAND), found);
   for (std::size_t i = 0; i < found.size(); ++i) *cells[i] = evidence_of(found[i]);
   return evidence;
+}
+
+Grid<DepthEvidence> depth_evidence(const Scene& scene, std::span<const ObjectPose> poses,
+                                   const Grid<VisibleInView>& visible) {
+  return depth_evidence(scene, poses,
+                        points_of(visible, &VisibleInView::surface, 0, scene.backend.threads()));
 }
 
 bool is_contradicted(const DepthEvidence& evidence) {

@@ -11,8 +11,10 @@ namespace edgescout {
 
 DepthEvidence evidence_of(const PoseDepth& compared);
 
-// Rows are poses, columns views; `visible` is that of the poses (visible_in_views). All zero where
-// the view has no depth.
+// Rows are poses, columns views. All zero where the view has no depth.
+Grid<DepthEvidence> depth_evidence(const Scene& scene, std::span<const ObjectPose> poses,
+                                   PointsInViews<SurfacePoint> surface);
+// `visible` is that of the poses (visible_in_views).
 Grid<DepthEvidence> depth_evidence(const Scene& scene, std::span<const ObjectPose> poses,
                                    const Grid<VisibleInView>& visible);
 

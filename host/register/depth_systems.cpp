@@ -4,7 +4,6 @@
 
 #include <Eigen/LU>
 
-#include "host/core/thinned.h"
 #include "host/register/measured_depth.h"
 
 namespace edgescout {
@@ -63,9 +62,9 @@ void add_depth_information(Matrix6d& covariance, const Matrix6d& depth_hessian, 
   if (joined.allFinite()) covariance = 0.5 * (joined + joined.transpose());
 }
 
-DepthSystems::DepthSystems(const Scene& scene, const SurfacesInViews& surfaces, int most,
+DepthSystems::DepthSystems(const Scene& scene, PointsInViews<SurfacePoint> surface,
                            double loss_sigmas)
-    : scene_(scene) {
+    : scene_(scene), ranges_(std::move(surface.ranges)) {
   for (std::size_t v = 0; v < scene.views.size(); ++v)
     if (scene.views[v].depth_values) {
       views_.push_back(v);
@@ -74,15 +73,7 @@ DepthSystems::DepthSystems(const Scene& scene, const SurfacesInViews& surfaces, 
   if (views_.empty()) return;
   options_ = pose_depth_options(scene, REGISTRATION_BAND);
   options_.loss_scale = float(loss_sigmas);
-  ranges_ = Grid<Range>(surfaces.rows(), views_.size());
-  std::vector<SurfacePoint> points;
-  for (std::size_t p = 0; p < surfaces.rows(); ++p)
-    for (std::size_t i = 0; i < views_.size(); ++i) {
-      const std::vector<SurfacePoint> kept = thinned(surfaces(p, views_[i]), most);
-      ranges_(p, i) = {std::uint32_t(points.size()), std::uint32_t(kept.size())};
-      points.insert(points.end(), kept.begin(), kept.end());
-    }
-  points_ = scene.backend.make_surface_points(std::move(points));
+  points_ = scene.backend.make_surface_points(std::move(surface.points));
 }
 
 void DepthSystems::add_at_trials(std::span<const LmState> states,
@@ -94,7 +85,7 @@ void DepthSystems::add_at_trials(std::span<const LmState> states,
     if (!states[p].active) continue;
     active.push_back(p);
     for (std::size_t k = 0; k < views_.size(); ++k) {
-      const Range& range = ranges_(p, k);
+      const PointRange& range = ranges_(p, views_[k]);
       problems.push_back({to_pose(scene_.views[views_[k]].camera_from_world * states[p].trial),
                           range.first, range.count, std::uint32_t(k)});
     }

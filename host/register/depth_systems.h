@@ -5,21 +5,17 @@
 #include <vector>
 
 #include "host/core/depth_image.h"
-#include "host/core/grid.h"
 #include "host/register/lm_state.h"
+#include "host/register/points_in_views.h"
 #include "host/register/scene.h"
 
 namespace edgescout {
 
-// Samples of the surfaces of poses, by pose and view.
-using SurfacesInViews = Grid<std::vector<SurfacePoint>>;
-
 // One standard deviation of a sample's distance counts as one pixel of an edge point's.
 class DepthSystems {
  public:
-  // Surfaces are thinned to at most `most` samples. `loss_sigmas`: scale of the loss, standard
-  // deviations. Views without depth take no part.
-  DepthSystems(const Scene& scene, const SurfacesInViews& surfaces, int most, double loss_sigmas);
+  // `loss_sigmas`: scale of the loss, standard deviations. Views without depth take no part.
+  DepthSystems(const Scene& scene, PointsInViews<SurfacePoint> surface, double loss_sigmas);
 
   bool is_empty() const { return views_.empty(); }
 
@@ -28,13 +24,10 @@ class DepthSystems {
   void add_at_trials(std::span<const LmState> states, std::span<WorldSystem> systems) const;
 
  private:
-  struct Range {
-    std::uint32_t first = 0, count = 0;
-  };
   const Scene& scene_;
   std::vector<std::size_t> views_;  // those with depth
   std::vector<DepthHandle> depths_;
-  Grid<Range> ranges_;  // rows are poses, columns those of views_
+  Grid<PointRange> ranges_;  // rows are poses, columns all views
   SurfacePointsHandle points_;
   PoseDepthOptions options_;
 };

@@ -68,7 +68,7 @@ struct SeenPose {
   const EdgeModel& model;
   Se3 camera_from_object;
   const BackendView& tensor;
-  const VisibleInView& visible;
+  const ShownEdges& shown;
 };
 
 Landings land(const SeenPose& p) {
@@ -77,19 +77,19 @@ Landings land(const SeenPose& p) {
   const Eigen::Vector3d middle = p.camera_from_object * p.model.center_m;
   const Center center{float(k.fx * middle.x() / middle.z() + k.cx),
                       float(k.fy * middle.y() / middle.z() + k.cy)};
-  const std::size_t all = p.visible.points.size(), kept = std::min(all, MOST_POINTS);
+  const std::size_t all = p.shown.points.size(), kept = std::min(all, MOST_POINTS);
   Landings landings;
   if (all > kept) landings.steps = float(all) / float(kept);
   landings.list.reserve(kept);
   for (std::size_t n = 0; n < kept; ++n) {
     const std::size_t i = n * all / kept;
-    const PosedPoint<float> posed = pose_point<float>(pose, p.visible.points[i]);
+    const PosedPoint<float> posed = pose_point<float>(pose, p.shown.points[i]);
     if (!can_be_seen(posed.point)) continue;
     const ProjectedEdge<float> edge = project_edge(posed, k);
     if (!on_image(edge, p.tensor.shape.width, p.tensor.shape.height)) continue;
     SupportPoint point = to_support_point(edge, p.tensor.shape);
-    point.part = std::uint8_t(sector_about(center, edge) +
-                              (p.visible.on_silhouette[i] ? 0 : SUPPORT_SECTORS));
+    const bool is_marked = !p.shown.on_silhouette.empty() && p.shown.on_silhouette[i];
+    point.part = std::uint8_t(sector_about(center, edge) + (is_marked ? 0 : SUPPORT_SECTORS));
     const float step_px = float(p.model.raster_step_m) * std::hypot(edge.dx, edge.dy) /
                           (posed.point.z * posed.point.z);
     landings.list.push_back({point, cell_of(point), step_px});
@@ -135,7 +135,7 @@ std::vector<SupportPoint> support_points(const SeenPose& pose) {
 }  // namespace
 
 Grid<EdgeSupport> edge_support(const Scene& scene, std::span<const ObjectPose> poses,
-                               const Grid<VisibleInView>& visible) {
+                               const Grid<ShownEdges>& shown) {
   const std::size_t views = scene.views.size(), pairs = poses.size() * views;
   ThreadPool& threads = scene.backend.threads();
   std::vector<std::vector<SupportPoint>> by_pair(pairs);
@@ -144,24 +144,27 @@ Grid<EdgeSupport> edge_support(const Scene& scene, std::span<const ObjectPose> p
     const ObjectView& view = scene.views[i % views];
     by_pair[i] = support_points({scene.models[std::size_t(pose.object)],
                                  view.camera_from_world * pose.world_from_object, *view.tensor,
-                                 visible.values()[i]});
+                                 shown.values()[i]});
   });
+  const JoinedLists<SupportPoint> joined = join_lists(
+      pairs, [&](std::size_t i) -> const auto& { return by_pair[i]; }, 0, threads);
   std::vector<SupportProblem> problems;
-  std::size_t total = 0;
-  for (std::size_t i = 0; i < pairs; ++i) {
-    problems.push_back(
-        {std::uint32_t(total), std::uint32_t(by_pair[i].size()), std::uint32_t(i % views)});
-    total += by_pair[i].size();
-  }
-  std::vector<SupportPoint> points(total);
-  for_each_in_chunks(threads, pairs, 64, [&](std::size_t i) {
-    std::ranges::copy(by_pair[i], points.begin() + problems[i].first_point);
-  });
+  for (std::size_t i = 0; i < pairs; ++i)
+    problems.push_back({joined.ranges[i].first, joined.ranges[i].count, std::uint32_t(i % views)});
   std::vector<ViewHandle> tensors;
   for (const ObjectView& view : scene.views) tensors.push_back(view.tensor);
   Grid<EdgeSupport> support(poses.size(), views);
-  scene.backend.edge_support(tensors, points, problems, support.values());
+  scene.backend.edge_support(tensors, joined.values, problems, support.values());
   return support;
+}
+
+Grid<EdgeSupport> edge_support(const Scene& scene, std::span<const ObjectPose> poses,
+                               const Grid<VisibleInView>& visible) {
+  Grid<ShownEdges> shown(visible.rows(), visible.columns());
+  std::ranges::transform(visible.values(), shown.values().begin(), [](const VisibleInView& cell) {
+    return ShownEdges{cell.points, cell.on_silhouette};
+  });
+  return edge_support(scene, poses, shown);
 }
 
 }  // namespace edgescout

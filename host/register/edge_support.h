@@ -14,8 +14,16 @@
 
 namespace edgescout {
 
-// Rows are poses, columns views; `visible` is that of the poses, with marks (marked_in_views). All
-// zero where the view has no image.
+// The edges that a pose shows in a view.
+struct ShownEdges {
+  std::span<const ModelPoint> points;
+  std::span<const std::uint8_t> on_silhouette;  // SilhouetteMarks; without them all are interior
+};
+
+// Rows are poses, columns views. All zero where the view has no image.
+Grid<EdgeSupport> edge_support(const Scene& scene, std::span<const ObjectPose> poses,
+                               const Grid<ShownEdges>& shown);
+// `visible` is that of the poses, with marks (marked_in_views).
 Grid<EdgeSupport> edge_support(const Scene& scene, std::span<const ObjectPose> poses,
                                const Grid<VisibleInView>& visible);
 

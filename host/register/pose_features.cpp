@@ -38,29 +38,29 @@ void add_score(PoseFeatures& f, const PoseScore& score, double cap_px) {
   f.in_image = f.visible > 0 ? f.points / f.visible : 0;
 }
 
-// Poses with their points, as the kernel takes them.
-struct Problems {
-  std::vector<ModelPoint> points;
-  std::vector<PoseProblem> list;
-};
-
-// Of all poses and views in order. Fills what is known of the visible points.
-Problems make_problems(const Scene& scene, std::span<const ObjectPose> poses,
-                       const Grid<VisibleInView>& visible, Grid<PoseFeatures>& features) {
-  Problems problems;
+// Of all poses and views in order, as the kernel takes them.
+std::vector<PoseProblem> problems_of(const Scene& scene, std::span<const ObjectPose> poses,
+                                     const Grid<PointRange>& ranges) {
+  std::vector<PoseProblem> problems;
   for (std::size_t p = 0; p < poses.size(); ++p)
-    for (std::size_t v = 0; v < scene.views.size(); ++v) {
-      const ObjectView& view = scene.views[v];
-      const std::vector<ModelPoint>& points = visible(p, v).points;
-      const Se3 camera_from_object = view.camera_from_world * poses[p].world_from_object;
-      features(p, v).visible = double(visible(p, v).unoccluded);
-      features(p, v).length_px = length_in_image_px(scene.models[std::size_t(poses[p].object)],
-                                                    camera_from_object, *view.tensor, points);
-      problems.list.push_back({to_pose(camera_from_object), std::uint32_t(problems.points.size()),
-                               std::uint32_t(points.size()), std::uint32_t(v)});
-      problems.points.insert(problems.points.end(), points.begin(), points.end());
-    }
+    for (std::size_t v = 0; v < scene.views.size(); ++v)
+      problems.push_back({to_pose(scene.views[v].camera_from_world * poses[p].world_from_object),
+                          ranges(p, v).first, ranges(p, v).count, std::uint32_t(v)});
   return problems;
+}
+
+void add_sizes(Grid<PoseFeatures>& features, const Scene& scene, std::span<const ObjectPose> poses,
+               const Grid<VisibleInView>& visible) {
+  const std::size_t views = scene.views.size();
+  for_each_in_chunks(scene.backend.threads(), features.values().size(), 16, [&](std::size_t i) {
+    const ObjectPose& pose = poses[i / views];
+    const ObjectView& view = scene.views[i % views];
+    const VisibleInView& seen = visible.values()[i];
+    features.values()[i].visible = double(seen.unoccluded);
+    features.values()[i].length_px = length_in_image_px(
+        scene.models[std::size_t(pose.object)], view.camera_from_world * pose.world_from_object,
+        *view.tensor, seen.points);
+  });
 }
 
 }  // namespace
@@ -69,11 +69,14 @@ Grid<PoseFeatures> features_by_view(const Scene& scene, std::span<const ObjectPo
                                     const FeatureOptions& options) {
   Grid<PoseFeatures> features(poses.size(), scene.views.size());
   const Grid<VisibleInView> visible = marked_in_views(scene, poses, options.visibility);
-  const Problems problems = make_problems(scene, poses, visible, features);
+  add_sizes(features, scene, poses, visible);
+  const PointsInViews<ModelPoint> edges =
+      points_of(visible, &VisibleInView::points, 0, scene.backend.threads());
   std::vector<ViewHandle> tensors;
   for (const ObjectView& view : scene.views) tensors.push_back(view.tensor);
-  std::vector<PoseScore> scores(problems.list.size());
-  scene.backend.pose_score(tensors, problems.points, problems.list, options.score, scores);
+  std::vector<PoseScore> scores(features.values().size());
+  scene.backend.pose_score(tensors, edges.points, problems_of(scene, poses, edges.ranges),
+                           options.score, scores);
   const Grid<Shading> shadings = shading(scene, poses);
   const Grid<EdgeSupport> supports = edge_support(scene, poses, visible);
   const Grid<DepthEvidence> depths = depth_evidence(scene, poses, visible);

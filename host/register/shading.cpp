@@ -153,7 +153,7 @@ void explain_all(Grid<Shading>& result, const Scene& scene, const Tasks& tasks,
   constexpr std::size_t chunk = 256;  // bounds the memory however many poses there are
   constexpr std::size_t map = std::size_t(WINDOW_PX) * WINDOW_PX;
   const double tolerance_m = occlusion_tolerance_m(model);
-  std::vector<float> depth;
+  Unfilled<float> depth;
   for (std::size_t first = 0; first < tasks.list.size(); first += chunk) {
     const std::size_t count = std::min(chunk, tasks.list.size() - first);
     depth.resize(count * map);

@@ -191,7 +191,7 @@ Case pose_depth_case(Backend& backend, const Scale& s) {
   std::vector<float> depth_m(std::size_t(s.width) * std::size_t(s.height));
   for (float& z : depth_m) z = depth(rng);
   const Poses poses = random_poses(rng, s.problems, s.pose_points);
-  std::vector<SurfacePoint> points;
+  Unfilled<SurfacePoint> points;
   for (const ModelPoint& p : poses.points)
     points.push_back({p.x_m, p.y_m, p.z_m, p.tx, p.ty, p.tz});
   const std::vector<DepthHandle> views{

@@ -66,7 +66,7 @@ class VulkanModelPoints : public BackendModelPoints {
 template <class Handle, class Point>
 class VulkanPoints : public Handle {
  public:
-  VulkanPoints(std::shared_ptr<const Device> device, std::vector<Point> points)
+  VulkanPoints(std::shared_ptr<const Device> device, Unfilled<Point> points)
       : device_(std::move(device)), host(std::move(points)) {}
   const Device& device() const { return *device_; }
   PosePoints points() const {
@@ -77,7 +77,7 @@ class VulkanPoints : public Handle {
   std::shared_ptr<const Device> device_;
 
  public:
-  std::vector<Point> host;
+  Unfilled<Point> host;
   Buffer<Point> values;
 };
 using VulkanPosePoints = VulkanPoints<BackendPosePoints, ModelPoint>;

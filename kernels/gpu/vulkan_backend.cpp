@@ -172,7 +172,7 @@ class VulkanBackend : public Backend {
               problems, loss, out);
   }
 
-  PosePointsHandle make_pose_points(std::vector<ModelPoint> points) override {
+  PosePointsHandle make_pose_points(Unfilled<ModelPoint> points) override {
     return keep_points<VulkanPosePoints>(std::move(points));
   }
 
@@ -200,7 +200,7 @@ class VulkanBackend : public Backend {
     return made;
   }
 
-  SurfacePointsHandle make_surface_points(std::vector<SurfacePoint> points) override {
+  SurfacePointsHandle make_surface_points(Unfilled<SurfacePoint> points) override {
     return keep_points<VulkanSurfacePoints>(std::move(points));
   }
 
@@ -368,7 +368,7 @@ class VulkanBackend : public Backend {
   }
 
   template <class Kept, class Point>
-  std::shared_ptr<const Kept> keep_points(std::vector<Point> points) {
+  std::shared_ptr<const Kept> keep_points(Unfilled<Point> points) {
     auto made = std::make_shared<Kept>(device_, std::move(points));
     const std::size_t bytes = made->host.size() * sizeof(Point);
     if (bytes == 0 || bytes > device_->max_band_bytes()) return made;

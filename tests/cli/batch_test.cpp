@@ -55,7 +55,7 @@ class FailingBackend : public Backend {
                              std::span<NormalEquations> out) override {
     cpu_->pose_normal_equations(views, points, problems, loss, out);
   }
-  PosePointsHandle make_pose_points(std::vector<ModelPoint> points) override {
+  PosePointsHandle make_pose_points(Unfilled<ModelPoint> points) override {
     return cpu_->make_pose_points(std::move(points));
   }
   void pose_normal_equations(std::span<const ViewHandle> views, const BackendPosePoints& points,
@@ -69,7 +69,7 @@ class FailingBackend : public Backend {
     cpu_->pose_score(views, points, problems, options, out);
   }
   DepthHandle make_depth(const DepthView& depth) override { return cpu_->make_depth(depth); }
-  SurfacePointsHandle make_surface_points(std::vector<SurfacePoint> points) override {
+  SurfacePointsHandle make_surface_points(Unfilled<SurfacePoint> points) override {
     return cpu_->make_surface_points(std::move(points));
   }
   void pose_depth(std::span<const DepthHandle> views, const BackendSurfacePoints& points,

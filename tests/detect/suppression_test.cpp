@@ -6,6 +6,7 @@
 
 #include "host/render/parts.h"
 #include "kernels/error.h"
+#include "kernels/thread_pool.h"
 #include "tests/test_random.h"
 
 namespace edgescout::test {
@@ -172,18 +173,20 @@ double brute_distance_in_view(const Se3& a, const Se3& b, const Object& object) 
   return best;
 }
 
+// More poses than are compared with the kept ones at once.
 TEST(BestDistinctInView, AgreesWithTheDistanceInView) {
   Random random = test_random();
+  ThreadPool threads(2);
   constexpr double fraction = 0.2;
   for (const char* part : {"l_bracket", "u_channel", "hex_nut"}) {
     SCOPED_TRACE(part);
     const Object object = make_part(part);
     // Places over several cells of the size of the radius.
-    const std::vector<Se3> poses = poses_in_view(400, 2 * object.mesh.diameter_m, 0.8, random);
+    const std::vector<Se3> poses = poses_in_view(1500, 4 * object.mesh.diameter_m, 0.8, random);
     std::vector<double> keys;
     for (std::size_t i = 0; i < poses.size(); ++i) keys.push_back(double(i));
-    const std::vector<std::size_t> kept =
-        best_distinct_in_view(poses, keys, object.mesh, object.symmetries, fraction, poses.size());
+    const std::vector<std::size_t> kept = best_distinct_in_view(
+        poses, keys, object.mesh, object.symmetries, {fraction, poses.size()}, threads);
     EXPECT_GT(kept.size(), 20u);
     EXPECT_LT(kept.size(), poses.size() - 20);
     std::size_t next = 0;
@@ -203,17 +206,20 @@ TEST(BestDistinctInView, AgreesWithTheDistanceInView) {
 // A step of a tenth in distance is a twentieth of the diameter in the image.
 TEST(BestDistinctInView, TakesDistancesForSizes) {
   const Object bracket = make_part("l_bracket");
+  ThreadPool threads(1);
   Se3 near{test_random().rotation(), {0.01, 0.02, 0.5}}, far = near, twice = near;
   far.translation_m *= 1.1, twice.translation_m *= 2;
   const std::vector<Se3> poses{twice, far, near};
   const auto best = [&](const std::vector<double>& keys, std::size_t most) {
-    return best_distinct_in_view(poses, keys, bracket.mesh, bracket.symmetries, 0.2, most);
+    return best_distinct_in_view(poses, keys, bracket.mesh, bracket.symmetries, {0.2, most},
+                                 threads);
   };
   EXPECT_EQ(best({0, 1, 2}, 9), (std::vector<std::size_t>{0, 1}));
   EXPECT_EQ(best({0, 2, 1}, 9), (std::vector<std::size_t>{0, 2}));
   EXPECT_EQ(best({2, 1, 0}, 1), std::vector<std::size_t>{2});
   EXPECT_THROW(best({1, 2}, 9), LogicError);
-  EXPECT_TRUE(best_distinct_in_view({}, {}, bracket.mesh, bracket.symmetries, 0.2, 9).empty());
+  EXPECT_TRUE(
+      best_distinct_in_view({}, {}, bracket.mesh, bracket.symmetries, {0.2, 9}, threads).empty());
 }
 
 TEST(KnownPoses, AreFoundNearModuloSymmetry) {

@@ -43,10 +43,14 @@ struct PosesInViews {
       poses.push_back({0, {random.rotation(), 0.01 * random.direction()}});
   }
   Grid<std::vector<ModelPoint>> points(int most) const {
-    const Grid<PointsInView> found = template_points(set, views, most, *backend)(poses);
-    Grid<std::vector<ModelPoint>> edges(found.rows(), found.columns());
-    for (std::size_t i = 0; i < found.values().size(); ++i)
-      edges.values()[i] = found.values()[i].edges;
+    const PointsInViews<ModelPoint> found =
+        template_points(set, views, poses, {.edges = most}, *backend).edges;
+    Grid<std::vector<ModelPoint>> edges(found.ranges.rows(), found.ranges.columns());
+    std::ranges::transform(found.ranges.values(), edges.values().begin(),
+                           [&](const PointRange& range) {
+                             const auto first = found.points.begin() + range.first;
+                             return std::vector<ModelPoint>(first, first + range.count);
+                           });
     return edges;
   }
 };
@@ -101,6 +105,22 @@ TEST(TemplatePoints, AreThinnedEvenlyWithoutHiddenOnes) {
       EXPECT_EQ(place(left.values()[i][p]), place(expected[p]));
   }
   EXPECT_GT(hidden, 50u);
+}
+
+TEST(TemplatePoints, AreSharedWhereNothingHidesThem) {
+  Random random = test_random();
+  PosesInViews t("l_bracket", random);
+  const std::vector<ObjectPose> apart = t.poses;
+  for (int copies = 0; copies < 3; ++copies)
+    t.poses.insert(t.poses.end(), apart.begin(), apart.end());
+  const auto list_size = [&] {
+    return template_points(t.set, t.views, t.poses, {.edges = 50}, *t.backend).edges.points.size();
+  };
+  EXPECT_LE(list_size(), 50 * 2 * apart.size());
+  const ObjectPose far_away{
+      0, inverse(t.views[1].camera_from_world) * Se3{random.rotation(), {0, 0, 5}}};
+  t.views[1].occluders = make_occluders({&t.set.model, 1}, {&far_away, 1}, t.views[1], *t.backend);
+  EXPECT_GE(list_size(), 50 * t.poses.size());
 }
 
 }  // namespace

@@ -90,8 +90,9 @@ TEST(PoseDepthOracle, AgreesWithTheReference) {
        {PoseDepthOptions{}, PoseDepthOptions{3e-3f, 0.05f, 0, 0, 10}}) {
     const test::DepthCase c = test::depth_case(rng, scene, options, 24, 300);
     std::vector<PoseDepth> found(c.problems.size());
-    backend->pose_depth(scene.in(*backend), *backend->make_surface_points(c.points), c.problems,
-                        options, found);
+    backend->pose_depth(scene.in(*backend),
+                        *backend->make_surface_points({c.points.begin(), c.points.end()}),
+                        c.problems, options, found);
     for (std::size_t i = 0; i < found.size(); ++i) {
       SCOPED_TRACE("problem " + std::to_string(i) + ", band " + std::to_string(options.band_m));
       const PoseProblem& problem = c.problems[i];

@@ -54,7 +54,8 @@ class PoseDepthPaths : public test::PathTest {
   static std::vector<PoseDepth> sums(Backend& backend, const test::DepthScene& scene,
                                      const test::DepthCase& c, const PoseDepthOptions& options) {
     std::vector<PoseDepth> out(c.problems.size());
-    backend.pose_depth(scene.in(backend), *backend.make_surface_points(c.points), c.problems,
+    backend.pose_depth(scene.in(backend),
+                       *backend.make_surface_points({c.points.begin(), c.points.end()}), c.problems,
                        options, out);
     return out;
   }
@@ -80,7 +81,8 @@ TEST_P(PoseDepthPaths, HandlesServeSeveralCalls) {
   const PoseDepthOptions options;
   const test::DepthCase c = test::depth_case(rng, scene, options, 9, 100);
   const std::vector<PoseDepth> expected = sums(*reference, scene, c, options);
-  const SurfacePointsHandle points = tested->make_surface_points(c.points);
+  const SurfacePointsHandle points =
+      tested->make_surface_points({c.points.begin(), c.points.end()});
   const std::vector<DepthHandle> views = scene.in(*tested);
   EXPECT_EQ(views[1]->width, 33);
   EXPECT_EQ(views[1]->height, 17);

@@ -53,7 +53,7 @@ TEST_P(PoseNormalEquationsPaths, PointsThatStayGiveTheSameSystems) {
   const PoseLoss loss{LOSS_HUBER, 4};
   for (const int most : {100, 1500}) {
     const test::PoseCase c = test::pose_case(rng, views, 40, most);
-    const PosePointsHandle points = tested->make_pose_points(c.points);
+    const PosePointsHandle points = tested->make_pose_points({c.points.begin(), c.points.end()});
     std::vector<NormalEquations> once(c.problems.size()), kept(once.size());
     for (const std::size_t first : {std::size_t(0), c.problems.size() / 2}) {
       const auto problems = std::span(c.problems).subspan(first);

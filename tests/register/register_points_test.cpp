@@ -16,13 +16,12 @@ TEST(RegisterPoints, OnDrawnPointsIsRegisterPoses) {
   const auto backend = make_cpu_backend(2);
   const PartScene scene("bearing_block", 2, random, *backend);
   int calls = 0;
-  const auto drawn = [&](std::span<const ObjectPose> poses) {
+  const auto drawn = [&](std::span<const ObjectPose> poses, const D2coRound& round) {
     ++calls;
-    const Grid<std::vector<ModelPoint>> edges = visible_points(scene.on(*backend), poses);
-    Grid<PointsInView> points(edges.rows(), edges.columns());
-    for (std::size_t i = 0; i < edges.values().size(); ++i)
-      points.values()[i].edges = edges.values()[i];
-    return points;
+    const Grid<VisibleInView> visible = visible_in_views(scene.on(*backend), poses);
+    return VisiblePoints{
+        points_of(visible, &VisibleInView::points, round.max_points, backend->threads()),
+        {{}, {visible.rows(), visible.columns()}}};
   };
   const std::vector<ObjectPose> starts{scene.start, {0, scene.truth}};
   const std::vector<PoseEstimate> expected = register_poses(scene.on(*backend), starts);
@@ -43,8 +42,8 @@ TEST(RegisterPoints, PosesWithoutPointsStay) {
   Random random = test_random();
   const auto backend = make_cpu_backend(1);
   const PartScene scene("l_bracket", 2, random, *backend);
-  const auto none = [&](std::span<const ObjectPose> poses) {
-    return Grid<PointsInView>(poses.size(), 2);
+  const auto none = [&](std::span<const ObjectPose> poses, const D2coRound&) {
+    return VisiblePoints{{{}, {poses.size(), 2}}, {{}, {poses.size(), 2}}};
   };
   const PoseEstimate found = register_points(scene.on(*backend), {&scene.start, 1}, none)[0];
   EXPECT_EQ(found.convergence, Convergence::NoPoints);
@@ -52,11 +51,13 @@ TEST(RegisterPoints, PosesWithoutPointsStay) {
   EXPECT_EQ(found.world_from_object.translation_m, scene.start.world_from_object.translation_m);
 }
 
-TEST(RegisterPoints, RefusesAnotherNumberOfLists) {
+TEST(RegisterPoints, RefusesAnotherNumberOfRanges) {
   Random random = test_random();
   const auto backend = make_cpu_backend(1);
   const PartScene scene("l_bracket", 2, random, *backend);
-  const auto one = [](std::span<const ObjectPose>) { return Grid<PointsInView>(1, 1); };
+  const auto one = [](std::span<const ObjectPose>, const D2coRound&) {
+    return VisiblePoints{{{}, {1, 1}}, {{}, {1, 2}}};
+  };
   EXPECT_THROW(register_points(scene.on(*backend), {&scene.start, 1}, one), LogicError);
 }
 

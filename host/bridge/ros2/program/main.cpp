@@ -17,6 +17,7 @@
 #include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/template_sets.h"
+#include "host/core/freed_memory.h"
 #include "host/core/log.h"
 #include "host/core/option_names.h"
 #include "host/io/one_line.h"
@@ -154,6 +155,7 @@ int run_and_catch(const std::vector<std::string>& arguments) {
 int main(int argc, char** argv) {
   for (const int signal : {SIGINT, SIGTERM})
     std::signal(signal, [](int) { edgescout::ros2::is_interrupted = true; });
+  edgescout::keep_freed_memory();
   edgescout::set_option_naming([](const std::string& name) { return "--" + name; });
   return edgescout::ros2::run_and_catch({argv + 1, argv + argc});
 }
