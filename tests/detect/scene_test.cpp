@@ -95,8 +95,9 @@ TEST(DetectObjects, FindsNothingOnABareBoard) {
   t.scene.placed.clear();
   t.renderings = render(t.scene, pool);
   const auto backend = make_cpu_backend(2);
-  EXPECT_TRUE(
-      detect_objects(t.prepared(0, Se3{}, *backend), t.sets, *backend, {}).detections.empty());
+  PipelineOptions options = t.options();
+  options.detect.min_probability = DetectOptions{}.min_probability;
+  EXPECT_TRUE(t.detect(0, *backend, options).detections.empty());
 }
 
 TEST(DetectJointly, IsMoreExactThanOneView) {

@@ -27,14 +27,20 @@ def scene():
     backend = edgescout.Backend("cpu", threads=2)
     camera = edgescout.Camera(image.shape[1], image.shape[0], np.reshape(matrix, (3, 3)))
     few = {"distance_min": 0.32, "distance_max": 0.36, "viewpoints": 3, "in_plane_steps": 12}
-    options = edgescout.TemplateOptions(**few)
-    templates = edgescout.Templates(edgescout.load_mesh(PART, "mm"), options, backend=backend)
-    return SimpleNamespace(image=image, camera=camera, templates=templates, backend=backend,
-                           file=SCENE / "gray/000000.png", part=PART,
-                           template_arguments=[word for name, value in few.items() for word in
-                                               ("--" + name.replace("_", "-"), str(value))])
+    fewer = {"coarse_poses": 600, "medium_poses": 100, "candidates": 20}
+    templates = edgescout.Templates(edgescout.load_mesh(PART, "mm"),
+                                    edgescout.TemplateOptions(**few), backend=backend)
+
+    def detect(image, min_probability=0.4, **more):
+        options = edgescout.DetectOptions(min_probability=min_probability, **fewer)
+        return edgescout.detect(image, camera, templates, options, backend=backend, **more)
+
+    return SimpleNamespace(detect=detect, image=image, camera=camera, templates=templates,
+                           backend=backend, file=SCENE / "gray/000000.png", part=PART,
+                           arguments=[word for name, value in (few | fewer).items() for word in
+                                      ("--" + name.replace("_", "-"), str(value))])
 
 
 @pytest.fixture(scope="session")
 def found(scene):
-    return edgescout.detect(scene.image, scene.camera, scene.templates, backend=scene.backend)
+    return scene.detect(scene.image)
