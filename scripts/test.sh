@@ -52,46 +52,8 @@ test_preset() {
 
 build_and_test() { build_preset "$1" && test_preset "$1"; }
 
-# What runs in the whole suites of --long alone. Each takes 12 s or more, and a shorter test runs
-# most of the same code. Beginnings of their names.
-long_tests=(
-  cli.BenchExperiments.LetRandom
-  cli.BenchExperiments.RunChosen
-  cli.BenchExperiments.RunOnRealData
-  cli.BenchExperiments.KilledAndResumed
-  cli.BenchExperiments.WritesRows
-  cli.BenchExperiments.OnAFullDisk
-  cli.BenchDevices.TimesEveryStage
-  cli.BenchDevices.SayTheTimes
-  cli.LostDevice.ListsNoOlderPoses
-  cli.Templates.DamagedFiles
-  cli.Scout.DrawsRandomViews
-  cli.Scout.DoesNotGoOnInAnotherCell
-  cli.Scout.DoesNotGoOnFromALog
-  cli.Scout.LetsModesCompete
-  cli.Scout.RemovesTheResultsOfARunBefore
-  cli.Scout.KeepsToABoxInTheWorld
-  cli.Scout.FollowsTheSequence
-  cli.Scout.FindsTheCastle
-  active.Scout.FlagsAGrosslyWrong
-  active.Scout.EndsByEachOf
-  active.Scout.CanContinueAfterCancellation
-  active.ScoutState.ContinuesFromASaved
-  active.ScoutState.ContinuesPastViews
-  active.ScoutState.ContinuesWithOccluders
-  active.ScoutState.ContinuesBehindALens
-  c.example_look_around
-  python.test_examples
-  python.test_install
-  register.EdgeIcp.RegionsHoldErrorsInFaultyImages
-  register.EdgeIcp.RegionsOfCleanImages
-  scripts.trust_symmetry
-)
-
-# Without parentheses: CTest's regular expressions can have few of them.
-release_without_long_tests() {
-  build_preset release && test_preset release -E "$(printf '|^%s' "${long_tests[@]}" | cut -c2-)"
-}
+# The long tests (label long, tests/CMakeLists.txt) run in the whole suites alone.
+release_without_long_tests() { build_preset release && test_preset release -LE long; }
 
 kernels_alone() {
   cmake --preset cpu-only -B build/kernels-only -DEDGESCOUT_HOST=OFF &&

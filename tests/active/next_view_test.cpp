@@ -58,7 +58,7 @@ TEST(ViewInformation, OfManyViewsIsThatOfEachAlone) {
   }
   t.draw_combinations();
   const std::vector<ViewInformation> all = t.information();
-  for (const int alone : {1, 5, 7, 9}) {
+  for (const int alone : {1, 9}) {
     t.closed.assign(t.views.size(), 1);
     t.closed[static_cast<std::size_t>(alone)] = 0;
     EXPECT_GT(all[static_cast<std::size_t>(alone)].information, 0);

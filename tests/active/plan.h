@@ -33,10 +33,13 @@ struct Plan {
   explicit Plan(int count = 6) {
     options.visibility_exponent = options.view_correlation_angle_rad =
         options.exploration_bonus_nats = 0;
-    for (const char* part : {"l_bracket", "bearing_block"})
-      models.push_back(make_edge_model(make_part(part).mesh));
-    for (const EdgeModel& model : models)
-      tables.push_back(make_template_table(model, 0.5, *backend, {3, 300}));
+    static const std::vector<EdgeModel> made{make_edge_model(make_part("l_bracket").mesh),
+                                             make_edge_model(make_part("bearing_block").mesh)};
+    static const std::vector<TemplateTable> made_tables{
+        make_template_table(made[0], 0.5, *backend, {3, 300}),
+        make_template_table(made[1], 0.5, *backend, {3, 300})};
+    models = made;
+    tables = made_tables;
     views = hemisphere_views({{0, 0, 0.02}, 0.5, {35, 70}, 10});
     real = {looked_from(views[0])};
     closed.assign(views.size(), 0);

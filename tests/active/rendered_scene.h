@@ -1,6 +1,9 @@
 // Separate parts on a bare board, rendered in several views, with models and candidates.
 #pragma once
 
+#include <map>
+#include <tuple>
+
 #include "host/active/particles.h"
 #include "host/pipeline.h"
 #include "host/register/object_view.h"
@@ -10,6 +13,7 @@
 
 namespace edgescout::test {
 
+// Rendered once a program.
 struct RenderedScene {
   std::vector<Object> parts;
   SimulatedScene scene;
@@ -17,22 +21,8 @@ struct RenderedScene {
   std::vector<TemplateSet> sets;
   std::vector<EdgeModel> models;
 
-  RenderedScene(const std::vector<std::string>& names, int objects, int views) {
-    for (const std::string& name : names) parts.push_back(make_part(name));
-    RenderOptions options;
-    options.width = 480;
-    options.height = 360;
-    options.focal_px = 600;
-    options.objects = objects;
-    options.views = views;
-    options.clutter = 0;
-    options.pile = 0;
-    scene = make_scene(parts, options);
-    ThreadPool pool(2);
-    renderings = render(scene, pool);
-    for (const Object& part : parts) sets.push_back(without_views(part));
-    for (const TemplateSet& set : sets) models.push_back(set.model);
-  }
+  RenderedScene(const std::vector<std::string>& names, int objects, int views)
+      : RenderedScene(once(names, objects, views)) {}
 
   Camera camera() const { return scene.views[0].camera; }
 
@@ -72,6 +62,32 @@ struct RenderedScene {
     d.covariance.diagonal() << 1e-6, 1e-6, 1e-6, 1e-4, 1e-4, 1e-4;
     d.psi = 0.7;
     return d;
+  }
+
+ private:
+  struct New {};
+  RenderedScene(New, const std::vector<std::string>& names, int objects, int views) {
+    for (const std::string& name : names) parts.push_back(make_part(name));
+    RenderOptions options;
+    options.width = 480;
+    options.height = 360;
+    options.focal_px = 600;
+    options.objects = objects;
+    options.views = views;
+    options.clutter = 0;
+    options.pile = 0;
+    scene = make_scene(parts, options);
+    ThreadPool pool(2);
+    renderings = render(scene, pool);
+    for (const Object& part : parts) sets.push_back(without_views(part));
+    for (const TemplateSet& set : sets) models.push_back(set.model);
+  }
+  static const RenderedScene& once(const std::vector<std::string>& names, int objects, int views) {
+    static std::map<std::tuple<std::vector<std::string>, int, int>, RenderedScene> made;
+    const std::tuple key{names, objects, views};
+    const auto at = made.find(key);
+    if (at != made.end()) return at->second;
+    return made.emplace(key, RenderedScene(New{}, names, objects, views)).first->second;
   }
 };
 

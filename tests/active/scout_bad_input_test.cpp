@@ -75,6 +75,8 @@ TEST(Scout, KeepsToItsStrategyWhereTheFirstViewFails) {
     ScoutOptions options = t.options();
     options.max_views = 1;
     options.first_view = 3;
+    options.detect = [](std::span<const int>, std::span<const ObjectView>,
+                        std::span<const ObjectPose>) { return std::vector<Detection>{}; };
     options.next_view.strategy = strategy;
     options.next_view.sequence = {3, 1, 4};
     options.next_view.seed = seed;

@@ -134,7 +134,9 @@ TEST(ScoutState, IsWrittenTheSameAfterItWasRead) {
   SmallCell t;
   const TemporaryFolder folder;
   SimulatedCell cell = t.source();
-  Scout scout = t.scout();
+  ScoutOptions options = t.options();
+  options.max_views = 2;
+  Scout scout = t.scout(options);
   run_scout(scout, cell);
   const ScoutStep& last = scout.state().steps.back();
   EXPECT_FALSE(last.before.empty() || last.after.empty() || last.mode_probabilities.empty() ||

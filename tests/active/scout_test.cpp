@@ -143,6 +143,7 @@ TEST(Scout, FindsTheObjectWithEveryStrategy) {
   SimulatedCell cell = t.source();
   for (const Strategy strategy : {Strategy::Disocclusion, Strategy::Random, Strategy::Fixed}) {
     ScoutOptions options = t.options();
+    options.max_views = 2;
     options.next_view.strategy = strategy;
     options.next_view.sequence = {0, 5, 2, 1, 3, 4, 6, 7};
     options.detect_in_every_image = false;
@@ -150,7 +151,7 @@ TEST(Scout, FindsTheObjectWithEveryStrategy) {
     run_scout(scout, cell);
     EXPECT_EQ(t.found(scout.state()), 1) << to_string(strategy);
     if (strategy == Strategy::Fixed) {
-      EXPECT_EQ(views_of(scout.state()), (std::vector<int>{0, 5, 2}));
+      EXPECT_EQ(views_of(scout.state()), (std::vector<int>{0, 5}));
     }
   }
 }

@@ -1,6 +1,8 @@
 // A small rendered cell with brackets, and options with which a scout runs in it within seconds.
 #pragma once
 
+#include <map>
+
 #include "host/active/scout.h"
 #include "host/active/views.h"
 #include "host/core/pose_error.h"
@@ -24,8 +26,12 @@ struct SmallCell {
       : part(make_part(name)) {
     RenderOptions options = bare_board(objects);
     options.pile = pile;
+    options.shadows = false;  // a sixth of a test's time
     scene = make_scene(std::span(&part, 1), options);
-    sets.push_back(build_templates(part, near_templates(0.04), *backend));
+    // The templates of a part are built once a program.
+    static std::map<std::string, TemplateSet> built;
+    if (!built.contains(name)) built[name] = build_templates(part, near_templates(0.04), *backend);
+    sets.push_back(built[name]);
   }
 
   Camera camera() const { return scene.views[0].camera; }

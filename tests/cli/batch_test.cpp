@@ -126,14 +126,19 @@ struct Batch : SmallScene {
 
   Batch() : SmallScene(3) {
     images = list_images({scene});
+    static const TemplateSet built = fewest_templates();
+    sets.push_back(built);
+    options.out = out;
+    options.pipeline.detect.min_probability = 0.1;
+    options.pipeline.detect.coarse_poses = 200;
+    options.pipeline.detect.candidates = 10;
+  }
+  static TemplateSet fewest_templates() {
     TemplateOptions templates;
     templates.frequency = 2;
     templates.in_plane_steps = 8;
     templates.distance_min_m = templates.distance_max_m = 0.3;
-    sets.push_back(build_templates(make_part("l_bracket"), templates, *make_cpu_backend(2)));
-    options.out = out;
-    options.pipeline.detect.min_probability = 0.1;
-    options.pipeline.detect.candidates = 10;
+    return build_templates(make_part("l_bracket"), templates, *make_cpu_backend(2));
   }
   fs::path json(int i) const { return out / ("000003_00000" + std::to_string(i) + ".json"); }
   nlohmann::json summary() const { return nlohmann::json::parse(content_of(out / "summary.json")); }

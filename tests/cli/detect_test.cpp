@@ -167,8 +167,8 @@ TEST(Detect, ATemplateFileAndAConfigurationSayTheSame) {
   const std::string config = t.folder.write(
       "detect.yaml",
       "device: cpu\ndetect:\n  unit: mm\n  viewpoints: 3\n  in-plane-steps: 12\n  "
-      "distance-min: 0.27\n  distance-max: 0.33\n  coarse-poses: 600\n  min-probability: "
-      "0.1\n  model: [" +
+      "distance-min: 0.27\n  distance-max: 0.33\n  coarse-poses: 200\n  medium-poses: 60\n  "
+      "candidates: 10\n  min-probability: 0.1\n  model: [" +
           part_file(1) + "]\n");
   expect_same({"detect", t.scene, "--out", t.out, "--config", config});
 }

@@ -52,7 +52,9 @@ TEST_F(MeshWithHoles, IsWarnedOfByRegister) {
 }
 
 TEST_F(MeshWithHoles, IsWarnedOfByScout) {
-  std::vector<std::string> arguments = SmallScout().arguments({"--object-id", "1"});
+  SmallScout small;
+  small.max_views = "1";
+  std::vector<std::string> arguments = small.arguments({"--object-id", "1"});
   *std::ranges::find(arguments, part_file(1)) = file;
   *(std::ranges::find(arguments, "--out") + 1) = out;
   expect_one_warning(arguments);

@@ -23,22 +23,12 @@ struct Outcome {
   std::string err;
 };
 
-// `environment` stands before the program, as in a shell: "NAME=value". Templates are kept in a
-// folder of this call alone, unless the environment or an option names one: what a program does
-// here depends on no program before it, and the user's folder is neither read nor written.
-inline Outcome run_program(const std::vector<std::string>& arguments,
-                           const std::string& environment = "") {
-  const TemporaryFolder folder;
-  std::string command = "XDG_CACHE_HOME='" + (folder.path() / "caches").string() + "' " +
-                        environment + " '" EDGESCOUT_CLI "'";
-  for (const std::string& argument : arguments) command += " '" + argument + "'";
-  const auto out = folder.path() / "out", err = folder.path() / "err";
-  command += " >'" + out.string() + "' 2>'" + err.string() + "' </dev/null";
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(out), content_of(err)};
-}
+// `environment` stands before the program, as in a shell: "NAME=value". The programs of one test
+// program keep templates in one folder: each set is built once. The user's is neither read nor
+// written.
+Outcome run_program(const std::vector<std::string>& arguments, const std::string& environment = "");
 
-// Leaves it running. It keeps no templates, unless an option names a folder for them.
+// Leaves it running, from its file.
 inline pid_t start_program(const std::vector<std::string>& arguments) {
   std::vector<char*> argv{const_cast<char*>(EDGESCOUT_CLI)};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
@@ -47,8 +37,6 @@ inline pid_t start_program(const std::vector<std::string>& arguments) {
   if (child != 0) return child;
   const int nowhere = ::open("/dev/null", O_RDWR);
   for (int stream : {0, 1, 2}) ::dup2(nowhere, stream);
-  ::setenv("XDG_CACHE_HOME", "", 1);
-  ::setenv("HOME", "", 1);
   ::execv(EDGESCOUT_CLI, argv.data());
   ::_exit(127);
 }

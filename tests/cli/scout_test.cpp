@@ -15,7 +15,8 @@ namespace edgescout::test {
 namespace {
 
 TEST(Scout, FindsThePartAndShowsHow) {
-  const SmallScout t;
+  SmallScout t;
+  t.max_views = "3";
   const Outcome outcome = run_program(t.arguments());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("1 objects in 3 images, 0 views failed"), std::string::npos)
@@ -79,9 +80,7 @@ TEST(Scout, FindsThePartOnAVulkanDevice) {
   if (vulkan_devices().empty()) GTEST_SKIP() << "no Vulkan device";
   SmallScout t;
   t.device = "vulkan:0";
-  std::vector<std::string> two_images = t.arguments();
-  *(std::ranges::find(two_images, "--max-views") + 1) = "2";
-  const Outcome outcome = run_program(two_images);
+  const Outcome outcome = run_program(t.arguments());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const nlohmann::json log = t.log();
   ASSERT_EQ(log.at("steps").size(), 2u);
@@ -133,7 +132,7 @@ TEST(Scout, LooksFromTheViewsOfAFile) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const nlohmann::json log = t.log();
   ASSERT_EQ(log.at("views").size(), 6u);
-  ASSERT_EQ(log.at("steps").size(), 3u);
+  ASSERT_EQ(log.at("steps").size(), 2u);
   for (const nlohmann::json& step : log["steps"]) {
     const JsonField pose{step.at("camera_from_world"), "scout.json", ""};
     const Se3 taken = pose_from(pose.at("R"), pose.at("t"), 1.0);
@@ -146,12 +145,11 @@ TEST(Scout, LooksFromTheViewsOfAFile) {
 // Without --radius the parts fill the image: ten times larger ones are seen from ten times as far.
 TEST(Scout, LooksFromAsFarAsThePartsAreLarge) {
   const auto radius_m = [](const std::string& unit) {
-    const SmallScout t;
-    std::vector<std::string> arguments = t.arguments({"--max-views", "1"});
-    for (const char* given : {"--radius", "--max-views"}) {
-      const auto at = std::ranges::find(arguments, given);
-      arguments.erase(at, at + 2);
-    }
+    SmallScout t;
+    t.max_views = "1";
+    std::vector<std::string> arguments = t.arguments();
+    const auto radius = std::ranges::find(arguments, "--radius");
+    arguments.erase(radius, radius + 2);
     *(std::ranges::find(arguments, "--unit") + 1) = unit;
     const Outcome outcome = run_program(arguments);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -181,7 +179,8 @@ TEST(Scout, KeepsToABoxInTheWorld) {
 
 // A fixed sequence begins with its first view.
 TEST(Scout, FollowsTheSequence) {
-  const SmallScout t;
+  SmallScout t;
+  t.max_views = "3";
   const Outcome outcome =
       run_program(t.arguments({"--strategy", "fixed", "--sequence", "5", "3", "7"}));
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -193,7 +192,8 @@ TEST(Scout, FollowsTheSequence) {
 
 TEST(Scout, DrawsRandomViewsFromItsSeed) {
   const auto views_of = [](const char* seed) {
-    const SmallScout t;
+    SmallScout t;
+    t.max_views = "3";
     EXPECT_EQ(run_program(t.arguments({"--strategy", "random", "--draws-seed", seed})).exit_code,
               0);
     std::vector<int> views;

@@ -1,6 +1,8 @@
 // A rendered BOP scene of one part, small enough to detect in within a second.
 #pragma once
 
+#include <map>
+
 #include "host/io/image.h"
 #include "host/render/parts.h"
 #include "host/render/write_bop.h"
@@ -10,16 +12,30 @@
 
 namespace edgescout::test {
 
+// Rendered once a program.
+struct RenderedBracket {
+  std::vector<Object> parts{make_part("l_bracket")};
+  SimulatedScene scene;
+  std::vector<Rendering> renderings;
+
+  explicit RenderedBracket(int views) : scene(make_scene(parts, bare_board(1, views))) {
+    ThreadPool pool(2);
+    renderings = render(scene, pool);
+  }
+  static const RenderedBracket& in(int views) {
+    static std::map<int, RenderedBracket> made;
+    return made.try_emplace(views, views).first->second;
+  }
+};
+
 struct SmallScene {
   TemporaryFolder folder;
   fs::path scene = folder.path() / "000003";
   fs::path out = folder.path() / "out";
 
   explicit SmallScene(int views = 1) {
-    const std::vector<Object> parts{make_part("l_bracket")};
-    const SimulatedScene made = make_scene(parts, bare_board(1, views));
-    ThreadPool pool(2);
-    write_bop_scene(made, render(made, pool), scene);
+    const RenderedBracket& made = RenderedBracket::in(views);
+    write_bop_scene(made.scene, made.renderings, scene);
   }
 
   fs::path image(int index = 0) const {
@@ -38,8 +54,8 @@ struct SmallScene {
   // elsewhere.
   std::vector<std::string> detect(const fs::path& input,
                                   const std::vector<std::string>& more = {}) const {
-    return joined({{"detect", input, "--out", out, "--device", "cpu", "--coarse-poses", "600",
-                    "--min-probability", "0.1"},
+    return joined({{"detect", input, "--out", out, "--device", "cpu", "--coarse-poses", "200",
+                    "--medium-poses", "60", "--candidates", "10", "--min-probability", "0.1"},
                    more});
   }
 };

@@ -13,16 +13,16 @@ namespace edgescout::test {
 struct SmallScout {
   TemporaryFolder folder;
   fs::path out = folder.path() / "out";
-  std::string min_probability = "0.1", device = "cpu";
+  std::string min_probability = "0.1", device = "cpu", max_views = "2";
 
-  // A bracket in a rendered cell, three images of eight views, few of everything.
+  // A bracket in a rendered cell, seen from some of eight views, few of everything.
   std::vector<std::string> arguments(const std::vector<std::string>& more = {}) const {
     return joined({{"scout", "cell", "--out", out, "--device", device, "--model", part_file(1),
                     "--unit", "mm"},
                    {"--width", "320", "--height", "240", "--focal", "400", "--objects", "1",
                     "--clutter", "0"},
                    {"--radius", "0.3", "--view-count", "8", "--elevations", "40", "70",
-                    "--max-views", "3", "--min-entropy", "0"},
+                    "--max-views", max_views, "--min-entropy", "0"},
                    {"--viewpoints", "3", "--in-plane-steps", "12", "--coarse-poses", "200",
                     "--candidates", "8", "--particles", "60"},
                    {"--combinations", "200", "--min-probability", min_probability},

@@ -24,8 +24,8 @@ TEST(DeviceWork, OfOneFrameStaysWithinItsBounds) {
   const RenderedPart scene("bearing_block");
   const std::unique_ptr<Backend> device =
       make_vulkan_backend(usual_vulkan_device(), {.time_kernels = true});
-  scene.detect(0, *device);  // allocates what the next ones use again
-  const Detections found = scene.detect(0, *device);
+  scene.detect(0, *device, {});  // allocates what the next ones use again
+  const Detections found = scene.detect(0, *device, {});
   const DeviceWork frame = sum(found), scan = stage_of(found, "scan").device;
   const double megabytes = 1e-6 * double(frame.bytes_up + frame.bytes_down),
                scan_megabytes = 1e-6 * double(scan.bytes_up + scan.bytes_down);

@@ -53,10 +53,13 @@ INSTANTIATE_TEST_SUITE_P(Parts, DetectParts,
 // At distances of two scales.
 TEST(DetectObjects, FindsNearAndFarPartsWithoutARange) {
   const auto backend = make_cpu_backend(2);
+  TemplateOptions few;
+  few.frequency = 3;
+  few.in_plane_steps = 12;
   for (const double distance_m : {0.15, 0.5}) {
     RenderedPart t("u_channel", 1, 1, distance_m);
     t.sets = {build_templates(
-        t.part, with_default_distances({}, t.part.mesh.diameter_m, t.scene.views[0].camera),
+        t.part, with_default_distances(few, t.part.mesh.diameter_m, t.scene.views[0].camera),
         *backend)};
     const Detections found = t.detect(0, *backend);
     ASSERT_FALSE(found.detections.empty()) << distance_m;
@@ -92,8 +95,9 @@ TEST(DetectObjects, FindsNothingOnABareBoard) {
   t.scene.placed.clear();
   t.renderings = render(t.scene, pool);
   const auto backend = make_cpu_backend(2);
-  EXPECT_TRUE(
-      detect_objects(t.prepared(0, Se3{}, *backend), t.sets, *backend, {}).detections.empty());
+  PipelineOptions options = t.options();
+  options.detect.min_probability = DetectOptions{}.min_probability;
+  EXPECT_TRUE(t.detect(0, *backend, options).detections.empty());
 }
 
 TEST(DetectJointly, IsMoreExactThanOneView) {

@@ -40,7 +40,6 @@ set(examples ${CONSUMER_DIR}/../../../docs/examples)
 run(${WORK_DIR}/build/consumer ${examples}/scenes/000000 ${examples}/parts/obj_000001.ply 1)
 run(${WORK_DIR}/build/find_part ${examples}/scenes/000000/gray/000000.png
     ${examples}/scenes/000000/scene_camera.json ${examples}/parts/obj_000001.ply 0.32 0.36)
-run(${WORK_DIR}/build/look_around ${examples}/scenes/000001 ${examples}/parts/obj_000001.ply)
 run(${WORK_DIR}/prefix/bin/edgescout --version)
 
 # The pages on the interfaces show the programs as they are.

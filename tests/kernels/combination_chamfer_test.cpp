@@ -54,8 +54,7 @@ Boxes box_scene(std::mt19937& rng, int count, bool single_points) {
 // A combination as a renderer would show it.
 class Drawn {
  public:
-  Drawn(const Boxes& from, std::size_t combination)
-      : depth_(width * height, 1e9), edge_(width * height, false) {
+  Drawn(const Boxes& from, std::size_t combination) : depth_(width * height, 1e9) {
     const CombinationBits combinations = from.scene.combinations();
     for (std::size_t c = 0; c < from.boxes.size(); ++c)
       if (combinations.has(combination, c))
@@ -69,11 +68,12 @@ class Drawn {
   }
   // The exact transform, looked up at the pixel.
   double distance_px(double u, double v) const {
-    double least = chamfer_options.cap_px;
-    for (int i = 0; i < width * height; ++i)
-      if (edge_[i])
-        least = std::min(least, std::hypot(i % width - std::lround(u), i / width - std::lround(v)));
-    return least;
+    const int x = int(std::lround(u)), y = int(std::lround(v));
+    double least_px2 = chamfer_options.cap_px * chamfer_options.cap_px;
+    for (const auto& [edge_x, edge_y] : edges_)
+      least_px2 =
+          std::min(least_px2, double((edge_x - x) * (edge_x - x) + (edge_y - y) * (edge_y - y)));
+    return std::sqrt(least_px2);
   }
 
  private:
@@ -97,13 +97,13 @@ class Drawn {
     for (const MapEdge& edge : test::box_edges(members_[member].box, camera, 60)) {
       const int x = int(std::lround(edge.x_px)), y = int(std::lround(edge.y_px));
       if (x < 0 || x >= width || y < 0 || y >= height) continue;
-      if (others[y * width + x] >= edge.z_m) edge_[y * width + x] = true;
+      if (others[y * width + x] >= edge.z_m) edges_.push_back({x, y});
     }
   }
 
   std::vector<Member> members_;
   std::vector<double> depth_;
-  std::vector<bool> edge_;
+  std::vector<std::array<int, 2>> edges_;  // pixels; some more than once
 };
 
 // Whether a member's nearest edge point at the place is hidden by another: where the kernel may

@@ -24,16 +24,14 @@ def test_equals_the_program(scene, depth_mm, program, tmp_path):
     file.write_bytes(b"Pf\n640 480\n-1.0\n" + depth_m[::-1].astype("<f4").tobytes())
     subprocess.run(
         [program, "detect", scene.file, "--depth", file, "--depth-noise", "0.002", "--model",
-         scene.part, "--unit", "mm", "--distance-min", "0.32", "--distance-max", "0.36", "--camera",
+         scene.part, "--unit", "mm", *scene.arguments, "--camera",
          scene.file.parents[1] / "scene_camera.json", "--device", "cpu", "--no-overlays",
          "--min-probability", "0.001", "--out",
          tmp_path / "out"], check=True, capture_output=True)
     (result,) = [json.loads(file.read_text()) for file in (tmp_path / "out").rglob("*.json")
                  if "edgescout_result" in file.read_text()]
-    options = edgescout.DetectOptions(min_probability=0.001)  # the plane contradicts most poses
-    found = edgescout.detect(scene.image, scene.camera, scene.templates, options, depth=depth_m,
-                             depth_options=edgescout.DepthOptions(depth_noise=0.002),
-                             backend=scene.backend)
+    found = scene.detect(scene.image, min_probability=0.001,  # the plane contradicts most poses
+                         depth=depth_m, depth_options=edgescout.DepthOptions(depth_noise=0.002))
     assert len(found) > 0
     assert [d.probability for d in found] == [d["probability"] for d in result["detections"]]
     for detection, of_program in zip(found, result["detections"]):
@@ -45,8 +43,7 @@ def test_equals_the_program(scene, depth_mm, program, tmp_path):
 
 @pytest.mark.parametrize("dtype", [np.uint16, np.float32])
 def test_without_any_value_is_no_depth(scene, found, dtype):
-    other = edgescout.detect(scene.image, scene.camera, scene.templates, backend=scene.backend,
-                             depth=np.zeros((480, 640), dtype))
+    other = scene.detect(scene.image, depth=np.zeros((480, 640), dtype))
     assert len(other) == len(found)
     np.testing.assert_array_equal(other[0].world_from_object, found[0].world_from_object)
     assert other[0].probability == found[0].probability
@@ -58,8 +55,7 @@ def test_a_wall_before_the_part_hides_it(scene):
     half_mm = edgescout.DepthOptions(depth_unit=0.0005)
     for depth, options in ((wall, None), (2 * wall, half_mm), (wall[:, ::-1], None),
                            ((wall / 1000).astype(np.float32), None)):
-        assert len(edgescout.detect(scene.image, scene.camera, scene.templates, depth=depth,
-                                    depth_options=options, backend=scene.backend)) == 0
+        assert len(scene.detect(scene.image, depth=depth, depth_options=options)) == 0
 
 
 @pytest.mark.parametrize("depth, message", [
@@ -70,8 +66,7 @@ def test_a_wall_before_the_part_hides_it(scene):
 ])
 def test_refuses_what_is_no_depth(scene, depth, message):
     with pytest.raises(ValueError) as error:
-        edgescout.detect(scene.image, scene.camera, scene.templates, depth=depth,
-                         backend=scene.backend)
+        scene.detect(scene.image, depth=depth)
     assert message in str(error.value)
 
 

@@ -12,8 +12,8 @@ import edgescout
 
 def test_equals_the_program_bit_for_bit(scene, found, program, tmp_path):
     subprocess.run(
-        [program, "detect", scene.file, "--model", scene.part, "--unit", "mm", "--distance-min",
-         "0.32", "--distance-max", "0.36", "--camera", scene.file.parents[1] / "scene_camera.json",
+        [program, "detect", scene.file, "--model", scene.part, "--unit", "mm",
+         *scene.arguments, "--camera", scene.file.parents[1] / "scene_camera.json",
          "--device", "cpu", "--no-overlays", "--out", tmp_path], check=True, capture_output=True)
     (result,) = [json.loads(file.read_text()) for file in tmp_path.rglob("*.json")
                  if "edgescout_result" in file.read_text()]
@@ -35,7 +35,7 @@ def test_takes_arrays_of_any_layout(scene, found):
     read_only = scene.image.copy()
     read_only.flags.writeable = False
     for image in (rgba, strided, np.asfortranarray(scene.image), read_only):
-        other = edgescout.detect(image, scene.camera, scene.templates, backend=scene.backend)
+        other = scene.detect(image)
         np.testing.assert_array_equal(other[0].world_from_object, found[0].world_from_object)
 
 
@@ -48,13 +48,12 @@ def test_takes_arrays_of_any_layout(scene, found):
 ])
 def test_refuses_what_is_no_image(scene, image, message):
     with pytest.raises(ValueError) as error:
-        edgescout.detect(image, scene.camera, scene.templates, backend=scene.backend)
+        scene.detect(image)
     assert message in str(error.value)
 
 
 def test_ends_at_the_deadline(scene):
-    cut = edgescout.detect(scene.image, scene.camera, scene.templates, backend=scene.backend,
-                           max_seconds=0)
+    cut = scene.detect(scene.image, max_seconds=0)
     assert not cut.is_complete and len(cut) == 0
 
 
@@ -88,8 +87,9 @@ def test_jointly_gives_poses_in_the_world(scene, found):
     """Twice the same image from one place: the pose of the single image, moved to the world."""
     camera_from_world = np.eye(4)
     camera_from_world[:3, 3] = 0.1, 0.2, 0.3
+    options = edgescout.DetectOptions(coarse_poses_joint=600, medium_poses_joint=100, candidates=20)
     both = edgescout.detect_jointly([scene.image] * 2, scene.camera, [camera_from_world] * 2,
-                                    scene.templates, backend=scene.backend)
+                                    scene.templates, options, backend=scene.backend)
     in_camera = camera_from_world @ both[0].world_from_object
     assert np.linalg.norm(in_camera[:3, 3] - found[0].world_from_object[:3, 3]) < 0.002
 

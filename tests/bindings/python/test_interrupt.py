@@ -15,6 +15,6 @@ def test_ctrl_c_ends_a_detection(scene):
     start = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
         while time.monotonic() < start + 60:
-            edgescout.detect(scene.image, scene.camera, scene.templates, backend=scene.backend)
-    again = edgescout.detect(scene.image, scene.camera, scene.templates, backend=scene.backend)
+            scene.detect(scene.image)
+    again = scene.detect(scene.image)
     assert again.is_complete and len(again) == 1

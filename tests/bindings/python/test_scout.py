@@ -30,7 +30,8 @@ def recorded(scene):
     matrix = np.reshape(cameras["0"]["cam_K"], (3, 3))
     templates = edgescout.Templates(
         edgescout.load_mesh(scene.part.with_name("obj_000006.ply"), "mm"),
-        edgescout.TemplateOptions(distance_min=0.45, distance_max=0.52), backend=scene.backend)
+        edgescout.TemplateOptions(distance_min=0.45, distance_max=0.52, viewpoints=3,
+                                  in_plane_steps=12), backend=scene.backend)
     return SimpleNamespace(images=images, poses=np.array(poses), templates=templates,
                            camera=edgescout.Camera(width, height, matrix),
                            truths=[np.linalg.inv(poses[0]) @ truth for truth in truths])

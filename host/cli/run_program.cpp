@@ -1,0 +1,134 @@
+#include "host/cli/run_program.h"
+
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <csignal>
+#include <filesystem>
+#include <iostream>
+#include <new>
+
+#include "host/cli/config.h"
+#include "host/cli/exit_codes.h"
+#include "host/cli/help.h"
+#include "host/cli/renamed_options.h"
+#include "host/cli/verbs.h"
+#include "host/core/freed_memory.h"
+#include "host/core/log.h"
+#include "host/core/option_names.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+namespace {
+
+void send_log_to_stderr() {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("edgescout"));
+  spdlog::set_pattern("%n: %^%l%$: %v");
+  set_log_sink([](LogLevel level, const std::string& message) {
+    constexpr spdlog::level::level_enum levels[] = {spdlog::level::debug, spdlog::level::info,
+                                                    spdlog::level::warn, spdlog::level::err};
+    spdlog::log(levels[static_cast<int>(level)], message);
+  });
+}
+
+void name_options_as_typed() {
+  set_option_naming([](const std::string& name) { return "--" + name; });
+}
+
+void add_log_level(CLI::App& app) {
+  const std::map<std::string, spdlog::level::level_enum> levels{{"debug", spdlog::level::debug},
+                                                                {"info", spdlog::level::info},
+                                                                {"warning", spdlog::level::warn},
+                                                                {"error", spdlog::level::err}};
+  app.add_option_function<std::string>(
+         "--log-level", [levels](const std::string& word) { spdlog::set_level(levels.at(word)); },
+         "Lowest level of messages on standard error: debug, info, warning or error")
+      ->check(CLI::IsMember(levels))
+      ->default_str("info");
+}
+
+int fail(const std::string& message, ExitCode code) {
+  std::string line = message;
+  std::replace(line.begin(), line.end(), '\n', ' ');
+  std::cerr << "edgescout: error: " << line << std::endl;
+  return code;
+}
+
+// CLI11 reports a missing verb even if the verb is misspelt.
+std::string explanation(const CLI::ParseError& error, const CLI::App& app) {
+  const std::vector<std::string> unknown = app.remaining();
+  if (!app.get_subcommands().empty() || unknown.empty()) return error.what();
+  std::string verbs;
+  for (const CLI::App* verb : app.get_subcommands([](const CLI::App*) { return true; }))
+    verbs += " " + verb->get_name();
+  return "command line: found " + unknown.front() + ", expected one of:" + verbs;
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"Finds textureless rigid objects in grey images from their CAD models", "edgescout"};
+  app.set_version_flag("--version", "edgescout " EDGESCOUT_VERSION);
+  app.require_subcommand(1);
+  app.fallthrough();  // the program's own options may also follow the verb
+  add_help(app);
+  add_yaml_config(app);
+  add_log_level(app);
+  std::vector<std::string> arguments = with_present_names({argv + 1, argv + argc});
+  std::ranges::reverse(arguments);  // what CLI11 asks for
+  int exit_code = exit_internal_error;
+  add_bench(app, exit_code);
+  add_camera_verb(app, exit_code);
+  add_detect(app, exit_code);
+  add_devices(app, exit_code);
+  add_eval(app, exit_code);
+  add_explain(app, exit_code);
+  add_merge(app, exit_code);
+  add_model(app, exit_code);
+  add_register(app, exit_code);
+  add_render(app, exit_code);
+  add_scout(app, exit_code);
+  add_track(app, exit_code);
+  try {
+    app.parse(std::move(arguments));
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    return fail(explanation(error, app), exit_bad_request);
+  }
+  if (!std::cout.flush())
+    return fail("standard output: found a write error, expected room for the result",
+                exit_bad_request);
+  return exit_code;
+}
+
+int run_and_catch(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const InputError& error) {
+    return fail(error.what(), exit_bad_request);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(fmt::format("{}: {}", error.path1().string(), error.code().message()),
+                exit_bad_request);
+  } catch (const GpuError& error) {
+    return fail(error.what(), exit_device_failed);
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory", exit_internal_error);
+  } catch (const std::exception& error) {
+    return fail(std::string("internal: ") + error.what(), exit_internal_error);
+  }
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+  std::signal(SIGXFSZ,
+              SIG_IGN);  // a file-size limit is then an error of write(), as a full disk is
+  keep_freed_memory();
+  name_options_as_typed();
+  send_log_to_stderr();
+  return run_and_catch(argc, argv);
+}
+
+}  // namespace edgescout
