@@ -1,22 +1,24 @@
 #include "host/core/image_size.h"
 
-#include <fmt/format.h>
-
 #include "kernels/error.h"
 
 namespace edgescout {
 
 namespace {
 
+std::string size_text(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
 // `image`: grey or depth, with its number of pixels.
 void require(const auto& image, std::size_t pixels, const Camera& camera, const std::string& source,
              const std::string& name) {
-  const std::string size = fmt::format("{}x{}", image.width, image.height);
+  const std::string size = size_text(image.width, image.height);
   if (image.width != camera.width || image.height != camera.height)
     throw InputError(source, name + " size", size,
-                     fmt::format("the camera's {}x{}", camera.width, camera.height));
+                     "the camera's " + size_text(camera.width, camera.height));
   if (pixels != std::size_t(image.width) * std::size_t(image.height))
-    throw InputError(source, name, fmt::format("{} pixels", pixels), size);
+    throw InputError(source, name, std::to_string(pixels) + " pixels", size);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
   view.image = &image;
   view.camera = camera;
   edgescout_limit limit = {.struct_size = sizeof limit};
-  limit.max_seconds = 10;
+  limit.max_seconds = 60;
   edgescout_request request = {.struct_size = sizeof request};
   request.views = &view;
   request.view_count = 1;

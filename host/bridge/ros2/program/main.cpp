@@ -50,9 +50,13 @@ std::uint32_t domain_of_environment() {
   return std::uint32_t(domain);
 }
 
+// The second variable is that of ROS 2 from Iron on.
 bool is_local_only() {
-  const char* text = std::getenv("ROS_LOCALHOST_ONLY");
-  return text && std::string(text) == "1";
+  const auto is = [](const char* variable, const char* value) {
+    const char* text = std::getenv(variable);
+    return text && std::string(text) == value;
+  };
+  return is("ROS_LOCALHOST_ONLY", "1") || is("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST");
 }
 
 // Reads models before anything else, so that a wrong file ends the program at once. Templates are
