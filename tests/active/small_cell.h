@@ -26,7 +26,6 @@ struct SmallCell {
       : part(make_part(name)) {
     RenderOptions options = bare_board(objects);
     options.pile = pile;
-    options.shadows = false;  // a sixth of a test's time
     scene = make_scene(std::span(&part, 1), options);
     // The templates of a part are built once a program.
     static std::map<std::string, TemplateSet> built;

@@ -82,7 +82,7 @@ def test_proposes_another_view_where_one_cannot_be_had(scene, recorded):
 def test_finds_nothing_behind_a_measured_wall(scene, recorded):
     height, width = recorded.images[0].shape
     scout = new_scout(scene, recorded)
-    with pytest.raises(ValueError, match="10x20 px"):
+    with pytest.raises(ValueError, match="found 10x20, expected the camera's"):
         scout.give(0, recorded.images[0], depth=np.full((20, 10), 0.1, np.float32))
     scout.give(0, recorded.images[0], depth=np.full((height, width), 100, np.uint16))
     assert scout.images == 1 and not scout.detections
