@@ -1,15 +1,13 @@
 #include "host/cli/run_program.h"
 
-#include <fmt/format.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <csignal>
-#include <filesystem>
 #include <iostream>
-#include <new>
 
+#include "host/cli/caught_errors.h"
 #include "host/cli/config.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/help.h"
@@ -18,7 +16,6 @@
 #include "host/core/freed_memory.h"
 #include "host/core/log.h"
 #include "host/core/option_names.h"
-#include "kernels/error.h"
 
 namespace edgescout {
 
@@ -103,23 +100,6 @@ int run(int argc, char** argv) {
   return exit_code;
 }
 
-int run_and_catch(int argc, char** argv) {
-  try {
-    return run(argc, argv);
-  } catch (const InputError& error) {
-    return fail(error.what(), exit_bad_request);
-  } catch (const std::filesystem::filesystem_error& error) {
-    return fail(fmt::format("{}: {}", error.path1().string(), error.code().message()),
-                exit_bad_request);
-  } catch (const GpuError& error) {
-    return fail(error.what(), exit_device_failed);
-  } catch (const std::bad_alloc&) {
-    return fail("out of memory", exit_internal_error);
-  } catch (const std::exception& error) {
-    return fail(std::string("internal: ") + error.what(), exit_internal_error);
-  }
-}
-
 }  // namespace
 
 int run_program(int argc, char** argv) {
@@ -128,7 +108,7 @@ int run_program(int argc, char** argv) {
   keep_freed_memory();
   name_options_as_typed();
   send_log_to_stderr();
-  return run_and_catch(argc, argv);
+  return with_caught_errors([&] { return run(argc, argv); }, fail);
 }
 
 }  // namespace edgescout

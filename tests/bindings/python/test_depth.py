@@ -26,11 +26,11 @@ def test_equals_the_program(scene, depth_mm, program, tmp_path):
         [program, "detect", scene.file, "--depth", file, "--depth-noise", "0.002", "--model",
          scene.part, "--unit", "mm", *scene.arguments, "--camera",
          scene.file.parents[1] / "scene_camera.json", "--device", "cpu", "--no-overlays",
-         "--min-probability", "0", "--out",
+         "--min-probability", "0.001", "--out",
          tmp_path / "out"], check=True, capture_output=True)
     (result,) = [json.loads(file.read_text()) for file in (tmp_path / "out").rglob("*.json")
                  if "edgescout_result" in file.read_text()]
-    found = scene.detect(scene.image, min_probability=0,  # the plane contradicts most poses
+    found = scene.detect(scene.image, min_probability=0.001,  # the plane contradicts most poses
                          depth=depth_m, depth_options=edgescout.DepthOptions(depth_noise=0.002))
     assert len(found) > 0
     assert [d.probability for d in found] == [d["probability"] for d in result["detections"]]

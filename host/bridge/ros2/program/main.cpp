@@ -7,13 +7,13 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
-#include <filesystem>
 #include <iostream>
 #include <thread>
 
 #include "host/bridge/ros2/dds/bridge_topics.h"
 #include "host/bridge/ros2/frames.h"
 #include "host/bridge/ros2/program/program_options.h"
+#include "host/cli/caught_errors.h"
 #include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"
 #include "host/cli/template_sets.h"
@@ -136,22 +136,6 @@ int fail(const std::string& message, ExitCode code) {
   return code;
 }
 
-int run_and_catch(const std::vector<std::string>& arguments) {
-  try {
-    return run(arguments);
-  } catch (const InputError& error) {
-    return fail(error.what(), exit_bad_request);
-  } catch (const std::filesystem::filesystem_error& error) {
-    return fail(error.path1().string() + ": " + error.code().message(), exit_bad_request);
-  } catch (const GpuError& error) {
-    return fail(error.what(), exit_device_failed);
-  } catch (const std::bad_alloc&) {
-    return fail("out of memory", exit_internal_error);
-  } catch (const std::exception& error) {
-    return fail(std::string("internal: ") + error.what(), exit_internal_error);
-  }
-}
-
 }  // namespace
 
 }  // namespace edgescout::ros2
@@ -161,5 +145,9 @@ int main(int argc, char** argv) {
     std::signal(signal, [](int) { edgescout::ros2::is_interrupted = true; });
   edgescout::keep_freed_memory();
   edgescout::set_option_naming([](const std::string& name) { return "--" + name; });
-  return edgescout::ros2::run_and_catch({argv + 1, argv + argc});
+  return edgescout::with_caught_errors(
+      [&] {
+        return edgescout::ros2::run({argv + 1, argv + argc});
+      },
+      edgescout::ros2::fail);
 }
