@@ -73,7 +73,7 @@ void describe_ablations(NextViewOptions& o, OptionVisitor& visit) {
   visit.number({"seen-distance",
                 "A point of a part counts as seen if the image has an edge within this distance, "
                 "px. 0: wherever it lies in the image, as in the paper"},
-               o.seen_px, 0.0, double(EdgeIndex::CELL_PX));
+               o.seen_px, 0.0, double(EdgeIndex::MAX_RADIUS_PX));
 }
 
 void NextViewOptions::validate() const {

@@ -149,7 +149,7 @@ void describe(EdgeClaimOptions& o, OptionVisitor& visit) {
 void EdgeClaimOptions::validate() const {
   check_bounds(*this, "edge_claims");
   const BoundsCheck in("edge_claims");
-  in.require("match", match_px, 0.01, EdgeIndex::CELL_PX);
+  in.require("match", match_px, 0.01, EdgeIndex::MAX_RADIUS_PX);
   in.require("max_turn", max_turn_rad, 0, 3.15);
 }
 

@@ -29,9 +29,9 @@ EdgeIndex::EdgeIndex(std::span<const EdgePoint> edges, int width, int height)
 }
 
 EdgeIndex::Cells EdgeIndex::cells_around(float x_px, float y_px, float radius_px) const {
-  check(radius_px <= CELL_PX, "EdgeIndex: radius larger than a cell");
-  if (!(x_px > -CELL_PX && y_px > -CELL_PX && x_px < CELL_PX * (columns_ + 1) &&
-        y_px < CELL_PX * (rows_ + 1)))
+  check(radius_px <= MAX_RADIUS_PX, "EdgeIndex: radius");
+  if (!(x_px > -radius_px && y_px > -radius_px && x_px < CELL_PX * columns_ + radius_px &&
+        y_px < CELL_PX * rows_ + radius_px))
     return {0, -1, 0, -1};
   return {cell_of(x_px - radius_px, columns_), cell_of(x_px + radius_px, columns_),
           cell_of(y_px - radius_px, rows_), cell_of(y_px + radius_px, rows_)};

@@ -13,13 +13,13 @@ class EdgeIndex {
  public:
   EdgeIndex(std::span<const EdgePoint> edges, int width, int height);
 
-  // The edge point nearest to (x, y) within `radius_px` (at most CELL_PX) whose direction differs
-  // from `theta_rad` by less than `max_turn_rad`. Null where there is none.
+  // The edge point nearest to (x, y) within `radius_px` (at most MAX_RADIUS_PX) whose direction
+  // differs from `theta_rad` by less than `max_turn_rad`. Null where there is none.
   const EdgePoint* nearest(float x_px, float y_px, float theta_rad, float radius_px,
                            float max_turn_rad) const;
 
-  // Calls visit(const EdgePoint&) for every edge point within `radius_px` (at most CELL_PX) of any
-  // direction. References stay valid as long as the index; one edge point has one address.
+  // Calls visit(const EdgePoint&) for every edge point within `radius_px` (at most MAX_RADIUS_PX)
+  // of any direction. References stay valid as long as the index; one edge point has one address.
   template <typename Visit>
   void for_each_near(float x_px, float y_px, float radius_px, const Visit& visit) const {
     const Cells cells = cells_around(x_px, y_px, radius_px);
@@ -36,7 +36,8 @@ class EdgeIndex {
   // The same sorted by cell, in the order given within a cell.
   std::span<const EdgePoint> points_by_cell() const { return by_cell_; }
 
-  static constexpr int CELL_PX = 8;
+  static constexpr int MAX_RADIUS_PX = 8;
+  static constexpr int CELL_PX = 4;  // lookups reach 2 to 3 px most of all
 
  private:
   struct Cells {

@@ -33,7 +33,7 @@ void EdgesOptions::validate() const {
   gradient.validate();
   faint.validate();
   check_bounds(*this, "edge");
-  BoundsCheck("edge").require("faint_clearance", faint_clearance_px, 0, EdgeIndex::CELL_PX);
+  BoundsCheck("edge").require("faint_clearance", faint_clearance_px, 0, EdgeIndex::MAX_RADIUS_PX);
   lsd.validate();
 }
 
