@@ -1,11 +1,14 @@
 #include "host/register/edge_icp.h"
 
 #include <algorithm>
+#include <numbers>
+#include <optional>
 
 #include <Eigen/Cholesky>
 
 #include "host/core/options.h"
 #include "host/core/thinned.h"
+#include "host/register/contested_edges.h"
 #include "host/register/d2co.h"
 #include "host/register/depth_systems.h"
 #include "host/register/edge_covariance.h"
@@ -40,32 +43,12 @@ struct Counts {
   int points = 0, in_image = 0, matched = 0;
 };
 
-// Calls visit(residual, weight, projected point) for every point that has an edge point near.
-// Derivatives are by the camera's tangent.
-template <typename Visit>
-Counts match_points(const ObjectView& view, const Se3& world_from_object,
-                    std::span<const ModelPoint> points, const EdgeIcpRound& round,
-                    float max_turn_rad, const Visit& visit) {
-  const Pose pose = to_pose(view.camera_from_world * world_from_object);
-  const Intrinsics k = intrinsics_of(view.camera);
-  Counts counts;
-  for (const ModelPoint& model : points) {
-    const PosedPoint<double> posed = pose_point<double>(pose, model);
-    if (!can_be_seen(posed.point)) continue;
-    ++counts.points;
-    const ProjectedEdge<double> projected = project_edge(posed, k);
-    counts.in_image += on_image(projected, view.camera.width, view.camera.height);
-    const EdgePoint* edge = view.edges->nearest(float(projected.u), float(projected.v),
-                                                float(orientation(projected.dx, projected.dy)),
-                                                round.radius_px, max_turn_rad);
-    if (!edge) continue;
-    ++counts.matched;
-    const LineResidual r = residual_to(*edge, posed, projected, k);
-    const double s2 = round.scale_px * round.scale_px, q = s2 / (s2 + r.value * r.value);
-    visit(r, q * q, projected);
-  }
-  return counts;
-}
+// A model point and the edge point that it takes.
+struct Match {
+  const EdgePoint* edge;
+  LineResidual residual;
+  ProjectedEdge<double> projected;
+};
 
 // [R, 0; 0, R]: maps the world's tangent to the camera's (world_system.h).
 Matrix6d camera_tangent(const ObjectView& view) {
@@ -82,46 +65,6 @@ struct LineSystem {
   Counts counts;
 };
 
-void add_points(LineSystem& sum, const ObjectView& view, const Se3& world_from_object,
-                std::span<const ModelPoint> points, const EdgeIcpRound& round, float max_turn_rad) {
-  Matrix6d hessian = Matrix6d::Zero();
-  Vector6d gradient = Vector6d::Zero();
-  const Counts counts = match_points(view, world_from_object, points, round, max_turn_rad,
-                                     [&](const LineResidual& r, double weight, const auto&) {
-                                       hessian += weight * r.jacobian * r.jacobian.transpose();
-                                       gradient += weight * r.value * r.jacobian;
-                                       sum.weight += weight;
-                                     });
-  const Matrix6d to_camera = camera_tangent(view);
-  sum.hessian += to_camera.transpose() * hessian * to_camera;
-  sum.gradient += to_camera.transpose() * gradient;
-  sum.counts.points += counts.points;
-  sum.counts.matched += counts.matched;
-}
-
-void set_covariance(PoseEstimate& estimate, std::span<const ObjectView> views,
-                    std::span<const VisibleInView> visible, const EdgeIcpRound& round,
-                    float max_turn_rad) {
-  EdgeCovariance sum;
-  double in_image = 0;
-  for (std::size_t v = 0; v < views.size(); ++v) {
-    if (!views[v].edges) continue;
-    const Matrix6d to_camera = camera_tangent(views[v]);
-    const auto add = [&](const LineResidual& r, double weight, const ProjectedEdge<double>& p) {
-      const double theta = orientation(p.dx, p.dy), nx = -std::sin(theta), ny = std::cos(theta);
-      // The edge's direction may have wrapped at pi where the point's has not.
-      const double sign = r.nx * nx + r.ny * ny < 0 ? -1 : 1;
-      sum.add(edge_number(v, theta, nx * p.u + ny * p.v), sign * r.value, weight,
-              sign * to_camera.transpose() * r.jacobian);
-    };
-    in_image += match_points(views[v], estimate.world_from_object, visible[v].points, round,
-                             max_turn_rad, add)
-                    .in_image;
-  }
-  estimate.explained = std::min(1.0, sum.weight() / std::max(1.0, in_image));
-  estimate.covariance = common_to_edges(estimate.explained) * sum.covariance();
-}
-
 // Of one view, in the world's tangent, in standard deviations. On the host: the threads have a pose
 // each.
 LineSystem depth_system(const ObjectView& view, const Se3& world_from_object,
@@ -136,43 +79,6 @@ LineSystem depth_system(const ObjectView& view, const Se3& world_from_object,
   return {in_world.hessian, in_world.gradient, double(found.weight_sum), {}};
 }
 
-// The visible edges and surfaces of one pose.
-struct PoseInViews {
-  std::span<const ObjectView> views;
-  std::span<const VisibleInView> visible;
-  const PoseDepthOptions& depth;
-};
-
-LineSystem depth_system(const Se3& pose, const PoseInViews& in) {
-  LineSystem sum;
-  for (std::size_t v = 0; v < in.views.size(); ++v) {
-    if (!in.views[v].depth || in.visible[v].surface.empty()) continue;
-    const LineSystem of_view = depth_system(in.views[v], pose, in.visible[v].surface, in.depth);
-    sum.hessian += of_view.hessian;
-    sum.gradient += of_view.gradient;
-    sum.weight += of_view.weight;
-  }
-  return sum;
-}
-
-LineSystem system_at(const Se3& pose, const PoseInViews& in, const EdgeIcpRound& round,
-                     float max_turn_rad) {
-  LineSystem sum;
-  for (std::size_t v = 0; v < in.views.size(); ++v)
-    if (in.views[v].edges)
-      add_points(sum, in.views[v], pose, in.visible[v].points, round, max_turn_rad);
-  const LineSystem depth = depth_system(pose, in);
-  sum.hessian += depth.hessian;
-  sum.gradient += depth.gradient;
-  sum.weight += depth.weight;
-  return sum;
-}
-
-bool enough(const LineSystem& system, const EdgeIcpOptions& options) {
-  return system.counts.matched >= thresholds::MIN_POINTS &&
-         system.counts.matched >= options.min_matched * system.counts.points;
-}
-
 // What the iterations of all rounds came to.
 struct Iterated {
   Se3 pose;
@@ -180,50 +86,239 @@ struct Iterated {
   double last_step_px = 0;
 };
 
-Iterated iterate(const Se3& start, const PoseInViews& in, const EdgeIcpOptions& options) {
-  Iterated at{start};
-  for (const EdgeIcpRound& round : options.rounds) {
-    at.convergence = Convergence::IterationLimit;
-    for (int i = 0; i < round.iterations; ++i) {
-      LineSystem system = system_at(at.pose, in, round, options.max_turn_rad);
-      if (!enough(system, options)) return {start};
-      system.hessian.diagonal() *= 1 + 1e-4;  // no motion in directions that no edge determines
-      const Vector6d step = -system.hessian.ldlt().solve(system.gradient);
-      if (!step.allFinite()) return {start};
-      at.pose = retract(at.pose, step);
-      at.last_step_px = rms_motion_px(step, system.hessian, system.weight);
-      if (is_small(step, options.min_step_m, options.min_step_rad)) {
-        at.convergence = Convergence::Converged;
-        break;
+// The visible edges and surfaces of one pose, compared with the views.
+class PoseIcp {
+ public:
+  PoseIcp(std::span<const ObjectView> views, std::span<const VisibleInView> visible,
+          const PoseDepthOptions& depth, const EdgeIcpOptions& options)
+      : views_(views), visible_(visible), depth_(depth), options_(options) {
+    for (const ObjectView& view : views)
+      contested_.push_back(view.edges ? std::optional<ContestedEdges>(*view.edges) : std::nullopt);
+  }
+
+  Iterated iterate(const Se3& start) {
+    Iterated at{start};
+    for (const EdgeIcpRound& round : options_.rounds) {
+      at.convergence = Convergence::IterationLimit;
+      for (int i = 0; i < round.iterations; ++i) {
+        LineSystem system = system_at(at.pose, round);
+        if (!enough(system)) return {start};
+        system.hessian.diagonal() *= 1 + 1e-4;  // no motion in directions that no edge determines
+        const Vector6d step = -system.hessian.ldlt().solve(system.gradient);
+        if (!step.allFinite()) return {start};
+        at.pose = retract(at.pose, step);
+        at.last_step_px = rms_motion_px(step, system.hessian, system.weight);
+        if (is_small(step, options_.min_step_m, options_.min_step_rad)) {
+          at.convergence = Convergence::Converged;
+          break;
+        }
       }
     }
+    return enough(system_at(at.pose, options_.rounds.back())) ? at : Iterated{start};
   }
-  const LineSystem end = system_at(at.pose, in, options.rounds.back(), options.max_turn_rad);
-  return enough(end, options) ? at : Iterated{start};
-}
 
-void edge_icp_of_one(PoseEstimate& estimate, const PoseInViews& in, const EdgeIcpOptions& options) {
-  const Iterated found = iterate(estimate.world_from_object, in, options);
+  // Share of the points inside the images that edges explain, each by its weight.
+  double explained(const Se3& pose) {
+    double weight_sum = 0, in_image = 0;
+    for (std::size_t v = 0; v < views_.size(); ++v)
+      in_image += match_points(v, pose, options_.rounds.back(),
+                               [&](const LineResidual&, double weight, const auto&) {
+                                 weight_sum += weight;
+                               })
+                      .in_image;
+    return std::min(1.0, weight_sum / std::max(1.0, in_image));
+  }
+
+  // At the estimate's pose.
+  void set_covariance(PoseEstimate& estimate) {
+    EdgeCovariance sum;
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+      const Matrix6d to_camera = camera_tangent(views_[v]);
+      const auto add = [&](const LineResidual& r, double weight, const ProjectedEdge<double>& p) {
+        const double theta = orientation(p.dx, p.dy), nx = -std::sin(theta), ny = std::cos(theta);
+        // The edge's direction may have wrapped at pi where the point's has not.
+        const double sign = r.nx * nx + r.ny * ny < 0 ? -1 : 1;
+        sum.add(edge_number(v, theta, nx * p.u + ny * p.v), sign * r.value, weight,
+                sign * to_camera.transpose() * r.jacobian);
+      };
+      match_points(v, estimate.world_from_object, options_.rounds.back(), add);
+    }
+    estimate.explained = explained(estimate.world_from_object);
+    estimate.covariance = common_to_edges(estimate.explained) * sum.covariance();
+    const LineSystem depth = depth_system_at(estimate.world_from_object);
+    add_depth_information(estimate.covariance, depth.hessian, depth.weight);
+  }
+
+ private:
+  bool enough(const LineSystem& system) const {
+    return system.counts.matched >= thresholds::MIN_POINTS &&
+           system.counts.matched >= options_.min_matched * system.counts.points;
+  }
+
+  // Calls visit(residual, weight, projected point) for every point that keeps an edge point near.
+  // Derivatives are by the camera's tangent.
+  template <typename Visit>
+  Counts match_points(std::size_t v, const Se3& world_from_object, const EdgeIcpRound& round,
+                      const Visit& visit) {
+    if (!views_[v].edges) return {};
+    Counts counts = find_matches(v, world_from_object, round);
+    ContestedEdges& contested = *contested_[v];
+    contested.clear();
+    for (const Match& match : matches_) contested.take(*match.edge, std::abs(match.residual.value));
+    for (const Match& match : matches_) {
+      const double value = match.residual.value, s2 = round.scale_px * round.scale_px,
+                   q = s2 / (s2 + value * value);
+      if (contested.is_lost(*match.edge, std::abs(value))) continue;
+      ++counts.matched;
+      visit(match.residual, q * q, match.projected);
+    }
+    return counts;
+  }
+
+  // Into matches_.
+  Counts find_matches(std::size_t v, const Se3& world_from_object, const EdgeIcpRound& round) {
+    const ObjectView& view = views_[v];
+    const Pose pose = to_pose(view.camera_from_world * world_from_object);
+    const Intrinsics k = intrinsics_of(view.camera);
+    Counts counts;
+    matches_.clear();
+    for (const ModelPoint& model : visible_[v].points) {
+      const PosedPoint<double> posed = pose_point<double>(pose, model);
+      if (!can_be_seen(posed.point)) continue;
+      ++counts.points;
+      const ProjectedEdge<double> projected = project_edge(posed, k);
+      counts.in_image += on_image(projected, view.camera.width, view.camera.height);
+      const EdgePoint* edge = view.edges->nearest(float(projected.u), float(projected.v),
+                                                  float(orientation(projected.dx, projected.dy)),
+                                                  round.radius_px, options_.max_turn_rad);
+      if (edge) matches_.push_back({edge, residual_to(*edge, posed, projected, k), projected});
+    }
+    return counts;
+  }
+
+  LineSystem system_at(const Se3& pose, const EdgeIcpRound& round) {
+    LineSystem sum = depth_system_at(pose);
+    for (std::size_t v = 0; v < views_.size(); ++v) add_points(sum, v, pose, round);
+    return sum;
+  }
+
+  void add_points(LineSystem& sum, std::size_t v, const Se3& pose, const EdgeIcpRound& round) {
+    Matrix6d hessian = Matrix6d::Zero();
+    Vector6d gradient = Vector6d::Zero();
+    const Counts counts =
+        match_points(v, pose, round, [&](const LineResidual& r, double weight, const auto&) {
+          hessian += weight * r.jacobian * r.jacobian.transpose();
+          gradient += weight * r.value * r.jacobian;
+          sum.weight += weight;
+        });
+    const Matrix6d to_camera = camera_tangent(views_[v]);
+    sum.hessian += to_camera.transpose() * hessian * to_camera;
+    sum.gradient += to_camera.transpose() * gradient;
+    sum.counts.points += counts.points;
+    sum.counts.matched += counts.matched;
+  }
+
+  LineSystem depth_system_at(const Se3& pose) const {
+    LineSystem sum;
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+      if (!views_[v].depth || visible_[v].surface.empty()) continue;
+      const LineSystem of_view = depth_system(views_[v], pose, visible_[v].surface, depth_);
+      sum.hessian += of_view.hessian;
+      sum.gradient += of_view.gradient;
+      sum.weight += of_view.weight;
+    }
+    return sum;
+  }
+
+  std::span<const ObjectView> views_;
+  std::span<const VisibleInView> visible_;
+  const PoseDepthOptions& depth_;
+  const EdgeIcpOptions& options_;
+  std::vector<std::optional<ContestedEdges>> contested_;  // by view
+  std::vector<Match> matches_;                            // of the last view
+};
+
+void register_to_edges(PoseEstimate& estimate, PoseIcp& icp) {
+  const Iterated found = icp.iterate(estimate.world_from_object);
   const bool is_kept = found.convergence == Convergence::TooFewEdges;
   if (!is_kept || estimate.points > 0) estimate.convergence = found.convergence;
   if (is_kept) return;
   estimate.last_step_px = found.last_step_px;
   estimate.world_from_object = found.pose;
-  set_covariance(estimate, in.views, in.visible, options.rounds.back(), options.max_turn_rad);
-  const LineSystem depth = depth_system(found.pose, in);
-  add_depth_information(estimate.covariance, depth.hessian, depth.weight);
+  icp.set_covariance(estimate);
+}
+
+// Calls run(pose's number, its PoseIcp) on all threads.
+template <typename Run>
+void for_each_pose(const Scene& scene, std::span<const PoseEstimate> poses,
+                   const EdgeIcpOptions& options, const Run& run) {
+  Grid<VisibleInView> visible = visible_in_views(scene, object_poses(poses), options.visibility);
+  for (VisibleInView& cell : visible.values())
+    cell.points = thinned(cell.points, options.max_points);
+  const PoseDepthOptions depth = pose_depth_options(scene, REGISTRATION_BAND);
+  scene.backend.threads().for_each(poses.size(), [&](std::size_t p) {
+    PoseIcp icp(scene.views, visible.row(p), depth, options);
+    run(p, icp);
+  });
+}
+
+// Tilted about two axes across the line of sight, and moved along it.
+std::vector<Se3> starts_beside(const Se3& world_from_object, const EdgeModel& model,
+                               const Se3& camera_from_world, const BasinHops& hops) {
+  constexpr int tilts = 4;
+  const Eigen::Quaterniond world_from_camera = camera_from_world.rotation.conjugate();
+  const double distance_m = (camera_from_world * (world_from_object * model.center_m)).z();
+  std::vector<Vector6d> moves;
+  for (int i = 0; i < tilts; ++i) {
+    const double angle = 2 * std::numbers::pi * i / tilts;
+    moves.push_back(Vector6d::Zero());
+    moves.back().tail<3>() =
+        world_from_camera * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0) * hops.tilt_rad;
+  }
+  for (const double sign : {-1.0, 1.0}) {
+    moves.push_back(Vector6d::Zero());
+    moves.back().head<3>() =
+        world_from_camera * Eigen::Vector3d(0, 0, sign * hops.distance_share * distance_m);
+  }
+  std::vector<Se3> starts;
+  for (const Vector6d& move : moves)
+    starts.push_back(retract_about(world_from_object, model.center_m, move));
+  return starts;
+}
+
+// Whether the pose has moved.
+bool hop(PoseEstimate& estimate, PoseIcp& icp, std::span<const Se3> starts) {
+  constexpr double least_gain = 0.005;
+  double most = icp.explained(estimate.world_from_object) + least_gain;
+  bool has_moved = false;
+  for (const Se3& start : starts) {
+    const Iterated found = icp.iterate(start);
+    if (found.convergence == Convergence::TooFewEdges) continue;
+    const double explained = icp.explained(found.pose);
+    if (explained <= most) continue;
+    most = explained;
+    has_moved = true;
+    estimate.world_from_object = found.pose;
+    estimate.convergence = found.convergence;
+    estimate.last_step_px = found.last_step_px;
+  }
+  return has_moved;
 }
 
 }  // namespace
 
 void EdgeIcpOptions::validate() const {
   const BoundsCheck in("edge_icp");
-  if (rounds.empty()) throw InputError("options", "edge_icp.rounds", "none", "at least one");
-  for (const EdgeIcpRound& round : rounds) {
-    in.require("radius", round.radius_px, 0.01, EdgeIndex::CELL_PX);
-    in.require("scale", round.scale_px, 1e-3, 1000);
-    in.require("iterations", round.iterations, 1, 1000);
+  for (const std::vector<EdgeIcpRound>* rounds_of : {&rounds, &hops.rounds}) {
+    if (rounds_of->empty()) throw InputError("options", "edge_icp.rounds", "none", "at least one");
+    for (const EdgeIcpRound& round : *rounds_of) {
+      in.require("radius", round.radius_px, 0.01, EdgeIndex::MAX_RADIUS_PX);
+      in.require("scale", round.scale_px, 1e-3, 1000);
+      in.require("iterations", round.iterations, 1, 1000);
+    }
   }
+  in.require("hops.tilt", hops.tilt_rad, 0, 1);
+  in.require("hops.distance_share", hops.distance_share, 0, 0.5);
   visibility.validate();
   in.require("max_turn", max_turn_rad, 0, 3.15);
   in.require("min_matched", min_matched, 0, 1);
@@ -235,12 +330,20 @@ void EdgeIcpOptions::validate() const {
 void edge_icp(const Scene& scene, std::span<PoseEstimate> poses, const EdgeIcpOptions& options) {
   const auto takes_part = [](const ObjectView& view) { return view.edges != nullptr; };
   if (std::ranges::none_of(scene.views, takes_part)) return;
-  Grid<VisibleInView> visible = visible_in_views(scene, object_poses(poses), options.visibility);
-  for (VisibleInView& cell : visible.values())
-    cell.points = thinned(cell.points, options.max_points);
-  const PoseDepthOptions depth = pose_depth_options(scene, REGISTRATION_BAND);
-  scene.backend.threads().for_each(poses.size(), [&](std::size_t p) {
-    edge_icp_of_one(poses[p], {scene.views, visible.row(p), depth}, options);
+  for_each_pose(scene, poses, options,
+                [&](std::size_t p, PoseIcp& icp) { register_to_edges(poses[p], icp); });
+}
+
+void hop_basins(const Scene& scene, std::span<PoseEstimate> poses, const EdgeIcpOptions& options) {
+  const auto takes_part = [](const ObjectView& view) { return view.edges != nullptr; };
+  if (std::ranges::none_of(scene.views, takes_part)) return;
+  EdgeIcpOptions from_beside = options;
+  from_beside.rounds = options.hops.rounds;
+  for_each_pose(scene, poses, from_beside, [&](std::size_t p, PoseIcp& icp) {
+    const std::vector<Se3> starts =
+        starts_beside(poses[p].world_from_object, scene.models[std::size_t(poses[p].object)],
+                      scene.views[0].camera_from_world, options.hops);
+    if (hop(poses[p], icp, starts)) icp.set_covariance(poses[p]);
   });
 }
 

@@ -20,4 +20,9 @@ namespace edgescout {
 // unless no view takes part.
 void edge_icp(const Scene& scene, std::span<PoseEstimate> poses, const EdgeIcpOptions& options);
 
+// Leaves a pose for a better optimum beside it (basin hopping): iterates from EdgeIcpOptions::hops,
+// on the points that the pose shows, and takes the end that explains most of them
+// (PoseEstimate::explained) if that is more than the pose explains.
+void hop_basins(const Scene& scene, std::span<PoseEstimate> poses, const EdgeIcpOptions& options);
+
 }  // namespace edgescout

@@ -15,6 +15,14 @@ struct EdgeIcpRound {
   int iterations = 4;
 };
 
+// Starts beside a pose. A few lines of the model often fit neighbouring edges of the image as well,
+// and one view shows a tilt or the distance by a pixel or two.
+struct BasinHops {
+  double tilt_rad = 0.15;        // about axes across the line of sight
+  double distance_share = 0.02;  // of the distance, nearer and farther
+  std::vector<EdgeIcpRound> rounds{{3, 1.5f, 4}, {2, 0.8f, 4}};
+};
+
 struct EdgeIcpOptions {
   std::vector<EdgeIcpRound> rounds{{5, 2.5f, 4}, {3, 1.2f, 5}, {2, 0.8f, 5}};
   float max_turn_rad = 0.3f;
@@ -22,6 +30,7 @@ struct EdgeIcpOptions {
   int max_points = 0;        // per view, evenly thinned; 0: all
   double min_step_m = 2e-6;  // a smaller step ends the round
   double min_step_rad = 2e-5;
+  BasinHops hops;
   VisibilityOptions visibility;
   void validate() const;  // InputError naming the field and the violated bound
 };

@@ -137,6 +137,27 @@ void judge_last_step(std::span<PoseEstimate> estimates) {
       estimate.convergence = Convergence::Converged;
 }
 
+// Several views show the tilt and the distance of a pose well enough, and so does depth.
+bool leaves_neighbours(const Scene& scene) {
+  return scene.views.size() == 1 && !scene.views[0].depth;
+}
+
+void hop_promising(const Scene& scene, std::span<PoseEstimate> estimates,
+                   const RefineOptions& options) {
+  constexpr double least_log_odds = -4;  // others end below any threshold of reported poses
+  std::vector<std::size_t> indices;
+  std::vector<PoseEstimate> promising;
+  for (std::size_t i = 0; i < estimates.size(); ++i)
+    if (log_odds(estimates[i]) >= least_log_odds) {
+      indices.push_back(i);
+      promising.push_back(estimates[i]);
+    }
+  if (promising.empty()) return;
+  hop_basins(scene, promising, options.edge_icp);
+  measure_features(scene, promising, {options.score, options.d2co.visibility});
+  for (std::size_t k = 0; k < indices.size(); ++k) estimates[indices[k]] = promising[k];
+}
+
 std::vector<PoseEstimate> refine_batch(const Scene& scene, std::span<const ObjectPose> starts,
                                        const RefineOptions& options) {
   const bool searched = options.search.rotation_rad > 0 && !scene.is_time_over();
@@ -145,8 +166,10 @@ std::vector<PoseEstimate> refine_batch(const Scene& scene, std::span<const Objec
   if (options.search.rotation_rad == 0) d2co.rounds.insert(d2co.rounds.begin(), options.unsearched);
   std::vector<PoseEstimate> estimates = register_poses(scene, found.poses, d2co);
   if (options.use_edge_icp && !scene.is_time_over()) edge_icp(scene, estimates, options.edge_icp);
-  judge_last_step(estimates);
   measure_features(scene, estimates, {options.score, options.d2co.visibility});
+  if (options.use_edge_icp && leaves_neighbours(scene) && !scene.is_time_over())
+    hop_promising(scene, estimates, options);
+  judge_last_step(estimates);
   return best_per_start(estimates, found.start, starts.size());
 }
 

@@ -193,7 +193,7 @@ TEST(EdgeIcp, SaysWhatEndedIt) {
   const Refined near = refined(known, 0.001, options, *backend);
   std::printf("%zu of %zu converged\n", near.converged, near.count);
   EXPECT_GE(near.converged, 0.8 * double(near.count));
-  options.edge_icp.rounds = {{5, 2.5f, 1}};
+  options.edge_icp.rounds = options.edge_icp.hops.rounds = {{5, 2.5f, 1}};
   const Refined starved = refined(known, 0.001, options, *backend);
   EXPECT_GE(starved.at_limit, 0.8 * double(starved.count));
   options.edge_icp.min_matched = 1;
