@@ -13,6 +13,7 @@
 #include "host/cli/help.h"
 #include "host/cli/renamed_options.h"
 #include "host/cli/verbs.h"
+#include "host/cli/words_behind_lists.h"
 #include "host/core/freed_memory.h"
 #include "host/core/log.h"
 #include "host/core/option_names.h"
@@ -54,8 +55,22 @@ int fail(const std::string& message, ExitCode code) {
   return code;
 }
 
+// Lists take the words that stand behind them.
+std::string lists_of(const CLI::App& verb) {
+  std::string lists;
+  for (const CLI::Option* option : verb.get_options())
+    if (option->count() > 1 && option->nonpositional())
+      lists += (lists.empty() ? "" : ", ") + option->get_name();
+  return lists;
+}
+
 // CLI11 reports a missing verb even if the verb is misspelt.
 std::string explanation(const CLI::ParseError& error, const CLI::App& app) {
+  if (const std::string name = std::string(error.what()).substr(0, 6);
+      (name == "inputs" || name == "source") && !app.get_subcommands().empty())
+    if (const std::string lists = lists_of(*app.get_subcommands().front()); !lists.empty())
+      return "command line: " + name + ": found none: " + lists +
+             " took what stands behind, expected " + name + " before it";
   const std::vector<std::string> unknown = app.remaining();
   if (!app.get_subcommands().empty() || unknown.empty()) return error.what();
   std::string verbs;
@@ -72,8 +87,6 @@ int run(int argc, char** argv) {
   add_help(app);
   add_yaml_config(app);
   add_log_level(app);
-  std::vector<std::string> arguments = with_present_names({argv + 1, argv + argc});
-  std::ranges::reverse(arguments);  // what CLI11 asks for
   int exit_code = exit_internal_error;
   add_bench(app, exit_code);
   add_camera_verb(app, exit_code);
@@ -87,6 +100,9 @@ int run(int argc, char** argv) {
   add_render(app, exit_code);
   add_scout(app, exit_code);
   add_track(app, exit_code);
+  std::vector<std::string> arguments =
+      with_inputs_in_front(app, with_present_names({argv + 1, argv + argc}));
+  std::ranges::reverse(arguments);  // what CLI11 asks for
   try {
     app.parse(std::move(arguments));
   } catch (const CLI::Success& help) {

@@ -74,6 +74,27 @@ TEST(Detect, RefusesAPartThatCannotBeSeen) {
   EXPECT_NE(warned.err.find("expected 12 to 320 px"), std::string::npos) << warned.err;
 }
 
+// An option that takes a list takes no image.
+TEST(Detect, TakesImagesBehindLists) {
+  const SmallScene t;
+  const std::vector<std::string> rest{"--out", t.out, "--device", "cpu"},
+      model{"--model", part_file(1)}, unit{"--unit", "mm"};
+  const auto refused = [&](const std::vector<std::string>& words,
+                           std::initializer_list<std::string> expected) {
+    expect_refused(joined({{"detect"}, words, rest}), expected);
+  };
+  const std::string image = t.image();
+  refused(joined({unit, model, {image}}), {"000000.png", "camera", "--camera FILE"});
+  refused(joined({unit, {"--model=" + part_file(1), image}}), {"000000.png", "--camera FILE"});
+  refused(joined({unit, model, {"--object-id", "1", image}}), {"000000.png", "--camera FILE"});
+  refused(joined({unit, model, {"--symmetry", "z2", image}}), {"000000.png", "--camera FILE"});
+  refused(joined({unit, model, {"none.png"}}), {"none.png: input"});
+  refused(joined({unit, model, {"image"}}),
+          {"command line: inputs: found none: --model took what stands behind"});
+  expect_refused(joined({{"scout"}, unit, model, {t.folder.path()}, rest}),
+                 {t.folder.path(), "source: found a folder of BOP scenes"});
+}
+
 TEST(Detect, RefusesPriorsThatAreNone) {
   const SmallScene t;
   const auto refused = [&](const fs::path& input, const std::vector<std::string>& more,
@@ -181,6 +202,8 @@ TEST(Detect, RefusesTheSameObjectInTwoTemplateFiles) {
   expect_refused(t.detect(t.scene, {"--templates", set, set}),
                  {"part.est", "object id", "1 twice"});
   expect_refused(t.detect(t.image(), {"--templates", set}), {"000000.png", "camera"});
+  expect_refused({"detect", "--templates", set, t.image(), "--out", t.out, "--device", "cpu"},
+                 {"000000.png", "camera"});
   expect_refused(t.detect(t.image(), {"--templates", set, "--camera", t.camera("-400")}),
                  {"camera.yaml", "fx"});
   EXPECT_FALSE(fs::exists(t.out));
