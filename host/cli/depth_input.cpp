@@ -65,7 +65,7 @@ void add_depth(CLI::App& verb, DepthArguments& depth) {
   add.numbers({"depth-pose",
                "Pose of the depth camera in the frame of the grey one: x y z, m, and a quaternion "
                "x y z w"},
-              depth.pose, 7, -1000, 1000);
+              depth.pose, 7, -10, 10);
   describe(depth.options, add);
 }
 

@@ -346,14 +346,14 @@ void add_options(CLI::App& verb, EvalRequest& request) {
                "Estimates with a lower score are dropped")
       .bounded("max-angle", o.max_angle_rad, 1e-6, 3.2,
                "Largest angle of a right pose to the truth, rad")
-      .bounded("max-distance", o.max_distance_m, 1e-9, 100.0,
+      .bounded("max-distance", o.max_distance_m, 1e-9, 1.0,
                "Largest distance of a right pose from the truth, m")
       .bounded("max-mspd", o.max_mspd_px, 0.01, 10000.0, "Largest MSPD of a right pose, px")
       .bounded("max-estimates", request.most_estimates, 1, 1000000,
                "Estimates of an image that count for AP, best scores first. BOP: 100, of XYZ-IBD "
                "200")
       .flag("vsd,!--no-vsd", request.vsd, "BOP's VSD where all images have depth images (default)")
-      .bounded("vsd-delta", request.vsd_delta_m, 1e-6, 10.0,
+      .bounded("vsd-delta", request.vsd_delta_m, 1e-6, 1.0,
                "By how much a surface may lie behind the measured one and count as visible, m. "
                "BOP: 0.015, of ITODD 0.005");
 }

@@ -66,11 +66,7 @@ StartPose pose_of_command_line(const ExplainRequest& request, std::span<const In
   ProjectedRotations projected;
   const std::optional<Se3> given = nearest_rigid(rotation, {n[9], n[10], n[11]}, projected);
   if (!given)
-    throw InputError("command line", "--pose",
-                     std::ranges::all_of(n, [](double number) { return std::isfinite(number); })
-                         ? "a matrix that is no rotation"
-                         : "a number that is not finite",
-                     EXPECTED_ROTATION);
+    throw InputError("command line", "--pose", "a matrix that is no rotation", EXPECTED_ROTATION);
   warn_of_projected(projected, "--pose");
   pose.camera_from_object = *given;
   return pose;
@@ -244,11 +240,13 @@ ExitCode explain(ExplainRequest& request) {
 }
 
 void add_poses(CLI::App& verb, ExplainRequest& request) {
-  verb.add_option("--pose", request.pose,
-                  "The given pose: R by row and t, m, of the object in the camera frame. For one "
-                  "image and one model")
-      ->expected(12)
-      ->type_name("R t");
+  CommandLineOptions(verb).numbers(
+      {"pose",
+       "The given pose: R by row and t, m, of the object in the camera frame. For one image and "
+       "one model",
+       OptionLevel::Basic},
+      request.pose, 12, -100, 100);
+  verb.get_option("--pose")->type_name("R t");
   verb.add_option("--poses", request.poses,
                   "Given poses: a BOP results CSV (t in mm), a result of this program, or a JSON "
                   "list of {image, object, R, t} (t in m)")

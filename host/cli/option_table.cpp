@@ -17,7 +17,7 @@ std::string text_of(T value) {
 }
 
 template <typename T>
-CLI::Validator within(T low, T high) {
+CLI::Validator within(T low, T high, const std::string& help) {
   const std::string bounds = text_of(low) + " to " + text_of(high);
   return CLI::Validator(
       [=](const std::string& found) {
@@ -25,7 +25,10 @@ CLI::Validator within(T low, T high) {
         const bool is_number = CLI::detail::lexical_cast(found, value);
         return is_number && value >= low && value <= high
                    ? ""
-                   : "found " + found + ", expected " + bounds;
+                   : "found " + found + ", expected " + bounds +
+                         (is_number
+                              ? unit_after_bounds(help, double(value), double(low), double(high))
+                              : "");
       },
       "in " + bounds);
 }
@@ -57,7 +60,7 @@ void add_number(CLI::App& verb, const std::string& name, T& field, std::pair<T, 
                 const Heading& heading) {
   finish(verb,
          verb.add_option("--" + name, field, heading.help)
-             ->check(within(bounds.first, bounds.second))
+             ->check(within(bounds.first, bounds.second, heading.help))
              ->capture_default_str(),
          heading);
 }
@@ -93,7 +96,7 @@ void CommandLineOptions::range(const OptionInfo& option, Range& field, double lo
         field = {ends.front(), ends.back()};
       },
       option.help);
-  added->expected(1, 2)->type_name("MIN [MAX]")->check(within(low, high));
+  added->expected(1, 2)->type_name("MIN [MAX]")->check(within(low, high, option.help));
   added->default_function(
       [&field] { return "[" + text_of(field.low) + ", " + text_of(field.high) + "]"; });
   added->capture_default_str();
@@ -105,7 +108,7 @@ void CommandLineOptions::numbers(const OptionInfo& option, std::vector<double>& 
   finish(verb_,
          verb_.add_option(std::string("--") + option.name, field, option.help)
              ->expected(count)
-             ->check(within(low, high))
+             ->check(within(low, high, option.help))
              ->capture_default_str(),
          {option.help, group_, option.level});
 }

@@ -198,10 +198,9 @@ void add_hemisphere_options(CLI::App& verb, SourceRequest& r) {
       verb.add_option("--elevations", r.hemisphere.elevations_deg,
                       "Elevations of the hemisphere's rings of views above the board, degrees");
   elevations->capture_default_str()->group("Views");
-  CLI::Option* center =
-      verb.add_option("--center", r.center_m, "Middle of the hemisphere of views, m: x y z");
-  center->expected(3)->group("Views");
-  for (CLI::Option* option : {elevations, center}) mark_expert(verb, option);
+  mark_expert(verb, elevations);
+  CommandLineOptions(verb, "Views")
+      .numbers({"center", "Middle of the hemisphere of views, m: x y z"}, r.center_m, 3, -100, 100);
 }
 
 }  // namespace

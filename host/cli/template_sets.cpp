@@ -12,6 +12,7 @@
 #include "host/cli/progress.h"
 #include "host/cli/symmetry_arguments.h"
 #include "host/core/log.h"
+#include "host/core/option_names.h"
 #include "host/core/stopwatch.h"
 #include "host/detect/searched_sizes.h"
 #include "host/model/mesh_quality.h"
@@ -117,6 +118,23 @@ CachedTemplates templates_of(const Object& object, const TemplateOptions& option
   });
 }
 
+// Objects lie above the plane, and cameras look at them from there.
+void warn_of_plane(const SearchedImages& searched) {
+  if (searched.prior.plane.empty()) return;
+  const auto height_m = [&](const Se3& camera_from_world) {
+    return searched.prior.lowest_plane().signedDistance(
+        (searched.prior.prior_from_world * inverse(camera_from_world)).translation_m);
+  };
+  double highest_m = -INFINITY;
+  for (const Se3& pose : searched.camera_from_world)
+    highest_m = std::max(highest_m, height_m(pose));
+  if (highest_m < 0)
+    log(LogLevel::Warning,
+        fmt::format("{}: found all cameras below it, by {:.4g} m and more, expected one above: nx "
+                    "ny nz d, m, with the normal towards the objects",
+                    option_name("world-plane"), -highest_m));
+}
+
 }  // namespace
 
 SearchedImages searched_images(std::span<const InputImage> images, const Camera& camera,
@@ -129,6 +147,7 @@ SearchedImages searched_images(std::span<const InputImage> images, const Camera&
                        "cam_R_w2c and cam_t_w2c of every image with --world-box or --world-plane");
     searched.camera_from_world.push_back(*image.camera_from_world);
   }
+  warn_of_plane(searched);
   return searched;
 }
 

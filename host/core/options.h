@@ -31,6 +31,11 @@ struct Range {
   double low = 0, high = 0;
 };
 
+// What a message adds to the bounds of a length whose help says that it is in metres ("Largest
+// distance, m"): " m", and where `found` lies between them as millimetres, the number that was
+// meant. Of another option: nothing.
+std::string unit_after_bounds(const std::string& help, double found, double low, double high);
+
 class OptionVisitor {
  public:
   virtual ~OptionVisitor() = default;
@@ -87,6 +92,7 @@ class BoundsCheck : public OptionVisitor {
  private:
   void index(const OptionInfo& option, const Index& field,
              std::span<const char* const> names) override;
+  void require(const OptionInfo& option, double found, double low, double high) const;
   std::string prefix_;
 };
 

@@ -7,7 +7,7 @@ void describe(SamePoseOptions& o, OptionVisitor& visit) {
   visit.number({"max-angle", "Largest angle between two poses that are the same, rad"},
                o.max_angle_rad, 1e-6, 3.2);
   visit.number({"max-distance", "Largest distance between two poses that are the same, m"},
-               o.max_distance_m, 1e-9, 100.0);
+               o.max_distance_m, 1e-9, 1.0);
   visit.number({"max-mspd",
                 "Largest distance in the image between the vertices of two poses that are the "
                 "same, px. It replaces --max-angle and --max-distance. 0: they decide",

@@ -13,8 +13,8 @@ namespace {
 
 std::string advice() {
   return fmt::format(
-      "another unit of the model ({}), other distances ({}, {}), or camera poses with lengths in "
-      "their right unit",
+      "another unit of the model ({}), other distances ({}, {}; metres), or camera poses with "
+      "lengths in their right unit",
       option_name("unit"), option_name("distance-min"), option_name("distance-max"));
 }
 
@@ -45,7 +45,9 @@ std::string size_warning(const std::string& name, double diameter_m, const Templ
   const SearchedSizes sizes = searched_sizes(diameter_m, options, camera);
   const double least_px = std::min(camera.width, camera.height) / 20.0,
                most_px = std::max(camera.width, camera.height);
-  if (sizes.largest_px >= least_px && sizes.smallest_px <= most_px) return "";
+  if (sizes.largest_px >= least_px && sizes.smallest_px <= most_px &&
+      sizes.smallest_px >= std::min(LEAST_SIZE_PX, least_px))
+    return "";
   return fmt::format("{}: size: found {}, expected {:.0f} to {:.0f} px: {}", name,
                      text_of(sizes, diameter_m, options), least_px, most_px, advice());
 }

@@ -26,7 +26,8 @@ void require_searchable_size(const std::string& name, double diameter_m,
                              const TemplateOptions& options, const Camera& camera);
 
 // A sentence for a warning where the object spans less than a twentieth of the image's smaller
-// side, or more than its larger side, at every searched distance. Else empty.
+// side, or more than its larger side, at every searched distance, or less than both that twentieth
+// and LEAST_SIZE_PX at the farthest. Else empty.
 std::string size_warning(const std::string& name, double diameter_m, const TemplateOptions& options,
                          const Camera& camera);
 

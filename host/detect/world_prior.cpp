@@ -12,7 +12,7 @@ namespace edgescout {
 
 namespace {
 
-constexpr double FARTHEST_M = 1e6;
+constexpr double FARTHEST_M = 1e6, LONGEST_SIDE_M = 20;
 
 Eigen::Vector3d corner(const std::vector<double>& numbers, std::size_t first) {
   return {numbers[first], numbers[first + 1], numbers[first + 2]};
@@ -54,7 +54,7 @@ void describe(WorldPrior& o, OptionVisitor& visit) {
                  OptionLevel::Basic},
                 o.plane, 4, -FARTHEST_M, FARTHEST_M);
   visit.number({"plane-tolerance", "How far objects may reach below --world-plane, m"},
-               o.plane_tolerance_m, 0.0, 1000.0);
+               o.plane_tolerance_m, 0.0, 1.0);
 }
 
 Eigen::AlignedBox3d WorldPrior::box() const {
@@ -75,6 +75,10 @@ void WorldPrior::validate() const {
             fmt::format("a box of {} x {} x {} m", sizes_m.x(), sizes_m.y(), sizes_m.z()),
             "two corners that differ in x, y and z");
   }
+  if (!box_m.empty() && box().sizes().maxCoeff() > LONGEST_SIDE_M)
+    in.fail("world-box", fmt::format("a side of {} m", box().sizes().maxCoeff()),
+            fmt::format("sides of at most {} m: {} mm are {}", LONGEST_SIDE_M,
+                        box().sizes().maxCoeff(), box().sizes().maxCoeff() / 1000));
   if (plane.empty()) return;
   const double length = corner(plane, 0).norm();
   if (std::abs(length - 1) > 0.01)
@@ -99,9 +103,9 @@ TemplateOptions with_distances_to_box(TemplateOptions options, double diameter_m
         fmt::format("one {:.3f} to {:.3f} m from the cameras", box.low, box.high),
         fmt::format(
             "one where an object of {:.1f} mm spans a twentieth to all of the image, {:.3f} "
-            "to {:.3f} m away, or {} and {}",
+            "to {:.3f} m away, or {} and {}, or another unit of the model ({})",
             1000 * diameter_m, useful.low, useful.high, option_name("distance-min"),
-            option_name("distance-max")));
+            option_name("distance-max"), option_name("unit")));
   return options;
 }
 

@@ -69,8 +69,9 @@ Mesh load_mesh(const std::filesystem::path& file, std::optional<LengthUnit> unit
   Mesh mesh = make_mesh(file.string(), std::move(raw.vertices), std::move(raw.triangles));
   mesh.name = file.stem().string();
   if (mesh.diameter_m < 0.005 || mesh.diameter_m > 5)
-    log(LogLevel::Warning, file.string() + ": diameter " + std::to_string(mesh.diameter_m) +
-                               " m is outside 0.005..5 m: is the unit right?");
+    log(LogLevel::Warning, file.string() + ": diameter: found " + std::to_string(mesh.diameter_m) +
+                               " m, expected 0.005 to 5 m: is the unit right (" +
+                               option_name("unit") + ")?");
   return mesh;
 }
 

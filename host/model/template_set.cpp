@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "host/core/option_names.h"
 #include "kernels/error.h"
@@ -9,6 +10,14 @@
 namespace edgescout {
 
 namespace {
+
+constexpr double FARTHEST_M = 1000;
+
+std::string metres(double length_m) {
+  std::ostringstream text;
+  text << length_m << " m";
+  return text.str();
+}
 
 void describe_range(SphereRange& range, OptionVisitor& visit) {
   visit.number(
@@ -33,13 +42,13 @@ void describe(TemplateOptions& o, OptionVisitor& visit) {
                 "--distance-max 0: all at which the object spans all to a twentieth of the image; "
                 "scout takes them from the views",
                 OptionLevel::Basic},
-               o.distance_min_m, 0.0, 1000.0);
+               o.distance_min_m, 0.0, FARTHEST_M);
   visit.number({"distance-max",
                 "Largest distance from the camera to an object's centre, m. 0, with "
                 "--distance-min 0: all at which the object spans all to a twentieth of the image; "
                 "scout takes them from the views",
                 OptionLevel::Basic},
-               o.distance_max_m, 0.0, 1000.0);
+               o.distance_max_m, 0.0, FARTHEST_M);
   visit.number({"distance-ratio", "Ratio of neighbouring distances that templates are made for"},
                o.distance_ratio, 1.001, 2.0);
   visit.number({"viewpoints",
@@ -73,7 +82,26 @@ TemplateOptions with_default_distances(TemplateOptions options, double diameter_
   options.distance_min_m =
       distance_at_size_m(diameter_m, std::max(camera.width, camera.height), camera);
   options.distance_max_m = 20 * options.distance_min_m;
+  if (options.distance_max_m > FARTHEST_M)
+    throw InputError("model", "diameter",
+                     metres(diameter_m) + ", which spans a twentieth of the image at " +
+                         metres(options.distance_max_m),
+                     "one that does so within " + metres(FARTHEST_M) + ": another unit (" +
+                         option_name("unit") + "), or " + option_name("distance-min") + " and " +
+                         option_name("distance-max"));
   return options;
+}
+
+void require_distances_of_size(const std::string& name, double diameter_m,
+                               const TemplateOptions& options) {
+  constexpr double most_diameters = 1000;
+  if (options.distance_min_m <= most_diameters * diameter_m) return;
+  throw InputError(name, "distances",
+                   metres(options.distance_min_m) + " and more of a part with a diameter of " +
+                       metres(diameter_m),
+                   "at most a thousand diameters: " + option_name("distance-min") + " and " +
+                       option_name("distance-max") + " in metres, or another unit of the part (" +
+                       option_name("unit") + ")");
 }
 
 std::vector<DistanceRange> distance_scales(const TemplateOptions& options) {
@@ -128,6 +156,7 @@ TemplateSet without_views(const Object& object) {
 TemplateSet build_templates(const Object& object, const TemplateOptions& options, Backend& backend,
                             const std::function<void(int, int)>& progress) {
   options.validate();
+  require_distances_of_size(object.mesh.name, object.mesh.diameter_m, options);
   check(options.distance_min_m > 0, "build_templates: distances not set");
   TemplateSet set;
   set.object_id = object.id;

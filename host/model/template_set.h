@@ -33,9 +33,15 @@ struct TemplateOptions {
 void describe(TemplateOptions& options, OptionVisitor& visit);
 
 // Sets distances that are 0: the object's diameter then spans all to a twentieth of the image's
-// larger side, a range of 20 : 1 in four scales.
+// larger side, a range of 20 : 1 in four scales. InputError: an object so large, as one of a wrong
+// unit, that they are beyond what an option may say.
 TemplateOptions with_default_distances(TemplateOptions options, double diameter_m,
                                        const Camera& camera);
+
+// InputError naming the object: the nearest distance is more than a thousand times its diameter, as
+// where one of them is in millimetres.
+void require_distances_of_size(const std::string& name, double diameter_m,
+                               const TemplateOptions& options);
 
 // From a camera to an object's centre.
 struct DistanceRange {
@@ -67,7 +73,8 @@ struct TemplateSet {
 };
 
 // Calls `progress` with (views done, all views) from this thread. InputError: options out of
-// bounds, no viewpoint that shows an edge. LogicError: distances that are not set.
+// bounds, distances that require_distances_of_size refuses, no viewpoint that shows an edge.
+// LogicError: distances that are not set.
 TemplateSet build_templates(const Object& object, const TemplateOptions& options, Backend& backend,
                             const std::function<void(int, int)>& progress = {});
 

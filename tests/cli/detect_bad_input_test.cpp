@@ -74,6 +74,63 @@ TEST(Detect, RefusesAPartThatCannotBeSeen) {
   EXPECT_NE(warned.err.find("expected 12 to 320 px"), std::string::npos) << warned.err;
 }
 
+// Millimetres taken for metres, of the part and of each length.
+TEST(Detect, RefusesLengthsInAWrongUnit) {
+  const SmallScene t;
+  const auto refused = [&](const std::vector<std::string>& more,
+                           std::initializer_list<std::string> words) {
+    expect_refused(
+        t.detect(t.scene, joined({{"--log-level", "error", "--model", part_file(1)}, more})),
+        words);
+    EXPECT_FALSE(fs::exists(t.out)) << "something was written";
+  };
+  refused({"--unit", "m"}, {"diameter: found ", " m, which", "another unit (--unit)"});
+  refused({"--unit", "m", "--distance-min", "0.3", "--distance-max", "0.8"},
+          {"size: found a diameter of ", "(--unit)"});
+  const auto with = [&](const std::vector<std::string>& more) {
+    return joined({{"--unit", "mm"}, more});
+  };
+  refused(with({"--distance-min", "350", "--distance-max", "800"}),
+          {"at 350.000 to 800.000 m", "--distance-max; metres"});
+  refused(with({"--distance-min", "3500", "--distance-max", "8000"}),
+          {"--distance-min: found 3500, expected 0 to 1000 m: 3500 mm are 3.5"});
+  refused(with({"--plane-tolerance", "2"}), {"--plane-tolerance", "0 to 1 m: 2 mm are 0.002"});
+  refused(with({"--penetration", "2"}), {"--penetration", "0 to 1 m: 2 mm are 0.002"});
+  refused(with({"--world-box", "-300", "-200", "0", "300", "200", "100"}),
+          {"detect.world_box: found a side of 600 m", "at most 20 m: 600 mm are 0.6"});
+  for (const char* name : {"--depth-noise", "--depth-noise-floor"})
+    refused(with({name, "1", "--depth", "scene"}), {name, "m: 1 mm are 0.001"});
+  refused(with({"--depth-range", "100", "2000", "--depth", "scene"}),
+          {"--depth-range", "0 to 100 m: 2000 mm are 2"});
+  refused(with({"--depth-pose", "25", "0", "0", "0", "0", "0", "1", "--depth", "scene"}),
+          {"--depth-pose", "-10 to 10 m: 25 mm are 0.025"});
+}
+
+TEST(Detect, WarnsOfDistancesAtWhichNothingIsSeen) {
+  const SmallScene t;
+  const auto sizes_warned_of = [&](const char* farthest) {
+    const Outcome outcome =
+        run_program(t.detect(t.scene, {"--model", part_file(1), "--unit", "mm", "--viewpoints", "1",
+                                       "--in-plane-steps", "1", "--distance-min", "0.27",
+                                       "--distance-max", farthest, "--distance-ratio", "2"}));
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.err.find("size: found a diameter of") != std::string::npos;
+  };
+  EXPECT_FALSE(sizes_warned_of("0.33"));
+  EXPECT_TRUE(sizes_warned_of("330"));
+}
+
+TEST(Detect, WarnsOfAPlaneAboveTheCameras) {
+  const SmallScene t;
+  const auto warned = [&](const char* d) {
+    const Outcome outcome =
+        run_program(t.detect(t.scene, joined({bracket(), {"--world-plane", "0", "0", "1", d}})));
+    return outcome.err.find("--world-plane: found all cameras below it") != std::string::npos;
+  };
+  EXPECT_TRUE(warned("150"));
+  EXPECT_FALSE(warned("-0.01"));
+}
+
 // An option that takes a list takes no image.
 TEST(Detect, TakesImagesBehindLists) {
   const SmallScene t;

@@ -125,7 +125,7 @@ TEST(Explain, RefusesWhatIsNoPose) {
   refused(joined({{"--truth", "--pose"}, pose}), {"more than one"});
   refused({"--pose", "1", "2"}, {"--pose"});
   refused(with(0, "3"), {"no rotation"});
-  refused(with(3, "nan"), {"not finite"});
+  refused(with(3, "nan"), {"--pose: found nan, expected -100 to 100 m"});
   refused(with(11, "-0.3"), {"behind the camera"});
   refused({"--truth", "--min-visible", "1.5"}, {"--min-visible"});
   refused({"--truth", "--max-angle", "0"}, {"--max-angle"});

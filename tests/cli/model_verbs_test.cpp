@@ -55,6 +55,13 @@ TEST(ModelBuild, ChoosesDistancesByTheCamera) {
   EXPECT_NEAR(set.options.distance_max_m, 20 * set.options.distance_min_m, 1e-9);
 }
 
+TEST(ModelBuild, RefusesDistancesInMillimetres) {
+  const TemporaryFolder folder;
+  expect_refused(
+      build(folder.path() / "part.est", {"--distance-min", "350", "--distance-max", "800"}),
+      {"obj_000002: distances: found 350 m and more", "--distance-min", "metres", "(--unit)"});
+}
+
 TEST(ModelBuild, RefusesAndWritesNothing) {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out/part.est";

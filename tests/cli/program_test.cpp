@@ -242,7 +242,7 @@ TEST(ModelInspect, CountsOpenBordersAndWarnsOfTheUnit) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(nlohmann::json::parse(outcome.out).at(0).at("open_border_edges"), 4);
   EXPECT_NE(outcome.err.find("edgescout: warning: "), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("is the unit right?"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("is the unit right (--unit)?"), std::string::npos) << outcome.err;
   EXPECT_NE(outcome.err.find("of the drawn edge length is open border"), std::string::npos)
       << outcome.err;
   EXPECT_EQ(run_program({"model", "inspect", file, "--unit", "m", "--log-level", "error"}).err, "");

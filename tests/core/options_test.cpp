@@ -53,6 +53,18 @@ TEST(CheckBounds, NamesTheFieldTheValueAndTheBounds) {
     EXPECT_NE(message.find(part), std::string::npos) << part << " not in " << message;
 }
 
+TEST(CheckBounds, SaysTheUnitAndWhatMillimetresWouldBe) {
+  Options options;
+  options.corner_m = {0, 0, 350};
+  EXPECT_EQ(message_of(options),
+            "options: group.corner: found 350.000000, expected -1.000000 to 1.000000 m: 350 mm are "
+            "0.35");
+  EXPECT_EQ(unit_after_bounds("Corner, m: x y z", 5e6, -1, 1), " m");
+  EXPECT_EQ(unit_after_bounds("Corner, m", 5, -1, 1), " m: 5 mm are 0.005");
+  EXPECT_EQ(unit_after_bounds("Width, mm, or millimetres", 5, -1, 1), "");
+  EXPECT_EQ(message_of({3, 2, 1, Colour::Red}).find(" m"), std::string::npos);
+}
+
 TEST(CheckBounds, RefusesEachKindOfFieldAndNaN) {
   EXPECT_NE(message_of({0, 0.5, 1, Colour::Red}).find("max_count"), std::string::npos);
   EXPECT_NE(message_of({3, NAN, 1, Colour::Red}).find("angle"), std::string::npos);

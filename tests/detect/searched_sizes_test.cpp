@@ -29,6 +29,8 @@ TEST(SizeWarning, IsOfObjectsMuchSmallerOrLargerThanTheImage) {
   };
   EXPECT_EQ(warning(0.5, 1), "");
   EXPECT_EQ(warning(2.4, 4), "") << "25 px at the nearest";
+  EXPECT_EQ(warning(0.5, 7.4), "");
+  EXPECT_NE(warning(0.5, 800), "") << "0.8 m in millimetres";
   const std::string far = warning(2.6, 4);
   EXPECT_NE(far.find("spans 15.0 to 23.1 px at 2.600 to 4.000 m, expected 24 to 640 px"),
             std::string::npos)

@@ -99,6 +99,23 @@ TEST(TemplateSet, DefaultDistancesShowTheObjectInAllToATwentiethOfTheLargerSide)
   EXPECT_NEAR(800 * 0.1 / options.distance_max_m, 32, 1e-9);
 }
 
+// Parts of 130 mm and distances of 350 to 800 mm, each taken for metres.
+TEST(TemplateSet, AWrongUnitIsNamed) {
+  Camera camera;
+  camera.width = 640;
+  camera.height = 480;
+  camera.fx = camera.fy = 800;
+  expect_input_error([&] { with_default_distances({}, 130, camera); },
+                     {"diameter: found 130 m", "another unit (unit)", "distance_min"});
+  TemplateOptions options;
+  options.distance_min_m = 350, options.distance_max_m = 800;
+  const Object part{1, box_mesh(0.06, 0.04, 0.02), {}};
+  const std::unique_ptr<Backend> backend = make_cpu_backend(1);
+  expect_input_error(
+      [&] { build_templates(part, options, *backend); },
+      {"distances: found 350 m and more", "distance_min and distance_max in metres", "(unit)"});
+}
+
 TEST(TemplateSet, ScalesDivideARangeIntoEqualRatios) {
   TemplateOptions options;
   options.distance_min_m = 0.4, options.distance_max_m = 1;
