@@ -134,6 +134,29 @@ TEST(Bridge, BadImagesAreSaidAndLeftOut) {
   EXPECT_EQ(tested.bridge.diagnostics().message({}).status.at(0).message, "ok");
 }
 
+TEST(Bridge, TheFirstImageIsSaidWhileItIsWorkedOn) {
+  TestedBridge tested;
+  EXPECT_TRUE(holds(tested.status().message, "no result yet: no image came for 0 s"));
+  std::string said;
+  tested.while_working = [&] { said = tested.status().message; };
+  tested.give_info();
+  tested.give_image();
+  EXPECT_TRUE(tested.bridge.work(0));
+  EXPECT_EQ(said, "no result yet: first image is being worked on (0 s)");
+  EXPECT_EQ(tested.status().message, "ok");
+}
+
+TEST(Bridge, AnImageWithoutAResultIsNone) {
+  BridgeOptions options = quick();
+  options.world_frame = "world";
+  TestedBridge tested(options);
+  tested.give_info();
+  tested.give_image();
+  EXPECT_TRUE(tested.bridge.work(0));
+  tested.bridge.diagnostics().solved("tf");
+  EXPECT_TRUE(holds(tested.status().message, "no result yet")) << tested.status().message;
+}
+
 TEST(Bridge, ARequestIsAnsweredByTheNextImage) {
   BridgeOptions options = quick();
   options.on_request = true;

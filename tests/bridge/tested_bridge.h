@@ -1,6 +1,7 @@
 // A bridge on SmallWorld, and what it sent.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,11 +35,13 @@ struct TestedBridge {
   KeptResults results;
   Bridge bridge;
   int template_calls = 0;
+  std::function<void()> while_working;  // called where templates are made
 
   explicit TestedBridge(const BridgeOptions& options = quick())
       : bridge(
             [this](const Camera&) {
               ++template_calls;
+              if (while_working) while_working();
               return small_world().sets;
             },
             *small_world().backend, options, results) {}
@@ -48,6 +51,7 @@ struct TestedBridge {
     bridge.take(ImageMessage(image_message(small_world().image(view), seconds)));
   }
   std::uint64_t count(const std::string& what) { return bridge.diagnostics().counted(what); }
+  msg::DiagnosticStatus status() { return bridge.diagnostics().message({}).status.at(0); }
   std::string problem(const std::string& subject) {
     return bridge.diagnostics().problem_of(subject);
   }

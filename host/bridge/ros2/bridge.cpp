@@ -57,7 +57,7 @@ ScoutOptions cancellable(ScoutOptions options, const Inbox& inbox) {
 Bridge::Bridge(TemplateSource templates, Backend& backend, BridgeOptions options, Outbox& outbox)
     : options_(std::move(options)),
       outbox_(outbox),
-      diagnostics_(options_.node),
+      diagnostics_(options_.node, options_.on_request),
       inbox_(!options_.on_request, depth_wait(options_)),
       depth_(options_, tf_),
       search_(std::move(templates), backend, options_.pipeline),
@@ -68,6 +68,7 @@ Bridge::Bridge(TemplateSource templates, Backend& backend, BridgeOptions options
 
 void Bridge::take(ImageMessage image) {
   diagnostics_.count("images received");
+  diagnostics_.image_comes();
   if (inbox_.calibrations() == 0) {
     diagnostics_.problem(info_subject, "camera_info: found no message, expected one of the camera");
     if (options_.without_camera == WithoutCamera::Drop) {
@@ -180,23 +181,37 @@ bool Bridge::work(double seconds) {
                        ", expected one within " + std::to_string(options_.request_seconds) + " s");
   }
   if (work.dropped > 0) diagnostics_.count(dropped_for_newer, work.dropped);
-  if (work.job) work.job();
-  if (work.image) work_on(std::move(*work.image), std::move(work.for_image));
+  if (work.job) {
+    diagnostics_.work_begins("request");
+    work.job();
+    diagnostics_.work_ends(true);
+  }
+  if (work.image) {
+    diagnostics_.work_begins("image");
+    diagnostics_.work_ends(work_on(std::move(*work.image), std::move(work.for_image)));
+  }
   return work.is_any();
 }
 
-void Bridge::work_on(ArrivedImage arrived, std::vector<ImageRequest> requests) {
+bool Bridge::work_on(ArrivedImage arrived, std::vector<ImageRequest> requests) {
   const std::optional<Image> image = decoded(arrived.message);
-  if (!image) return inbox_.put_back(std::move(requests));
+  if (!image) {
+    inbox_.put_back(std::move(requests));
+    return false;
+  }
   const msg::Header header = header_of(arrived.message);
   const std::optional<Camera> camera = camera_for(header, image->width, image->height);
-  if (!camera) return wait_for_calibration(std::move(arrived), std::move(requests));
+  if (!camera) {
+    wait_for_calibration(std::move(arrived), std::move(requests));
+    return false;
+  }
   const TakenImage taken{header, *image, *camera, depth_for(arrived, *camera)};
   for (const ImageRequest& request : requests) request.on_image(taken);
-  if (requests.empty()) detect_without_request(taken);
+  const bool has_result = !requests.empty() || detect_without_request(taken);
   diagnostics_.count("images worked on");
   const std::chrono::duration<double, std::milli> latency = Clock::now() - arrived.time;
   diagnostics_.set("latency of the last image, ms", std::to_string(latency.count()));
+  return has_result;
 }
 
 std::optional<Image> Bridge::decoded(const ImageMessage& message) {
@@ -302,11 +317,13 @@ Bridge::Found Bridge::detect(const TakenImage& image, double max_seconds) {
   return result;
 }
 
-void Bridge::detect_without_request(const TakenImage& image) {
+bool Bridge::detect_without_request(const TakenImage& image) {
+  bool has_result = false;
   try {
     guarded(
         [&] {
           detect(image, options_.max_seconds);
+          has_result = true;
           diagnostics_.solved(search_subject);
         },
         [&](const std::string& why) {
@@ -317,6 +334,7 @@ void Bridge::detect_without_request(const TakenImage& image) {
     diagnostics_.problem(search_subject, error.what());
     throw;
   }
+  return has_result;
 }
 
 void Bridge::publish(const Found& found, const msg::Header& image,

@@ -63,7 +63,8 @@ class Bridge {
 
   template <typename Result, typename Work>
   void add_job(const Answer<Result>& answer, const Work& work);
-  void work_on(ArrivedImage arrived, std::vector<ImageRequest> requests);
+  // Whether there is a result.
+  bool work_on(ArrivedImage arrived, std::vector<ImageRequest> requests);
   std::optional<Image> decoded(const ImageMessage& message);
   // Null, and counted: the image has none that can be used.
   std::shared_ptr<const MeasuredDepth> depth_for(const ArrivedImage& arrived, const Camera& camera);
@@ -74,7 +75,7 @@ class Bridge {
   void wait_for_calibration(ArrivedImage arrived, std::vector<ImageRequest> requests);
   // Detects and publishes. InputError: a pose that tf does not know, what the library refuses.
   Found detect(const TakenImage& image, double max_seconds);
-  void detect_without_request(const TakenImage& image);
+  bool detect_without_request(const TakenImage& image);  // whether there is a result
   void publish(const Found& found, const msg::Header& image, std::span<const Detection> in_camera);
   msg::GetPoseEstimatesResult estimate(const msg::GetPoseEstimatesRequest& request);
   Se3 world_from_camera(const msg::Header& image) const;

@@ -4,6 +4,21 @@
 
 namespace edgescout::ros2 {
 
+void Diagnostics::image_comes() {
+  const std::scoped_lock lock(mutex_);
+  times_.image_comes(Clock::now());
+}
+
+void Diagnostics::work_begins(const std::string& what) {
+  const std::scoped_lock lock(mutex_);
+  times_.work_begins(what, Clock::now());
+}
+
+void Diagnostics::work_ends(bool has_result) {
+  const std::scoped_lock lock(mutex_);
+  times_.work_ends(has_result, Clock::now());
+}
+
 void Diagnostics::count(const std::string& what, std::uint64_t more) {
   const std::scoped_lock lock(mutex_);
   counts_[what] += more;
@@ -46,10 +61,13 @@ std::string Diagnostics::problem_of(const std::string& subject) const {
 
 msg::DiagnosticArray Diagnostics::message(const msg::Time& now) const {
   const std::scoped_lock lock(mutex_);
-  msg::DiagnosticStatus status{.level = std::uint8_t(problems_.empty() ? 0 : 1),
-                               .name = node_ + ": detection",
-                               .message = problems_.empty() ? "ok" : problems_.begin()->second,
-                               .hardware_id = node_};
+  const WorkTimes::State state = times_.state(Clock::now());
+  const bool is_well = problems_.empty() && !state.is_stale;
+  msg::DiagnosticStatus status{
+      .level = std::uint8_t(is_well ? 0 : 1),
+      .name = node_ + ": detection",
+      .message = problems_.empty() ? state.text : problems_.begin()->second,
+      .hardware_id = node_};
   for (const auto& [subject, what] : problems_) status.values.push_back({subject, what});
   for (const auto& [what, number] : counts_)
     status.values.push_back({what, std::to_string(number)});
