@@ -6,7 +6,6 @@
 #include <chrono>
 #include <future>
 #include <iostream>
-#include <limits>
 
 #include "host/cli/depth_doubts.h"
 #include "host/cli/progress.h"
@@ -15,6 +14,7 @@
 #include "host/cli/wanted_objects.h"
 #include "host/core/log.h"
 #include "host/core/stopwatch.h"
+#include "host/detect/depth_judgement.h"
 #include "host/io/files.h"
 #include "host/io/image.h"
 #include "kernels/error.h"
@@ -32,19 +32,6 @@ BatchSettings settings_of(std::span<const TemplateSet> sets, std::span<const Inp
   for (auto& setting : settings_of(sets)) settings.common.push_back(std::move(setting));
   settings.camera = given_camera(options.camera, images);
   return settings;
-}
-
-// Where the surfaces of the objects may be, along the camera's axis.
-Range distances_of(std::span<const TemplateSet> sets) {
-  constexpr double at_the_border = 0.8;  // of a wide image: along the axis, not along the ray
-  Range distances{std::numeric_limits<double>::infinity(), 0};
-  for (const TemplateSet& set : sets) {
-    distances.low =
-        std::min(distances.low,
-                 std::max(0.0, at_the_border * set.options.distance_min_m - set.model.radius_m));
-    distances.high = std::max(distances.high, set.options.distance_max_m + set.model.radius_m);
-  }
-  return distances;
 }
 
 // The images of one detection: one image, or all views of a scene.
@@ -146,7 +133,7 @@ class Detector {
         options_(options),
         settings_(settings) {
     for (const TemplateSet& set : sets) models_.push_back(set.model);
-    distances_ = distances_of(sets);
+    distances_ = surface_distances_m(sets);
     summary.verb = "detect";
     summary.by_scene = options.joint;
     summary.images = static_cast<int>(images.size());

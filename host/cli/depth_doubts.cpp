@@ -4,65 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "host/core/log.h"
+#include "host/core/option_names.h"
 #include "host/core/quantile.h"
-#include "host/edge/depth_edges.h"
-#include "host/edge/edge_index.h"
-#include "host/register/measured_depth.h"
+#include "host/detect/depth_judgement.h"
+#include "kernels/error.h"
 
 namespace edgescout {
 
 namespace {
 
-std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
-
-// What to say of the place of jumps; empty: nothing.
-std::string doubt_of_place(const DepthEdges& edges) {
-  if (edges.fit == DepthFit::Elsewhere)
-    return fmt::format("{} of {} jumps of depth lie on edges, {} by chance",
-                       percent(edges.in_place), edges.jumps, percent(edges.by_chance));
-  if (edges.fit == DepthFit::Moved)
-    return fmt::format(
-        "{} of {} jumps of depth lie on edges, {} would if it were moved by ({}, {}) px",
-        percent(edges.in_place), edges.jumps, percent(edges.best), edges.dx_px, edges.dy_px);
-  return {};
-}
-
-std::vector<float> measured_values(const DepthImage& depth) {
-  std::vector<float> values;
-  std::ranges::copy_if(depth.z_m, std::back_inserter(values), [](float z_m) { return z_m > 0; });
-  return values;
-}
-
-double share_inside(std::span<const float> values, const Range& distances_m, double factor) {
-  const auto inside = std::ranges::count_if(values, [&](float z_m) {
-    return z_m * factor >= distances_m.low && z_m * factor <= distances_m.high;
-  });
-  return double(inside) / double(values.size());
-}
-
-// The power of ten by which most values lie inside the range; none: it cannot be the unit.
-std::optional<double> unit_that_fits(std::span<const float> values, const Range& distances_m) {
-  constexpr double most = 0.5;
-  for (const double factor : {0.1, 10.0, 0.01, 100.0, 0.001, 1000.0})
-    if (share_inside(values, distances_m, factor) > most) return factor;
-  return {};
-}
-
-std::string doubt_of_unit(const DepthImage& depth, const Range& distances_m) {
-  constexpr std::size_t fewest = 1000;
-  constexpr double least_share = 0.01;
-  const std::vector<float> values = measured_values(depth);
-  if (values.size() < fewest) return {};
-  if (share_inside(values, distances_m, 1) > least_share) return {};
-  const std::optional<double> factor = unit_that_fits(values, distances_m);
-  if (!factor) return {};
-  return fmt::format(
-      "depth has a median of {:.4g} m, objects are sought at {:.4g} to {:.4g} m: {:g} times the "
-      "unit would fit",
-      upper_median(values), distances_m.low, distances_m.high, *factor);
+std::string question_of(DepthFault fault) {
+  switch (fault) {
+    case DepthFault::Unit:
+      return "is the depth of another unit (" + option_name("depth-unit") + ")?";
+    case DepthFault::Moved:
+      return "is the pose of the depth camera wrong (" + option_name("depth-pose") + ")?";
+    case DepthFault::OtherImage:
+      return "is it the depth of another image?";
+  }
+  throw LogicError("question_of: unknown fault");
 }
 
 }  // namespace
@@ -92,12 +54,8 @@ void DepthDoubts::look_at(const std::string& image, const ObjectView& view,
                           const Range& distances_m) {
   if (!view.depth || !view.edges) return;
   ++looked_at_;
-  const DepthImage& depth = view.depth->image;
-  add("is the depth of another unit (--depth-unit)?", image, doubt_of_unit(depth, distances_m));
-  const DepthEdges edges = compare_depth_edges(depth, view.depth->noise, view.edges->points());
-  add(edges.fit == DepthFit::Moved ? "is the pose of the depth camera wrong (--depth-pose)?"
-                                   : "is it the depth of another image?",
-      image, doubt_of_place(edges));
+  for (const DepthDoubt& doubt : doubts_of_depth(view, distances_m))
+    add(question_of(doubt.fault), image, doubt.found);
 }
 
 void DepthDoubts::compare(const std::string& image, const Scene& scene,
@@ -121,7 +79,6 @@ void DepthDoubts::compare(const std::string& image, const Scene& scene,
 }
 
 void DepthDoubts::add(const std::string& kind, const std::string& image, const std::string& what) {
-  if (what.empty()) return;
   log(LogLevel::Debug, image + ": " + what);
   Doubt& doubt = doubts_[kind];
   if (doubt.images++ == 0) doubt.first = image + ": " + what;

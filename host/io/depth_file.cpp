@@ -30,14 +30,12 @@ double median_of_stored(const cv::Mat& stored) {
   return double(upper_median(std::move(values)));
 }
 
-[[noreturn]] void fail_without_depth(const cv::Mat& stored, double unit_m, const DepthOptions& o,
+[[noreturn]] void fail_without_depth(double median, double unit_m, const DepthOptions& o,
                                      const std::string& source) {
-  const double median = median_of_stored(stored);
   throw InputError(
-      source, "depth",
-      median == 0 ? "no measured value"
-                  : fmt::format("values around {:.6g}, which are {:.6g} m in units of {:.6g} m",
-                                median, median * unit_m, unit_m),
+      source, "values",
+      fmt::format("around {:.6g}, which are {:.6g} m in units of {:.6g} m", median, median * unit_m,
+                  unit_m),
       fmt::format("depth from {:.6g} to {:.6g} m ({}, {})", o.range_m.low, o.range_m.high,
                   option_name("depth-unit"), option_name("depth-range")));
 }
@@ -61,8 +59,9 @@ DepthImage in_metres(const cv::Mat& stored, const std::string& source, const Dep
       has_any |= is_measured;
       depth.z_m.push_back(is_measured ? float(z_m) : DEPTH_MISSING);
     }
-  if (!has_any && !stored.empty() && median_of_stored(values) != 0)
-    fail_without_depth(values, unit_m, options, source);
+  if (has_any) return depth;
+  if (const double median = median_of_stored(values); median != 0)
+    fail_without_depth(median, unit_m, options, source);
   return depth;
 }
 

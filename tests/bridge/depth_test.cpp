@@ -243,12 +243,43 @@ TEST(BridgeDepth, UnusableDepthIsSaid) {
   msg::Image metres = depth_message();
   for (std::size_t i = 0; i < metres.data.size(); i += 2)
     metres.data[i] = 1, metres.data[i + 1] = 0;
-  EXPECT_TRUE(holds(said(metres), "depth: found values around 1, which are 0.001 m"));
+  const std::string range = said(metres);
+  EXPECT_TRUE(range.starts_with("depth: values: found around 1, which are 0.001 m")) << range;
+  EXPECT_TRUE(holds(range, "(depth_unit, depth_range)")) << range;
   msg::Image none = depth_message();
   std::ranges::fill(none.data, std::uint8_t(0));
   EXPECT_EQ(said(none), "");  // an image in which nothing was measured is one
   EXPECT_EQ(tested.count(alone), 2u);
   EXPECT_EQ(tested.count(with), 1u);
+}
+
+// A sensor of 0.1 mm whose values are taken for mm: inside the range, and no part is there.
+TEST(BridgeDepth, AnotherUnitIsSaidOnce) {
+  const edgescout::test::CollectedLog log;
+  TestedBridge tested(with_depth());
+  tested.give_info();
+  const auto said = [&](double seconds, int factor) {
+    msg::Image depth = depth_message(seconds);
+    for (std::size_t i = 0; i < depth.data.size(); i += 2) {
+      const int value = factor * (depth.data[i] + 256 * depth.data[i + 1]) + int(seconds);
+      depth.data[i] = std::uint8_t(value & 0xff), depth.data[i + 1] = std::uint8_t(value >> 8);
+    }
+    tested.give_image(seconds);
+    tested.bridge.take_depth(depth);
+    EXPECT_TRUE(tested.bridge.work(0));
+    return tested.problem("depth unit");
+  };
+  EXPECT_EQ(said(1, 1), "");
+  const std::string first = said(2, 10);
+  EXPECT_TRUE(first.starts_with("depth has a median of")) << first;
+  EXPECT_TRUE(holds(first, "0.1 times the unit would fit; is it of another unit (depth_unit)?"))
+      << first;
+  EXPECT_EQ(tested.status().level, 1);
+  EXPECT_EQ(tested.status().message, first);
+  EXPECT_EQ(said(30, 10), first);  // though the median is another
+  EXPECT_EQ(log.messages.size(), 1u);
+  EXPECT_EQ(said(31, 1), "");
+  EXPECT_EQ(tested.status().message, "ok");
 }
 
 TEST(BridgeDepth, TakesADepthCameraOfItsOwn) {

@@ -96,7 +96,7 @@ TEST(DepthOption, RefusesAWrongUnit) {
   const DepthScene t;
   t.write_depth(0.3, 320, 240);
   expect_refused_in_the_batch(t.detect({"--depth", "scene", "--depth-unit", "0.1"}),
-                              {"000000.png", "values around 3000", "300 m", "depth-unit"});
+                              {"000000.png", "values: found around 3000", "300 m", "depth-unit"});
 }
 
 // What is said of depth that cannot be that of the images, by each verb.

@@ -68,9 +68,9 @@ TEST(DepthFile, RefusesPicturesOfDepth) {
 // Metres taken for millimetres, and the other way round.
 TEST(DepthFile, NamesTheMedianWhereTheUnitIsWrong) {
   expect_input_error([] { decode_depth(file_of(depth_of(3, {0}, CV_16U), ".png"), "m.png"); },
-                     {"m.png", "values around 3", "0.003 m", "depth_unit"});
+                     {"m.png", "values: found around 3", "0.003 m", "depth_unit"});
   expect_input_error([] { decode_depth(file_of(depth_of(650, {}, CV_32F), ".tiff"), "mm.tiff"); },
-                     {"mm.tiff", "values around 650", "650 m", "depth_unit"});
+                     {"mm.tiff", "values: found around 650", "650 m", "depth_unit"});
 }
 
 TEST(DepthFile, AnImageWithoutAnyValueIsNoError) {

@@ -6,6 +6,7 @@
 #include "host/bridge/ros2/depth_message.h"
 #include "host/bridge/ros2/frames.h"
 #include "host/core/camera_check.h"
+#include "host/core/option_names.h"
 #include "host/io/camera_file.h"
 #include "host/io/one_line.h"
 #include "kernels/error.h"
@@ -38,6 +39,23 @@ void guarded(const Work& work, const OnError& on_error) {
   } catch (const std::exception& error) {
     on_error(one_line(error.what()));
   }
+}
+
+std::string subject_of(DepthFault fault) {
+  constexpr const char* subjects[] = {"depth unit", "depth pose", "depth of another image"};
+  return subjects[int(fault)];
+}
+
+std::string question_of(DepthFault fault) {
+  switch (fault) {
+    case DepthFault::Unit:
+      return "is it of another unit (" + option_name("depth-unit") + ")?";
+    case DepthFault::Moved:
+      return "is it not aligned, or the pose of its camera in tf wrong?";
+    case DepthFault::OtherImage:
+      return "is it that of another image?";
+  }
+  throw LogicError("question_of: unknown fault");
 }
 
 constexpr char dropped_for_newer[] = "images dropped: a newer one came";
@@ -264,6 +282,19 @@ std::shared_ptr<const MeasuredDepth> Bridge::depth_for(const ArrivedImage& arriv
   return depth;
 }
 
+// A doubt is said in the words of the first image that has it, until an image has it no more.
+void Bridge::warn_of_depth() {
+  const std::vector<DepthDoubt> doubts = search_.doubts_of_depth();
+  for (const DepthFault fault : {DepthFault::Unit, DepthFault::Moved, DepthFault::OtherImage}) {
+    const std::string subject = subject_of(fault);
+    const auto doubt = std::ranges::find(doubts, fault, &DepthDoubt::fault);
+    if (doubt == doubts.end())
+      diagnostics_.solved(subject);
+    else if (diagnostics_.problem_of(subject).empty())
+      diagnostics_.problem(subject, doubt->found + "; " + question_of(fault));
+  }
+}
+
 Camera Bridge::calibration_of(const msg::Header& image) const {
   Camera camera;
   if (options_.camera) {
@@ -314,6 +345,7 @@ Bridge::Found Bridge::detect(const TakenImage& image, double max_seconds) {
     result.detections.push_back(in_world ? in_frame(world_from_image, detection) : detection);
   if (found.completion != Completion::Complete) diagnostics_.count("images not worked on wholly");
   publish(result, image.header, found.detections);
+  if (image.depth) warn_of_depth();
   return result;
 }
 

@@ -68,6 +68,7 @@ class Bridge {
   std::optional<Image> decoded(const ImageMessage& message);
   // Null, and counted: the image has none that can be used.
   std::shared_ptr<const MeasuredDepth> depth_for(const ArrivedImage& arrived, const Camera& camera);
+  void warn_of_depth();  // of the image that was worked on last
   std::optional<Camera> camera_for(const msg::Header& header, int width, int height);
   // That of the image's time; with an empty header the latest. InputError: none came.
   Camera calibration_of(const msg::Header& image) const;

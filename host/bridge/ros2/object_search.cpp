@@ -40,6 +40,10 @@ RgbImage ObjectSearch::overlay(std::span<const Detection> detections) {
                       backend_);
 }
 
+std::vector<DepthDoubt> ObjectSearch::doubts_of_depth() const {
+  return edgescout::doubts_of_depth(last_view_, surface_distances_m(sets_));
+}
+
 const ObjectSearch::Chosen& ObjectSearch::chosen(std::span<const std::uint64_t> object_ids) {
   if (!chosen_.ids.empty() && std::ranges::equal(chosen_.ids, object_ids)) return chosen_;
   Chosen chosen{{object_ids.begin(), object_ids.end()}, {}, {}};

@@ -70,7 +70,7 @@ static void expect_refusals(const struct scene* scene) {
   for (int i = 0; i < AREA; ++i) whole_mm[i] = 3; /* metres? */
   edgescout_image depth = image_of(whole_mm, EDGESCOUT_MONO16);
   view.depth = &depth;
-  expect_refused(scene, &view, EDGESCOUT_BAD_INPUT, "depth: depth: found values around 3, which");
+  expect_refused(scene, &view, EDGESCOUT_BAD_INPUT, "depth: values: found around 3, which");
   for (int i = 0; i < AREA; ++i) whole_mm[i] = 330;
   depth.height = HEIGHT - 1;
   expect_refused(scene, &view, EDGESCOUT_BAD_INPUT, "found 200x209, expected 200x210");
