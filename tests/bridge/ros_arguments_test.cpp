@@ -65,6 +65,11 @@ TEST(RosArguments, RefusesOtherWords) {
   expect_input_error([] { ros_arguments({"--ros-args", "-x", "y"}); }, {"--ros-args: found -x"});
   expect_input_error([] { ros_arguments({"--ros-args", "-p"}); }, {"-p: found nothing after it"});
   expect_input_error([] { ros_arguments({"--ros-args", "-p", "a=3"}); }, {"found a=3", ":="});
+  for (const Words& words : {Words{"-p", "a:=1"}, Words{"--unit", "mm", "-r", "image:=/x"},
+                             Words{"--params-file", "p.yaml"}, Words{"a:=1"},
+                             Words{"--ros-args", "-p", "a:=1", "--", "-p", "b:=1"}})
+    expect_input_error([&] { ros_arguments(words); },
+                       {"found it without --ros-args", "expected --ros-args before"});
   expect_input_error(
       [] {
         ros_arguments({"--ros-args", "--params-file", "none.yaml"});

@@ -80,6 +80,15 @@ struct RosWord {
   std::string word, value;
 };
 
+// "-p a:=b" where an option of the program is expected.
+void require_no_ros_word(const std::string& word) {
+  const bool is_ros_option = word == "-p" || word == "--param" || word == "-r" ||
+                             word == "--remap" || word == "--params-file";
+  if (is_ros_option || (!word.starts_with("--") && word.find(":=") != std::string::npos))
+    throw InputError(command_line, word, "it without --ros-args",
+                     "--ros-args before parameters and names: --ros-args -p NAME:=VALUE");
+}
+
 std::vector<RosWord> split(const std::vector<std::string>& arguments, RosArguments& ros) {
   std::vector<RosWord> words;
   bool is_ros = false;
@@ -88,6 +97,7 @@ std::vector<RosWord> split(const std::vector<std::string>& arguments, RosArgumen
     if (word == "--ros-args" || (is_ros && word == "--")) {
       is_ros = word == "--ros-args";
     } else if (!is_ros) {
+      require_no_ros_word(word);
       ros.rest.push_back(word);
     } else {
       if (i + 1 == arguments.size())

@@ -170,7 +170,11 @@ TEST(Program, RefusesWrongRequestsInOneLine) {
       {bracket({"--ros-args", "--params-file", scout}),
        {"s.yaml: scout.max_view: found an unknown"}},
       {{"--model", part_file(1), "--unit", "mm", "--ros-args", "--params-file", value},
-       {"--candidates", "found 0, expected 1 to"}},
+       {"v.yaml: candidates: found 0, expected 1 to"}},
+      {bracket({"--candidates", "0"}), {"--candidates: found 0, expected 1 to"}},
+      {bracket({"--ros-args", "-p", "scout.max_views:=0"}),
+       {"command line: scout.max_views: found 0, expected 1 to"}},
+      {bracket({"-p", "min_probability:=0.5"}), {"-p: found it without --ros-args"}},
       {bracket({"--ros-args", "-p", "tpyo:=1"}),
        {"command line: tpyo: found an unknown parameter"}},
       {{}, {"--model, --templates: found neither"}},
@@ -191,6 +195,16 @@ TEST(Program, RefusesWrongRequestsInOneLine) {
   const std::string log = program.log();
   EXPECT_TRUE(log.starts_with("edgescout_ros2: error: ")) << log;
   EXPECT_EQ(std::ranges::count(log, '\n'), 1) << log;
+}
+
+// Before an image comes, and by the names that were given.
+TEST(Program, RefusesDistancesInMillimetres) {
+  RunningProgram program({"--model", part_file(1), "--unit", "mm", "--distance-min", "350",
+                          "--ros-args", "-p", "distance_max:=800"});
+  EXPECT_EQ(program.wait(), 2);
+  const std::string log = program.log();
+  EXPECT_NE(log.find("obj_000001: distances: found 350 m and more"), std::string::npos) << log;
+  EXPECT_NE(log.find("--distance-min and distance_max in metres"), std::string::npos) << log;
 }
 
 TEST(Program, TheExampleOfParametersIsOne) {

@@ -19,7 +19,6 @@
 #include "host/cli/template_sets.h"
 #include "host/core/freed_memory.h"
 #include "host/core/log.h"
-#include "host/core/option_names.h"
 #include "host/io/one_line.h"
 #include "kernels/backend.h"
 #include "kernels/error.h"
@@ -62,7 +61,10 @@ bool is_local_only() {
 // Reads models before anything else, so that a wrong file ends the program at once. Templates are
 // made for the first camera.
 TemplateSource template_source(const ProgramOptions& options, Backend& backend) {
-  return [known = load_models(options.models), &options, &backend](const Camera& camera) {
+  KnownModels models = load_models(options.models);
+  for (const Object& object : models.objects)
+    require_distances_of_size(object.mesh.name, object.mesh.diameter_m, options.templates);
+  return [known = std::move(models), &options, &backend](const Camera& camera) {
     const SearchedImages searched{camera, {}, {}};
     return template_sets_of(known, options.templates, searched, backend,
                             make_template_cache(options.models.cache))
@@ -144,7 +146,6 @@ int main(int argc, char** argv) {
   for (const int signal : {SIGINT, SIGTERM})
     std::signal(signal, [](int) { edgescout::ros2::is_interrupted = true; });
   edgescout::keep_freed_memory();
-  edgescout::set_option_naming([](const std::string& name) { return "--" + name; });
   return edgescout::with_caught_errors(
       [&] {
         return edgescout::ros2::run({argv + 1, argv + argc});

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <set>
 #include <sstream>
 
 #include "host/active/views.h"
@@ -11,6 +12,7 @@
 #include "host/cli/help.h"
 #include "host/cli/option_table.h"
 #include "host/cli/template_sets.h"
+#include "host/core/option_names.h"
 #include "host/io/camera_file.h"
 #include "kernels/error.h"
 
@@ -78,9 +80,43 @@ void require_known(const CLI::App& app, const Parameters& parameters, const std:
   }
 }
 
+// Messages name an option as it was given: "--distance-min" on the command line, else the parameter
+// "distance_min".
+std::set<std::string>& typed_options() {
+  static std::set<std::string> options;
+  return options;
+}
+
+void name_options_as_given(const std::vector<std::string>& words) {
+  typed_options().clear();
+  for (const std::string& word : words)
+    if (word.starts_with("--")) typed_options().insert(word.substr(0, word.find('=')));
+  set_option_naming([](const std::string& name) {
+    if (typed_options().contains("--" + name)) return "--" + name;
+    std::string parameter = name;
+    std::ranges::replace(parameter, '-', '_');
+    return parameter;
+  });
+}
+
 void parse(CLI::App& app, std::vector<std::string> arguments) {
   std::ranges::reverse(arguments);  // what CLI11 asks for
   app.parse(std::move(arguments));
+}
+
+// "--candidates: found 0" -> "p.yaml: candidates: found 0" where that file says so.
+std::string naming_parameters(const std::string& message, const Parameters& parameters) {
+  const std::size_t end = message.find(": ");
+  if (!message.starts_with("--") || end == std::string::npos) return message;
+  const std::string option = message.substr(0, end);
+  if (typed_options().contains(option)) return message;
+  for (const std::string& prefix : {std::string(), std::string(scout_prefix)}) {
+    std::string name = option.substr(2);
+    std::ranges::replace(name, '-', '_');
+    if (const auto given = parameters.find(prefix + name); given != parameters.end())
+      return given->second.source + ": " + given->first + message.substr(end);
+  }
+  return message;
 }
 
 void finish(ProgramOptions& o) {
@@ -104,6 +140,7 @@ void finish(ProgramOptions& o) {
 
 std::string read_options(const std::vector<std::string>& arguments, ProgramOptions& options) {
   options.ros = ros_arguments(arguments);
+  name_options_as_given(options.ros.rest);
   CLI::App app{
       "Detection as a node of ROS 2, on Cyclone DDS. Parameters have the names of the "
       "options, with underscores; those of the scout begin with \"scout.\"",
@@ -127,7 +164,7 @@ std::string read_options(const std::vector<std::string>& arguments, ProgramOptio
     app.exit(text, printed, printed);
     return printed.str();
   } catch (const CLI::ParseError& error) {
-    throw InputError(error.what());
+    throw InputError(naming_parameters(error.what(), parameters));
   }
   refuse_beside_templates(app);
   finish(options);
