@@ -34,36 +34,25 @@ bool is_part_of_camera(std::string_view name) {
   return is_matrix_name(name) || is_distortion_name(name) ||
          contains_any_of(name, {"intrinsic", "distortion", "projectionparam"}) ||
          is_any_of(name, {"calibration", "calib", "camera", "camerainfo", "cameramodel", "cammodel",
-                          "imagesize", "resolution", "size", "parameters", "params",
-                          "principalpoint", "focallength", "binning", "lens", "value", "value0"});
+                          "imagesize", "capturedimagesize", "resolution", "size", "image",
+                          "parameters", "params", "principalpoint", "focallength", "binning",
+                          "lens", "value", "value0"});
+}
+
+// "cam_fx", "cam_width", "cam_d0" of vikit.
+std::string without_camera(const std::string& name) {
+  for (const std::string_view prefix : {"camera", "cam"})
+    if (name.starts_with(prefix)) {
+      const std::string rest = name.substr(prefix.size());
+      if (is_any_of(rest, {"fx", "fy", "cx", "cy", "width", "height", "k1", "k2", "k3", "p1", "p2",
+                           "d0", "d1", "d2", "d3", "d4"}))
+        return rest;
+    }
+  return name;
 }
 
 std::string path_below(const std::string& path, const std::string& name) {
   return path.empty() ? name : path + "/" + name;
-}
-
-bool has_number_after(std::string_view name, char letter) {
-  return name.size() >= 2 && name.size() <= 3 && name[0] == letter &&
-         std::ranges::all_of(name.substr(1), [](unsigned char c) { return std::isdigit(c); });
-}
-
-// Fields that change where a point is seen. Their names are those that no reader knows.
-bool looks_like_lens_or_region(std::string_view name, const json& value) {
-  if (is_any_of(name, {"numradialdistortioncoefficients", "estimatetangentialdistortion",
-                       "estimateskew", "lensname", "lensserial", "lensserialnumber", "lensmake",
-                       "lensid", "lensmodelname"}))
-    return false;
-  if (name.find("binning") != std::string_view::npos && value == 1) return false;
-  if (value.is_number() &&
-      (has_number_after(name, 'k') || has_number_after(name, 'p') || has_number_after(name, 's') ||
-       is_any_of(name, {"xi", "alpha", "beta"})))
-    return true;
-  return is_any_of(name, {"xoffset", "yoffset", "offsetx", "offsety", "mappingcoefficients", "codx",
-                          "cody"}) ||
-         name.starts_with("tau") || name.starts_with("roi") || name.ends_with("roi") ||
-         contains_any_of(name, {"distort", "distcoef", "fisheye", "lens", "prism", "tangential",
-                                "radialcoef", "binning", "crop", "skew", "regionofinterest",
-                                "omnidir", "mirrorparam", "affineparam", "polyparam"});
 }
 
 }  // namespace
@@ -89,7 +78,7 @@ int whole_number_in_field(const JsonField& field) {
 }
 
 std::vector<double> numbers_in_field(const JsonField& field) {
-  constexpr int rows_of_numbers = 2;
+  constexpr int rows_of_numbers = 3;  // Python's array of an array of a row
   std::vector<double> numbers;
   const bool is_matrix = field.value.is_object();
   if (is_matrix && !field.value.contains("data")) field.fail("an object without data", "numbers");
@@ -137,15 +126,18 @@ bool contains_any_of(std::string_view name, std::initializer_list<std::string_vi
 bool is_matrix_name(std::string_view name) {
   if (name.starts_with("new") || name.starts_with("optimal") || name.starts_with("rect"))
     return false;  // of an image that was undistorted
-  return is_any_of(name, {"k", "camk", "cammatrix", "mtx", "kmatrix", "kmat", "matrixk", "kmtx",
+  return is_any_of(name, {"k", "kk", "camk", "mtx", "matrix", "kmatrix", "kmat", "matrixk", "kmtx",
                           "cameramtx", "cammtx", "calibrationmatrix"}) ||
-         contains_any_of(name, {"cameramat", "intrinsic"});
+         contains_any_of(name, {"cameramat", "cammat", "intrinsic"});
 }
 
 bool is_distortion_name(std::string_view name) {
-  if (contains_any_of(name, {"undistort", "model", "type", "distance", "radial", "tangential"}))
+  if (contains_any_of(name, {"undistort", "model", "type", "distance", "distrib", "distro",
+                             "radial", "tangential"}) ||
+      name.starts_with("est"))
     return false;
-  return is_any_of(name, {"d", "coeffs", "coefficients", "coeff", "dcoeffs", "kc"}) ||
+  return is_any_of(name, {"d", "coeffs", "coefficients", "coeff", "coefs", "coef", "dcoeffs",
+                          "dcoefs", "dcoef", "kc"}) ||
          contains_any_of(name, {"distort", "distcoef"}) || name.starts_with("dist") ||
          name.ends_with("dist");
 }
@@ -166,10 +158,12 @@ void CameraFields::add(const json& object, const std::string& path, bool in_dist
   if (!object.is_object()) return;
   for (const auto& [key, value] : object.items()) {
     std::string name = plain_name(key);
+    std::string written = key;
     // ORB-SLAM's "Camera.fx", "Camera1.k1".
     if (const std::size_t dot = key.find('.');
         dot != std::string::npos && plain_name(key.substr(0, dot)).starts_with("camera"))
-      name = plain_name(key.substr(dot + 1));
+      name = plain_name(written = key.substr(dot + 1));
+    name = without_camera(name);
     const std::string where = path_below(path, key);
     const bool is_matrix = value.is_object() && value.contains("data");
     if (value.is_object() && !is_matrix && depth < 4 && is_part_of_camera(name)) {
@@ -178,7 +172,7 @@ void CameraFields::add(const json& object, const std::string& path, bool in_dist
     }
     if (in_distortion && is_any_of(name, {"params", "parameters", "values", "vector", "list"}))
       name = "distortion";
-    entries_.push_back({name, key, where, &value});
+    entries_.push_back({name, written, where, &value});
   }
 }
 
@@ -191,11 +185,11 @@ bool CameraFields::has_intrinsics() const {
                const bool is_value = !entry.value->is_null() && !entry.value->is_object();
                return (is_matrix_name(entry.name) && is_list(*entry.value)) ||
                       (is_any_of(entry.name,
-                                 {"fx", "flx", "fu", "ppx", "mu", "focallength", "f",
+                                 {"fx", "flx", "fu", "ppx", "mu", "focallength", "f", "fc",
                                   "focallengthx", "modelparameters", "projectionparams"}) &&
                        is_value);
              }) ||
-         (has({"params"}) && has({"model"}));
+         (has({"params"}) && has({"model"})) || (has({"px"}) && has({"u0"}));
 }
 
 bool CameraFields::has(std::initializer_list<std::string_view> names) const {
@@ -205,10 +199,7 @@ bool CameraFields::has(std::initializer_list<std::string_view> names) const {
 }
 
 bool CameraFields::has_spelt(std::string_view name) const {
-  const auto lower = [](unsigned char c) { return std::tolower(c); };
-  return std::ranges::any_of(entries_, [&](const Entry& entry) {
-    return std::ranges::equal(entry.written, name, {}, lower, lower);
-  });
+  return std::ranges::find(entries_, name, &Entry::written) != entries_.end();
 }
 
 std::optional<JsonField> CameraFields::take(std::initializer_list<std::string_view> names) {
@@ -245,11 +236,20 @@ std::vector<std::string> CameraFields::unread() const {
 }
 
 void CameraFields::require_all_understood() const {
-  for (const Entry& entry : entries_)
-    if (!entry.is_read && looks_like_lens_or_region(entry.name, *entry.value) &&
-        !is_trivial(*entry.value))
-      throw InputError(source_, entry.path, shown(*entry.value),
-                       "a field that is understood: it looks like a lens or a part of the image");
+  for (const Entry& entry : entries_) {
+    if (entry.is_read) continue;
+    // Its own name: "Camera.k1" is k1.
+    const JsonField field{*entry.value, source_, entry.path};
+    std::optional<JsonField> found;
+    if (changes_the_image(entry.name, *entry.value))
+      found.emplace(field);
+    else if (const auto within = field_that_changes_the_image(field); within)
+      found.emplace(*within);
+    if (found)
+      found->fail(shown(found->value),
+                  "a field that is understood: it looks like a lens or a part "
+                  "of the image");
+  }
 }
 
 }  // namespace edgescout

@@ -33,6 +33,13 @@ bool contains_any_of(std::string_view name, std::initializer_list<std::string_vi
 bool is_matrix_name(std::string_view name);      // of the intrinsic matrix
 bool is_distortion_name(std::string_view name);  // of the list of coefficients
 
+// Whether a field of this plain name and value, which no reader took, changes where a point is seen
+// or what image the calibration is for: a lens, a region, binning, a turned image. Not if it is
+// trivial.
+bool changes_the_image(std::string_view name, const nlohmann::json& value);
+// The field, or one within it, that does. What a camera of its own or a pose holds is not searched.
+std::optional<JsonField> field_that_changes_the_image(const JsonField& field, int depth = 0);
+
 class CameraFields {
  public:
   // Objects within whose name says that they hold a part of the camera (`intrinsics`,
@@ -47,7 +54,7 @@ class CameraFields {
 
   bool has_intrinsics() const;  // in any form
   bool has(std::initializer_list<std::string_view> names) const;
-  bool has_spelt(std::string_view name) const;  // with these signs, in any case
+  bool has_spelt(std::string_view name) const;  // letter by letter
 
   // Returns the field and marks it as read. Null counts as absent. InputError: two of the names
   // stand with values that differ.

@@ -35,15 +35,24 @@ class CameraFinder {
   std::vector<FileCamera> find(const json& root) {
     visit(root, "", {}, 0);
     if (cameras_.empty()) fail_without_cameras(root);
+    // What stands beside the cameras must say nothing of them.
+    for (const FileObject& object : others_)
+      CameraFields(object.value, source_, object.path).require_all_understood();
     return cameras_;
   }
 
  private:
+  struct FileObject {
+    std::string path;
+    json value;
+  };
+
   void visit(const json& node, const std::string& path, std::vector<JsonField> outer, int depth) {
     if (!node.is_structured() || depth > 8) return;
     if (node.is_array()) {
       for (std::size_t i = 0; i < node.size(); ++i)
-        visit(node[i], join(path, name_of(node[i], i)), outer, depth + 1);
+        visit(node[i], join(path, name_of(node[i], i)), of_element(outer, i, node.size()),
+              depth + 1);
       return;
     }
     if (const json pair = split_stereo_pair(node); !pair.is_null())
@@ -53,7 +62,44 @@ class CameraFinder {
     for (const auto& [key, value] : node.items())
       if (!value.is_structured() || (value.is_array() && is_list(value)))
         outer.push_back({value, source_, join(path, key)});
-    for (const auto& [key, value] : node.items()) visit(value, join(path, key), outer, depth + 1);
+    for (const auto& [key, value] : node.items()) {
+      const std::size_t before = cameras_.size();
+      visit(value, join(path, key), with_lens_beside(outer, node, key, path), depth + 1);
+      if (value.is_object() && cameras_.size() == before && !is_lens_of_side(node, key))
+        others_.push_back({join(path, key), value});
+    }
+  }
+
+  // Basalt: a list of cameras beside a list of their resolutions.
+  static std::vector<JsonField> of_element(std::vector<JsonField> outer, std::size_t index,
+                                           std::size_t count) {
+    std::vector<JsonField> fields;
+    for (const JsonField& field : outer) {
+      const bool is_each = field.value.is_array() && field.value.size() == count &&
+                           std::ranges::all_of(field.value, &json::is_array);
+      fields.push_back({is_each ? field.value[index] : field.value, field.source, field.path});
+    }
+    return fields;
+  }
+
+  // ZED: [LEFT_CAM_HD] has the matrix, [LEFT_DISTO] the coefficients for all sizes.
+  static std::string side_of(const std::string& key) { return key.substr(0, key.find('_')); }
+  static bool is_lens_section(const std::string& key, const json& value) {
+    return value.is_object() && key.ends_with("_DISTO");
+  }
+  static bool is_lens_of_side(const json& node, const std::string& key) {
+    return is_lens_section(key, node[key]) &&
+           std::ranges::any_of(node.items(), [&](const auto& other) {
+             return other.key() != key && side_of(other.key()) == side_of(key);
+           });
+  }
+  std::vector<JsonField> with_lens_beside(std::vector<JsonField> outer, const json& node,
+                                          const std::string& key, const std::string& path) const {
+    for (const auto& [other, section] : node.items())
+      if (other != key && is_lens_section(other, section) && side_of(other) == side_of(key))
+        for (const auto& [name, value] : section.items())
+          outer.push_back({value, source_, join(join(path, other), name)});
+    return outer;
   }
 
   void add(CameraFields& fields, const std::string& path) {
@@ -79,7 +125,8 @@ class CameraFinder {
   }
 
   static std::string name_of(const json& element, std::size_t index) {
-    for (const char* field : {"name", "camera_name", "cameraName", "camera_id", "id", "serial"})
+    for (const char* field :
+         {"name", "camera_name", "cameraName", "camera_id", "id", "serial", "type"})
       if (element.is_object() && element.contains(field)) {
         const json& value = element[field];
         return value.is_string() ? value.get<std::string>() : value.dump();
@@ -89,6 +136,7 @@ class CameraFinder {
 
   std::string source_;
   std::vector<FileCamera> cameras_;
+  std::vector<FileObject> others_;
 };
 
 std::vector<FileCamera> find_cameras(const std::string& text, const std::string& source,

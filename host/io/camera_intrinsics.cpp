@@ -78,22 +78,40 @@ void set_pair(const std::optional<JsonField>& field, std::optional<double>& x,
   y = pair.back();
 }
 
+// A focal length of one axis and the ratio of the two are no camera that all programs agree on.
+void set_focal_lengths(CameraFields& fields, Pinhole& found) {
+  const auto focal = fields.take({"focallength", "f", "focal", "focallengthpx", "fc"});
+  set_pair(focal, found.fx, found.fy, true);
+  if (!focal || numbers_in_field(*focal).size() == 2) return;
+  const auto ratio = fields.take({"aspectratio", "aspect", "pixelaspectratio", "pixelaspect"});
+  if (ratio && !is_trivial(ratio->value) && number_in_field(*ratio) != 1)
+    ratio->fail(ratio->value.dump(), "1, or the focal lengths of both axes (fx, fy)");
+}
+
 Pinhole from_numbers(CameraFields& fields) {
   Pinhole found;
   std::string& path = found.field;
-  found.fx = number_if_any(fields, {"fx", "flx", "fu", "focalx", "focallengthx", "mu"}, path);
-  found.fy = number_if_any(fields, {"fy", "fly", "fv", "focaly", "focallengthy", "mv"}, path);
+  if (fields.has({"u0"}) && fields.has({"v0"})) {  // ViSP's names
+    found.fx = number_if_any(fields, {"px"}, path);
+    found.fy = number_if_any(fields, {"py"}, path);
+  }
+  if (!found.fx)
+    found.fx = number_if_any(fields, {"fx", "flx", "fu", "focalx", "focallengthx", "mu"}, path);
+  if (!found.fy)
+    found.fy = number_if_any(fields, {"fy", "fly", "fv", "focaly", "focallengthy", "mv"}, path);
   found.cx = number_if_any(
-      fields, {"cx", "ppx", "cu", "u0", "principalx", "principalpointx", "centerx"}, path);
+      fields, {"cx", "ppx", "cu", "u0", "x0", "principalx", "principalpointx", "centerx"}, path);
   found.cy = number_if_any(
-      fields, {"cy", "ppy", "cv", "v0", "principaly", "principalpointy", "centery"}, path);
+      fields, {"cy", "ppy", "cv", "v0", "y0", "principaly", "principalpointy", "centery"}, path);
   found.skew = number_if_any(fields, {"skew"}, path);
   // In a lens's data sheet the focal length is in mm: where fx stands, it is not read.
-  if (!found.fx && !found.fy)
-    set_pair(fields.take({"focallength", "f", "focal", "focallengthpx"}), found.fx, found.fy, true);
+  if (!found.fx && !found.fy) set_focal_lengths(fields, found);
   if (!found.cx && !found.cy)
-    set_pair(fields.take({"principalpoint", "pp", "opticalcenter", "principalpointpx", "c"}),
+    set_pair(fields.take({"principalpoint", "pp", "opticalcenter", "principalpointpx", "c", "cc"}),
              found.cx, found.cy, false);
+  // Bouguet's toolbox: the tangent of the angle by which the axes are not square.
+  if (const auto alpha = fields.take({"alphac"}); alpha && found.fx)
+    found.skew = *found.fx * number_in_field(*alpha);
   return found;
 }
 

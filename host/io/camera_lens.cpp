@@ -27,8 +27,10 @@ const std::map<std::string, LensWord, std::less<>> lens_words{
     {"rectified", LensWord::Ideal},
     {"ideal", LensWord::Ideal},
     {"simplepinhole", LensWord::Ideal},
+    {"perspectiveprojwithoutdistortion", LensWord::Ideal},
     {"pinhole", LensWord::Pinhole},
     {"pinholeplane", LensWord::Pinhole},
+    {"rectilinear", LensWord::Pinhole},
     {"perspective", LensWord::Pinhole},
     {"linear", LensWord::Ideal},
     {"plumbbob", LensWord::Brown},
@@ -50,6 +52,8 @@ const std::map<std::string, LensWord, std::less<>> lens_words{
     {"pinholeopencv", LensWord::Brown},
     {"thinprism", LensWord::Brown},
     {"tilted", LensWord::Brown},
+    {"pinholefull", LensWord::Brown},
+    {"perspectiveprojwithdistortion", LensWord::Brown},
     {"modifiedbrownconrady", LensWord::Modified},
     // librealsense computes with both alike: the coefficients distort.
     {"inversebrownconrady", LensWord::Modified},
@@ -94,18 +98,22 @@ bool may_name_a_product(std::string_view name) {
 
 bool names_model(std::string_view name, const json& value) {
   if (value.is_structured() || is_list(value)) return false;
-  if (contains_any_of(name, {"distortionmodel", "distmodel", "distortiontype", "disttype",
-                             "lensmodel", "lenstype", "cameramodel", "modeltype", "projectionmodel",
-                             "projectiontype", "calibrationmodel", "calibmodel"}))
+  if (contains_any_of(name,
+                      {"distortionmodel", "distmodel", "distortiontype", "disttype", "lensmodel",
+                       "lenstype", "cameramodel", "cammodel", "modeltype", "projectionmodel",
+                       "projectiontype", "calibrationmodel", "calibmodel"}))
     return true;
   if (!may_name_a_product(name)) return is_any_of(name, {"projection", "distortion", "lens"});
   if (!value.is_string()) return false;
   const std::string text = plain_name(value.get<std::string>());
   return word_in(text).has_value() ||
          is_any_of(text, {"ds", "doublesphere", "eucm", "mei", "ucm"}) ||
-         contains_any_of(text, {"fisheye", "omni", "distort", "conrady", "radial", "polynomial",
-                                "scaramuzza", "ocam", "unified", "spherical", "division", "pinhole",
-                                "equirect", "stereographic"});
+         contains_any_of(
+             text,
+             {"fisheye",    "omni",          "distort",      "conrady",   "radial",   "polynomial",
+              "scaramuzza", "ocam",          "unified",      "spherical", "division", "pinhole",
+              "equirect",   "stereographic", "telecentric",  "orthogra",  "affine",   "cylindri",
+              "panoram",    "catadioptric",  "hypercentric", "distortion"});
 }
 
 // "fisheye_model: 1", "undistorted: true".
@@ -140,6 +148,17 @@ std::optional<LensWord> realsense_word(CameraFields& fields) {
   return {};
 }
 
+// Luxonis numbers its models (dai::CameraModel).
+std::optional<LensWord> luxonis_word(CameraFields& fields) {
+  if (!fields.has({"spechfovdeg"})) return {};
+  const auto type = fields.take({"cameratype"});
+  if (!type || !type->value.is_number()) return {};
+  const int number = whole_number_in_field(*type);
+  if (number != 0 && number != 1)
+    type->fail(std::to_string(number), "0 (perspective) or 1 (fisheye)");
+  return number == 0 ? LensWord::Brown : LensWord::Fisheye;
+}
+
 struct FoundModel {
   LensWord word = LensWord::Pinhole;
   std::string field;  // that names it; empty: none does
@@ -156,6 +175,8 @@ FoundModel read_model(CameraFields& fields) {
   FoundModel model;
   const std::optional<LensWord> realsense = realsense_word(fields);
   if (realsense) model = {*realsense, fields.at("model")};
+  const std::optional<LensWord> luxonis = luxonis_word(fields);
+  if (luxonis) model = {*luxonis, fields.at("cameraType")};
   for (const JsonField& field : fields.take_all(names_model)) {
     const std::string text = text_in_field(field);
     if (!field.value.is_string() && is_trivial(field.value)) continue;
@@ -180,11 +201,11 @@ struct Coefficients {
 // "k1", "k_1", "radial_k1" -> "k1". Empty: no coefficient.
 std::string coefficient_name(std::string_view name) {
   for (const std::string_view prefix :
-       {"distortion", "dist", "radial", "tangential", "prism", "lens"})
+       {"camera", "cam", "distortion", "dist", "radial", "tangential", "prism", "lens"})
     if (name.starts_with(prefix)) name.remove_prefix(prefix.size());
-  static const std::set<std::string, std::less<>> names{"k1",  "k2",  "k3",   "k4",  "k5", "k6",
-                                                        "p1",  "p2",  "s1",   "s2",  "s3", "s4",
-                                                        "sx1", "sy1", "taux", "tauy"};
+  static const std::set<std::string, std::less<>> names{
+      "k1", "k2",  "k3",  "k4",   "k5",   "k6", "p1", "p2", "s1", "s2", "s3",
+      "s4", "sx1", "sy1", "taux", "tauy", "d0", "d1", "d2", "d3", "d4", "kud"};
   return names.contains(name) ? std::string(name) : "";
 }
 
@@ -192,14 +213,20 @@ std::string coefficient_name(std::string_view name) {
 Coefficients single_coefficients(CameraFields& fields, bool is_fisheye) {
   static const std::map<std::string, std::size_t> opencv{
       {"k1", 0}, {"k2", 1}, {"p1", 2}, {"p2", 3},  {"k3", 4},  {"k4", 5},    {"k5", 6},
-      {"k6", 7}, {"s1", 8}, {"s2", 9}, {"s3", 10}, {"s4", 11}, {"taux", 12}, {"tauy", 13}};
-  static const std::map<std::string, std::size_t> kannala_brandt{{"k1", 0}, {"k2", 1}, {"k3", 2},
-                                                                 {"k4", 3}, {"k5", 4}, {"k6", 5}};
+      {"k6", 7}, {"s1", 8}, {"s2", 9}, {"s3", 10}, {"s4", 11}, {"taux", 12}, {"tauy", 13},
+      {"d0", 0}, {"d1", 1}, {"d2", 2}, {"d3", 3},  {"d4", 4},  {"kud", 0}};
+  static const std::map<std::string, std::size_t> kannala_brandt{
+      {"k1", 0}, {"k2", 1}, {"k3", 2}, {"k4", 3}, {"k5", 4},
+      {"k6", 5}, {"d0", 0}, {"d1", 1}, {"d2", 2}, {"d3", 3}};
   // camodocal begins at k2, and names the focal lengths mu and mv.
   const std::size_t first = is_fisheye && fields.has({"mu"}) ? 1 : 0;
+  // Without d0 it is not sure where d1 stands.
+  const bool has_d0 = fields.has({"d0"});
+  fields.take({"kdu"});  // ViSP's inverse of kud
   Coefficients found;
-  for (const JsonField& field : fields.take_all([](std::string_view name, const json&value) {
-         return !coefficient_name(name).empty() && !value.is_structured();
+  for (const JsonField& field : fields.take_all([&](std::string_view name, const json&value) {
+         const std::string coefficient = coefficient_name(name);
+         return !coefficient.empty() && !value.is_structured() && (has_d0 || coefficient[0] != 'd');
        })) {
     const std::string name =
         coefficient_name(plain_name(field.path.substr(field.path.find_last_of("/.") + 1)));
@@ -235,8 +262,17 @@ Coefficients radial_and_tangential(CameraFields& fields) {
   return found;
 }
 
+// openMVG's k1 k2 k3 p1 p2.
+Coefficients radial_before_tangential(CameraFields& fields) {
+  const std::optional<JsonField> field = fields.take({"distot2"});
+  if (!field) return {};
+  const std::vector<double> k = numbers_in_field(*field);
+  if (k.size() != 5) field->fail(std::to_string(k.size()) + " coefficients", "5");
+  return {{k[0], k[1], k[3], k[4], k[2]}, field->path};
+}
+
 Coefficients listed_coefficients(CameraFields& fields) {
-  Coefficients found;
+  Coefficients found = radial_before_tangential(fields);
   for (const JsonField& field : fields.take_all([](std::string_view name, const json&value) {
          return is_distortion_name(name) && is_list(value);
        })) {

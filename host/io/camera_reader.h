@@ -27,7 +27,7 @@ void read_roi_and_binning(CameraFields& fields, Camera& camera);
 // are of another form.
 bool read_model_with_parameters(CameraFields& fields, Camera& camera);
 
-// A stereo pair as fields side by side (M1, D1, M2, D2; cameraMatrixLeft ..), as an object with one
+// Cameras as fields side by side (M1, D1, M2, D2; color_intrinsics ..), as an object with one
 // object for each side. Null: the fields are of another form.
 nlohmann::json split_stereo_pair(const nlohmann::json& fields);
 

@@ -94,16 +94,16 @@ int binning_of(CameraFields& fields, std::initializer_list<std::string_view> nam
 void read_size(CameraFields& fields, Camera& camera) {
   const auto width =
       fields.take({"width", "imagewidth", "imgwidth", "imwidth", "w", "sensorwidth", "camerawidth",
-                   "imagewidthpx", "widthpx", "resolutionx", "resx", "resolutionwidth"});
+                   "imagewidthpx", "widthpx", "resolutionx", "resx", "resolutionwidth", "nx"});
   const auto height = fields.take({"height", "imageheight", "imgheight", "imheight", "h",
                                    "sensorheight", "cameraheight", "imageheightpx", "heightpx",
-                                   "resolutiony", "resy", "resolutionheight"});
+                                   "resolutiony", "resy", "resolutionheight", "ny"});
   if (width) camera.width = size_side(*width);
   if (height) camera.height = size_side(*height);
   const bool height_first = fields.has_spelt("ImageSize") || fields.has_spelt("K");
-  if (const auto listed =
-          fields.take({"resolution", "imagesize", "imgsize", "imsize", "size", "imageresolution",
-                       "imageshape", "shape", "imgshape", "imagedimensions", "imagedims"}))
+  if (const auto listed = fields.take({"resolution", "imagesize", "imgsize", "imsize", "size",
+                                       "imageresolution", "imageshape", "shape", "imgshape",
+                                       "imagedimensions", "imagedims", "dim", "dims"}))
     if (!width && !height) set_listed_size(camera, *listed, height_first);
   if ((camera.width == 0) != (camera.height == 0))
     throw InputError(fields.source(), fields.at(camera.width ? "image_height" : "image_width"),

@@ -1,4 +1,7 @@
+#include <array>
+#include <cctype>
 #include <map>
+#include <optional>
 
 #include "host/io/camera_reader.h"
 
@@ -12,20 +15,74 @@ struct SidedName {
   std::string side, name;
 };
 
-// "M1", "left_camera_matrix", "distCoeffsR". Empty: the name has no side.
-SidedName sided_name(const std::string& written) {
+constexpr std::array side_words{"left", "right", "color",    "colour",
+                                "rgb",  "depth", "infrared", "ir"};
+
+std::size_t digits_at(std::string_view text, std::size_t from) {
+  std::size_t count = 0;
+  while (from + count < text.size() && std::isdigit(static_cast<unsigned char>(text[from + count])))
+    ++count;
+  return count;
+}
+
+// Lengths of what may be a side at the beginning of a plain name: "left", "infra1", "camera0".
+std::optional<std::size_t> side_before(std::string_view plain) {
+  for (const std::string_view word : side_words)
+    if (plain.starts_with(word)) return word.size() + digits_at(plain, word.size());
+  for (const std::string_view word : {"camera", "cam", "infra"})
+    if (plain.starts_with(word))
+      if (const std::size_t digits = digits_at(plain, word.size()); digits > 0)
+        return word.size() + digits;
+  return {};
+}
+
+// Where it may begin at the end: "M1", "K_00", "distCoeffsR".
+std::optional<std::size_t> side_after(std::string_view plain) {
+  for (const std::string_view word : side_words)
+    if (plain.ends_with(word)) return plain.size() - word.size();
+  if (plain.ends_with('l') || plain.ends_with('r')) return plain.size() - 1;
+  const std::size_t last = plain.find_last_not_of("0123456789");
+  if (last == std::string_view::npos || last + 1 == plain.size() || plain.size() - last > 3)
+    return {};
+  return last + 1;
+}
+
+bool is_one_number(std::string_view name) { return is_any_of(name, {"fx", "fy", "cx", "cy"}); }
+
+bool is_coefficient(std::string_view name) {
+  return is_any_of(name, {"k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2"});
+}
+
+bool is_size(std::string_view name) {
+  return is_any_of(
+      name, {"width", "height", "imagewidth", "imageheight", "imagesize", "size", "resolution"});
+}
+
+// A number at the end of a name of one number is a part of the name: k1.
+bool is_of_camera(std::string_view name, const json& value, bool is_numbered) {
+  if (value.is_number())
+    return is_one_number(name) || is_size(name) || (!is_numbered && is_coefficient(name));
+  return (value.is_object() || is_list(value)) &&
+         (is_matrix_name(name) || is_distortion_name(name) || is_size(name));
+}
+
+// Empty: the field has no side.
+SidedName sided_name(const std::string& written, const json& value) {
   const std::string plain = plain_name(written);
-  for (const std::string side : {"left", "right", "1", "2", "l", "r"}) {
-    std::string name;
-    if (plain.ends_with(side))
-      name = plain.substr(0, plain.size() - side.size());
-    else if (side.size() > 1 && plain.starts_with(side))
-      name = plain.substr(side.size());
-    if (name == "m") name = "k";  // of OpenCV's sample
-    if (is_matrix_name(name) || is_distortion_name(name)) return {side, name};
+  const auto named = [](std::string name) { return name == "m" ? std::string("k") : name; };
+  if (const auto end = side_before(plain)) {
+    const std::string name = named(plain.substr(*end));
+    if (is_of_camera(name, value, false)) return {plain.substr(0, *end), name};
+  }
+  if (const auto begin = side_after(plain)) {
+    const std::string name = named(plain.substr(0, *begin));
+    const bool is_numbered = std::isdigit(static_cast<unsigned char>(plain.back())) != 0;
+    if (is_of_camera(name, value, is_numbered)) return {plain.substr(*begin), name};
   }
   return {};
 }
+
+bool has_intrinsics(const json& camera) { return CameraFields(camera, "", "").has_intrinsics(); }
 
 }  // namespace
 
@@ -33,18 +90,19 @@ json split_stereo_pair(const json& fields) {
   std::map<std::string, json> cameras;
   json others = json::object();
   for (const auto& [key, value] : fields.items()) {
-    const SidedName sided = sided_name(key);
-    if (!sided.side.empty() && is_list(value))
-      cameras[sided.side][sided.name] = value;
-    else
+    const SidedName sided = sided_name(key, value);
+    if (sided.side.empty())
       others[key] = value;
+    else
+      cameras[sided.side][sided.name] = value;
   }
-  int matrices = 0;
-  for (auto& [side, camera] : cameras) {
-    for (const auto& [name, value] : camera.items()) matrices += is_matrix_name(name);
-    others[side] = camera;
-  }
-  return matrices > 1 ? others : json(nullptr);
+  std::size_t complete = 0;
+  for (const auto& [side, camera] : cameras) complete += has_intrinsics(camera);
+  if (complete == 0 || (complete == 1 && has_intrinsics(fields))) return nullptr;
+  // ORB-SLAM: the camera of the rectified images beside those of the images.
+  json all = has_intrinsics(others) ? json{{"main", others}} : others;
+  for (const auto& [side, camera] : cameras) all[side] = camera;
+  return all;
 }
 
 }  // namespace edgescout

@@ -103,13 +103,23 @@ class XmlReader {
         if (name == "_")  // OpenCV's element of a list
           unnamed.push_back(std::move(value));
         else
-          add_field(fields, name, std::move(value), source_);
+          add_element(fields, name, std::move(value));
       } else {
         text += text_[at_++];
       }
     }
     if (!unnamed.empty()) add_field(fields, "list", std::move(unnamed), source_);
     return text;
+  }
+
+  // Elements of one name that have elements of their own are a list.
+  void add_element(json& fields, const std::string& name, json value) const {
+    if (!fields.contains(name) || !value.is_object())
+      return add_field(fields, name, std::move(value), source_);
+    json& first = fields[name];
+    if (first.is_object()) first = json::array({first});
+    if (!first.is_array()) throw InputError(source_, name, "the field twice", "it once");
+    first.push_back(std::move(value));
   }
 
   static json value_of(const std::string& text) {

@@ -94,7 +94,7 @@ TEST(LoadCamera, ReadsASceneCameraWhoseImagesAgree) {
 }
 
 TEST(LoadCamera, NamesFileAndFieldOfWhatIsMissing) {
-  expect_input_error([] { load(replaced(ros, "camera_matrix", "matrix")); },
+  expect_input_error([] { load(replaced(ros, "camera_matrix", "numbers")); },
                      {"camera.yaml", "camera_matrix", "nothing"});
   expect_input_error([] { load(replaced(ros, "image_height: 480", "")); },
                      {"camera.yaml", "image_height", "nothing"});

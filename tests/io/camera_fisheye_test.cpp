@@ -66,6 +66,15 @@ Camera.height: 480
 )"},
     {"RealSense", "t265.json", R"({"width": 640, "height": 480, "fx": 700, "fy": 701, "ppx": 321,
  "ppy": 238, "model": "distortion.kannala_brandt4", "coeffs": [-0.03, 0.01, -0.005, 0.001, 0]})"},
+    {"Luxonis", "oak.json", R"({"cameraData": [[2, {"cameraType": 1,
+ "distortionCoeff": [-0.03, 0.01, -0.005, 0.001, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], "height": 480,
+ "intrinsicMatrix": [[700, 0, 321], [0, 701, 238], [0, 0, 1]], "specHfovDeg": 127,
+ "width": 640}]]})"},
+    {"Basalt", "calibration.json", R"({"value0": {"intrinsics": [
+ {"camera_type": "kb4", "intrinsics": {"fx": 700, "fy": 701, "cx": 321, "cy": 238, "k1": -0.03,
+  "k2": 0.01, "k3": -0.005, "k4": 0.001}},
+ {"camera_type": "kb4", "intrinsics": {"fx": 700, "fy": 701, "cx": 321, "cy": 238, "k1": -0.03,
+  "k2": 0.01, "k3": -0.005, "k4": 0.001}}], "resolution": [[640, 480], [640, 480]]}})"},
 };
 
 class FisheyeFile : public testing::TestWithParam<CameraSample> {};

@@ -57,6 +57,36 @@ TEST(CameraFormats, ReadsBopFisheye624) {
   EXPECT_EQ(camera.distortion, (LensCoefficients{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
 }
 
+TEST(CameraFormats, ReadsOpenMvgsOrderOfCoefficients) {
+  const Camera camera = load_one("sfm_data.json", R"({"intrinsics": [{"key": 0, "value":
+ {"polymorphic_id": 1, "polymorphic_name": "pinhole_brown_t2", "ptr_wrapper": {"id": 1, "data":
+ {"width": 640, "height": 480, "focal_length": 700, "principal_point": [321, 238],
+  "disto_t2": [-0.25, 0.12, 0.01, 0.001, -0.0005]}}}}]})");
+  EXPECT_EQ(camera.distortion, (LensCoefficients{-0.25, 0.12, 0.001, -0.0005, 0.01}));
+}
+
+TEST(CameraFormats, ReadsBouguetsSkew) {
+  const Camera camera =
+      load_one("camera.json", R"({"fc": [700, 701], "cc": [321, 238], "alpha_c": 0.01})");
+  EXPECT_DOUBLE_EQ(camera.skew, 7);
+}
+
+TEST(CameraFormats, ReadsBothModelsOfVisp) {
+  const std::string xml = R"(<?xml version="1.0"?>
+<root><camera><name>Camera</name><image_width>640</image_width><image_height>480</image_height>
+<model><type>perspectiveProjWithoutDistortion</type>
+<px>690</px><py>691</py><u0>321</u0><v0>238</v0></model>
+<model><type>perspectiveProjWithDistortion</type>
+<px>700</px><py>701</py><u0>321</u0><v0>238</v0><kud>-0.25</kud><kdu>0.3</kdu></model>
+</camera></root>)";
+  expect_input_error([&] { load_one("camera.xml", xml); },
+                     {"perspectiveProjWithDistortion", "camera_name"});
+  const Camera lens = load_one("camera.xml", xml, "perspectiveProjWithDistortion");
+  expect_pinhole(lens);
+  EXPECT_EQ(lens.distortion, LensCoefficients{-0.25});
+  EXPECT_EQ(load_one("camera.xml", xml, "perspectiveProjWithoutDistortion").fx, 690);
+}
+
 TEST(CameraFormats, ReadsThinPrismAndTilt) {
   const std::string head =
       "image_width: 640\nimage_height: 480\nK: [700, 0, 321, 0, 701, 238, 0, 0, 1]\n";

@@ -30,6 +30,53 @@ TEST(CameraFormats, RefusesWhatItDoesNotUnderstand) {
   refused("camera_matrix: [[650, 0, 321], [0, 701, 238], [0, 0, 1]]\n", {"fx", "650", "700"});
   refused("image_width: 800\n", {"image_width", "twice"});
   refused("width: 800\n", {"width", "800", "640"});
+  refused("x0: 12\n", {"K", "cx 321", "cx 12"});
+  for (const char* geometry : {"omega: 0.9\n",
+                               "kappa: -1200\n",
+                               "tilt: [0.1, 0.02]\n",
+                               "decentering: [0.001, 0.002]\n",
+                               "radial_params: [-0.25, 0.1]\n",
+                               "poly: [-0.25, 0.1]\n",
+                               "barrel: 0.1\n",
+                               "b1: 0.5\n",
+                               "shear: 2\n",
+                               "s: 2\n",
+                               "t1: 0.001\n",
+                               "d1: -0.25\n",
+                               "aoi: {x: 10, width: 300}\n",
+                               "window: [10, 20, 300, 200]\n",
+                               "AreaOfInterest: [10, 20]\n",
+                               "StartX: 10\n",
+                               "left: 10\n",
+                               "cx_offset: 3\n",
+                               "decimation: 2\n",
+                               "downscale: 2\n",
+                               "zoom: 2\n",
+                               "scale_factor: 0.5\n",
+                               "bin_x: 2\n",
+                               "ReverseX: true\n",
+                               "flip: 1\n",
+                               "mirrored: both\n",
+                               "rotate: 90\n",
+                               "image_rotation: 180\n",
+                               "orientation: 6\n",
+                               "padding: [8, 8]\n",
+                               "telecentric: true\n",
+                               "type: orthographic\n",
+                               "cam_model: omni\n",
+                               "D: '<sequence type: double, length: 5>'\n"}) {
+    const std::string field = geometry;
+    refused(field, {"camera.yaml", field.substr(0, field.find(':')).c_str(), "expected"});
+  }
+  for (const char* harmless :
+       {"square_size: 50\nboard_width: 9\nboard_height: 6\nflags: 2\nfix_aspect_ratio: 1\n",
+        "per_view_reprojection_errors: [0.1, 0.2]\nfix_k3: 1\nzero_tangent_dist: 1\n",
+        "region: EU\ndistro: humble\nwindow: calibration\n", "decimation: 1\n", "zoom: 1\n",
+        "flip: false\n", "rotate: 0\n", "orientation: 1\n",
+        "rotation: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n", "binning: 1x1\n", "lensPosition: 135\n",
+        "depth_scale: 0.001\n", "scale: 0.33\n", "offset: [0.5, 0.5]\n", "t_00: 0.1\n",
+        "aspect_ratio: 1.333\n", "polymorphic_id: 1\n"})
+    expect_pinhole(load_one("camera.yaml", head + harmless));
   for (const char* harmless :
        {"roi: {x_offset: 0, y_offset: 0, width: 0, height: 0}\n", "crop: null\n", "skew: 0\n",
         "binning: 1\n", "distortion_model: ''\nD: []\n", "lens_distortion: none\n",
@@ -46,6 +93,7 @@ TEST(CameraFormats, RefusesMatricesThatAreNone) {
   refused("K: [700, 0, 321, 0, 701, 238, 0, 0, 2]\n", {"K", "fx 0 cx"});
   refused("K: [700, 701, 321]\n", {"K", "3 numbers"});
   refused("fx: 700\nfy: 701\ncx: 321\n", {"cy", "nothing"});
+  refused("f: 700\naspect: 1.1\ncx: 321\ncy: 238\n", {"aspect", "1.1", "both axes"});
   EXPECT_EQ(load_one("camera.yaml", "K: [700, 1.5, 321, 0, 701, 238, 0, 0, 1]\n").skew, 1.5);
 }
 

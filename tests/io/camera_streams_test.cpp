@@ -150,5 +150,65 @@ D2: !!opencv-matrix
   expect_input_error([&] { load_one("intrinsics.yml", stereo); }, {"1", "2", "camera_name"});
 }
 
+// Several cameras as fields side by side.
+TEST(CameraFormats, SplitsCamerasThatShareAnObject) {
+  const auto expect = [](const std::string& text, const std::string& name,
+                         const std::string& other) {
+    const Camera camera = load_one("cameras.txt", text, name);
+    EXPECT_EQ(camera.fx, 700) << text;
+    EXPECT_EQ(camera.distortion[0], -0.25) << text;
+    EXPECT_EQ(load_one("cameras.txt", text, other).fx, 500) << text;
+    expect_input_error([&] { load_one("cameras.txt", text); }, {name, other, "camera_name"});
+  };
+  expect(
+      "[ColorIntrinsic]\nfx=700\nfy=701\ncx=321\ncy=238\n[DepthIntrinsic]\nfx=500\nfy=500\n"
+      "cx=320\ncy=240\n[ColorDistortion]\nk1=-0.25\n[DepthDistortion]\nk1=0\n",
+      "color", "depth");
+  expect(R"({"rgb_intrinsics": {"fx": 700, "fy": 701, "ppx": 321, "ppy": 238,
+ "coeffs": [-0.25, 0, 0, 0, 0]}, "depth_intrinsics": {"fx": 500, "fy": 500, "ppx": 321, "ppy": 238,
+ "coeffs": [0, 0, 0, 0, 0]}})",
+         "rgb", "depth");
+  expect(
+      "K_00: 700 0 321 0 701 238 0 0 1\nD_00: -0.25 0.12 0.001 -0.0005 0\ncorner_dist: 0.1\n"
+      "K_01: 500 0 321 0 701 238 0 0 1\nD_01: -0.3 0.12 0.001 -0.0005 0\n",
+      "00", "01");
+  expect(
+      "cam0_K: [700, 0, 321, 0, 701, 238, 0, 0, 1]\ncam0_D: [-0.25, 0, 0, 0]\n"
+      "cam1_K: [500, 0, 321, 0, 701, 238, 0, 0, 1]\ncam1_D: [0, 0, 0, 0]\n",
+      "cam0", "cam1");
+  expect(
+      "%YAML:1.0\nCamera.type: PinHole\nCamera1.fx: 700\nCamera1.fy: 701\nCamera1.cx: 321\n"
+      "Camera1.cy: 238\nCamera1.k1: -0.25\nCamera2.fx: 500\nCamera2.fy: 500\nCamera2.cx: 321\n"
+      "Camera2.cy: 238\nCamera2.k1: -0.2\nCamera.width: 640\nCamera.height: 480\n",
+      "camera1", "camera2");
+  expect(
+      "%YAML:1.0\nCamera.fx: 500\nCamera.fy: 500\nCamera.cx: 367\nCamera.cy: 252\n"
+      "LEFT.K: [700, 0, 321, 0, 701, 238, 0, 0, 1]\nLEFT.D: [-0.25, 0.12, 0, 0, 0]\n"
+      "RIGHT.K: [710, 0, 321, 0, 701, 238, 0, 0, 1]\nRIGHT.D: [-0.2, 0.12, 0, 0, 0]\n",
+      "left", "main");
+  expect(
+      "[LEFT_CAM_VGA]\nfx=700\nfy=701\ncx=321\ncy=238\n[RIGHT_CAM_VGA]\nfx=500\nfy=500\n"
+      "cx=321\ncy=238\n[LEFT_DISTO]\nk1=-0.25\n[RIGHT_DISTO]\nk1=-0.3\n[STEREO]\nBaseline=63\n",
+      "LEFT_CAM_VGA", "RIGHT_CAM_VGA");
+}
+
+// Lenses that stand beside the cameras and belong to none.
+TEST(CameraFormats, RefusesALensBesideTheCameras) {
+  expect_input_error(
+      [] {
+        load_text("c.json", R"({"a": {"fx": 700, "fy": 701, "cx": 321, "cy": 238},
+ "calibration_of_a": {"k1": -0.25}, "b": {"fx": 500, "fy": 500, "cx": 320, "cy": 240}})");
+      },
+      {"calibration_of_a/k1", "-0.25", "looks like a lens"});
+  expect_input_error(
+      [] {
+        load_one("c.json",
+                 R"({"fx": 700, "fy": 701, "cx": 321, "cy": 238, "result": {"k1": -0.25}})");
+      },
+      {"result/k1", "-0.25", "looks like a lens"});
+  load_one("c.json", R"({"fx": 700, "fy": 701, "cx": 321, "cy": 238,
+ "extrinsics": {"rotation": 90}, "infrared_camera": {"fx": 5, "fy": 5, "cx": 3, "cy": 3, "k1": 1}})");
+}
+
 }  // namespace
 }  // namespace edgescout::test

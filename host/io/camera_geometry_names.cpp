@@ -1,0 +1,105 @@
+// Names of fields that change where a point is seen, or what image the calibration is for. They are
+// names that no reader knows: what is read is never asked here.
+#include <algorithm>
+#include <cctype>
+
+#include "host/io/camera_fields.h"
+
+namespace edgescout {
+
+using nlohmann::json;
+
+namespace {
+
+bool is_numbered(std::string_view name, std::string_view letters, std::size_t most_digits) {
+  return name.size() >= 2 && name.size() <= 1 + most_digits &&
+         letters.find(name[0]) != std::string_view::npos &&
+         std::ranges::all_of(name.substr(1), [](unsigned char c) { return std::isdigit(c); });
+}
+
+// Of a product or of a program's settings.
+bool says_nothing_of_the_image(std::string_view name) {
+  return is_any_of(name, {"numradialdistortioncoefficients", "estimatetangentialdistortion",
+                          "estimateskew", "lensname", "lensserial", "lensserialnumber", "lensmake",
+                          "lensid", "lensmodelname", "lensposition"});
+}
+
+bool is_lens(std::string_view name, const json& value) {
+  if (value.is_number() &&
+      (is_numbered(name, "kps", 2) || is_numbered(name, "dab", 1) ||
+       is_any_of(name, {"xi", "alpha", "beta", "omega", "s", "t1", "t2", "dist", "alphac"})))
+    return true;
+  if (value.is_string() && is_distortion_name(name)) return true;
+  return name.starts_with("tau") || name.ends_with("poly") || is_any_of(name, {"codx", "cody"}) ||
+         contains_any_of(
+             name,
+             {"distort",     "fisheye",     "lens",      "prism",       "tangential", "radial",
+              "coef",        "decent",      "barrel",    "pincushion",  "warp",       "kappa",
+              "tilt",        "scheimpflug", "shear",     "skew",        "omnidir",    "mirrorparam",
+              "affineparam", "polynom",     "polyparam", "telecentric", "entocentric"});
+}
+
+bool is_one(const json& value) {
+  if (value.is_string()) return is_any_of(plain_name(value.get<std::string>()), {"1", "1x1"});
+  if (value.is_array()) return std::ranges::all_of(value, is_one);
+  return value == 1;
+}
+
+// A part of the image, binned or resized.
+bool is_region(std::string_view name, const json& value) {
+  if (value.is_number() && is_any_of(name, {"left", "top"})) return true;
+  const bool is_scale =
+      contains_any_of(
+          name, {"binning", "decimat", "subsampl", "downsampl", "downscal", "upscal", "zoom"}) ||
+      name.starts_with("resiz") ||
+      is_any_of(name, {"imageresize", "isresized", "binx", "biny", "xbin", "ybin", "hbin", "vbin",
+                       "imagescale", "imgscale", "scalefactor", "scalingfactor"});
+  if (is_scale) return !is_one(value);
+  const bool is_word = value.is_string() && !is_list(value);
+  if (!is_word && is_any_of(name, {"window", "region"})) return true;
+  return name.starts_with("roi") || name.ends_with("roi") || name.ends_with("aoi") ||
+         is_any_of(name, {"xoffset", "yoffset", "offsetx", "offsety", "cxoffset", "cyoffset",
+                          "xstart", "ystart", "startx", "starty", "imagewindow", "sensorwindow",
+                          "imageregion", "pad"}) ||
+         contains_any_of(name, {"crop", "regionofinterest", "areaofinterest", "subwindow",
+                                "viewport", "padding", "principalpoint"});
+}
+
+// Turned or mirrored. A matrix of that name is a pose.
+bool is_orientation(std::string_view name, const json& value) {
+  if (contains_any_of(name, {"flip", "mirror", "transpos"}) ||
+      is_any_of(name, {"reversex", "reversey"}))
+    return true;
+  if (!value.is_number()) return false;
+  if (name.ends_with("orientation")) return value != 1;  // of EXIF
+  return name == "rotate" || name.ends_with("rotation") ||
+         is_any_of(name, {"rotationdeg", "rotationdegrees", "rotationangle", "rotated"});
+}
+
+// Objects that are about something else than the image.
+bool is_pose(std::string_view name) {
+  return contains_any_of(name, {"extrinsic", "pose", "imu", "transform", "handeye"});
+}
+
+}  // namespace
+
+bool changes_the_image(std::string_view name, const json& value) {
+  return !is_trivial(value) && !says_nothing_of_the_image(name) &&
+         (is_lens(name, value) || is_region(name, value) || is_orientation(name, value));
+}
+
+std::optional<JsonField> field_that_changes_the_image(const JsonField& field, int depth) {
+  const std::string name = plain_name(field.path.substr(field.path.find_last_of("/.") + 1));
+  if (changes_the_image(name, field.value)) return field;
+  const bool is_searched =
+      field.value.is_object() && !field.value.contains("data") && depth < 4 && !is_pose(name);
+  if (!is_searched || CameraFields(field.value, field.source, field.path).has_intrinsics())
+    return {};
+  for (const auto& [key, value] : field.value.items())
+    if (const auto found =
+            field_that_changes_the_image({value, field.source, field.path + "/" + key}, depth + 1))
+      return found;
+  return {};
+}
+
+}  // namespace edgescout
