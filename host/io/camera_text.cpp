@@ -11,33 +11,18 @@ using nlohmann::json;
 
 namespace {
 
-std::string trimmed(std::string_view line) {
-  const std::size_t from = line.find_first_not_of(" \t");
-  if (from == std::string_view::npos) return "";
-  return std::string(line.substr(from, line.find_last_not_of(" \t") + 1 - from));
-}
-
-// Lines without blanks at their ends, empty lines and comments.
+// Lines without blanks at their ends, empty lines and comments. rostopic's "%time" is none.
 std::vector<std::string> lines_of(std::string_view text) {
   std::vector<std::string> lines;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
     std::string line = trimmed(text.substr(at, end - at));
-    if (!line.empty() && line[0] != '#' && line[0] != '%' && !line.starts_with("//"))
-      lines.push_back(std::move(line));
+    const bool is_comment = line.starts_with('#') || line.starts_with("//") ||
+                            (line.starts_with('%') && !line.starts_with("%time,"));
+    if (!line.empty() && !is_comment) lines.push_back(std::move(line));
     at = end + 1;
   }
   return lines;
-}
-
-std::vector<std::string> words_of(const std::string& line) {
-  std::vector<std::string> words;
-  for (std::size_t at = line.find_first_not_of(" \t"); at != std::string::npos;) {
-    const std::size_t end = std::min(line.find_first_of(" \t", at), line.size());
-    words.push_back(line.substr(at, end - at));
-    at = line.find_first_not_of(" \t", end);
-  }
-  return words;
 }
 
 // cam_K.txt, also a 3x4 or 4x4 matrix, or "fx fy cx cy".
@@ -85,8 +70,8 @@ bool is_section(const std::string& line) {
 
 // ROS camera_calibration: a name of several words on a line, its numbers on the next lines.
 json ost_cameras(const std::vector<std::string>& lines, const std::string& source) {
-  const auto is_stereo = [](const std::string& line) { return line.starts_with("[narrow_stereo"); };
-  if (std::ranges::none_of(lines, is_stereo)) return nullptr;
+  const auto is_matrix = [](const std::string& line) { return line == "camera matrix"; };
+  if (std::ranges::none_of(lines, is_matrix)) return nullptr;
   json cameras = json::array();
   std::string name;
   for (const std::string& line : lines) {
@@ -131,11 +116,34 @@ json realsense_cameras(const std::vector<std::string>& lines, const std::string&
   return cameras.empty() ? json(nullptr) : cameras;
 }
 
+// Lists that go on over several lines become one line. Comments are left out; within brackets a
+// semicolon divides rows.
+std::vector<std::string> with_whole_lists(const std::vector<std::string>& lines) {
+  std::vector<std::string> whole;
+  int open_brackets = 0;
+  for (const std::string& line : lines) {
+    const bool goes_on = open_brackets > 0 && whole.back().find('=') != std::string::npos;
+    if (!goes_on) open_brackets = 0;
+    std::string text;
+    for (const char c : line) {
+      if (c == '#' || (c == ';' && open_brackets <= 0)) break;
+      open_brackets += c == '[' ? 1 : c == ']' ? -1 : 0;
+      text += c;
+    }
+    if (goes_on)
+      whole.back().append(1, ' ').append(trimmed(text));
+    else
+      whole.push_back(trimmed(text));
+  }
+  return whole;
+}
+
 // name = value, below [sections]. A comment may end a line.
 json ini_cameras(const std::vector<std::string>& lines, const std::string& source) {
   json root = json::object();
   json* section = &root;
-  for (const std::string& line : lines) {
+  for (const std::string& line : with_whole_lists(lines)) {
+    if (line.empty()) continue;
     if (is_section(line)) {
       const std::string name = line.substr(1, line.size() - 2);
       add_field(root, name, json::object(), source);
@@ -144,8 +152,7 @@ json ini_cameras(const std::vector<std::string>& lines, const std::string& sourc
     }
     const std::size_t equals = line.find('=');
     if (equals == std::string::npos || equals == 0 || line.find(':') < equals) return nullptr;
-    std::string value = line.substr(equals + 1);
-    value = trimmed(value.substr(0, std::min(value.find('#'), value.find(';'))));
+    std::string value = trimmed(line.substr(equals + 1));
     if (value.size() > 1 && value.front() == '"' && value.back() == '"')
       value = value.substr(1, value.size() - 2);
     add_field(*section, trimmed(line.substr(0, equals)), value_in(value), source);
@@ -155,6 +162,22 @@ json ini_cameras(const std::vector<std::string>& lines, const std::string& sourc
 
 }  // namespace
 
+std::string trimmed(std::string_view line) {
+  const std::size_t from = line.find_first_not_of(" \t");
+  if (from == std::string_view::npos) return "";
+  return std::string(line.substr(from, line.find_last_not_of(" \t") + 1 - from));
+}
+
+std::vector<std::string> words_of(std::string_view line, std::string_view between) {
+  std::vector<std::string> words;
+  for (std::size_t at = line.find_first_not_of(between); at != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(between, at), line.size());
+    words.emplace_back(line.substr(at, end - at));
+    at = line.find_first_not_of(between, end);
+  }
+  return words;
+}
+
 json text_camera_tree(std::string_view text, const std::string& source) {
   const std::vector<std::string> lines = lines_of(text);
   if (lines.empty()) return nullptr;
@@ -162,6 +185,7 @@ json text_camera_tree(std::string_view text, const std::string& source) {
   if (json tree = colmap_cameras(lines); !tree.is_null()) return tree;
   if (json tree = ost_cameras(lines, source); !tree.is_null()) return tree;
   if (json tree = realsense_cameras(lines, source); !tree.is_null()) return tree;
+  if (json tree = printed_camera_tree(lines, source); !tree.is_null()) return tree;
   return ini_cameras(lines, source);
 }
 

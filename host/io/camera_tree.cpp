@@ -130,7 +130,12 @@ json parse_camera_tree(const std::string& bytes, const std::string& source, bool
   // A YAML map may begin with a brace as well.
   if (text[start] == '{' && json::accept(text, true)) return parse_json(text, source);
   if (json tree = text_camera_tree(text, source); !tree.is_null()) return tree;
-  return yaml_camera_tree(text, source);
+  try {
+    return yaml_camera_tree(printed_as_yaml(text), source);
+  } catch (const InputError&) {
+    if (json tree = headed_numbers(text, source); !tree.is_null()) return tree;
+    throw;
+  }
 }
 
 }  // namespace edgescout

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace edgescout {
 
@@ -19,6 +20,19 @@ nlohmann::json xml_camera_tree(std::string_view text, const std::string& source)
 // Numbers alone (cam_K.txt), COLMAP's cameras.txt, ROS ost.txt, the list of `rs-enumerate-devices
 // -c`, and INI. Null: the text is none of these.
 nlohmann::json text_camera_tree(std::string_view text, const std::string& source);
+
+// What programs print of a camera, as lines without empty ones: a table with commas below names
+// (rostopic echo -p), a name and its numbers in each line, librealsense's intrinsics. Null: none of
+// these.
+nlohmann::json printed_camera_tree(const std::vector<std::string>& lines,
+                                   const std::string& source);
+// Python's dictionary, and fields of one line, as YAML. Other texts come back unchanged.
+std::string printed_as_yaml(const std::string& text);
+// Names that stand above their numbers (numpy's print). Null: no matrix has such a name.
+nlohmann::json headed_numbers(const std::string& text, const std::string& source);
+
+std::string trimmed(std::string_view line);
+std::vector<std::string> words_of(std::string_view line, std::string_view between = " \t");
 
 // A number, a truth value, null (also for an empty word) or the word itself. "nan" and "inf" are
 // numbers, so that their reader can refuse them as such.

@@ -226,6 +226,91 @@ Camera.fps: 30.0
     {"RealSense, text of one stream", "rs.yaml",
      "Width: 640\nHeight: 480\nPPX: 321\nPPY: 238\n"
      "Fx: 700\nFy: 701\nDistortion: Brown Conrady\nCoeffs: -0.25  0.12  0.001  -0.0005  0\n"},
+    {"ROS, table of rostopic echo -p", "info.csv",
+     "%time,field.header.seq,field.height,field.width,field.distortion_model,field.D0,field.D1,"
+     "field.D2,field.D3,field.K0,field.K1,field.K2,field.K3,field.K4,field.K5,field.K6,field.K7,"
+     "field.K8,field.binning_x\n"
+     "1,1,480,640,plumb_bob,-0.25,0.12,0.001,-0.0005,700,0,321,0,701,238,0,0,1,0\n"
+     "2,2,480,640,plumb_bob,-0.25,0.12,0.001,-0.0005,700,0,321,0,701,238,0,0,1,0\n"},
+    {"ROS, section of the camera's name", "camera.ini",
+     "# Camera intrinsics\n\n[image]\n\nwidth\n640\n\nheight\n480\n\n[head]\n\ncamera matrix\n"
+     "700 0 321\n0 701 238\n0 0 1\n\ndistortion\n-0.25 0.12 0.001 -0.0005 0\n"},
+    {"OpenCV stereo, one camera", "left.yml", R"(%YAML:1.0
+---
+M1: !!opencv-matrix
+   rows: 3
+   cols: 3
+   dt: d
+   data: [ 700., 0., 321., 0., 701., 238., 0., 0., 1. ]
+D1: !!opencv-matrix
+   rows: 1
+   cols: 5
+   dt: d
+   data: [ -0.25, 0.12, 0.001, -0.0005, 0. ]
+size: [ 640, 480 ]
+)"},
+    {"Python, arrays of one array", "calib.json",
+     R"({"DIM": [640, 480], "matrix": [[[700, 0, 321], [0, 701, 238], [0, 0, 1]]],
+ "coefs": [[[-0.25], [0.12], [0.001], [-0.0005]]]})"},
+    {"Python, printed dictionary", "calib.txt",
+     "{'K': array([[700.,   0., 321.],\n       [  0., 701., 238.],\n       [  0.,   0.,   1.]]), "
+     "'dist': array([[-0.25, 0.12, 0.001, -0.0005]]), 'image_size': (640, 480)}\n"},
+    {"numpy, assigned", "calib.txt",
+     "mtx = [[700.   0. 321.]\n [  0. 701. 238.]\n [  0.   0.   1.]]\n"
+     "dist = [[-0.25 0.12 0.001 -0.0005]]\nimage_size = (640, 480)\n"},
+    {"numpy, printed below names", "calib.txt",
+     "Camera matrix :\n\n[[700.   0. 321.]\n [  0. 701. 238.]\n [  0.   0.   1.]]\ndist :\n\n"
+     "[[-0.25 0.12 0.001 -0.0005]]\nimage size: 640 480\n"},
+    {"names before numbers", "calib.txt",
+     "fx 700\nfy 701\ncx 321\ncy 238\nd -0.25 0.12 0.001 -0.0005\nsize 640 480\n"},
+    {"table with commas", "calib.csv",
+     "fx,fy,cx,cy,k1,k2,p1,p2,width,height\n700,701,321,238,-0.25,0.12,0.001,-0.0005,640,480\n"},
+    {"vikit, SVO", "camera.yaml",
+     "cam_model: Pinhole\ncam_width: 640\ncam_height: 480\ncam_fx: 700\ncam_fy: 701\n"
+     "cam_cx: 321\ncam_cy: 238\ncam_d0: -0.25\ncam_d1: 0.12\ncam_d2: 0.001\ncam_d3: -0.0005\n"},
+    {"camodocal, all coefficients", "cam.yaml", R"(%YAML:1.0
+---
+model_type: PINHOLE_FULL
+image_width: 640
+image_height: 480
+distortion_parameters: {k1: -0.25, k2: 0.12, k3: 0, k4: 0, k5: 0, k6: 0, p1: 0.001, p2: -0.0005}
+projection_parameters: {fx: 700, fy: 701, cx: 321, cy: 238}
+)"},
+    {"Bouguet's toolbox", "Calib_Results.m", R"(% Intrinsic and Extrinsic Camera Parameters
+%-- Focal length:
+fc = [ 700.000000000000000 ; 701.000000000000000 ];
+cc = [ 321 ; 238 ];
+alpha_c = 0.000000000000000;
+kc = [ -0.25 ; 0.12 ; 0.001 ; -0.0005 ; 0.000000000000000 ];
+fc_error = [ 0.3 ; 0.3 ];
+nx = 640;
+ny = 480;
+est_dist = [ 1 ; 1 ; 1 ; 1 ; 0 ];
+)"},
+    {"MATLAB, assigned", "camera.m",
+     "cameraParams.FocalLength = [700 701];\ncameraParams.PrincipalPoint = [322 239];\n"
+     "cameraParams.RadialDistortion = [-0.25 0.12];\n"
+     "cameraParams.TangentialDistortion = [0.001 -0.0005];\n"
+     "cameraParams.ImageSize = [480 640];\n"},
+    {"MATLAB's names in another spelling", "camera.json",
+     R"({"imageSize": [480, 640], "radialDistortion": [-0.25, 0.12],
+ "tangentialDistortion": [0.001, -0.0005], "focalLength": [700, 701], "principalPoint": [321, 238]})"},
+    {"TOML, lists over several lines", "camera.toml",
+     "[camera]\nwidth = 640\nheight = 480\nmatrix = [\n  [700.0, 0.0, 321.0], # fx\n"
+     "  [0.0, 701.0, 238.0],\n  [0.0, 0.0, 1.0],\n]\n"
+     "distortions = [\n  -0.25, 0.12, 0.001, -0.0005\n]\n"},
+    {"TOML, dotted sections", "camera.toml",
+     "[camera.intrinsics]\nfx = 700\nfy = 701\ncx = 321\ncy = 238\n[camera.distortion]\n"
+     "coeffs = [-0.25, 0.12, 0.001, -0.0005]\n[camera.image]\nwidth = 640\nheight = 480\n"},
+    {"RealSense, printed by Python", "rs.txt",
+     "[ 640x480  p[321 238]  f[700 701]  Brown Conrady [-0.25 0.12 0.001 -0.0005 0] ]\n"},
+    {"RealSense, printed in one line", "rs.txt",
+     "width: 640, height: 480, ppx: 321, ppy: 238, fx: 700, fy: 701, model: Brown Conrady, "
+     "coeffs: [-0.25, 0.12, 0.001, -0.0005, 0]\n"},
+    {"Luxonis", "oak.json", R"({"boardName": "X", "cameraData": [[2, {"cameraType": 0,
+ "distortionCoeff": [-0.25, 0.12, 0.001, -0.0005, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], "height": 480,
+ "intrinsicMatrix": [[700, 0, 321], [0, 701, 238], [0, 0, 1]], "lensPosition": 135,
+ "specHfovDeg": 71.8, "width": 640}]]})"},
 };
 
 class BrownConradyFile : public testing::TestWithParam<CameraSample> {};

@@ -1,0 +1,153 @@
+// Cameras as programs print them, for eyes rather than for readers.
+#include <algorithm>
+#include <cctype>
+
+#include "host/io/camera_fields.h"
+#include "host/io/camera_tree.h"
+#include "kernels/error.h"
+
+namespace edgescout {
+
+using nlohmann::json;
+
+namespace {
+
+bool is_name(std::string_view word) {
+  constexpr std::size_t longest = 60;
+  return !word.empty() && word.size() < longest &&
+         !std::isdigit(static_cast<unsigned char>(word[0])) &&
+         std::ranges::all_of(word, [](unsigned char c) {
+           return std::isalnum(c) || c == '_' || c == '.' || c == '%' || c == '-';
+         });
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  for (std::size_t at = 0; at <= line.size();) {
+    const std::size_t end = std::min(line.find(',', at), line.size());
+    cells.push_back(trimmed(std::string_view(line).substr(at, end - at)));
+    at = end + 1;
+  }
+  return cells;
+}
+
+// rostopic writes field.K0 .. field.K8: they are one list.
+void add_cell(json& camera, std::string name, const std::string& cell, const std::string& source) {
+  constexpr std::string_view of_rostopic = "field.";
+  if (!name.starts_with(of_rostopic)) return add_field(camera, name, scalar_of(cell), source);
+  name.erase(0, of_rostopic.size());
+  const std::size_t end = name.find_last_not_of("0123456789") + 1;
+  if (end == name.size()) return add_field(camera, name, scalar_of(cell), source);
+  camera[name.substr(0, end)].push_back(scalar_of(cell));
+}
+
+// Names in the first line, a camera in every other one.
+json table_of_cameras(const std::vector<std::string>& lines, const std::string& source) {
+  const std::vector<std::string> names = cells_of(lines.front());
+  if (lines.size() < 2 || names.size() < 4 || !std::ranges::all_of(names, is_name)) return nullptr;
+  constexpr std::size_t most_cells = 100'000;
+  if (lines.size() * names.size() > most_cells)
+    throw InputError(source, "table", std::to_string(lines.size()) + " lines", "a few");
+  json cameras = json::array();
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    const std::vector<std::string> cells = cells_of(lines[i]);
+    if (cells.size() != names.size()) return nullptr;
+    cameras.push_back(json::object());
+    for (std::size_t k = 0; k < names.size(); ++k)
+      add_cell(cameras.back(), names[k], cells[k], source);
+  }
+  return cameras;
+}
+
+// "fx 700", "K 700 0 321 0 700 238 0 0 1".
+json names_before_numbers(const std::vector<std::string>& lines, const std::string& source) {
+  json camera = json::object();
+  for (const std::string& line : lines) {
+    const std::size_t end = line.find_first_of(" \t");
+    if (end == std::string::npos || !is_name(line.substr(0, end))) return nullptr;
+    const json numbers = numbers_in(line.substr(end));
+    if (numbers.is_null()) return nullptr;
+    add_field(camera, line.substr(0, end), numbers.size() == 1 ? numbers[0] : numbers, source);
+  }
+  return camera;
+}
+
+// The text between two marks. Empty: they are not there.
+std::string between(const std::string& text, std::string_view before, char after) {
+  const std::size_t start = text.find(before);
+  if (start == std::string::npos) return "";
+  const std::size_t from = start + before.size(), end = text.find(after, from);
+  return end == std::string::npos ? "" : text.substr(from, end - from);
+}
+
+// "[ 640x480  p[321 238]  f[700 701]  Brown Conrady [0 0 0 0 0] ]" of pyrealsense2.
+json realsense_print(const std::vector<std::string>& lines) {
+  const std::string& line = lines.front();
+  const std::size_t focal_at = line.find(" f[");
+  if (lines.size() != 1 || line[0] != '[' || focal_at == std::string::npos) return nullptr;
+  const json center = numbers_in(between(line, " p[", ']')),
+             focal = numbers_in(between(line, " f[", ']'));
+  const std::size_t model_at = line.find(']', focal_at) + 1, list_at = line.find('[', model_at);
+  if (center.size() != 2 || focal.size() != 2 || list_at == std::string::npos) return nullptr;
+  return {{"resolution", trimmed(between(line, "[", 'p'))},
+          {"ppx", center[0]},
+          {"ppy", center[1]},
+          {"fx", focal[0]},
+          {"fy", focal[1]},
+          {"model", trimmed(line.substr(model_at, list_at - model_at))},
+          {"coeffs", numbers_in(line.substr(list_at))}};
+}
+
+}  // namespace
+
+json printed_camera_tree(const std::vector<std::string>& lines, const std::string& source) {
+  if (json tree = realsense_print(lines); !tree.is_null()) return tree;
+  if (json tree = table_of_cameras(lines, source); !tree.is_null()) return tree;
+  return names_before_numbers(lines, source);
+}
+
+std::string printed_as_yaml(const std::string& text) {
+  const std::size_t start = text.find_first_not_of(" \t\n");
+  if (start == std::string::npos) return text;
+  if (text[start] == '{') {
+    std::string lists;
+    for (std::size_t at = start; at < text.size(); ++at) {
+      constexpr std::string_view array = "array(";
+      if (text.compare(at, array.size(), array) == 0) at += array.size() - 1;
+      lists += text[at] == '(' ? '[' : text[at] == ')' ? ']' : text[at];
+    }
+    return lists;
+  }
+  const std::string line = trimmed(text.substr(start, text.find_last_not_of(" \t\n") + 1 - start));
+  const bool is_one_line = line.find('\n') == std::string::npos;
+  const std::size_t comma = line.find(", "), colon = line.find(": ");
+  if (is_one_line && colon < comma && comma != std::string::npos &&
+      line.find(": ", comma) != std::string::npos && is_name(line.substr(0, colon)))
+    return "{" + line + "}";
+  return text;
+}
+
+json headed_numbers(const std::string& text, const std::string& source) {
+  json camera = json::object();
+  std::string name;
+  bool has_matrix = false;
+  for (const std::string& written : words_of(text, "\n")) {
+    const std::string line = trimmed(written);
+    const json numbers = numbers_in(line);
+    if (line.empty()) continue;
+    if (numbers.is_null()) {
+      const std::size_t end = line.find_first_of(":=");
+      name = trimmed(line.substr(0, end));
+      const std::string value = end == std::string::npos ? "" : trimmed(line.substr(end + 1));
+      add_field(camera, name, value.empty() ? json::array() : value_in(value), source);
+    } else if (name.empty() || !camera[name].is_array()) {
+      return nullptr;
+    } else {
+      for (const json& number : numbers) camera[name].push_back(number);
+      has_matrix = has_matrix || is_matrix_name(plain_name(name));
+    }
+  }
+  return has_matrix ? camera : json(nullptr);
+}
+
+}  // namespace edgescout
