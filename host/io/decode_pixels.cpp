@@ -5,6 +5,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "host/core/option_names.h"
+#include "host/io/exif.h"
 #include "host/io/files.h"
 #include "host/io/image_header.h"
 #include "kernels/error.h"
@@ -19,9 +20,11 @@ std::string an_image() {
   return "a PNG, JPEG or other image (" + option_name("raw-size") + " reads one without a header)";
 }
 
-// Decoders fill the missing rest of a truncated image with grey and only warn. So the end marks of
-// the two common formats are checked here.
+// Decoders fill the missing rest of a truncated image with grey and only warn, or write lines of
+// their own. So the size of files without compression and the end marks of two formats are checked
+// here.
 bool is_cut_short(const std::string& bytes) {
+  if (bytes.size() < stated_bytes(bytes)) return true;
   if (bytes.starts_with("\x89PNG")) return bytes.find("IEND") == std::string::npos;
   if (!bytes.starts_with("\xff\xd8")) return false;
   // Coded data never holds these two-byte marks, and an embedded thumbnail ends before the scan
@@ -100,9 +103,11 @@ cv::Mat decode_pixels(const std::string& bytes, const ImageOptions& options,
   if (!begins_as_image(bytes) && !options.raw_size_px.empty())
     return raw_image(bytes, options, source);
   const std::optional<StatedSize> size = stated_size(bytes);
-  if (is_cut_short(bytes)) throw InputError(source, "image", "a file cut short", "a whole image");
   if (size) require_size(*size, source);
-  return decode(bytes, source);
+  if (is_cut_short(bytes)) throw InputError(source, "image", "a file cut short", "a whole image");
+  if (const std::string found = undecodable(bytes); !found.empty())
+    throw InputError(source, "image", found, an_image());
+  return decode(exif_orientation(bytes) == 1 ? bytes : as_stored(bytes), source);
 }
 
 }  // namespace edgescout

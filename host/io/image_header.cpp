@@ -42,6 +42,7 @@ class HeaderWords {
     std::from_chars(word.data(), word.data() + word.size(), value);
     return value;
   }
+  std::size_t end() const { return at_; }  // of the last word
 
  private:
   std::string_view text_;
@@ -63,6 +64,35 @@ MaybeSize portable_size(std::string_view bytes) {
     else if (word == "HEIGHT")
       size.height = words.number();
   return size;
+}
+
+// Of portable files with binary whole numbers.
+struct PortableLayout {
+  std::uint64_t pixels = 0, channels = 1, white = 255;
+  std::size_t pixels_at = 0;
+};
+
+std::optional<PortableLayout> portable_layout(std::string_view bytes) {
+  HeaderWords words(bytes);
+  const std::string_view kind = words.next();
+  PortableLayout layout;
+  if (kind == "P5" || kind == "P6") {
+    layout.channels = kind == "P5" ? 1 : 3;
+    layout.pixels = words.number() * words.number();
+    layout.white = words.number();
+  } else if (kind == "P7") {
+    const MaybeSize size = portable_size(bytes);
+    layout.pixels = size->width * size->height;
+    for (std::string_view word = words.next(); word != "ENDHDR"; word = words.next()) {
+      if (word.empty()) return {};
+      if (word == "DEPTH") layout.channels = words.number();
+      if (word == "MAXVAL") layout.white = words.number();
+    }
+  } else {
+    return {};
+  }
+  layout.pixels_at = words.end() + 1;
+  return layout;
 }
 
 // "-Y 480 +X 640" after the lines of Radiance's header.
@@ -105,6 +135,16 @@ MaybeSize bmp_size(const ByteNumbers& numbers) {
   return size;
 }
 
+// Where the pixels of an uncompressed file end.
+std::uint64_t bmp_end(const ByteNumbers& numbers) {
+  constexpr unsigned oldest_info = 12;
+  const MaybeSize size = bmp_size(numbers);
+  if (!size || size->height == 0 || numbers.at(14, 4) == oldest_info || numbers.at(30, 4) != 0)
+    return 0;
+  const std::uint64_t row_bits = size->width * numbers.at(28, 2);
+  return numbers.at(10, 4) + (row_bits + 31) / 32 * 4 * (size->height - 1) + (row_bits + 7) / 8;
+}
+
 // Places and widths of the numbers in the directories of a TIFF file, and of one beyond 4 GiB.
 struct TiffLayout {
   std::size_t first_directory_at, offset_bytes, count_bytes, entry_bytes;
@@ -127,20 +167,51 @@ std::uint64_t tiff_entries(const ByteNumbers& numbers) {
                                  numbers.bytes.size() / layout.entry_bytes);
 }
 
-MaybeSize tiff_size(const ByteNumbers& numbers) {
+// Where the value of a tag stands in the first directory, and its bytes. 0: it has none.
+struct TiffValue {
+  std::size_t at = 0, bytes = 4;
+};
+
+TiffValue tiff_value(const ByteNumbers& numbers, std::uint64_t tag) {
   const TiffLayout layout = tiff_layout(numbers);
   const std::size_t entries = tiff_directory(numbers) + layout.count_bytes;
-  StatedSize size;
   for (std::uint64_t i = 0; i < tiff_entries(numbers); ++i) {
     const std::size_t entry = entries + i * layout.entry_bytes;
-    constexpr unsigned width_tag = 256, height_tag = 257, two_bytes = 3, eight_bytes = 16;
-    const std::uint64_t tag = numbers.at(entry, 2), type = numbers.at(entry + 2, 2);
-    const std::size_t bytes = type == two_bytes ? 2 : type == eight_bytes ? 8 : 4;
-    const std::size_t value_at = entry + 4 + layout.offset_bytes;
-    if (tag == width_tag) size.width = numbers.at(value_at, bytes);
-    if (tag == height_tag) size.height = numbers.at(value_at, bytes);
+    if (numbers.at(entry, 2) != tag) continue;
+    constexpr unsigned two_bytes = 3, eight_bytes = 16;
+    const std::uint64_t type = numbers.at(entry + 2, 2);
+    return {entry + 4 + layout.offset_bytes, type == two_bytes     ? 2u
+                                             : type == eight_bytes ? 8u
+                                                                   : 4u};
   }
-  return size;
+  return {};
+}
+
+std::uint64_t tiff_number(const ByteNumbers& numbers, std::uint64_t tag, std::uint64_t otherwise) {
+  const TiffValue value = tiff_value(numbers, tag);
+  return value.at == 0 ? otherwise : numbers.at(value.at, value.bytes);
+}
+
+MaybeSize tiff_size(const ByteNumbers& numbers) {
+  constexpr unsigned width_tag = 256, height_tag = 257;
+  return StatedSize{tiff_number(numbers, width_tag, 0), tiff_number(numbers, height_tag, 0)};
+}
+
+// Pixels that OpenCV does not decode. Of several channels the number is a place in the file.
+std::string tiff_trouble(const ByteNumbers& numbers) {
+  constexpr unsigned bits_tag = 258, colours_tag = 262, channels_tag = 277, format_tag = 339;
+  constexpr unsigned whole = 1, real = 3, mosaic = 32803, linear_raw = 34892;
+  const std::uint64_t colours = tiff_number(numbers, colours_tag, 1);
+  if (colours == mosaic || colours == linear_raw)
+    return "TIFF with the raw values of a sensor (photometric interpretation " +
+           std::to_string(colours) + ")";
+  if (tiff_number(numbers, channels_tag, 1) != 1) return "";
+  const std::uint64_t bits = tiff_number(numbers, bits_tag, 1),
+                      format = tiff_number(numbers, format_tag, whole);
+  if (format == real && bits == 16) return "TIFF with real numbers of 16 bit";
+  if (format == whole && bits > 16)
+    return "TIFF with whole numbers of " + std::to_string(bits) + " bit";
+  return "";
 }
 
 MaybeSize webp_size(const ByteNumbers& numbers) {
@@ -274,6 +345,40 @@ std::optional<StatedSize> stated_size(std::string_view bytes) {
       break;
   }
   return {};
+}
+
+std::uint64_t stated_bytes(std::string_view bytes) {
+  const Kind kind = kind_of(bytes);
+  if (kind == Kind::Bmp) return bmp_end({bytes, false});
+  const auto layout = kind == Kind::Portable ? portable_layout(bytes) : std::nullopt;
+  if (!layout) return 0;
+  return layout->pixels_at + layout->pixels * layout->channels * (layout->white > 255 ? 2 : 1);
+}
+
+std::optional<double> stated_white(std::string_view bytes) {
+  const auto layout = kind_of(bytes) == Kind::Portable ? portable_layout(bytes) : std::nullopt;
+  constexpr std::uint64_t largest = 65535;
+  if (!layout || layout->white == 0 || layout->white == 255 || layout->white >= largest) return {};
+  return static_cast<double>(layout->white);
+}
+
+std::string undecodable(std::string_view bytes) {
+  const Kind kind = kind_of(bytes);
+  if (kind == Kind::Tiff) return tiff_trouble({bytes, bytes.starts_with("MM")});
+  return kind == Kind::Unknown && !bytes.starts_with("BM") ? "data that no image decoder accepts"
+                                                           : "";
+}
+
+std::string as_stored(const std::string& bytes) {
+  constexpr unsigned orientation_tag = 274;
+  if (!is_tiff(bytes)) return bytes;
+  const bool big_endian = bytes.starts_with("MM");
+  const TiffValue value = tiff_value({bytes, big_endian}, orientation_tag);
+  if (value.at == 0 || value.at + value.bytes > bytes.size()) return bytes;
+  std::string stored = bytes;
+  for (std::size_t i = 0; i < value.bytes; ++i)
+    stored[value.at + i] = i == (big_endian ? value.bytes - 1 : 0) ? '\1' : '\0';
+  return stored;
 }
 
 bool has_more_pages(std::string_view bytes) {

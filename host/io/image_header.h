@@ -26,6 +26,19 @@ std::optional<StatedSize> stated_size(std::string_view bytes);
 // Whether these are the first bytes, 16 or more, of a file of such a format.
 bool begins_as_image(std::string_view bytes);
 
+// The bytes that a file without compression (BMP, PGM, PPM, PAM) has at least. 0: not known.
+std::uint64_t stated_bytes(std::string_view bytes);
+
+// The value of white that a PGM, PPM or PAM file states, other than 255 and 65535, which cameras
+// write whatever they fill. Decoders do not apply it.
+std::optional<double> stated_white(std::string_view bytes);
+
+// What a file holds that OpenCV would refuse in several lines of its own. Empty: nothing known.
+std::string undecodable(std::string_view bytes);
+
+// The file with the orientation of a TIFF set to 1: its decoder would turn the pixels.
+std::string as_stored(const std::string& bytes);
+
 // Whether a TIFF file has a page after the first one.
 bool has_more_pages(std::string_view bytes);
 

@@ -36,6 +36,14 @@ void mention_pages(const std::string& bytes, const std::string& source) {
                                "repeated for further images)");
 }
 
+// What the file says of white is better than a guess from its pixels.
+ImageOptions with_stated_white(ImageOptions options, const std::string& bytes) {
+  const std::optional<double> white = stated_white(bytes);
+  if (white && options.black_white.empty() && options.scaling == GreyScaling::Auto)
+    options.black_white = {0, *white};
+  return options;
+}
+
 }  // namespace
 
 bool has_image_extension(const std::filesystem::path& file) {
@@ -69,7 +77,8 @@ Image decode_image(const std::string& bytes, const std::string& source,
   require_least_size(pixels, source);
   mention_orientation(bytes, source);
   mention_pages(bytes, source);
-  return from_mat(to_8_bit(to_grey(pixels, options.bayer, source), options, source));
+  return from_mat(
+      to_8_bit(to_grey(pixels, options.bayer, source), with_stated_white(options, bytes), source));
 }
 
 }  // namespace edgescout
