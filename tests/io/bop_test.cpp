@@ -207,6 +207,40 @@ TEST(BopResults, ReadsWhatOtherToolsWrite) {
   EXPECT_EQ(results[1].score, 0.5);
 }
 
+// Two rows of one pose, under names and in forms that other programs give them.
+TEST(BopResults, ReadsColumnsByTheirNames) {
+  const TemporaryFolder folder;
+  const std::string pose = "0 -1 0 1 0 0 0 0 1", header = "scene_id,im_id,obj_id,score,R,t,time\n";
+  for (const std::string& text : std::vector<std::string>{
+           header + "1,2,3,0.5," + pose + ",10 20 30,0.1\n",
+           "obj_id,score,t,im_id,R,scene_id\n3,0.5,10 20 30,2," + pose + ",1\n",
+           "scene_id,image_id,obj_id,score,R,t,time,iou\n1,2,3,0.5," + pose + ",10 20 30,-1,0.7\n",
+           "," + header + "0,1,2,3,0.5," + pose + ",10 20 30,0.1\n",
+           "# by x\nScene_ID;Im_ID;Obj_ID;Score;R;T;Time\n1;2;3;0.5;" + pose + ";10 20 30;\n",
+           "1\t2\t3\t0.5\t" + pose + "\t10 20 30\t0.1\n",
+           "\"scene_id\",\"im_id\",\"obj_id\",\"score\",\"R\",\"t\",\"time\"\n"
+           "\"1\",\"2\",\"3\",\"0.5\",\"[0, -1, 0, 1, 0, 0, 0, 0, 1]\",\"[10, 20, 30]\",\"1\"\n",
+           header + "1,2,3,0.5,[" + pose + "],[10. 20. 30.],0.1,\n",
+           "scene_id,im_id,obj_id,score,R,t,time\r1,2,3,0.5," + pose + ",10 20 30,0.1\r"}) {
+    const std::vector<BopResult> results = load_bop_results(folder.write("r.csv", text));
+    ASSERT_EQ(results.size(), 1u) << text;
+    EXPECT_EQ(results[0].scene_id, 1) << text;
+    EXPECT_EQ(results[0].image_id, 2) << text;
+    EXPECT_EQ(results[0].object_id, 3) << text;
+    EXPECT_EQ(results[0].score, 0.5) << text;
+    const Se3& found = results[0].camera_from_object;
+    EXPECT_LT((found.translation_m - Vector3d(0.01, 0.02, 0.03)).norm(), 1e-15) << text;
+    EXPECT_LT((found.rotation * Vector3d::UnitX() - Vector3d::UnitY()).norm(), 1e-12) << text;
+  }
+  const auto refused = [&](const std::string& text, std::initializer_list<std::string> words) {
+    expect_input_error([&] { load_bop_results(folder.write("r.csv", text)); }, words);
+  };
+  refused("scene_id,im_id,obj_id,score,R\n1,2,3,0.5," + pose + "\n", {"line 1", "columns"});
+  refused("scene_id,im_id,obj_id,score,R,t,R\n", {"line 1", "R", "twice"});
+  refused("scene_id;im_id;obj_id;score;R;t\n1;2;3;0,5;" + pose + ";1 2 3\n",
+          {"line 2", "0,5", "decimal point"});
+}
+
 // A failed estimate is no reason to refuse the others.
 TEST(BopResults, LeaveOutRowsWithoutPose) {
   const TemporaryFolder folder;
