@@ -1,5 +1,7 @@
 // Reads OFF of Geomview, as text. Colours, normals and texture are not used. Assimp is not used: it
 // takes a truncated file for a whole one.
+#include <cctype>
+
 #include "host/io/files.h"
 #include "host/io/raw_mesh.h"
 #include "host/io/text_tokens.h"
@@ -16,10 +18,24 @@ std::string without_comments(std::string text) {
   return text;
 }
 
+// ModelNet's files have the counts right behind OFF. The word may be missing.
+std::string with_divided_keyword(std::string text) {
+  const std::size_t start = text.find_first_not_of(" \t\r\n");
+  if (start == std::string::npos) return text;
+  const auto is_digit = [&](std::size_t at) {
+    return at < text.size() && std::isdigit(static_cast<unsigned char>(text[at]));
+  };
+  if (is_digit(start) && text.compare(start, 4, "4OFF") != 0) return text.insert(start, "OFF ");
+  const std::size_t end = text.find("OFF", start);
+  if (end != std::string::npos && is_digit(end + 3)) text.insert(end + 3, " ");
+  return text;
+}
+
 }  // namespace
 
 RawMesh read_off(const std::filesystem::path& file) {
-  const std::string text = without_comments(read_file(file)), source = file.string();
+  const std::string text = with_divided_keyword(without_comments(read_file(file))),
+                    source = file.string();
   TextTokens tokens(text, source);
   const std::string_view word = tokens.word("OFF");
   // Other letters before OFF say what follows the coordinates in their lines.

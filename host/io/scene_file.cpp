@@ -4,9 +4,9 @@
 #include <assimp/scene.h>
 #include <algorithm>
 #include <assimp/Importer.hpp>
-#include <cctype>
 
 #include "host/io/files.h"
+#include "host/io/one_line.h"
 #include "host/io/raw_mesh.h"
 #include "host/io/scene_text.h"
 #include "kernels/error.h"
@@ -93,12 +93,6 @@ class SceneReader {
   const std::string& source_;
   RawMesh mesh_;
 };
-
-std::string one_line(std::string text) {
-  std::ranges::replace_if(
-      text, [](unsigned char c) { return std::iscntrl(c); }, ' ');
-  return text;
-}
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include "host/core/log.h"
 #include "host/io/files.h"
 #include "host/io/lower_case.h"
+#include "host/io/one_line.h"
 #include "host/io/raw_mesh.h"
 #include "host/io/text_tokens.h"
 #include "kernels/error.h"
@@ -46,12 +47,23 @@ bool is_padding(std::string_view rest) {
          std::ranges::all_of(rest, [](char c) { return c == '\0'; });
 }
 
+// Text whose count is that of its letters: another format, a page of a web server.
+void refuse_text(std::string_view bytes, const std::string& source) {
+  const bool is_text = std::ranges::all_of(
+      bytes.substr(0, 1024), [](unsigned char c) { return c >= ' ' || (c >= '\t' && c <= '\r'); });
+  if (!is_text) return;
+  const std::string_view start = bytes.substr(0, 40);
+  throw InputError(source, "STL", one_line("text that begins with " + std::string(start)),
+                   "\"solid\" of ASCII STL, or binary STL");
+}
+
 RawMesh read_counted(std::string_view bytes, const std::string& source) {
   if (bytes.size() < header_bytes)
     throw InputError(source, "STL header", std::to_string(bytes.size()) + " bytes",
                      "at least 84 bytes");
   const std::uint64_t promised = promised_bytes(bytes), count = (promised - header_bytes) / 50;
   const bool is_short = bytes.size() < promised;
+  if (is_short) refuse_text(bytes, source);
   if (is_short || (bytes.size() > promised && (count == 0 || !is_padding(bytes.substr(promised)))))
     throw InputError(
         source, "STL triangle count in the header",

@@ -297,6 +297,8 @@ TEST(OffDialects, ReadsColoursCommentsAndFormsOfTheHeader) {
   expect_box("a.off",
              substituted(substituted(text, "OFF", "COFF"), "120.000000\n", "120.0 255 0 0 1\n"));
   expect_box("a.off", substituted(text, "1 3 7 5\n", "1 3 7 5 0.1 0.2 0.3\n"));
+  expect_box("a.off", substituted(text, "OFF\n8 6 12", "OFF8 6 12"));
+  expect_box("a.off", substituted(text, "OFF\n8 6 12", "8 6 12"));
   expect_refused("a.off", text.substr(0, text.size() - 12), {"truncated"});
   expect_refused("a.off", text + "3 0 1 2\n", {"the end of the file"});
   expect_refused("a.off", substituted(text, "3 7 5", "3 7 8"), {"face 5", "8"});

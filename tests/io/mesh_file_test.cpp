@@ -153,6 +153,9 @@ TEST(LoadMesh, RejectsAnStlWhoseCountDisagreesWithItsSize) {
   expect_input_error([&] { load(binary_stl(b, 0)); }, {"lie.stl", "count", "0 triangles"});
   expect_input_error([&] { load(binary_stl(b) + std::string(50, 'x')); }, {"lie.stl", "count"});
   expect_input_error([&] { load("short"); }, {"lie.stl", "5 bytes"});
+  for (const std::string start : {"<!DOCTYPE html>", "ply\nformat ascii 1.0", "# exported"})
+    expect_input_error([&] { load(start + std::string(200, '\n')); },
+                       {"lie.stl", "text that begins with", start.substr(0, 3), "solid"});
 }
 
 TEST(LoadMesh, RejectsIndicesOutOfRangeAndCountsThatLie) {
