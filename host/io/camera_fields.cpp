@@ -32,11 +32,10 @@ void flatten(const JsonField& field, const json& value, int depth, std::vector<d
 // Objects that are no part of a camera's intrinsics are other cameras, or of no interest.
 bool is_part_of_camera(std::string_view name) {
   return is_matrix_name(name) || is_distortion_name(name) ||
-         contains_any_of(name, {"intrinsic", "distortion", "projectionparam"}) ||
+         contains_any_of(name, {"intrinsic", "distortion", "projectionparam", "resolution"}) ||
          is_any_of(name, {"calibration", "calib", "camera", "camerainfo", "cameramodel", "cammodel",
-                          "imagesize", "capturedimagesize", "resolution", "size", "image",
-                          "parameters", "params", "principalpoint", "focallength", "binning",
-                          "lens", "value", "value0"});
+                          "imagesize", "capturedimagesize", "size", "image", "parameters", "params",
+                          "principalpoint", "focallength", "binning", "lens", "value", "value0"});
 }
 
 // "cam_fx", "cam_width", "cam_d0" of vikit.

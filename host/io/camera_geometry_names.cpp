@@ -24,12 +24,24 @@ bool says_nothing_of_the_image(std::string_view name) {
                           "lensid", "lensmodelname", "lensposition"});
 }
 
+// The word for another lens than OpenCV's, under whatever name: "cam_type: fisheye". A title may
+// hold such a word as well.
+bool is_lens_word(std::string_view name, const json& value) {
+  if (!value.is_string() ||
+      contains_any_of(name, {"name", "id", "topic", "label", "title", "frame", "comment"}))
+    return false;
+  return is_any_of(plain_name(value.get<std::string>()),
+                   {"fisheye", "equidistant", "equi", "kannalabrandt", "kannalabrandt4",
+                    "kannalabrandt8", "kb4", "kb8", "opencvfisheye", "omnidirectional", "omni",
+                    "doublesphere", "eucm", "ucm", "mei", "scaramuzza", "ftheta"});
+}
+
 bool is_lens(std::string_view name, const json& value) {
   if (value.is_number() &&
       (is_numbered(name, "kps", 2) || is_numbered(name, "dab", 1) ||
        is_any_of(name, {"xi", "alpha", "beta", "omega", "s", "t1", "t2", "dist", "alphac"})))
     return true;
-  if (value.is_string() && is_distortion_name(name)) return true;
+  if ((value.is_string() && is_distortion_name(name)) || is_lens_word(name, value)) return true;
   return name.starts_with("tau") || name.ends_with("poly") || is_any_of(name, {"codx", "cody"}) ||
          contains_any_of(
              name,

@@ -53,6 +53,8 @@ const std::map<std::string, LensWord, std::less<>> lens_words{
     {"thinprism", LensWord::Brown},
     {"tilted", LensWord::Brown},
     {"pinholefull", LensWord::Brown},
+    {"radial", LensWord::Brown},
+    {"opencvpinhole", LensWord::Brown},
     {"perspectiveprojwithdistortion", LensWord::Brown},
     {"modifiedbrownconrady", LensWord::Modified},
     // librealsense computes with both alike: the coefficients distort.
@@ -93,7 +95,7 @@ std::optional<LensWord> word_in(const std::string& text) {
 
 // Names under which other programs also keep the name of a product.
 bool may_name_a_product(std::string_view name) {
-  return is_any_of(name, {"model", "type", "cameratype", "name"});
+  return is_any_of(name, {"model", "type", "cameratype", "camtype", "calibrationtype", "name"});
 }
 
 bool names_model(std::string_view name, const json& value) {

@@ -127,7 +127,7 @@ std::string printed_as_yaml(const std::string& text) {
   return text;
 }
 
-json headed_numbers(const std::string& text, const std::string& source) {
+json headed_numbers(const std::string& text) {
   json camera = json::object();
   std::string name;
   bool has_matrix = false;
@@ -139,7 +139,8 @@ json headed_numbers(const std::string& text, const std::string& source) {
       const std::size_t end = line.find_first_of(":=");
       name = trimmed(line.substr(0, end));
       const std::string value = end == std::string::npos ? "" : trimmed(line.substr(end + 1));
-      add_field(camera, name, value.empty() ? json::array() : value_in(value), source);
+      if (camera.contains(name)) return nullptr;
+      camera[name] = value.empty() ? json::array() : value_in(value);
     } else if (name.empty() || !camera[name].is_array()) {
       return nullptr;
     } else {

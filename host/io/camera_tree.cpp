@@ -133,7 +133,7 @@ json parse_camera_tree(const std::string& bytes, const std::string& source, bool
   try {
     return yaml_camera_tree(printed_as_yaml(text), source);
   } catch (const InputError&) {
-    if (json tree = headed_numbers(text, source); !tree.is_null()) return tree;
+    if (json tree = headed_numbers(text); !tree.is_null()) return tree;
     throw;
   }
 }

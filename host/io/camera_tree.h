@@ -28,8 +28,9 @@ nlohmann::json printed_camera_tree(const std::vector<std::string>& lines,
                                    const std::string& source);
 // Python's dictionary, and fields of one line, as YAML. Other texts come back unchanged.
 std::string printed_as_yaml(const std::string& text);
-// Names that stand above their numbers (numpy's print). Null: no matrix has such a name.
-nlohmann::json headed_numbers(const std::string& text, const std::string& source);
+// Names that stand above their numbers (numpy's print). Null: no matrix has one, or a name stands
+// twice.
+nlohmann::json headed_numbers(const std::string& text);
 
 std::string trimmed(std::string_view line);
 std::vector<std::string> words_of(std::string_view line, std::string_view between = " \t");

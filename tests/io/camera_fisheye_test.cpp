@@ -70,6 +70,9 @@ Camera.height: 480
  "distortionCoeff": [-0.03, 0.01, -0.005, 0.001, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], "height": 480,
  "intrinsicMatrix": [[700, 0, 321], [0, 701, 238], [0, 0, 1]], "specHfovDeg": 127,
  "width": 640}]]})"},
+    {"Pupil Labs", "world.json", R"({"camera_matrix": [[700, 0, 321], [0, 701, 238], [0, 0, 1]],
+ "dist_coefs": [[-0.03], [0.01], [-0.005], [0.001]], "cam_type": "fisheye",
+ "CameraResolution": {"Width": 640, "Height": 480}})"},
     {"Basalt", "calibration.json", R"({"value0": {"intrinsics": [
  {"camera_type": "kb4", "intrinsics": {"fx": 700, "fy": 701, "cx": 321, "cy": 238, "k1": -0.03,
   "k2": 0.01, "k3": -0.005, "k4": 0.001}},

@@ -64,6 +64,7 @@ TEST(CameraFormats, RefusesWhatItDoesNotUnderstand) {
                                "telecentric: true\n",
                                "type: orthographic\n",
                                "cam_model: omni\n",
+                               "kind: fisheye\n",
                                "D: '<sequence type: double, length: 5>'\n"}) {
     const std::string field = geometry;
     refused(field, {"camera.yaml", field.substr(0, field.find(':')).c_str(), "expected"});
@@ -71,8 +72,8 @@ TEST(CameraFormats, RefusesWhatItDoesNotUnderstand) {
   for (const char* harmless :
        {"square_size: 50\nboard_width: 9\nboard_height: 6\nflags: 2\nfix_aspect_ratio: 1\n",
         "per_view_reprojection_errors: [0.1, 0.2]\nfix_k3: 1\nzero_tangent_dist: 1\n",
-        "region: EU\ndistro: humble\nwindow: calibration\n", "decimation: 1\n", "zoom: 1\n",
-        "flip: false\n", "rotate: 0\n", "orientation: 1\n",
+        "camera_name: fisheye\nregion: EU\ndistro: humble\nwindow: calibration\n",
+        "decimation: 1\n", "zoom: 1\n", "flip: false\n", "rotate: 0\n", "orientation: 1\n",
         "rotation: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n", "binning: 1x1\n", "lensPosition: 135\n",
         "depth_scale: 0.001\n", "scale: 0.33\n", "offset: [0.5, 0.5]\n", "t_00: 0.1\n",
         "aspect_ratio: 1.333\n", "polymorphic_id: 1\n"})
