@@ -293,6 +293,21 @@ void take_models_of_dataset(ModelArguments& arguments, const std::vector<std::st
   if (arguments.models_info.empty()) arguments.models_info = found.models_info;
 }
 
+namespace {
+
+// Where a file of symmetries is given, an object that it lacks is hardly meant to have none.
+void set_symmetries(Object& object, const std::map<int, Symmetries>& symmetries,
+                    const std::string& models_info, bool is_stated) {
+  if (symmetries.contains(object.id))
+    object.symmetries = symmetries.at(object.id);
+  else if (!models_info.empty() && !is_stated)
+    log(LogLevel::Warning, fmt::format("{}: object {}: found nothing, expected its symmetries: it "
+                                       "is taken for one without",
+                                       models_info, object.id));
+}
+
+}  // namespace
+
 std::vector<Object> load_objects(const ModelArguments& arguments, int continuous_steps) {
   for (const std::string& file : arguments.models)
     if (is_template_file(file))
@@ -316,7 +331,7 @@ std::vector<Object> load_objects(const ModelArguments& arguments, int continuous
                        "ids that differ: give --object-id");
     ids.push_back(object.id);
     object.mesh = load_mesh(arguments.models[i], unit_of(arguments.unit));
-    if (symmetries.contains(object.id)) object.symmetries = symmetries.at(object.id);
+    set_symmetries(object, symmetries, arguments.models_info, !arguments.symmetry.empty());
     objects.push_back(std::move(object));
   }
   const StatedSymmetries stated(arguments.symmetry, ids);

@@ -44,6 +44,9 @@ std::vector<Se3> read_discrete(const JsonField& object, ProjectedRotations& proj
         matrix.topLeftCorner<3, 3>(), 1e-3 * matrix.topRightCorner<3, 1>(), projected);
     if (!symmetry)
       entry.fail("a matrix that is no rotation", "a rigid 4x4 transform by row, in mm");
+    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
+      entry.fail("a last row other than 0 0 0 1 (a transposed matrix?)",
+                 "a rigid 4x4 transform by row, in mm");
     given.push_back(*symmetry);
   }
   return group_of(given, object.has("diameter") ? 1e-3 * object.at("diameter").number() : 0);
@@ -68,6 +71,16 @@ std::vector<Se3> read_continuous(const JsonField& object, int steps) {
   return samples;
 }
 
+// A symmetry under another name would be dropped without a word.
+void require_known_symmetries(const JsonField& object) {
+  if (!object.value.is_object()) return;
+  for (const auto& [key, value] : object.value.items())
+    if (key.starts_with("symmetr") && key != "symmetries_discrete" &&
+        key != "symmetries_continuous")
+      object.at(key).fail("a field that is not known",
+                          "symmetries_discrete or symmetries_continuous");
+}
+
 }  // namespace
 
 std::map<int, Symmetries> load_symmetries(const std::filesystem::path& models_info,
@@ -79,6 +92,7 @@ std::map<int, Symmetries> load_symmetries(const std::filesystem::path& models_in
   ProjectedRotations projected;
   for (const auto& [key, value] : content.items()) {
     const JsonField object = root.at(key);
+    require_known_symmetries(object);
     const std::vector<Se3> continuous = read_continuous(object, continuous_steps);
     std::vector<Se3>& group = result[integer_key(key, root)].discrete;
     for (const Se3& discrete : read_discrete(object, projected))

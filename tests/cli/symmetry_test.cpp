@@ -80,6 +80,22 @@ TEST(Symmetry, IsRefusedByEveryVerbWhereItIsNone) {
   }
 }
 
+TEST(Symmetry, WarnsOfAFileThatLacksTheObject) {
+  const TemporaryFolder folder;
+  const fs::path poses = folder.path() / "r.csv", info = folder.write("info.json", "{\"77\": {}}");
+  save_bop_results(true_results(load_bop_scene(one_view()), 0), poses);
+  const auto evaluated = [&](const std::vector<std::string>& more) {
+    return run_program(joined({{"eval", poses, one_view(), "--model", part_file(2), "--unit", "mm",
+                                "--models-info", info},
+                               more}));
+  };
+  const Outcome outcome = evaluated({});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("info.json: object 2: found nothing"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(evaluated({"--symmetry", "y2"}).err.find("found nothing"), std::string::npos);
+}
+
 // The second half turn of eval's figures is right only where the symmetry is known.
 TEST(Symmetry, JudgesLikeTheFileThatItReplaces) {
   const TemporaryFolder folder;

@@ -173,6 +173,10 @@ TEST(LoadSymmetries, NamesFileAndFieldOfWhatIsWrong) {
       {"/5/symmetries_continuous/0/axis"});
   expect_input_error([] { load(R"(, "symmetries_continuous": [{"axis": [0, 0, 1]}])"); },
                      {"/5/symmetries_continuous/0/offset"});
+  expect_input_error([] { load(discrete("[-1,0,0,0, 0,-1,0,0, 0,0,1,0, 5,0,0,1]")); },
+                     {"/5/symmetries_discrete/0", "last row", "transposed"});
+  expect_input_error([] { load(R"(, "symmetries": ["z2"])"); },
+                     {"/5/symmetries", "not known", "symmetries_discrete"});
   expect_input_error([] { load_symmetries("no-such-models_info.json"); },
                      {"no-such-models_info.json", "No such file"});
 }
