@@ -51,6 +51,10 @@ void read_image_header(const fs::path& file) {
   exif_orientation(bytes);
   stated_size(bytes);
   has_more_pages(bytes);
+  stated_bytes(bytes);
+  stated_white(bytes);
+  undecodable(bytes);
+  as_stored(bytes);
 }
 
 // A program with a verb that has options of every kind.
