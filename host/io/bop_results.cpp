@@ -52,7 +52,7 @@ struct CsvLine {
   }
   std::vector<double> finite_numbers(const std::string& text, const char* field,
                                      std::size_t count) const {
-    const std::vector<double> values = numbers(text, field, count);
+    std::vector<double> values = numbers(text, field, count);
     for (double x : values)
       if (!std::isfinite(x)) fail(field, "a value that is not finite", "finite numbers");
     return values;

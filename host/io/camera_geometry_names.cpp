@@ -108,7 +108,7 @@ std::optional<JsonField> field_that_changes_the_image(const JsonField& field, in
   if (!is_searched || CameraFields(field.value, field.source, field.path).has_intrinsics())
     return {};
   for (const auto& [key, value] : field.value.items())
-    if (const auto found =
+    if (auto found =
             field_that_changes_the_image({value, field.source, field.path + "/" + key}, depth + 1))
       return found;
   return {};

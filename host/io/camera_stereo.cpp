@@ -69,7 +69,7 @@ bool is_of_camera(std::string_view name, const json& value, bool is_numbered) {
 // Empty: the field has no side.
 SidedName sided_name(const std::string& written, const json& value) {
   const std::string plain = plain_name(written);
-  const auto named = [](std::string name) { return name == "m" ? std::string("k") : name; };
+  const auto named = [](const std::string& name) { return name == "m" ? std::string("k") : name; };
   if (const auto end = side_before(plain)) {
     const std::string name = named(plain.substr(*end));
     if (is_of_camera(name, value, false)) return {plain.substr(0, *end), name};
