@@ -63,7 +63,7 @@ kernels_alone() {
 }
 
 checked_parts() {
-  build_preset asan core_test io_test fuzz_test && test_preset asan -R '^(core|io|fuzz)\.'
+  build_preset asan-parts core_test io_test fuzz_test && test_preset asan-parts -R '^(core|io|fuzz)\.'
 }
 
 api_pages() { cmake --build --preset release --target docs; }
