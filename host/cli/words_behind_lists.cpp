@@ -11,7 +11,8 @@ namespace edgescout {
 namespace {
 
 bool is_option(const std::string& word) {
-  return word.size() > 1 && word[0] == '-' && std::string("0123456789.").find(word[1]) == std::string::npos;
+  return word.size() > 1 && word[0] == '-' &&
+         std::string("0123456789.").find(word[1]) == std::string::npos;
 }
 
 bool takes_a_list(const CLI::App& verb, const std::string& word) {

@@ -61,10 +61,11 @@ std::optional<DepthDoubt> doubt_of_unit(const DepthImage& depth, const Range& di
   if (share_inside(values, distances_m, 1) > least_share) return {};
   const std::optional<double> factor = unit_that_fits(values, distances_m);
   if (!factor) return {};
-  return DepthDoubt{DepthFault::Unit, fmt::format(
-      "depth has a median of {:.4g} m, objects are sought at {:.4g} to {:.4g} m: {:g} times the "
-      "unit would fit",
-      upper_median(values), distances_m.low, distances_m.high, *factor)};
+  return DepthDoubt{DepthFault::Unit,
+                    fmt::format("depth has a median of {:.4g} m, objects are sought at {:.4g} to "
+                                "{:.4g} m: {:g} times the "
+                                "unit would fit",
+                                upper_median(values), distances_m.low, distances_m.high, *factor)};
 }
 
 }  // namespace
@@ -74,8 +75,8 @@ std::vector<DepthDoubt> doubts_of_depth(const ObjectView& view, const Range& dis
   const DepthImage& depth = view.depth->image;
   std::vector<DepthDoubt> doubts;
   if (const auto unit = doubt_of_unit(depth, distances_m)) doubts.push_back(*unit);
-  if (const auto place = doubt_of_place(
-          compare_depth_edges(depth, view.depth->noise, view.edges->points())))
+  if (const auto place =
+          doubt_of_place(compare_depth_edges(depth, view.depth->noise, view.edges->points())))
     doubts.push_back(*place);
   return doubts;
 }

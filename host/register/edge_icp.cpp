@@ -162,13 +162,14 @@ class PoseIcp {
                       const Visit& visit) {
     if (!views_[v].edges) return {};
     Counts counts = find_matches(v, world_from_object, round);
+    const bool is_dense = options_.max_points == 0;  // thinned lines leave stretches to others
     ContestedEdges& contested = *contested_[v];
     contested.clear();
     for (const Match& match : matches_) contested.take(*match.edge, std::abs(match.residual.value));
     for (const Match& match : matches_) {
       const double value = match.residual.value, s2 = round.scale_px * round.scale_px,
                    q = s2 / (s2 + value * value);
-      if (contested.is_lost(*match.edge, std::abs(value))) continue;
+      if (is_dense && contested.is_lost(*match.edge, std::abs(value))) continue;
       ++counts.matched;
       visit(match.residual, q * q, match.projected);
     }

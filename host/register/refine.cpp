@@ -137,14 +137,10 @@ void judge_last_step(std::span<PoseEstimate> estimates) {
       estimate.convergence = Convergence::Converged;
 }
 
-// Several views show the tilt and the distance of a pose well enough, and so does depth.
-bool leaves_neighbours(const Scene& scene) {
-  return scene.views.size() == 1 && !scene.views[0].depth;
-}
-
+// Of one view. Several show the tilt and the distance of a pose well enough.
 void hop_promising(const Scene& scene, std::span<PoseEstimate> estimates,
                    const RefineOptions& options) {
-  constexpr double least_log_odds = -4;  // others end below any threshold of reported poses
+  constexpr double least_log_odds = -2;  // others hardly end above the default threshold
   std::vector<std::size_t> indices;
   std::vector<PoseEstimate> promising;
   for (std::size_t i = 0; i < estimates.size(); ++i)
@@ -167,7 +163,7 @@ std::vector<PoseEstimate> refine_batch(const Scene& scene, std::span<const Objec
   std::vector<PoseEstimate> estimates = register_poses(scene, found.poses, d2co);
   if (options.use_edge_icp && !scene.is_time_over()) edge_icp(scene, estimates, options.edge_icp);
   measure_features(scene, estimates, {options.score, options.d2co.visibility});
-  if (options.use_edge_icp && leaves_neighbours(scene) && !scene.is_time_over())
+  if (options.use_edge_icp && scene.views.size() == 1 && !scene.is_time_over())
     hop_promising(scene, estimates, options);
   judge_last_step(estimates);
   return best_per_start(estimates, found.start, starts.size());
