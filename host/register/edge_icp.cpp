@@ -92,8 +92,10 @@ class PoseIcp {
   PoseIcp(std::span<const ObjectView> views, std::span<const VisibleInView> visible,
           const PoseDepthOptions& depth, const EdgeIcpOptions& options)
       : views_(views), visible_(visible), depth_(depth), options_(options) {
-    for (const ObjectView& view : views)
-      contested_.push_back(view.edges ? std::optional<ContestedEdges>(*view.edges) : std::nullopt);
+    contested_.resize(views.size());
+    const bool is_dense = options.max_points == 0;  // thinned lines leave stretches to others
+    for (std::size_t v = 0; v < views.size(); ++v)
+      if (is_dense && views[v].edges) contested_[v].emplace(*views[v].edges);
   }
 
   Iterated iterate(const Se3& start) {
@@ -126,12 +128,13 @@ class PoseIcp {
                                  weight_sum += weight;
                                })
                       .in_image;
-    return std::min(1.0, weight_sum / std::max(1.0, in_image));
+    return share(weight_sum, in_image);
   }
 
   // At the estimate's pose.
   void set_covariance(PoseEstimate& estimate) {
     EdgeCovariance sum;
+    double in_image = 0;
     for (std::size_t v = 0; v < views_.size(); ++v) {
       const Matrix6d to_camera = camera_tangent(views_[v]);
       const auto add = [&](const LineResidual& r, double weight, const ProjectedEdge<double>& p) {
@@ -141,15 +144,19 @@ class PoseIcp {
         sum.add(edge_number(v, theta, nx * p.u + ny * p.v), sign * r.value, weight,
                 sign * to_camera.transpose() * r.jacobian);
       };
-      match_points(v, estimate.world_from_object, options_.rounds.back(), add);
+      in_image += match_points(v, estimate.world_from_object, options_.rounds.back(), add).in_image;
     }
-    estimate.explained = explained(estimate.world_from_object);
+    estimate.explained = share(sum.weight(), in_image);
     estimate.covariance = common_to_edges(estimate.explained) * sum.covariance();
     const LineSystem depth = depth_system_at(estimate.world_from_object);
     add_depth_information(estimate.covariance, depth.hessian, depth.weight);
   }
 
  private:
+  static double share(double weight_sum, double in_image) {
+    return std::min(1.0, weight_sum / std::max(1.0, in_image));
+  }
+
   bool enough(const LineSystem& system) const {
     return system.counts.matched >= thresholds::MIN_POINTS &&
            system.counts.matched >= options_.min_matched * system.counts.points;
@@ -162,18 +169,23 @@ class PoseIcp {
                       const Visit& visit) {
     if (!views_[v].edges) return {};
     Counts counts = find_matches(v, world_from_object, round);
-    const bool is_dense = options_.max_points == 0;  // thinned lines leave stretches to others
-    ContestedEdges& contested = *contested_[v];
-    contested.clear();
-    for (const Match& match : matches_) contested.take(*match.edge, std::abs(match.residual.value));
+    if (contested_[v]) drop_contested(*contested_[v]);
+    counts.matched = int(matches_.size());
     for (const Match& match : matches_) {
       const double value = match.residual.value, s2 = round.scale_px * round.scale_px,
                    q = s2 / (s2 + value * value);
-      if (is_dense && contested.is_lost(*match.edge, std::abs(value))) continue;
-      ++counts.matched;
       visit(match.residual, q * q, match.projected);
     }
     return counts;
+  }
+
+  // Of matches_.
+  void drop_contested(ContestedEdges& contested) {
+    contested.clear();
+    for (const Match& match : matches_) contested.take(*match.edge, std::abs(match.residual.value));
+    std::erase_if(matches_, [&](const Match& match) {
+      return contested.is_lost(*match.edge, std::abs(match.residual.value));
+    });
   }
 
   // Into matches_.
@@ -235,7 +247,7 @@ class PoseIcp {
   std::span<const VisibleInView> visible_;
   const PoseDepthOptions& depth_;
   const EdgeIcpOptions& options_;
-  std::vector<std::optional<ContestedEdges>> contested_;  // by view
+  std::vector<std::optional<ContestedEdges>> contested_;  // by view; none: nothing is contested
   std::vector<Match> matches_;                            // of the last view
 };
 
@@ -249,10 +261,12 @@ void register_to_edges(PoseEstimate& estimate, PoseIcp& icp) {
   icp.set_covariance(estimate);
 }
 
-// Calls run(pose's number, its PoseIcp) on all threads.
+// Calls run(pose's number, its PoseIcp) on all threads, unless no view has edges.
 template <typename Run>
 void for_each_pose(const Scene& scene, std::span<const PoseEstimate> poses,
                    const EdgeIcpOptions& options, const Run& run) {
+  const auto takes_part = [](const ObjectView& view) { return view.edges != nullptr; };
+  if (std::ranges::none_of(scene.views, takes_part)) return;
   Grid<VisibleInView> visible = visible_in_views(scene, object_poses(poses), options.visibility);
   for (VisibleInView& cell : visible.values())
     cell.points = thinned(cell.points, options.max_points);
@@ -329,15 +343,11 @@ void EdgeIcpOptions::validate() const {
 }
 
 void edge_icp(const Scene& scene, std::span<PoseEstimate> poses, const EdgeIcpOptions& options) {
-  const auto takes_part = [](const ObjectView& view) { return view.edges != nullptr; };
-  if (std::ranges::none_of(scene.views, takes_part)) return;
   for_each_pose(scene, poses, options,
                 [&](std::size_t p, PoseIcp& icp) { register_to_edges(poses[p], icp); });
 }
 
 void hop_basins(const Scene& scene, std::span<PoseEstimate> poses, const EdgeIcpOptions& options) {
-  const auto takes_part = [](const ObjectView& view) { return view.edges != nullptr; };
-  if (std::ranges::none_of(scene.views, takes_part)) return;
   EdgeIcpOptions from_beside = options;
   from_beside.rounds = options.hops.rounds;
   for_each_pose(scene, poses, from_beside, [&](std::size_t p, PoseIcp& icp) {
