@@ -6,6 +6,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "host/core/words.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -35,23 +36,12 @@ std::optional<T> number_of(const std::string& text) {
   return number;
 }
 
-std::vector<std::string> words_of(const std::string& text) {
-  constexpr const char* between = " ,\t";
-  std::vector<std::string> words;
-  for (std::size_t at = text.find_first_not_of(between); at != std::string::npos;) {
-    const std::size_t end = std::min(text.find_first_of(between, at), text.size());
-    words.push_back(text.substr(at, end - at));
-    at = text.find_first_not_of(between, end);
-  }
-  return words;
-}
-
 std::string quoted(const std::string& text) { return "\"" + text + "\""; }
 
 std::vector<double> numbers_of(const OptionInfo& option, const std::string& text,
                                const std::string& expected, const BoundsCheck& check) {
   std::vector<double> numbers;
-  for (const std::string& word : words_of(text)) {
+  for (const std::string& word : words_of(text, " ,\t")) {
     const std::optional<double> number = number_of<double>(word);
     if (!number) check.fail(option.name, quoted(text), expected);
     numbers.push_back(*number);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "host/core/words.h"
 #include "host/io/camera_fields.h"
 #include "host/io/camera_tree.h"
 #include "kernels/error.h"

@@ -2,6 +2,7 @@
 #include <functional>
 #include <vector>
 
+#include "host/core/words.h"
 #include "host/io/camera_tree.h"
 #include "kernels/error.h"
 
@@ -161,22 +162,6 @@ json ini_cameras(const std::vector<std::string>& lines, const std::string& sourc
 }
 
 }  // namespace
-
-std::string trimmed(std::string_view line) {
-  const std::size_t from = line.find_first_not_of(" \t");
-  if (from == std::string_view::npos) return "";
-  return std::string(line.substr(from, line.find_last_not_of(" \t") + 1 - from));
-}
-
-std::vector<std::string> words_of(std::string_view line, std::string_view between) {
-  std::vector<std::string> words;
-  for (std::size_t at = line.find_first_not_of(between); at != std::string_view::npos;) {
-    const std::size_t end = std::min(line.find_first_of(between, at), line.size());
-    words.emplace_back(line.substr(at, end - at));
-    at = line.find_first_not_of(between, end);
-  }
-  return words;
-}
 
 json text_camera_tree(std::string_view text, const std::string& source) {
   const std::vector<std::string> lines = lines_of(text);

@@ -32,9 +32,6 @@ std::string printed_as_yaml(const std::string& text);
 // twice.
 nlohmann::json headed_numbers(const std::string& text);
 
-std::string trimmed(std::string_view line);
-std::vector<std::string> words_of(std::string_view line, std::string_view between = " \t");
-
 // A number, a truth value, null (also for an empty word) or the word itself. "nan" and "inf" are
 // numbers, so that their reader can refuse them as such.
 nlohmann::json scalar_of(const std::string& word);

@@ -136,7 +136,7 @@ class AsciiReader {
 };
 
 // Without a byte order mark and what DOS programs and disks add at the end.
-std::string_view trimmed(std::string_view text) {
+std::string_view without_padding(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   constexpr std::string_view padding("\0\x1a", 2);
   while (!text.empty() && padding.find(text.back()) != std::string_view::npos)
@@ -157,7 +157,7 @@ RawMesh read_stl(const std::filesystem::path& file) {
   const std::string bytes = read_file(file), source = file.string();
   // Binary files may start with "solid" too. The file is binary if its size fits the count.
   const bool fits = bytes.size() >= header_bytes && promised_bytes(bytes) == bytes.size();
-  const std::string_view text = trimmed(bytes);
+  const std::string_view text = without_padding(bytes);
   return !fits && is_ascii(text) ? AsciiReader(text, source).read() : read_counted(bytes, source);
 }
 
