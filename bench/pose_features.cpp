@@ -167,6 +167,7 @@ struct Printer {
         std::printf("%.5f,%.5f,", PoseClassifier::rank(poses[p].features),
                     PoseClassifier::probability(poses[p].features));
         print_features(poses[p].features[v]);
+        std::printf(",%.4f\n", poses[p].explained);
       }
     }
   }
@@ -193,7 +194,7 @@ struct Printer {
                 f.mean_px, unexplained_grey(f.shading), f.support.log_ratio,
                 f.support.interior_log_ratio, f.support.support, f.support.best_displaced, f.points,
                 f.in_image, f.length_px, PoseClassifier::log_odds(f), int(is_informative(f)));
-    std::printf("%.5f,%.0f,%.0f,%.0f,%.0f\n", PoseClassifier::log_odds(grey), f.depth.agreeing,
+    std::printf("%.5f,%.0f,%.0f,%.0f,%.0f", PoseClassifier::log_odds(grey), f.depth.agreeing,
                 f.depth.contradicting, f.depth.hidden, f.depth.missing);
   }
 };
@@ -234,7 +235,7 @@ class Collector {
         "set,part,image,stage,pose,view,truth,visible,mspd_px,angle_rad,distance_m,rank,"
         "probability,psi_z_score,mean_px,unexplained_grey,log_ratio,interior_log_ratio,support,"
         "best_displaced,points,in_image,length_px,log_odds,informative,grey_log_odds,agreeing,"
-        "contradicting,hidden,missing");
+        "contradicting,hidden,missing,explained");
     for (const BopScene& scene : scenes_)
       if (arguments_.joint)
         print_scene(scene);

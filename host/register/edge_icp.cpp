@@ -347,15 +347,22 @@ void edge_icp(const Scene& scene, std::span<PoseEstimate> poses, const EdgeIcpOp
                 [&](std::size_t p, PoseIcp& icp) { register_to_edges(poses[p], icp); });
 }
 
-void hop_basins(const Scene& scene, std::span<PoseEstimate> poses, const EdgeIcpOptions& options) {
+std::vector<std::size_t> hop_basins(const Scene& scene, std::span<PoseEstimate> poses,
+                                    const EdgeIcpOptions& options) {
   EdgeIcpOptions from_beside = options;
   from_beside.rounds = options.hops.rounds;
+  std::vector<char> has_moved(poses.size());  // written by several threads: no vector<bool>
   for_each_pose(scene, poses, from_beside, [&](std::size_t p, PoseIcp& icp) {
     const std::vector<Se3> starts =
         starts_beside(poses[p].world_from_object, scene.models[std::size_t(poses[p].object)],
                       scene.views[0].camera_from_world, options.hops);
-    if (hop(poses[p], icp, starts)) icp.set_covariance(poses[p]);
+    has_moved[p] = hop(poses[p], icp, starts);
+    if (has_moved[p]) icp.set_covariance(poses[p]);
   });
+  std::vector<std::size_t> moved;
+  for (std::size_t p = 0; p < poses.size(); ++p)
+    if (has_moved[p]) moved.push_back(p);
+  return moved;
 }
 
 }  // namespace edgescout

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "host/register/edge_icp_options.h"
 #include "host/register/pose_estimate.h"
@@ -22,7 +23,9 @@ void edge_icp(const Scene& scene, std::span<PoseEstimate> poses, const EdgeIcpOp
 
 // Leaves a pose for a better optimum beside it (basin hopping): iterates from EdgeIcpOptions::hops,
 // on the points that the pose shows, and takes the end that explains most of them
-// (PoseEstimate::explained) if that is more than the pose explains.
-void hop_basins(const Scene& scene, std::span<PoseEstimate> poses, const EdgeIcpOptions& options);
+// (PoseEstimate::explained) if that is more than the pose explains. Returns the indices of those
+// that have moved.
+std::vector<std::size_t> hop_basins(const Scene& scene, std::span<PoseEstimate> poses,
+                                    const EdgeIcpOptions& options);
 
 }  // namespace edgescout

@@ -38,7 +38,7 @@ TEST_P(DetectParts, AreFoundOnTheBoard) {
   // as its own.
   const bool is_block = GetParam() == "bearing_block";
   EXPECT_LT(across_m, is_block ? 0.002 : 0.001);
-  EXPECT_LT(along_m, is_block ? 0.011 : 0.006);
+  EXPECT_LT(along_m, is_block ? 0.007 : 0.006);
   EXPECT_LT(angle_rad, is_block ? 0.09 : 0.07);
   EXPECT_GT(part.probability, 0.6);
   // The image of the bracket shows a second pose as well, which reaches over its shadow.

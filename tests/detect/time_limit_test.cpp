@@ -83,7 +83,7 @@ TEST_F(LimitedDetection, GivesWhatWasFoundBeforeItsEnd) {
     if (part < 0.9) continue;
     ASSERT_FALSE(found.detections.empty());
     const PoseError error = scene.error(found.detections[0].world_from_object, scene.truth_in(0));
-    EXPECT_TRUE(error.passes(0.25, 0.01))
+    EXPECT_TRUE(error.passes(0.15, 0.01))
         << error.angle_rad << " rad, " << error.distance_m << " m";
   }
 }

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "host/register/edge_icp.h"
+#include "host/register/promising_hops.h"
 #include "tests/register/scene.h"
 
 namespace edgescout {
@@ -48,7 +49,7 @@ TEST(BasinHopping, FindsTheBetterOptimumBeside) {
   edge_icp(known.scene(), poses, known.options);
   for (const PoseEstimate& pose : poses)
     ASSERT_GT(known.angle_off_rad(pose), 0.03) << "the iterations alone reach it";
-  hop_basins(known.scene(), poses, known.options);
+  EXPECT_EQ(hop_basins(known.scene(), poses, known.options), (std::vector<std::size_t>{0, 1}));
   for (const PoseEstimate& pose : poses) {
     EXPECT_LT(known.angle_off_rad(pose), 0.01);
     EXPECT_GT(pose.explained, 0.8);
@@ -61,7 +62,7 @@ TEST(BasinHopping, StaysWhereNothingBesideIsBetter) {
   std::vector<PoseEstimate> poses{known.tilted(0)};
   edge_icp(known.scene(), poses, known.options);
   const Se3 before = poses[0].world_from_object;
-  hop_basins(known.scene(), poses, known.options);
+  EXPECT_TRUE(hop_basins(known.scene(), poses, known.options).empty());
   EXPECT_LT(angle_between_rad(before, poses[0].world_from_object), 0.005);
 }
 
@@ -72,6 +73,29 @@ TEST(BasinHopping, NeedsEdges) {
   std::vector<PoseEstimate> poses{known.tilted(0.15)};
   hop_basins({{&known.model, 1}, {&without, 1}, *known.backend}, poses, known.options);
   EXPECT_NEAR(known.angle_off_rad(poses[0]), 0.15, 1e-9);
+}
+
+// With a tensor, so that features can be measured. There is no image: the log-odds are minus the
+// mean tensor value.
+TEST(BasinHopping, MovesPromisingPosesAndOnePoseOnce) {
+  Known known;
+  known.view.tensor =
+      view_of(part_model("l_bracket", 2e-4), known.camera_from_object, {}, *known.backend).tensor;
+  std::vector<PoseEstimate> poses{known.tilted(0.15), known.tilted(0.1505), known.tilted(-0.15),
+                                  known.tilted(0.15)};
+  const FeatureOptions measure;
+  measure_features(known.scene(), poses, measure);
+  poses[0].features[0].mean_px = 3;
+  poses[1].features[0].mean_px = 2;  // the same pose, more probable
+  poses[2].features[0].mean_px = 3.5;
+  poses[3].features[0].mean_px = 5;  // not promising
+  hop_promising(known.scene(), poses, known.options, measure);
+  for (const int i : {0, 1, 2}) {
+    EXPECT_LT(known.angle_off_rad(poses[std::size_t(i)]), 0.01) << i;
+    EXPECT_LT(poses[std::size_t(i)].features[0].mean_px, 1.5) << i << ": features of its new pose";
+  }
+  EXPECT_EQ(poses[0].world_from_object.translation_m, poses[1].world_from_object.translation_m);
+  EXPECT_NEAR(known.angle_off_rad(poses[3]), 0.15, 1e-9);
 }
 
 }  // namespace
