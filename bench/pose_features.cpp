@@ -20,9 +20,9 @@
 //   stage reported: what detection without a threshold of probability reports
 //   stage truth:    every true pose, registered from itself without a search
 // `image` is scene and searched image, or the scene alone; `pose` counts the poses of a stage in
-// it. `rank` and `probability` are of all views of the pose, the other features of the row's
-// `view`. `truth` is the index of the nearest true pose of the object in scene_gt.json, -1 where
-// none lies within half a diameter; then `visible` is 0 and the errors are infinite.
+// it. `rank`, `probability` and `explained` are of all views of the pose, the other features of the
+// row's `view`. `truth` is the index of the nearest true pose of the object in scene_gt.json, -1
+// where none lies within half a diameter; then `visible` is 0 and the errors are infinite.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -8,8 +8,9 @@
 namespace edgescout {
 
 namespace {
+// Rounding towards zero is that towards minus infinity here: what is negative falls in cell 0.
 int cell_of(float position_px, int cells) {
-  return std::clamp(static_cast<int>(std::floor(position_px / EdgeIndex::CELL_PX)), 0, cells - 1);
+  return std::clamp(static_cast<int>(position_px / EdgeIndex::CELL_PX), 0, cells - 1);
 }
 }  // namespace
 

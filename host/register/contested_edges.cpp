@@ -30,6 +30,7 @@ void ContestedEdges::take(const EdgePoint& edge, double distance_px) {
 }
 
 bool ContestedEdges::is_lost(const EdgePoint& edge, double distance_px) const {
+  if (float(distance_px) <= SAME_LINE_PX) return false;  // no distance is negative
   float least = NOT_TAKEN;
   edges_.for_each_near(edge.x_px, edge.y_px, STRETCH_PX, [&](const EdgePoint& near) {
     least = std::min(least, least_px_[index_of(near)]);
