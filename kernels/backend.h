@@ -27,6 +27,7 @@
 #include "kernels/pose_depth.h"
 #include "kernels/pose_normal_equations.h"
 #include "kernels/pose_score.h"
+#include "kernels/shading_sums.h"
 #include "kernels/template_project.h"
 #include "kernels/template_scan.h"
 #include "kernels/template_score.h"
@@ -34,8 +35,8 @@
 
 namespace edgescout {
 
-// A tensor and, where an image was given, the image's gradient and support map, in the backend's
-// own memory.
+// A tensor and, where an image was given, the image, its gradient and its support map, in the
+// backend's own memory.
 class BackendView {
  public:
   virtual ~BackendView() = default;
@@ -71,6 +72,12 @@ class BackendDepth {
   Intrinsics intrinsics{};
 };
 using DepthHandle = std::shared_ptr<const BackendDepth>;
+
+// One view of shading_sums.
+struct ShadedView {
+  ViewHandle view;
+  DepthHandle known;  // depth map of known surfaces, DEPTH_EMPTY elsewhere; null: nothing is known
+};
 
 // Samples of surfaces in the backend's own memory, as BackendPosePoints holds edge points.
 class BackendSurfacePoints {
@@ -114,8 +121,8 @@ class Backend {
 
   virtual std::vector<EdgePoint> detect_edges(const ImageView& image,
                                               const EdgeOptions& options) = 0;
-  // `image` may be empty (width 0): then Psi and edge support are 0 in this view. InputError naming
-  // the size: a tensor or an image too large for the memory or the device.
+  // `image` may be empty (width 0): then Psi, edge support and shading are 0 in this view.
+  // InputError naming the size: a tensor or an image too large for the memory or the device.
   virtual ViewHandle make_view(std::span<const EdgePoint> edges, int width, int height,
                                const ImageView& image, const Intrinsics& intrinsics,
                                const TensorOptions& options) = 0;
@@ -158,6 +165,9 @@ class Backend {
   virtual void point_visibility(const TriangleMesh& mesh, const VisibilityPoints& points,
                                 std::span<const VisibilityJob> jobs, int size,
                                 std::span<std::uint8_t> flags) = 0;
+  virtual void shading_sums(std::span<const ShadedView> views, const TriangleMesh& mesh,
+                            std::span<const ShadingJob> jobs, float tolerance_m,
+                            std::span<ShadingSums> out) = 0;
   virtual void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps,
                              int width, int height, std::span<std::uint32_t> nearest) = 0;
   virtual ChamferHandle combination_chamfer(const ChamferView& view,

@@ -74,6 +74,9 @@ class CpuView : public BackendView {
   ~CpuView() override { memory_->give_back(values); }
   std::vector<std::uint16_t> tensor() const override { return {values.begin(), values.end()}; }
   TensorView tensor_view() const { return {values, shape, intrinsics}; }
+  ImageView image() const {
+    return pixels.empty() ? ImageView{} : ImageView{shape.width, shape.height, pixels.data()};
+  }
   SupportView support_view() const { return {support_map, shape.width, shape.height}; }
 
  private:
@@ -81,6 +84,7 @@ class CpuView : public BackendView {
 
  public:
   std::span<std::uint16_t> values;
+  std::vector<std::uint8_t> pixels;
   std::vector<std::int16_t> gradient_x2;
   std::vector<std::uint32_t> support_map;
 };
@@ -248,11 +252,7 @@ class CpuBackend : public Backend {
     check(mine != nullptr, "points of another backend");
     const Timer timer(*this, "pose_depth");
     std::vector<DepthView> images;
-    for (const DepthHandle& view : views) {
-      const auto* image = dynamic_cast<const CpuDepth*>(view.get());
-      check(image != nullptr, "a depth image of another backend");
-      images.push_back(image->depth_view());
-    }
+    for (const DepthHandle& view : views) images.push_back(own(*view).depth_view());
     if (fast_)
       pose_depth_fast(images, mine->points, problems, options, out, pool_);
     else
@@ -287,6 +287,20 @@ class CpuBackend : public Backend {
       point_visibility_fast(mesh, points, jobs, size, flags, pool_);
     else
       point_visibility_reference(mesh, points, jobs, size, flags);
+  }
+
+  void shading_sums(std::span<const ShadedView> views, const TriangleMesh& mesh,
+                    std::span<const ShadingJob> jobs, float tolerance_m,
+                    std::span<ShadingSums> out) override {
+    const Timer timer(*this, "shading_sums");
+    std::vector<ShadingView> shaded;
+    for (const auto& [view, known] : views)
+      shaded.push_back(
+          {own(*view).image(), view->intrinsics, known ? own(*known).depth_view() : DepthView{}});
+    if (fast_)
+      shading_sums_fast(shaded, mesh, jobs, tolerance_m, out, pool_);
+    else
+      shading_sums_reference(shaded, mesh, jobs, tolerance_m, out);
   }
 
   void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width,
@@ -364,6 +378,8 @@ class CpuBackend : public Backend {
 
   void add_image(CpuView& view, const ImageView& image) {
     const Timer timer(*this, "support_map");
+    view.pixels.assign(image.pixels,
+                       image.pixels + std::size_t(image.width) * std::size_t(image.height));
     view.gradient_x2 = image_gradient_x2(image);
     view.support_map = fast_ ? support_map_fast(image, pool_) : support_map_reference(image);
   }
@@ -383,6 +399,12 @@ class CpuBackend : public Backend {
   static const CpuView& own(const BackendView& view) {
     const auto* mine = dynamic_cast<const CpuView*>(&view);
     check(mine != nullptr, "a view made by another backend");
+    return *mine;
+  }
+
+  static const CpuDepth& own(const BackendDepth& depth) {
+    const auto* mine = dynamic_cast<const CpuDepth*>(&depth);
+    check(mine != nullptr, "a depth image of another backend");
     return *mine;
   }
 

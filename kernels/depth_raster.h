@@ -46,5 +46,8 @@ void depth_raster_reference(const TriangleMesh& mesh, std::span<const DepthJob> 
                             int height, std::span<float> depth);
 void depth_raster_fast(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width,
                        int height, std::span<float> depth, ThreadPool& pool);
+// One map of it on the calling thread; nothing is checked.
+void draw_depth_map(const TriangleMesh& mesh, const DepthJob& job, int width, int height,
+                    std::span<float> depth);
 
 }  // namespace edgescout

@@ -139,6 +139,11 @@ void draw_band(const TriangleMesh& mesh, const DepthJob& job, const Band& band) 
 
 }  // namespace
 
+void draw_depth_map(const TriangleMesh& mesh, const DepthJob& job, int width, int height,
+                    std::span<float> depth) {
+  draw_band(mesh, job, {depth.data(), width, 0, height});
+}
+
 void depth_raster_fast(const TriangleMesh& mesh, std::span<const DepthJob> jobs, int width,
                        int height, std::span<float> depth, ThreadPool& pool) {
   check_depth_raster(mesh, jobs.size(), width, height, depth.size());

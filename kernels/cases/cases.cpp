@@ -261,6 +261,29 @@ Case visibility_case(Backend& backend, const Scale& s) {
           }};
 }
 
+Case shading_case(Backend& backend, const Scale& s) {
+  std::mt19937 rng(10);
+  const Mesh mesh = bumpy_ball(s.rings, 2 * s.rings);
+  const std::vector<std::uint8_t> pixels = disc_image(rng, s.width, s.height);
+  const std::vector<ShadedView> views{
+      {backend.make_view({}, s.width, s.height, {s.width, s.height, pixels.data()}, camera_of(s),
+                         {}),
+       nullptr}};
+  const auto stride = std::uint32_t(s.width) / SHADING_MAP_PX;
+  std::vector<ShadingJob> jobs;
+  for (const DepthJob& job : views_around(s.maps, s.width, s.height))
+    jobs.push_back({job.camera_from_object, 0, 0, stride, 0});
+  const auto sums = std::make_shared<std::vector<ShadingSums>>(jobs.size());
+  constexpr std::size_t map = std::size_t(SHADING_MAP_PX) * SHADING_MAP_PX;
+  return {
+      "shading_sums",
+      std::to_string(s.maps) + " maps, " + std::to_string(mesh.triangles.size() / 3) + " triangles",
+      s.maps * (map * (sizeof(float) + 1) + sizeof(ShadingSums)),
+      [&backend, mesh, views, jobs, sums] {
+        backend.shading_sums(views, mesh.view(), jobs, 0, *sums);
+      }};
+}
+
 Case edge_case(Backend& backend, const Scale& s) {
   std::mt19937 rng(5);
   const std::vector<std::uint8_t> pixels = disc_image(rng, s.width, s.height);
@@ -342,6 +365,7 @@ std::vector<Case> make_cases(Backend& backend, Size size) {
   cases.push_back(support_case(backend, s));
   cases.push_back(depth_case(backend, s));
   cases.push_back(visibility_case(backend, s));
+  cases.push_back(shading_case(backend, s));
   for (Case& c : next_view_cases(backend, s.hypotheses)) cases.push_back(std::move(c));
   return cases;
 }

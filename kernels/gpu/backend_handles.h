@@ -14,6 +14,7 @@
 #include "kernels/gpu/edge_support.h"
 #include "kernels/gpu/pose_depth.h"
 #include "kernels/gpu/pose_plan.h"
+#include "kernels/gpu/shading_sums.h"
 #include "kernels/gpu/tensor.h"
 
 namespace edgescout::gpu {
@@ -40,6 +41,10 @@ class VulkanView : public BackendView {
   SupportMapView support_view() const {
     return {support_map.size() > 0 ? &support_map : nullptr, shape.width, shape.height};
   }
+  // Without known surfaces.
+  ShadingImageView shading_view() const {
+    return {pixels.size() > 0 ? &pixels : nullptr, shape.width, shape.height, intrinsics, {}};
+  }
 
  private:
   std::shared_ptr<const Device> device_;
@@ -48,6 +53,7 @@ class VulkanView : public BackendView {
   DeviceTensor values;
   Buffer<std::int16_t> gradient_x2;
   Buffer<std::uint32_t> support_map;
+  Buffer<std::uint32_t> pixels;  // of the image, four to a word
 };
 
 class VulkanModelPoints : public BackendModelPoints {

@@ -41,13 +41,13 @@ EdgeCandidates::EdgeCandidates(const Device& device)
       gradient_passes_{gradient_pass(device, EDGE_ROWS), gradient_pass(device, EDGE_COLUMNS)},
       thin_(device, {"edge_thin", edge_thin_spv, 2, sizeof(EdgeThinPush), {}}) {}
 
-void EdgeCandidates::record(Batch& batch, const ImageView& image, float sigma_px,
-                            std::int32_t low) {
+void EdgeCandidates::record(Batch& batch, const ImageView& image, float sigma_px, std::int32_t low,
+                            Buffer<std::uint32_t>& pixels) {
   check_image_size(device_, image);
   const auto width = static_cast<std::uint32_t>(image.width),
              height = static_cast<std::uint32_t>(image.height);
   const std::size_t count = std::size_t(width) * height;
-  image_.reserve(device_, (count + 3) / 4, "edge image");
+  pixels.reserve(device_, (count + 3) / 4, "image");
   rows_.reserve(device_, count, "edge rows");
   gradient_.reserve(device_, count, "edge gradient");
   labels_.reserve(device_, count, "edge labels");
@@ -55,12 +55,12 @@ void EdgeCandidates::record(Batch& batch, const ImageView& image, float sigma_px
   const std::vector<std::int32_t> both = both_halves(weights);
   weights_.reserve(device_, both.size(), "edge weights");
   batch.upload<std::int32_t>(weights_, both);
-  batch.upload(image_, std::span(image.pixels, count));
+  batch.upload(pixels, std::span(image.pixels, count));
   batch.barrier();
   const Groups groups{groups_for(width, EDGE_GROUP), height};
   const EdgeGradientPush push{width, height, static_cast<std::uint32_t>(weights.radius)};
   for (const Kernel& pass : gradient_passes_) {
-    batch.dispatch(pass, groups, {image_, weights_, rows_, gradient_}, push);
+    batch.dispatch(pass, groups, {pixels, weights_, rows_, gradient_}, push);
     batch.barrier();
   }
   const EdgeThinPush thin{width, height, static_cast<std::uint32_t>(low * low)};

@@ -15,9 +15,10 @@ void check_image_size(const Device& device, const ImageView& image);
 class EdgeCandidates {
  public:
   explicit EdgeCandidates(const Device& device);
-  // `low`: least gradient of a candidate, gradient units. Checks the image's size. Ends with a
-  // barrier.
-  void record(Batch& batch, const ImageView& image, float sigma_px, std::int32_t low);
+  // `low`: least gradient of a candidate, gradient units. The image goes into `pixels`, four to a
+  // word. Checks its size. Ends with a barrier.
+  void record(Batch& batch, const ImageView& image, float sigma_px, std::int32_t low,
+              Buffer<std::uint32_t>& pixels);
 
   // The planes of the last image, a word a pixel (edge_gradient.h, edge_thin.h).
   const RawBuffer& gradient() const { return gradient_; }
@@ -27,7 +28,7 @@ class EdgeCandidates {
   const Device& device_;
   std::array<Kernel, 2> gradient_passes_;
   Kernel thin_;
-  Buffer<std::uint32_t> image_, rows_, gradient_, labels_;
+  Buffer<std::uint32_t> rows_, gradient_, labels_;
   Buffer<std::int32_t> weights_;
 };
 

@@ -48,7 +48,7 @@ void EdgeDetect::record_pixels(Batch& batch, const ImageView& image, const EdgeO
 
   batch.fill(components_, count * sizeof(std::uint32_t), 0);
   batch.fill(kept_, sizeof(std::uint32_t), 0);
-  candidates_.record(batch, image, options.sigma_px, edge_threshold(options.low_threshold));
+  candidates_.record(batch, image, options.sigma_px, edge_threshold(options.low_threshold), image_);
   for (const std::uint32_t pass : {EDGE_LINK_MERGE, EDGE_LINK_COUNT, EDGE_LINK_KEEP})
     record_link(batch, pass, static_cast<std::uint32_t>(count));
   host_kept_.resize(1 + std::min(count, MOST_AT_FIRST));

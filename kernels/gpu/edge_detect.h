@@ -43,7 +43,7 @@ class EdgeDetect {
   EdgeCandidates candidates_;
   std::array<Kernel, 4> link_passes_;
   std::uint32_t width_ = 0, height_ = 0, high2_ = 0, min_length_px_ = 0;
-  Buffer<std::uint32_t> components_, kept_;
+  Buffer<std::uint32_t> image_, components_, kept_;
   Buffer<EdgePoint> points_;
   std::vector<std::uint32_t> host_kept_;
 };

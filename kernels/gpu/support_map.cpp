@@ -23,14 +23,15 @@ SupportMapper::SupportMapper(const Device& device)
       candidates_(device),
       passes_{make_pass(device, SUPPORT_DIRECTIONS), make_pass(device, SUPPORT_SPREAD)} {}
 
-void SupportMapper::record(Batch& batch, const ImageView& image, Buffer<std::uint32_t>& map) {
+void SupportMapper::record(Batch& batch, const ImageView& image, Buffer<std::uint32_t>& map,
+                           Buffer<std::uint32_t>& pixels) {
   check_image_size(device_, image);
   const std::size_t count = std::size_t(image.width) * std::size_t(image.height);
   tables_.reserve(device_, TABLE_WORDS, "support tables");
   directions_.reserve(device_, count, "support directions");
   map.reserve(device_, count, "support map");
   batch.upload(tables_, std::span(&support_tables(), 1));
-  candidates_.record(batch, image, SUPPORT_SIGMA_PX, edge_threshold(SUPPORT_MIN_GRADIENT));
+  candidates_.record(batch, image, SUPPORT_SIGMA_PX, edge_threshold(SUPPORT_MIN_GRADIENT), pixels);
   const SupportMapPush push{static_cast<std::uint32_t>(image.width),
                             static_cast<std::uint32_t>(image.height)};
   for (const Kernel& pass : passes_) {

@@ -11,8 +11,10 @@ namespace edgescout::gpu {
 class SupportMapper {
  public:
   explicit SupportMapper(const Device& device);
-  // `map` grows to a word a pixel. It is there when the batch has run.
-  void record(Batch& batch, const ImageView& image, Buffer<std::uint32_t>& map);
+  // `map` grows to a word a pixel, `pixels` to the image, four to a word. They are there when the
+  // batch has run.
+  void record(Batch& batch, const ImageView& image, Buffer<std::uint32_t>& map,
+              Buffer<std::uint32_t>& pixels);
 
  private:
   const Device& device_;

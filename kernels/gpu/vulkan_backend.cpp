@@ -17,6 +17,7 @@
 #include "kernels/gpu/pose_depth.h"
 #include "kernels/gpu/pose_normal_equations.h"
 #include "kernels/gpu/pose_score.h"
+#include "kernels/gpu/shading_sums.h"
 #include "kernels/gpu/support_map.h"
 #include "kernels/gpu/template_project.h"
 #include "kernels/gpu/template_scan.h"
@@ -45,6 +46,7 @@ class VulkanBackend : public Backend {
         supporter_(*device_),
         raster_(*device_),
         visibility_(*device_),
+        shading_(*device_),
         candidates_(*device_),
         chamfer_(*device_),
         information_(*device_) {}
@@ -91,7 +93,7 @@ class VulkanBackend : public Backend {
       const std::vector<std::int16_t> gradient = image_gradient_x2(image);
       view->gradient_x2.reserve(*device_, gradient.size(), "image gradient");
       batch.upload<std::int16_t>(view->gradient_x2, gradient);
-      mapper_.record(batch, image, view->support_map);
+      mapper_.record(batch, image, view->support_map, view->pixels);
     }
     run(batch);
     return view;
@@ -261,6 +263,26 @@ class VulkanBackend : public Backend {
       const std::size_t found = flag_count(points, some);
       visibility_.collect(flags.first(found));
       flags = flags.subspan(found);
+    }
+  }
+
+  void shading_sums(std::span<const ShadedView> views, const TriangleMesh& mesh,
+                    std::span<const ShadingJob> jobs, float tolerance_m,
+                    std::span<ShadingSums> out) override {
+    check_shading_sums(views.size(), mesh, jobs, tolerance_m, out.size());
+    std::vector<ShadingImageView> images;
+    for (const auto& [view, known] : views) {
+      images.push_back(own(*view).shading_view());
+      if (known)
+        images.back().known = own<VulkanDepth>(*known, "a depth map of another backend").view();
+    }
+    const std::size_t most = shading_.that_fit(raster_, mesh.triangles.size() / 3);
+    for (std::size_t first = 0; first < jobs.size(); first += most) {
+      const std::size_t count = std::min(most, jobs.size() - first);
+      Batch batch(*device_, "shading_sums");
+      shading_.record(batch, raster_, images, mesh, jobs.subspan(first, count), tolerance_m);
+      run(batch);
+      shading_.collect(out.subspan(first, count));
     }
   }
 
@@ -435,6 +457,7 @@ class VulkanBackend : public Backend {
   SupportScorer supporter_;
   DepthRaster raster_;
   PointVisibility visibility_;
+  ShadingSummer shading_;
   CandidateMaps candidates_;
   CombinationChamfer chamfer_;
   MutualInformation information_;

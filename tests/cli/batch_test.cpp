@@ -90,6 +90,11 @@ class FailingBackend : public Backend {
                         std::span<std::uint8_t> flags) override {
     cpu_->point_visibility(mesh, points, jobs, size, flags);
   }
+  void shading_sums(std::span<const ShadedView> views, const TriangleMesh& mesh,
+                    std::span<const ShadingJob> jobs, float tolerance_m,
+                    std::span<ShadingSums> out) override {
+    cpu_->shading_sums(views, mesh, jobs, tolerance_m, out);
+  }
   void candidate_map(std::span<const MapEdge> edges, std::span<const CandidateMap> maps, int width,
                      int height, std::span<std::uint32_t> nearest) override {
     cpu_->candidate_map(edges, maps, width, height, nearest);

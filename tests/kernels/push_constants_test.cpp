@@ -35,6 +35,7 @@
 #include "kernels/point_visibility.h"
 #include "kernels/pose_depth_push.h"
 #include "kernels/pose_push.h"
+#include "kernels/shading_sums_push.h"
 #include "kernels/support_map_push.h"
 #include "kernels/template_project.h"
 #include "kernels/template_scan.h"
@@ -43,6 +44,7 @@
 #include "pose_depth.spv.h"
 #include "pose_normal_equations.spv.h"
 #include "pose_score.spv.h"
+#include "shading_sums.spv.h"
 #include "support_map.spv.h"
 #include "template_planes.spv.h"
 #include "template_project.spv.h"
@@ -242,6 +244,14 @@ TEST(PushConstants, EdgeSupport) {
   using Push = EdgeSupportPush;
   expect_members<Push>(edge_support_spv, {MEMBER(width), MEMBER(height), MEMBER(first_problem),
                                           MEMBER(problem_count)});
+}
+
+TEST(PushConstants, ShadingSums) {
+  using Push = ShadingPush;
+  expect_members<Push>(shading_sums_spv, {MEMBER(width), MEMBER(height), MEMBER(known_width),
+                                          MEMBER(known_height), MEMBER(known_fx), MEMBER(known_fy),
+                                          MEMBER(known_cx), MEMBER(known_cy), MEMBER(tolerance_m),
+                                          MEMBER(max_bend), MEMBER(first_job), MEMBER(job_count)});
 }
 
 TEST(PushConstants, SupportMap) {

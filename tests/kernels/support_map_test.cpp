@@ -143,13 +143,14 @@ TEST_F(SupportMapOnDevice, IsThatOfTheReference) {
   std::mt19937 rng = test::test_rng();
   gpu::SupportMapper mapper(*device);
   for (const test::Picture& picture : test::random_pictures(rng)) {
-    gpu::Buffer<std::uint32_t> map;
+    gpu::Buffer<std::uint32_t> map, pixels;
     gpu::Batch batch(*device, "support map");
-    mapper.record(batch, picture.view(), map);
+    mapper.record(batch, picture.view(), map, pixels);
     batch.run();
     EXPECT_EQ(read<std::uint32_t>(map, picture.pixels.size()),
               support_map_reference(picture.view()))
         << picture.size();
+    EXPECT_EQ(read<std::uint8_t>(pixels, picture.pixels.size()), picture.pixels) << picture.size();
   }
 }
 #endif
