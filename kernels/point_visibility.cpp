@@ -5,6 +5,7 @@
 
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
+#include "kernels/unfilled.h"
 
 namespace edgescout {
 
@@ -44,12 +45,6 @@ void flag_job(const float* depth, int size, const VisibilityPoints& points,
   };
   add(0, points.shared);
   add(job.first_point, job.point_count);
-}
-
-std::vector<DepthJob> depth_jobs(std::span<const VisibilityJob> jobs) {
-  std::vector<DepthJob> drawn;
-  for (const VisibilityJob& job : jobs) drawn.push_back({job.camera_from_object, job.intrinsics});
-  return drawn;
 }
 
 // Where the flags of each job begin.
@@ -103,19 +98,15 @@ void point_visibility_fast(const TriangleMesh& mesh, const VisibilityPoints& poi
                            std::span<const VisibilityJob> jobs, int size,
                            std::span<std::uint8_t> flags, ThreadPool& pool) {
   check_point_visibility(mesh, points, jobs, size, flags.size());
-  constexpr std::size_t chunk = 64;  // bounded memory however many jobs there are
   const std::size_t map = std::size_t(size) * size;
-  std::vector<float> depth(std::min(chunk, jobs.size()) * map);
   const std::vector<std::size_t> first = first_flags(points, jobs);
-  for (std::size_t begin = 0; begin < jobs.size(); begin += chunk) {
-    const std::span<const VisibilityJob> some =
-        jobs.subspan(begin, std::min(chunk, jobs.size() - begin));
-    depth_raster_fast(mesh, depth_jobs(some), size, size, std::span(depth).first(some.size() * map),
-                      pool);
-    pool.for_each(some.size(), [&](std::size_t i) {
-      flag_job(depth.data() + i * map, size, points, some[i], flags.data() + first[begin + i]);
-    });
-  }
+  pool.for_each(jobs.size(), [&](std::size_t i) {
+    thread_local Unfilled<float> depth;  // looked at while a cache holds it
+    if (depth.size() < map) depth.resize(map);
+    draw_depth_map(mesh, {jobs[i].camera_from_object, jobs[i].intrinsics}, size, size,
+                   std::span(depth).first(map));
+    flag_job(depth.data(), size, points, jobs[i], flags.data() + first[i]);
+  });
 }
 
 }  // namespace edgescout
