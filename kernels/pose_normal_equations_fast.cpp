@@ -26,7 +26,9 @@ struct Group {
   Lanes active, arm[3], point[3], tangent[3];
   Lanes u, v, dx, dy, turn;  // turn: orientation in bins
   int x0[lanes], y0[lanes], bin[lanes];
-  Lanes value, slope[3];  // of the tensor, slope by u, v, bins
+  const std::uint16_t* place[lanes];                           // of x0, y0, bin
+  std::ptrdiff_t right[lanes], down[lanes], bin_after[lanes];  // from there to the neighbours
+  Lanes value, slope[3];                                       // of the tensor, slope by u, v, bins
 };
 
 inline __attribute__((always_inline)) void load_points(const ModelPoint* models, int count,
@@ -68,22 +70,27 @@ inline __attribute__((always_inline)) void load_points(const ModelPoint* models,
 // Where the tensor is: rows of tiles, of every tile all bins (kernels/tensor_layout.h).
 struct Layout {
   const std::uint16_t* tensor;
-  std::size_t tile, row;
+  std::ptrdiff_t tile, row;
   int bins, last_x, last_y;
   explicit Layout(const TensorView& view)
       : tensor(view.tensor.data()),
-        tile(std::size_t(view.shape.bins) * DCD_TILE),
-        row(std::size_t(view.shape.tiles_per_row()) * tile),
+        tile(std::ptrdiff_t(view.shape.bins) * DCD_TILE),
+        row(std::ptrdiff_t(view.shape.tiles_per_row()) * tile),
         bins(view.shape.bins),
         last_x(view.shape.width - 1),
         last_y(view.shape.height - 1) {}
-  const std::uint16_t* at(int x, int y) const {
-    return tensor + std::size_t(y) * row + std::size_t(x / int(DCD_TILE)) * tile +
-           x % int(DCD_TILE);
+  const std::uint16_t* at(int x, int y, int bin) const {
+    return tensor + std::ptrdiff_t(y) * row + std::ptrdiff_t(x / int(DCD_TILE)) * tile +
+           std::ptrdiff_t(bin) * DCD_TILE + x % int(DCD_TILE);
   }
-  std::size_t down(int y) const { return y < last_y ? row : 0; }
-  std::size_t bin(int k) const { return std::size_t(k) * DCD_TILE; }
-  std::size_t bin_after(int k) const { return bin(k + 1 == bins ? 0 : k + 1); }
+  std::ptrdiff_t right(int x) const {
+    if (x == last_x) return 0;
+    return x % int(DCD_TILE) == int(DCD_TILE) - 1 ? tile - (int(DCD_TILE) - 1) : 1;
+  }
+  std::ptrdiff_t down(int y) const { return y < last_y ? row : 0; }
+  std::ptrdiff_t bin_after(int k) const {
+    return std::ptrdiff_t(k + 1 == bins ? 1 - bins : 1) * DCD_TILE;
+  }
 };
 
 // The tensor is many times a cache: of a whole group the reads are under way before the first is
@@ -97,36 +104,59 @@ inline __attribute__((always_inline)) void fetch(const Layout& layout, Group& g)
     g.bin[i] = std::min(int(g.turn[i]), layout.bins - 1);
   }
   for (int i = 0; i < lanes; ++i) {
-    const std::uint16_t* place = layout.at(g.x0[i], g.y0[i]);
-    for (const std::uint16_t* line : {place, place + layout.down(g.y0[i])}) {
-      __builtin_prefetch(line + layout.bin(g.bin[i]));
-      __builtin_prefetch(line + layout.bin_after(g.bin[i]));
+    g.place[i] = layout.at(g.x0[i], g.y0[i], g.bin[i]);
+    g.right[i] = layout.right(g.x0[i]);
+    g.down[i] = layout.down(g.y0[i]);
+    g.bin_after[i] = layout.bin_after(g.bin[i]);
+    for (const std::uint16_t* line : {g.place[i], g.place[i] + g.down[i]}) {
+      __builtin_prefetch(line);
+      __builtin_prefetch(line + g.bin_after[i]);
     }
+  }
+}
+
+// The eight values around a point, by x, y and bin. Apart from the arithmetic, which becomes
+// vectors.
+struct Corners {
+  int v[2][2][2][lanes];
+};
+
+inline __attribute__((always_inline)) void read_corners(const Group& g, Corners& c) {
+  for (int i = 0; i < lanes; ++i) {
+    const std::uint16_t* left = g.place[i];
+    const std::ptrdiff_t down = g.down[i], after = g.bin_after[i];
+    const std::uint16_t* right = left + g.right[i];
+    c.v[0][0][0][i] = left[0], c.v[0][0][1][i] = left[after];
+    c.v[1][0][0][i] = right[0], c.v[1][0][1][i] = right[after];
+    c.v[0][1][0][i] = left[down], c.v[0][1][1][i] = left[down + after];
+    c.v[1][1][0][i] = right[down], c.v[1][1][1][i] = right[down + after];
   }
 }
 
 inline __attribute__((always_inline)) void read_tensor(const Layout& layout, Group& g) {
   constexpr float unit = 1.0f / DCD_UNITS_PER_PX;
+  Corners c;
+  read_corners(g, c);
+  const float last_x = float(layout.last_x), last_y = float(layout.last_y);
   for (int i = 0; i < lanes; ++i) {
-    const float x = std::clamp(g.u[i], 0.0f, float(layout.last_x)),
-                y = std::clamp(g.v[i], 0.0f, float(layout.last_y));
-    const int x0 = g.x0[i], y0 = g.y0[i], k0 = g.bin[i];
-    const float ax = x - float(x0), ay = y - float(y0), ak = g.turn[i] - float(k0);
-    const std::uint16_t *left = layout.at(x0, y0),
-                        *right = layout.at(std::min(x0 + 1, layout.last_x), y0);
-    const std::size_t down = layout.down(y0), a = layout.bin(k0), b = layout.bin_after(k0);
-    const float s00 = float(left[b]) - float(left[a]), s10 = float(right[b]) - float(right[a]);
-    const float s01 = float(left[down + b]) - float(left[down + a]),
-                s11 = float(right[down + b]) - float(right[down + a]);
-    const float v00 = float(left[a]) + ak * s00, v10 = float(right[a]) + ak * s10;
-    const float v01 = float(left[down + a]) + ak * s01, v11 = float(right[down + a]) + ak * s11;
+    const float x = std::min(std::max(g.u[i], 0.0f), last_x),
+                y = std::min(std::max(g.v[i], 0.0f), last_y);
+    const float ax = x - float(g.x0[i]), ay = y - float(g.y0[i]), ak = g.turn[i] - float(g.bin[i]);
+    const float a00 = float(c.v[0][0][0][i]), a10 = float(c.v[1][0][0][i]),
+                a01 = float(c.v[0][1][0][i]), a11 = float(c.v[1][1][0][i]);
+    const float s00 = float(c.v[0][0][1][i]) - a00, s10 = float(c.v[1][0][1][i]) - a10,
+                s01 = float(c.v[0][1][1][i]) - a01, s11 = float(c.v[1][1][1][i]) - a11;
+    const float v00 = a00 + ak * s00, v10 = a10 + ak * s10;
+    const float v01 = a01 + ak * s01, v11 = a11 + ak * s11;
     const float top = v00 + ax * (v10 - v00), bottom = v01 + ax * (v11 - v01);
     const float out_x = g.u[i] - x, out_y = g.v[i] - y,
                 out = std::sqrt(out_x * out_x + out_y * out_y);
+    const float inner_x = ((v10 - v00) + ay * ((v11 - v01) - (v10 - v00))) * unit,
+                inner_y = (bottom - top) * unit;
+    const float outer_x = out_x / out, outer_y = out_y / out;  // no numbers inside the image
     g.value[i] = (top + ay * (bottom - top)) * unit + out;
-    g.slope[0][i] =
-        out_x != 0 ? out_x / out : ((v10 - v00) + ay * ((v11 - v01) - (v10 - v00))) * unit;
-    g.slope[1][i] = out_y != 0 ? out_y / out : (bottom - top) * unit;
+    g.slope[0][i] = out_x != 0 ? outer_x : inner_x;
+    g.slope[1][i] = out_y != 0 ? outer_y : inner_y;
     const float slope_top = s00 + ax * (s10 - s00), slope_bottom = s01 + ax * (s11 - s01);
     g.slope[2][i] = (slope_top + ay * (slope_bottom - slope_top)) * unit;
   }
