@@ -99,21 +99,22 @@ Landings land(const SeenPose& p) {
 
 // By landing. A cell counts no more edge than crosses it, or than one of its points stands for.
 std::vector<float> lengths_that_count_px(const Landings& landings) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> by_cell;
-  for (std::uint32_t i = 0; i < landings.list.size(); ++i)
-    by_cell.emplace_back(landings.list[i].cell, i);
+  std::vector<std::uint64_t> by_cell(landings.list.size());  // cell and, below it, landing
+  for (std::uint32_t i = 0; i < by_cell.size(); ++i)
+    by_cell[i] = std::uint64_t(landings.list[i].cell) << 32 | i;
   std::ranges::sort(by_cell);
+  const auto landing_of = [&](std::size_t n) { return std::uint32_t(by_cell[n]); };
   std::vector<float> lengths(landings.list.size());
   for (std::size_t first = 0, last = 0; first < by_cell.size(); first = last) {
     float total = 0, most = float(CELL_PX);
-    for (; last < by_cell.size() && by_cell[last].first == by_cell[first].first; ++last) {
-      const float step_px = landings.list[by_cell[last].second].step_px;
+    for (; last < by_cell.size() && by_cell[last] >> 32 == by_cell[first] >> 32; ++last) {
+      const float step_px = landings.list[landing_of(last)].step_px;
       total += step_px * landings.steps;
       most = std::max(most, step_px);
     }
     const float share = std::min(1.0f, most / total) * landings.steps;
     for (std::size_t n = first; n < last; ++n)
-      lengths[by_cell[n].second] = share * landings.list[by_cell[n].second].step_px;
+      lengths[landing_of(n)] = share * landings.list[landing_of(n)].step_px;
   }
   return lengths;
 }
