@@ -45,8 +45,10 @@ class RegionScan {
              std::span<const ScanRegion> regions, Backend& backend, const ScanOptions& options,
              Unfilled<TemplateHit>& hits)
       : scale_(scale), admitted_(admitted), backend_(backend), options_(options), hits_(hits) {
-    for (const double distance_m : scale.numbering.distances_m)
+    for (const double distance_m : scale.numbering.distances_m) {
       distances_m_.push_back(float(distance_m));
+      size_weights_.push_back(scan_size_weight(distance_m));
+    }
     for (const ScanRegion& region : regions) add_region(region);
     turn_templates();
   }
@@ -118,24 +120,39 @@ class RegionScan {
     return ranked;
   }
 
+  // As much of a template's score as decides its order.
+  struct RankedPlace {
+    double mean_px, rank;
+    std::uint32_t number, place;
+  };
+  static bool is_better(const RankedPlace& a, const RankedPlace& b) {
+    return a.rank != b.rank ? a.rank < b.rank : a.number < b.number;
+  }
+
   std::vector<ScoredTemplate> best_of_region(const TemplateScan& scan, std::size_t region,
                                              std::size_t most) const {
-    std::vector<ScoredTemplate> best;  // a heap, the worst in front
-    for (std::size_t place = 0; place < scan.templates(); ++place) {
-      const TemplateHit& hit = hits_[region * scan.templates() + place];
-      if (hit.sum == TEMPLATE_SCAN_NONE) continue;
-      const ScoredTemplate scored = scored_template(scan, scan.number(region, place), hit);
-      if (best.size() == most && best.front().key() < scored.key()) continue;
-      if (!admitted_.admits(scored)) continue;
+    const auto better = [](const auto& a, const auto& b) { return is_better(a, b); };
+    const auto hits =
+        std::span<const TemplateHit>(hits_).subspan(region * scan.templates(), scan.templates());
+    std::vector<RankedPlace> best;  // a heap, the worst in front
+    for (std::uint32_t place = 0; place < hits.size(); ++place) {
+      if (hits[place].sum == TEMPLATE_SCAN_NONE) continue;
+      const RankedPlace ranked =
+          ranked_place(scan, scan.number(region, place), place, hits[place].sum);
+      if (best.size() == most && is_better(best.front(), ranked)) continue;
+      if (!admitted_.admits(scored_template(ranked, hits))) continue;
       if (best.size() == most) {
-        std::ranges::pop_heap(best, {}, &ScoredTemplate::key);
+        std::ranges::pop_heap(best, better);
         best.pop_back();
       }
-      best.push_back(scored);
-      std::ranges::push_heap(best, {}, &ScoredTemplate::key);
+      best.push_back(ranked);
+      std::ranges::push_heap(best, better);
     }
-    std::ranges::sort_heap(best, {}, &ScoredTemplate::key);
-    return best;
+    std::ranges::sort_heap(best, better);
+    std::vector<ScoredTemplate> scored;
+    scored.reserve(best.size());
+    for (const RankedPlace& ranked : best) scored.push_back(scored_template(ranked, hits));
+    return scored;
   }
 
   // ScanRegion by region.
@@ -151,11 +168,18 @@ class RegionScan {
     return hits;
   }
 
-  ScoredTemplate scored_template(const TemplateScan& scan, std::uint32_t number,
-                                 const TemplateHit& hit) const {
-    const double mean_px = double(hit.sum) / (4.0 * scan.points_of(number).count);
-    return {number, Eigen::Vector2d(hit.x, hit.y), mean_px,
-            mean_px * scan_size_weight(scale_.numbering.distance_m(number))};
+  RankedPlace ranked_place(const TemplateScan& scan, std::uint32_t number, std::uint32_t place,
+                           std::uint32_t sum) const {
+    const double mean_px = double(sum) / (4.0 * scan.points_of(number).count);
+    return {mean_px, mean_px * size_weights_[number % std::uint32_t(size_weights_.size())], number,
+            place};
+  }
+
+  // `hits` of the region.
+  static ScoredTemplate scored_template(const RankedPlace& ranked,
+                                        std::span<const TemplateHit> hits) {
+    const TemplateHit& hit = hits[ranked.place];
+    return {ranked.number, Eigen::Vector2d(hit.x, hit.y), ranked.mean_px, ranked.rank};
   }
 
   // By region; as many of each, filled up with none.
@@ -176,6 +200,7 @@ class RegionScan {
   const ScanOptions& options_;
   Unfilled<TemplateHit>& hits_;  // of the last scan and, behind them, of longer ones
   std::vector<float> distances_m_;
+  std::vector<double> size_weights_;      // by distance
   std::vector<Eigen::Vector2d> middles_;  // of the regions, coarse px
   std::vector<TemplateRegion> regions_;
   std::vector<TemplateAnchors> anchors_;  // [region][distance]

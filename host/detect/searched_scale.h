@@ -2,7 +2,6 @@
 #pragma once
 
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include "host/detect/coarse_scan.h"
@@ -29,7 +28,6 @@ struct ScoredTemplate {
   std::size_t number;
   Eigen::Vector2d anchor_px;
   double mean_px, rank;
-  auto key() const { return std::pair(rank, number); }
 };
 
 // One scale of a template set and the tensors on which it is scanned.
