@@ -89,12 +89,6 @@ bool Occluders::hide(const Eigen::Vector3d& in_camera, double tolerance_m) const
   return at && !any_around(*at, [&](int x, int y) { return depth_at_m(*this, x, y) >= limit; });
 }
 
-bool Occluders::may_hide(const Eigen::Vector3d& in_camera, double tolerance_m) const {
-  const std::optional<MapPixel> at = map_pixel(camera, in_camera);
-  const float limit = float(in_camera.z() - tolerance_m);
-  return at && any_around(*at, [&](int x, int y) { return depth_at_m(*this, x, y) < limit; });
-}
-
 void remove_hidden(std::vector<ModelPoint>& points, const Occluders& occluders,
                    const Se3& camera_from_object, double tolerance_m, SilhouetteMarks* marks) {
   std::size_t kept = 0;

@@ -22,8 +22,6 @@ struct Occluders {
   // Whether the point is certainly hidden: all 3 x 3 pixels around its projection lie nearer by
   // more than `tolerance_m`. On an occluder's contour and outside the image no point is.
   bool hide(const Eigen::Vector3d& in_camera, double tolerance_m) const;
-  // Whether one of the 3 x 3 pixels lies nearer: the grey value may be the occluder's.
-  bool may_hide(const Eigen::Vector3d& in_camera, double tolerance_m) const;
 };
 
 // Removes the points of an object that the occluders hide, and their marks where given.

@@ -14,7 +14,7 @@
 
 namespace edgescout {
 
-// Rows are poses, columns views. All zero where the view has no image.
+// Rows are poses, columns views. All zero where the view or its tensor has no image.
 Grid<Shading> shading(const Scene& scene, std::span<const ObjectPose> poses);
 
 }  // namespace edgescout

@@ -58,7 +58,11 @@ struct ShadedPart {
     view.camera = camera;
     view.tensor = backend->make_view({}, width, height, {}, {500, 500, 159.5f, 119.5f}, {});
   }
-  void show(const Image& image) { view.image = std::make_shared<Image>(image); }
+  void show(const Image& image) {
+    view.image = std::make_shared<Image>(image);
+    view.tensor = backend->make_view({}, width, height, {width, height, view.image->pixels.data()},
+                                     {500, 500, 159.5f, 119.5f}, {});
+  }
   Shading at(const Se3& pose) const {
     const ObjectPose start{0, pose};
     return shading({{&model, 1}, {&view, 1}, *backend}, {&start, 1})(0, 0);
