@@ -33,14 +33,13 @@ std::map<int, BopImage> read_images(const fs::path& folder, const std::string& c
       depth_files = ImageFiles::of_depth(folder, camera_name);
   ProjectedRotations projected;
   std::map<int, BopImage> images;
-  for (const auto& [key, value] : content.items()) {
-    const JsonField entry = root.at(key);
+  for (const auto& [image_id, entry] : numbered_fields(root)) {
     BopImage image;
-    image.image_id = integer_key(key, root);
+    image.image_id = image_id;
     image.file = files.of(image.image_id);
     if (depth_files.has(image.image_id)) image.depth_file = depth_files.of(image.image_id);
     if (entry.has("depth_scale")) image.depth_scale = entry.at("depth_scale").number();
-    CameraFields fields(entry.value, entry.source, key);
+    CameraFields fields(entry.value, entry.source, entry.path.substr(1));
     image.camera = read_camera(fields);
     Camera checked = image.camera;
     if (checked.width == 0)
@@ -60,9 +59,9 @@ void read_truth(const fs::path& file, std::map<int, std::vector<BopTruth>>& trut
   const json content = read_json(file);
   const JsonField root{content, file.string(), ""};
   ProjectedRotations projected;
-  for (const auto& [key, value] : content.items()) {
-    std::vector<BopTruth>& objects = truth[integer_key(key, root)];  // also without any object
-    for (const JsonField& entry : root.at(key).elements())
+  for (const auto& [image_id, image] : numbered_fields(root)) {
+    std::vector<BopTruth>& objects = truth[image_id];  // also without any object
+    for (const JsonField& entry : image.elements())
       objects.push_back(
           {entry.at("obj_id").integer(),
            pose_from(entry.at("cam_R_m2c"), entry.at("cam_t_m2c"), metres_per_mm, projected), 1.0});
@@ -75,7 +74,7 @@ void read_visible_fractions(const fs::path& file, std::map<int, std::vector<BopT
   const json content = read_json(file);
   const JsonField root{content, file.string(), ""};
   std::map<int, std::string> keys;  // as written: they may be padded with zeros
-  for (const auto& [key, value] : content.items()) keys[integer_key(key, root)] = key;
+  for (const auto& [image_id, image] : numbered_fields(root)) keys[image_id] = image.path.substr(1);
   for (auto& [image_id, objects] : truth) {
     if (objects.empty()) continue;
     const auto key = keys.find(image_id);

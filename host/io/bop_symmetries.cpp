@@ -90,11 +90,10 @@ std::map<int, Symmetries> load_symmetries(const std::filesystem::path& models_in
   const JsonField root{content, models_info.string(), ""};
   std::map<int, Symmetries> result;
   ProjectedRotations projected;
-  for (const auto& [key, value] : content.items()) {
-    const JsonField object = root.at(key);
+  for (const auto& [object_id, object] : numbered_fields(root)) {
     require_known_symmetries(object);
     const std::vector<Se3> continuous = read_continuous(object, continuous_steps);
-    std::vector<Se3>& group = result[integer_key(key, root)].discrete;
+    std::vector<Se3>& group = result[object_id].discrete;
     for (const Se3& discrete : read_discrete(object, projected))
       for (const Se3& turn : continuous) add_unless_known(group, turn * discrete);
   }

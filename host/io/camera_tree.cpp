@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "host/io/json_fields.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -36,35 +37,6 @@ std::string plain_text(const std::string& bytes, const std::string& source) {
                      "a camera calibration as text (YAML, JSON, XML, cameras.txt ..)");
   std::erase(text, '\r');
   return text;
-}
-
-// Keeps the keys of the objects that are open, since the JSON library keeps the last of two equal
-// fields without a word.
-class DuplicateCheck {
- public:
-  explicit DuplicateCheck(const std::string& source) : source_(source) {}
-  bool operator()(int, json::parse_event_t event, json& value) {
-    if (event == json::parse_event_t::object_start) open_.emplace_back();
-    if (event == json::parse_event_t::object_end) open_.pop_back();
-    if (event != json::parse_event_t::key) return true;
-    const std::string key = value.get<std::string>();
-    if (std::ranges::find(open_.back(), key) != open_.back().end())
-      throw InputError(source_, key, "the field twice", "it once");
-    open_.back().push_back(key);
-    return true;
-  }
-
- private:
-  std::string source_;
-  std::vector<std::vector<std::string>> open_;
-};
-
-json parse_json(const std::string& text, const std::string& source) {
-  try {
-    return json::parse(text, DuplicateCheck(source), true, true);
-  } catch (const json::exception& error) {
-    throw InputError(source, "JSON", error.what(), "a JSON file");
-  }
 }
 
 std::optional<double> number_in(std::string_view word) {
@@ -125,10 +97,10 @@ json parse_camera_tree(const std::string& bytes, const std::string& source, bool
   const std::size_t start = text.find_first_not_of(" \t\n");
   if (start == std::string::npos)
     throw InputError(source, "file", "nothing", "a camera calibration");
-  if (is_json) return parse_json(text, source);
+  if (is_json) return parse_json(text, source, true);
   if (text[start] == '<') return xml_camera_tree(text, source);
   // A YAML map may begin with a brace as well.
-  if (text[start] == '{' && json::accept(text, true)) return parse_json(text, source);
+  if (text[start] == '{' && json::accept(text, true)) return parse_json(text, source, true);
   if (json tree = text_camera_tree(text, source); !tree.is_null()) return tree;
   try {
     return yaml_camera_tree(printed_as_yaml(text), source);

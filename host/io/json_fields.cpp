@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <set>
 
 #include "host/io/files.h"
 #include "host/io/one_line.h"
@@ -11,13 +12,40 @@ namespace edgescout {
 
 using nlohmann::json;
 
-json read_json(const std::filesystem::path& file) {
-  json content;
-  try {
-    content = json::parse(read_file(file));
-  } catch (const json::exception& error) {
-    throw InputError(file.string(), "JSON", error.what(), "a JSON file");
+namespace {
+
+// Keeps the keys of the objects that are open, since the JSON library keeps the last of two equal
+// fields without a word.
+class DuplicateCheck {
+ public:
+  explicit DuplicateCheck(const std::string& source) : source_(source) {}
+  bool operator()(int, json::parse_event_t event, json& value) {
+    if (event == json::parse_event_t::object_start) open_.emplace_back();
+    if (event == json::parse_event_t::object_end) open_.pop_back();
+    if (event != json::parse_event_t::key) return true;
+    const auto& key = value.get_ref<const std::string&>();
+    if (!open_.back().insert(key).second)
+      throw InputError(source_, one_line(key), "the field twice", "it once");
+    return true;
   }
+
+ private:
+  std::string source_;
+  std::vector<std::set<std::string>> open_;
+};
+
+}  // namespace
+
+json parse_json(const std::string& text, const std::string& source, bool allow_comments) {
+  try {
+    return json::parse(text, DuplicateCheck(source), true, allow_comments);
+  } catch (const json::exception& error) {
+    throw InputError(source, "JSON", error.what(), "a JSON file");
+  }
+}
+
+json read_json(const std::filesystem::path& file) {
+  const json content = parse_json(read_file(file), file.string());
   if (!content.is_structured())
     throw InputError(file.string(), "JSON", content.type_name(), "an object or an array");
   return content;
@@ -72,12 +100,19 @@ std::vector<double> JsonField::numbers(std::size_t count) const {
   return result;
 }
 
-int integer_key(const std::string& key, const JsonField& parent) {
-  int number = 0;
-  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), number);
-  if (error != std::errc{} || end != key.data() + key.size())
-    parent.fail("the key \"" + key + "\"", "a whole number");
-  return number;
+std::vector<NumberedField> numbered_fields(const JsonField& parent) {
+  std::vector<NumberedField> fields;
+  std::set<int> numbers;
+  for (const auto& [key, value] : parent.value.items()) {
+    int number = 0;
+    const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), number);
+    if (error != std::errc{} || end != key.data() + key.size())
+      parent.fail("the key \"" + key + "\"", "a whole number");
+    const JsonField field = parent.at(key);
+    if (!numbers.insert(number).second) field.fail("the same number as another key", "it once");
+    fields.push_back({number, field});
+  }
+  return fields;
 }
 
 Se3 pose_from(const JsonField& rotation, const JsonField& translation, double metres_per_unit,

@@ -11,7 +11,11 @@
 
 namespace edgescout {
 
-// InputError: the file is missing or holds no JSON object or array.
+// InputError: the text is no JSON, or an object in it has a field twice.
+nlohmann::json parse_json(const std::string& text, const std::string& source,
+                          bool allow_comments = false);
+
+// InputError: also where the file is missing or holds no JSON object or array.
 nlohmann::json read_json(const std::filesystem::path& file);
 
 // A value of a JSON file and its place, which errors name: "FILE: /3/cam_K".
@@ -31,8 +35,14 @@ struct JsonField {
   [[noreturn]] void fail(const std::string& found, const std::string& expected) const;
 };
 
-// "000012" -> 12. InputError naming the field: the key is no whole number.
-int integer_key(const std::string& key, const JsonField& parent);
+struct NumberedField {
+  int number;
+  JsonField field;
+};
+
+// The fields of an object whose keys are numbers, as "000012". InputError naming the field: a key
+// is no whole number, or two are the same one.
+std::vector<NumberedField> numbered_fields(const JsonField& parent);
 
 // R: 9 numbers by row. t: 3 numbers in units of `metres_per_unit`. Counts rotations that had to be
 // projected (rotations.h). InputError: R is no rotation.

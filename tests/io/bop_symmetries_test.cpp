@@ -181,5 +181,15 @@ TEST(LoadSymmetries, NamesFileAndFieldOfWhatIsWrong) {
                      {"no-such-models_info.json", "No such file"});
 }
 
+TEST(LoadSymmetries, NamesAnObjectThatStandsTwice) {
+  const TemporaryFolder folder;
+  for (const char* other : {"5", "000005"}) {
+    const auto file = folder.write("models_info.json", "{\"5\": {\"diameter\": 1}, \"" +
+                                                           std::string(other) +
+                                                           "\": {\"diameter\": 2}}");
+    expect_input_error([&] { load_symmetries(file); }, {"models_info.json", "5"});
+  }
+}
+
 }  // namespace
 }  // namespace edgescout::test

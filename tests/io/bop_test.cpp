@@ -134,6 +134,33 @@ TEST(BopScene, NamesFileAndFieldOfWhatIsWrong) {
       {"/1/0/obj_id"});
 }
 
+// The last of two equal fields would count without a word.
+TEST(BopScene, NamesFieldsThatStandTwice) {
+  const TemporaryFolder folder;
+  const std::string image = R"({"cam_K": [5,0,3,0,6,4,0,0,1]})";
+  const std::string object =
+      R"({"obj_id": 1, "cam_R_m2c": [1,0,0,0,1,0,0,0,1], "cam_t_m2c": [0,0,1]})";
+  const auto refused = [&](const std::string& file, const std::string& content,
+                           std::initializer_list<std::string> words) {
+    folder.write("scene_camera.json", "{\"1\": " + image + "}");
+    folder.write("scene_gt.json", "{\"1\": [" + object + "]}");
+    folder.write("scene_gt_info.json", "{}");
+    folder.write(file, content);
+    expect_input_error([&] { load_bop_scene(folder.path()); }, words);
+  };
+  const auto twice = [](const std::string& key, const std::string& other,
+                        const std::string& value) {
+    return "{\"" + key + "\": " + value + ", \"" + other + "\": " + value + "}";
+  };
+  for (const char* file : {"scene_camera.json", "scene_gt.json", "scene_gt_info.json"}) {
+    const std::string value = file == std::string("scene_camera.json") ? image : "[" + object + "]";
+    refused(file, twice("7", "7", value), {file, "7", "twice"});
+    refused(file, twice("000007", "7", value), {file, "/7", "same number"});
+  }
+  refused("scene_gt.json", R"({"1": [{"obj_id": 1, "obj_id": 2}]})",
+          {"scene_gt.json", "obj_id", "twice"});
+}
+
 // A matrix of one scene with `error` added to one number.
 std::string scene_gt_with_error(double error) {
   return R"({"1": [{"obj_id": 1, "cam_R_m2c": [)" + std::to_string(1 + error) +
