@@ -8,6 +8,7 @@
 #include "host/io/exif.h"
 #include "host/io/files.h"
 #include "host/io/image_header.h"
+#include "host/io/tiff_header.h"
 #include "kernels/error.h"
 
 namespace edgescout {

@@ -36,10 +36,4 @@ std::optional<double> stated_white(std::string_view bytes);
 // What a file holds that OpenCV would refuse in several lines of its own. Empty: nothing known.
 std::string undecodable(std::string_view bytes);
 
-// The file with the orientation of a TIFF set to 1: its decoder would turn the pixels.
-std::string as_stored(const std::string& bytes);
-
-// Whether a TIFF file has a page after the first one.
-bool has_more_pages(std::string_view bytes);
-
 }  // namespace edgescout

@@ -12,6 +12,7 @@
 #include "host/io/grey_levels.h"
 #include "host/io/image.h"
 #include "host/io/image_header.h"
+#include "host/io/tiff_header.h"
 #include "host/io/to_grey.h"
 #include "kernels/error.h"
 
@@ -34,6 +35,13 @@ void mention_pages(const std::string& bytes, const std::string& source) {
     log(LogLevel::Warning, source +
                                ": pages: found several, expected one: the first is used (not "
                                "repeated for further images)");
+}
+
+// Larger values become brighter, as its decoder does with 8 bits.
+cv::Mat as_brightness(const cv::Mat& pixels, const std::string& bytes) {
+  const std::optional<int> black = black_of_inverted(bytes);
+  if (!black || pixels.depth() != CV_16U) return pixels;
+  return cv::Mat(cv::Scalar(*black) - pixels);
 }
 
 // What the file says of white is better than a guess from its pixels.
@@ -73,7 +81,7 @@ Image load_image(const std::filesystem::path& file, const ImageOptions& options)
 
 Image decode_image(const std::string& bytes, const std::string& source,
                    const ImageOptions& options) {
-  const cv::Mat pixels = decode_pixels(bytes, options, source);
+  const cv::Mat pixels = as_brightness(decode_pixels(bytes, options, source), bytes);
   require_least_size(pixels, source);
   mention_orientation(bytes, source);
   mention_pages(bytes, source);

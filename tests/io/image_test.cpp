@@ -389,6 +389,19 @@ TEST(LoadImage, KeepsThePixelsOfATurnedTiffAsTheyAreStored) {
   }
 }
 
+TEST(LoadImage, TakesZeroForWhiteWhereATiffSaysSo) {
+  const Image grey = gradient_image(24, 16);
+  for (const int bits : {8, 16}) {
+    std::string inverted;
+    for (const std::uint8_t pixel : grey.pixels)
+      inverted.append(bits / 8, static_cast<char>(255 - pixel));  // 257 * (255 - pixel)
+    auto tags = grey_tags(24, 16, bits);
+    tags[4].second = 0;  // the photometric interpretation
+    const Image image = decode_image(tiff_of(inverted, tags), "x.tiff");
+    EXPECT_EQ(image.pixels, grey.pixels) << bits;
+  }
+}
+
 TEST(LoadImage, RefusesTiffPixelsItDoesNotRead) {
   const std::string pixels(4 * 24 * 16, 'x');
   const auto refused = [&](int bits, std::pair<int, int> tag, std::string_view word) {
