@@ -8,6 +8,7 @@
 #include "host/io/exif.h"
 #include "host/io/files.h"
 #include "host/io/image_header.h"
+#include "host/io/png_chunks.h"
 #include "host/io/tiff_header.h"
 #include "kernels/error.h"
 
@@ -21,12 +22,12 @@ std::string an_image() {
   return "a PNG, JPEG or other image (" + option_name("raw-size") + " reads one without a header)";
 }
 
-// Decoders fill the missing rest of a truncated image with grey and only warn, or write lines of
-// their own. So the size of files without compression and the end marks of two formats are checked
-// here.
+bool is_png(const std::string& bytes) { return bytes.starts_with("\x89PNG"); }
+
+// Decoders fill the missing rest of a truncated image with grey and only warn. So the size of files
+// without compression and the end mark of JPEG are checked here.
 bool is_cut_short(const std::string& bytes) {
   if (bytes.size() < stated_bytes(bytes)) return true;
-  if (bytes.starts_with("\x89PNG")) return bytes.find("IEND") == std::string::npos;
   if (!bytes.starts_with("\xff\xd8")) return false;
   // Coded data never holds these two-byte marks, and an embedded thumbnail ends before the scan
   // starts.
@@ -108,6 +109,7 @@ cv::Mat decode_pixels(const std::string& bytes, const ImageOptions& options,
   if (is_cut_short(bytes)) throw InputError(source, "image", "a file cut short", "a whole image");
   if (const std::string found = undecodable(bytes); !found.empty())
     throw InputError(source, "image", found, an_image());
+  if (is_png(bytes)) return decode(needed_png_chunks(bytes, source), source);
   return decode(exif_orientation(bytes) == 1 ? bytes : as_stored(bytes), source);
 }
 
