@@ -33,21 +33,42 @@ void flatten(const JsonField& field, const json& value, int depth, std::vector<d
 bool is_part_of_camera(std::string_view name) {
   return is_matrix_name(name) || is_distortion_name(name) ||
          contains_any_of(name, {"intrinsic", "distortion", "projectionparam", "resolution"}) ||
-         is_any_of(name, {"calibration", "calib", "camera", "camerainfo", "cameramodel", "cammodel",
-                          "imagesize", "capturedimagesize", "size", "image", "parameters", "params",
-                          "principalpoint", "focallength", "binning", "lens", "value", "value0"});
+         is_any_of(name, {"calibration",    "calib",         "camera",      "camerainfo",
+                          "cameramodel",    "cammodel",      "imagesize",   "capturedimagesize",
+                          "size",           "image",         "parameters",  "params",
+                          "principalpoint", "opticalcenter", "focallength", "focal",
+                          "binning",        "lens",          "value",       "value0"});
 }
 
-// "cam_fx", "cam_width", "cam_d0" of vikit.
+bool is_camera_number(std::string_view name) {
+  return is_any_of(name, {"fx", "fy", "cx", "cy", "width", "height", "k1", "k2", "k3", "p1", "p2",
+                          "d0", "d1", "d2", "d3", "d4"});
+}
+
+// "cam_fx", "cam_width", "cam_d0" of vikit; "fx_px".
 std::string without_camera(const std::string& name) {
   for (const std::string_view prefix : {"camera", "cam"})
-    if (name.starts_with(prefix)) {
-      const std::string rest = name.substr(prefix.size());
-      if (is_any_of(rest, {"fx", "fy", "cx", "cy", "width", "height", "k1", "k2", "k3", "p1", "p2",
-                           "d0", "d1", "d2", "d3", "d4"}))
-        return rest;
-    }
+    if (name.starts_with(prefix) && is_camera_number(name.substr(prefix.size())))
+      return name.substr(prefix.size());
+  if (name.ends_with("px") && is_camera_number(name.substr(0, name.size() - 2)))
+    return name.substr(0, name.size() - 2);
   return name;
+}
+
+// "focal_length: {x: 700, y: 701}".
+std::string with_axis(const std::string& name, std::string_view object) {
+  if (!is_any_of(name, {"x", "y"})) return name;
+  if (is_any_of(object, {"focallength", "focal"})) return "f" + name;
+  return is_any_of(object, {"principalpoint", "opticalcenter"}) ? "c" + name : name;
+}
+
+// What a list of coefficients has beside it, rather than another coefficient.
+bool is_about_coefficients(std::string_view name) {
+  return contains_any_of(
+             name, {"err",  "rms",   "residual", "std",   "cov",    "variance",   "sigma",
+                    "num",  "count", "size",     "width", "height", "resolution", "version",
+                    "time", "date",  "fov",      "max",   "min",    "valid",      "radius"}) ||
+         is_any_of(name, {"n", "id", "rows", "cols"});
 }
 
 std::string path_below(const std::string& path, const std::string& name) {
@@ -149,7 +170,7 @@ CameraFields::CameraFields(const json& object, const std::string& source, const 
     const std::string written = field.path.substr(field.path.rfind('/') + 1);
     const std::string name = plain_name(written);
     if (std::ranges::find(entries_, name, &Entry::name) == entries_.end())
-      entries_.push_back({name, written, field.path, &field.value});
+      entries_.push_back({name, written, field.path, &field.value, false});
   }
 }
 
@@ -162,7 +183,7 @@ void CameraFields::add(const json& object, const std::string& path, bool in_dist
     if (const std::size_t dot = key.find('.');
         dot != std::string::npos && plain_name(key.substr(0, dot)).starts_with("camera"))
       name = plain_name(written = key.substr(dot + 1));
-    name = without_camera(name);
+    name = with_axis(without_camera(name), plain_name(path.substr(path.rfind('/') + 1)));
     const std::string where = path_below(path, key);
     const bool is_matrix = value.is_object() && value.contains("data");
     if (value.is_object() && !is_matrix && depth < 4 && is_part_of_camera(name)) {
@@ -171,7 +192,7 @@ void CameraFields::add(const json& object, const std::string& path, bool in_dist
     }
     if (in_distortion && is_any_of(name, {"params", "parameters", "values", "vector", "list"}))
       name = "distortion";
-    entries_.push_back({name, written, where, &value});
+    entries_.push_back({name, written, where, &value, in_distortion});
   }
 }
 
@@ -182,7 +203,8 @@ bool CameraFields::has_intrinsics() const {
              entries_,
              [](const Entry& entry) {
                const bool is_value = !entry.value->is_null() && !entry.value->is_object();
-               return (is_matrix_name(entry.name) && is_list(*entry.value)) ||
+               return (is_matrix_name(entry.name) && is_list(*entry.value) &&
+                       !entry.value->empty()) ||
                       (is_any_of(entry.name,
                                  {"fx", "flx", "fu", "ppx", "mu", "focallength", "f", "fc",
                                   "focallengthx", "modelparameters", "projectionparams"}) &&
@@ -240,7 +262,10 @@ void CameraFields::require_all_understood() const {
     // Its own name: "Camera.k1" is k1.
     const JsonField field{*entry.value, source_, entry.path};
     std::optional<JsonField> found;
-    if (changes_the_image(entry.name, *entry.value))
+    const bool may_be_coefficient = entry.in_distortion &&
+                                    (entry.value->is_number() || is_list(*entry.value)) &&
+                                    !is_trivial(*entry.value) && !is_about_coefficients(entry.name);
+    if (may_be_coefficient || changes_the_image(entry.name, *entry.value))
       found.emplace(field);
     else if (const auto within = field_that_changes_the_image(field); within)
       found.emplace(*within);

@@ -74,6 +74,7 @@ class CameraFields {
     std::string written;  // as spelt
     std::string path;
     const nlohmann::json* value;
+    bool in_distortion;  // in an object that holds the distortion
     bool is_read = false;
   };
   void add(const nlohmann::json& object, const std::string& path, bool in_distortion, int depth);

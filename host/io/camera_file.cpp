@@ -49,12 +49,7 @@ class CameraFinder {
 
   void visit(const json& node, const std::string& path, std::vector<JsonField> outer, int depth) {
     if (!node.is_structured() || depth > 8) return;
-    if (node.is_array()) {
-      for (std::size_t i = 0; i < node.size(); ++i)
-        visit(node[i], join(path, name_of(node[i], i)), of_element(outer, i, node.size()),
-              depth + 1);
-      return;
-    }
+    if (node.is_array()) return visit_elements(node, path, outer, depth);
     if (const json pair = split_stereo_pair(node); !pair.is_null())
       return visit(pair, path, outer, depth + 1);
     CameraFields fields(node, source_, path, outer);
@@ -68,6 +63,20 @@ class CameraFinder {
       if (value.is_object() && cameras_.size() == before && !is_lens_of_side(node, key))
         others_.push_back({join(path, key), value});
     }
+  }
+
+  void visit_elements(const json& list, const std::string& path,
+                      const std::vector<JsonField>& outer, int depth) {
+    const std::size_t before_all = cameras_.size();
+    std::vector<FileObject> no_cameras;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const std::string name = join(path, name_of(list[i], i));
+      const std::size_t before = cameras_.size();
+      visit(list[i], name, of_element(outer, i, list.size()), depth + 1);
+      if (list[i].is_object() && cameras_.size() == before) no_cameras.push_back({name, list[i]});
+    }
+    // Lists of something else than cameras say nothing of these.
+    if (cameras_.size() > before_all) std::ranges::move(no_cameras, std::back_inserter(others_));
   }
 
   // Basalt: a list of cameras beside a list of their resolutions.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "host/core/words.h"
 #include "host/io/camera_fields.h"
 
 namespace edgescout {
@@ -19,9 +20,10 @@ bool is_numbered(std::string_view name, std::string_view letters, std::size_t mo
 
 // Of a product or of a program's settings.
 bool says_nothing_of_the_image(std::string_view name) {
-  return is_any_of(name, {"numradialdistortioncoefficients", "estimatetangentialdistortion",
-                          "estimateskew", "lensname", "lensserial", "lensserialnumber", "lensmake",
-                          "lensid", "lensmodelname", "lensposition"});
+  return is_any_of(name,
+                   {"numradialdistortioncoefficients", "numcoefficients", "numcoeffs",
+                    "estimatetangentialdistortion", "estimateskew", "lensname", "lensserial",
+                    "lensserialnumber", "lensmake", "lensid", "lensmodelname", "lensposition"});
 }
 
 // The word for another lens than OpenCV's, under whatever name: "cam_type: fisheye". A title may
@@ -36,12 +38,44 @@ bool is_lens_word(std::string_view name, const json& value) {
                     "doublesphere", "eucm", "ucm", "mei", "scaramuzza", "ftheta"});
 }
 
+// The order of parameters that stand elsewhere without names: "k1 k2 k3 p1 p2".
+bool is_order_of_coefficients(const json& value) {
+  if (value.is_array())
+    return std::ranges::all_of(value, &json::is_string) &&
+           std::ranges::find(value, "k1") != value.end();
+  if (!value.is_string()) return false;
+  constexpr std::size_t longest_name = 5;
+  bool has_k1 = false;
+  for (const std::string& word : words_of(value.get_ref<const std::string&>(), " ,;[]()")) {
+    if (word.size() > longest_name) return false;
+    has_k1 = has_k1 || plain_name(word) == "k1";
+  }
+  return has_k1;
+}
+
+// A table of where pixels lie, or the file that holds it. Tables of colours say nothing of that.
+bool is_table(std::string_view name, const json& value) {
+  const bool is_structured = value.is_string() || value.is_structured();
+  if (!is_structured ||
+      contains_any_of(name, {"color", "colour", "gamma", "tone", "vignet", "depth", "response"}))
+    return false;
+  return name.starts_with("lut") || name.ends_with("lut") ||
+         contains_any_of(name, {"lookup", "remap", "raymap", "raytable"}) ||
+         is_any_of(name, {"mapx", "mapy", "xmap", "ymap", "map1", "map2", "mapxy", "xymap",
+                          "xytable", "rays", "raydirections", "pixelrays"});
+}
+
 bool is_lens(std::string_view name, const json& value) {
   if (value.is_number() &&
-      (is_numbered(name, "kps", 2) || is_numbered(name, "dab", 1) ||
+      (is_numbered(name, "kps", 2) || is_numbered(name, "abcdeglr", 1) ||
+       (name.starts_with("kc") && is_numbered(name.substr(1), "c", 1)) ||
        is_any_of(name, {"xi", "alpha", "beta", "omega", "s", "t1", "t2", "dist", "alphac"})))
     return true;
-  if ((value.is_string() && is_distortion_name(name)) || is_lens_word(name, value)) return true;
+  const bool is_pair = value.is_array() && value.size() == 2;  // p1 and p2
+  if (((value.is_string() || value.is_array()) && is_distortion_name(name)) ||
+      (is_pair && name == "p") || is_lens_word(name, value) || is_table(name, value) ||
+      is_order_of_coefficients(value))
+    return true;
   return name.starts_with("tau") || name.ends_with("poly") || is_any_of(name, {"codx", "cody"}) ||
          contains_any_of(
              name,
@@ -59,7 +93,9 @@ bool is_one(const json& value) {
 
 // A part of the image, binned or resized.
 bool is_region(std::string_view name, const json& value) {
-  if (value.is_number() && is_any_of(name, {"left", "top"})) return true;
+  if (value.is_number() &&
+      is_any_of(name, {"left", "top", "x1", "y1", "x2", "y2", "xmin", "ymin", "xmax", "ymax"}))
+    return true;
   const bool is_scale =
       contains_any_of(
           name, {"binning", "decimat", "subsampl", "downsampl", "downscal", "upscal", "zoom"}) ||
@@ -72,7 +108,7 @@ bool is_region(std::string_view name, const json& value) {
   return name.starts_with("roi") || name.ends_with("roi") || name.ends_with("aoi") ||
          is_any_of(name, {"xoffset", "yoffset", "offsetx", "offsety", "cxoffset", "cyoffset",
                           "xstart", "ystart", "startx", "starty", "imagewindow", "sensorwindow",
-                          "imageregion", "pad"}) ||
+                          "sensorarea", "activearea", "imagearea", "imageregion", "pad"}) ||
          contains_any_of(name, {"crop", "regionofinterest", "areaofinterest", "subwindow",
                                 "viewport", "padding", "principalpoint"});
 }

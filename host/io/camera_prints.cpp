@@ -22,14 +22,24 @@ bool is_name(std::string_view word) {
          });
 }
 
-std::vector<std::string> cells_of(const std::string& line) {
+std::vector<std::string> cells_of(const std::string& line, char separator) {
   std::vector<std::string> cells;
   for (std::size_t at = 0; at <= line.size();) {
-    const std::size_t end = std::min(line.find(',', at), line.size());
-    cells.push_back(trimmed(std::string_view(line).substr(at, end - at)));
+    const std::size_t end = std::min(line.find(separator, at), line.size());
+    std::string cell = trimmed(std::string_view(line).substr(at, end - at));
+    if (cell.size() > 1 && cell.front() == '"' && cell.back() == '"')
+      cell = cell.substr(1, cell.size() - 2);
+    cells.push_back(std::move(cell));
     at = end + 1;
   }
   return cells;
+}
+
+// Programs of countries with a decimal comma separate by semicolons.
+char column_separator(const std::string& line) {
+  for (const char separator : {';', '\t'})
+    if (line.find(separator) != std::string::npos) return separator;
+  return ',';
 }
 
 // rostopic writes field.K0 .. field.K8: they are one list.
@@ -44,14 +54,15 @@ void add_cell(json& camera, std::string name, const std::string& cell, const std
 
 // Names in the first line, a camera in every other one.
 json table_of_cameras(const std::vector<std::string>& lines, const std::string& source) {
-  const std::vector<std::string> names = cells_of(lines.front());
+  const char separator = column_separator(lines.front());
+  const std::vector<std::string> names = cells_of(lines.front(), separator);
   if (lines.size() < 2 || names.size() < 4 || !std::ranges::all_of(names, is_name)) return nullptr;
   constexpr std::size_t most_cells = 100'000;
   if (lines.size() * names.size() > most_cells)
     throw InputError(source, "table", std::to_string(lines.size()) + " lines", "a few");
   json cameras = json::array();
   for (std::size_t i = 1; i < lines.size(); ++i) {
-    const std::vector<std::string> cells = cells_of(lines[i]);
+    const std::vector<std::string> cells = cells_of(lines[i], separator);
     if (cells.size() != names.size()) return nullptr;
     cameras.push_back(json::object());
     for (std::size_t k = 0; k < names.size(); ++k)
@@ -60,11 +71,11 @@ json table_of_cameras(const std::vector<std::string>& lines, const std::string& 
   return cameras;
 }
 
-// "fx 700", "K 700 0 321 0 700 238 0 0 1".
+// "fx 700", "fx,700", "K 700 0 321 0 700 238 0 0 1".
 json names_before_numbers(const std::vector<std::string>& lines, const std::string& source) {
   json camera = json::object();
   for (const std::string& line : lines) {
-    const std::size_t end = line.find_first_of(" \t");
+    const std::size_t end = line.find_first_of(" \t,;");
     if (end == std::string::npos || !is_name(line.substr(0, end))) return nullptr;
     const json numbers = numbers_in(line.substr(end));
     if (numbers.is_null()) return nullptr;

@@ -101,9 +101,9 @@ void read_size(CameraFields& fields, Camera& camera) {
   if (width) camera.width = size_side(*width);
   if (height) camera.height = size_side(*height);
   const bool height_first = fields.has_spelt("ImageSize") || fields.has_spelt("K");
-  if (const auto listed = fields.take({"resolution", "imagesize", "imgsize", "imsize", "size",
-                                       "imageresolution", "imageshape", "shape", "imgshape",
-                                       "imagedimensions", "imagedims", "dim", "dims"}))
+  if (const auto listed = fields.take(
+          {"resolution", "imagesize", "imgsize", "imsize", "size", "imageresolution", "imageshape",
+           "shape", "imgshape", "imagedimension", "imagedimensions", "imagedims", "dim", "dims"}))
     if (!width && !height) set_listed_size(camera, *listed, height_first);
   if ((camera.width == 0) != (camera.height == 0))
     throw InputError(fields.source(), fields.at(camera.width ? "image_height" : "image_width"),

@@ -103,11 +103,13 @@ json parse_camera_tree(const std::string& bytes, const std::string& source, bool
   if (text[start] == '{' && json::accept(text, true)) return parse_json(text, source, true);
   if (json tree = text_camera_tree(text, source); !tree.is_null()) return tree;
   try {
-    return yaml_camera_tree(printed_as_yaml(text), source);
+    json tree = yaml_camera_tree(printed_as_yaml(text), source);
+    if (tree.is_structured()) return tree;
   } catch (const InputError&) {
     if (json tree = headed_numbers(text); !tree.is_null()) return tree;
     throw;
   }
+  return headed_numbers(text);  // to YAML a single text of several lines
 }
 
 }  // namespace edgescout

@@ -26,11 +26,27 @@ struct YamlLimit {
 
 json yaml_value(const YAML::Node& node, YamlLimit limit, const std::string& source);
 
+// "<<: *other" takes the fields of another map, or of several, where this one has none of their
+// name.
+void add_merged(json& object, const json& other) {
+  if (other.is_array())
+    for (const json& element : other) add_merged(object, element);
+  if (!other.is_object()) return;
+  for (const auto& [key, value] : other.items())
+    if (!object.contains(key)) object[key] = value;
+}
+
 json yaml_map(const YAML::Node& node, YamlLimit limit, const std::string& source) {
+  constexpr const char* merge = "<<";
   json object = json::object();
   for (const auto& entry : node)
     add_field(object, entry.first.as<std::string>("?"), yaml_value(entry.second, limit, source),
               source);
+  if (object.contains(merge)) {
+    const json other = std::move(object[merge]);
+    object.erase(merge);
+    add_merged(object, other);
+  }
   return object;
 }
 

@@ -311,6 +311,28 @@ est_dist = [ 1 ; 1 ; 1 ; 1 ; 0 ];
  "distortionCoeff": [-0.25, 0.12, 0.001, -0.0005, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], "height": 480,
  "intrinsicMatrix": [[700, 0, 321], [0, 701, 238], [0, 0, 1]], "lensPosition": 135,
  "specHfovDeg": 71.8, "width": 640}]]})"},
+    {"YAML that merges a map", "camera.yaml",
+     "size: &size {width: 640, height: 480}\ncam0:\n  <<: *size\n"
+     "  K: [700, 0, 321, 0, 701, 238, 0, 0, 1]\n  D: [-0.25, 0.12, 0.001, -0.0005]\n"},
+    {"OKVIS", "okvis.yaml", R"(cameras:
+  - {T_SC: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], image_dimension: [640, 480],
+     distortion_coefficients: [-0.25, 0.12, 0.001, -0.0005], distortion_type: radialtangential,
+     focal_length: [700, 701], principal_point: [321, 238]}
+camera_params: {camera_rate: 20, sigma_absolute_translation: 0.0}
+)"},
+    {"names with px", "intrinsics.csv",
+     "sensor_name,fx_px,fy_px,cx_px,cy_px,k1,k2,p1,p2,height_px,width_px\n"
+     "front,700,701,321,238,-0.25,0.12,0.001,-0.0005,480,640\n"},
+    {"a name and a value in each line", "camera.csv",
+     "fx,700\nfy,701\ncx,321\ncy,238\nk1,-0.25\nk2,0.12\np1,0.001\np2,-0.0005\nwidth,640\n"
+     "height,480\n"},
+    {"a table with semicolons and quotes", "camera.csv",
+     "\"fx\";\"fy\";\"cx\";\"cy\";\"k1\";\"k2\";\"p1\";\"p2\";\"width\";\"height\"\n"
+     "\"700\";701;321;238;-0.25;0.12;0.001;-0.0005;640;480\n"},
+    {"objects of x and y", "camera.json",
+     R"({"focal_length": {"x": 700, "y": 701}, "principal_point": {"x": 321, "y": 238},
+ "distortion": {"radial": [-0.25, 0.12], "tangential": [0.001, -0.0005], "rms": 0.2}, "width": 640,
+ "height": 480})"},
 };
 
 class BrownConradyFile : public testing::TestWithParam<CameraSample> {};

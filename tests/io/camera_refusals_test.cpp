@@ -42,6 +42,21 @@ TEST(CameraFormats, RefusesWhatItDoesNotUnderstand) {
                                "shear: 2\n",
                                "s: 2\n",
                                "t1: 0.001\n",
+                               "r1: -0.25\n",
+                               "c2: 0.1\n",
+                               "g1: 0.001\n",
+                               "lut: [[0.1, 0.2], [0.3, 0.4]]\n",
+                               "lens_lut: lens.bin\n",
+                               "LookupTable: {x: [0, 1], y: [0, 1]}\n",
+                               "map_x: [0.1, 1.1, 2.2]\n",
+                               "xy_table: table.npy\n",
+                               "kc1: -0.25\n",
+                               "p: [0.001, -0.0005]\n",
+                               "D_order: k1 k2 k3 p1 p2\n",
+                               "param_names: [fx, fy, k1]\n",
+                               "x1: 10\n",
+                               "sensor_area: [10, 20, 300, 200]\n",
+                               "D: [{name: k1, value: -0.25}]\n",
                                "d1: -0.25\n",
                                "aoi: {x: 10, width: 300}\n",
                                "window: [10, 20, 300, 200]\n",
@@ -69,14 +84,29 @@ TEST(CameraFormats, RefusesWhatItDoesNotUnderstand) {
     const std::string field = geometry;
     refused(field, {"camera.yaml", field.substr(0, field.find(':')).c_str(), "expected"});
   }
+  refused("distortion: {a: -0.25, b: 0.12}\n", {"distortion/a"});
+  refused("D: {0: -0.25, 1: 0.12}\n", {"D/0"});
   for (const char* harmless :
        {"square_size: 50\nboard_width: 9\nboard_height: 6\nflags: 2\nfix_aspect_ratio: 1\n",
         "per_view_reprojection_errors: [0.1, 0.2]\nfix_k3: 1\nzero_tangent_dist: 1\n",
         "camera_name: fisheye\nregion: EU\ndistro: humble\nwindow: calibration\n",
-        "decimation: 1\n", "zoom: 1\n", "flip: false\n", "rotate: 0\n", "orientation: 1\n",
-        "rotation: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n", "binning: 1x1\n", "lensPosition: 135\n",
-        "depth_scale: 0.001\n", "scale: 0.33\n", "offset: [0.5, 0.5]\n", "t_00: 0.1\n",
-        "aspect_ratio: 1.333\n", "polymorphic_id: 1\n"})
+        "decimation: 1\n",
+        "zoom: 1\n",
+        "flip: false\n",
+        "rotate: 0\n",
+        "orientation: 1\n",
+        "rotation: [[1, 0, 0], [0, 1, 0], [0, 0, 1]]\n",
+        "binning: 1x1\n",
+        "lensPosition: 135\n",
+        "depth_scale: 0.001\n",
+        "scale: 0.33\n",
+        "offset: [0.5, 0.5]\n",
+        "t_00: 0.1\n",
+        "aspect_ratio: 1.333\n",
+        "polymorphic_id: 1\n",
+        "color_lut: film.cube\nlut: ''\n",
+        "distortion: {rms: 0.2, num_coeffs: 5, version: 2}\n",
+        "r: [1, 0, 0, 0, 1, 0, 0, 0, 1]\nR1: [1, 0, 0, 0, 1, 0, 0, 0, 1]\n"})
     expect_pinhole(load_one("camera.yaml", head + harmless));
   for (const char* harmless :
        {"roi: {x_offset: 0, y_offset: 0, width: 0, height: 0}\n", "crop: null\n", "skew: 0\n",

@@ -206,6 +206,13 @@ TEST(CameraFormats, RefusesALensBesideTheCameras) {
                  R"({"fx": 700, "fy": 701, "cx": 321, "cy": 238, "result": {"k1": -0.25}})");
       },
       {"result/k1", "-0.25", "looks like a lens"});
+  const std::string camera = "{fx: 700, fy: 701, cx: 321, cy: 238}";
+  for (const char* lens : {"{D: [-0.25, 0.12, 0, 0]}", "{k1: -0.25}"}) {
+    expect_input_error([&] { load_text("c.yaml", "[" + camera + ", " + lens + "]"); },
+                       {"1/", "looks like a lens"});
+    expect_input_error([&] { load_text("c.yaml", camera + "\n---\n" + lens); },
+                       {"1/", "looks like a lens"});
+  }
   load_one("c.json", R"({"fx": 700, "fy": 701, "cx": 321, "cy": 238,
  "extrinsics": {"rotation": 90}, "infrared_camera": {"fx": 5, "fy": 5, "cx": 3, "cy": 3, "k1": 1}})");
 }
