@@ -5,6 +5,7 @@
 #include "host/core/symmetry_group.h"
 #include "host/io/bop.h"
 #include "host/io/json_fields.h"
+#include "host/io/lower_case.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -58,6 +59,9 @@ std::vector<Se3> read_continuous(const JsonField& object, int steps) {
   std::vector<Se3> samples{Se3{}};
   if (!object.has("symmetries_continuous")) return samples;
   for (const JsonField& entry : object.at("symmetries_continuous").elements()) {
+    for (const auto& [key, value] : entry.value.items())
+      if (key != "axis" && key != "offset" && value.is_number())
+        entry.at(key).fail(value.dump(), "axis and offset: the turn is any");
     const std::vector<double> a = entry.at("axis").numbers(3), o = entry.at("offset").numbers(3);
     const Eigen::Vector3d axis(a[0], a[1], a[2]),
         offset_m = 1e-3 * Eigen::Vector3d(o[0], o[1], o[2]);
@@ -73,9 +77,9 @@ std::vector<Se3> read_continuous(const JsonField& object, int steps) {
 
 // A symmetry under another name would be dropped without a word.
 void require_known_symmetries(const JsonField& object) {
-  if (!object.value.is_object()) return;
+  if (!object.value.is_object()) object.fail(object.value.type_name(), "an object");
   for (const auto& [key, value] : object.value.items())
-    if (key.starts_with("symmetr") && key != "symmetries_discrete" &&
+    if (lower_case(key).starts_with("sym") && key != "symmetries_discrete" &&
         key != "symmetries_continuous")
       object.at(key).fail("a field that is not known",
                           "symmetries_discrete or symmetries_continuous");

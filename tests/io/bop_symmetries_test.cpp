@@ -177,6 +177,17 @@ TEST(LoadSymmetries, NamesFileAndFieldOfWhatIsWrong) {
                      {"/5/symmetries_discrete/0", "last row", "transposed"});
   expect_input_error([] { load(R"(, "symmetries": ["z2"])"); },
                      {"/5/symmetries", "not known", "symmetries_discrete"});
+  for (const char* other : {"Symmetries_Discrete", "sym"})
+    expect_input_error([&] { load(std::string(", \"") + other + "\": [2]"); },
+                       {other, "not known"});
+  expect_input_error(
+      [] {
+        load(R"(, "symmetries_continuous": [{"axis": [0,0,1], "offset": [0,0,0], "step": 90}])");
+      },
+      {"/5/symmetries_continuous/0/step", "90"});
+  const TemporaryFolder folder;
+  const auto list = folder.write("models_info.json", R"({"5": [10]})");
+  expect_input_error([&] { load_symmetries(list); }, {"models_info.json", "/5", "an object"});
   expect_input_error([] { load_symmetries("no-such-models_info.json"); },
                      {"no-such-models_info.json", "No such file"});
 }
@@ -184,9 +195,9 @@ TEST(LoadSymmetries, NamesFileAndFieldOfWhatIsWrong) {
 TEST(LoadSymmetries, NamesAnObjectThatStandsTwice) {
   const TemporaryFolder folder;
   for (const char* other : {"5", "000005"}) {
-    const auto file = folder.write("models_info.json", "{\"5\": {\"diameter\": 1}, \"" +
-                                                           std::string(other) +
-                                                           "\": {\"diameter\": 2}}");
+    const auto file =
+        folder.write("models_info.json", "{\"5\": {\"diameter\": 1}, \"" + std::string(other) +
+                                             "\": {\"diameter\": 2}}");
     expect_input_error([&] { load_symmetries(file); }, {"models_info.json", "5"});
   }
 }
