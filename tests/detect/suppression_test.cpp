@@ -182,7 +182,7 @@ TEST(BestDistinctInView, AgreesWithTheDistanceInView) {
     SCOPED_TRACE(part);
     const Object object = make_part(part);
     // Places over several cells of the size of the radius.
-    const std::vector<Se3> poses = poses_in_view(1500, 4 * object.mesh.diameter_m, 0.8, random);
+    const std::vector<Se3> poses = poses_in_view(600, 2.5 * object.mesh.diameter_m, 0.8, random);
     std::vector<double> keys;
     for (std::size_t i = 0; i < poses.size(); ++i) keys.push_back(double(i));
     const std::vector<std::size_t> kept = best_distinct_in_view(
