@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <csignal>
 #include <iostream>
+#include <opencv2/core/utils/logger.hpp>
 
 #include "host/cli/caught_errors.h"
 #include "host/cli/config.h"
@@ -31,6 +32,9 @@ void send_log_to_stderr() {
     spdlog::log(levels[static_cast<int>(level)], message);
   });
 }
+
+// Its log of an image that it cannot decode would stand beside our line.
+void silence_opencv() { cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT); }
 
 void name_options_as_typed() {
   set_option_naming([](const std::string& name) { return "--" + name; });
@@ -124,6 +128,7 @@ int run_program(int argc, char** argv) {
   keep_freed_memory();
   name_options_as_typed();
   send_log_to_stderr();
+  silence_opencv();
   return with_caught_errors([&] { return run(argc, argv); }, fail);
 }
 
