@@ -29,12 +29,13 @@ bool is_folder(const fs::path& path) {
   return fs::is_directory(path, unknown);
 }
 
+// Other systems leave hidden files beside images: "._a.png" of macOS.
 std::vector<fs::path> sorted_entries(const fs::path& folder) {
   std::vector<fs::path> entries;
   std::error_code failure;
   for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end;
        entry.increment(failure))
-    entries.push_back(entry->path());
+    if (!entry->path().filename().string().starts_with('.')) entries.push_back(entry->path());
   if (failure)
     throw InputError(folder.string(), "folder", failure.message(), "one that can be read");
   std::ranges::sort(entries);

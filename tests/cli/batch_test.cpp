@@ -388,58 +388,5 @@ TEST(RunBatch, JoinsEveryViewOnce) {
   EXPECT_FALSE(fs::exists(t.out));
 }
 
-// BOP keeps grey and coloured images apart, also of one scene.
-TEST(ListImages, KnowsWhichImagesAreOfOneScene) {
-  const TemporaryFolder folder;
-  for (const char* scene : {"all/000001", "all/000002"})
-    folder.write(std::string(scene) + "/scene_camera.json",
-                 R"({"0": {"cam_K": [5,0,3,0,6,4,0,0,1]}, "1": {"cam_K": [5,0,3,0,6,4,0,0,1]}})");
-  for (const char* file : {"all/000001/gray/000000.png", "all/000001/rgb/000001.png"})
-    folder.write(file, "");
-  const std::vector<InputImage> images = list_images({folder.path() / "all"});
-  ASSERT_EQ(images.size(), 4u);
-  EXPECT_NE(images[0].file.parent_path(), images[1].file.parent_path());
-  EXPECT_EQ(images[0].scene_folder, images[1].scene_folder);
-  EXPECT_NE(images[1].scene_folder, images[2].scene_folder);
-  expect_input_error(
-      [&] { list_images({folder.write("000003/scene_camera.json", "{}").parent_path()}); },
-      {"000003", "scene_camera.json", "images"});
-}
-
-TEST(ListImages, NamesWhatItCannotExamine) {
-  const TemporaryFolder folder;
-  fs::create_symlink("loop.png", folder.path() / "loop.png");
-  EXPECT_EQ(list_images({folder.path()}).size(), 1u) << "listed: reading it gives the error";
-  expect_input_error([&] { list_images({folder.path() / std::string(300, 'a')}); },
-                     {"aaa", "input"});
-}
-
-TEST(LoadObjects, TakesTheNumberThatANameEndsIn) {
-  const TemporaryFolder folder;
-  ModelArguments arguments;
-  arguments.unit = "mm";
-  for (const char* name : {"000005.ply", "part_7.ply", "bracket.ply"}) {
-    fs::copy(part_file(1), folder.path() / name);
-    arguments.models.push_back(folder.path() / name);
-  }
-  const std::vector<Object> objects = load_objects(arguments);
-  EXPECT_EQ(objects[0].id, 5);
-  EXPECT_EQ(objects[1].id, 7);
-  EXPECT_EQ(objects[2].id, 3) << "its place";
-}
-
-TEST(ListImages, GivesEveryImageANameOfItsOwn) {
-  const TemporaryFolder folder;
-  for (const char* file : {"one/a.png", "two/a.png", "one/a_2.png", "one/summary.png"})
-    folder.write(file, "");
-  const std::string root = folder.path();
-  const std::vector<InputImage> images =
-      list_images({root + "/one/a.png", root + "/two/a.png", root + "/one"});
-  std::set<std::string> names{"summary"};  // the batch's own file
-  for (const InputImage& image : images) EXPECT_TRUE(names.insert(image.name).second) << image.name;
-  EXPECT_EQ(images.size(), 5u);
-  EXPECT_EQ(images[0].name, "a");
-}
-
 }  // namespace
 }  // namespace edgescout::test
