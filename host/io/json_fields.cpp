@@ -45,7 +45,7 @@ json parse_json(const std::string& text, const std::string& source, bool allow_c
 }
 
 json read_json(const std::filesystem::path& file) {
-  const json content = parse_json(read_file(file), file.string());
+  json content = parse_json(read_file(file), file.string());
   if (!content.is_structured())
     throw InputError(file.string(), "JSON", content.type_name(), "an object or an array");
   return content;
@@ -128,7 +128,7 @@ Se3 pose_from(const JsonField& rotation, const JsonField& translation, double me
 
 Se3 pose_from(const JsonField& rotation, const JsonField& translation, double metres_per_unit) {
   ProjectedRotations projected;
-  const Se3 pose = pose_from(rotation, translation, metres_per_unit, projected);
+  Se3 pose = pose_from(rotation, translation, metres_per_unit, projected);
   if (projected.count > 0)
     rotation.fail("a matrix that is no rotation", "one, to 0.0005 in every number");
   return pose;
