@@ -10,8 +10,9 @@
 namespace edgescout {
 namespace {
 
+using test::camera_frame;
+
 constexpr std::uint8_t is_seen = POINT_VISIBLE, at_background = POINT_BORDERS_BACKGROUND;
-constexpr Pose camera_frame{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
 
 struct Sight {
   std::vector<float> vertices_m;

@@ -10,6 +10,9 @@
 
 namespace edgescout::test {
 
+// Where the object's frame is the camera's.
+inline constexpr Pose camera_frame{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
+
 inline Pose random_pose(std::mt19937& rng, float z_m) {
   std::uniform_real_distribution<float> unit(-1, 1);
   float q[4], norm = 0;

@@ -13,9 +13,10 @@
 namespace edgescout {
 namespace {
 
+using test::camera_frame;
+
 constexpr int width = 70, height = 100;
 constexpr Intrinsics camera{200, 210, 34, 48};
-constexpr Pose camera_frame{{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}};
 
 class ShadingSumsPaths : public test::PathTest {};
 
