@@ -39,18 +39,20 @@ bool is_lens_word(std::string_view name, const json& value) {
 }
 
 // The order of parameters that stand elsewhere without names: "k1 k2 k3 p1 p2".
+// A camera may be called K1.
 bool is_order_of_coefficients(const json& value) {
-  if (value.is_array())
-    return std::ranges::all_of(value, &json::is_string) &&
-           std::ranges::find(value, "k1") != value.end();
-  if (!value.is_string()) return false;
-  constexpr std::size_t longest_name = 5;
-  bool has_k1 = false;
-  for (const std::string& word : words_of(value.get_ref<const std::string&>(), " ,;[]()")) {
-    if (word.size() > longest_name) return false;
-    has_k1 = has_k1 || plain_name(word) == "k1";
+  std::vector<std::string> words;
+  if (value.is_string()) {
+    words = words_of(value.get_ref<const std::string&>(), " ,;[]()");
+  } else if (value.is_array() && std::ranges::all_of(value, &json::is_string)) {
+    words = value.get<std::vector<std::string>>();
   }
-  return has_k1;
+  constexpr std::size_t longest_name = 5;
+  const auto is_short = [](const std::string& word) { return word.size() <= longest_name; };
+  const auto has = [&](std::string_view name) {
+    return std::ranges::any_of(words, [&](const auto& word) { return plain_name(word) == name; });
+  };
+  return std::ranges::all_of(words, is_short) && has("k1") && (has("k2") || has("p1"));
 }
 
 // A table of where pixels lie, or the file that holds it. Tables of colours say nothing of that.

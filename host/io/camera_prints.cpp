@@ -37,9 +37,9 @@ std::vector<std::string> cells_of(const std::string& line, char separator) {
 
 // Programs of countries with a decimal comma separate by semicolons.
 char column_separator(const std::string& line) {
-  for (const char separator : {';', '\t'})
+  for (const char separator : {';', ','})
     if (line.find(separator) != std::string::npos) return separator;
-  return ',';
+  return '\t';
 }
 
 // rostopic writes field.K0 .. field.K8: they are one list.
@@ -71,10 +71,12 @@ json table_of_cameras(const std::vector<std::string>& lines, const std::string& 
   return cameras;
 }
 
-// "fx 700", "fx,700", "K 700 0 321 0 700 238 0 0 1".
+// "fx 700", "fx,700", "K 700 0 321 0 700 238 0 0 1". In a line with both semicolons and commas the
+// commas may be decimal ones.
 json names_before_numbers(const std::vector<std::string>& lines, const std::string& source) {
   json camera = json::object();
   for (const std::string& line : lines) {
+    if (line.find(';') != std::string::npos && line.find(',') != std::string::npos) return nullptr;
     const std::size_t end = line.find_first_of(" \t,;");
     if (end == std::string::npos || !is_name(line.substr(0, end))) return nullptr;
     const json numbers = numbers_in(line.substr(end));

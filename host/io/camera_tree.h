@@ -21,9 +21,9 @@ nlohmann::json xml_camera_tree(std::string_view text, const std::string& source)
 // -c`, and INI. Null: the text is none of these.
 nlohmann::json text_camera_tree(std::string_view text, const std::string& source);
 
-// What programs print of a camera, as lines without empty ones: a table with commas below names
-// (rostopic echo -p), a name and its numbers in each line, librealsense's intrinsics. Null: none of
-// these.
+// What programs print of a camera, as lines without empty ones: a table below names (rostopic echo
+// -p) with commas, semicolons or tabs, cells in quotes or not; a name and its numbers in each line;
+// librealsense's intrinsics. Null: none of these.
 nlohmann::json printed_camera_tree(const std::vector<std::string>& lines,
                                    const std::string& source);
 // Python's dictionary, and fields of one line, as YAML. Other texts come back unchanged.

@@ -1,6 +1,7 @@
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "host/io/camera_tree.h"
@@ -45,6 +46,9 @@ json yaml_map(const YAML::Node& node, YamlLimit limit, const std::string& source
   if (object.contains(merge)) {
     const json other = std::move(object[merge]);
     object.erase(merge);
+    const auto is_map = [](const json& value) { return value.is_object(); };
+    if (!is_map(other) && !(other.is_array() && std::ranges::all_of(other, is_map)))
+      throw InputError(source, merge, other.dump(), "a map or a list of maps");
     add_merged(object, other);
   }
   return object;

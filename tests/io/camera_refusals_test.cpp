@@ -89,6 +89,7 @@ TEST(CameraFormats, RefusesWhatItDoesNotUnderstand) {
   for (const char* harmless :
        {"square_size: 50\nboard_width: 9\nboard_height: 6\nflags: 2\nfix_aspect_ratio: 1\n",
         "per_view_reprojection_errors: [0.1, 0.2]\nfix_k3: 1\nzero_tangent_dist: 1\n",
+        "camera_name: K1\nsensor: k1\ncomment: k1 only\nfix: [k1]\n",
         "camera_name: fisheye\nregion: EU\ndistro: humble\nwindow: calibration\n",
         "decimation: 1\n",
         "zoom: 1\n",
