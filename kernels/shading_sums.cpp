@@ -201,6 +201,7 @@ class FastSums {
   // Leaves fewer than LANES waiting.
   void flush() {
     const int whole = lanes_.waiting / LANES * LANES;
+    if (whole == 0) return;
     add_waiting(lanes_, whole);
     for (double* list : {lanes_.x, lanes_.y, lanes_.z, lanes_.one, lanes_.grey})
       std::copy(list + whole, list + lanes_.waiting, list);
@@ -260,7 +261,7 @@ void check_shading_sums(std::size_t views, const TriangleMesh& mesh,
   for (const ShadingJob& job : jobs) {
     check(job.view < views, "shading_sums: no such view");
     check(job.stride_px >= 1 && job.stride_px <= LONGEST_STRIDE_PX, "shading_sums: stride");
-    check(std::abs(job.x_px) <= FARTHEST_PX && std::abs(job.y_px) <= FARTHEST_PX,
+    check(std::abs(double(job.x_px)) <= FARTHEST_PX && std::abs(double(job.y_px)) <= FARTHEST_PX,
           "shading_sums: a map that is nowhere");
   }
 }

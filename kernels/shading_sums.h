@@ -25,8 +25,8 @@
 // All are 0 in a view without an image.
 //
 // Agreement: pixels, grey and squares differ by the pixels that lie on a limit above or that the
-// depth maps draw differently; the other sums by these, by 1e-4 of a pixel's part for each pixel
-// (depths agree to 1e-5 relative) and by 1e-5 of the sum of absolute parts (float).
+// depth maps draw differently; the other sums by these, by 1e-5 max(fx, fy) of a pixel's part for
+// each pixel (depths agree to 1e-5 relative) and by 1e-5 of the sum of absolute parts (float).
 #ifndef EDGESCOUT_SHADING_SUMS_H
 #define EDGESCOUT_SHADING_SUMS_H
 

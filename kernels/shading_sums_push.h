@@ -4,8 +4,8 @@
 //
 // Buffers: 0 depth maps, 1 maps (ShadingMap, by job), 2 image (four pixels a word), 3 depth map of
 // known surfaces (any buffer where known_width is 0), 4 sums, SHADING_SUM_WORDS a job: system and
-// right as floats, then pixels, grey and squares as numbers. For what float loses, right has grey
-// from SHADING_MIDDLE_GREY; the host adds the rest.
+// right as floats, then pixels, grey and squares as numbers. right sums (grey -
+// SHADING_MIDDLE_GREY) h: float loses less. The host adds the rest.
 #ifndef EDGESCOUT_SHADING_SUMS_PUSH_H
 #define EDGESCOUT_SHADING_SUMS_PUSH_H
 

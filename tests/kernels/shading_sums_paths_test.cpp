@@ -154,12 +154,17 @@ TEST_P(ShadingSumsPaths, AgreesWithTheReference) {
   const std::vector<test::Picture> pictures{test::random_picture(rng, width, height, false),
                                             test::random_picture(rng, 60, 41, true)};
   std::vector<ShadedView> views, judges;
-  for (const test::Picture& picture : pictures) {
-    views.push_back(view_of(*tested, picture));
-    judges.push_back(view_of(*reference, picture));
+  // A wall before a part of the second view's image.
+  const std::vector<float> wall(20 * 20, 0.38f);
+  const DepthView known{wall, 20, 20, {100, 105, 10, 9}};
+  for (const auto& [backend, list] :
+       {std::pair{tested.get(), &views}, std::pair{reference.get(), &judges}}) {
+    for (const test::Picture& picture : pictures) list->push_back(view_of(*backend, picture));
+    list->push_back({backend->make_view({}, width, height, {}, camera, {}), nullptr});
+    (*list)[1].known = backend->make_depth(known);
   }
   std::vector<ShadingJob> jobs;
-  std::uniform_int_distribution<int> place(-60, 30), stride(1, 3), view(0, 1);
+  std::uniform_int_distribution<int> place(-60, 30), stride(1, 3), view(0, 2);
   for (int n = 0; n < 70; ++n)
     jobs.push_back({test::random_pose(rng, 0.4f), place(rng), place(rng),
                     std::uint32_t(stride(rng)), std::uint32_t(view(rng))});
@@ -171,6 +176,9 @@ TEST_P(ShadingSumsPaths, AgreesWithTheReference) {
     SCOPED_TRACE("job " + std::to_string(i));
     const double apart = std::abs(found[i].pixels - expected[i].pixels);
     expect_near(found[i], expected[i], 1e-3, 4 + 0.01 * expected[i].pixels);
+    if (jobs[i].view == 2) {
+      EXPECT_EQ(found[i].pixels, 0) << "no image";
+    }
     most = std::max(most, expected[i].pixels), all += expected[i].pixels, different += apart;
   }
   EXPECT_GT(most, 500);
