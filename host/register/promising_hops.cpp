@@ -52,7 +52,7 @@ std::vector<SamePose> distinct(const Scene& scene, std::span<const PoseEstimate>
 bool is_same_after_search(const ObjectPose& a, const ObjectPose& b, const Scene& scene) {
   if (a.object != b.object) return false;
   const EdgeModel& model = scene.models[std::size_t(a.object)];
-  const Eigen::Vector3d &center_m = model.center_m;
+  const Eigen::Vector3d& center_m = model.center_m;
   return (a.world_from_object * center_m - b.world_from_object * center_m).norm() <
              thresholds::SAME_AFTER_SEARCH * model.mesh.diameter_m &&
          angle_between_rad(a.world_from_object, b.world_from_object) <
