@@ -52,7 +52,8 @@ bool is_order_of_coefficients(const json& value) {
   const auto has = [&](std::string_view name) {
     return std::ranges::any_of(words, [&](const auto& word) { return plain_name(word) == name; });
   };
-  return std::ranges::all_of(words, is_short) && has("k1") && (has("k2") || has("p1"));
+  return std::ranges::all_of(words, is_short) && has("k1") &&
+         (has("k2") || has("p1") || has("fx") || has("f"));
 }
 
 // A table of where pixels lie, or the file that holds it. Tables of colours say nothing of that.
