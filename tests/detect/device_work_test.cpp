@@ -24,8 +24,8 @@ TEST(DeviceWork, OfOneFrameStaysWithinItsBounds) {
   const RenderedPart scene("bearing_block");
   const std::unique_ptr<Backend> device =
       make_vulkan_backend(usual_vulkan_device(), {.time_kernels = true});
-  // Two frames allocate what the next ones use again. In the second one a freed buffer may have gone
-  // to another taker.
+  // Two frames allocate what the next ones use again: in the second one a buffer that was freed may
+  // have gone to another taker.
   for (int i = 0; i < 2; ++i) scene.detect(0, *device, {});
   const Detections found = scene.detect(0, *device, {});
   const DeviceWork frame = sum(found), scan = stage_of(found, "scan").device;
