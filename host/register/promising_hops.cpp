@@ -6,7 +6,7 @@
 
 #include "host/register/edge_icp.h"
 #include "host/register/pose_classifier.h"
-#include "host/register/thresholds.h"
+#include "host/register/same_pose.h"
 
 namespace edgescout {
 
@@ -37,7 +37,7 @@ std::vector<SamePose> distinct(const Scene& scene, std::span<const PoseEstimate>
   std::vector<SamePose> poses;
   for (const std::size_t i : best_first) {
     const auto known = std::ranges::find_if(poses, [&](const SamePose& pose) {
-      return is_same_after_search(estimates[pose.best], estimates[i], scene);
+      return is_same_pose(estimates[pose.best], estimates[i], scene, thresholds::SAME_END);
     });
     if (known == poses.end())
       poses.push_back({i, {}});
@@ -48,16 +48,6 @@ std::vector<SamePose> distinct(const Scene& scene, std::span<const PoseEstimate>
 }
 
 }  // namespace
-
-bool is_same_after_search(const ObjectPose& a, const ObjectPose& b, const Scene& scene) {
-  if (a.object != b.object) return false;
-  const EdgeModel& model = scene.models[std::size_t(a.object)];
-  const Eigen::Vector3d& center_m = model.center_m;
-  return (a.world_from_object * center_m - b.world_from_object * center_m).norm() <
-             thresholds::SAME_AFTER_SEARCH * model.mesh.diameter_m &&
-         angle_between_rad(a.world_from_object, b.world_from_object) <
-             thresholds::SAME_AFTER_SEARCH_RAD;
-}
 
 void hop_promising(const Scene& scene, std::span<PoseEstimate> estimates,
                    const EdgeIcpOptions& options, const FeatureOptions& measure) {

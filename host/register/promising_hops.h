@@ -12,10 +12,6 @@
 
 namespace edgescout {
 
-// Whether two poses of one object are one, as what the search of refine.h brings
-// (thresholds::SAME_AFTER_SEARCH).
-bool is_same_after_search(const ObjectPose& a, const ObjectPose& b, const Scene& scene);
-
 // Of estimates with features, after edge_icp. Many starts end at one pose: one of them hops, the
 // most probable one, and the others take its end. Measures the features of those that move anew.
 void hop_promising(const Scene& scene, std::span<PoseEstimate> estimates,

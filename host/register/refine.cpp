@@ -7,6 +7,7 @@
 #include "host/register/coarse_registration.h"
 #include "host/register/pose_classifier.h"
 #include "host/register/promising_hops.h"
+#include "host/register/same_pose.h"
 #include "host/register/thresholds.h"
 #include "kernels/error.h"
 
@@ -56,9 +57,11 @@ void keep_best(SearchResult& result, RankedPoses ranked, const Scene& scene, std
   for (const std::size_t i : ranked.indices) {
     if (int(result.poses.size() - first) >= num_kept) break;
     const ObjectPose& pose = ranked.poses[i];
-    const bool known = std::any_of(
-        result.poses.begin() + std::ptrdiff_t(first), result.poses.end(),
-        [&](const ObjectPose& other) { return is_same_after_search(other, pose, scene); });
+    const bool known =
+        std::any_of(result.poses.begin() + std::ptrdiff_t(first), result.poses.end(),
+                    [&](const ObjectPose& other) {
+                      return is_same_pose(other, pose, scene, thresholds::SAME_AFTER_SEARCH);
+                    });
     if (known) continue;
     result.poses.push_back(pose);
     result.start.push_back(start);
@@ -108,7 +111,7 @@ SearchResult without_search(std::span<const ObjectPose> starts) {
 // neighbouring optima is right; the share of the points that edges explain says more. The weight
 // was chosen on the ends of 346 starts (docs/research/registration.md).
 double preference(const PoseEstimate& estimate) {
-  constexpr double of_explained = 20;
+  constexpr double of_explained = 5;
   return PoseClassifier::log_odds(pool_over_views(estimate.features)) +
          of_explained * estimate.explained;
 }

@@ -6,9 +6,16 @@
 
 namespace edgescout::thresholds {
 
-// Poses of one start after its search (refine.h), between centres; angle in rad. Tight: the search
-// exists to keep poses apart that differ by little.
-inline constexpr double SAME_AFTER_SEARCH = 0.03, SAME_AFTER_SEARCH_RAD = 0.06;
+// Between the centres and the orientations of two poses of one object (same_pose.h).
+struct PoseTolerance {
+  double of_diameter, angle_rad;
+};
+// Poses of one start after its search (refine.h). Tight: the search exists to keep poses apart that
+// differ by little.
+inline constexpr PoseTolerance SAME_AFTER_SEARCH{0.03, 0.06};
+// Ends of registrations that have come to one optimum (promising_hops.h). Optima lie 0.01 rad
+// apart, and from one a hop leads on where from the other it does not.
+inline constexpr PoseTolerance SAME_END{0.0015, 0.003};
 // Candidates that several views bring for joint refinement: one registered pose from two views lies
 // this near itself.
 inline constexpr double SAME_ACROSS_VIEWS = 0.05;

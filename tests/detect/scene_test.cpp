@@ -125,10 +125,10 @@ TEST(DetectObjects, IsTheSameOnADevice) {
   const RenderedPart t("l_bracket");
   const Detections cpu = t.detect(0, *make_cpu_backend(2)),
                    device = t.detect(0, *make_vulkan_backend(0));
+  ASSERT_EQ(cpu.detections.size(), device.detections.size());
   ASSERT_FALSE(cpu.detections.empty());
-  ASSERT_FALSE(device.detections.empty());
-  // Compares the right pose. Others are wrong, and a wrong pose may end in either of two optima
-  // whose costs are equal to a thousandth.
+  // Compares the right pose. Those below it are wrong, and a wrong pose may end in either of two
+  // optima whose costs are equal to a thousandth.
   const Detection &a = nearest(cpu, t.truth_in(0)), &b = nearest(device, t.truth_in(0));
   EXPECT_LT(distance_between_m(a.world_from_object, b.world_from_object), 0.0005);
   EXPECT_LT(angle_between_rad(a.world_from_object, b.world_from_object), 0.005);
