@@ -1,6 +1,6 @@
 // Decides whether two poses are one, by their centres and orientations.
 //
-// Symmetries are not asked (detect/suppression.h does): registrations of one start stay on its side.
+// Symmetries play no part (detect/suppression.h): starts of one part stay on their side.
 #pragma once
 
 #include "host/register/scene.h"

@@ -16,6 +16,7 @@
 #include "host/io/mesh.h"
 #include "host/io/one_line.h"
 #include "host/io/poses.h"
+#include "host/io/tiff_header.h"
 #include "host/model/template_set.h"
 #include "kernels/error.h"
 
