@@ -161,10 +161,10 @@ void find_normals(const double* above, const double* here, const double* below, 
 // Whether the row shows anything.
 EDGESCOUT_SIMD_CLONES
 bool invert_row(const float* depth, double* inverse) {
-  double sum = 0;
+  double largest = 0;
   for (int i = 0; i < SIZE; ++i) inverse[i] = 1 / double(depth[i]);  // of DEPTH_EMPTY: 0
-  for (int i = 0; i < SIZE; ++i) sum = std::max(sum, inverse[i]);
-  return sum > 0;
+  for (int i = 0; i < SIZE; ++i) largest = std::max(largest, inverse[i]);
+  return largest > 0;
 }
 
 class FastSums {
