@@ -26,8 +26,8 @@ TEST(DeviceWork, OfOneFrameStaysWithinItsBounds) {
       make_vulkan_backend(usual_vulkan_device(), {.time_kernels = true});
   // Two frames allocate what the next ones use again: in the second one a buffer that was freed may
   // have gone to another taker.
-  for (int i = 0; i < 2; ++i) scene.detect(0, *device, {});
-  const Detections found = scene.detect(0, *device, {});
+  for (int i = 0; i < 2; ++i) scene.detect(0, *device);
+  const Detections found = scene.detect(0, *device);
   const DeviceWork frame = sum(found), scan = stage_of(found, "scan").device;
   const double megabytes = 1e-6 * double(frame.bytes_up + frame.bytes_down),
                scan_megabytes = 1e-6 * double(scan.bytes_up + scan.bytes_down);
