@@ -105,7 +105,6 @@ std::vector<Detection> candidates_in_images(std::span<const TemplateSet> sets,
     for (const PoseEstimate& candidate : find_candidates(search, hits, known_poses, options)) {
       found.push_back(candidate_in_world(to_detection(candidate), newest.camera_from_world));
       found.back().object = static_cast<int>(object);
-      found.back().probability = PoseClassifier::probability(candidate.features);
     }
   }
   sort_by_probability(found);
@@ -128,7 +127,6 @@ std::vector<Detection> refined_candidates(const Scene& scene, std::span<const Te
         !spaces[object].admits(estimate.world_from_object, slack))
       continue;
     detections.push_back(to_detection(estimate));
-    detections.back().probability = PoseClassifier::probability(estimate.features);
   }
   return best_non_colliding(without_duplicates(detections, sets), most, scene.models,
                             options.penetration_m, scene.backend.threads());

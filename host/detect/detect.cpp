@@ -227,7 +227,7 @@ Detection to_detection(const PoseEstimate& estimate) {
   d.object = estimate.object;
   d.world_from_object = estimate.world_from_object;
   d.covariance = estimate.covariance;
-  d.probability = PoseClassifier::probability(features);
+  d.probability = PoseClassifier::probability(estimate.features);
   d.psi = features.psi;
   d.cost_px = features.mean_px;
   d.matched_fraction = features.matched;

@@ -17,7 +17,7 @@
 
 namespace edgescout {
 
-// Of an estimate with features: they are pooled over its views.
+// The detection that an estimate with features makes. Its probability is of all views of them.
 Detection to_detection(const PoseEstimate& estimate);
 
 // Whether a pose in the frame of this camera lies so near a known instance (thresholds::NEAR_KNOWN)

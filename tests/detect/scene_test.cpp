@@ -4,6 +4,7 @@
 
 #include "host/detect/detect.h"
 #include "host/detect/suppression.h"
+#include "host/register_objects.h"
 #include "tests/detect/rendered_part.h"
 
 namespace edgescout::test {
@@ -118,6 +119,20 @@ TEST(DetectJointly, IsMoreExactThanOneView) {
   EXPECT_LT(error.distance_m, 0.001);
   EXPECT_LT(error.angle_rad, 0.03);
   EXPECT_LT(error.distance_m, single_m);
+}
+
+TEST(RegisterObjects, GivesPosesTheProbabilityOfJointDetection) {
+  const RenderedPart t("l_bracket", 2);
+  const auto backend = make_cpu_backend(2);
+  const Detections joint = t.detect_in_all(*backend);
+  ASSERT_FALSE(joint.detections.empty());
+  std::vector<ObjectView> views;
+  for (std::size_t v : {0, 1})
+    views.push_back(t.prepared(v, t.scene.views[v].camera_from_world, *backend));
+  const ObjectPose start = joint.detections[0];
+  const Detections again =
+      register_objects(views, std::span(&t.sets[0].model, 1), std::span(&start, 1), *backend, {});
+  EXPECT_NEAR(again.detections[0].probability, joint.detections[0].probability, 0.003);
 }
 
 TEST(DetectObjects, IsTheSameOnADevice) {
