@@ -201,52 +201,61 @@ json range_json(const RangeReport& r) {
           {"in_region", r.in_region},           {"in_prior", r.in_prior}};
 }
 
+json edges_json(const EdgesReport& r) {
+  return {{"visible", r.visible},
+          {"in_image", r.in_image},
+          {"log_ratio", r.support.log_ratio},
+          {"support", r.support.support},
+          {"best_displaced", r.support.best_displaced}};
+}
+
+json scan_json(const ScanReport& r) {
+  return {{"hits", r.hits},
+          {"aligned", r.aligned},
+          {"aligned_near", r.aligned_near},
+          {"rank", or_null(r.rank)},
+          {"mean_px", r.rank ? json(r.mean_px) : json()},
+          {"own_mean_px", r.own_mean_px}};
+}
+
+json support_json(const SupportReport& r, bool is_aligned_near) {
+  return {{"medium", r.medium},
+          {"medium_near", r.medium_near},
+          {"best_near", is_aligned_near ? json(r.best_near) : json()},
+          {"own", r.own},
+          {"last", r.last}};
+}
+
+json ranking_json(const RankingReport& r) {
+  return {{"rank", or_null(r.rank)},        {"candidates", r.candidates},
+          {"is_candidate", r.is_candidate}, {"log_odds", r.rank ? json(r.log_odds) : json()},
+          {"own_log_odds", r.own_log_odds}, {"last_log_odds", r.last_log_odds}};
+}
+
+json selection_json(const SelectionReport& r, int object) {
+  return {{"competes", r.competes},
+          {"above_chance", r.above_chance},
+          {"claimed", r.claimed},
+          {"selected", found_json(r.selected, object)},
+          {"rank", r.selected ? json(r.rank) : json()},
+          {"is_reported", r.is_reported}};
+}
+
 json stages_json(const LossReport& r, int object) {
-  const ScanReport& scan = r.scan;
-  const RankingReport& ranking = r.ranking;
-  const SelectionReport& selection = r.selection;
   return {{"range", range_json(r.range)},
-          {"edges",
-           {{"visible", r.edges.visible},
-            {"in_image", r.edges.in_image},
-            {"log_ratio", r.edges.support.log_ratio},
-            {"support", r.edges.support.support},
-            {"best_displaced", r.edges.support.best_displaced}}},
-          {"scan",
-           {{"hits", scan.hits},
-            {"aligned", scan.aligned},
-            {"aligned_near", scan.aligned_near},
-            {"rank", or_null(scan.rank)},
-            {"mean_px", scan.rank ? json(scan.mean_px) : json()},
-            {"own_mean_px", scan.own_mean_px}}},
-          {"support",
-           {{"medium", r.support.medium},
-            {"medium_near", r.support.medium_near},
-            {"best_near", r.scan.aligned_near > 0 ? json(r.support.best_near) : json()},
-            {"own", r.support.own},
-            {"last", r.support.last}}},
+          {"edges", edges_json(r.edges)},
+          {"scan", scan_json(r.scan)},
+          {"support", support_json(r.support, r.scan.aligned_near > 0)},
           {"alignment",
            {{"same", r.alignment.same},
             {"nearest", found_json(r.alignment.nearest, object)},
             {"best_hit_became", found_json(r.alignment.best_hit_became, object)}}},
-          {"ranking",
-           {{"rank", or_null(ranking.rank)},
-            {"candidates", ranking.candidates},
-            {"is_candidate", ranking.is_candidate},
-            {"log_odds", ranking.rank ? json(ranking.log_odds) : json()},
-            {"own_log_odds", ranking.own_log_odds},
-            {"last_log_odds", ranking.last_log_odds}}},
+          {"ranking", ranking_json(r.ranking)},
           {"refinement",
            {{"same", found_json(r.refinement.same, object)},
             {"nearest", found_json(r.refinement.nearest, object)},
             {"own", found_json(r.refinement.own, object)}}},
-          {"selection",
-           {{"competes", selection.competes},
-            {"above_chance", selection.above_chance},
-            {"claimed", selection.claimed},
-            {"selected", found_json(selection.selected, object)},
-            {"rank", selection.selected ? json(selection.rank) : json()},
-            {"is_reported", selection.is_reported}}}};
+          {"selection", selection_json(r.selection, object)}};
 }
 
 json explained_json(const ExplainedPose& pose) {
