@@ -18,9 +18,6 @@ namespace edgescout {
 
 namespace {
 
-// Points nearer to the camera are not drawn.
-float nearest_m(const TemplateSet& set) { return float(0.1 * set.model.radius_m); }
-
 // The points of every viewpoint, evenly thinned, in the backend's memory.
 struct ScannedPoints {
   std::vector<ViewpointPoints> of_viewpoint;
@@ -100,7 +97,7 @@ class RegionScan {
     const ScannedPoints scanned(scale_.set, points, backend_);
     const ReducedTensors& level = scale_.level;
     const TemplateScan scan{
-        {level.salient->intrinsics, level.salient->shape.bins, nearest_m(scale_.set)},
+        {level.salient->intrinsics, level.salient->shape.bins, nearest_drawn_m(scale_.set)},
         options_.anchor_step,
         std::uint32_t(scale_.numbering.in_plane_steps),
         scanned.of_viewpoint,
@@ -276,15 +273,12 @@ double scan_mean_px(const TemplateSet& set, const ObjectView& view, const Se3& c
   const ThinnedView visible(
       {camera_from_object.rotation, visible_edges(set.model, {&camera_from_object, 1}, backend)[0]},
       options.points);
-  const Eigen::Vector2d anchor_px =
-      project(level.camera, camera_from_object * set.model.center_m).array().round();
   std::vector<TemplatePoint> points(std::size_t(visible.count()));
-  const bool is_drawn = visible.project(to_pose(camera_from_object), level.salient->intrinsics,
-                                        float(anchor_px.x()), float(anchor_px.y()),
-                                        level.salient->shape.bins, nearest_m(set), points.data());
+  const bool is_drawn = visible.project(
+      to_pose(camera_from_object),
+      {level.salient->intrinsics, level.salient->shape.bins, nearest_drawn_m(set)}, points.data());
   if (!is_drawn || points.empty()) return TEMPLATE_SCORE_CAP / 4.0;
-  const TemplateJob job{0, std::uint32_t(points.size()), int(anchor_px.x()), int(anchor_px.y()), 1,
-                        1};
+  const TemplateJob job{0, std::uint32_t(points.size()), 0, 0, 1, 1};
   TemplateHit hit;
   backend.template_score(*level.salient, points, {&job, 1}, options.anchor_step, {&hit, 1});
   return double(hit.sum) / (4.0 * job.point_count);

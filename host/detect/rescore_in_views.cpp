@@ -150,10 +150,10 @@ class ViewScoring {
 
   void project(std::size_t j, const ThinnedView& view, const Pose& camera_from_template) {
     const auto& salient = *level_.salient;
-    const float nearest_m = float(0.1 * templates_.set.model.radius_m);
+    const TemplateProjectOptions options{salient.intrinsics, salient.shape.bins,
+                                         nearest_drawn_m(templates_.set)};
     TemplatePoint* points = points_.data() + j * num_points();
-    if (view.count() > 0 && view.project(camera_from_template, salient.intrinsics, 0, 0,
-                                         salient.shape.bins, nearest_m, points)) {
+    if (view.count() > 0 && view.project(camera_from_template, options, points)) {
       visible_[j] = occluder_test_.keep_visible(view, camera_from_template, points);
       votes_[j].weight = double(visible_[j]) / view.count();
     }

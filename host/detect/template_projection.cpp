@@ -9,10 +9,10 @@ ThinnedView::ThinnedView(const TemplateView& view, int most) : points_(thinned(v
   check(most >= 1 && most <= int(TEMPLATE_SCORE_MAX_POINTS), "ThinnedView: number of points");
 }
 
-bool ThinnedView::project(const Pose& camera_from_object, const Intrinsics& intrinsics, float x_px,
-                          float y_px, int bins, float nearest_m, TemplatePoint* out) const {
-  const TemplateProjectJob job{camera_from_object, 0, points_.count(), 0, x_px, y_px};
-  return project_template(points_, job, {intrinsics, bins, nearest_m}, out) == 0;
+bool ThinnedView::project(const Pose& camera_from_object, const TemplateProjectOptions& options,
+                          TemplatePoint* out) const {
+  const TemplateProjectJob job{camera_from_object, 0, points_.count(), 0, 0, 0};
+  return project_template(points_, job, options, out) == 0;
 }
 
 }  // namespace edgescout

@@ -6,6 +6,9 @@
 
 namespace edgescout {
 
+// Points nearer to the camera are not drawn.
+inline float nearest_drawn_m(const TemplateSet& set) { return float(0.1 * set.model.radius_m); }
+
 // The points of one viewpoint, evenly thinned, for the fast path of the kernel template_project.
 class ThinnedView {
  public:
@@ -13,11 +16,10 @@ class ThinnedView {
   ThinnedView(const TemplateView& view, int most);
   int count() const { return int(points_.count()); }
 
-  // Writes count() points to `out`: rounded pixels relative to (x_px, y_px) and bins of the
-  // orientation, `bins` of them over pi. Returns false where a point is nearer than `nearest_m`;
-  // the values written then mean nothing.
-  bool project(const Pose& camera_from_object, const Intrinsics& intrinsics, float x_px, float y_px,
-               int bins, float nearest_m, TemplatePoint* out) const;
+  // Writes count() points to `out`: rounded pixels of the image and bins of the orientation.
+  // Returns false where a point is too near; the values written then mean nothing.
+  bool project(const Pose& camera_from_object, const TemplateProjectOptions& options,
+               TemplatePoint* out) const;
   // Depth of one of the points, along the optical axis.
   float depth_m(const Pose& camera_from_object, int point) const {
     const float* m = camera_from_object.m;

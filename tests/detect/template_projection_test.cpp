@@ -32,19 +32,18 @@ TEST(ThinnedView, ProjectsAndRoundsEveryPoint) {
         to_pose(place_template(set, view, random.uniform(0, 6), random.uniform(0.2, 0.6),
                                {random.uniform(0, 320), random.uniform(0, 240)}, camera));
     std::vector<TemplatePoint> found(std::size_t(thinned.count()));
-    ASSERT_TRUE(thinned.project(pose, k, 100, 80, BINS, 0.01f, found.data()));
+    ASSERT_TRUE(thinned.project(pose, {k, BINS, 0.01f}, found.data()));
     for (std::size_t p = 0; p < found.size(); ++p) {
       const ModelPoint& point = view.points[p * view.points.size() / found.size()];
       const ProjectedEdge<double> edge = project_edge(pose_point<double>(pose, point), k);
       const double bin = orientation(edge.dx, edge.dy) * BINS / std::numbers::pi;
       // Half a pixel, half a bin, and the error of single precision at the border between two.
-      EXPECT_NEAR(found[p].dx_px, edge.u - 100, 0.501);
-      EXPECT_NEAR(found[p].dy_px, edge.v - 80, 0.501);
+      EXPECT_NEAR(found[p].dx_px, edge.u, 0.501);
+      EXPECT_NEAR(found[p].dy_px, edge.v, 0.501);
       EXPECT_LT(std::abs(std::remainder(found[p].bin - bin, double(BINS))), 0.501);
       EXPECT_LT(found[p].bin, BINS);
       ++all;
-      apart += std::lround(edge.u - 100) != found[p].dx_px ||
-               std::lround(edge.v - 80) != found[p].dy_px ||
+      apart += std::lround(edge.u) != found[p].dx_px || std::lround(edge.v) != found[p].dy_px ||
                std::lround(bin) % BINS != found[p].bin;
     }
   }
@@ -58,9 +57,9 @@ TEST(ThinnedView, ReportsPointsThatAreTooNear) {
   std::vector<TemplatePoint> found(std::size_t(thinned.count()));
   const Se3 far{set.views[0].camera_from_object, {0, 0, 1}},
       behind{set.views[0].camera_from_object, {0, 0, -1}};
-  EXPECT_TRUE(thinned.project(to_pose(far), {300, 300, 0, 0}, 0, 0, BINS, 0.1f, found.data()));
-  EXPECT_FALSE(thinned.project(to_pose(far), {300, 300, 0, 0}, 0, 0, BINS, 2.0f, found.data()));
-  EXPECT_FALSE(thinned.project(to_pose(behind), {300, 300, 0, 0}, 0, 0, BINS, 0.1f, found.data()));
+  EXPECT_TRUE(thinned.project(to_pose(far), {{300, 300, 0, 0}, BINS, 0.1f}, found.data()));
+  EXPECT_FALSE(thinned.project(to_pose(far), {{300, 300, 0, 0}, BINS, 2.0f}, found.data()));
+  EXPECT_FALSE(thinned.project(to_pose(behind), {{300, 300, 0, 0}, BINS, 0.1f}, found.data()));
 }
 
 // A point far outside stays outside after the place of a job is added; it does not wrap around.
@@ -70,7 +69,7 @@ TEST(ThinnedView, ClampsPointsFarOutside) {
   TemplatePoint found;
   ASSERT_TRUE(
       ThinnedView(view, 1).project(to_pose(Se3{Eigen::Quaterniond::Identity(), {0, 0, 0.1}}),
-                                   {1000, 1000, 0, 0}, 0, 0, BINS, 0.01f, &found));
+                                   {{1000, 1000, 0, 0}, BINS, 0.01f}, &found));
   EXPECT_EQ(found.dx_px, 16000);
   EXPECT_EQ(found.dy_px, -16000);
 }
