@@ -101,14 +101,16 @@ class Stages {
     const DeviceWork before = backend_.device_work();
     const Clock::time_point start = Clock::now();
     auto result = stage();
-    const double ms = ms_since(start);
-    if (next_ == samples_.size()) samples_.push_back({name, {}, {}, {}});
-    StageSamples& measured = samples_[next_++];
-    measured.device = backend_.device_work() - before;
-    measured.ms.push_back(ms);
-    if (const std::optional<double> in_kernels = measured.device.kernel_seconds())
-      measured.host_ms.push_back(ms - 1000 * *in_kernels);
+    add({name, ms_since(start) / 1000, backend_.device_work() - before});
     return result;
+  }
+  void add(const StageSeconds& stage) {
+    if (next_ == samples_.size()) samples_.push_back({stage.name, {}, {}, {}});
+    StageSamples& measured = samples_[next_++];
+    measured.device = stage.device;
+    measured.ms.push_back(1000 * stage.seconds);
+    if (const std::optional<double> host = stage.host_seconds())
+      measured.host_ms.push_back(1000 * *host);
   }
 
  private:
@@ -119,10 +121,11 @@ class Stages {
 
 void run_stages(const Work& work, Backend& backend, std::vector<StageSamples>& samples) {
   Stages stages(samples, backend);
+  std::vector<StageSeconds> parts;  // of the image prepared last
   const auto prepare = [&] {
     const KnownImage& image = work.scene.images[0];
-    std::vector<StageSeconds> ignored;
-    return prepare_view(image.image, image.camera, Se3{}, backend, work.options, &ignored);
+    parts.clear();
+    return prepare_view(image.image, image.camera, Se3{}, backend, work.options, &parts);
   };
   const ObjectView prepared = stages.time("edges", prepare);
   const ObjectView view = stages.time("tensors", [&] {
@@ -138,8 +141,13 @@ void run_stages(const Work& work, Backend& backend, std::vector<StageSamples>& s
   features.score = detect.refine.score;
   stages.time("scoring", [&] { return pooled_features(scene, work.truths, features); });
   stages.time("next view", [&] { return decide(work.decision, backend); });
-  stages.time("image to poses",
-              [&] { return detect_objects(prepare(), work.sets, backend, work.options); });
+  const Detections found = stages.time(
+      IMAGE_TO_POSES, [&] { return detect_objects(prepare(), work.sets, backend, work.options); });
+  parts.insert(parts.end(), found.stages.begin(), found.stages.end());
+  for (StageSeconds& part : parts) {
+    part.name = std::string(IMAGE_TO_POSES) + ": " + part.name;
+    stages.add(part);
+  }
 }
 
 // A device that is measured.

@@ -24,6 +24,8 @@ struct DevicesOptions {
   void validate() const;  // InputError naming the field and the violated bound
 };
 
+inline constexpr const char* IMAGE_TO_POSES = "image to poses";
+
 // One stage on one device.
 struct StageSamples {
   std::string stage;
@@ -37,7 +39,8 @@ struct StageSamples {
 struct DeviceTimes {
   std::string choice, name, driver;
   bool is_software = false;  // runs on the processor: its times say nothing of a graphics card
-  // "edges", "tensors", "scan", "registration", "scoring", "next view", "image to poses"
+  // "edges", "tensors", "scan", "registration", "scoring", "next view", IMAGE_TO_POSES, and the
+  // stages of which that consists, as "image to poses: scan"
   std::vector<StageSamples> stages;
   // Of the whole process during one image, with the memory that earlier devices keep.
   std::size_t peak_host_bytes = 0;

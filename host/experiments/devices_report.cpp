@@ -19,7 +19,7 @@ double least(const StageSamples& stage) { return *std::ranges::min_element(stage
 double most(const StageSamples& stage) { return *std::ranges::max_element(stage.ms); }
 
 double images_per_second(const DeviceTimes& device) {
-  return 1000 / device.stages.back().median_ms();
+  return 1000 / std::ranges::find(device.stages, IMAGE_TO_POSES, &StageSamples::stage)->median_ms();
 }
 
 // The time of copying as many bytes.
