@@ -5,7 +5,6 @@ namespace edgescout {
 RefineOptions DetectOptions::refine_defaults() {
   RefineOptions options;
   options.search.rotation_rad = 0.25;  // templates stand some 0.2 rad apart
-  options.search.num_kept = 2;  // four: 4 more right of 346, but more wrong ones end probable
   return options;
 }
 
