@@ -1,5 +1,5 @@
-// How much one frame asks of a device: the bounds that keep its path lean. They are some 20 % above
-// what was counted; nothing is allocated.
+// How much a frame of few poses asks of a device: the bounds that keep its path lean. They are some
+// 20 % above what was counted; nothing is allocated. `edgescout bench devices` counts a whole one.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -33,9 +33,9 @@ TEST(DeviceWork, OfOneFrameStaysWithinItsBounds) {
                scan_megabytes = 1e-6 * double(scan.bytes_up + scan.bytes_down);
   EXPECT_GT(frame.submits, 0u);
   EXPECT_GT(frame.kernel_seconds().value_or(0), 0);
-  EXPECT_LE(frame.submits, 225u);
-  EXPECT_LE(megabytes, 180);
-  EXPECT_LE(1e-6 * double(frame.bytes_filled), 600);
+  EXPECT_LE(frame.submits, 220u);
+  EXPECT_LE(megabytes, 37);
+  EXPECT_LE(1e-6 * double(frame.bytes_filled), 190);
   EXPECT_EQ(frame.allocations, 0u);
   EXPECT_LE(scan.submits, 5u);
   EXPECT_LE(scan_megabytes, 1.6);
