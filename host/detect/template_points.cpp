@@ -5,6 +5,7 @@
 
 #include "host/model/viewpoint_index.h"
 #include "host/register/occluders.h"
+#include "host/register/points_in_image.h"
 #include "kernels/thread_pool.h"
 
 namespace edgescout {
@@ -58,7 +59,12 @@ class EdgeLookup {
     return view_of(pair).camera_from_world * poses_[pair / views_.size()].world_from_object;
   }
 
-  // What occluders hide differs from pair to pair.
+  // What occluders hide and what lies outside the image differ from pair to pair.
+  bool is_own(std::size_t pair) const {
+    const ObjectView& view = view_of(pair);
+    return view.occluders || !is_wholly_in(*view.tensor, set_.model, camera_from_object(pair));
+  }
+
   SharedLists share_lists() const {
     constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
     std::vector<std::size_t> known(set_.views.size() * set_.symmetries.discrete.size(), none);
@@ -66,7 +72,7 @@ class EdgeLookup {
     for (std::size_t pair = 0; pair < nearest_.size(); ++pair) {
       std::size_t own = none;
       std::size_t& list =
-          view_of(pair).occluders
+          is_own(pair)
               ? own
               : known[nearest_[pair].symmetry * set_.views.size() + nearest_[pair].viewpoint];
       if (list == none) {
@@ -85,6 +91,7 @@ class EdgeLookup {
     if (view_of(pair).occluders)
       remove_hidden(points, *view_of(pair).occluders, camera_from_object(pair),
                     occlusion_tolerance_m(set_.model));
+    remove_outside(points, *view_of(pair).tensor, camera_from_object(pair));
     return points;
   }
 

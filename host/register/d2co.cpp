@@ -6,6 +6,7 @@
 #include "host/register/d2co_ceres.h"
 #include "host/register/depth_systems.h"
 #include "host/register/lm_state.h"
+#include "host/register/points_in_image.h"
 #include "host/register/visible_in_views.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
@@ -120,8 +121,13 @@ std::vector<PoseEstimate> register_poses(const Scene& scene, std::span<const Obj
   if (options.solver == Solver::Ceres) return register_poses_ceres(scene, starts, options);
   check_problem(starts, scene.models.size(), scene.views);
   const auto find_visible = [&](std::span<const ObjectPose> poses, const D2coRound& round) {
-    const Grid<VisibleInView> visible = visible_in_views(scene, poses, options.visibility);
+    Grid<VisibleInView> visible = visible_in_views(scene, poses, options.visibility);
     ThreadPool& threads = scene.backend.threads();
+    for_poses(poses.size(), threads, [&](std::size_t p) {
+      for (std::size_t v = 0; v < scene.views.size(); ++v)
+        remove_outside(visible(p, v).points, *scene.views[v].tensor,
+                       scene.views[v].camera_from_world * poses[p].world_from_object);
+    });
     return VisiblePoints{
         points_of(visible, &VisibleInView::points, round.max_points, threads),
         points_of(visible, &VisibleInView::surface, round.max_surface_points, threads)};

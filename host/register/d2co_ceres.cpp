@@ -11,6 +11,7 @@
 #include "host/register/lm_state.h"
 #include "host/register/measured_depth.h"
 #include "host/register/point_cost.h"
+#include "host/register/points_in_image.h"
 #include "host/register/se3_manifold.h"
 #include "host/register/visible_in_views.h"
 #include "kernels/error.h"
@@ -73,8 +74,10 @@ void add_surface(RoundProblem& round, const ObjectView& view, std::span<const Su
 void add_visible_points(RoundProblem& at_pose, const Scene& scene, const HostView& view,
                         const ObjectPose& pose, const D2coRound& round,
                         const VisibilityOptions& visibility) {
-  const VisibleInView visible = visible_in_views({scene.models, {&view.view, 1}, scene.backend},
-                                                 {&pose, 1}, visibility)(0, 0);
+  VisibleInView visible = visible_in_views({scene.models, {&view.view, 1}, scene.backend},
+                                           {&pose, 1}, visibility)(0, 0);
+  remove_outside(visible.points, *view.view.tensor,
+                 view.view.camera_from_world * pose.world_from_object);
   add_edges(at_pose, view, thinned(visible.points, round.max_points));
   add_surface(at_pose, view.view, thinned(visible.surface, round.max_surface_points),
               pose_depth_options(scene, REGISTRATION_BAND));

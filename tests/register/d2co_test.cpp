@@ -65,6 +65,23 @@ TEST_P(D2co, RecoversAPartInOneView) {
   }
 }
 
+// Points that the image does not show would pull the part inwards and away from the camera.
+TEST_P(D2co, RecoversAPartThatTheBorderCuts) {
+  Random random = test_random();
+  for (const char* part : {"l_bracket", "bearing_block", "u_channel"}) {
+    PartScene scene(part, 1, random, *backend);
+    ObjectView& view = scene.views[0];
+    view.camera.cx = 30;  // of the part's centre; its radius is some 70 px
+    const std::vector<EdgePoint> edges = ideal_edges(
+        part_model(part, 2e-4), view.camera, view.camera_from_world * scene.truth, *backend);
+    view.tensor = backend->make_view(edges, view.camera.width, view.camera.height, {},
+                                     intrinsics_of(view.camera), {});
+    const PoseEstimate found = solve(scene);
+    EXPECT_LT(distance_between_m(found.world_from_object, scene.truth), 5e-3) << part;
+    EXPECT_LT(angle_between_rad(found.world_from_object, scene.truth), 0.05) << part;
+  }
+}
+
 // The time is over when it is asked for the third time.
 TEST_P(D2co, SaysThatTheTimeWasOver) {
   Random random = test_random();

@@ -1,0 +1,23 @@
+// The points of an object that an image shows.
+//
+// Registration compares no others. A point outside costs what the nearest pixel inside costs plus
+// its distance from there (pose_normal_equations.h), which holds poses in the image: the outer
+// points of a part that the border cuts would pull the part inwards, and away from the camera.
+#pragma once
+
+#include <vector>
+
+#include "host/core/se3.h"
+#include "host/model/edge_model.h"
+#include "kernels/backend.h"
+
+namespace edgescout {
+
+// Whether the sphere around the object projects into the image as a whole.
+bool is_wholly_in(const BackendView& image, const EdgeModel& model, const Se3& camera_from_object);
+
+// Removes the points that project outside of the image or do not lie in front of the camera.
+void remove_outside(std::vector<ModelPoint>& points, const BackendView& image,
+                    const Se3& camera_from_object);
+
+}  // namespace edgescout
