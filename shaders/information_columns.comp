@@ -15,10 +15,10 @@ void main() {
   [[dont_unroll]] for (uint i = 0u; i < push.particles; ++i) evidence += weight_of(i) * exp(log_likelihood(i, j) - shifts[i]);
   float share = 0.0;
   if (evidence > 0.0) {
-    const float log_psi_z_score = log(evidence);
+    const float log_evidence = log(evidence);
     [[dont_unroll]] for (uint i = 0u; i < push.particles; ++i) {
       const float log_l = log_likelihood(i, j) - shifts[i], l = exp(log_l);
-      share += weight_of(i) * max(0.0, l * (log_l - log_psi_z_score) - l + evidence);
+      share += weight_of(i) * max(0.0, l * (log_l - log_evidence) - l + evidence);
     }
   }
   shares[j] = share;
