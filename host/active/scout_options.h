@@ -72,7 +72,7 @@ struct ScoutOptions {
 
   // More hits per image than the detection in a single image keeps, because later images rescore
   // them. Fewer of them are aligned and registered: the next image shows what one image misses, in
-  // half the time (docs/next_view.md).
+  // half the time (docs/research/next_view.md).
   static PipelineOptions scout_defaults();
   void validate() const;  // InputError naming the field and the violated bound
 };

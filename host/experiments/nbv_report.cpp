@@ -353,7 +353,7 @@ Report nbv_report(const ExperimentSettings&, const Table& table) {
       "intervals "
       "over the same draws of bins; 0: the same in every bin. MI-MAX is edgescout's choice, the "
       "paper's "
-      "mutual information with the terms of docs/next_view.md.{}{}{}\n\n",
+      "mutual information with the terms of docs/research/next_view.md.{}{}{}\n\n",
       bins_text(table), pose_criterion().text, pairs_text(table),
       draws_text(rows_of_set(table, "")), photographs_text(table));
   const auto rows_in = [&](const BinSet& set) { return rows_of_set(table, set.types); };
