@@ -50,7 +50,7 @@ struct Match {
   ProjectedEdge<double> projected;
 };
 
-// [R, 0; 0, R]: maps the world's tangent to the camera's (world_system.h).
+// [R, 0; 0, R]: maps the world's tangent to the camera's (lm_state.h).
 Matrix6d camera_tangent(const ObjectView& view) {
   Matrix6d camera_from_world = Matrix6d::Zero();
   camera_from_world.topLeftCorner<3, 3>() = camera_from_world.bottomRightCorner<3, 3>() =

@@ -142,6 +142,7 @@ std::vector<PoseEstimate> refine_batch(const Scene& scene, std::span<const Objec
   const bool searched = options.search.rotation_rad > 0 && !scene.is_time_over();
   const SearchResult found = searched ? search(scene, starts, options) : without_search(starts);
   D2coOptions d2co = options.d2co;
+  // Where only the time forbids a search, the round is left out: it would not iterate.
   if (options.search.rotation_rad == 0) d2co.rounds.insert(d2co.rounds.begin(), options.unsearched);
   std::vector<PoseEstimate> estimates = register_poses(scene, found.poses, d2co);
   if (options.use_edge_icp && !scene.is_time_over()) edge_icp(scene, estimates, options.edge_icp);
