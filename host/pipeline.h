@@ -63,7 +63,7 @@ enum class Completion {
   DeadlinePassed,  // the limit was over before the work was: poses may be missing or unrefined
   Cancelled,
 };
-// Asked at the end of the work.
+// Of work that has ended under this limit: whether it was cancelled, ended by the deadline or done.
 Completion completion_under(const TimeLimit& limit);
 std::string to_string(Completion completion);  // "complete", "deadline passed", "cancelled"
 

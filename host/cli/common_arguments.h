@@ -25,9 +25,8 @@ void add_camera(CLI::App& verb, CameraArguments& camera);
 void add_camera_choice(CLI::App& verb, CameraArguments& camera);  // the last two
 void add_results_folder(CLI::App& verb, std::string& out);        // --out, required
 void add_device(CLI::App& verb, std::string& device);             // --device; shows its default
-// Adds --max-seconds.
-void add_max_seconds(CLI::App& verb, double& max_seconds);
-void add_scale_camera(CLI::App& verb, bool& scale_camera);  // --scale-camera
+void add_max_seconds(CLI::App& verb, double& max_seconds);        // --max-seconds
+void add_scale_camera(CLI::App& verb, bool& scale_camera);        // --scale-camera
 
 // The backend of --device. Its kernels are timed where the log shows their times.
 std::unique_ptr<Backend> backend_of(const std::string& device);
