@@ -23,8 +23,8 @@ struct Times {
 };
 
 // View by view, as planning does it: never more than one view's cells at once.
-Times choose(Backend& backend, const HypothesesSize& size) {
-  const Hypotheses hypotheses(size);
+Times choose(Backend& backend, const NextViewSize& size) {
+  const NextViewInput boxes(size);
   Times times;
   const auto time = [&](double& sum_s, const auto& body) {
     const auto start = std::chrono::steady_clock::now();
@@ -34,20 +34,19 @@ Times choose(Backend& backend, const HypothesesSize& size) {
     sum_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   for (int v = 0; v < size.views; ++v) {
-    test::ChamferScene scene = hypotheses.view(v);
+    test::ChamferInput input = boxes.view(v);
     time(times.maps_s, [&] {
-      backend.candidate_map(scene.edges, scene.maps, size.width, size.height, scene.nearest);
+      backend.candidate_map(input.edges, input.maps, size.width, size.height, input.nearest);
     });
     ChamferHandle chamfer;
     time(times.chamfer_s,
-         [&] { chamfer = backend.combination_chamfer(scene.view(), scene.combinations(), {}); });
-    time(times.information_s,
-         [&] { backend.mutual_information(*chamfer, hypotheses.beliefs(), {}); });
+         [&] { chamfer = backend.combination_chamfer(input.view(), input.combinations(), {}); });
+    time(times.information_s, [&] { backend.mutual_information(*chamfer, boxes.beliefs(), {}); });
   }
   return times;
 }
 
-void report(Backend& backend, const HypothesesSize& size, int repetitions) {
+void report(Backend& backend, const NextViewSize& size, int repetitions) {
   std::vector<Times> runs;
   for (int r = 0; r < repetitions; ++r) runs.push_back(choose(backend, size));
   std::ranges::sort(runs, {}, &Times::total);
@@ -65,15 +64,15 @@ void run(const std::string& device, int repetitions) {
   std::printf("%5s %10s %9s %12s %9s %9s %11s %9s %9s\n", "views", "candidates", "particles",
               "combinations", "maps", "chamfer", "information", "all", "processor");
   choose(*backend, {2, 4, 4, 50, 64, 48, 64});  // the driver's compiler, the first pages
-  report(*backend, paper_hypotheses, repetitions);
+  report(*backend, paper_size, repetitions);
   for (const int by : {3, 10}) {
-    HypothesesSize candidates = paper_hypotheses, particles = paper_hypotheses,
-                   combinations = paper_hypotheses, views = paper_hypotheses;
+    NextViewSize candidates = paper_size, particles = paper_size, combinations = paper_size,
+                 views = paper_size;
     candidates.candidates *= by;
     particles.particles *= by;
     combinations.combinations *= std::uint32_t(by);
     views.views *= by;
-    for (const HypothesesSize& size : {candidates, particles, combinations, views})
+    for (const NextViewSize& size : {candidates, particles, combinations, views})
       report(*backend, size, repetitions);
   }
 }

@@ -15,12 +15,12 @@ struct Scale {
   int coarse_width, coarse_height;  // of the tensor that templates are scored on
   int templates, problems, pose_points;
   int maps, map_width, map_height, rings;
-  HypothesesSize hypotheses;
+  NextViewSize next_view;
 };
 
 constexpr Scale scale_of(Size size) {
   if (size == Size::full)
-    return {1024, 768, 30000, 256, 192, 5000, 40, 1500, 40, 320, 240, 60, paper_hypotheses};
+    return {1024, 768, 30000, 256, 192, 5000, 40, 1500, 40, 320, 240, 60, paper_size};
   return {256, 192, 1900, 64, 48, 300, 4, 500, 4, 80, 60, 20, {2, 8, 10, 100, 64, 48, 100}};
 }
 
@@ -294,23 +294,23 @@ Case edge_case(Backend& backend, const Scale& s) {
 
 // All views of a choice of the next view; `cells` of every one of them for the information.
 struct NextView {
-  std::vector<test::ChamferScene> scenes;
+  std::vector<test::ChamferInput> inputs;
   std::vector<ParticleBelief> beliefs;
   std::vector<ChamferHandle> cells;
   std::size_t pixels = 0, edges = 0, points = 0, cell_count = 0;
 };
 
-std::shared_ptr<NextView> next_view(Backend& backend, const HypothesesSize& size) {
-  const Hypotheses hypotheses(size);
+std::shared_ptr<NextView> next_view(Backend& backend, const NextViewSize& size) {
+  const NextViewInput boxes(size);
   auto made = std::make_shared<NextView>();
-  made->beliefs = hypotheses.beliefs();
+  made->beliefs = boxes.beliefs();
   for (int v = 0; v < size.views; ++v) {
-    test::ChamferScene& scene = made->scenes.emplace_back(hypotheses.view(v));
-    backend.candidate_map(scene.edges, scene.maps, scene.width, scene.height, scene.nearest);
-    made->cells.push_back(backend.combination_chamfer(scene.view(), scene.combinations(), {}));
-    made->pixels += scene.nearest.size();
-    made->edges += scene.edges.size();
-    made->points += scene.points.size();
+    test::ChamferInput& input = made->inputs.emplace_back(boxes.view(v));
+    backend.candidate_map(input.edges, input.maps, input.width, input.height, input.nearest);
+    made->cells.push_back(backend.combination_chamfer(input.view(), input.combinations(), {}));
+    made->pixels += input.nearest.size();
+    made->edges += input.edges.size();
+    made->points += input.points.size();
     made->cell_count +=
         std::size_t(made->cells.back()->particles) * made->cells.back()->combinations;
   }
@@ -319,14 +319,14 @@ std::shared_ptr<NextView> next_view(Backend& backend, const HypothesesSize& size
 
 // Operations: of the maps, an edge point tried on the pixels in its reach; of the chamfer
 // distances, a point's lookup for one combination; of the information, a likelihood.
-std::string counted(const HypothesesSize& size, double operations) {
+std::string counted(const NextViewSize& size, double operations) {
   char text[96];
   std::snprintf(text, sizeof text, "%d views, %d, %d, %u: %.2g operations", size.views,
                 size.candidates, size.particles, size.combinations, operations);
   return text;
 }
 
-std::vector<Case> next_view_cases(Backend& backend, const HypothesesSize& size) {
+std::vector<Case> next_view_cases(Backend& backend, const NextViewSize& size) {
   const std::shared_ptr<NextView> work = next_view(backend, size);
   constexpr double reach_px = std::numbers::pi * CANDIDATE_MAP_REACH_PX * CANDIDATE_MAP_REACH_PX;
   const std::size_t map_bytes =
@@ -335,13 +335,13 @@ std::vector<Case> next_view_cases(Backend& backend, const HypothesesSize& size) 
   return {
       {"candidate_map", counted(size, reach_px * double(work->edges)), map_bytes,
        [&backend, work] {
-         for (test::ChamferScene& s : work->scenes)
+         for (test::ChamferInput& s : work->inputs)
            backend.candidate_map(s.edges, s.maps, s.width, s.height, s.nearest);
        }},
       {"combination_chamfer", counted(size, double(work->points) * size.combinations),
        map_bytes + work->pixels * sizeof(float) + work->points * sizeof(ParticlePoint) + cell_bytes,
        [&backend, work] {
-         for (const test::ChamferScene& s : work->scenes)
+         for (const test::ChamferInput& s : work->inputs)
            backend.combination_chamfer(s.view(), s.combinations(), {});
        }},
       {"mutual_information", counted(size, double(work->cell_count)), cell_bytes, [&backend, work] {
@@ -366,7 +366,7 @@ std::vector<Case> make_cases(Backend& backend, Size size) {
   cases.push_back(depth_case(backend, s));
   cases.push_back(visibility_case(backend, s));
   cases.push_back(shading_case(backend, s));
-  for (Case& c : next_view_cases(backend, s.hypotheses)) cases.push_back(std::move(c));
+  for (Case& c : next_view_cases(backend, s.next_view)) cases.push_back(std::move(c));
   return cases;
 }
 

@@ -1,5 +1,6 @@
-// Hypotheses seen from one view, for the tests of the next-best-view kernels: random ones, which
-// need not be anything a camera could see, and boxes, which a test can draw by itself.
+// Candidates, particles and combinations seen from one view, for the tests of the next-best-view
+// kernels: random ones, which need not be anything a camera could see, and boxes, which a test can
+// draw by itself.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 
 namespace edgescout::test {
 
-struct ChamferScene {
+struct ChamferInput {
   int width = 0, height = 0;
   std::vector<MapEdge> edges;
   std::vector<CandidateMap> maps;
@@ -61,23 +62,23 @@ struct ChamferScene {
   }
 };
 
-struct SceneSize {
+struct ChamferInputSize {
   int width, height, candidates, edges, particles, points;
   std::uint32_t combinations;
 };
 
 // Windows, edges and points in and out of the image and of each other, surfaces full of holes,
 // edges at equal distances.
-inline ChamferScene random_scene(std::mt19937& rng, const SceneSize& size) {
+inline ChamferInput random_chamfer_input(std::mt19937& rng, const ChamferInputSize& size) {
   const auto in = [&](float low, float high) {
     return std::uniform_real_distribution<float>(low, high)(rng);
   };
   const auto whole = [&](int low, int high) {
     return std::uniform_int_distribution<int>(low, high)(rng);
   };
-  ChamferScene scene;
-  scene.width = size.width;
-  scene.height = size.height;
+  ChamferInput input;
+  input.width = size.width;
+  input.height = size.height;
   for (int c = 0; c < size.candidates; ++c) {
     std::vector<MapEdge> own;
     const float x = in(0, float(size.width)), y = in(0, float(size.height)), reach = in(1, 12);
@@ -86,21 +87,21 @@ inline ChamferScene random_scene(std::mt19937& rng, const SceneSize& size) {
       own.push_back(e % 3 == 0 ? MapEdge{std::round(edge.x_px), std::round(edge.y_px), edge.z_m}
                                : edge);
     }
-    scene.add_candidate({int(x) - whole(0, 30), int(y) - whole(0, 30), std::uint32_t(whole(0, 50)),
+    input.add_candidate({int(x) - whole(0, 30), int(y) - whole(0, 30), std::uint32_t(whole(0, 50)),
                          std::uint32_t(whole(1, 50))},
                         own, c % 4 == 0 ? 0 : in(0, 0.05f));
   }
-  for (float& depth : scene.surface_m) depth = in(0, 1) < 0.3f ? in(0.3f, 0.6f) : DEPTH_EMPTY;
+  for (float& depth : input.surface_m) depth = in(0, 1) < 0.3f ? in(0.3f, 0.6f) : DEPTH_EMPTY;
   for (int i = 0; i < size.particles; ++i) {
     std::vector<ParticlePoint> own;
     const float x = in(0, float(size.width)), y = in(0, float(size.height));
     for (int p = i % 5 == 4 ? 0 : size.points; p > 0; --p)
       own.push_back({x + in(-9, 9), y + in(-9, 9), in(0.3f, 0.6f), std::uint32_t(whole(0, 1))});
-    scene.add_particle(own);
+    input.add_particle(own);
   }
-  scene.draw_maps();
-  scene.draw_combinations(rng, size.combinations, 0.5);
-  return scene;
+  input.draw_maps();
+  input.draw_combinations(rng, size.combinations, 0.5);
+  return input;
 }
 
 // A box in front of the camera: a ray cast by hand, edges known to show or not by the way their
@@ -174,19 +175,19 @@ inline std::vector<MapEdge> box_edges(const Box& box, const Pinhole& camera, int
   return edges;
 }
 
-inline void add_box(ChamferScene& scene, const Box& box, const Pinhole& camera, int points_per_edge,
+inline void add_box(ChamferInput& input, const Box& box, const Pinhole& camera, int points_per_edge,
                     float tolerance_m) {
   const std::vector<MapEdge> edges = box_edges(box, camera, points_per_edge);
   const auto [left, right] = std::ranges::minmax(edges, {}, &MapEdge::x_px);
   const auto [top, bottom] = std::ranges::minmax(edges, {}, &MapEdge::y_px);
-  scene.add_candidate(
-      map_window(left.x_px, top.y_px, right.x_px, bottom.y_px, scene.width, scene.height), edges,
+  input.add_candidate(
+      map_window(left.x_px, top.y_px, right.x_px, bottom.y_px, input.width, input.height), edges,
       tolerance_m);
-  const CandidateMap& map = scene.maps.back();
+  const CandidateMap& map = input.maps.back();
   for (std::size_t i = 0; i < map.window.size(); ++i)
     if (const auto z = box_depth(box, camera, map.window.x0 + int(i % map.window.width),
                                  map.window.y0 + int(i / map.window.width)))
-      scene.surface_m[map.first_pixel + i] = float(*z);
+      input.surface_m[map.first_pixel + i] = float(*z);
 }
 
 }  // namespace edgescout::test

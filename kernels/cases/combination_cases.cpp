@@ -69,7 +69,7 @@ Camera camera_around(int index, int count) {
 
 }  // namespace
 
-Hypotheses::Hypotheses(const HypothesesSize& size) : size_(size) {
+NextViewInput::NextViewInput(const NextViewSize& size) : size_(size) {
   std::mt19937 rng(6);
   // A third of them are the same object once more, a little off.
   for (int c = 0; c < size.candidates; ++c)
@@ -79,32 +79,32 @@ Hypotheses::Hypotheses(const HypothesesSize& size) : size_(size) {
     beliefs_.push_back({uniform(rng, -2, 0), std::uint32_t(uniform(rng, 0, size.points)),
                         std::uint32_t(2 * size.points), 0});
   }
-  test::ChamferScene bits;
+  test::ChamferInput bits;
   bits.maps.resize(std::size_t(size.candidates));
   bits.draw_combinations(rng, size.combinations, 0.5);
   combinations_ = bits.words;
 }
 
-test::ChamferScene Hypotheses::view(int index) const {
+test::ChamferInput NextViewInput::view(int index) const {
   const Camera camera = camera_around(index, size_.views);
   const test::Pinhole pinhole{0.98 * size_.width, 0.5 * size_.width, 0.5 * size_.height};
   constexpr int edges_of_a_box = 9;  // that show, nearly always
   const int points_per_edge = size_.points / edges_of_a_box;
-  test::ChamferScene scene;
-  scene.width = size_.width;
-  scene.height = size_.height;
+  test::ChamferInput input;
+  input.width = size_.width;
+  input.height = size_.height;
   for (const test::Box& box : candidates_)
-    test::add_box(scene, camera.seen(box), pinhole, points_per_edge, 0.01f);
+    test::add_box(input, camera.seen(box), pinhole, points_per_edge, 0.01f);
   for (const test::Box& box : particles_) {
     std::vector<ParticlePoint> points;
     for (const MapEdge& edge : test::box_edges(camera.seen(box), pinhole, points_per_edge))
       points.push_back({edge.x_px, edge.y_px, edge.z_m, std::uint32_t(points.size() % 4 == 0)});
-    scene.add_particle(points);
+    input.add_particle(points);
   }
-  scene.nearest.resize(scene.surface_m.size());
-  scene.combination_count = size_.combinations;
-  scene.words = combinations_;
-  return scene;
+  input.nearest.resize(input.surface_m.size());
+  input.combination_count = size_.combinations;
+  input.words = combinations_;
+  return input;
 }
 
 }  // namespace edgescout::bench

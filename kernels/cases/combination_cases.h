@@ -7,21 +7,21 @@
 
 namespace edgescout::bench {
 
-struct HypothesesSize {
+struct NextViewSize {
   int views, candidates, particles, points, width, height;
   std::uint32_t combinations;
 };
-inline constexpr HypothesesSize paper_hypotheses{32, 40, 200, 500, 256, 192, 1000};
+inline constexpr NextViewSize paper_size{32, 40, 200, 500, 256, 192, 1000};
 
-class Hypotheses {
+class NextViewInput {
  public:
-  explicit Hypotheses(const HypothesesSize& size);
+  explicit NextViewInput(const NextViewSize& size);
   // What view 0 to views - 1 shows; its maps (`nearest`) have their size, but are not drawn.
-  test::ChamferScene view(int index) const;
+  test::ChamferInput view(int index) const;
   const std::vector<ParticleBelief>& beliefs() const { return beliefs_; }
 
  private:
-  HypothesesSize size_;
+  NextViewSize size_;
   std::vector<test::Box> candidates_, particles_;  // in the world, z up
   std::vector<std::uint32_t> combinations_;
   std::vector<ParticleBelief> beliefs_;

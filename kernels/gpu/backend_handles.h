@@ -110,8 +110,8 @@ class VulkanDepth : public BackendDepth {
 class VulkanChamfer : public BackendChamfer {
  public:
   VulkanChamfer(std::shared_ptr<const Device> device, std::size_t particle_count,
-                std::uint32_t realization_count)
-      : device_(std::move(device)), values(*device_, particle_count, realization_count) {
+                std::uint32_t combination_count)
+      : device_(std::move(device)), values(*device_, particle_count, combination_count) {
     particles = values.particles;
     combinations = values.combinations;
   }

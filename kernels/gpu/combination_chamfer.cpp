@@ -53,11 +53,11 @@ std::vector<std::uint32_t> columns_of(const CombinationBits& combinations) {
 }  // namespace
 
 DeviceCells::DeviceCells(const Device& device, std::size_t particle_count,
-                         std::uint32_t realization_count)
+                         std::uint32_t combination_count)
     : particles(static_cast<std::uint32_t>(particle_count)),
-      combinations(realization_count),
-      sums(device, particle_count * realization_count, "chamfer sums"),
-      counts(device, particle_count * realization_count, "chamfer counts") {
+      combinations(combination_count),
+      sums(device, particle_count * combination_count, "chamfer sums"),
+      counts(device, particle_count * combination_count, "chamfer counts") {
   const std::size_t most = device.limits().maxStorageBufferRange;
   if (sums.bytes() > most)
     throw GpuError("combination_chamfer: " + std::to_string(particles) + " particles times " +

@@ -51,8 +51,8 @@ TEST(CandidateMap, HoldsTheDistanceToTheNearestEdgePoint) {
   constexpr double rounding = 1.0 / 32 * std::numbers::sqrt2;  // of the points to 1/16 px
   std::size_t within = 0, beyond = 0;
   for (int round = 0; round < 4; ++round) {
-    const test::ChamferScene scene = test::random_scene(rng, {70, 50, 9, 40, 0, 0, 1});
-    for (const CandidateMap& map : scene.maps)
+    const test::ChamferInput input = test::random_chamfer_input(rng, {70, 50, 9, 40, 0, 0, 1});
+    for (const CandidateMap& map : input.maps)
       for (std::size_t i = 0; i < map.window.size(); ++i) {
         const double x = map.window.x0 + int(i % map.window.width),
                      y = map.window.y0 + int(i / map.window.width);
@@ -61,11 +61,11 @@ TEST(CandidateMap, HoldsTheDistanceToTheNearestEdgePoint) {
           return std::hypot(e.x_px - x, e.y_px - y);
         };
         for (std::uint32_t e = 0; e < map.edge_count; ++e) {
-          const MapEdge& edge = scene.edges[map.first_edge + e];
+          const MapEdge& edge = input.edges[map.first_edge + e];
           if (edge.x_px >= -0.5 && edge.x_px < 69.5 && edge.y_px >= -0.5 && edge.y_px < 49.5)
             least = std::min(least, distance_to(edge));
         }
-        const std::uint32_t word = scene.nearest[map.first_pixel + i];
+        const std::uint32_t word = input.nearest[map.first_pixel + i];
         if (word == CANDIDATE_MAP_EMPTY) {
           EXPECT_GT(least, 254.5 / 16 - rounding);
           ++beyond;
@@ -74,7 +74,7 @@ TEST(CandidateMap, HoldsTheDistanceToTheNearestEdgePoint) {
         ++within;
         ASSERT_LT(word & 0xffffu, map.edge_count);
         EXPECT_NEAR(std::sqrt(double(word >> 16)) / 16, least, rounding);
-        EXPECT_NEAR(distance_to(scene.edges[map.first_edge + (word & 0xffffu)]), least,
+        EXPECT_NEAR(distance_to(input.edges[map.first_edge + (word & 0xffffu)]), least,
                     2 * rounding);
       }
   }
@@ -86,16 +86,17 @@ class CandidateMapPaths : public test::PathTest {};
 
 TEST_P(CandidateMapPaths, EqualsTheReference) {
   std::mt19937 rng = test::test_rng();
-  for (const test::SceneSize& size : std::vector<test::SceneSize>{{1, 1, 2, 3, 0, 0, 1},
-                                                                  {7, 90, 5, 20, 0, 0, 1},
-                                                                  {120, 80, 40, 90, 0, 0, 1},
-                                                                  {60, 60, 3, 700, 0, 0, 1},
-                                                                  {9, 9, 0, 0, 0, 0, 1}}) {
+  for (const test::ChamferInputSize& size :
+       std::vector<test::ChamferInputSize>{{1, 1, 2, 3, 0, 0, 1},
+                                           {7, 90, 5, 20, 0, 0, 1},
+                                           {120, 80, 40, 90, 0, 0, 1},
+                                           {60, 60, 3, 700, 0, 0, 1},
+                                           {9, 9, 0, 0, 0, 0, 1}}) {
     SCOPED_TRACE(std::to_string(size.width) + "x" + std::to_string(size.height));
-    const test::ChamferScene scene = test::random_scene(rng, size);
-    std::vector<std::uint32_t> found(scene.nearest.size(), 1);
-    tested->candidate_map(scene.edges, scene.maps, size.width, size.height, found);
-    EXPECT_EQ(found, scene.nearest);
+    const test::ChamferInput input = test::random_chamfer_input(rng, size);
+    std::vector<std::uint32_t> found(input.nearest.size(), 1);
+    tested->candidate_map(input.edges, input.maps, size.width, size.height, found);
+    EXPECT_EQ(found, input.nearest);
   }
 }
 

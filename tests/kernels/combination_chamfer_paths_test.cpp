@@ -16,32 +16,33 @@ namespace {
 
 class CombinationChamferPaths : public test::PathTest {
  protected:
-  void expect_equal(const test::ChamferScene& scene, const ChamferOptions& options) {
+  void expect_equal(const test::ChamferInput& input, const ChamferOptions& options) {
     const ChamferHandle found =
-        tested->combination_chamfer(scene.view(), scene.combinations(), options);
+        tested->combination_chamfer(input.view(), input.combinations(), options);
     const ChamferHandle expected =
-        reference->combination_chamfer(scene.view(), scene.combinations(), options);
-    EXPECT_EQ(found->particles, scene.view().particles());
-    EXPECT_EQ(found->combinations, scene.combination_count);
+        reference->combination_chamfer(input.view(), input.combinations(), options);
+    EXPECT_EQ(found->particles, input.view().particles());
+    EXPECT_EQ(found->combinations, input.combination_count);
     EXPECT_EQ(found->cells(), expected->cells());
   }
 };
 
 TEST_P(CombinationChamferPaths, EqualsTheReference) {
   std::mt19937 rng = test::test_rng();
-  for (const test::SceneSize& size : std::vector<test::SceneSize>{{1, 1, 1, 2, 1, 2, 1},
-                                                                  {7, 5, 3, 9, 6, 20, 3},
-                                                                  {60, 40, 12, 60, 9, 40, 65},
-                                                                  {50, 70, 33, 30, 7, 50, 200},
-                                                                  {40, 40, 70, 25, 4, 30, 64},
-                                                                  {30, 30, 0, 0, 3, 10, 5},
-                                                                  {30, 30, 5, 10, 0, 0, 5},
-                                                                  {30, 30, 5, 10, 3, 10, 0}}) {
+  for (const test::ChamferInputSize& size :
+       std::vector<test::ChamferInputSize>{{1, 1, 1, 2, 1, 2, 1},
+                                           {7, 5, 3, 9, 6, 20, 3},
+                                           {60, 40, 12, 60, 9, 40, 65},
+                                           {50, 70, 33, 30, 7, 50, 200},
+                                           {40, 40, 70, 25, 4, 30, 64},
+                                           {30, 30, 0, 0, 3, 10, 5},
+                                           {30, 30, 5, 10, 0, 0, 5},
+                                           {30, 30, 5, 10, 3, 10, 0}}) {
     SCOPED_TRACE(std::to_string(size.candidates) + " candidates, " +
                  std::to_string(size.combinations) + " combinations");
-    const test::ChamferScene scene = test::random_scene(rng, size);
-    expect_equal(scene, {255.0f / 16});
-    expect_equal(scene, {5});
+    const test::ChamferInput input = test::random_chamfer_input(rng, size);
+    expect_equal(input, {255.0f / 16});
+    expect_equal(input, {5});
   }
 }
 
@@ -49,24 +50,24 @@ TEST_P(CombinationChamferPaths, EqualsTheReference) {
 // not.
 TEST_P(CombinationChamferPaths, ManyPointsInAParticle) {
   std::mt19937 rng = test::test_rng();
-  test::ChamferScene scene = test::random_scene(rng, {40, 30, 9, 12, 3, 2000, 70});
-  expect_equal(scene, {255.0f / 16});
-  scene.add_particle(std::vector<ParticlePoint>(CHAMFER_MAX_POINTS, {11, 9, 0.9f, 1}));
-  expect_equal(scene, {255.0f / 16});
+  test::ChamferInput input = test::random_chamfer_input(rng, {40, 30, 9, 12, 3, 2000, 70});
+  expect_equal(input, {255.0f / 16});
+  input.add_particle(std::vector<ParticlePoint>(CHAMFER_MAX_POINTS, {11, 9, 0.9f, 1}));
+  expect_equal(input, {255.0f / 16});
 }
 
 // More rows than the smallest device binds at once for all combinations.
 TEST_P(CombinationChamferPaths, RealizationsInTiles) {
   std::mt19937 rng = test::test_rng();
-  const test::ChamferScene scene = test::random_scene(rng, {60, 40, 12, 60, 30, 60, 1500});
-  expect_equal(scene, {255.0f / 16});
+  const test::ChamferInput input = test::random_chamfer_input(rng, {60, 40, 12, 60, 30, 60, 1500});
+  expect_equal(input, {255.0f / 16});
 }
 
 // Lists that other views share: nothing of them begins at 0.
 TEST_P(CombinationChamferPaths, PartsOfLongerLists) {
   std::mt19937 rng = test::test_rng();
-  const test::ChamferScene scene = test::random_scene(rng, {60, 40, 12, 60, 9, 40, 65});
-  ChamferView part = scene.view();
+  const test::ChamferInput input = test::random_chamfer_input(rng, {60, 40, 12, 60, 9, 40, 65});
+  ChamferView part = input.view();
   part.candidates = part.candidates.subspan(4, 6);
   part.tolerance_m = part.tolerance_m.subspan(4, 6);
   part.first_point = part.first_point.subspan(2, 5);
@@ -79,19 +80,19 @@ TEST_P(CombinationChamferPaths, PartsOfLongerLists) {
 // More particles and combinations than a device takes workgroups along one dimension.
 TEST_P(CombinationChamferPaths, ManyParticlesAndManyRealizations) {
   std::mt19937 rng = test::test_rng();
-  test::ChamferScene scene = test::random_scene(rng, {20, 20, 3, 9, 66000, 1, 2});
-  expect_equal(scene, {8});
-  scene = test::random_scene(rng, {20, 20, 6, 9, 2, 9, 70001});
-  expect_equal(scene, {8});
+  test::ChamferInput input = test::random_chamfer_input(rng, {20, 20, 3, 9, 66000, 1, 2});
+  expect_equal(input, {8});
+  input = test::random_chamfer_input(rng, {20, 20, 6, 9, 2, 9, 70001});
+  expect_equal(input, {8});
 }
 
 TEST_P(CombinationChamferPaths, BrokenInputIsOurBug) {
   std::mt19937 rng = test::test_rng();
-  const test::ChamferScene good = test::random_scene(rng, {20, 20, 3, 9, 3, 5, 4});
+  const test::ChamferInput good = test::random_chamfer_input(rng, {20, 20, 3, 9, 3, 5, 4});
   const auto run = [&](const auto& spoil, const ChamferOptions& options = {}) {
-    test::ChamferScene scene = good;
-    spoil(scene);
-    tested->combination_chamfer(scene.view(), scene.combinations(), options);
+    test::ChamferInput input = good;
+    spoil(input);
+    tested->combination_chamfer(input.view(), input.combinations(), options);
   };
   EXPECT_NO_THROW(run([](auto&) {}));
   EXPECT_THROW(run([](auto& s) { s.words.pop_back(); }), LogicError);

@@ -23,31 +23,31 @@ constexpr int width = 80, height = 60;
 constexpr ChamferOptions chamfer_options{255.0f / 16};
 
 struct Boxes {
-  test::ChamferScene scene;
+  test::ChamferInput input;
   std::vector<test::Box> boxes;
 };
 
 // Particles are other boxes, every one near a candidate; each point by itself, or all together.
 Boxes box_scene(std::mt19937& rng, int count, bool single_points) {
   Boxes made;
-  made.scene.width = width;
-  made.scene.height = height;
+  made.input.width = width;
+  made.input.height = height;
   std::uniform_real_distribution<double> shift(-0.004, 0.004);
   for (int c = 0; c < count; ++c) {
     made.boxes.push_back(test::random_box(rng));
     // As of objects of several sizes.
-    test::add_box(made.scene, made.boxes.back(), camera, 60, 0.004f * float(c % 4));
+    test::add_box(made.input, made.boxes.back(), camera, 60, 0.004f * float(c % 4));
     test::Box near = made.boxes.back();
     for (double& v : near.centre) v += shift(rng);
     std::vector<ParticlePoint> points;
     for (const MapEdge& edge : test::box_edges(near, camera, 9))
       points.push_back({edge.x_px, edge.y_px, edge.z_m, std::uint32_t(points.size() % 3 == 0)});
-    if (!single_points) made.scene.add_particle(points);
+    if (!single_points) made.input.add_particle(points);
     for (const ParticlePoint& point : points)
-      if (single_points) made.scene.add_particle({point});
+      if (single_points) made.input.add_particle({point});
   }
-  made.scene.draw_maps();
-  made.scene.draw_combinations(rng, 24, 0.5);
+  made.input.draw_maps();
+  made.input.draw_combinations(rng, 24, 0.5);
   return made;
 }
 
@@ -55,10 +55,10 @@ Boxes box_scene(std::mt19937& rng, int count, bool single_points) {
 class Drawn {
  public:
   Drawn(const Boxes& from, std::size_t combination) : depth_(width * height, 1e9) {
-    const CombinationBits combinations = from.scene.combinations();
+    const CombinationBits combinations = from.input.combinations();
     for (std::size_t c = 0; c < from.boxes.size(); ++c)
       if (combinations.has(combination, c))
-        members_.push_back({from.boxes[c], double(from.scene.tolerance_m[c])});
+        members_.push_back({from.boxes[c], double(from.input.tolerance_m[c])});
     for (const Member& member : members_) draw_surface(depth_, member);
     for (std::size_t m = 0; m < members_.size(); ++m) draw_edges(m);
   }
@@ -109,20 +109,20 @@ class Drawn {
 // Whether a member's nearest edge point at the place is hidden by another: where the kernel may
 // know less than a drawn map.
 bool nearest_is_hidden(const Boxes& from, std::size_t combination, double u, double v) {
-  const test::ChamferScene& scene = from.scene;
-  const CombinationBits combinations = scene.combinations();
+  const test::ChamferInput& input = from.input;
+  const CombinationBits combinations = input.combinations();
   const int x = int(std::lround(u)), y = int(std::lround(v));
   for (std::size_t c = 0; c < from.boxes.size(); ++c) {
-    const CandidateMap& map = scene.maps[c];
+    const CandidateMap& map = input.maps[c];
     if (!combinations.has(combination, c) || !map.window.contains(x, y)) continue;
-    const std::uint32_t word = scene.nearest[map.first_pixel + map.window.index(x, y)];
+    const std::uint32_t word = input.nearest[map.first_pixel + map.window.index(x, y)];
     if (word == CANDIDATE_MAP_EMPTY) continue;
-    const MapEdge& edge = scene.edges[map.first_edge + (word & 0xffffu)];
+    const MapEdge& edge = input.edges[map.first_edge + (word & 0xffffu)];
     for (std::size_t o = 0; o < from.boxes.size(); ++o) {
       if (o == c || !combinations.has(combination, o)) continue;
       const auto z =
           test::box_depth(from.boxes[o], camera, std::lround(edge.x_px), std::lround(edge.y_px));
-      if (z && *z + scene.tolerance_m[o] < edge.z_m) return true;
+      if (z && *z + input.tolerance_m[o] < edge.z_m) return true;
     }
   }
   return false;
@@ -133,13 +133,13 @@ TEST(CombinationChamfer, EveryPointAgreesWithTheDrawnRealization) {
   int compared = 0, hidden = 0, knows_less = 0, hidden_nearest = 0;
   for (int round = 0; round < 5; ++round) {
     const Boxes made = box_scene(rng, 7, true);
-    const auto cells = combination_chamfer_reference(made.scene.view(), made.scene.combinations(),
+    const auto cells = combination_chamfer_reference(made.input.view(), made.input.combinations(),
                                                      chamfer_options);
-    for (std::uint32_t j = 0; j < made.scene.combination_count; ++j) {
+    for (std::uint32_t j = 0; j < made.input.combination_count; ++j) {
       const Drawn drawn(made, j);
-      for (std::size_t i = 0; i < made.scene.points.size(); ++i) {
-        const ParticlePoint& point = made.scene.points[i];
-        const ChamferCell& cell = cells[i * made.scene.combination_count + j];
+      for (std::size_t i = 0; i < made.input.points.size(); ++i) {
+        const ParticlePoint& point = made.input.points[i];
+        const ChamferCell& cell = cells[i * made.input.combination_count + j];
         ASSERT_EQ(cell.seen, drawn.shows(point.x_px, point.y_px, point.z_m));
         EXPECT_EQ(cell.unseen, cell.seen * point.unseen);
         if (cell.seen == 0) {
@@ -174,21 +174,21 @@ TEST(CombinationChamfer, MeansAgreeWithTheDrawnRealization) {
   int count = 0;
   for (int round = 0; round < 4; ++round) {
     const Boxes made = box_scene(rng, 6, false);
-    const auto cells = combination_chamfer_reference(made.scene.view(), made.scene.combinations(),
+    const auto cells = combination_chamfer_reference(made.input.view(), made.input.combinations(),
                                                      chamfer_options);
-    for (std::uint32_t j = 0; j < made.scene.combination_count; ++j) {
+    for (std::uint32_t j = 0; j < made.input.combination_count; ++j) {
       const Drawn drawn(made, j);
       for (std::size_t i = 0; i < made.boxes.size(); ++i) {
         double sum = 0;
         std::uint32_t seen = 0, unseen = 0;
-        for (std::uint32_t p = made.scene.first_point[i]; p < made.scene.first_point[i + 1]; ++p) {
-          const ParticlePoint& point = made.scene.points[p];
+        for (std::uint32_t p = made.input.first_point[i]; p < made.input.first_point[i + 1]; ++p) {
+          const ParticlePoint& point = made.input.points[p];
           if (!drawn.shows(point.x_px, point.y_px, point.z_m)) continue;
           sum += drawn.distance_px(point.x_px, point.y_px);
           ++seen;
           unseen += point.unseen;
         }
-        const ChamferCell& cell = cells[i * made.scene.combination_count + j];
+        const ChamferCell& cell = cells[i * made.input.combination_count + j];
         EXPECT_EQ(cell.seen, seen);
         EXPECT_EQ(cell.unseen, unseen);
         const double error = std::abs(mean_px(cell, chamfer_options.cap_px) -
@@ -207,12 +207,12 @@ TEST(CombinationChamfer, MeansAgreeWithTheDrawnRealization) {
 TEST(CombinationChamfer, NothingSeenOrNoMemberGivesTheCap) {
   std::mt19937 rng = test::test_rng();
   Boxes made = box_scene(rng, 3, false);
-  made.scene.add_particle({{-50, 10, 0.4f, 1}, {10, 500, 0.4f, 1}, {NAN, 5, 0.4f, 1}});
-  made.scene.add_particle({});
+  made.input.add_particle({{-50, 10, 0.4f, 1}, {10, 500, 0.4f, 1}, {NAN, 5, 0.4f, 1}});
+  made.input.add_particle({});
   const ChamferOptions short_cap{4};
   const auto cells =
-      combination_chamfer_reference(made.scene.view(), made.scene.combinations(), short_cap);
-  const std::uint32_t m = made.scene.combination_count;
+      combination_chamfer_reference(made.input.view(), made.input.combinations(), short_cap);
+  const std::uint32_t m = made.input.combination_count;
   for (std::uint32_t j = 0; j < m; ++j)
     for (const std::size_t i : {std::size_t{3}, std::size_t{4}}) {
       EXPECT_EQ(cells[i * m + j].seen, 0);

@@ -20,11 +20,11 @@ constexpr float test_cap_px = 255.0f / 16;
 
 class MutualInformationPaths : public test::PathTest {
  protected:
-  void expect_equal(const test::ChamferScene& scene, const std::vector<ParticleBelief>& beliefs,
+  void expect_equal(const test::ChamferInput& input, const std::vector<ParticleBelief>& beliefs,
                     const std::vector<InformationOptions>& all_options) {
     constexpr ChamferOptions chamfer{test_cap_px};
     const ChamferHandle own =
-        tested->combination_chamfer(scene.view(), scene.combinations(), chamfer);
+        tested->combination_chamfer(input.view(), input.combinations(), chamfer);
     const auto cells = own->cells();  // those of the reference, says combination_chamfer's own test
     const auto tolerance = [&](double expected, double scale_px2) {
       return tested->is_gpu() ? 1e-4 * (1 + expected) + 1e-6 * test_cap_px * test_cap_px / scale_px2
@@ -47,15 +47,15 @@ class MutualInformationPaths : public test::PathTest {
 
 TEST_P(MutualInformationPaths, AgreesWithTheReference) {
   std::mt19937 rng = test::test_rng();
-  for (const test::SceneSize& size :
-       std::vector<test::SceneSize>{{30, 20, 3, 9, 1, 12, 1},
-                                    {40, 30, 9, 30, 6, 20, 5},
-                                    {60, 60, 20, 40, 33, 30, 257},
-                                    {60, 60, 40, 40, 200, 30, 1000}}) {
-    const test::ChamferScene scene = test::random_scene(rng, size);
-    const std::vector<ParticleBelief> beliefs = random_beliefs(rng, scene.view().particles());
+  for (const test::ChamferInputSize& size :
+       std::vector<test::ChamferInputSize>{{30, 20, 3, 9, 1, 12, 1},
+                                           {40, 30, 9, 30, 6, 20, 5},
+                                           {60, 60, 20, 40, 33, 30, 257},
+                                           {60, 60, 40, 40, 200, 30, 1000}}) {
+    const test::ChamferInput input = test::random_chamfer_input(rng, size);
+    const std::vector<ParticleBelief> beliefs = random_beliefs(rng, input.view().particles());
     const double least = test_cap_px * test_cap_px / INFORMATION_MAX_SHARPNESS;
-    expect_equal(scene, beliefs,
+    expect_equal(input, beliefs,
                  {{least, false},
                   {least, true},
                   {0.5, false},
@@ -72,17 +72,17 @@ TEST_P(MutualInformationPaths, AgreesWithTheReference) {
 // The most particles there may be.
 TEST_P(MutualInformationPaths, ManyParticles) {
   std::mt19937 rng = test::test_rng();
-  const test::ChamferScene scene =
-      test::random_scene(rng, {60, 60, 20, 40, int(INFORMATION_MAX_PARTICLES), 2, 9});
-  expect_equal(scene, random_beliefs(rng, INFORMATION_MAX_PARTICLES), {{}});
+  const test::ChamferInput input =
+      test::random_chamfer_input(rng, {60, 60, 20, 40, int(INFORMATION_MAX_PARTICLES), 2, 9});
+  expect_equal(input, random_beliefs(rng, INFORMATION_MAX_PARTICLES), {{}});
 }
 
 TEST_P(MutualInformationPaths, IsZeroWhereAllParticlesAreTheSame) {
   std::mt19937 rng = test::test_rng();
-  test::ChamferScene scene = test::random_scene(rng, {40, 30, 9, 30, 1, 20, 50});
-  const std::vector<ParticlePoint> points = scene.points;
-  for (int i = 0; i < 20; ++i) scene.add_particle(points);
-  const ChamferHandle chamfer = tested->combination_chamfer(scene.view(), scene.combinations(), {});
+  test::ChamferInput input = test::random_chamfer_input(rng, {40, 30, 9, 30, 1, 20, 50});
+  const std::vector<ParticlePoint> points = input.points;
+  for (int i = 0; i < 20; ++i) input.add_particle(points);
+  const ChamferHandle chamfer = tested->combination_chamfer(input.view(), input.combinations(), {});
   std::vector<ParticleBelief> beliefs(21, {0, 10, 100, 0});
   EXPECT_NEAR(tested->mutual_information(*chamfer, beliefs, {}), 0,
               tested->is_gpu() ? 1e-6 : 1e-12);
@@ -91,12 +91,12 @@ TEST_P(MutualInformationPaths, IsZeroWhereAllParticlesAreTheSame) {
 // In one call as one by one, also where several tiles and several groups of them are needed.
 TEST_P(MutualInformationPaths, OfSeveralViewsIsThatOfEach) {
   std::mt19937 rng = test::test_rng();
-  std::vector<test::ChamferScene> scenes;
+  std::vector<test::ChamferInput> inputs;
   for (int view = 0; view < 7; ++view)
-    scenes.push_back(test::random_scene(rng, {60, 60, 20, 40, 33, 30, 257}));
+    inputs.push_back(test::random_chamfer_input(rng, {60, 60, 20, 40, 33, 30, 257}));
   std::vector<ChamferView> views;
-  for (const test::ChamferScene& scene : scenes) views.push_back(scene.view());
-  const CombinationBits combinations = scenes[0].combinations();
+  for (const test::ChamferInput& input : inputs) views.push_back(input.view());
+  const CombinationBits combinations = inputs[0].combinations();
   const std::vector<ParticleBelief> beliefs = random_beliefs(rng, views[0].particles());
   for (const bool use_paper_formula : {false, true}) {
     const InformationOptions options{8, use_paper_formula};
@@ -115,17 +115,17 @@ TEST_P(MutualInformationPaths, OfSeveralViewsIsThatOfEach) {
 
 TEST_P(MutualInformationPaths, CellsOfAnotherBackendAreOurBug) {
   std::mt19937 rng = test::test_rng();
-  const test::ChamferScene scene = test::random_scene(rng, {40, 30, 9, 30, 2, 20, 5});
+  const test::ChamferInput input = test::random_chamfer_input(rng, {40, 30, 9, 30, 2, 20, 5});
   const std::vector<ParticleBelief> beliefs(2);
   const auto other =
       GetParam() == test::Path::cpu ? test::make_path(test::Path::vulkan) : make_cpu_backend(1);
   if (other) {
     EXPECT_THROW(
         tested->mutual_information(
-            *other->combination_chamfer(scene.view(), scene.combinations(), {}), beliefs, {}),
+            *other->combination_chamfer(input.view(), input.combinations(), {}), beliefs, {}),
         LogicError);
   }
-  const ChamferHandle own = tested->combination_chamfer(scene.view(), scene.combinations(), {});
+  const ChamferHandle own = tested->combination_chamfer(input.view(), input.combinations(), {});
   EXPECT_NO_THROW(tested->mutual_information(*own, beliefs, {}));
   EXPECT_THROW(tested->mutual_information(*own, std::vector<ParticleBelief>(3), {}), LogicError);
 }
