@@ -55,7 +55,7 @@ class Page {
            "<dt>edges<dd>Share of the visible model edges that have an edge of the image near."
            "<dt>σ place, σ direction<dd>Standard deviation of the pose, mean over the axes."
            "<dt>none alone<dd>No single image supports the object; all images together do."
-           "<dt>combination<dd>A scene that may be there: a choice of candidates. "
+           "<dt>combination<dd>A set of candidates that can exist together. "
            "The pictures show the likeliest and the unlikeliest of those that were sampled for "
            "the decision."
            "<dt>entropy<dd>How undecided the belief is, nats; 0: every object is certain."
@@ -159,7 +159,7 @@ class Page {
                                                  : ""));
     html += "</div>";
     if (!why.likeliest.empty() || !why.unlikeliest.empty())
-      html += "<div class=row>" + scenes(why) + "</div>";
+      html += "<div class=row>" + combinations(why) + "</div>";
     return html + numbers(s) + "</section>";
   }
 
@@ -230,7 +230,7 @@ class Page {
     return particles_svg("first", report_.camera, drawn, models_);
   }
 
-  std::string scenes(const ScoutDecision& why) const {
+  std::string combinations(const ScoutDecision& why) const {
     const auto drawn = [&](const std::vector<int>& members, const char* caption) {
       std::vector<DrawnObject> objects;
       for (const int c : members) objects.push_back({{why.candidates[c]}, c});

@@ -253,7 +253,7 @@ Notes options(const ExperimentSettings& s) {
       {"max_candidates", std::to_string(o.max_candidates)},
       {"particles", std::to_string(o.particles.count)},
       {"combinations", std::to_string(o.combinations.count)},
-      {"scenes_by", o.probable_combinations ? "probability" : "psi"},
+      {"combinations_by", o.probable_combinations ? "probability" : "psi"},
       {"sharpness", number_text(o.combinations.sharpness)},
       {"penetration_m", number_text(o.particles.penetration_m)},
       {"known_probability", number_text(o.known_probability)},
