@@ -158,7 +158,7 @@ std::string to_string(ScoutEnd end) {
     case ScoutEnd::LittleLearned:
       return "little learned";
     case ScoutEnd::TimeLimit:
-      return "time spent";
+      return "time limit";
   }
   throw LogicError("to_string: no such ScoutEnd");
 }

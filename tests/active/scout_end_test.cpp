@@ -41,6 +41,7 @@ TEST(Scout, EndsByEachOfItsLimits) {
             End(ScoutEnd::Certain, 1))
       << "no other image can show more";
   EXPECT_EQ(ended([](ScoutOptions& o) { o.max_seconds = 1e-6; }), End(ScoutEnd::TimeLimit, 1));
+  EXPECT_EQ(to_string(ScoutEnd::TimeLimit), "time limit");
   EXPECT_EQ(ended([](ScoutOptions& o) { o.min_information_nats = 1000; }),
             End(ScoutEnd::LittleToLearn, 1));
   const auto exploring = [](ScoutOptions& o) {
