@@ -7,14 +7,14 @@
 #include <future>
 #include <iostream>
 
-#include "host/cli/depth_doubts.h"
+#include "host/cli/depth_warnings.h"
 #include "host/cli/progress.h"
 #include "host/cli/shard_file.h"
 #include "host/cli/view_results.h"
 #include "host/cli/wanted_objects.h"
 #include "host/core/log.h"
 #include "host/core/stopwatch.h"
-#include "host/detect/depth_judgement.h"
+#include "host/detect/depth_check.h"
 #include "host/io/files.h"
 #include "host/io/image.h"
 #include "kernels/error.h"
@@ -157,12 +157,12 @@ class Detector {
     }
     if (views.empty()) return;
     for (std::size_t i = 0; i < views.size(); ++i)
-      depth_doubts.look_at(good.images[i]->file.string(), views[i].view, distances_);
+      depth_warnings.check_view(good.images[i]->file.string(), views[i].view, distances_);
     const std::optional<Detections> found = detect(good, views);
     if (!found) return;
     if (views.size() == 1)
-      depth_doubts.compare(good.images[0]->file.string(), {models_, {&views[0].view, 1}, backend_},
-                           found->detections);
+      depth_warnings.compare(good.images[0]->file.string(),
+                             {models_, {&views[0].view, 1}, backend_}, found->detections);
     write(good, views, *found);
   }
 
@@ -173,7 +173,7 @@ class Detector {
   }
 
   BatchSummary summary;
-  DepthDoubts depth_doubts;
+  DepthWarnings depth_warnings;
 
  private:
   // Returns why the view cannot have edges; nothing where it has them.
@@ -334,7 +334,7 @@ BatchSummary run_batch(std::span<const InputImage> images, std::span<const Templ
     write_ended(own, summary, backend.name(), options.out);
     throw;
   }
-  detector.depth_doubts.say();
+  detector.depth_warnings.log_warnings();
   detector.require_any_usable();
   summary.seconds = seconds_since(start);
   write_tables(own, summary, backend.name(), options.out);

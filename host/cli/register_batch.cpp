@@ -7,7 +7,7 @@
 #include <iostream>
 #include <limits>
 
-#include "host/cli/depth_doubts.h"
+#include "host/cli/depth_warnings.h"
 #include "host/cli/progress.h"
 #include "host/cli/register_job.h"
 #include "host/cli/shard_file.h"
@@ -122,13 +122,13 @@ class Registrar {
   std::pair<ReadyJob, Detections> refine(const RegisterJob& job) {
     ReadyJob ready = prepare_job(job, depth_, backend_, options_);
     for (std::size_t v = 0; v < job.views.size(); ++v)
-      depth_doubts.look_at(
+      depth_warnings.check_view(
           job.views[v].file.string(), ready.views[v].view,
           distances_in(ready.views[v].view.camera_from_world, ready.starts, edge_models_));
     Detections found = refine_job(ready, models_, edge_models_, backend_, options_);
     if (job.views.size() == 1)
-      depth_doubts.compare(job.views[0].file.string(),
-                           {edge_models_, {&ready.views[0].view, 1}, backend_}, found.detections);
+      depth_warnings.compare(job.views[0].file.string(),
+                             {edge_models_, {&ready.views[0].view, 1}, backend_}, found.detections);
     return {std::move(ready), std::move(found)};
   }
 
@@ -162,7 +162,7 @@ class Registrar {
   }
 
   RegisterSummary summary;
-  DepthDoubts depth_doubts;
+  DepthWarnings depth_warnings;
 
  private:
   Settings settings_of_view(const RegisterJob& job, std::size_t view) const {
@@ -264,7 +264,7 @@ RegisterSummary run_register(std::span<const RegisterJob> all_jobs,
   };
   try {
     work_through(open, registrar, options.shard.has_value());
-    registrar.depth_doubts.say();
+    registrar.depth_warnings.log_warnings();
   } catch (const InputError& error) {  // if no image can be used, nothing is written
     if (!summary.finished.empty()) write_summary_of(error);
     throw;

@@ -100,7 +100,7 @@ TEST(DepthOption, RefusesAWrongUnit) {
 }
 
 // What is said of depth that cannot be that of the images, by each verb.
-TEST(DepthOption, DoubtsAreSaidOnceWithTheirNumber) {
+TEST(DepthOption, WarningsAreLoggedOnceWithTheirNumber) {
   const DepthScene t(2);
   const std::string starts = t.made.folder.write("starts.csv",
                                                  "scene_id,im_id,obj_id,score,R,t,time\n"
@@ -116,8 +116,8 @@ TEST(DepthOption, DoubtsAreSaidOnceWithTheirNumber) {
       fs::remove_all(t.made.out);
       const Outcome outcome = run_program(arguments);
       EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-      for (const std::string& doubt : {other, unit})
-        EXPECT_EQ(count_of(outcome.err, doubt), doubt == what ? 1u : 0u) << outcome.err;
+      for (const std::string& warning : {other, unit})
+        EXPECT_EQ(count_of(outcome.err, warning), warning == what ? 1u : 0u) << outcome.err;
       EXPECT_EQ(count_of(outcome.err, "so in 2 of 2 images with depth"), what.empty() ? 0u : 1u)
           << outcome.err;
     }

@@ -282,16 +282,16 @@ std::shared_ptr<const MeasuredDepth> Bridge::depth_for(const ArrivedImage& arriv
   return depth;
 }
 
-// A doubt is said in the words of the first image that has it, until an image has it no more.
+// A warning keeps the numbers of the first image that has it, until an image has it no more.
 void Bridge::warn_of_depth() {
-  const std::vector<DepthDoubt> doubts = search_.doubts_of_depth();
+  const std::vector<DepthWarning> warnings = search_.depth_warnings();
   for (const DepthFault fault : {DepthFault::Unit, DepthFault::Moved, DepthFault::OtherImage}) {
     const std::string subject = subject_of(fault);
-    const auto doubt = std::ranges::find(doubts, fault, &DepthDoubt::fault);
-    if (doubt == doubts.end())
+    const auto warning = std::ranges::find(warnings, fault, &DepthWarning::fault);
+    if (warning == warnings.end())
       diagnostics_.solved(subject);
     else if (diagnostics_.problem_of(subject).empty())
-      diagnostics_.problem(subject, doubt->found + "; " + question_of(fault));
+      diagnostics_.problem(subject, warning->found + "; " + question_of(fault));
   }
 }
 
@@ -313,9 +313,9 @@ Camera Bridge::calibration_of(const msg::Header& image) const {
 void Bridge::warn_of(const Camera& camera) {
   if (warned_of_ && same_camera(*warned_of_, camera)) return;
   warned_of_ = camera;
-  const std::vector<std::string> doubts = implausible_in(camera);
-  if (doubts.empty()) return diagnostics_.solved("camera");
-  diagnostics_.problem("camera", std::string(info_subject) + ": " + doubts.front());
+  const std::vector<std::string> warnings = implausible_in(camera);
+  if (warnings.empty()) return diagnostics_.solved("camera");
+  diagnostics_.problem("camera", std::string(info_subject) + ": " + warnings.front());
 }
 
 void Bridge::wait_for_calibration(ArrivedImage arrived, std::vector<ImageRequest> requests) {

@@ -40,8 +40,8 @@ RgbImage ObjectSearch::overlay(std::span<const Detection> detections) {
                       backend_);
 }
 
-std::vector<DepthDoubt> ObjectSearch::doubts_of_depth() const {
-  return edgescout::doubts_of_depth(last_view_, surface_distances_m(sets_));
+std::vector<DepthWarning> ObjectSearch::depth_warnings() const {
+  return check_depth(last_view_, surface_distances_m(sets_));
 }
 
 const ObjectSearch::Chosen& ObjectSearch::chosen(std::span<const std::uint64_t> object_ids) {

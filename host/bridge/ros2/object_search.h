@@ -10,7 +10,7 @@
 
 #include "host/bridge/ros2/detection_message.h"
 #include "host/core/types.h"
-#include "host/detect/depth_judgement.h"
+#include "host/detect/depth_check.h"
 #include "host/io/image.h"
 #include "host/pipeline.h"
 #include "host/register/measured_depth.h"
@@ -41,7 +41,7 @@ class ObjectSearch {
   Detections in_image(const CameraView& view, const TimeLimit& limit);
   RgbImage overlay(std::span<const Detection> detections);
   // Of that view; none where it has no depth.
-  std::vector<DepthDoubt> doubts_of_depth() const;
+  std::vector<DepthWarning> depth_warnings() const;
 
   // Poses in the world, of the objects with these BOP ids; none: of all. InputError: no view, an id
   // without a model.

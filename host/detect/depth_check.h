@@ -1,4 +1,4 @@
-// Judges whether a depth image can be that of its grey image: its unit and its place.
+// Checks whether a depth image can be that of its grey image: its unit and its alignment.
 #pragma once
 
 #include <span>
@@ -17,14 +17,14 @@ enum class DepthFault {
   OtherImage,  // jumps of depth lie on no edges
 };
 
-struct DepthDoubt {
+struct DepthWarning {
   DepthFault fault;
   std::string found;  // the numbers that speak for it
 };
 
 // Of a view with edges; none without depth. `distances_m`: where surfaces of the objects may be,
 // along the camera's axis.
-std::vector<DepthDoubt> doubts_of_depth(const ObjectView& view, const Range& distances_m);
+std::vector<DepthWarning> check_depth(const ObjectView& view, const Range& distances_m);
 
 // Where the surfaces of these objects may be, along the axis of a camera.
 Range surface_distances_m(std::span<const TemplateSet> sets);

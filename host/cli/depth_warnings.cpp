@@ -1,4 +1,4 @@
-#include "host/cli/depth_doubts.h"
+#include "host/cli/depth_warnings.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include "host/core/log.h"
 #include "host/core/option_names.h"
 #include "host/core/quantile.h"
-#include "host/detect/depth_judgement.h"
+#include "host/detect/depth_check.h"
 #include "kernels/error.h"
 
 namespace edgescout {
@@ -32,7 +32,7 @@ std::string question_of(DepthFault fault) {
 // Several poses, since the edges of one hold its distance badly. Errors that all poses share, such
 // as bright surfaces that look larger, do not average out: the offset must be as large as the
 // poses' spread.
-std::string doubt_of_bias(std::span<const DepthOffset> offsets) {
+std::string bias_warning(std::span<const DepthOffset> offsets) {
   constexpr std::size_t fewest = 5;
   constexpr double least_errors = 4, of_normal = 1.4826, of_median = 1.2533;
   if (offsets.size() < fewest) return {};
@@ -50,16 +50,16 @@ std::string doubt_of_bias(std::span<const DepthOffset> offsets) {
       values.size());
 }
 
-void DepthDoubts::look_at(const std::string& image, const ObjectView& view,
-                          const Range& distances_m) {
+void DepthWarnings::check_view(const std::string& image, const ObjectView& view,
+                               const Range& distances_m) {
   if (!view.depth || !view.edges) return;
-  ++looked_at_;
-  for (const DepthDoubt& doubt : doubts_of_depth(view, distances_m))
-    add(question_of(doubt.fault), image, doubt.found);
+  ++checked_;
+  for (const DepthWarning& warning : check_depth(view, distances_m))
+    add(question_of(warning.fault), image, warning.found);
 }
 
-void DepthDoubts::compare(const std::string& image, const Scene& scene,
-                          std::span<const Detection> found) {
+void DepthWarnings::compare(const std::string& image, const Scene& scene,
+                            std::span<const Detection> found) {
   constexpr double least_probability = 0.5;
   constexpr std::size_t most_poses = 8;  // the most probable: enough, and little work
   const ObjectView& view = scene.views.front();
@@ -78,19 +78,20 @@ void DepthDoubts::compare(const std::string& image, const Scene& scene,
   offsets_.insert(offsets_.end(), offsets.begin(), offsets.end());
 }
 
-void DepthDoubts::add(const std::string& kind, const std::string& image, const std::string& what) {
+void DepthWarnings::add(const std::string& kind, const std::string& image,
+                        const std::string& what) {
   log(LogLevel::Debug, image + ": " + what);
-  Doubt& doubt = doubts_[kind];
-  if (doubt.images++ == 0) doubt.first = image + ": " + what;
+  Warning& warning = warnings_[kind];
+  if (warning.images++ == 0) warning.first = image + ": " + what;
 }
 
-void DepthDoubts::say() const {
-  const std::string bias = doubt_of_bias(offsets_);
+void DepthWarnings::log_warnings() const {
+  const std::string bias = bias_warning(offsets_);
   if (!bias.empty()) log(LogLevel::Warning, bias);
 
-  for (const auto& [kind, doubt] : doubts_)
-    log(LogLevel::Warning, fmt::format("{}; {} so in {} of {} images with depth", doubt.first, kind,
-                                       doubt.images, looked_at_));
+  for (const auto& [kind, warning] : warnings_)
+    log(LogLevel::Warning, fmt::format("{}; {} so in {} of {} images with depth", warning.first,
+                                       kind, warning.images, checked_));
 }
 
 }  // namespace edgescout

@@ -1,4 +1,4 @@
-#include "host/detect/depth_judgement.h"
+#include "host/detect/depth_check.h"
 
 #include <fmt/format.h>
 
@@ -18,13 +18,14 @@ namespace {
 
 std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
 
-std::optional<DepthDoubt> doubt_of_place(const DepthEdges& edges) {
+std::optional<DepthWarning> alignment_warning(const DepthEdges& edges) {
   if (edges.fit == DepthFit::Elsewhere)
-    return DepthDoubt{DepthFault::OtherImage,
-                      fmt::format("{} of {} jumps of depth lie on edges, {} by chance",
-                                  percent(edges.in_place), edges.jumps, percent(edges.by_chance))};
+    return DepthWarning{
+        DepthFault::OtherImage,
+        fmt::format("{} of {} jumps of depth lie on edges, {} by chance", percent(edges.in_place),
+                    edges.jumps, percent(edges.by_chance))};
   if (edges.fit == DepthFit::Moved)
-    return DepthDoubt{
+    return DepthWarning{
         DepthFault::Moved,
         fmt::format(
             "{} of {} jumps of depth lie on edges, {} would if it were moved by ({}, {}) px",
@@ -53,7 +54,7 @@ std::optional<double> unit_that_fits(std::span<const float> values, const Range&
   return {};
 }
 
-std::optional<DepthDoubt> doubt_of_unit(const DepthImage& depth, const Range& distances_m) {
+std::optional<DepthWarning> unit_warning(const DepthImage& depth, const Range& distances_m) {
   constexpr std::size_t fewest = 1000;
   constexpr double least_share = 0.01;
   const std::vector<float> values = measured_values(depth);
@@ -61,24 +62,25 @@ std::optional<DepthDoubt> doubt_of_unit(const DepthImage& depth, const Range& di
   if (share_inside(values, distances_m, 1) > least_share) return {};
   const std::optional<double> factor = unit_that_fits(values, distances_m);
   if (!factor) return {};
-  return DepthDoubt{DepthFault::Unit,
-                    fmt::format("depth has a median of {:.4g} m, objects are sought at {:.4g} to "
-                                "{:.4g} m: {:g} times the "
-                                "unit would fit",
-                                upper_median(values), distances_m.low, distances_m.high, *factor)};
+  return DepthWarning{
+      DepthFault::Unit,
+      fmt::format("depth has a median of {:.4g} m, objects are sought at {:.4g} to "
+                  "{:.4g} m: {:g} times the "
+                  "unit would fit",
+                  upper_median(values), distances_m.low, distances_m.high, *factor)};
 }
 
 }  // namespace
 
-std::vector<DepthDoubt> doubts_of_depth(const ObjectView& view, const Range& distances_m) {
+std::vector<DepthWarning> check_depth(const ObjectView& view, const Range& distances_m) {
   if (!view.depth || !view.edges) return {};
   const DepthImage& depth = view.depth->image;
-  std::vector<DepthDoubt> doubts;
-  if (const auto unit = doubt_of_unit(depth, distances_m)) doubts.push_back(*unit);
-  if (const auto place =
-          doubt_of_place(compare_depth_edges(depth, view.depth->noise, view.edges->points())))
-    doubts.push_back(*place);
-  return doubts;
+  std::vector<DepthWarning> warnings;
+  if (const auto unit = unit_warning(depth, distances_m)) warnings.push_back(*unit);
+  if (const auto alignment =
+          alignment_warning(compare_depth_edges(depth, view.depth->noise, view.edges->points())))
+    warnings.push_back(*alignment);
+  return warnings;
 }
 
 Range surface_distances_m(std::span<const TemplateSet> sets) {
