@@ -90,8 +90,8 @@ std::vector<FileCamera> chosen_cameras(const CameraRequest& request) {
 
 void warn(const FileCamera& found, const std::string& file) {
   const std::string where = found.name.empty() ? file : file + ": " + found.name;
-  for (const std::string& doubt : implausible_in(found.camera))
-    log(LogLevel::Warning, fmt::format("{}: {}", where, doubt));
+  for (const std::string& warning : implausible_in(found.camera))
+    log(LogLevel::Warning, fmt::format("{}: {}", where, warning));
 }
 
 void draw_undistorted(const CameraRequest& request) {

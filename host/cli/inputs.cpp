@@ -232,8 +232,8 @@ std::optional<Camera> given_camera(const CameraArguments& arguments,
 
 void warn_of_camera(const GivenCamera& given) {
   if (!given.camera) return;
-  for (const std::string& doubt : implausible_in(*given.camera))
-    log(LogLevel::Warning, given.file + ": " + doubt);
+  for (const std::string& warning : implausible_in(*given.camera))
+    log(LogLevel::Warning, given.file + ": " + warning);
   if (given.camera->width == 0)
     log(LogLevel::Warning, fmt::format("{}: width, height: found none, expected the size of the "
                                        "calibration's images: taken to be that of every image",
