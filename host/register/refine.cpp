@@ -6,7 +6,7 @@
 
 #include "host/register/coarse_registration.h"
 #include "host/register/pose_classifier.h"
-#include "host/register/promising_hops.h"
+#include "host/register/probable_hops.h"
 #include "host/register/same_pose.h"
 #include "host/register/thresholds.h"
 #include "kernels/error.h"
@@ -130,7 +130,7 @@ std::vector<PoseEstimate> best_per_start(std::span<const PoseEstimate> estimates
 
 // The steps of the last stage need not become as small as its own limit: that would cost more
 // iterations than the pose is worth.
-void judge_last_step(std::span<PoseEstimate> estimates) {
+void set_converged(std::span<PoseEstimate> estimates) {
   for (PoseEstimate& estimate : estimates)
     if (estimate.convergence == Convergence::IterationLimit &&
         estimate.last_step_px < thresholds::CONVERGED_PX)
@@ -148,8 +148,8 @@ std::vector<PoseEstimate> refine_batch(const Scene& scene, std::span<const Objec
   if (options.use_edge_icp && !scene.is_time_over()) edge_icp(scene, estimates, options.edge_icp);
   measure_features(scene, estimates, {options.score, options.d2co.visibility});
   if (options.use_edge_icp && scene.views.size() == 1 && !scene.is_time_over())
-    hop_promising(scene, estimates, options.edge_icp, {options.score, options.d2co.visibility});
-  judge_last_step(estimates);
+    hop_probable(scene, estimates, options.edge_icp, {options.score, options.d2co.visibility});
+  set_converged(estimates);
   return best_per_start(estimates, found.start, starts.size());
 }
 

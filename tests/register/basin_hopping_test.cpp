@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "host/register/edge_icp.h"
-#include "host/register/promising_hops.h"
+#include "host/register/probable_hops.h"
 #include "tests/register/scene.h"
 
 namespace edgescout {
@@ -77,7 +77,7 @@ TEST(BasinHopping, NeedsEdges) {
 
 // With a tensor, so that features can be measured. There is no image: the log-odds are minus the
 // mean tensor value.
-TEST(BasinHopping, MovesPromisingPosesAndOnePoseOnce) {
+TEST(BasinHopping, MovesProbablePosesAndOnePoseOnce) {
   Known known;
   known.view.tensor =
       view_of(part_model("l_bracket", 2e-4), known.camera_from_object, {}, *known.backend).tensor;
@@ -88,8 +88,8 @@ TEST(BasinHopping, MovesPromisingPosesAndOnePoseOnce) {
   poses[0].features[0].mean_px = 3;
   poses[1].features[0].mean_px = 2;  // the same pose, more probable
   poses[2].features[0].mean_px = 3.5;
-  poses[3].features[0].mean_px = 5;  // not promising
-  hop_promising(known.scene(), poses, known.options, measure);
+  poses[3].features[0].mean_px = 5;  // not probable
+  hop_probable(known.scene(), poses, known.options, measure);
   for (const int i : {0, 1, 2}) {
     EXPECT_LT(known.angle_off_rad(poses[std::size_t(i)]), 0.01) << i;
     EXPECT_LT(poses[std::size_t(i)].features[0].mean_px, 1.5) << i << ": features of its new pose";

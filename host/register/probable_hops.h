@@ -1,4 +1,4 @@
-// Lets the promising poses of one view hop to better optima beside them (edge_icp.h: hop_basins).
+// Lets the probable poses of one view hop to better optima beside them (edge_icp.h: hop_basins).
 //
 // Of one view only: several show the tilt and the distance of a pose well enough.
 #pragma once
@@ -14,7 +14,7 @@ namespace edgescout {
 
 // Of estimates with features, after edge_icp. Many starts end at one pose: one of them hops, the
 // most probable one, and the others take its end. Measures the features of those that move anew.
-void hop_promising(const Scene& scene, std::span<PoseEstimate> estimates,
-                   const EdgeIcpOptions& options, const FeatureOptions& measure);
+void hop_probable(const Scene& scene, std::span<PoseEstimate> estimates,
+                  const EdgeIcpOptions& options, const FeatureOptions& measure);
 
 }  // namespace edgescout
