@@ -55,9 +55,9 @@ class RegionScan {
     std::vector<std::uint32_t> all(scale_.numbering.count());
     std::iota(all.begin(), all.end(), 0u);
     const int quick_points = std::min(options_.quick_points, options_.points);
-    const Ranked promising =
+    const Ranked by_few_points =
         best_in_regions(quick_points, all, true, std::size_t(options_.quick_kept) * most);
-    return hits_of(best_in_regions(options_.points, numbers_of(promising), false, most));
+    return hits_of(best_in_regions(options_.points, numbers_of(by_few_points), false, most));
   }
 
  private:

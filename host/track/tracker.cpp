@@ -106,7 +106,7 @@ struct Tracker::State {
                  std::span<const Track> known);
   std::shared_ptr<const Occluders> occluders_of(const Instance& instance, double time_s) const;
   void follow(Instance& instance, const SearchedImage& image, double time_s);
-  void judge(Instance& instance, const FollowedPose& found, double time_s);
+  void update_track(Instance& instance, const FollowedPose& found, double time_s);
   std::optional<FollowedPose> registered(const Instance& instance, const SearchedImage& image,
                                          std::span<const Se3> starts) const;
   void publish();
@@ -236,7 +236,7 @@ std::optional<FollowedPose> Tracker::State::registered(const Instance& instance,
                       follower.measure(image, found->world_from_object, nullptr)};
 }
 
-void Tracker::State::judge(Instance& instance, const FollowedPose& found, double time_s) {
+void Tracker::State::update_track(Instance& instance, const FollowedPose& found, double time_s) {
   Track& track = instance.track;
   const EdgeModel& model = models[std::size_t(track.object)];
   track.above_chance = found.fit.above_chance();
@@ -272,7 +272,7 @@ void Tracker::State::follow(Instance& instance, const SearchedImage& image, doub
     const std::optional<FollowedPose> better = registered(instance, image, from);
     if (better && is_better(better->fit, found.fit)) found = *better;
   }
-  judge(instance, found, time_s);
+  update_track(instance, found, time_s);
 }
 
 Tracker::Tracker(std::span<const TemplateSet> sets, const Camera& camera, Backend& backend,
