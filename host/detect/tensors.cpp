@@ -50,7 +50,7 @@ ViewHandle reduced_tensor(std::vector<EdgePoint> edges, const ReducedTensors& le
                            intrinsics_of(level.camera), options);
 }
 
-void add_depth(ObjectView& view, Backend& backend) {
+void upload_depth(ObjectView& view, Backend& backend) {
   const DepthImage& depth = view.depth->image;
   check(depth.width == view.camera.width && depth.height == view.camera.height,
         "add_tensors: depth and camera differ in size");
@@ -69,7 +69,7 @@ void add_tensors(ObjectView& view, const std::set<double>& reductions, Backend& 
   view.tensor = backend.make_view(edges, camera.width, camera.height,
                                   {image.width, image.height, image.pixels.data()},
                                   intrinsics_of(camera), options);
-  if (view.depth) add_depth(view, backend);
+  if (view.depth) upload_depth(view, backend);
   view.reduced.clear();
   const std::vector<EdgePoint> salient = salient_edges(edges, camera.width, camera.height);
   for (const double reduction : reductions) {
