@@ -35,7 +35,7 @@
 #include "bench/bop_set.h"
 #include "host/core/pose_error.h"
 #include "host/detect/detect.h"
-#include "host/detect/joint.h"
+#include "host/detect/join_views.h"
 #include "host/detect/support_views.h"
 #include "host/detect/suppression.h"
 #include "host/io/bop.h"

@@ -4,7 +4,7 @@
 
 #include "host/detect/alternatives.h"
 #include "host/detect/detect.h"
-#include "host/detect/joint.h"
+#include "host/detect/join_views.h"
 #include "host/detect/support_views.h"
 #include "host/io/depth_registration.h"
 #include "host/io/image.h"

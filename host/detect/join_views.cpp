@@ -1,4 +1,4 @@
-#include "host/detect/joint.h"
+#include "host/detect/join_views.h"
 
 #include "host/detect/suppression.h"
 #include "host/register/pose_classifier.h"
