@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "host/detect/detect.h"
-#include "host/register/depth_start.h"
+#include "host/register/move_onto_depth.h"
 #include "host/register/pose_classifier.h"
 
 namespace edgescout {

@@ -1,4 +1,4 @@
-#include "host/register/depth_start.h"
+#include "host/register/move_onto_depth.h"
 
 #include <algorithm>
 #include <cmath>
