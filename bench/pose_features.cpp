@@ -36,6 +36,7 @@
 #include "host/core/pose_error.h"
 #include "host/detect/detect.h"
 #include "host/detect/join_views.h"
+#include "host/detect/pose_distance.h"
 #include "host/detect/support_views.h"
 #include "host/detect/suppression.h"
 #include "host/io/bop.h"

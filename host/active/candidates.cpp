@@ -4,6 +4,7 @@
 
 #include "host/core/order.h"
 #include "host/detect/detect.h"
+#include "host/detect/pose_distance.h"
 #include "host/detect/rescore_in_views.h"
 #include "host/detect/search_space.h"
 #include "host/detect/suppression.h"

@@ -1,9 +1,9 @@
 #include "host/detect/detect.h"
 
 #include "host/detect/keyed_poses.h"
+#include "host/detect/pose_distance.h"
 #include "host/detect/search_space.h"
 #include "host/detect/support_views.h"
-#include "host/detect/suppression.h"
 #include "host/detect/template_points.h"
 #include "host/detect/template_support.h"
 #include "host/register/coarse_registration.h"

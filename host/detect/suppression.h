@@ -1,7 +1,7 @@
-// Finds poses that are one and the same object.
+// Leaves out duplicates: poses that are one and the same object, by their distance
+// (pose_distance.h).
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
@@ -10,11 +10,6 @@
 namespace edgescout {
 
 class ThreadPool;
-
-// Largest distance, m, between corresponding corners of the object's bounding box under two poses:
-// the minimum over symmetries of the maximum over the eight corners. A cheap upper bound on MSSD.
-// It is zero only for equal poses, modulo symmetry.
-double pose_distance_m(const Se3& a, const Se3& b, const Mesh& mesh, const Symmetries& symmetries);
 
 // Indices of distinct poses, at most `most`. Goes through the poses in the given order and keeps
 // those further than `radius_m` from all kept ones.
@@ -42,21 +37,5 @@ std::vector<std::size_t> best_distinct_in_view(std::span<const Se3> camera_from_
                                                std::span<const double> keys, const Mesh& mesh,
                                                const Symmetries& symmetries,
                                                const DistinctInView& limits, ThreadPool& threads);
-
-// Known poses of one object, in any one frame.
-class KnownPoses {
- public:
-  KnownPoses(std::span<const Se3> poses, const Mesh& mesh, const Symmetries& symmetries);
-  void add(const Se3& pose);
-  // Whether a known pose lies within `radius_m` (pose_distance_m) of this one.
-  bool any_within(double radius_m, const Se3& pose) const;
-
- private:
-  std::vector<Se3> poses_, symmetries_;
-  std::vector<Eigen::Vector3d> centers_m_;  // of the poses
-  std::array<Eigen::Vector3d, 8> corners_;
-  Eigen::Vector3d center_m_;
-  double center_motion_m_ = 0;  // how far a symmetry moves the centre at most
-};
 
 }  // namespace edgescout

@@ -7,57 +7,19 @@
 #include "host/render/parts.h"
 #include "kernels/error.h"
 #include "kernels/thread_pool.h"
-#include "tests/test_random.h"
+#include "tests/detect/corner_distance.h"
 
 namespace edgescout::test {
 namespace {
-
-Se3 random_pose(Random& random) {
-  return {random.rotation(), {random.uniform(), random.uniform(), random.uniform()}};
-}
-
-Se3 moved(const Se3& pose, double distance_m, double angle_rad, Random& random) {
-  Vector6d delta;
-  delta << distance_m * random.direction(), angle_rad * random.direction();
-  return retract(pose, delta);
-}
-
-double brute_distance(const Se3& a, const Se3& b, const Object& object) {
-  double best = 1e9;
-  for (const Se3& symmetry : object.symmetries.discrete) {
-    double worst = 0;
-    for (double x : {object.mesh.box_min_m.x(), object.mesh.box_max_m.x()})
-      for (double y : {object.mesh.box_min_m.y(), object.mesh.box_max_m.y()})
-        for (double z : {object.mesh.box_min_m.z(), object.mesh.box_max_m.z()})
-          worst = std::max(
-              worst,
-              (a * Eigen::Vector3d(x, y, z) - b * (symmetry * Eigen::Vector3d(x, y, z))).norm());
-    best = std::min(best, worst);
-  }
-  return best;
-}
-
-TEST(PoseDistance, IsTheLargestOverCornersAtTheBestSymmetry) {
-  Random random = test_random();
-  for (const char* part : {"l_bracket", "hex_nut"}) {
-    const Object object = make_part(part);
-    for (int i = 0; i < 50; ++i) {
-      const Se3 a = random_pose(random),
-                b = i % 2 ? random_pose(random) : moved(a, 0.01, 0.5, random);
-      EXPECT_NEAR(pose_distance_m(a, b, object.mesh, object.symmetries),
-                  brute_distance(a, b, object), 1e-12);
-    }
-  }
-}
 
 TEST(SuppressDuplicates, KnowsAPoseUnderEverySymmetry) {
   const Object nut = make_part("hex_nut");
   ASSERT_GT(nut.symmetries.discrete.size(), 5u);
   Random random = test_random();
-  const Se3 pose = random_pose(random);
+  const Se3 pose = any_pose(random);
   std::vector<Se3> poses;
   for (const Se3& symmetry : nut.symmetries.discrete)
-    poses.push_back(moved(pose * symmetry, 0.0005, 0.01, random));
+    poses.push_back(randomly_moved(pose * symmetry, 0.0005, 0.01, random));
   EXPECT_EQ(suppress_duplicates(poses, nut.mesh, nut.symmetries, 0.003, 100),
             std::vector<std::size_t>{0});
   EXPECT_GT(suppress_duplicates(poses, nut.mesh, Symmetries{}, 0.003, 100).size(), 5u);
@@ -66,9 +28,10 @@ TEST(SuppressDuplicates, KnowsAPoseUnderEverySymmetry) {
 TEST(SuppressDuplicates, KeepsTheOrderAndAtMostTheNumberAskedFor) {
   const Object bracket = make_part("l_bracket");
   Random random = test_random();
-  const Se3 a = random_pose(random), b = moved(a, 0.02, 0, random), c = moved(a, 0, 1.0, random);
-  const std::vector<Se3> poses{b, moved(b, 0.0005, 0, random), a, moved(a, 0.0005, 0, random), c,
-                               b};
+  const Se3 a = any_pose(random), b = randomly_moved(a, 0.02, 0, random),
+            c = randomly_moved(a, 0, 1.0, random);
+  const std::vector<Se3> poses{
+      b, randomly_moved(b, 0.0005, 0, random), a, randomly_moved(a, 0.0005, 0, random), c, b};
   EXPECT_EQ(suppress_duplicates(poses, bracket.mesh, bracket.symmetries, 0.002, 100),
             (std::vector<std::size_t>{0, 2, 4}));
   EXPECT_EQ(suppress_duplicates(poses, bracket.mesh, bracket.symmetries, 0.002, 2),
@@ -79,8 +42,9 @@ TEST(SuppressDuplicates, KeepsTheOrderAndAtMostTheNumberAskedFor) {
 TEST(BestDistinct, PrefersTheLowerKeyOfTwoDuplicates) {
   const Object bracket = make_part("l_bracket");
   Random random = test_random();
-  const Se3 a = random_pose(random), b = moved(a, 0.02, 0, random);
-  const std::vector<Se3> poses{moved(b, 0.0005, 0, random), a, b, moved(a, 0.0005, 0, random)};
+  const Se3 a = any_pose(random), b = randomly_moved(a, 0.02, 0, random);
+  const std::vector<Se3> poses{randomly_moved(b, 0.0005, 0, random), a, b,
+                               randomly_moved(a, 0.0005, 0, random)};
   const std::vector<double> keys{3, 2, 1, 2};
   const auto best = [&](std::size_t most) {
     return best_distinct(poses, keys, bracket.mesh, bracket.symmetries, 0.002, most);
@@ -113,10 +77,11 @@ TEST(SuppressDuplicates, AgreesWithTheDistance) {
   Random random = test_random();
   for (const char* part : {"l_bracket", "u_channel", "hex_nut"}) {
     SCOPED_TRACE(part);
-    const Se3 origin = random_pose(random);
+    const Se3 origin = any_pose(random);
     std::vector<Se3> poses;
     for (int i = 0; i < 150; ++i)
-      poses.push_back(moved(origin, random.uniform(0, 0.02), random.uniform(0, 0.6), random));
+      poses.push_back(
+          randomly_moved(origin, random.uniform(0, 0.02), random.uniform(0, 0.6), random));
     expect_distinct(make_part(part), poses, 0.015);
   }
 }
@@ -128,11 +93,11 @@ TEST(SuppressDuplicates, AgreesWithTheDistanceWhereASymmetryMovesTheCentre) {
   const Eigen::Vector3d axis_m(0.05, 0.02, 0);
   const Eigen::Quaterniond turn(Eigen::AngleAxisd(std::numbers::pi, Eigen::Vector3d::UnitZ()));
   object.symmetries.discrete = {Se3{}, Se3{turn, axis_m - turn * axis_m}};
-  const Se3 origin = random_pose(random);
+  const Se3 origin = any_pose(random);
   std::vector<Se3> poses;
   for (int i = 0; i < 150; ++i)
-    poses.push_back(moved(origin * object.symmetries.discrete[std::size_t(i % 2)],
-                          random.uniform(0, 0.02), random.uniform(0, 0.6), random));
+    poses.push_back(randomly_moved(origin * object.symmetries.discrete[std::size_t(i % 2)],
+                                   random.uniform(0, 0.02), random.uniform(0, 0.6), random));
   expect_distinct(object, poses, 0.015);
 }
 
@@ -142,7 +107,7 @@ std::vector<Se3> poses_in_view(int count, double place_m, double angle_rad, Rand
   std::vector<Se3> poses;
   for (int i = 0; i < count; ++i) {
     poses.push_back(
-        moved(origin, random.uniform(0, place_m), random.uniform(0, angle_rad), random));
+        randomly_moved(origin, random.uniform(0, place_m), random.uniform(0, angle_rad), random));
     poses.back().translation_m *= random.uniform(0.9, 1.1);
   }
   return poses;
@@ -220,30 +185,6 @@ TEST(BestDistinctInView, TakesDistancesForSizes) {
   EXPECT_THROW(best({1, 2}, 9), LogicError);
   EXPECT_TRUE(
       best_distinct_in_view({}, {}, bracket.mesh, bracket.symmetries, {0.2, 9}, threads).empty());
-}
-
-TEST(KnownPoses, AreFoundNearModuloSymmetry) {
-  Random random = test_random();
-  for (const char* part : {"l_bracket", "hex_nut"}) {
-    const Object object = make_part(part);
-    std::vector<Se3> known;
-    for (int i = 0; i < 4; ++i) known.push_back(random_pose(random));
-    const KnownPoses poses(known, object.mesh, object.symmetries);
-    int near = 0;
-    for (int i = 0; i < 400; ++i) {
-      const Se3 turned =
-          known[i % 4] * object.symmetries.discrete[i % object.symmetries.discrete.size()];
-      const Se3 pose = moved(turned, random.uniform(0, 0.02), random.uniform(0, 0.6), random);
-      double nearest = 1e9;
-      for (const Se3& k : known) nearest = std::min(nearest, brute_distance(pose, k, object));
-      EXPECT_EQ(poses.any_within(0.015, pose), nearest < 0.015) << part << " " << i;
-      near += nearest < 0.015;
-    }
-    EXPECT_GT(near, 40);
-    EXPECT_LT(near, 360);
-    EXPECT_FALSE(
-        KnownPoses(std::span<const Se3>{}, object.mesh, object.symmetries).any_within(1, known[0]));
-  }
 }
 
 }  // namespace
