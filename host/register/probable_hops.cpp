@@ -6,7 +6,7 @@
 
 #include "host/register/edge_icp.h"
 #include "host/register/pose_classifier.h"
-#include "host/register/same_pose.h"
+#include "host/register/pose_tolerance.h"
 
 namespace edgescout {
 

@@ -6,8 +6,8 @@
 
 #include "host/register/coarse_registration.h"
 #include "host/register/pose_classifier.h"
+#include "host/register/pose_tolerance.h"
 #include "host/register/probable_hops.h"
-#include "host/register/same_pose.h"
 #include "host/register/thresholds.h"
 #include "kernels/error.h"
 

@@ -1,4 +1,4 @@
-#include "host/register/same_pose.h"
+#include "host/register/pose_tolerance.h"
 
 namespace edgescout {
 

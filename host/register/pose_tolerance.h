@@ -1,4 +1,4 @@
-// Decides whether two poses are one, by their centres and orientations.
+// Decides whether two poses lie within a tolerance, by their centres and orientations.
 //
 // Symmetries play no part (detect/pose_distance.h): starts of one part stay on their side.
 #pragma once
