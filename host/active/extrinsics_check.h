@@ -31,7 +31,7 @@ struct ExtrinsicsCheckOptions {
   // Of an object by all other images, for it to count as missing.
   double held_probability = 0.5;
   int max_missing = 1;  // one object may be hidden by something unknown
-  D2coOptions joint = schedules::extrinsics_joint(), single = schedules::extrinsics_single();
+  D2coOptions joint = schedules::extrinsics(), single = schedules::extrinsics();
   PoseScoreOptions score = FeatureOptions{}.score;
 };
 

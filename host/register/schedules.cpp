@@ -67,13 +67,11 @@ EdgeIcpOptions particles_edge_icp() {
   return options;
 }
 
-D2coOptions extrinsics_joint() {
+D2coOptions extrinsics() {
   return with_rounds({{LOSS_GEMAN_MCCLURE, 30, 10, 300},
                       {LOSS_GEMAN_MCCLURE, 12, 8, 300},
                       {LOSS_GEMAN_MCCLURE, 5, 8, 400}});
 }
-
-D2coOptions extrinsics_single() { return extrinsics_joint(); }
 
 }  // namespace schedules
 

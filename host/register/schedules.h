@@ -17,7 +17,6 @@ D2coRound unsearched();  // precedes `fine` where no search brought the start ne
 // Active detection.
 D2coOptions particles();  // active/particles.h, on all real views
 EdgeIcpOptions particles_edge_icp();
-D2coOptions extrinsics_joint();   // active/extrinsics_check.h, on all views
-D2coOptions extrinsics_single();  // the same on one view
+D2coOptions extrinsics();  // active/extrinsics_check.h, on all views and on one
 
 }  // namespace edgescout::schedules
