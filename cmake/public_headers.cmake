@@ -23,7 +23,7 @@ set(EDGESCOUT_PUBLIC_HEADERS
   host/register/refine.h host/register/scene.h
   host/detect/detect_options.h host/detect/detect_trace.h host/detect/explain.h
   host/detect/same_pose.h host/detect/searched_sizes.h host/detect/world_prior.h
-  host/active/camera_pose_check.h host/active/next_view.h host/active/recorded_views.h
+  host/active/camera_geometry_check.h host/active/next_view.h host/active/recorded_views.h
   host/active/scout.h host/active/scout_state.h host/active/source.h host/active/views.h
   host/track/track_options.h host/track/track_overlay.h host/track/tracker.h
   kernels/backend.h kernels/device_work.h kernels/error.h kernels/types.h)

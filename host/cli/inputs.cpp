@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "host/active/camera_pose_check.h"
+#include "host/active/camera_geometry_check.h"
 #include "host/cli/symmetry_arguments.h"
 #include "host/cli/targets.h"
 #include "host/core/camera_check.h"

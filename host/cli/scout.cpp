@@ -3,7 +3,7 @@
 
 #include <iostream>
 
-#include "host/active/camera_pose_check.h"
+#include "host/active/camera_geometry_check.h"
 #include "host/cli/batch_settings.h"
 #include "host/cli/common_arguments.h"
 #include "host/cli/exit_codes.h"

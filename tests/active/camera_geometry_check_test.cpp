@@ -1,4 +1,4 @@
-#include "host/active/camera_pose_check.h"
+#include "host/active/camera_geometry_check.h"
 
 #include <gtest/gtest.h>
 
