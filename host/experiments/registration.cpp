@@ -227,7 +227,7 @@ std::string time_table(const Table& rendered, const BaselineOptions& limits) {
       "included, "
       "rendered images. Steps are associations of the ICPs, which have at most {}; all others' of "
       "their one "
-      "solve (Direct: of all levels; edgescout: of its polish, which has a limit of its own), at "
+      "solve (Direct: of all levels; edgescout: of its edge ICP, which has a limit of its own), at "
       "most {}.\n\n"
       "{}\n",
       limits.outer_iterations, limits.inner_iterations, text);
