@@ -41,8 +41,8 @@ Shard shard_from(const std::string& text) {
 void add_shard(CLI::App& verb, std::optional<Shard>& shard) {
   verb.add_option_function<std::string>(
           "--shard", [&shard](const std::string& text) { shard = shard_from(text); },
-          "Work on part I of N of the images alone, or of the scenes where their views are worked "
-          "on together. `edgescout merge` joins the parts")
+          "Work on part I of N of the images. Views that are worked on together stay in one part. "
+          "`edgescout merge` joins the parts")
       ->type_name("I/N")
       ->group("Batch");
 }

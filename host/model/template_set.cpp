@@ -39,14 +39,14 @@ void describe(TemplateOptions& o, OptionVisitor& visit) {
   visit.group("Templates");
   visit.number({"distance-min",
                 "Smallest distance from the camera to an object's centre, m. 0, with "
-                "--distance-max 0: all at which the object spans all to a twentieth of the image; "
-                "scout takes them from the views",
+                "--distance-max 0: where the object spans the image's larger side; scout takes it "
+                "from the views",
                 OptionLevel::Basic},
                o.distance_min_m, 0.0, FARTHEST_M);
   visit.number({"distance-max",
                 "Largest distance from the camera to an object's centre, m. 0, with "
-                "--distance-min 0: all at which the object spans all to a twentieth of the image; "
-                "scout takes them from the views",
+                "--distance-min 0: where the object spans a twentieth of the image's larger side; "
+                "scout takes it from the views",
                 OptionLevel::Basic},
                o.distance_max_m, 0.0, FARTHEST_M);
   visit.number({"distance-ratio", "Ratio of neighbouring distances that templates are made for"},

@@ -32,9 +32,9 @@ struct TemplateOptions {
 
 void describe(TemplateOptions& options, OptionVisitor& visit);
 
-// Sets distances that are 0: the object's diameter then spans all to a twentieth of the image's
-// larger side, a range of 20 : 1 in four scales. InputError: an object so large, as one of a wrong
-// unit, that they are beyond what an option may say.
+// Sets distances that are 0: from where the object's diameter spans the image's larger side to
+// where it spans a twentieth of it, a range of 20 : 1 in four scales. InputError: an object so
+// large, as one of a wrong unit, that they are beyond what an option may say.
 TemplateOptions with_default_distances(TemplateOptions options, double diameter_m,
                                        const Camera& camera);
 
