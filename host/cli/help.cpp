@@ -9,10 +9,25 @@ namespace edgescout {
 
 namespace {
 
+std::string without(const std::string& part, std::string text) {
+  if (const std::size_t at = text.find(part); at != std::string::npos) text.erase(at, part.size());
+  return text;
+}
+
 // One for the program and all its verbs, which inherit it.
 class LevelledHelp : public CLI::Formatter {
  public:
   void mark_expert(const CLI::Option* option) { expert_.insert(option); }
+
+  // Without the value that CLI11 gives a flag's negation.
+  std::string make_option_name(const CLI::Option* option, bool is_positional) const override {
+    return without("{false}", CLI::Formatter::make_option_name(option, is_positional));
+  }
+
+  // Without an empty list as default: it says that the option is not set.
+  std::string make_option_opts(const CLI::Option* option) const override {
+    return without("=[]", CLI::Formatter::make_option_opts(option));
+  }
 
   std::string make_group(std::string group, bool is_positional,
                          std::vector<const CLI::Option*> options) const override {

@@ -95,6 +95,16 @@ TEST(Program, ExplainsEveryOption) {
   }
 }
 
+TEST(Program, ShowsNoNotationOfTheParserInItsHelp) {
+  for (const std::vector<std::string>& verb : all_verbs()) {
+    const std::string help = help_of(verb, "--help-all");
+    for (const char* notation : {"{false}", "{true}", "=[]"})
+      EXPECT_EQ(help.find(notation), std::string::npos) << verb.back() << ": " << notation;
+  }
+  EXPECT_NE(help_of({"detect"}, "--help-all").find("--faint-edges,--no-faint-edges\n"),
+            std::string::npos);
+}
+
 TEST(Program, ListsExpertOptionsOnlyInHelpAll) {
   const auto expect_expert = [](const std::vector<std::string>& verb, const std::string& option) {
     const std::string basic = help_of(verb, "--help"), all = help_of(verb, "--help-all");
