@@ -8,8 +8,8 @@
 #                               kernels alone without Vulkan
 #   scripts/test.sh --long      clang-tidy on all files; the whole suite built by clang 16, under
 #                               the address and undefined-behaviour sanitizers, and under the thread
-#                               sanitizer; the fuzzer for 30 s a reader. Prints a line for
-#                               docs/reliability.md
+#                               sanitizer; the fuzzer for 30 s per reader; the packages in a fresh
+#                               Debian. Prints a line for docs/reliability.md
 #   scripts/test.sh PRESET...   the whole suite in each of these presets, nothing else
 # A step that fails does not keep the others from running.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
