@@ -1,5 +1,5 @@
 #!/bin/bash
-# Runs edgescout_ros2 beside a camera of 30 images a second, and prints every ten seconds how many
+# Runs edgescout_ros2 beside a camera of 30 images per second, and prints every ten seconds how many
 # images were answered, the latency and the memory.
 #   scripts/soak_ros2.sh [SECONDS [OPTION OF edgescout_ros2...]]    default: 600
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"

@@ -84,7 +84,7 @@ long_run() {
   step "clang 16: build and tests" build_and_test clang
   step "address sanitizer: build and tests" build_and_test asan
   step "thread sanitizer: build and tests" build_and_test tsan
-  step "fuzzer: 30 s a reader" scripts/fuzz.sh 30
+  step "fuzzer: 30 s per reader" scripts/fuzz.sh 30
   step "packages in a fresh Debian" scripts/packages_test.sh
 }
 
