@@ -19,9 +19,14 @@ configure_package_config_file(cmake/edgescout-config.cmake.in ${PROJECT_BINARY_D
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/edgescout-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/edgescout-config.cmake ${PROJECT_BINARY_DIR}/edgescout-config-version.cmake
         DESTINATION ${package_dir} COMPONENT development)
-# The documents keep their places to each other, so that their links work.
-install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
+# The documents keep their places to each other, so that their links work. Some lead to reports.
+install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR}
+        COMPONENT development)
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
+install(FILES bench/trust/README.md bench/trust/parts.csv bench/trust/photographs.csv
+        DESTINATION ${CMAKE_INSTALL_DOCDIR}/bench/trust COMPONENT development)
+install(DIRECTORY bench/results DESTINATION ${CMAKE_INSTALL_DOCDIR}/bench COMPONENT development
+        FILES_MATCHING PATTERN "*.md" PATTERN "*.csv")
 
 include(cmake/program_files.cmake)
 include(cmake/packages.cmake)

@@ -2,8 +2,10 @@
 """Checks the links of all tracked .md files: the file must exist, and so must the heading.
 
     scripts/check_links.py [FILE.md...]     these files instead of all
+    scripts/check_links.py --below FOLDER   all .md files of a folder, as they are installed
 
-Addresses with a scheme (https:) are not opened. Code is not read. Exit code 1 for a broken link.
+A link out of the repository, or out of the folder, is broken. Addresses with a scheme (https:) are
+not opened. Code is not read. Exit code 1 for a broken link, or where there is no file.
 """
 import re
 import subprocess
@@ -73,14 +75,14 @@ def links(text):
             yield number, match.group(1)
 
 
-def fault(file, target):
-    """What is wrong with a link of this file; None where it leads somewhere."""
+def fault(file, target, root):
+    """What is wrong with a link of this file; None where it leads somewhere below the root."""
     if SCHEME.match(target) or target.startswith("//"):
         return None
     path, _, anchor = target.partition("#")
     there = (file.parent / unquote(path)).resolve() if path else file
-    if not there.is_relative_to(ROOT):
-        return "found a file outside of the repository"
+    if not there.is_relative_to(root):
+        return f"found a file outside of {root}"
     if not there.exists():
         return "found no such file"
     if anchor and there.suffix == ".md" and unquote(anchor) not in anchors(there):
@@ -88,21 +90,29 @@ def fault(file, target):
     return None
 
 
-def main():
+def tracked_files():
     listed = subprocess.run(["git", "ls-files", "-z", "*.md"], cwd=ROOT, check=True,
                             capture_output=True, text=True).stdout.split("\0")
-    files = [Path(name).resolve() for name in sys.argv[1:]]
-    files = files or [ROOT / name for name in listed if name and (ROOT / name).exists()]
+    return [ROOT / name for name in listed if name and (ROOT / name).exists()]
+
+
+def main():
+    root = ROOT
+    if sys.argv[1:2] == ["--below"] and len(sys.argv) == 3:
+        root = Path(sys.argv[2]).resolve()
+        files = sorted(root.rglob("*.md"))
+    else:
+        files = [Path(name).resolve() for name in sys.argv[1:]] or tracked_files()
     count = broken = 0
     for file in files:
         for line, target in links(file.read_text(encoding="utf-8")):
             count += 1
-            why = fault(file, target)
+            why = fault(file, target, root)
             if why:
                 broken += 1
-                print(f"{file.relative_to(ROOT)}:{line}: {target}: {why}", file=sys.stderr)
+                print(f"{file.relative_to(root)}:{line}: {target}: {why}", file=sys.stderr)
     print(f"check_links: {len(files)} files, {count} links, {broken} broken")
-    return 1 if broken else 0
+    return 1 if broken or not files else 0
 
 
 if __name__ == "__main__":
